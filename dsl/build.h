@@ -1,0 +1,20 @@
+/* build.h - from checked blocks to the scene, through the public interface. */
+#ifndef RT_DSL_BUILD_H
+#define RT_DSL_BUILD_H
+
+#include "dsl/schema.h"
+
+/*
+ * Fills *fields with what a block has before its settings are applied: zero, or for `film` and
+ * `render` what the scene has so far, as they share one struct.
+ */
+void rt_build_begin(rt_block_fields *fields, const rt_block *block, const rt_scene *scene);
+
+/*
+ * Adds a block to the scene. name is that of a material, and *material receives its index.
+ * Fails as the builder calls of rt.h do, with error->field naming a field of the block where it can.
+ */
+rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_fields *fields, const char *name,
+                         uint32_t *material, rt_error *error);
+
+#endif

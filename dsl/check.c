@@ -1,0 +1,249 @@
+#include "dsl/check.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "dsl/suggest.h"
+
+static rt_place place_of_values(const rt_setting *setting)
+{
+    return rt_place_join(setting->values[0].place, setting->values[setting->value_count - 1].place);
+}
+
+/* ---- Numbers ------------------------------------------------------------- */
+
+/* Evaluates the values of a setting to three numbers; one number is repeated. */
+static int evaluate(const rt_checker *checker, const rt_setting *setting, double out[3])
+{
+    rt_value value;
+    for (int i = 0; i < setting->value_count; i++) {
+        if (!rt_expression_evaluate(&value, &setting->values[i], checker->operations, checker->constants,
+                                    checker->reports))
+            return 0;
+        if (setting->value_count == 1)
+            memcpy(out, value.v, sizeof value.v);
+        else
+            out[i] = value.v[0];
+    }
+    return 1;
+}
+
+/* A number as it will be stored: single precision, unless the member is a double. */
+static int check_number(const rt_checker *checker, const rt_setting *setting, rt_place place, double *number)
+{
+    const rt_field *field = setting->field;
+    char phrase[RT_PHRASE_SIZE];
+    if (field->type == RT_FIELD_INTEGER) {
+        if (floor(*number) != *number) {
+            rt_report_error(checker->reports, place, "'%s' is %g; it must be a whole number", field->name, *number);
+            return 0;
+        }
+    } else if (fabs(*number) > FLT_MAX) {
+        rt_report_error(checker->reports, place, "'%s' is %g; numbers must not exceed %g", field->name, *number,
+                        FLT_MAX);
+        return 0;
+    } else if (field->size != sizeof(double)) {
+        *number = (float)*number;
+    }
+    if (!rt_range_holds(field->range, *number)) {
+        rt_report_error(checker->reports, place, "'%s' is %.10g; it must be %s", field->name, *number,
+                        rt_range_phrase(phrase, field->range));
+        return 0;
+    }
+    return 1;
+}
+
+static void store_scalar(const rt_field *field, double number, unsigned char *member)
+{
+    if (field->type == RT_FIELD_INTEGER && field->size == sizeof(uint64_t)) {
+        uint64_t integer = (uint64_t)number;
+        memcpy(member, &integer, sizeof integer);
+    } else if (field->type == RT_FIELD_INTEGER) {
+        uint32_t integer = (uint32_t)number;
+        memcpy(member, &integer, sizeof integer);
+    } else if (field->size == sizeof(double)) {
+        memcpy(member, &number, sizeof number);
+    } else {
+        float single = (float)number;
+        memcpy(member, &single, sizeof single);
+    }
+}
+
+static int check_numbers(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+{
+    const rt_field *field = setting->field;
+    int is_scalar = field->type == RT_FIELD_NUMBER || field->type == RT_FIELD_INTEGER;
+    double numbers[3];
+    float stored[3];
+    if (!evaluate(checker, setting, numbers))
+        return 0;
+    for (int i = 0; i < (is_scalar ? 1 : 3); i++) {
+        rt_place place = setting->value_count == 3 ? setting->values[i].place : setting->values[0].place;
+        if (!check_number(checker, setting, place, &numbers[i]))
+            return 0;
+        stored[i] = (float)numbers[i];
+    }
+    if (is_scalar) {
+        store_scalar(field, numbers[0], member);
+        return 1;
+    }
+    if (field->range.kind == RT_RANGE_DIRECTION && stored[0] == 0 && stored[1] == 0 && stored[2] == 0) {
+        rt_report_error(checker->reports, place_of_values(setting), "'%s' must not be zero", field->name);
+        return 0;
+    }
+    memcpy(member, stored, sizeof stored);
+    return 1;
+}
+
+/* ---- Words --------------------------------------------------------------- */
+
+static void report_choice(const rt_checker *checker, const rt_setting *setting, const char *const *choices)
+{
+    char quote[RT_QUOTE_SIZE], phrase[RT_PHRASE_SIZE];
+    rt_text word = rt_place_text(&setting->word);
+    rt_suggestion suggestion = rt_suggestion_begin(word);
+    for (size_t i = 0; choices[i]; i++)
+        rt_suggestion_offer_word(&suggestion, choices[i]);
+    rt_report_error(checker->reports, setting->word, "'%s' takes %s, found '%s'", setting->field->name,
+                    rt_field_phrase(phrase, setting->field), rt_text_quote(quote, word));
+    if (suggestion.best.at)
+        rt_report_hint(checker->reports, "did you mean '%s'?", suggestion.best.at);
+}
+
+static int check_choice(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+{
+    static const char *const booleans[] = {"false", "true", NULL};
+    const char *const *choices = setting->field->type == RT_FIELD_BOOLEAN ? booleans : setting->field->choices;
+    for (int i = 0; choices[i]; i++)
+        if (rt_text_equal(rt_place_text(&setting->word), choices[i])) {
+            memcpy(member, &i, sizeof i);
+            return 1;
+        }
+    report_choice(checker, setting, choices);
+    return 0;
+}
+
+static int check_material(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+{
+    char quote[RT_QUOTE_SIZE];
+    rt_text word = rt_place_text(&setting->word);
+    size_t found = rt_names_find(checker->materials, word);
+    if (found != RT_NAME_NONE) {
+        rt_name *name = &checker->materials->items[found];
+        name->is_used = 1;
+        memcpy(member, &name->index, sizeof name->index);
+        return !name->is_broken;
+    }
+    rt_suggestion suggestion = rt_suggestion_begin(word);
+    rt_suggestion_offer_names(&suggestion, checker->materials);
+    rt_report_error(checker->reports, setting->word, "unknown material '%s'", rt_text_quote(quote, word));
+    if (suggestion.best.at)
+        rt_report_hint(checker->reports, "did you mean '%s'?", rt_text_quote(quote, suggestion.best));
+    else
+        rt_report_hint(checker->reports, "materials are defined by 'material NAME { ... }' above their use");
+    rt_report_unknown(checker->reports, checker->materials);
+    return 0;
+}
+
+static int check_setting(const rt_checker *checker, const rt_setting *setting, rt_block_fields *fields)
+{
+    unsigned char *member = (unsigned char *)fields + setting->field->offset;
+    if (setting->is_broken)
+        return 0;
+    switch (setting->field->type) {
+    case RT_FIELD_NUMBER:
+    case RT_FIELD_INTEGER:
+    case RT_FIELD_VECTOR:
+    case RT_FIELD_COLOUR:
+        return check_numbers(checker, setting, member);
+    case RT_FIELD_BOOLEAN:
+    case RT_FIELD_CHOICE:
+        return check_choice(checker, setting, member);
+    case RT_FIELD_MATERIAL:
+        return check_material(checker, setting, member);
+    }
+    return 0;
+}
+
+/* ---- Completeness -------------------------------------------------------- */
+
+/* "'na', 'nb' and 'nc'": the fields of a block with this need. */
+static void join_group(char out[RT_PHRASE_SIZE], const rt_block *block, rt_field_need need, const char *conjunction)
+{
+    size_t used = 0, left = 0;
+    for (size_t i = 0; i < block->field_count; i++)
+        left += block->fields[i].need == need;
+    for (size_t i = 0; i < block->field_count && used < RT_PHRASE_SIZE; i++) {
+        if (block->fields[i].need != need)
+            continue;
+        const char *after = --left == 0 ? "" : left == 1 ? conjunction : ", ";
+        used += (size_t)snprintf(out + used, RT_PHRASE_SIZE - used, "'%s'%s", block->fields[i].name, after);
+    }
+}
+
+static int check_group(const rt_checker *checker, const rt_statement *statement, rt_field_need need)
+{
+    const rt_block *block = statement->block;
+    const rt_setting *second = NULL;
+    int size = 0, given = 0;
+    char group[RT_PHRASE_SIZE], title[RT_BLOCK_TITLE_SIZE];
+    for (size_t i = 0; i < block->field_count; i++) {
+        if (block->fields[i].need != need)
+            continue;
+        const rt_setting *setting = rt_statement_setting(statement, &block->fields[i]);
+        size++;
+        given += setting != NULL;
+        if (setting && given > 1 && (!second || setting->name.order > second->name.order))
+            second = setting;
+    }
+    rt_block_title(title, block);
+    if (need == RT_NEED_ALL_OR_NONE) {
+        if (given == 0 || given == size || statement->is_incomplete)
+            return 1;
+        join_group(group, block, need, " and ");
+        rt_report_error(checker->reports, statement->place, "%s needs all of %s, or none", title, group);
+        return 0;
+    }
+    join_group(group, block, need, " or ");
+    if (given > 1) {
+        rt_report_error(checker->reports, second->name, "%s takes %s, not both", title, group);
+        return 0;
+    }
+    if (size > 0 && given == 0 && need == RT_NEED_ONE_OF && !statement->is_incomplete) {
+        rt_report_error(checker->reports, statement->place, "%s needs %s", title, group);
+        return 0;
+    }
+    return 1;
+}
+
+static int check_required(const rt_checker *checker, const rt_statement *statement)
+{
+    const rt_block *block = statement->block;
+    char list[RT_PHRASE_SIZE] = "", title[RT_BLOCK_TITLE_SIZE];
+    size_t used = 0;
+    if (statement->is_incomplete)
+        return 1;
+    for (size_t i = 0; i < block->field_count && used < sizeof list; i++) {
+        const rt_field *field = &block->fields[i];
+        if (field->need == RT_NEED_REQUIRED && !rt_statement_setting(statement, field))
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s'%s'", used ? ", " : "", field->name);
+    }
+    if (used == 0)
+        return 1;
+    rt_report_error(checker->reports, statement->place, "%s needs %s", rt_block_title(title, block), list);
+    return 0;
+}
+
+int rt_check_block(const rt_checker *checker, const rt_statement *statement, rt_block_fields *fields)
+{
+    int is_good = !statement->is_broken;
+    for (int i = 0; i < statement->setting_count; i++)
+        is_good &= check_setting(checker, &statement->settings[i], fields);
+    is_good &= check_required(checker, statement);
+    is_good &= check_group(checker, statement, RT_NEED_ONE_OF);
+    is_good &= check_group(checker, statement, RT_NEED_AT_MOST_ONE);
+    is_good &= check_group(checker, statement, RT_NEED_ALL_OR_NONE);
+    return is_good;
+}

@@ -1,0 +1,20 @@
+/* check.h - from a block as written to its fields' values: types, ranges, names and completeness. */
+#ifndef RT_DSL_CHECK_H
+#define RT_DSL_CHECK_H
+
+#include "dsl/parser.h"
+
+/* What checking looks things up in. */
+typedef struct rt_checker {
+    rt_reports *reports;
+    const rt_operations *operations;
+    const rt_names *constants, *materials;
+} rt_checker;
+
+/*
+ * Stores the value of every setting of a block into *fields, which holds the defaults, and reports
+ * what is wrong. Returns whether the block can be built.
+ */
+int rt_check_block(const rt_checker *checker, const rt_statement *statement, rt_block_fields *fields);
+
+#endif

@@ -1,0 +1,65 @@
+/* load.c - rt_scene_load and rt_scene_parse. */
+#include <assert.h>
+#include <string.h>
+
+#include "dsl/reader.h"
+
+/* A scene must say something: an empty file is more likely a mistake. */
+static void read_scene(rt_reader *reader, const rt_source *source)
+{
+    rt_reader_read(reader, source);
+    if (reader->blocks > 0 || reader->reports.errors > 0)
+        return;
+    rt_place start = {source, 0, 0, 1, 1, 1};
+    rt_report_error(&reader->reports, start, "the scene is empty: expected a block, such as camera { ... }");
+}
+
+/* Reports a text that could not be read at all. */
+static void report_unreadable(rt_reader *reader, const rt_source *source, const char *cause)
+{
+    rt_place nowhere = {source, 0, 0, 0, 0, 0};
+    rt_report_error(&reader->reports, nowhere, "cannot read the scene: %s", cause);
+}
+
+/* Reads the scene from text, or from the file `name` when text is NULL. */
+static rt_status read_into(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
+                           rt_error *error)
+{
+    char cause[128] = "";
+    const char *why = cause;
+    rt_reader reader;
+    rt_status status = rt_reader_begin(&reader, error);
+    if (status != RT_OK)
+        return status;
+
+    rt_source *source = rt_sources_add(&reader.sources, name, NULL);
+    if (!source)
+        status = RT_ERROR_MEMORY;
+    else if (text)
+        status = rt_source_copy(&reader.sources, source, text, &why);
+    else
+        status = rt_source_read(&reader.sources, source, cause, sizeof cause);
+
+    if (status == RT_OK)
+        read_scene(&reader, source);
+    else if (status == RT_ERROR_INPUT)
+        report_unreadable(&reader, source, why);
+    else
+        reader.reports.out_of_memory = 1;
+    status = rt_reader_finish(&reader, out, options, error);
+    rt_reader_free(&reader);
+    return status;
+}
+
+rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options, rt_error *error)
+{
+    assert(out && path);
+    return read_into(out, NULL, path, options, error);
+}
+
+rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
+                         rt_error *error)
+{
+    assert(out && text && name);
+    return read_into(out, text, name, options, error);
+}

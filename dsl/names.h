@@ -1,0 +1,41 @@
+/* names.h - the names that a scene defines: a table from word to what it stands for. */
+#ifndef RT_DSL_NAMES_H
+#define RT_DSL_NAMES_H
+
+#include "dsl/source.h"
+
+/* A number, or a vector of three. A number has all three components equal. */
+typedef struct rt_value {
+    double v[3];
+    int is_vector;
+} rt_value;
+
+/* One name. */
+typedef struct rt_name {
+    rt_text text;
+    rt_place place;  /* where it is defined */
+    int is_used;
+    int is_broken;   /* its definition is wrong; already reported, so its uses are not */
+    rt_value value;  /* of a constant */
+    uint32_t index;  /* of a material */
+} rt_name;
+
+#define RT_NAME_NONE ((size_t)-1)
+
+/* A hash table; the names themselves stay in order of definition. All zero is the empty table. */
+typedef struct rt_names {
+    rt_name *items;
+    size_t count, capacity;
+    size_t *slots; /* open addressing: position in items plus 1, or 0 */
+    size_t slot_count;
+} rt_names;
+
+/* The position of a name in items, or RT_NAME_NONE. */
+size_t rt_names_find(const rt_names *names, rt_text text);
+
+/* Adds a name that is not there yet, with zero content; NULL when memory is exhausted. Moves items. */
+rt_name *rt_names_add(rt_names *names, rt_place place);
+
+void rt_names_free(rt_names *names);
+
+#endif

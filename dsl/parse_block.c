@@ -1,0 +1,224 @@
+/* parse_block.c - a block: its words, its braces and the fields between. */
+#include "dsl/parse_block.h"
+
+#include <string.h>
+
+#include "dsl/suggest.h"
+
+static rt_text text_of(const rt_token *token)
+{
+    return rt_place_text(&token->place);
+}
+
+const rt_setting *rt_statement_setting(const rt_statement *statement, const rt_field *field)
+{
+    for (int i = 0; i < statement->setting_count; i++)
+        if (statement->settings[i].field == field)
+            return &statement->settings[i];
+    return NULL;
+}
+
+/* Lists the fields of a block as a hint. */
+static void hint_fields(rt_parser *parser, const rt_block *block)
+{
+    char list[RT_PHRASE_SIZE * 2] = "", title[RT_BLOCK_TITLE_SIZE];
+    size_t used = 0;
+    for (size_t i = 0; i < block->field_count; i++) {
+        size_t length = strlen(block->fields[i].name);
+        if (used + length + 2 > sizeof list)
+            break;
+        list[used++] = ' ';
+        memcpy(list + used, block->fields[i].name, length + 1);
+        used += length;
+    }
+    rt_report_hint(parser->reports, "the fields of %s are:%s", rt_block_title(title, block), list);
+}
+
+static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_place place)
+{
+    const rt_block *block = statement->block;
+    char quote[RT_QUOTE_SIZE], title[RT_BLOCK_TITLE_SIZE];
+    rt_text text = rt_place_text(&place);
+    rt_suggestion suggestion = rt_suggestion_begin(text);
+    for (size_t i = 0; i < block->field_count; i++)
+        rt_suggestion_offer_word(&suggestion, block->fields[i].name);
+    rt_report_error(parser->reports, place, "unknown field '%s' in %s", rt_text_quote(quote, text),
+                    rt_block_title(title, block));
+    if (!suggestion.best.at) {
+        hint_fields(parser, block);
+        statement->is_incomplete = 1;
+        return;
+    }
+    rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
+
+    /* The field that was meant counts as given, so that it is not reported as missing too. */
+    const rt_field *meant = rt_schema_field(block, suggestion.best);
+    if (!rt_statement_setting(statement, meant)) {
+        rt_setting *setting = &statement->settings[statement->setting_count++];
+        memset(setting, 0, sizeof *setting);
+        setting->field = meant;
+        setting->name = place;
+        setting->is_broken = 1;
+    }
+}
+
+static void parse_unknown_field(rt_parser *parser, rt_statement *statement)
+{
+    int is_broken = 0;
+    rt_place place = rt_parser_take_word(parser, &is_broken);
+    statement->is_broken = 1;
+    if (!is_broken)
+        report_unknown_field(parser, statement, place);
+    else
+        statement->is_incomplete = 1;
+
+    /* Skip its value: one word, or whatever no field begins with. */
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (token->kind == RT_TOKEN_WORD && !token->first_on_line && !rt_schema_field(statement->block, text_of(token)))
+        rt_parser_take(parser);
+    parser->depth = 0;
+    rt_parser_skip_value(parser, statement->block);
+}
+
+static void parse_field(rt_parser *parser, rt_statement *statement)
+{
+    const rt_field *field = rt_schema_field(statement->block, text_of(rt_parser_peek(parser, 0)));
+    if (!field) {
+        parse_unknown_field(parser, statement);
+        return;
+    }
+    rt_setting setting;
+    memset(&setting, 0, sizeof setting);
+    setting.field = field;
+    setting.name = rt_parser_take(parser).place;
+    rt_parse_setting(parser, statement->block, &setting);
+    statement->is_broken |= setting.is_broken;
+
+    const rt_setting *earlier = rt_statement_setting(statement, field);
+    if (!earlier) {
+        statement->settings[statement->setting_count++] = setting;
+        return;
+    }
+    statement->is_broken = 1;
+    if (rt_text_equal(rt_place_text(&earlier->name), field->name)) { /* not a misspelt one */
+        rt_report_error(parser->reports, setting.name, "'%s' is given twice", field->name);
+        rt_report_hint(parser->reports, "first at line %d", earlier->name.line);
+    }
+}
+
+static void parse_body(rt_parser *parser, rt_statement *statement)
+{
+    char title[RT_BLOCK_TITLE_SIZE], found[RT_FOUND_SIZE];
+    while (!rt_reports_full(parser->reports)) {
+        const rt_token *token = rt_parser_peek(parser, 0);
+        if (token->kind == '}') {
+            rt_parser_take(parser);
+            return;
+        }
+        if (token->kind == RT_TOKEN_END || rt_parser_statement_follows(parser)) {
+            token = rt_parser_peek(parser, 0);
+            rt_report_error(parser->reports, statement->place, "%s is not closed: expected '}' before %s",
+                            rt_block_title(title, statement->block), rt_parser_found(found, token));
+            if (token->kind != RT_TOKEN_END)
+                rt_report_hint(parser->reports, "the next statement begins at line %d", token->place.line);
+            statement->is_broken = statement->is_incomplete = 1;
+            return;
+        }
+        if (token->kind == RT_TOKEN_WORD) {
+            parse_field(parser, statement);
+            continue;
+        }
+        rt_report_error(parser->reports, token->place, "expected a field of %s or '}', found %s",
+                        rt_block_title(title, statement->block), rt_parser_found(found, token));
+        statement->is_broken = statement->is_incomplete = 1;
+        if (token->kind == '{')
+            rt_parser_skip_braces(parser);
+        else
+            rt_parser_take(parser);
+        parser->depth = 0;
+        rt_parser_skip_value(parser, statement->block);
+    }
+}
+
+/* The words before a block's '{'. Returns 0 when the block cannot be told; that is then reported. */
+static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
+{
+    char found[RT_FOUND_SIZE], quote[RT_QUOTE_SIZE];
+    if (!rt_schema_has_kinds(word)) {
+        statement->block = rt_schema_find(word, NULL);
+        return 1;
+    }
+    const rt_token *token = rt_parser_peek(parser, 0);
+    rt_text kind = text_of(token);
+    statement->block = token->kind == RT_TOKEN_WORD ? rt_schema_find(word, &kind) : NULL;
+    if (statement->block) {
+        statement->place = rt_place_join(statement->place, rt_parser_take(parser).place);
+        return 1;
+    }
+
+    rt_suggestion suggestion = rt_suggestion_begin(kind);
+    const char *example = "";
+    for (size_t i = 0; i < RT_BLOCK_COUNT; i++)
+        if (rt_blocks[i].kind && rt_text_equal(word, rt_blocks[i].word)) {
+            rt_suggestion_offer_word(&suggestion, rt_blocks[i].kind);
+            example = rt_blocks[i].kind;
+        }
+    rt_text_quote(quote, word);
+    rt_report_error(parser->reports, token->kind == RT_TOKEN_WORD ? token->place : statement->place,
+                    "expected a kind of %s, found %s", quote, rt_parser_found(found, token));
+    if (suggestion.best.at)
+        rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
+    else
+        rt_report_hint(parser->reports, "as in: %s %s { ... }", quote, example);
+    return 0;
+}
+
+static void parse_block_name(rt_parser *parser, rt_statement *statement)
+{
+    char found[RT_FOUND_SIZE], title[RT_BLOCK_TITLE_SIZE];
+    const rt_token *token = rt_parser_peek(parser, 0);
+    rt_block_title(title, statement->block);
+    if (statement->block->flags & RT_BLOCK_NAMED) {
+        if (token->kind == RT_TOKEN_WORD) {
+            statement->name = rt_parser_take_word(parser, &statement->is_broken);
+            return;
+        }
+        rt_report_error(parser->reports, statement->place, "%s needs a name, found %s", title,
+                        rt_parser_found(found, token));
+        rt_report_hint(parser->reports, "as in: %s white { ... }", title);
+        statement->is_broken = 1;
+    } else if (token->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 1)->kind == '{') {
+        rt_report_error(parser->reports, token->place, "%s takes no name, found %s", title,
+                        rt_parser_found(found, token));
+        rt_parser_take(parser);
+        statement->is_broken = 1;
+    }
+}
+
+int rt_parse_block(rt_parser *parser, rt_statement *statement)
+{
+    char found[RT_FOUND_SIZE], title[RT_BLOCK_TITLE_SIZE];
+    rt_token word = rt_parser_take(parser);
+    statement->kind = RT_STATEMENT_BLOCK;
+    statement->place = word.place;
+    if (!parse_kind(parser, statement, rt_place_text(&word.place))) {
+        rt_parser_skip_statement(parser);
+        return 0;
+    }
+    parse_block_name(parser, statement);
+
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (token->kind == '{') {
+        rt_parser_take(parser);
+    } else {
+        rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '{' after %s, found %s",
+                        rt_block_title(title, statement->block), rt_parser_found(found, token));
+        statement->is_broken = statement->is_incomplete = 1;
+        if (token->kind != RT_TOKEN_WORD || !rt_schema_field(statement->block, text_of(token))) {
+            rt_parser_skip_statement(parser);
+            return 1;
+        }
+    }
+    parse_body(parser, statement);
+    return 1;
+}

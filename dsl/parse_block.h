@@ -1,0 +1,13 @@
+/* parse_block.h - blocks, and the settings inside. */
+#ifndef RT_DSL_PARSE_BLOCK_H
+#define RT_DSL_PARSE_BLOCK_H
+
+#include "dsl/parser.h"
+
+/* Parses a block whose first word comes next. Returns 0 when nothing of it could be understood. */
+int rt_parse_block(rt_parser *parser, rt_statement *statement);
+
+/* Parses what follows the name of a field, which was just taken (parse_setting.c). */
+void rt_parse_setting(rt_parser *parser, const rt_block *block, rt_setting *setting);
+
+#endif

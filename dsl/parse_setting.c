@@ -1,0 +1,236 @@
+/*
+ * parse_setting.c - what follows the name of a field.
+ *
+ * Fields are not delimited: a value list ends when the field has what it takes, or where
+ * a word that is a field of the block begins the next one.
+ */
+#include "dsl/parse_block.h"
+#include "dsl/parse_expression.h"
+#include "dsl/suggest.h"
+
+/* A field, the block around it and how messages name it. */
+typedef struct rt_context {
+    const rt_block *block;
+    rt_setting *setting;
+    char phrase[RT_PHRASE_SIZE]; /* what the field takes */
+} rt_context;
+
+static const char *count_word(int count)
+{
+    static const char *const words[] = {"none", "one", "two", "three"};
+    return words[count];
+}
+
+static int is_field(const rt_block *block, const rt_token *token)
+{
+    return token->kind == RT_TOKEN_WORD && rt_schema_field(block, rt_place_text(&token->place));
+}
+
+static int is_constant(const rt_parser *parser, const rt_token *token)
+{
+    return token->kind == RT_TOKEN_WORD &&
+           rt_names_find(parser->constants, rt_place_text(&token->place)) != RT_NAME_NONE;
+}
+
+/* Whether a token can only be the start of a value. */
+static int is_value(const rt_parser *parser, const rt_block *block, const rt_token *token)
+{
+    return token->kind == RT_TOKEN_NUMBER || token->kind == '(' || token->kind == '[' || token->kind == '-' ||
+           (is_constant(parser, token) && !is_field(block, token));
+}
+
+static int is_near_field(const rt_block *block, const rt_token *token)
+{
+    rt_suggestion suggestion = rt_suggestion_begin(rt_place_text(&token->place));
+    for (size_t i = 0; i < block->field_count; i++)
+        rt_suggestion_offer_word(&suggestion, block->fields[i].name);
+    return suggestion.best.at != NULL;
+}
+
+/* Whether the field has the values it takes, as far as is known: a colour of one number may go on. */
+static int is_complete(const rt_setting *setting)
+{
+    rt_field_type type = setting->field->type;
+    if (type == RT_FIELD_NUMBER || type == RT_FIELD_INTEGER)
+        return setting->value_count == 1;
+    return setting->value_count == 3 || (setting->value_count == 1 && setting->values[0].is_vector);
+}
+
+/* Whether the next token is taken as one more value. */
+static int value_follows(rt_parser *parser, const rt_context *context)
+{
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (is_value(parser, context->block, token))
+        return 1;
+    if (token->kind != RT_TOKEN_WORD || is_field(context->block, token) || token->first_on_line)
+        return 0;
+    /* An unknown word: a misspelt constant where a value must follow, else a misspelt field. */
+    const rt_setting *setting = context->setting;
+    if (setting->value_count == 0)
+        return 1;
+    return !(setting->field->type == RT_FIELD_COLOUR && setting->value_count == 1) &&
+           !is_near_field(context->block, token);
+}
+
+/* Commas and the like between values: reported once a field, then ignored. */
+static void skip_separators(rt_parser *parser, rt_context *context)
+{
+    for (;;) {
+        const rt_token *token = rt_parser_peek(parser, 0);
+        int kind = token->kind;
+        if (kind != ',' && kind != ';' && kind != '=' && kind != ':')
+            return;
+        if (!context->setting->is_broken) {
+            rt_report_error(parser->reports, token->place, "unexpected '%c' in '%s'", kind,
+                            context->setting->field->name);
+            if (kind == '=' || kind == ':')
+                rt_report_hint(parser->reports, "the value follows the name of its field, without a sign");
+            else
+                rt_report_hint(parser->reports, "numbers and fields are separated by spaces");
+        }
+        context->setting->is_broken = 1;
+        rt_parser_take(parser);
+    }
+}
+
+static void report_count(rt_parser *parser, const rt_context *context)
+{
+    const rt_setting *setting = context->setting;
+    const rt_token *token = rt_parser_peek(parser, 0);
+    char found[RT_FOUND_SIZE];
+    if (setting->value_count > 0) {
+        rt_place place = rt_place_join(setting->name, setting->values[setting->value_count - 1].place);
+        rt_report_error(parser->reports, place, "'%s' takes %s, found %s", setting->field->name, context->phrase,
+                        count_word(setting->value_count));
+        return;
+    }
+    rt_report_error(parser->reports, setting->name, "'%s' takes %s, found %s", setting->field->name, context->phrase,
+                    rt_parser_found(found, token));
+    if (is_constant(parser, token))
+        rt_report_hint(parser->reports, "write the constant in parentheses to tell it from the field");
+}
+
+/* Checks the number and the kinds of the values of a setting without errors so far. */
+static void check_values(rt_parser *parser, const rt_context *context)
+{
+    rt_setting *setting = context->setting;
+    rt_field_type type = setting->field->type;
+    int is_scalar = type == RT_FIELD_NUMBER || type == RT_FIELD_INTEGER;
+    int is_grey = type == RT_FIELD_COLOUR && setting->value_count == 1;
+    for (int i = 0; i < setting->value_count; i++)
+        if (setting->values[i].is_vector && (is_scalar || setting->value_count > 1)) {
+            rt_report_error(parser->reports, setting->values[i].place, "'%s' takes %s, found a vector",
+                            setting->field->name, is_scalar ? context->phrase : "three numbers or one vector");
+            setting->is_broken = 1;
+            return;
+        }
+    if (!is_complete(setting) && !is_grey) {
+        report_count(parser, context);
+        setting->is_broken = 1;
+    }
+}
+
+/* What may not follow a complete value: one more value, or an operator outside parentheses. */
+static void check_end(rt_parser *parser, const rt_context *context)
+{
+    rt_setting *setting = context->setting;
+    const rt_token *token = rt_parser_peek(parser, 0);
+    char found[RT_FOUND_SIZE];
+    int is_operator = token->kind == '+' || token->kind == '*' || token->kind == '/' || token->kind == '-';
+    if (is_operator) {
+        rt_report_error(parser->reports, token->place, "unexpected '%c' after the value of '%s'", token->kind,
+                        setting->field->name);
+        rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
+    } else if (is_value(parser, context->block, token) || token->kind == RT_TOKEN_STRING) {
+        rt_report_error(parser->reports, token->place, "'%s' takes %s, found one more: %s", setting->field->name,
+                        context->phrase, rt_parser_found(found, token));
+    } else {
+        return;
+    }
+    setting->is_broken = 1;
+    rt_parser_skip_value(parser, context->block);
+}
+
+static void parse_numbers(rt_parser *parser, rt_context *context)
+{
+    rt_setting *setting = context->setting;
+    for (;;) {
+        skip_separators(parser, context);
+        if (is_complete(setting) || !value_follows(parser, context))
+            break;
+        rt_expression *value = &setting->values[setting->value_count++];
+        parser->depth = 0;
+        int parsed = rt_parse_value(parser, value);
+        setting->is_broken |= value->is_broken;
+        if (!parsed) {
+            rt_parser_skip_value(parser, context->block);
+            return;
+        }
+    }
+    if (!setting->is_broken)
+        check_values(parser, context);
+    if (!setting->is_broken)
+        check_end(parser, context);
+    else
+        rt_parser_skip_value(parser, context->block);
+}
+
+/* Whether a word is a value of the field, rather than a word that belongs elsewhere. */
+static int is_known_word(const rt_parser *parser, const rt_field *field, rt_text word)
+{
+    if (field->type == RT_FIELD_MATERIAL)
+        return rt_names_find(parser->materials, word) != RT_NAME_NONE;
+    if (field->type == RT_FIELD_BOOLEAN)
+        return rt_text_equal(word, "true") || rt_text_equal(word, "false");
+    for (size_t i = 0; field->choices[i]; i++)
+        if (rt_text_equal(word, field->choices[i]))
+            return 1;
+    return 0;
+}
+
+static void parse_word(rt_parser *parser, rt_context *context)
+{
+    rt_setting *setting = context->setting;
+    char found[RT_FOUND_SIZE];
+    skip_separators(parser, context);
+    const rt_token *token = rt_parser_peek(parser, 0);
+    int is_known = token->kind == RT_TOKEN_WORD &&
+                   is_known_word(parser, setting->field, rt_place_text(&token->place));
+    if (is_known || (token->kind == RT_TOKEN_WORD && !is_field(context->block, token) && !token->first_on_line)) {
+        int is_broken = 0;
+        setting->word = rt_parser_take_word(parser, &is_broken);
+        setting->is_broken |= is_broken;
+        skip_separators(parser, context);
+        if (!setting->is_broken)
+            check_end(parser, context);
+        return;
+    }
+    /* The mistake is where the value is missing, or the wrong value itself. */
+    int is_missing = token->kind == RT_TOKEN_WORD || token->kind == '}' || token->kind == RT_TOKEN_END;
+    if (!setting->is_broken)
+        rt_report_error(parser->reports, is_missing ? setting->name : token->place, "'%s' takes %s, found %s",
+                        setting->field->name, context->phrase, rt_parser_found(found, token));
+    setting->is_broken = 1;
+    rt_parser_skip_value(parser, context->block);
+}
+
+void rt_parse_setting(rt_parser *parser, const rt_block *block, rt_setting *setting)
+{
+    rt_context context;
+    context.block = block;
+    context.setting = setting;
+    rt_field_phrase(context.phrase, setting->field);
+    switch (setting->field->type) {
+    case RT_FIELD_NUMBER:
+    case RT_FIELD_INTEGER:
+    case RT_FIELD_VECTOR:
+    case RT_FIELD_COLOUR:
+        parse_numbers(parser, &context);
+        break;
+    case RT_FIELD_BOOLEAN:
+    case RT_FIELD_CHOICE:
+    case RT_FIELD_MATERIAL:
+        parse_word(parser, &context);
+        break;
+    }
+}

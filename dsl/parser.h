@@ -1,0 +1,92 @@
+/*
+ * parser.h - from tokens to statements, one at a time.
+ *
+ * The parser knows the fields of each block and the names defined so far: that is what
+ * tells a value from the next field. After an error it goes on at the next place that
+ * can be understood, so that each mistake is reported once and all of them are.
+ */
+#ifndef RT_DSL_PARSER_H
+#define RT_DSL_PARSER_H
+
+#include "dsl/expression.h"
+#include "dsl/lexer.h"
+#include "dsl/schema.h"
+
+/* A field as it is written. */
+typedef struct rt_setting {
+    const rt_field *field;
+    rt_place name;
+    rt_place word;           /* of a choice, boolean or material: the word given */
+    rt_expression values[3]; /* of a number, vector or colour */
+    int value_count;
+    int is_broken; /* has an error already reported */
+} rt_setting;
+
+typedef enum rt_statement_kind { RT_STATEMENT_LET, RT_STATEMENT_INCLUDE, RT_STATEMENT_BLOCK } rt_statement_kind;
+
+typedef struct rt_statement {
+    rt_statement_kind kind;
+    rt_place place;      /* of its first word, or first two: `light point` */
+    rt_place name;       /* of a constant or a material; length 0 when it is missing */
+    rt_expression value; /* of a constant */
+    rt_place path;       /* of an include, without the quotes */
+    const rt_block *block;
+    rt_setting settings[RT_BLOCK_FIELDS_MAX];
+    int setting_count;
+    int is_broken;      /* has an error already reported: not to be built */
+    int is_incomplete;  /* fields may be missing because of an error already reported */
+} rt_statement;
+
+/* The setting of a field in a block, or NULL. */
+const rt_setting *rt_statement_setting(const rt_statement *statement, const rt_field *field);
+
+typedef struct rt_parser {
+    rt_lexer lexer;
+    rt_reports *reports;
+    rt_operations *operations; /* of the current statement */
+    const rt_names *constants, *materials;
+    rt_token ahead[3];
+    int ahead_count;
+    int last_kind;    /* kind of the latest token taken */
+    rt_place last;    /* and its place */
+    int depth;        /* parentheses and brackets open */
+    int value_broken; /* the expression being parsed has an error that does not stop parsing */
+} rt_parser;
+
+void rt_parser_begin(rt_parser *parser, const rt_source *source, rt_reports *reports, uint64_t *order,
+                     rt_operations *operations, const rt_names *constants, const rt_names *materials);
+
+/*
+ * Parses the next statement that can be understood, errors included; returns 0 at the end of the text.
+ * Nothing past the statement's last token is read, but for the one that ends a `let`.
+ */
+int rt_parser_next(rt_parser *parser, rt_statement *statement);
+
+/* ---- Shared by the parser's files ---------------------------------------- */
+
+/* Looks n tokens ahead, n from 0 to 2; takes the next token. */
+const rt_token *rt_parser_peek(rt_parser *parser, int n);
+rt_token rt_parser_take(rt_parser *parser);
+
+/* "'radius'", "a string" or "the end of the file": a token as messages name it. */
+#define RT_FOUND_SIZE (RT_QUOTE_SIZE + 8)
+const char *rt_parser_found(char out[RT_FOUND_SIZE], const rt_token *token);
+
+/* Where to point when something else was expected: at the next token, or behind the latest if that ended its line. */
+rt_place rt_parser_expected_place(rt_parser *parser);
+
+/* Takes a word, joining `red-wall` into one mistake; the next token must be a word. */
+rt_place rt_parser_take_word(rt_parser *parser, int *is_broken);
+
+/* Whether a statement begins at the next token: inside a block this shows that its '}' is missing. */
+int rt_parser_statement_follows(rt_parser *parser);
+
+/*
+ * Recovery after an error. They skip what is left of a field's value, or of a constant's (block NULL);
+ * a '{' with what it holds, to its '}' or a statement that shows it missing; and the rest of a statement.
+ */
+void rt_parser_skip_value(rt_parser *parser, const rt_block *block);
+void rt_parser_skip_braces(rt_parser *parser);
+void rt_parser_skip_statement(rt_parser *parser);
+
+#endif

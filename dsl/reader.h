@@ -1,0 +1,33 @@
+/*
+ * reader.h - reads scene texts statement by statement: each is parsed, checked and built
+ * before the next, so that names are defined before they are used and memory is bounded by
+ * the largest statement.
+ */
+#ifndef RT_DSL_READER_H
+#define RT_DSL_READER_H
+
+#include "dsl/expression.h"
+#include "dsl/schema.h"
+
+typedef struct rt_reader {
+    rt_scene *scene; /* owned until taken */
+    rt_sources sources;
+    rt_reports reports;
+    rt_names constants, materials;
+    rt_place once[RT_BLOCK_COUNT]; /* the first block of each kind that may stand only once; length 0: none yet */
+    uint64_t order;                /* tokens so far */
+    size_t blocks;                 /* blocks so far */
+    rt_error fatal;                /* a failure that is no fault of the text; status RT_OK while there is none */
+} rt_reader;
+
+/* Starts with an empty scene. Whatever it returns, free the reader with rt_reader_free. */
+rt_status rt_reader_begin(rt_reader *reader, rt_error *error);
+void rt_reader_free(rt_reader *reader);
+
+/* Reads one text and all that it includes. Errors are collected. */
+void rt_reader_read(rt_reader *reader, const rt_source *source);
+
+/* Hands the errors and warnings on, and the scene when there are no errors. */
+rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_options *options, rt_error *error);
+
+#endif

@@ -1,0 +1,172 @@
+#include "dsl/report.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static rt_report *add_report(rt_reports *reports, rt_place place)
+{
+    if (reports->count == reports->capacity) {
+        size_t capacity = reports->capacity ? 2 * reports->capacity : 16;
+        rt_report *items = realloc(reports->items, capacity * sizeof *items);
+        if (!items) {
+            reports->out_of_memory = 1;
+            return NULL;
+        }
+        reports->items = items;
+        reports->capacity = capacity;
+    }
+    rt_report *report = &reports->items[reports->count++];
+    memset(report, 0, sizeof *report);
+    report->place = place;
+    report->sequence = reports->count;
+    return report;
+}
+
+void rt_report_error(rt_reports *reports, rt_place place, const char *format, ...)
+{
+    rt_report *report = add_report(reports, place);
+    if (!report)
+        return;
+    reports->errors++;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(report->message, sizeof report->message, format, args);
+    va_end(args);
+}
+
+void rt_report_warning(rt_reports *reports, rt_place place, const char *format, ...)
+{
+    rt_report *report = add_report(reports, place);
+    if (!report)
+        return;
+    report->is_warning = 1;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(report->message, sizeof report->message, format, args);
+    va_end(args);
+}
+
+void rt_report_hint(rt_reports *reports, const char *format, ...)
+{
+    if (reports->out_of_memory || reports->count == 0)
+        return;
+    rt_report *report = &reports->items[reports->count - 1];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(report->hint, sizeof report->hint, format, args);
+    va_end(args);
+}
+
+void rt_report_unknown(rt_reports *reports, const rt_names *table)
+{
+    if (!reports->out_of_memory && reports->count > 0)
+        reports->items[reports->count - 1].table = table;
+}
+
+int rt_reports_full(const rt_reports *reports)
+{
+    return reports->out_of_memory || reports->errors >= RT_REPORTS_MAX;
+}
+
+static int compare_reports(const void *a, const void *b)
+{
+    const rt_place *x = &((const rt_report *)a)->place, *y = &((const rt_report *)b)->place;
+    if (x->order != y->order)
+        return x->order < y->order ? -1 : 1;
+    size_t i = ((const rt_report *)a)->sequence, j = ((const rt_report *)b)->sequence;
+    return (i > j) - (i < j);
+}
+
+/* A name that was unknown where it stood may be defined by now: say so. */
+static void hint_at_later_definition(rt_report *report)
+{
+    size_t found = report->table ? rt_names_find(report->table, rt_place_text(&report->place)) : RT_NAME_NONE;
+    if (found == RT_NAME_NONE)
+        return;
+    const rt_place *place = &report->table->items[found].place;
+    snprintf(report->hint, sizeof report->hint, "it is defined further down, at %s:%d; define it before its use",
+             place->source->path, place->line);
+}
+
+/* The line around a place, cut out of the text in place: *end is set to NUL and its byte returned in *kept. */
+static const char *cut_line(const rt_place *place, char **end, char *kept)
+{
+    char *text = place->source->text;
+    char *start = text + place->offset - (place->line > 0 ? place->column - 1 : 0);
+    char *stop = memchr(start, '\n', (size_t)(text + place->source->size - start));
+    if (!stop)
+        stop = text + place->source->size;
+    if (stop > start && stop[-1] == '\r')
+        stop--;
+    *end = stop;
+    *kept = *stop;
+    *stop = '\0';
+    return start;
+}
+
+static void hand_on(const rt_report *report, const rt_load_options *options)
+{
+    char *end, kept;
+    rt_diagnostic diagnostic;
+    memset(&diagnostic, 0, sizeof diagnostic);
+    diagnostic.is_warning = report->is_warning;
+    diagnostic.file = report->place.source->path;
+    diagnostic.line = report->place.line;
+    diagnostic.column = report->place.column;
+    diagnostic.length = report->place.length > 0 ? report->place.length : 1;
+    diagnostic.message = report->message;
+    diagnostic.hint = report->hint[0] ? report->hint : NULL;
+    diagnostic.source_line = cut_line(&report->place, &end, &kept);
+    options->diagnostic(options->user, &diagnostic);
+    *end = kept;
+}
+
+static void fill_error(rt_error *error, const rt_report *first, size_t errors)
+{
+    memset(error, 0, sizeof *error);
+    error->status = RT_ERROR_INPUT;
+    error->line = first->place.line;
+    error->column = first->place.column;
+    snprintf(error->file, sizeof error->file, "%s", first->place.source->path);
+    if (errors > 1)
+        snprintf(error->message, sizeof error->message, "%s (and %zu more)", first->message, errors - 1);
+    else
+        snprintf(error->message, sizeof error->message, "%s", first->message);
+}
+
+rt_status rt_reports_finish(rt_reports *reports, const rt_load_options *options, rt_error *error)
+{
+    if (reports->count > 1)
+        qsort(reports->items, reports->count, sizeof *reports->items, compare_reports);
+    if (reports->errors >= RT_REPORTS_MAX)
+        rt_report_error(reports, reports->items[reports->count - 1].place, "too many errors: reading stopped here");
+    if (reports->out_of_memory) {
+        if (error) {
+            memset(error, 0, sizeof *error);
+            error->status = RT_ERROR_MEMORY;
+            snprintf(error->message, sizeof error->message, "memory is exhausted while reading the scene");
+        }
+        return RT_ERROR_MEMORY;
+    }
+
+    const rt_report *first = NULL;
+    for (size_t i = 0; i < reports->count; i++) {
+        rt_report *report = &reports->items[i];
+        hint_at_later_definition(report);
+        if (!first && !report->is_warning)
+            first = report;
+        if (options && options->diagnostic)
+            hand_on(report, options);
+    }
+    if (first && error)
+        fill_error(error, first, reports->errors);
+    return first ? RT_ERROR_INPUT : RT_OK;
+}
+
+void rt_reports_free(rt_reports *reports)
+{
+    free(reports->items);
+    memset(reports, 0, sizeof *reports);
+}

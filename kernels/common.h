@@ -1,0 +1,61 @@
+/*
+ * common.h - what the public header, the host code and the device kernels all share:
+ * rays, hits and the names of choices. Both compilers read this file.
+ */
+#ifndef RT_COMMON_H
+#define RT_COMMON_H
+
+#define RT_NONE 0xffffffffu /* "no such element", wherever an index is asked */
+
+/* A ray: origin + t direction, t in [t_min, t_max]; the direction need not be of unit length. */
+typedef struct rt_ray {
+    float origin[3]; /* metres */
+    float t_min;
+    float direction[3];
+    float t_max;
+} rt_ray;
+
+/* The nearest (or any) hit of a ray. On a miss, shape and prim are RT_NONE and t is infinite. */
+typedef struct rt_hit {
+    float t;            /* ray parameter */
+    float u, v;         /* surface parameters, as each primitive defines them */
+    unsigned int prim;  /* triangle within the shape; 0 for the other shapes */
+    float normal[3];    /* unit geometric normal, not turned towards the ray */
+    unsigned int shape; /* index, as rt_scene_add_* returned it */
+} rt_hit;
+
+/*
+ * Density kernels K(d) over a disc of radius r, t = d/r; each integrates to 1 over the disc:
+ *   box           1 / (pi r^2)
+ *   cone          (1 - t/c) / ((1 - 2/(3c)) pi r^2), c >= 1                   Jensen 1996
+ *   gaussian      a [1 - (1 - exp(-b t^2/2)) / (1 - exp(-b))] / (pi r^2), b = 1.953, a normalised
+ *   epanechnikov  2 (1 - t^2) / (pi r^2)
+ *   silverman     3 (1 - t^2)^2 / (pi r^2)
+ * gaussian-jensen is the Gaussian with the often printed a = 0.918, which returns about 53 % of
+ * the density: for comparison only.
+ */
+typedef enum rt_density {
+    RT_DENSITY_EPANECHNIKOV = 0,
+    RT_DENSITY_BOX,
+    RT_DENSITY_CONE,
+    RT_DENSITY_GAUSSIAN,
+    RT_DENSITY_SILVERMAN,
+    RT_DENSITY_GAUSSIAN_JENSEN
+} rt_density;
+
+typedef enum rt_sampler {
+    RT_SAMPLER_SOBOL = 0,  /* Owen-scrambled Sobol, Burley 2020 */
+    RT_SAMPLER_INDEPENDENT /* independent random numbers */
+} rt_sampler;
+
+typedef enum rt_accel {
+    RT_ACCEL_BVH = 0,
+    RT_ACCEL_NONE /* every primitive is tested, for comparison */
+} rt_accel;
+
+typedef enum rt_direct {
+    RT_DIRECT_NEE = 0, /* direct light by shadow rays; photons straight from a light are not stored */
+    RT_DIRECT_PHOTONS  /* all light at a diffuse surface comes from the map */
+} rt_direct;
+
+#endif

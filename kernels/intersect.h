@@ -1,0 +1,171 @@
+/*
+ * intersect.h - rays against primitives.
+ *
+ * Triangles and parallelograms come eight to a block and are tested at once, by the watertight
+ * test of Woop, Benthin and Wald ("Watertight Ray/Triangle Intersection", JCGT 2(1), 2013): the
+ * edge functions of a shared edge are computed from the same numbers for both triangles, so no
+ * ray passes between them.
+ *
+ * t, u and v are those of the ray as given: its direction need not be of unit length.
+ */
+#ifndef RT_INTERSECT_H
+#define RT_INTERSECT_H
+
+#include "lanes.h"
+#include "scene.h"
+#include "types.h"
+
+/* origin + t direction, 0 <= t_min <= t <= t_max, t_max may be infinite; direction of any length but zero. */
+struct ray {
+    float3 origin;
+    float3 direction;
+    float t_min;
+    float t_max;
+};
+
+/* What a traversal keeps of the nearest hit; surface_at makes a surface of it. */
+struct hit {
+    float t;
+    float u, v; /* triangle: weights of v1 and v2; parallelogram: along the edges; else 0 */
+    uint prim;  /* primitive of the scene */
+    uint slot;  /* see RT_SLOT_ANALYTIC */
+};
+
+static inline struct ray make_ray(float3 origin, float3 direction, float t_min, float t_max)
+{
+    struct ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    ray.t_min = t_min;
+    ray.t_max = t_max;
+    return ray;
+}
+
+/* The ray's frame for triangles: axis z is the direction's largest component, x and y are sheared along it. */
+struct ray_frame {
+    uint x, y, z;               /* axes of the world that are x, y, z of the frame */
+    float origin_x, origin_y, origin_z;
+    float shear_x, shear_y;     /* direction x/z, y/z */
+    float scale_z;              /* 1 / direction z */
+};
+
+static inline float component(float3 v, uint axis)
+{
+    return axis == 0u ? v.x : axis == 1u ? v.y : v.z;
+}
+
+static inline struct ray_frame make_ray_frame(const struct ray *ray)
+{
+    const float3 size = fabs(ray->direction);
+    struct ray_frame frame;
+    frame.z = size.x >= size.y ? (size.x >= size.z ? 0u : 2u) : (size.y >= size.z ? 1u : 2u);
+    frame.x = frame.z == 2u ? 0u : frame.z + 1u;
+    frame.y = frame.x == 2u ? 0u : frame.x + 1u;
+    frame.origin_x = component(ray->origin, frame.x);
+    frame.origin_y = component(ray->origin, frame.y);
+    frame.origin_z = component(ray->origin, frame.z);
+    frame.scale_z = 1.0f / component(ray->direction, frame.z);
+    frame.shear_x = component(ray->direction, frame.x) * frame.scale_z;
+    frame.shear_y = component(ray->direction, frame.y) * frame.scale_z;
+    return frame;
+}
+
+/* Where the ray meets the eight lanes of a block; meaningful in the lanes of the mask that came with it. */
+struct block_hits {
+    float8 t, u, v;
+};
+
+/* One product rounded before the other is subtracted: exactly opposite when the factors change sides. */
+static inline float8 edge_function(float8 ax, float8 ay, float8 bx, float8 by)
+{
+#pragma OPENCL FP_CONTRACT OFF
+    const float8 left = ax * by;
+    const float8 right = ay * bx;
+    return left - right;
+}
+
+/*
+ * Tests the block's lanes; returns a bit for each that is hit with t in [t_min, t_max]. Both
+ * sides count, edges belong to the lane. A parallelogram's two far edges are moved out by 1e-6
+ * of its size, because its fourth corner is not stored.
+ */
+static inline uint intersect_block(global const rt_tri_block *block, const struct ray_frame *frame, float t_min,
+                                   float t_max, struct block_hits *hits)
+{
+    /* Move the vertices to the ray's frame: origin at 0, ray along +-z. */
+    const float8 az = vload8(0, block->v0[frame->z]) - frame->origin_z;
+    const float8 bz = vload8(0, block->v1[frame->z]) - frame->origin_z;
+    const float8 cz = vload8(0, block->v2[frame->z]) - frame->origin_z;
+    const float8 ax = fma(az, -frame->shear_x, vload8(0, block->v0[frame->x]) - frame->origin_x);
+    const float8 ay = fma(az, -frame->shear_y, vload8(0, block->v0[frame->y]) - frame->origin_y);
+    const float8 bx = fma(bz, -frame->shear_x, vload8(0, block->v1[frame->x]) - frame->origin_x);
+    const float8 by = fma(bz, -frame->shear_y, vload8(0, block->v1[frame->y]) - frame->origin_y);
+    const float8 cx = fma(cz, -frame->shear_x, vload8(0, block->v2[frame->x]) - frame->origin_x);
+    const float8 cy = fma(cz, -frame->shear_y, vload8(0, block->v2[frame->y]) - frame->origin_y);
+
+    /* Edge functions are the weights of v0, v1 and v2, scaled by det; make det positive. */
+    float8 a = edge_function(cx, cy, bx, by);
+    float8 b = edge_function(ax, ay, cx, cy);
+    float8 c = edge_function(bx, by, ax, ay);
+    float8 det = a + b + c;
+    float8 depth = fma(a, az, fma(b, bz, c * cz));
+    const int8 sign = as_int8(det) & (int)0x80000000;
+    a = as_float8(as_int8(a) ^ sign);
+    b = as_float8(as_int8(b) ^ sign);
+    c = as_float8(as_int8(c) ^ sign);
+    det = as_float8(as_int8(det) ^ sign);
+    depth = as_float8(as_int8(depth) ^ sign);
+
+    /* A parallelogram asks b <= det and c <= det instead of a >= 0, that is a + min(b, c) >= 0. */
+    const float8 least = lane_min(b, c);
+    const int8 quad = as_int8(vload8(0, block->prim)) >> 31;
+    const float8 third = a + as_float8(quad & as_int8(fma(det, 1e-6f, least)));
+
+    const float8 scale = 1.0f / det;
+    hits->t = depth * scale * frame->scale_z;
+    hits->u = b * scale;
+    hits->v = c * scale;
+    return lane_mask((lane_min(least, third) >= 0.0f) & (det > 0.0f) & (hits->t >= t_min) & (hits->t <= t_max));
+}
+
+/*
+ * The nearest t in [t_min, t_max] at which the ray meets the sphere, or infinity. The discriminant
+ * and the smaller root are computed without cancellation: Haines, Gunther and Akenine-Moeller,
+ * "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7.
+ */
+static inline float intersect_sphere(global const rt_shape *sphere, const struct ray *ray)
+{
+    const float radius = sphere->p[3];
+    const float3 f = ray->origin - vload3(0, sphere->p);
+    const float3 d = ray->direction;
+    const float a = dot(d, d);
+    const float b = -dot(f, d);
+    const float3 nearest = f + (b / a) * d; /* from the centre to the line's nearest point */
+    const float h = (radius - length(nearest)) * (radius + length(nearest));
+    if (!(h >= 0.0f))
+        return INFINITY;
+    const float q = b + copysign(sqrt(a * h), b);
+    const float distance = length(f);
+    const float c = (distance - radius) * (distance + radius);
+    const float t0 = c / q, t1 = q / a;
+    const float near = t0 < t1 ? t0 : t1, far = t0 < t1 ? t1 : t0;
+    if (near >= ray->t_min && near <= ray->t_max)
+        return near;
+    return far >= ray->t_min && far <= ray->t_max ? far : INFINITY;
+}
+
+/* The t in [t_min, t_max] at which the ray meets the plane, or infinity. */
+static inline float intersect_plane(global const rt_shape *plane, const struct ray *ray)
+{
+    const float3 normal = vload3(0, plane->p + 4);
+    const float t = dot(normal, vload3(0, plane->p) - ray->origin) / dot(normal, ray->direction);
+    return t >= ray->t_min && t <= ray->t_max ? t : INFINITY;
+}
+
+/* The same for any shape that is not kept in blocks. */
+static inline float intersect_shape(global const rt_shape *shape, const struct ray *ray)
+{
+    return shape->kind == RT_SHAPE_PLANE ? intersect_plane(shape, ray) : intersect_sphere(shape, ray);
+}
+
+#endif

@@ -1,0 +1,141 @@
+/*
+ * partition.c - in place, in parallel, and in an order that does not depend on the threads.
+ *
+ * First each chunk of fixed length is partitioned by itself. Then the left references that lie behind
+ * the boundary are exchanged with the right ones that lie before it, both counted in order.
+ */
+#include "accel/partition.h"
+
+#include <string.h>
+
+#include "accel/parallel.h"
+#include "accel/split.h"
+
+enum { JOB_CHUNKS = 16, EXCHANGE_JOBS = 16 };
+
+typedef struct partition_job {
+    rt_ref *refs;
+    uint32_t count;
+    const rt_plane_split *plane;
+    uint32_t *lefts;    /* left references of each chunk */
+    uint32_t chunks;
+    uint32_t boundary;  /* all lefts */
+    uint32_t misplaced; /* references to exchange */
+} partition_job;
+
+static int is_left(const rt_ref *ref, const rt_plane_split *plane)
+{
+    const float x = (ref->lo[plane->axis] + ref->hi[plane->axis] - plane->origin) * plane->scale;
+    return (float)(int32_t)(x < plane->limit ? x : plane->limit) < plane->bin;
+}
+
+/* Keeps the order on both sides; free of branches that could be mispredicted. */
+static uint32_t partition_chunk(rt_ref *refs, uint32_t count, const rt_plane_split *plane)
+{
+    rt_ref right[RT_SPLIT_CHUNK];
+    uint32_t lefts = 0, rights = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const rt_ref ref = refs[i];
+        const uint32_t left = (uint32_t)is_left(&ref, plane);
+        refs[lefts] = ref;
+        right[rights] = ref;
+        lefts += left;
+        rights += 1 - left;
+    }
+    memcpy(refs + lefts, right, rights * sizeof *right);
+    return lefts;
+}
+
+static void partition_chunks(void *user, uint32_t index)
+{
+    const partition_job *job = user;
+    const uint32_t first = index * JOB_CHUNKS;
+    const uint32_t end = first + JOB_CHUNKS < job->chunks ? first + JOB_CHUNKS : job->chunks;
+    for (uint32_t c = first; c < end; c++) {
+        const uint32_t begin = c * RT_SPLIT_CHUNK;
+        const uint32_t left = job->count - begin;
+        const uint32_t length = left < RT_SPLIT_CHUNK ? left : RT_SPLIT_CHUNK;
+        job->lefts[c] = partition_chunk(job->refs + begin, length, job->plane);
+    }
+}
+
+/* A run of references that lie on the wrong side. */
+typedef struct run {
+    uint32_t chunk, begin, end;
+} run;
+
+/* The part of the chunk's right side before the boundary, or of its left side behind it. */
+static run misplaced_run(const partition_job *job, uint32_t chunk, int rights)
+{
+    const uint32_t begin = chunk * RT_SPLIT_CHUNK;
+    const uint32_t end = job->count - begin < RT_SPLIT_CHUNK ? job->count : begin + RT_SPLIT_CHUNK;
+    const uint32_t middle = begin + job->lefts[chunk];
+    const uint32_t edge = job->boundary;
+    run r = {chunk, 0, 0};
+    if (rights) {
+        r.begin = middle;
+        r.end = end < edge ? end : edge;
+    } else {
+        r.begin = begin > edge ? begin : edge;
+        r.end = middle;
+    }
+    if (r.end < r.begin)
+        r.end = r.begin;
+    return r;
+}
+
+/* Skips `skip` misplaced references from the start of run r on. */
+static run skip_misplaced(const partition_job *job, run r, int rights, uint32_t skip)
+{
+    while (r.end - r.begin <= skip && r.chunk + 1 < job->chunks) {
+        skip -= r.end - r.begin;
+        r = misplaced_run(job, r.chunk + 1, rights);
+    }
+    r.begin += skip;
+    return r;
+}
+
+/* Exchanges one part of the misplaced pairs. */
+static void exchange(void *user, uint32_t index)
+{
+    const partition_job *job = user;
+    const uint64_t all = job->misplaced;
+    const uint32_t first = (uint32_t)(all * index / EXCHANGE_JOBS);
+    uint32_t left = (uint32_t)(all * (index + 1) / EXCHANGE_JOBS) - first;
+    if (left == 0)
+        return;
+    run a = skip_misplaced(job, misplaced_run(job, 0, 1), 1, first);
+    run b = skip_misplaced(job, misplaced_run(job, 0, 0), 0, first);
+    while (left) {
+        const uint32_t in_a = a.end - a.begin, in_b = b.end - b.begin;
+        uint32_t n = in_a < in_b ? in_a : in_b;
+        n = n < left ? n : left;
+        for (uint32_t i = 0; i < n; i++) {
+            const rt_ref swapped = job->refs[a.begin + i];
+            job->refs[a.begin + i] = job->refs[b.begin + i];
+            job->refs[b.begin + i] = swapped;
+        }
+        left -= n;
+        if (left) {
+            a = skip_misplaced(job, a, 1, n);
+            b = skip_misplaced(job, b, 0, n);
+        }
+    }
+}
+
+uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads, uint32_t *scratch)
+{
+    partition_job job = {refs, count, plane, scratch, (count + RT_SPLIT_CHUNK - 1) / RT_SPLIT_CHUNK, 0, 0};
+    if (job.chunks <= 1)
+        return partition_chunk(refs, count, plane);
+
+    rt_parallel(threads, (job.chunks + JOB_CHUNKS - 1) / JOB_CHUNKS, partition_chunks, &job);
+    for (uint32_t c = 0; c < job.chunks; c++)
+        job.boundary += job.lefts[c];
+    for (uint32_t c = 0; c < job.chunks; c++) {
+        const run r = misplaced_run(&job, c, 1);
+        job.misplaced += r.end - r.begin;
+    }
+    rt_parallel(threads, EXCHANGE_JOBS, exchange, &job);
+    return job.boundary;
+}

@@ -1,0 +1,20 @@
+/* partition.h - reorders references by the side of a plane. */
+#ifndef RT_ACCEL_PARTITION_H
+#define RT_ACCEL_PARTITION_H
+
+#include <stdint.h>
+
+#include "accel/refs.h"
+
+/* A plane between bins: left are the references whose bin along `axis` is below `bin`. */
+typedef struct rt_plane_split {
+    int axis;
+    float origin, scale; /* bin = (centre - origin) scale, at most limit */
+    float limit;
+    float bin;
+} rt_plane_split;
+
+/* Moves the left references before the others; returns their number. The order does not depend on threads. */
+uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads, uint32_t *scratch);
+
+#endif

@@ -1,0 +1,300 @@
+/*
+ * tree.c - builds the binary tree: the top with all threads on each split, then subtrees of bounded
+ * size, each by one thread. Where the top ends depends on the references alone, so the tree is the
+ * same for any number of threads.
+ */
+#include "accel/tree.h"
+
+#include <assert.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accel/parallel.h"
+#include "accel/split.h"
+#include "error.h"
+
+/* Below this depth of the binary tree sets are halved, which bounds the recursion. */
+enum { SAH_DEPTH = 64 };
+
+/* Pairs of nodes, allocated in blocks that never move. */
+enum { ARENA_PAIRS = 256 };
+typedef struct rt_tree_block {
+    struct rt_tree_block *next;
+    rt_tree_node pairs[ARENA_PAIRS][2];
+} rt_tree_block;
+
+/* A subtree to be built by one thread. */
+typedef struct subtree {
+    rt_tree_node *node;
+    int depth;
+    rt_collapse_cost cost;
+} subtree;
+
+typedef struct builder {
+    rt_ref *refs;
+    uint32_t count;
+    rt_split_rule rule;
+    uint32_t threads;
+    uint32_t *scratch;     /* for splits of the top */
+    rt_tree_arena *arenas; /* one a subtree */
+    rt_tree_arena top;
+    subtree *subtrees; /* in the order of their references */
+    uint32_t *order;   /* their indices, the longest first */
+    uint32_t subtree_count, subtree_room;
+    rt_stage_progress *progress;
+    pthread_t caller; /* the only thread that reports progress */
+    pthread_mutex_t lock; /* of the following */
+    uint64_t done, work;  /* references split, once for each level of the top and once for the subtrees */
+    rt_status status;
+} builder;
+
+static rt_status get_status(builder *b)
+{
+    pthread_mutex_lock(&b->lock);
+    const rt_status status = b->status;
+    pthread_mutex_unlock(&b->lock);
+    return status;
+}
+
+static void set_status(builder *b, rt_status status)
+{
+    pthread_mutex_lock(&b->lock);
+    if (b->status == RT_OK)
+        b->status = status;
+    pthread_mutex_unlock(&b->lock);
+}
+
+/* Counts references as done; the caller's thread passes it on. */
+static void advance(builder *b, uint32_t count)
+{
+    pthread_mutex_lock(&b->lock);
+    b->done += count;
+    const double fraction = (double)b->done / (double)b->work;
+    pthread_mutex_unlock(&b->lock);
+    if (b->progress && pthread_equal(b->caller, pthread_self())) {
+        const rt_status status = rt_stage_update(b->progress, fraction < 1.0 ? fraction : 1.0);
+        if (status != RT_OK)
+            set_status(b, status);
+    }
+}
+
+static rt_tree_node *new_pair(rt_tree_arena *arena)
+{
+    if (arena->blocks == NULL || arena->used == ARENA_PAIRS) {
+        rt_tree_block *block = malloc(sizeof *block);
+        if (block == NULL)
+            return NULL;
+        block->next = arena->blocks;
+        arena->blocks = block;
+        arena->used = 0;
+    }
+    return arena->blocks->pairs[arena->used++];
+}
+
+static void free_arena(rt_tree_arena *arena)
+{
+    while (arena->blocks) {
+        rt_tree_block *next = arena->blocks->next;
+        free(arena->blocks);
+        arena->blocks = next;
+    }
+}
+
+/* One analytic primitive, or triangles and parallelograms that fill no more than a block. */
+static int fits_leaf(const rt_set *set)
+{
+    if (set->count == 1)
+        return 1;
+    if (set->count > RT_BVH_WIDTH)
+        return 0;
+    for (uint32_t i = 0; i < set->count; i++)
+        if (set->refs[i].source == RT_SOURCE_ANALYTIC)
+            return 0;
+    return 1;
+}
+
+/* Gives the node its box; returns its set. */
+static rt_set open_node(builder *b, rt_tree_node *node, uint32_t threads)
+{
+    const rt_set set = rt_set_make(b->refs + node->first, node->count, threads);
+    memcpy(node->lo, &set.box.lo, sizeof node->lo);
+    memcpy(node->hi, &set.box.hi, sizeof node->hi);
+    node->children = NULL;
+    return set;
+}
+
+/* Splits the node's references between two new children; false when there is no memory. */
+static int divide(builder *b, rt_tree_node *node, const rt_set *set, int depth, rt_tree_arena *arena,
+                  uint32_t threads, uint32_t *scratch)
+{
+    rt_tree_node *pair = new_pair(arena);
+    if (pair == NULL) {
+        set_status(b, RT_ERROR_MEMORY);
+        return 0;
+    }
+    const int sah = b->rule == RT_SPLIT_RULE_SAH && depth < SAH_DEPTH;
+    const uint32_t left = sah ? rt_split_sah(set, threads, scratch) : rt_split_median(set);
+    assert(left > 0 && left < node->count);
+    node->children = pair;
+    pair[0].first = node->first;
+    pair[0].count = left;
+    pair[1].first = node->first + left;
+    pair[1].count = node->count - left;
+    return 1;
+}
+
+static rt_collapse_cost close_node(const builder *b, rt_tree_node *node, const rt_collapse_cost *left,
+                                   const rt_collapse_cost *right)
+{
+    return b->rule == RT_SPLIT_RULE_SAH ? rt_collapse_inner(node, left, right) : rt_collapse_even(node);
+}
+
+static rt_collapse_cost grow(builder *b, rt_tree_node *node, int depth, rt_tree_arena *arena)
+{
+    uint32_t scratch[RT_SPLIT_PARALLEL / RT_SPLIT_CHUNK + 1];
+    const rt_set set = open_node(b, node, 1);
+    if (fits_leaf(&set) || !divide(b, node, &set, depth, arena, 1, scratch))
+        return rt_collapse_leaf(node);
+    const rt_collapse_cost left = grow(b, &node->children[0], depth + 1, arena);
+    const rt_collapse_cost right = grow(b, &node->children[1], depth + 1, arena);
+    return close_node(b, node, &left, &right);
+}
+
+static void grow_subtree(void *user, uint32_t index)
+{
+    builder *b = user;
+    const uint32_t s = b->order[index];
+    subtree *tree = &b->subtrees[s];
+    if (get_status(b) != RT_OK)
+        return;
+    tree->cost = grow(b, tree->node, tree->depth, &b->arenas[s]);
+    advance(b, tree->node->count);
+}
+
+static void add_subtree(builder *b, rt_tree_node *node, int depth)
+{
+    if (b->subtree_count == b->subtree_room) {
+        const uint32_t room = b->subtree_room ? 2 * b->subtree_room : 64;
+        subtree *grown = realloc(b->subtrees, room * sizeof *grown);
+        if (grown == NULL) {
+            set_status(b, RT_ERROR_MEMORY);
+            return;
+        }
+        b->subtrees = grown;
+        b->subtree_room = room;
+    }
+    b->subtrees[b->subtree_count].node = node;
+    b->subtrees[b->subtree_count++].depth = depth;
+}
+
+static void grow_top(builder *b, rt_tree_node *node, int depth)
+{
+    if (b->status != RT_OK)
+        return;
+    if (node->count <= RT_SPLIT_PARALLEL) {
+        add_subtree(b, node, depth);
+        return;
+    }
+    const rt_set set = open_node(b, node, b->threads);
+    if (!divide(b, node, &set, depth, &b->top, b->threads, b->scratch))
+        return;
+    advance(b, node->count);
+    grow_top(b, &node->children[0], depth + 1);
+    grow_top(b, &node->children[1], depth + 1);
+}
+
+/* Costs of the top; *next is the first subtree not yet met. */
+static rt_collapse_cost close_top(const builder *b, rt_tree_node *node, uint32_t *next)
+{
+    if (node->count <= RT_SPLIT_PARALLEL)
+        return b->subtrees[(*next)++].cost;
+    const rt_collapse_cost left = close_top(b, &node->children[0], next);
+    const rt_collapse_cost right = close_top(b, &node->children[1], next);
+    return close_node(b, node, &left, &right);
+}
+
+/* The longest subtree first, so that no thread is left alone with one at the end. */
+static rt_status order_subtrees(builder *b)
+{
+    b->arenas = calloc(b->subtree_count, sizeof *b->arenas);
+    b->order = malloc(b->subtree_count * sizeof *b->order);
+    if (b->arenas == NULL || b->order == NULL)
+        return RT_ERROR_MEMORY;
+    for (uint32_t i = 0; i < b->subtree_count; i++) {
+        uint32_t at = i;
+        for (; at > 0 && b->subtrees[b->order[at - 1]].node->count < b->subtrees[i].node->count; at--)
+            b->order[at] = b->order[at - 1];
+        b->order[at] = i;
+    }
+    return RT_OK;
+}
+
+/* References to be split in all, for progress: once for each halving of the top and once for the subtrees. */
+static uint64_t estimate_work(uint32_t count)
+{
+    uint64_t work = count;
+    for (uint32_t n = count; n > RT_SPLIT_PARALLEL; n /= 2)
+        work += count;
+    return work;
+}
+
+static rt_status build(builder *b, rt_tree *tree)
+{
+    b->scratch = malloc((b->count / RT_SPLIT_CHUNK + 1) * sizeof *b->scratch);
+    if (b->scratch == NULL)
+        return RT_ERROR_MEMORY;
+    tree->root.first = 0;
+    tree->root.count = b->count;
+    grow_top(b, &tree->root, 0);
+    if (b->status != RT_OK)
+        return b->status;
+    const rt_status ordered = order_subtrees(b);
+    if (ordered != RT_OK)
+        return ordered;
+    rt_parallel(b->threads, b->subtree_count, grow_subtree, b);
+    if (b->status != RT_OK)
+        return b->status;
+    uint32_t next = 0;
+    close_top(b, &tree->root, &next);
+    return RT_OK;
+}
+
+rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rule rule, uint32_t threads,
+                        rt_stage_progress *progress, rt_error *error)
+{
+    builder b = {0};
+    b.refs = refs;
+    b.count = count;
+    b.rule = rule;
+    b.threads = threads;
+    b.progress = progress;
+    b.caller = pthread_self();
+    b.work = estimate_work(count);
+    pthread_mutex_init(&b.lock, NULL);
+    memset(out, 0, sizeof *out);
+    const rt_status status = build(&b, out);
+    pthread_mutex_destroy(&b.lock);
+    free(b.scratch);
+    free(b.subtrees);
+    free(b.order);
+    out->top = b.top;
+    out->arenas = b.arenas;
+    out->arena_count = b.arenas ? b.subtree_count : 0;
+    if (status == RT_OK)
+        return RT_OK;
+    rt_tree_destroy(out);
+    return status == RT_CANCELLED ? rt_fail(error, RT_CANCELLED, "cancelled while the hierarchy was built")
+                                  : rt_fail(error, RT_ERROR_MEMORY, "not enough memory to build a hierarchy of %lu primitives",
+                                            (unsigned long)count);
+}
+
+void rt_tree_destroy(rt_tree *tree)
+{
+    free_arena(&tree->top);
+    for (uint32_t i = 0; i < tree->arena_count; i++)
+        free_arena(&tree->arenas[i]);
+    free(tree->arenas);
+    tree->arenas = NULL;
+    tree->arena_count = 0;
+}

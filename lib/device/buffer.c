@@ -1,0 +1,126 @@
+/* buffer.c - device memory, kernel arguments and launches. */
+#include "device/device.h"
+#include "error.h"
+
+const char *rt_cl_error_name(cl_int code)
+{
+    static const struct {
+        cl_int code;
+        const char *name;
+    } names[] = {
+        {CL_SUCCESS, "CL_SUCCESS"},
+        {CL_DEVICE_NOT_FOUND, "CL_DEVICE_NOT_FOUND"},
+        {CL_DEVICE_NOT_AVAILABLE, "CL_DEVICE_NOT_AVAILABLE"},
+        {CL_COMPILER_NOT_AVAILABLE, "CL_COMPILER_NOT_AVAILABLE"},
+        {CL_MEM_OBJECT_ALLOCATION_FAILURE, "CL_MEM_OBJECT_ALLOCATION_FAILURE"},
+        {CL_OUT_OF_RESOURCES, "CL_OUT_OF_RESOURCES"},
+        {CL_OUT_OF_HOST_MEMORY, "CL_OUT_OF_HOST_MEMORY"},
+        {CL_BUILD_PROGRAM_FAILURE, "CL_BUILD_PROGRAM_FAILURE"},
+        {CL_INVALID_VALUE, "CL_INVALID_VALUE"},
+        {CL_INVALID_DEVICE, "CL_INVALID_DEVICE"},
+        {CL_INVALID_CONTEXT, "CL_INVALID_CONTEXT"},
+        {CL_INVALID_MEM_OBJECT, "CL_INVALID_MEM_OBJECT"},
+        {CL_INVALID_BINARY, "CL_INVALID_BINARY"},
+        {CL_INVALID_BUILD_OPTIONS, "CL_INVALID_BUILD_OPTIONS"},
+        {CL_INVALID_PROGRAM, "CL_INVALID_PROGRAM"},
+        {CL_INVALID_PROGRAM_EXECUTABLE, "CL_INVALID_PROGRAM_EXECUTABLE"},
+        {CL_INVALID_KERNEL_NAME, "CL_INVALID_KERNEL_NAME"},
+        {CL_INVALID_KERNEL, "CL_INVALID_KERNEL"},
+        {CL_INVALID_ARG_INDEX, "CL_INVALID_ARG_INDEX"},
+        {CL_INVALID_ARG_VALUE, "CL_INVALID_ARG_VALUE"},
+        {CL_INVALID_ARG_SIZE, "CL_INVALID_ARG_SIZE"},
+        {CL_INVALID_KERNEL_ARGS, "CL_INVALID_KERNEL_ARGS"},
+        {CL_INVALID_WORK_GROUP_SIZE, "CL_INVALID_WORK_GROUP_SIZE"},
+        {CL_INVALID_WORK_ITEM_SIZE, "CL_INVALID_WORK_ITEM_SIZE"},
+        {CL_INVALID_BUFFER_SIZE, "CL_INVALID_BUFFER_SIZE"},
+        {CL_INVALID_DEVICE_PARTITION_COUNT, "CL_INVALID_DEVICE_PARTITION_COUNT"},
+        {CL_DEVICE_PARTITION_FAILED, "CL_DEVICE_PARTITION_FAILED"},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (names[i].code == code)
+            return names[i].name;
+    return "unnamed OpenCL error";
+}
+
+rt_status rt_cl_check(cl_int code, const char *what, rt_error *error)
+{
+    if (code == CL_SUCCESS)
+        return RT_OK;
+    int memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY;
+    return rt_fail(error, memory ? RT_ERROR_MEMORY : RT_ERROR_DEVICE, "%s: %s (%d)", what, rt_cl_error_name(code),
+                   (int)code);
+}
+
+rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes, void *host,
+                           const char *what, rt_error *error)
+{
+    cl_int code;
+    /* Asked here, because some drivers abort instead of refusing. */
+    if (bytes > device->info.largest_buffer)
+        return rt_fail(error, RT_ERROR_MEMORY, "%s takes %zu bytes, more than the %llu of a buffer on %s", what, bytes,
+                       (unsigned long long)device->info.largest_buffer, device->info.name);
+    if (host && !(flags & CL_MEM_USE_HOST_PTR))
+        flags |= CL_MEM_COPY_HOST_PTR;
+    cl_mem buffer = clCreateBuffer(device->context, flags, bytes ? bytes : 1, bytes ? host : NULL, &code);
+    rt_status status = rt_cl_check(code, what, error);
+    if (status == RT_OK)
+        *out = buffer;
+    return status;
+}
+
+rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host, rt_error *error)
+{
+    if (bytes == 0)
+        return RT_OK;
+    return rt_cl_check(clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
+                       "reading from the device", error);
+}
+
+rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, const void *host,
+                          rt_error *error)
+{
+    if (bytes == 0)
+        return RT_OK;
+    return rt_cl_check(clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
+                       "writing to the device", error);
+}
+
+void rt_buffer_release(cl_mem buffer)
+{
+    if (buffer)
+        clReleaseMemObject(buffer);
+}
+
+void rt_kernel_release(cl_kernel kernel)
+{
+    if (kernel)
+        clReleaseKernel(kernel);
+}
+
+rt_status rt_kernel_args(cl_kernel kernel, const rt_arg *args, cl_uint count, rt_error *error)
+{
+    for (cl_uint i = 0; i < count; i++) {
+        cl_int code = clSetKernelArg(kernel, i, args[i].size, args[i].value);
+        if (code != CL_SUCCESS)
+            return rt_fail(error, RT_ERROR_DEVICE, "kernel argument %u: %s", i, rt_cl_error_name(code));
+    }
+    return RT_OK;
+}
+
+rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error *error)
+{
+    size_t local = device->work_group;
+    size_t global = (items + local - 1) / local * local;
+    if (items == 0)
+        return RT_OK;
+    rt_status status = rt_cl_check(clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
+                                   "launching a kernel", error);
+    if (status == RT_OK)
+        status = rt_cl_check(clFlush(device->queue), "launching a kernel", error);
+    return status;
+}
+
+rt_status rt_device_finish(rt_device *device, rt_error *error)
+{
+    return rt_cl_check(clFinish(device->queue), "waiting for the device", error);
+}

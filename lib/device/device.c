@@ -1,0 +1,200 @@
+/* device.c - finding, opening and closing OpenCL devices. */
+#include "device/device.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "error.h"
+
+enum { platforms_max = 16, devices_max = 64, default_work_group_cpu = 16, default_work_group_gpu = 64 };
+
+typedef struct device_list {
+    cl_platform_id platform[devices_max];
+    cl_device_id id[devices_max];
+    cl_uint count;
+} device_list;
+
+/* Collects the devices of all platforms. */
+static rt_status list_devices(device_list *list, rt_error *error)
+{
+    cl_platform_id platforms[platforms_max];
+    cl_uint platform_count = 0;
+
+    list->count = 0;
+    cl_int code = clGetPlatformIDs(platforms_max, platforms, &platform_count);
+    if (code != CL_SUCCESS || platform_count == 0)
+        return rt_fail(error, RT_ERROR_DEVICE,
+                       "no OpenCL platform is installed (on Debian: pocl-opencl-icd gives one for the CPU)");
+    if (platform_count > platforms_max)
+        platform_count = platforms_max;
+    for (cl_uint p = 0; p < platform_count && list->count < devices_max; p++) {
+        cl_uint found = 0, room = devices_max - list->count;
+        code = clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, room, list->id + list->count, &found);
+        if (code != CL_SUCCESS)
+            continue; /* a platform without devices */
+        if (found > room)
+            found = room;
+        for (cl_uint d = 0; d < found; d++)
+            list->platform[list->count++] = platforms[p];
+    }
+    if (list->count == 0)
+        return rt_fail(error, RT_ERROR_DEVICE, "no OpenCL device: %u platforms, none with a device", platform_count);
+    return RT_OK;
+}
+
+static void describe(rt_device_info *info, cl_platform_id platform, cl_device_id id)
+{
+    cl_ulong memory = 0, largest = 0;
+    cl_device_type type = 0;
+    cl_uint units = 0;
+
+    memset(info, 0, sizeof *info);
+    clGetDeviceInfo(id, CL_DEVICE_NAME, sizeof info->name - 1, info->name, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_VERSION, sizeof info->version - 1, info->version, NULL);
+    clGetDeviceInfo(id, CL_DRIVER_VERSION, sizeof info->driver - 1, info->driver, NULL);
+    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof info->platform - 1, info->platform, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof largest, &largest, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    info->memory = memory;
+    info->largest_buffer = largest;
+    info->compute_units = units;
+    info->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+}
+
+rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error)
+{
+    device_list list;
+    rt_status status = list_devices(&list, error);
+    if (status != RT_OK)
+        return status;
+    rt_device_info *infos = malloc(list.count * sizeof *infos);
+    if (!infos)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %u devices", list.count);
+    for (cl_uint i = 0; i < list.count; i++)
+        describe(infos + i, list.platform[i], list.id[i]);
+    *out = infos;
+    *count = list.count;
+    return RT_OK;
+}
+
+void rt_devices_free(rt_device_info *devices)
+{
+    free(devices);
+}
+
+/* Whether text holds part, letters of either case alike. */
+static int contains(const char *text, const char *part)
+{
+    for (size_t length = strlen(part); *text; text++)
+        if (strncasecmp(text, part, length) == 0)
+            return 1;
+    return 0;
+}
+
+/* Picks a device by its number or by part of its name. */
+static rt_status select_device(rt_device *device, const char *select, rt_error *error)
+{
+    device_list list;
+    rt_status status = list_devices(&list, error);
+    if (status != RT_OK)
+        return status;
+
+    char *end;
+    unsigned long number = select && *select ? strtoul(select, &end, 10) : 0;
+    int by_number = !select || !*select || (*end == '\0' && select[0] >= '0' && select[0] <= '9');
+    for (cl_uint i = 0; i < list.count; i++) {
+        describe(&device->info, list.platform[i], list.id[i]);
+        if (by_number ? i == number : contains(device->info.name, select) || contains(device->info.platform, select)) {
+            device->platform = list.platform[i];
+            device->id = list.id[i];
+            return RT_OK;
+        }
+    }
+    return rt_fail_field(error, RT_ERROR_DEVICE, "device", "no OpenCL device '%s' among the %u of this machine", select,
+                         list.count);
+}
+
+/* Limits a CPU device to some of its compute units. */
+static rt_status limit_threads(rt_device *device, rt_error *error)
+{
+    if (!device->info.is_cpu || device->threads >= device->info.compute_units)
+        return RT_OK;
+    cl_device_partition_property how[] = {CL_DEVICE_PARTITION_BY_COUNTS, (cl_device_partition_property)device->threads,
+                                          CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    cl_device_id part;
+    rt_status status = rt_cl_check(clCreateSubDevices(device->id, how, 1, &part, NULL),
+                                   "limiting the device to some of its compute units", error);
+    if (status != RT_OK)
+        return status;
+    device->id = part;
+    device->is_sub_device = 1;
+    return RT_OK;
+}
+
+static rt_status choose_work_group(rt_device *device, uint32_t asked, rt_error *error)
+{
+    size_t largest = 1;
+    clGetDeviceInfo(device->id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof largest, &largest, NULL);
+    device->work_group = asked ? asked : device->info.is_cpu ? default_work_group_cpu : default_work_group_gpu;
+    if (device->work_group > largest)
+        return rt_fail_field(error, RT_ERROR_USAGE, "work_group",
+                             "a work-group of %u work-items is more than the device's %zu", device->work_group, largest);
+    return RT_OK;
+}
+
+rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error)
+{
+    static const rt_device_options defaults;
+    rt_status status;
+    cl_int code;
+
+    if (!options)
+        options = &defaults;
+    rt_device *device = calloc(1, sizeof *device);
+    if (!device)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a device");
+    if ((status = select_device(device, options->select, error)) != RT_OK)
+        goto out;
+
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    device->threads = options->threads ? options->threads : cores > 0 ? (uint32_t)cores : 1;
+    if ((status = limit_threads(device, error)) != RT_OK ||
+        (status = choose_work_group(device, options->work_group, error)) != RT_OK)
+        goto out;
+    device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
+    if ((status = rt_cl_check(code, "creating an OpenCL context", error)) != RT_OK)
+        goto out;
+    device->queue = clCreateCommandQueue(device->context, device->id, 0, &code);
+    status = rt_cl_check(code, "creating an OpenCL command queue", error);
+out:
+    if (status == RT_OK)
+        *out = device;
+    else
+        rt_device_close(device);
+    return status;
+}
+
+void rt_device_close(rt_device *device)
+{
+    if (!device)
+        return;
+    for (int i = 0; i < device->program_count; i++)
+        clReleaseProgram(device->programs[i].program);
+    if (device->queue)
+        clReleaseCommandQueue(device->queue);
+    if (device->context)
+        clReleaseContext(device->context);
+    if (device->is_sub_device)
+        clReleaseDevice(device->id);
+    free(device);
+}
+
+void rt_device_get_info(const rt_device *device, rt_device_info *out)
+{
+    *out = device->info;
+}

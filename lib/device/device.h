@@ -1,0 +1,85 @@
+/*
+ * device.h - one OpenCL device: its context, queue, programs, buffers and launches.
+ *
+ * OpenCL is called from here and from the files that set kernel arguments; what a call
+ * returns goes through rt_cl_check, so that every failure names the call and the error.
+ */
+#ifndef RT_LIB_DEVICE_DEVICE_H
+#define RT_LIB_DEVICE_DEVICE_H
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+#include "device/program.h"
+#include "rt.h"
+
+enum { RT_PROGRAMS_MAX = 32 };
+
+struct rt_device {
+    cl_platform_id platform;
+    cl_device_id id;
+    int is_sub_device; /* id was made by partitioning and is to be released */
+    cl_context context;
+    cl_command_queue queue; /* in order */
+    rt_device_info info;
+    uint32_t threads;    /* host threads to use, at least 1 */
+    uint32_t work_group; /* work-items a work-group, at least 1 */
+    struct {
+        const rt_kernel_source *source;
+        cl_program program;
+    } programs[RT_PROGRAMS_MAX]; /* built so far */
+    int program_count;
+};
+
+/* The name of an OpenCL error code; static storage. */
+const char *rt_cl_error_name(cl_int code);
+
+/* RT_OK for CL_SUCCESS; else fails with RT_ERROR_DEVICE, or RT_ERROR_MEMORY when that is the cause. */
+rt_status rt_cl_check(cl_int code, const char *what, rt_error *error);
+
+/*
+ * Makes a kernel of one of the library's programs, building the program when it is the first. The caller
+ * releases *out. When a program does not build, the message holds the first error of the compiler's log
+ * and the hooks' log callback gets all of it.
+ */
+rt_status rt_device_kernel(rt_device *device, cl_kernel *out, const char *program, const char *kernel,
+                           const rt_hooks *hooks, rt_error *error);
+
+/* The same from any table of sources that ends with a NULL name, such as the tests' own. */
+rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kernel_source *sources,
+                                const char *program, const char *kernel, const rt_hooks *hooks, rt_error *error);
+
+/*
+ * A buffer of `bytes` (at least one is allocated). host, if not NULL, is copied in, or used in place when
+ * flags has CL_MEM_USE_HOST_PTR. `what` names the content in messages. The caller releases *out.
+ */
+rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes, void *host,
+                           const char *what, rt_error *error);
+
+/* Blocking copies between host memory and a buffer. */
+rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host, rt_error *error);
+rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, const void *host,
+                          rt_error *error);
+
+/* Releases; NULL is allowed. */
+void rt_buffer_release(cl_mem buffer);
+void rt_kernel_release(cl_kernel kernel);
+
+/* One argument of a kernel. */
+typedef struct rt_arg {
+    size_t size;
+    const void *value;
+} rt_arg;
+#define RT_ARG(variable) {sizeof(variable), &(variable)}
+
+/* Sets the arguments 0 .. count - 1. */
+rt_status rt_kernel_args(cl_kernel kernel, const rt_arg *args, cl_uint count, rt_error *error);
+
+/*
+ * Enqueues `items` work-items in work-groups of the device's size, rounded up: the kernel is told the
+ * true number and ignores the rest. Does not wait; rt_device_finish does.
+ */
+rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error *error);
+rt_status rt_device_finish(rt_device *device, rt_error *error);
+
+#endif

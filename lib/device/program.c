@@ -1,0 +1,108 @@
+/* program.c - building OpenCL programs and making kernels of them. */
+#include "device/program.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/device.h"
+#include "error.h"
+#include "progress.h"
+
+/* Copies the first line of a build log that speaks of an error. */
+static void first_error(char *line, size_t size, const char *log)
+{
+    const char *at = strstr(log, "error:");
+    if (!at)
+        at = log;
+    while (at > log && at[-1] != '\n')
+        at--;
+    size_t length = strcspn(at, "\n");
+    if (length >= size)
+        length = size - 1;
+    memcpy(line, at, length);
+    line[length] = '\0';
+}
+
+/* Tells why a program did not build: all to the log, the first error to *error. */
+static rt_status report_build(rt_device *device, cl_program program, const char *name, cl_int code,
+                              const rt_hooks *hooks, rt_error *error)
+{
+    char line[384] = "";
+    size_t size = 0;
+    clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size);
+    char *log = calloc(size + 1, 1);
+    if (log) {
+        clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
+        first_error(line, sizeof line, log);
+        for (char *at = strtok(log, "\n"); at; at = strtok(NULL, "\n"))
+            rt_log(hooks, "%s", at);
+        free(log);
+    }
+    return rt_fail(error, RT_ERROR_DEVICE, "kernel program '%s' does not build on %s (%s): %s", name,
+                   device->info.name, rt_cl_error_name(code), line);
+}
+
+static rt_status build(rt_device *device, cl_program *out, const rt_kernel_source *source, const rt_hooks *hooks,
+                       rt_error *error)
+{
+    cl_int code;
+    const char *text = (const char *)source->text;
+    cl_program program = clCreateProgramWithSource(device->context, 1, &text, &source->length, &code);
+    rt_status status = rt_cl_check(code, "creating an OpenCL program", error);
+    if (status != RT_OK)
+        return status;
+    code = clBuildProgram(program, 1, &device->id, "-cl-std=CL1.2", NULL, NULL);
+    if (code != CL_SUCCESS) {
+        status = report_build(device, program, source->name, code, hooks, error);
+        clReleaseProgram(program);
+        return status;
+    }
+    *out = program;
+    return RT_OK;
+}
+
+/* Finds a program among those already built, or builds it. */
+static rt_status find_program(rt_device *device, cl_program *out, const rt_kernel_source *source,
+                              const rt_hooks *hooks, rt_error *error)
+{
+    for (int i = 0; i < device->program_count; i++)
+        if (device->programs[i].source == source) {
+            *out = device->programs[i].program;
+            return RT_OK;
+        }
+    if (device->program_count == RT_PROGRAMS_MAX)
+        return rt_fail(error, RT_ERROR_DEVICE, "more than %d OpenCL programs on one device", RT_PROGRAMS_MAX);
+    double began = rt_clock();
+    rt_status status = build(device, out, source, hooks, error);
+    if (status != RT_OK)
+        return status;
+    rt_log(hooks, "program %s built in %.3f s", source->name, rt_clock() - began);
+    device->programs[device->program_count].source = source;
+    device->programs[device->program_count++].program = *out;
+    return RT_OK;
+}
+
+rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kernel_source *sources,
+                                const char *program, const char *kernel, const rt_hooks *hooks, rt_error *error)
+{
+    cl_program built = NULL;
+    cl_int code;
+
+    while (sources->name && strcmp(sources->name, program) != 0)
+        sources++;
+    if (!sources->name)
+        return rt_fail(error, RT_ERROR_DEVICE, "there is no kernel program '%s'", program);
+    rt_status status = find_program(device, &built, sources, hooks, error);
+    if (status != RT_OK)
+        return status;
+    cl_kernel made = clCreateKernel(built, kernel, &code);
+    if ((status = rt_cl_check(code, kernel, error)) == RT_OK)
+        *out = made;
+    return status;
+}
+
+rt_status rt_device_kernel(rt_device *device, cl_kernel *out, const char *program, const char *kernel,
+                           const rt_hooks *hooks, rt_error *error)
+{
+    return rt_device_kernel_from(device, out, rt_kernel_sources, program, kernel, hooks, error);
+}

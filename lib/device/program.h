@@ -1,0 +1,17 @@
+/* program.h - the OpenCL sources that the library carries in itself. */
+#ifndef RT_LIB_DEVICE_PROGRAM_H
+#define RT_LIB_DEVICE_PROGRAM_H
+
+#include <stddef.h>
+
+/* One OpenCL program, its includes already inlined. */
+typedef struct rt_kernel_source {
+    const char *name; /* the .cl file's name without extension */
+    const unsigned char *text;
+    size_t length;
+} rt_kernel_source;
+
+/* The library's programs; the last entry has a NULL name. Made at build from kernels/. */
+extern const rt_kernel_source rt_kernel_sources[];
+
+#endif

@@ -1,0 +1,20 @@
+/* error.h - how internal functions report what went wrong. */
+#ifndef RT_LIB_ERROR_H
+#define RT_LIB_ERROR_H
+
+#include "rt.h"
+
+#if defined(__GNUC__)
+#define RT_PRINTF(string, first) __attribute__((format(printf, string, first)))
+#else
+#define RT_PRINTF(string, first)
+#endif
+
+/* Fills *error (may be NULL) with status and a one-line message; returns status. */
+rt_status rt_fail(rt_error *error, rt_status status, const char *format, ...) RT_PRINTF(3, 4);
+
+/* The same, naming the option or field at fault, so that a parser can point at its place. */
+rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, const char *format, ...)
+    RT_PRINTF(4, 5);
+
+#endif

@@ -1,0 +1,25 @@
+/*
+ * exr.h - images as OpenEXR files in memory, through the C interface of OpenEXR (OpenEXRCore).
+ *
+ * Reference: "OpenEXR File Layout" and "Technical Introduction to OpenEXR", openexr.com.
+ */
+#ifndef RT_LIB_IMAGE_EXR_H
+#define RT_LIB_IMAGE_EXR_H
+
+#include "image/bytes.h"
+#include "image/image.h"
+
+/*
+ * Encodes all channels as 32-bit float scan lines, ZIP compressed, and all attributes as strings.
+ * The bytes depend on the image alone. The caller frees *out.
+ */
+rt_status rt_exr_encode(rt_bytes *out, const rt_image *image, rt_error *error);
+
+/*
+ * Decodes the first part of a scan-line or tiled file: every channel, converted to float, over the
+ * data window, at full resolution, and the string attributes. Fails with RT_ERROR_INPUT for deep or
+ * subsampled files and for damaged ones; `name` stands for the file in messages. The caller destroys *out.
+ */
+rt_status rt_exr_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error);
+
+#endif

@@ -1,0 +1,226 @@
+#include "image/exr.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/exr_core.h"
+
+#define VALUES_MAX (UINT64_C(1) << 30) /* most pixels times channels: 4 GiB of floats */
+
+/* What the callbacks of a read context share. */
+typedef struct source {
+    rt_exr_message message; /* first, as rt_exr_on_error expects */
+    const rt_bytes *file;
+} source;
+
+/* A file being decoded. */
+typedef struct reader {
+    exr_context_t context;
+    const char *name;
+    exr_attr_box2i_t window;
+    const exr_attr_chlist_t *channels;
+    rt_image *image;
+} reader;
+
+static int64_t on_read(exr_const_context_t context, void *user, void *buffer, uint64_t size, uint64_t offset,
+                       exr_stream_error_func_ptr_t fail)
+{
+    const rt_bytes *file = ((source *)user)->file;
+    if (offset > file->size) {
+        fail(context, EXR_ERR_READ_IO, "a read starts past the end of the file");
+        return -1;
+    }
+    size_t count = file->size - (size_t)offset;
+    if (count > size)
+        count = (size_t)size;
+    if (count > 0)
+        memcpy(buffer, file->data + offset, count);
+    return (int64_t)count;
+}
+
+static int64_t on_size(exr_const_context_t context, void *user)
+{
+    (void)context;
+    return (int64_t)((source *)user)->file->size;
+}
+
+static rt_status fail_input(const reader *r, const char *what, rt_error *error)
+{
+    return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: %s", r->name, what);
+}
+
+/* Checks what the header promises before anything is allocated for it. */
+static rt_status check_header(reader *r, exr_storage_t *storage, rt_error *error)
+{
+    if (exr_get_storage(r->context, 0, storage) != EXR_ERR_SUCCESS ||
+        exr_get_data_window(r->context, 0, &r->window) != EXR_ERR_SUCCESS ||
+        exr_get_channels(r->context, 0, &r->channels) != EXR_ERR_SUCCESS)
+        return fail_input(r, "the header is incomplete", error);
+    if (*storage != EXR_STORAGE_SCANLINE && *storage != EXR_STORAGE_TILED)
+        return fail_input(r, "deep images are not supported", error);
+
+    int64_t width = (int64_t)r->window.max.x - r->window.min.x + 1;
+    int64_t height = (int64_t)r->window.max.y - r->window.min.y + 1;
+    int64_t count = r->channels->num_channels;
+    if (width < 1 || height < 1 || width > RT_IMAGE_SIDE_MAX || height > RT_IMAGE_SIDE_MAX)
+        return fail_input(r, "the data window is empty or too large", error);
+    if (count < 1 || count > RT_IMAGE_CHANNELS_MAX)
+        return fail_input(r, "it has no channels or too many", error);
+    if ((uint64_t)width * (uint64_t)height * (uint64_t)count > VALUES_MAX)
+        return fail_input(r, "it holds more than 2^30 values", error);
+    for (int i = 0; i < count; i++)
+        if (r->channels->entries[i].x_sampling != 1 || r->channels->entries[i].y_sampling != 1)
+            return fail_input(r, "subsampled channels are not supported", error);
+    return RT_OK;
+}
+
+static rt_status create_image(reader *r, rt_error *error)
+{
+    uint32_t count = (uint32_t)r->channels->num_channels;
+    const char **names = malloc(count * sizeof *names);
+    if (!names)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %u channels", count);
+    for (uint32_t i = 0; i < count; i++)
+        names[i] = r->channels->entries[i].name.str;
+    rt_error why;
+    rt_status status =
+        rt_image_create(&r->image, (uint32_t)(r->window.max.x - r->window.min.x + 1),
+                        (uint32_t)(r->window.max.y - r->window.min.y + 1), names, count, &why);
+    free(names);
+    /* What is a wrong argument to that call is a wrong file here. */
+    if (status == RT_ERROR_USAGE)
+        return fail_input(r, why.message, error);
+    return status == RT_OK ? RT_OK : rt_fail(error, status, "%s", why.message);
+}
+
+/* Keeps the string attributes but those with which a file describes its own parts. */
+static rt_status read_attributes(reader *r, rt_error *error)
+{
+    int32_t count = 0;
+    if (exr_get_attribute_count(r->context, 0, &count) != EXR_ERR_SUCCESS)
+        return fail_input(r, "the header has no attributes", error);
+    for (int32_t i = 0; i < count; i++) {
+        const exr_attribute_t *attribute = NULL;
+        if (exr_get_attribute_by_index(r->context, 0, EXR_ATTR_LIST_FILE_ORDER, i, &attribute) != EXR_ERR_SUCCESS)
+            return fail_input(r, "an attribute cannot be read", error);
+        if (attribute->type != EXR_ATTR_STRING || !attribute->string->str || strcmp(attribute->name, "type") == 0 ||
+            strcmp(attribute->name, "name") == 0)
+            continue;
+        rt_status status = rt_image_set_attribute(r->image, attribute->name, attribute->string->str, error);
+        if (status != RT_OK)
+            return status;
+    }
+    return RT_OK;
+}
+
+/*
+ * Decodes one chunk to the image, from pixel (x, y) on. The library sorts channels by name, so
+ * each is found by its name and never by its place.
+ */
+static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline, const exr_chunk_info_t *chunk, uint32_t x,
+                               uint32_t y, int is_first)
+{
+    rt_image *image = r->image;
+    float *corner = image->data + ((size_t)y * image->width + x) * image->channel_count;
+    if (chunk->width < 0 || chunk->height < 0 || (uint32_t)chunk->width > image->width - x ||
+        (uint32_t)chunk->height > image->height - y)
+        return EXR_ERR_BAD_CHUNK_LEADER;
+    exr_result_t code = is_first ? exr_decoding_initialize(r->context, 0, chunk, pipeline)
+                                 : exr_decoding_update(r->context, 0, chunk, pipeline);
+    if (code != EXR_ERR_SUCCESS)
+        return code;
+    for (int i = 0; i < pipeline->channel_count; i++) {
+        exr_coding_channel_info_t *channel = &pipeline->channels[i];
+        uint32_t index = rt_image_channel(image, channel->channel_name);
+        if (index == RT_IMAGE_NO_CHANNEL)
+            return EXR_ERR_INVALID_ARGUMENT;
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_bytes_per_element = sizeof(float);
+        channel->user_pixel_stride = (int32_t)(image->channel_count * sizeof(float));
+        channel->user_line_stride = (int32_t)(image->width * image->channel_count * sizeof(float));
+        channel->decode_to_ptr = (uint8_t *)(corner + index);
+    }
+    if (is_first)
+        code = exr_decoding_choose_default_routines(r->context, 0, pipeline);
+    return code == EXR_ERR_SUCCESS ? exr_decoding_run(r->context, 0, pipeline) : code;
+}
+
+static exr_result_t read_scanlines(reader *r, exr_decode_pipeline_t *pipeline)
+{
+    int32_t lines = 0;
+    exr_result_t code = exr_get_scanlines_per_chunk(r->context, 0, &lines);
+    if (code == EXR_ERR_SUCCESS && lines < 1)
+        code = EXR_ERR_FILE_BAD_HEADER;
+    for (uint32_t y = 0; code == EXR_ERR_SUCCESS && y < r->image->height; y += (uint32_t)lines) {
+        exr_chunk_info_t chunk;
+        code = exr_read_scanline_chunk_info(r->context, 0, r->window.min.y + (int)y, &chunk);
+        if (code == EXR_ERR_SUCCESS)
+            code = read_chunk(r, pipeline, &chunk, 0, y, y == 0);
+    }
+    return code;
+}
+
+/* Level (0, 0) of a tiled file is the image at full resolution. */
+static exr_result_t read_tiles(reader *r, exr_decode_pipeline_t *pipeline)
+{
+    int32_t tile_width = 0, tile_height = 0;
+    exr_result_t code = exr_get_tile_sizes(r->context, 0, 0, 0, &tile_width, &tile_height);
+    if (code == EXR_ERR_SUCCESS && (tile_width < 1 || tile_height < 1))
+        code = EXR_ERR_FILE_BAD_HEADER;
+    int64_t width = r->image->width, height = r->image->height;
+    for (int64_t y = 0; code == EXR_ERR_SUCCESS && y < height; y += tile_height)
+        for (int64_t x = 0; code == EXR_ERR_SUCCESS && x < width; x += tile_width) {
+            exr_chunk_info_t chunk;
+            code = exr_read_tile_chunk_info(r->context, 0, (int)(x / tile_width), (int)(y / tile_height), 0, 0, &chunk);
+            if (code == EXR_ERR_SUCCESS)
+                code = read_chunk(r, pipeline, &chunk, (uint32_t)x, (uint32_t)y, x == 0 && y == 0);
+        }
+    return code;
+}
+
+static rt_status read_image(reader *r, const source *s, rt_error *error)
+{
+    exr_storage_t storage;
+    rt_status status = check_header(r, &storage, error);
+    if (status == RT_OK)
+        status = create_image(r, error);
+    if (status == RT_OK)
+        status = read_attributes(r, error);
+    if (status != RT_OK)
+        return status;
+    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
+    exr_result_t code = storage == EXR_STORAGE_TILED ? read_tiles(r, &pipeline) : read_scanlines(r, &pipeline);
+    exr_decoding_destroy(r->context, &pipeline);
+    if (code == EXR_ERR_SUCCESS)
+        return RT_OK;
+    return fail_input(r, rt_exr_reason(&s->message, code), error);
+}
+
+rt_status rt_exr_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error)
+{
+    source s = {{{0}}, file};
+    reader r = {0};
+    r.name = name;
+    exr_context_initializer_t start = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    start.error_handler_fn = rt_exr_on_error;
+    start.user_data = &s;
+    start.read_fn = on_read;
+    start.size_fn = on_size;
+    start.max_image_width = start.max_image_height = RT_IMAGE_SIDE_MAX;
+    start.max_tile_width = start.max_tile_height = RT_IMAGE_SIDE_MAX;
+    start.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+
+    rt_status status;
+    exr_result_t code = exr_start_read(&r.context, "(memory)", &start);
+    if (code == EXR_ERR_SUCCESS)
+        status = read_image(&r, &s, error);
+    else
+        status = fail_input(&r, rt_exr_reason(&s.message, code), error);
+    if (r.context)
+        exr_finish(&r.context);
+    if (status == RT_OK)
+        *out = r.image;
+    else
+        rt_image_destroy(r.image);
+    return status;
+}

@@ -1,0 +1,155 @@
+#define _XOPEN_SOURCE 700 /* realpath */
+
+#include "image/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define READ_CHUNK 65536u
+#define NAME_TRIES 1000u
+
+/* Reports errno for path. The precision keeps the cause in the message, however long the path. */
+static rt_status fail_errno(rt_error *error, rt_status status, const char *verb, const char *path, int code)
+{
+    char cause[128];
+    if (strerror_r(code, cause, sizeof cause) != 0)
+        snprintf(cause, sizeof cause, "error %d", code);
+    return rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause);
+}
+
+static rt_status read_all(rt_bytes *bytes, int fd, const char *path, size_t limit, rt_error *error)
+{
+    uint8_t chunk[READ_CHUNK];
+    for (;;) {
+        ssize_t count = read(fd, chunk, sizeof chunk);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
+        if (count == 0)
+            return RT_OK;
+        if ((size_t)count > limit - bytes->size)
+            return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is larger than %zu bytes", path, limit);
+        rt_status status = rt_bytes_put(bytes, bytes->size, chunk, (size_t)count, error);
+        if (status != RT_OK)
+            return status;
+    }
+}
+
+rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
+    rt_bytes bytes = {0};
+    rt_status status = read_all(&bytes, fd, path, limit, error);
+    close(fd);
+    if (status == RT_OK)
+        *out = bytes;
+    else
+        rt_bytes_free(&bytes);
+    return status;
+}
+
+/* The functions below return 0, or the errno of what failed. */
+
+static int write_all(int fd, const rt_bytes *bytes)
+{
+    size_t done = 0;
+    while (done < bytes->size) {
+        ssize_t count = write(fd, bytes->data + done, bytes->size - done);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return errno;
+        done += (size_t)count;
+    }
+    return 0;
+}
+
+static int close_file(int fd)
+{
+    /* After EINTR the descriptor is gone on Linux, and fsync already told whether the data is safe. */
+    return close(fd) != 0 && errno != EINTR ? errno : 0;
+}
+
+static int write_in_place(const char *path, const rt_bytes *bytes)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    if (fd < 0)
+        return errno;
+    int code = write_all(fd, bytes);
+    int close_code = close_file(fd);
+    return code ? code : close_code;
+}
+
+/*
+ * Opens a new file beside target under a name that no other file has. The name does not grow with
+ * target's own, so that a name of the greatest allowed length works too.
+ */
+static int open_temporary(int *fd, char *name, size_t name_size, const char *target)
+{
+    const char *slash = strrchr(target, '/');
+    int directory_length = slash ? (int)(slash - target) + 1 : 0;
+    for (unsigned i = 0; i < NAME_TRIES; i++) {
+        int length = snprintf(name, name_size, "%.*s.rt-%ld-%u.tmp", directory_length, target, (long)getpid(), i);
+        if (length < 0 || (size_t)length >= name_size)
+            return ENAMETOOLONG;
+        *fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (*fd >= 0)
+            return 0;
+        if (errno != EEXIST)
+            return errno;
+    }
+    return EEXIST;
+}
+
+/* Writes a temporary file and renames it to target; `old` is target's status or NULL when it is new. */
+static int replace(const char *target, const struct stat *old, const rt_bytes *bytes)
+{
+    char name[PATH_MAX];
+    int fd;
+    if (old && access(target, W_OK) != 0)
+        return errno;
+    int code = open_temporary(&fd, name, sizeof name, target);
+    if (code)
+        return code;
+    code = write_all(fd, bytes);
+    if (!code && old && fchmod(fd, old->st_mode & 0777) != 0)
+        code = errno;
+    if (!code && fsync(fd) != 0)
+        code = errno;
+    int close_code = close_file(fd);
+    if (!code)
+        code = close_code;
+    if (!code && rename(name, target) != 0)
+        code = errno;
+    if (code)
+        unlink(name);
+    return code;
+}
+
+rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error)
+{
+    struct stat old;
+    int code;
+    if (stat(path, &old) != 0) {
+        code = errno == ENOENT ? replace(path, NULL, bytes) : errno;
+    } else if (S_ISDIR(old.st_mode)) {
+        code = EISDIR;
+    } else if (!S_ISREG(old.st_mode)) {
+        code = write_in_place(path, bytes);
+    } else {
+        /* Replace what a symbolic link points to, not the link. */
+        char *target = realpath(path, NULL);
+        code = target ? replace(target, &old, bytes) : errno;
+        free(target);
+    }
+    return code ? fail_errno(error, RT_ERROR_OUTPUT, "write", path, code) : RT_OK;
+}

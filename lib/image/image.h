@@ -1,0 +1,53 @@
+/*
+ * image.h - an image in memory: named float channels and text attributes.
+ *
+ * Colour channels are named R, G, B and hold linear sRGB; a channel of a further layer is named
+ * LAYER.CHANNEL, such as albedo.R or depth.Z.
+ */
+#ifndef RT_LIB_IMAGE_IMAGE_H
+#define RT_LIB_IMAGE_IMAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "error.h"
+
+#define RT_IMAGE_SIDE_MAX 65536u
+#define RT_IMAGE_CHANNELS_MAX 256u
+#define RT_IMAGE_NAME_SIZE 256u /* with the closing zero; what the EXR format allows */
+#define RT_IMAGE_NO_CHANNEL UINT32_MAX
+
+typedef struct rt_image_attribute {
+    char name[RT_IMAGE_NAME_SIZE];
+    char *value;
+} rt_image_attribute;
+
+typedef struct rt_image {
+    uint32_t width, height, channel_count;
+    char (*names)[RT_IMAGE_NAME_SIZE]; /* [channel_count], all different, in the order of the data */
+    float *data;                       /* [height][width][channel_count], top row first */
+    rt_image_attribute *attributes;    /* [attribute_count], in the order in which they were set */
+    size_t attribute_count;
+} rt_image;
+
+/*
+ * A black image of these channels. Fails with RT_ERROR_USAGE when a side or the number of channels
+ * is zero or over its limit, or a name is empty, too long or repeated. The caller destroys *out.
+ */
+rt_status rt_image_create(rt_image **out, uint32_t width, uint32_t height, const char *const *names,
+                          uint32_t channel_count, rt_error *error);
+void rt_image_destroy(rt_image *image);
+
+/* The index of the channel of that name, or RT_IMAGE_NO_CHANNEL. */
+uint32_t rt_image_channel(const rt_image *image, const char *name);
+
+/* The indices of R, G and B; fails with RT_ERROR_USAGE when one is missing. */
+rt_status rt_image_rgb_channels(uint32_t rgb[3], const rt_image *image, rt_error *error);
+
+/* Sets a text attribute, replacing one of that name; value is copied. */
+rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *value, rt_error *error);
+
+/* The value of a text attribute, owned by the image, or NULL. */
+const char *rt_image_attribute_value(const rt_image *image, const char *name);
+
+#endif

@@ -1,0 +1,67 @@
+#include "image/image_file.h"
+
+#include <string.h>
+#include <strings.h>
+
+#include "image/exr.h"
+#include "image/file.h"
+#include "image/netpbm.h"
+#include "image/png.h"
+
+#define FILE_SIZE_LIMIT ((size_t)8 << 28) /* 2 GiB */
+
+rt_status rt_image_format_of(rt_image_format *out, const char *path, rt_error *error)
+{
+    static const struct {
+        const char *extension;
+        rt_image_format format;
+    } known[] = {{".exr", RT_IMAGE_EXR}, {".png", RT_IMAGE_PNG}, {".ppm", RT_IMAGE_PPM}, {".pfm", RT_IMAGE_PFM}};
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash ? slash : path, '.');
+    for (size_t i = 0; dot && i < sizeof known / sizeof known[0]; i++)
+        if (strcasecmp(dot, known[i].extension) == 0) {
+            *out = known[i].format;
+            return RT_OK;
+        }
+    return rt_fail(error, RT_ERROR_USAGE, "'%.350s' does not end in .exr, .png, .ppm or .pfm", path);
+}
+
+static rt_status encode(rt_bytes *out, const rt_image *image, rt_image_format format, const rt_image_options *options,
+                        rt_error *error)
+{
+    switch (format) {
+    case RT_IMAGE_EXR: return rt_exr_encode(out, image, error);
+    case RT_IMAGE_PNG: return rt_png_encode(out, image, options, error);
+    case RT_IMAGE_PPM: return rt_ppm_encode(out, image, options, error);
+    case RT_IMAGE_PFM: return rt_pfm_encode(out, image, error);
+    }
+    return rt_fail(error, RT_ERROR_USAGE, "%d is no image format", (int)format);
+}
+
+rt_status rt_image_write(const rt_image *image, const char *path, const rt_image_options *options, rt_error *error)
+{
+    static const rt_image_options defaults;
+    rt_image_format format;
+    rt_bytes bytes = {0};
+    rt_status status = rt_image_format_of(&format, path, error);
+    if (status == RT_OK)
+        status = encode(&bytes, image, format, options ? options : &defaults, error);
+    if (status == RT_OK)
+        status = rt_file_replace(path, &bytes, error);
+    rt_bytes_free(&bytes);
+    return status;
+}
+
+rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)
+{
+    rt_image_format format;
+    if (rt_image_format_of(&format, path, NULL) != RT_OK || (format != RT_IMAGE_EXR && format != RT_IMAGE_PFM))
+        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: its name does not end in .exr or .pfm", path);
+    rt_bytes bytes = {0};
+    rt_status status = rt_file_read(&bytes, path, FILE_SIZE_LIMIT, error);
+    if (status == RT_OK)
+        status = format == RT_IMAGE_EXR ? rt_exr_decode(out, &bytes, path, error)
+                                        : rt_pfm_decode(out, &bytes, path, error);
+    rt_bytes_free(&bytes);
+    return status;
+}

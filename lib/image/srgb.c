@@ -1,0 +1,17 @@
+#include "image/srgb.h"
+
+#include <math.h>
+
+double rt_srgb_encode(double linear)
+{
+    if (!(linear > 0.0))
+        return 0.0;
+    if (linear >= 1.0)
+        return 1.0;
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+uint8_t rt_srgb_quantise(double linear)
+{
+    return (uint8_t)(255.0 * rt_srgb_encode(linear) + 0.5);
+}

@@ -1,0 +1,159 @@
+/*
+ * flann_index.c - FLANN behind the library's conventions.
+ *
+ * What FLANN 1.9.2's C interface needs to be told or kept from:
+ *   - the distance type picks, at every call, the C++ type that an index pointer is cast to,
+ *     so it must be the same at building, asking and freeing;
+ *   - cores = 0 and sorted = 0 are its defaults, and sorted counts above k = 250, where the
+ *     results come from a heap;
+ *   - it writes fewer than k results when there are fewer points, or distances that overflow;
+ *   - it lets std::bad_alloc escape through C, so its memory is tried before each call;
+ *   - a positive random_seed would seed the C library's generator.
+ */
+#include "photon/flann_index.h"
+
+#include <flann/flann.h>
+#include <assert.h>
+#include <limits.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+
+enum { LEAF_SIZE = 16 }; /* points a leaf: the fastest for k = 50 to 500 of 10^5 to 10^6 points */
+
+/* Upper bound of what FLANN allocates a point: its copy, its order, a pointer, and tree nodes. */
+enum { BYTES_PER_POINT = 3 * sizeof(float) + sizeof(int) + sizeof(void *) + 2 * 48 };
+
+struct rt_flann_index {
+    float *positions; /* FLANN keeps pointers into it */
+    size_t count;
+    flann_index_t tree; /* NULL for an empty set */
+};
+
+/* FLANN's process-wide state belongs to whoever holds this. */
+static pthread_mutex_t flann_lock = PTHREAD_MUTEX_INITIALIZER;
+
+/* Takes the lock and makes the distance Euclidean; returns what it was. */
+static enum flann_distance_t enter(void)
+{
+    pthread_mutex_lock(&flann_lock);
+    enum flann_distance_t before = flann_get_distance_type();
+    flann_set_distance_type(FLANN_DIST_EUCLIDEAN, flann_get_distance_order());
+    return before;
+}
+
+static void leave(enum flann_distance_t before)
+{
+    flann_set_distance_type(before, flann_get_distance_order());
+    pthread_mutex_unlock(&flann_lock);
+}
+
+static struct FLANNParameters parameters(uint32_t threads)
+{
+    struct FLANNParameters p = DEFAULT_FLANN_PARAMETERS;
+    p.algorithm = FLANN_INDEX_KDTREE_SINGLE;
+    p.checks = FLANN_CHECKS_UNLIMITED;
+    p.eps = 0;
+    p.sorted = 1;
+    p.cores = threads > INT_MAX ? INT_MAX : (int)threads;
+    p.leaf_max_size = LEAF_SIZE;
+    p.log_level = FLANN_LOG_NONE;
+    p.random_seed = 0;
+    return p;
+}
+
+/* Whether count * bytes of memory can be had. */
+static int memory_is_there(size_t count, size_t bytes)
+{
+    if (count > SIZE_MAX / bytes)
+        return 0;
+    void *memory = malloc(count * bytes);
+    free(memory);
+    return memory != NULL;
+}
+
+static rt_status build(rt_flann_index *index, rt_error *error)
+{
+    struct FLANNParameters p = parameters(1);
+    float speedup;
+
+    if (!memory_is_there(index->count, BYTES_PER_POINT))
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the search tree of %zu photons", index->count);
+    enum flann_distance_t before = enter();
+    index->tree = flann_build_index_float(index->positions, (int)index->count, 3, &speedup, &p);
+    leave(before);
+    if (!index->tree)
+        return rt_fail(error, RT_ERROR_MEMORY, "the search tree of %zu photons could not be built", index->count);
+    return RT_OK;
+}
+
+rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count, rt_error *error)
+{
+    if (count > INT_MAX)
+        return rt_fail(error, RT_ERROR_MEMORY, "%zu photons are more than the %d a search tree can hold", count,
+                       INT_MAX);
+    rt_flann_index *index = calloc(1, sizeof *index);
+    float *copy = malloc((count ? count : 1) * 3 * sizeof *copy);
+    rt_status status = RT_OK;
+
+    if (!index || !copy) {
+        free(index);
+        free(copy);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the positions of %zu photons", count);
+    }
+    index->positions = copy;
+    index->count = count;
+    if (count > 0) {
+        memcpy(copy, positions, count * 3 * sizeof *copy);
+        status = build(index, error);
+    }
+    if (status != RT_OK) {
+        rt_flann_index_destroy(index);
+        return status;
+    }
+    *out = index;
+    return RT_OK;
+}
+
+void rt_flann_index_destroy(rt_flann_index *index)
+{
+    if (!index)
+        return;
+    if (index->tree) {
+        struct FLANNParameters p = parameters(1);
+        enum flann_distance_t before = enter();
+        flann_free_index_float(index->tree, &p);
+        leave(before);
+    }
+    free(index->positions);
+    free(index);
+}
+
+size_t rt_flann_index_count(const rt_flann_index *index)
+{
+    return index->count;
+}
+
+rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries, size_t query_count, size_t k,
+                                 uint32_t threads, int *indices, float *squared, rt_error *error)
+{
+    struct FLANNParameters p = parameters(threads ? threads : 1);
+
+    assert(k >= 1 && k <= index->count);
+    if (query_count == 0)
+        return RT_OK;
+    if (query_count > INT_MAX || !memory_is_there(query_count, k * sizeof(size_t)))
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the %zu nearest photons of %zu points", k, query_count);
+    for (size_t i = 0; i < query_count * k; i++)
+        squared[i] = HUGE_VALF;
+    enum flann_distance_t before = enter();
+    int failed = flann_find_nearest_neighbors_index_float(index->tree, (float *)queries, (int)query_count, indices,
+                                                          squared, (int)k, &p);
+    leave(before);
+    if (failed)
+        return rt_fail(error, RT_ERROR_MEMORY, "the search for the %zu nearest photons failed", k);
+    return RT_OK;
+}

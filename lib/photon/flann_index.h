@@ -1,0 +1,36 @@
+/*
+ * flann_index.h - exact nearest neighbours among points, by FLANN's kd-tree.
+ *
+ * The one place that calls FLANN, whose distance type and log level are global to the
+ * process: flann_index.c sets them before each call and holds a lock through it.
+ */
+#ifndef RT_LIB_PHOTON_FLANN_INDEX_H
+#define RT_LIB_PHOTON_FLANN_INDEX_H
+
+#include <stddef.h>
+
+#include "rt.h"
+
+typedef struct rt_flann_index rt_flann_index;
+
+/*
+ * Builds the tree over positions [count][3], finite, which are copied. An empty set is
+ * allowed. Fails with RT_ERROR_MEMORY, also when count is beyond FLANN's int. The caller
+ * owns *out.
+ */
+rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count, rt_error *error);
+void rt_flann_index_destroy(rt_flann_index *index);
+
+/* Number of points. */
+size_t rt_flann_index_count(const rt_flann_index *index);
+
+/*
+ * The k nearest points of each query, nearest first: indices and squared distances, both
+ * [query_count][k]. queries: [query_count][3], finite. k must be between 1 and the number of
+ * points. An index beside an infinite distance means nothing: the distance overflowed. Takes 8
+ * bytes of memory for each result while it works; uses `threads` threads.
+ */
+rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries, size_t query_count, size_t k,
+                                 uint32_t threads, int *indices, float *squared, rt_error *error);
+
+#endif

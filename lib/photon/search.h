@@ -1,0 +1,49 @@
+/*
+ * search.h - which photons count at a point, and the disc they lie in.
+ *
+ * A photon is accepted at a point when its normal is within 60 degrees of the point's. Both
+ * normals stand on the lit side, so that one test rejects photons on the other side of a thin
+ * wall, on walls that meet at a corner, and on surfaces that face away. Rejected photons are
+ * left out before the k nearest are ranked.
+ *
+ * The disc. With the accepted photons in order of distance, its radius is where the search
+ * stops, and the photons strictly nearer count:
+ *   - at the k-th, which gives the radius and does not count;
+ *   - at the limit on the radius, when fewer than k lie inside it: all of these count;
+ *   - at the farthest of all, when the whole map has fewer than k and there is no limit;
+ *   - at the (16 k)-th photon, accepted or not, so that a surface that no photon fits costs
+ *     bounded time.
+ * Where photons are a Poisson field, the first, the second and the last rule, and any mixture
+ * of them, make the sum of K exactly unbiased: each radius is a stopping time of the field, and
+ * a photon nearer than it changes it in a way that does not depend on where the photon lies.
+ */
+#ifndef RT_LIB_PHOTON_SEARCH_H
+#define RT_LIB_PHOTON_SEARCH_H
+
+#include "photon/photon_map.h"
+#include "rt.h"
+#include "types.h"
+
+typedef struct rt_photon_search rt_photon_search;
+
+/*
+ * Builds the search tree of a map, which is not referred to afterwards. k >= 1 photons a point; max_radius in metres, infinite for no limit; threads on the host.
+ * The caller owns *out.
+ */
+rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_map *map, uint32_t k, float max_radius,
+                                  uint32_t threads, rt_error *error);
+void rt_photon_search_destroy(rt_photon_search *search);
+
+/* Entries of a row of neighbour lists: the most photons that can count at a point. */
+size_t rt_photon_search_stride(const rt_photon_search *search);
+
+/*
+ * Finds the disc of each point and its photons, nearest first: row i of lists, which has the
+ * search's stride, holds discs[i].count indices into the map. A point whose weight is zero is
+ * not asked for and has none. *asked, if not NULL, grows by the number of the others. One search
+ * serves one call at a time.
+ */
+rt_status rt_photon_search_find(rt_photon_search *search, const rt_gather_point *points, size_t count, rt_u32 *lists,
+                                rt_gather_disc *discs, uint64_t *asked, rt_error *error);
+
+#endif

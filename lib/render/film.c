@@ -1,0 +1,68 @@
+#include "render/film.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+
+rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error)
+{
+    size_t count = (size_t)options->width * options->height;
+    rt_film *film = calloc(1, sizeof *film);
+
+    if (film) {
+        film->options = *options;
+        film->options.hooks = NULL;
+        film->pixels = calloc(count, sizeof *film->pixels);
+        film->rgb = calloc(count, 3 * sizeof *film->rgb);
+    }
+    if (!film || !film->pixels || !film->rgb) {
+        rt_film_destroy(film);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film of %u x %u pixels", options->width,
+                       options->height);
+    }
+    *out = film;
+    return RT_OK;
+}
+
+void rt_film_destroy(rt_film *film)
+{
+    if (!film)
+        return;
+    free(film->pixels);
+    free(film->rgb);
+    free(film);
+}
+
+void rt_film_resolve(rt_film *film)
+{
+    size_t count = (size_t)film->options.width * film->options.height;
+    float fewest = film->pixels[0].weight;
+
+    film->stats.rejected = 0;
+    for (size_t i = 0; i < count; i++) {
+        const rt_film_pixel *p = film->pixels + i;
+        for (int c = 0; c < 3; c++)
+            film->rgb[3 * i + c] = p->weight > 0 ? (p->sum[c] - p->lost[c]) / p->weight : 0;
+        if (p->weight < fewest)
+            fewest = p->weight;
+        film->stats.rejected += p->rejected;
+    }
+    film->stats.spp = (uint32_t)fewest;
+}
+
+const float *rt_film_rgb(const rt_film *film)
+{
+    return film->rgb;
+}
+
+void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height)
+{
+    *width = film->options.width;
+    *height = film->options.height;
+}
+
+void rt_film_get_stats(const rt_film *film, rt_film_stats *out)
+{
+    *out = film->stats;
+}

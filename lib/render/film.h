@@ -1,0 +1,21 @@
+/* film.h - the picture and what is known of its making. */
+#ifndef RT_LIB_RENDER_FILM_H
+#define RT_LIB_RENDER_FILM_H
+
+#include "rt.h"
+#include "types.h"
+
+struct rt_film {
+    rt_render_options options; /* as rendered, defaults filled in */
+    rt_film_stats stats;
+    rt_film_pixel *pixels; /* [height][width], the sums */
+    float *rgb;            /* [height][width][3], the means */
+};
+
+/* A black film for complete options; the caller owns *out. */
+rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error);
+
+/* Makes the means from the sums, and from them the counts of samples and of rejected ones. */
+void rt_film_resolve(rt_film *film);
+
+#endif

@@ -1,0 +1,141 @@
+/* render.c - rt_render: completes the options, aims the camera, runs the mode. */
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "error.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+#include "scene/vec.h"
+
+enum { spp_unlimited = 1 << 24 };
+
+/* Replaces zeros by the defaults that the public header states. */
+static void complete_options(rt_render_options *o)
+{
+    if (o->width == 0)
+        o->width = 512;
+    if (o->height == 0)
+        o->height = 512;
+    if (o->spp == 0)
+        o->spp = o->time > 0 ? spp_unlimited : o->mode == RT_MODE_PHOTON ? 16 : 64;
+    if (o->max_depth == 0)
+        o->max_depth = 16;
+    if (o->photons == 0)
+        o->photons = 1000000;
+    if (o->k == 0)
+        o->k = 50;
+    if (o->cone_k == 0)
+        o->cone_k = 1.1f;
+}
+
+static void scale(float out[3], const double v[3], double factor)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)(v[i] * factor);
+}
+
+/* The camera's rays for a film of these proportions; pixels are square. */
+static void aim(rt_camera_data *out, const rt_camera *camera, uint32_t width, uint32_t height)
+{
+    static const float origin[3];
+    double axis[3], right[3], up[3], corner[3];
+    double half_width = camera->focal_distance * tan(0.5 * camera->fov * 3.14159265358979323846 / 180);
+    double half_height = half_width * height / width;
+
+    rt_vec_sub(axis, camera->look_at, camera->eye);
+    rt_vec_sub(up, camera->up, origin);
+    double length = rt_vec_length(axis);
+    for (int i = 0; i < 3; i++)
+        axis[i] /= length;
+    rt_vec_cross(right, axis, up);
+    length = rt_vec_length(right);
+    for (int i = 0; i < 3; i++)
+        right[i] /= length;
+    rt_vec_cross(up, right, axis);
+    for (int i = 0; i < 3; i++)
+        corner[i] = camera->focal_distance * axis[i] - half_width * right[i] + half_height * up[i];
+
+    memset(out, 0, sizeof *out);
+    memcpy(out->eye, camera->eye, sizeof out->eye);
+    out->aperture = camera->aperture;
+    scale(out->corner, corner, 1);
+    scale(out->across, right, 2 * half_width);
+    scale(out->down, up, -2 * half_height);
+    scale(out->lens_u, right, 1);
+    scale(out->lens_v, up, 1);
+}
+
+rt_params rt_params_make(const rt_render_options *options)
+{
+    rt_params p;
+    memset(&p, 0, sizeof p);
+    p.width = options->width;
+    p.height = options->height;
+    p.seed = options->seed;
+    p.sampler = options->sampler;
+    p.max_depth = options->max_depth;
+    p.final_gather = options->final_gather;
+    p.direct = options->direct;
+    p.emitted = (float)options->photons;
+    return p;
+}
+
+rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *program, const char *kernel,
+                            const rt_arg *args, cl_uint count, rt_stage_progress *progress, rt_error *error)
+{
+    rt_params none;
+    cl_kernel made = NULL;
+    rt_arg first = {sizeof none, &none};
+
+    memset(&none, 0, sizeof none);
+    rt_status status = rt_device_kernel(device, &made, program, kernel, progress->hooks, error);
+    if (status == RT_OK)
+        status = rt_kernel_args(made, args, count, error);
+    if (status == RT_OK)
+        status = rt_kernel_args(made, &first, 1, error);
+    if (status == RT_OK)
+        status = rt_launch(device, made, 1, error);
+    if (status == RT_OK)
+        status = rt_device_finish(device, error);
+    if (status == RT_OK)
+        *out = made;
+    else
+        rt_kernel_release(made);
+    return status;
+}
+
+rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options, rt_error *error)
+{
+    rt_render_options complete = options ? *options : renderer->options;
+    rt_camera_data camera;
+    rt_film *film = NULL;
+    rt_status status = rt_options_check(&complete, error);
+
+    if (status != RT_OK)
+        return status;
+    *out = NULL;
+    if (!renderer->has_camera)
+        return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
+    complete_options(&complete);
+    aim(&camera, &renderer->camera, complete.width, complete.height);
+    status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,
+                             &camera, error);
+    if (status == RT_OK)
+        status = rt_film_create(&film, &complete, error);
+    if (status != RT_OK)
+        return status;
+
+    film->stats.build_seconds = renderer->build_seconds;
+    film->stats.light_power = renderer->image.light_power;
+    status = complete.mode == RT_MODE_PHOTON ? rt_render_photon(renderer, &complete, film, error)
+                                             : rt_render_path(renderer, &complete, film, error);
+    if (status == RT_OK || status == RT_CANCELLED)
+        rt_film_resolve(film);
+    int keep = status == RT_OK || (status == RT_CANCELLED && film->stats.spp > 0);
+    if (keep)
+        *out = film;
+    else
+        rt_film_destroy(film);
+    return status == RT_CANCELLED ? rt_fail(error, RT_CANCELLED, "cancelled") : status;
+}

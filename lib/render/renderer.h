@@ -1,0 +1,40 @@
+/* renderer.h - a scene made ready on a device, and the modes that render it. */
+#ifndef RT_LIB_RENDER_RENDERER_H
+#define RT_LIB_RENDER_RENDERER_H
+
+#include "device/device.h"
+#include "progress.h"
+#include "render/film.h"
+#include "rt.h"
+#include "scene/pack.h"
+#include "types.h"
+
+struct rt_renderer {
+    rt_device *device;
+    rt_scene_image image; /* on the host; freed when the device has its copy */
+    cl_mem scene;         /* the same on the device */
+    rt_camera camera;
+    int has_camera;
+    rt_render_options options; /* the scene's own */
+    double build_seconds;
+};
+
+/* Parameters of a launch that follow from the options; items and samples are left to the caller. */
+rt_params rt_params_make(const rt_render_options *options);
+
+/*
+ * Builds one of the library's kernels, and has the driver compile it for the device's work-group size
+ * by a launch without items, so that the first true launch is not the slow one. args as for rt_kernel_args;
+ * the first must be an rt_params, which is sent with item_count 0. Runs as part of the stage `compile`.
+ */
+rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *program, const char *kernel,
+                            const rt_arg *args, cl_uint count, rt_stage_progress *progress, rt_error *error);
+
+/*
+ * The modes. Each fills film->pixels and the film's stats; options are complete. On RT_CANCELLED the film
+ * holds the samples so far.
+ */
+rt_status rt_render_path(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error);
+rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error);
+
+#endif

@@ -1,0 +1,400 @@
+/*
+ * rt.h - the public interface of librt, a renderer for the study of light transport.
+ *
+ * OVERVIEW
+ *
+ * A scene (rt_scene) is read from the .rts language or built by calls. A device
+ * (rt_device) is one OpenCL device. A renderer (rt_renderer) is a scene made ready on a
+ * device: the bounding volume hierarchy is built on the host and everything the kernels
+ * need is uploaded. rt_render makes a film (rt_film) from it, by path tracing or photon
+ * mapping; rt_trace follows single rays. A film is read in memory or written as an image.
+ *
+ *     text or calls -> rt_scene -+
+ *                                +-> rt_renderer -> rt_film -> memory, .exr, .png, ...
+ *                   rt_device ---+        |
+ *                                         +-> rt_hit
+ *
+ * A COMPLETE EXAMPLE
+ *
+ *     #include <rt/rt.h>
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         const char *text =
+ *             "camera { eye 0 1 -4  look_at 0 1 0  fov 40 }\n"
+ *             "film { width 64  height 64 }\n"
+ *             "material white { kd 0.7 }\n"
+ *             "plane { point 0 0 0  normal 0 1 0  material white }\n"
+ *             "sphere { centre 0 1 0  radius 1  material white }\n"
+ *             "light point { position 2 4 -3  intensity 20 }\n";
+ *         rt_scene *scene = NULL;
+ *         rt_device *device = NULL;
+ *         rt_renderer *renderer = NULL;
+ *         rt_film *film = NULL;
+ *         rt_error error;
+ *
+ *         if (rt_scene_parse(&scene, text, "example", NULL, &error) == RT_OK &&
+ *             rt_device_open(&device, NULL, &error) == RT_OK &&
+ *             rt_renderer_create(&renderer, scene, device, NULL, &error) == RT_OK &&
+ *             rt_render(&film, renderer, NULL, &error) == RT_OK) {
+ *             const float *centre = rt_film_rgb(film) + 3 * (32 * 64 + 32);
+ *             printf("radiance %.3f %.3f %.3f\n", centre[0], centre[1], centre[2]);
+ *         } else {
+ *             fprintf(stderr, "%s\n", error.message);
+ *         }
+ *         rt_film_destroy(film);
+ *         rt_renderer_destroy(renderer);
+ *         rt_device_close(device);
+ *         rt_scene_destroy(scene);
+ *         return film == NULL;
+ *     }
+ *
+ *     cc example.c $(pkg-config --cflags --libs librt-render)
+ *
+ * CONVENTIONS
+ *
+ * Units: metres, degrees in this interface and in the language, watts, linear sRGB.
+ * Coordinates are right-handed with y up. A colour is float[3], red green blue.
+ * What can fail returns rt_status and fills *error, if error is not NULL. Results are
+ * written only on success, unless a call says otherwise. Pointers passed in are not kept
+ * after the call returns, unless a call says otherwise. Destroying NULL does nothing.
+ *
+ * Option structs: set what you need, leave the rest zero; zero always means the default
+ * that the member's comment states. Passing NULL for an option struct means all defaults.
+ *
+ * There is no global state. Different objects may be used from different threads at
+ * once; one object from one thread at a time. The library does not print, exit, install
+ * signal handlers or change the environment.
+ */
+#ifndef RT_RT_H
+#define RT_RT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "common.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define RT_API __attribute__((visibility("default")))
+#else
+#define RT_API
+#endif
+
+#define RT_VERSION_MAJOR 0
+#define RT_VERSION_MINOR 1
+#define RT_VERSION_PATCH 0
+
+/* The version of the library at run time, as "0.1.0". */
+RT_API const char *rt_version(void);
+
+/* ---- Errors ------------------------------------------------------------- */
+
+typedef enum rt_status {
+    RT_OK = 0,
+    RT_ERROR_INPUT,  /* the scene or a file it names is wrong */
+    RT_ERROR_USAGE,  /* an argument or an option is out of its range */
+    RT_ERROR_DEVICE, /* no OpenCL platform or device, a kernel does not build, a launch fails */
+    RT_ERROR_OUTPUT, /* an image could not be written */
+    RT_ERROR_MEMORY, /* host or device memory is exhausted */
+    RT_CANCELLED     /* a progress callback asked to stop */
+} rt_status;
+
+/* What went wrong. Owned by the caller; filled by the call that fails. */
+typedef struct rt_error {
+    rt_status status;
+    int line, column;  /* in `file`, from 1; 0 when the error has no place */
+    char field[32];    /* the option or field at fault, or empty */
+    char file[512];    /* the file at fault, or empty */
+    char message[512]; /* one line, without newline, naming the offending value */
+} rt_error;
+
+/* ---- Progress and log --------------------------------------------------- */
+
+typedef enum rt_stage {
+    RT_STAGE_LOAD,    /* reading the scene and its files */
+    RT_STAGE_BUILD,   /* building the bounding volume hierarchy */
+    RT_STAGE_COMPILE, /* building OpenCL kernels; quick once the driver has them cached */
+    RT_STAGE_EMIT,    /* photon emission */
+    RT_STAGE_GATHER,  /* photon mode: building the search tree, then camera paths and gathering */
+    RT_STAGE_RENDER   /* path mode: camera paths */
+} rt_stage;
+
+typedef struct rt_progress {
+    rt_stage stage;
+    double fraction;  /* of this stage, 0 to 1 */
+    double elapsed;   /* seconds since this stage began */
+    double remaining; /* estimated seconds to the end of this stage, negative while unknown */
+} rt_progress;
+
+/*
+ * Hooks of long calls, called from the thread that made the call. A progress callback
+ * is called at the start and the end of each stage and at least every second between;
+ * one that returns non-zero cancels the call, which then returns RT_CANCELLED.
+ */
+typedef struct rt_hooks {
+    int (*progress)(void *user, const rt_progress *progress);
+    void (*log)(void *user, const char *line); /* one line, without newline, for --verbose */
+    void *user;
+} rt_hooks;
+
+/* The name of a stage in lower case, such as "build"; static storage. */
+RT_API const char *rt_stage_name(rt_stage stage);
+
+/* ---- Scene -------------------------------------------------------------- */
+
+typedef struct rt_scene rt_scene;
+
+/* One error or warning in a scene text. The strings live until the callback returns. */
+typedef struct rt_diagnostic {
+    int is_warning;
+    const char *file;
+    int line, column;        /* from 1; column counts bytes */
+    int length;              /* bytes underlined, at least 1 */
+    const char *message;     /* one line: what was found and what was expected */
+    const char *hint;        /* the nearest known name or a way out, or NULL */
+    const char *source_line; /* the whole line, without newline */
+} rt_diagnostic;
+
+typedef struct rt_load_options {
+    void (*diagnostic)(void *user, const rt_diagnostic *diagnostic); /* told of every error and warning */
+    void *user;
+} rt_load_options;
+
+/*
+ * Reads a scene from a .rts file. All errors of the text are reported to the diagnostic
+ * callback, in the order of their places; *error gets the first and the number of others.
+ * Files that the text names are looked up relative to the file that names them.
+ * Fails with RT_ERROR_INPUT. The caller owns *out.
+ */
+RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options, rt_error *error);
+
+/*
+ * The same from a string; `name` stands for the file in messages, and files that the text
+ * names are looked up relative to the current directory.
+ */
+RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
+                                rt_error *error);
+
+/* An empty scene, to be filled by the calls below. The caller owns *out. */
+RT_API rt_status rt_scene_create(rt_scene **out, rt_error *error);
+RT_API void rt_scene_destroy(rt_scene *scene);
+
+/*
+ * A material: fr = kd/pi + ks delta_reflection/|n.wi| + kt delta_transmission/|n.wi|, with
+ * kd + ks + kt <= 1 in every channel, plus emission. All zero is black.
+ */
+typedef struct rt_material {
+    float kd[3];       /* diffuse albedo */
+    float ks[3];       /* specular reflectance (perfect mirror) */
+    float kt[3];       /* specular transmittance (smooth refraction) */
+    float emission[3]; /* emitted radiance, W/(m^2 sr), on the side of the normal */
+    float ior;         /* index of refraction of the inside; 0 means 1.5 */
+    int fresnel;       /* 1: the delta part ks + kt is split Fr : 1 - Fr by the exact unpolarised
+                          Fresnel equations; 0: ks and kt are used as given. Either way the part of
+                          kt that meets total internal reflection is reflected. */
+    int two_sided;     /* 1: emission on both sides */
+    int priority;      /* nested media: where two solids overlap, the higher priority is inside; >= 0 */
+} rt_material;
+
+/*
+ * Adds a material; *out is its index, for rt_surface. `name` may be NULL. Fails with
+ * RT_ERROR_INPUT, error->field naming the member, when a value is not finite or out of range.
+ */
+RT_API rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name, const rt_material *material,
+                                       rt_error *error);
+
+/* What every shape has. */
+typedef struct rt_surface {
+    uint32_t material; /* index from rt_scene_add_material */
+    float radiance[3]; /* emitted radiance, W/(m^2 sr); all zero: that of the material */
+    float power[3];    /* or the emitted flux of the whole shape, W, spread evenly over its area */
+} rt_surface;
+
+/*
+ * Shapes. Each call adds one and, if out is not NULL, writes its index, the one that
+ * rt_hit.shape gives back. All fail with RT_ERROR_INPUT, error->field naming the parameter,
+ * when a value is not finite or the shape has no extent; finite shapes can emit.
+ */
+
+/* The infinite plane through `point`; normal need not be of unit length. u, v: metres along the plane. */
+RT_API rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3], const float normal[3],
+                                    const rt_surface *surface, rt_error *error);
+/* A sphere. u: longitude from +x towards +z, v: latitude from the south pole, both in [0,1]. */
+RT_API rt_status rt_scene_add_sphere(rt_scene *scene, uint32_t *out, const float centre[3], float radius,
+                                     const rt_surface *surface, rt_error *error);
+/* The parallelogram corner + u edge1 + v edge2; its normal is edge1 x edge2. */
+RT_API rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3], const float edge1[3],
+                                   const float edge2[3], const rt_surface *surface, rt_error *error);
+/*
+ * Triangles: positions [vertex_count][3] in metres, indices [triangle_count][3], counter-clockwise
+ * seen from the side of the normal; normals [vertex_count][3], one a vertex, or NULL for flat
+ * shading. u, v: barycentric coordinates of the second and third vertex. The arrays are copied.
+ */
+RT_API rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions, size_t vertex_count,
+                                        const uint32_t *indices, size_t triangle_count, const float *normals,
+                                        const rt_surface *surface, rt_error *error);
+
+/* A point light. Give intensity, or power: power = 4 pi intensity (isotropic). */
+typedef struct rt_point_light {
+    float position[3];
+    float intensity[3]; /* W/sr */
+    float power[3];     /* W */
+} rt_point_light;
+RT_API rt_status rt_scene_add_point_light(rt_scene *scene, const rt_point_light *light, rt_error *error);
+
+/* A thin-lens camera; image x grows to the right of one who stands at eye and looks at look_at. */
+typedef struct rt_camera {
+    float eye[3];
+    float look_at[3];
+    float up[3];          /* all zero means (0, 1, 0) */
+    float fov;            /* full horizontal angle, degrees, below 180; 0 means 45 */
+    float aperture;       /* lens radius, metres; 0 is a pinhole */
+    float focal_distance; /* metres along the view axis to the plane in focus; 0 means that of look_at */
+} rt_camera;
+RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error);
+
+/* ---- Options of a render ------------------------------------------------ */
+
+typedef enum rt_mode {
+    RT_MODE_PATH = 0, /* path tracing with next-event estimation and multiple importance sampling */
+    RT_MODE_PHOTON    /* photon mapping */
+} rt_mode;
+
+/* Everything a render can be told. A scene carries such options as its defaults. */
+typedef struct rt_render_options {
+    uint32_t width, height; /* pixels; 0 means 512 */
+    rt_mode mode;
+    uint32_t spp;           /* samples a pixel; 0 means 64 in path mode, 16 in photon mode */
+    uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
+    uint32_t seed;          /* the same seed gives the same bits */
+    rt_sampler sampler;
+    double time;            /* stop after so many seconds of rendering; 0: no limit */
+    uint64_t photons;       /* photon paths emitted; 0 means 1 000 000 */
+    uint32_t k;             /* nearest photons; 0 means 50. The k-th gives the radius and is not summed */
+    float radius;           /* largest gather radius, metres; 0: no limit */
+    rt_density kernel;      /* density kernel, see common.h */
+    float cone_k;           /* constant of the cone kernel; 0 means 1.1 */
+    rt_direct direct;
+    uint32_t final_gather;  /* gather after so many diffuse bounces instead of at the first hit */
+    const rt_hooks *hooks;  /* NULL: none; not kept in a scene */
+} rt_render_options;
+
+/* The scene's own defaults, which the language's `film` and `render` blocks set. Checked like rt_render's. */
+RT_API rt_status rt_scene_set_options(rt_scene *scene, const rt_render_options *options, rt_error *error);
+RT_API void rt_scene_get_options(const rt_scene *scene, rt_render_options *out);
+
+/* How much a scene holds. */
+typedef struct rt_scene_info {
+    uint64_t shapes, primitives, triangles, materials, lights;
+    int has_camera;
+} rt_scene_info;
+RT_API void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out);
+
+/* ---- Device ------------------------------------------------------------- */
+
+typedef struct rt_device rt_device;
+
+typedef struct rt_device_info {
+    char name[128], platform[128], version[128], driver[128];
+    uint32_t compute_units;
+    uint64_t memory, largest_buffer; /* bytes */
+    int is_cpu;
+} rt_device_info;
+
+/* All OpenCL devices of this machine, in the order of their numbers. Free *out with rt_devices_free. */
+RT_API rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error);
+RT_API void rt_devices_free(rt_device_info *devices);
+
+typedef struct rt_device_options {
+    const char *select;  /* a device's number in rt_devices_list, or part of its name or platform; NULL: the first */
+    uint32_t threads;    /* host threads, and compute units used of a CPU device; 0: all */
+    uint32_t work_group; /* work-items a work-group; 0: chosen for the device */
+} rt_device_options;
+
+/* Opens an OpenCL device. Fails with RT_ERROR_DEVICE when there is none or none is so named. */
+RT_API rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error);
+RT_API void rt_device_close(rt_device *device);
+RT_API void rt_device_get_info(const rt_device *device, rt_device_info *out);
+
+/* ---- Renderer ----------------------------------------------------------- */
+
+typedef struct rt_renderer rt_renderer;
+
+typedef struct rt_renderer_options {
+    rt_accel accel;
+    const rt_hooks *hooks;
+} rt_renderer_options;
+
+/*
+ * Makes a scene ready on a device: builds the bounding volume hierarchy and uploads. The scene may be
+ * changed or destroyed afterwards; the device must outlive the renderer. A scene without shapes or
+ * without lights is no error here (its picture is black); one that does not fit the device's memory is.
+ */
+RT_API rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device *device,
+                                    const rt_renderer_options *options, rt_error *error);
+RT_API void rt_renderer_destroy(rt_renderer *renderer);
+
+typedef enum rt_trace_kind {
+    RT_TRACE_CLOSEST, /* the nearest hit */
+    RT_TRACE_ANY      /* whether anything is hit: of rt_hit, only shape != RT_NONE is meaningful */
+} rt_trace_kind;
+
+/*
+ * Follows count rays on the device and writes count hits. Rays must be finite, with a non-zero
+ * direction and t_min <= t_max; t_max may be infinite.
+ */
+RT_API rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays, size_t count, rt_hit *hits,
+                          rt_error *error);
+
+/* ---- Film --------------------------------------------------------------- */
+
+typedef struct rt_film rt_film;
+
+/*
+ * Renders; options NULL: the scene's own. The caller owns *out. When a progress callback cancels, returns
+ * RT_CANCELLED and *out still receives the film of the samples so far (NULL when there are none yet).
+ * The film does not depend on the renderer's further life.
+ */
+RT_API rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options, rt_error *error);
+RT_API void rt_film_destroy(rt_film *film);
+
+/* Linear radiance, [height][width][3], top row first; owned by the film. */
+RT_API const float *rt_film_rgb(const rt_film *film);
+RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height);
+
+typedef struct rt_film_stats {
+    uint32_t spp;              /* samples that every pixel has */
+    uint64_t rejected;         /* samples left out because they were not finite */
+    uint64_t photons_emitted;  /* photon paths */
+    uint64_t photons_stored;
+    uint64_t gathers;          /* queries of the photon map */
+    double light_power;        /* emitted power of all lights, W, mean of the three channels */
+    double build_seconds, compile_seconds, emit_seconds, gather_seconds, render_seconds;
+} rt_film_stats;
+RT_API void rt_film_get_stats(const rt_film *film, rt_film_stats *out);
+
+typedef enum rt_tonemap { RT_TONEMAP_NONE = 0, RT_TONEMAP_REINHARD, RT_TONEMAP_ACES } rt_tonemap;
+
+typedef struct rt_image_options {
+    float exposure;     /* stops: radiance is multiplied by 2^exposure; for 8-bit formats only */
+    rt_tonemap tonemap; /* for 8-bit formats only */
+    const char *scene, *command; /* recorded in the attributes of an .exr; NULL: left out */
+} rt_image_options;
+
+/*
+ * Writes the film in the format of the file's extension: .exr (linear float, with the seed, samples and
+ * version as attributes), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
+ * Fails with RT_ERROR_USAGE for another extension and RT_ERROR_OUTPUT when it cannot be written.
+ */
+RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

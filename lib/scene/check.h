@@ -1,0 +1,54 @@
+/* check.h - checks of values that come from the caller, and the scene's growing arrays. */
+#ifndef RT_LIB_SCENE_CHECK_H
+#define RT_LIB_SCENE_CHECK_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "error.h"
+#include "scene/vec.h"
+
+/* Coordinates beyond this lose the squares of their differences in float32. */
+#define RT_COORDINATE_MAX 1e15f
+
+static inline int rt_is_black(const float c[3])
+{
+    return c[0] == 0 && c[1] == 0 && c[2] == 0;
+}
+
+/* Finite coordinates. */
+static inline rt_status rt_check_point(const float p[3], const char *who, const char *field, rt_error *error)
+{
+    for (int i = 0; i < 3; i++)
+        if (!(fabsf(p[i]) <= RT_COORDINATE_MAX))
+            return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s has the coordinate %g; it must lie within %g", who,
+                                 field, p[i], RT_COORDINATE_MAX);
+    return RT_OK;
+}
+
+/* Finite, not negative. */
+static inline rt_status rt_check_colour(const float c[3], const char *who, const char *field, rt_error *error)
+{
+    for (int i = 0; i < 3; i++)
+        if (!(c[i] >= 0 && c[i] <= 1e30f))
+            return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s has the component %g; it must not be negative",
+                                 who, field, c[i]);
+    return RT_OK;
+}
+
+/* Makes room for one more element of `size` bytes after `count`. */
+static inline rt_status rt_grow(void **array, size_t *room, size_t count, size_t size, rt_error *error)
+{
+    if (count < *room)
+        return RT_OK;
+    size_t more = *room ? 2 * *room : 16;
+    void *grown = more <= SIZE_MAX / size ? realloc(*array, more * size) : NULL;
+    if (!grown)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu scene elements", more);
+    *array = grown;
+    *room = more;
+    return RT_OK;
+}
+
+#endif

@@ -1,0 +1,69 @@
+/* options.c - the ranges of render options. */
+#include <math.h>
+
+#include "error.h"
+#include "scene/scene.h"
+
+enum { film_side_max = 65536, film_pixels_max = 1 << 28, spp_max = 1 << 24, depth_max = 4096, k_max = 1 << 16 };
+static const double photons_max = 4e9;
+
+static rt_status check_film(const rt_render_options *o, rt_error *error)
+{
+    if (o->width > film_side_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "width", "width is %u pixels; it must not exceed %d", o->width,
+                             film_side_max);
+    if (o->height > film_side_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "height", "height is %u pixels; it must not exceed %d", o->height,
+                             film_side_max);
+    if ((uint64_t)o->width * o->height > film_pixels_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "height", "a film of %u x %u pixels is over the limit of %d",
+                             o->width, o->height, film_pixels_max);
+    if (o->spp > spp_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "spp", "spp is %u; it must not exceed %d", o->spp, spp_max);
+    if (o->max_depth > depth_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "max_depth", "max_depth is %u; it must not exceed %d",
+                             o->max_depth, depth_max);
+    if (!(o->time >= 0 && o->time <= 1e9))
+        return rt_fail_field(error, RT_ERROR_USAGE, "time", "time is %g s; it must lie between 0 and 1e9", o->time);
+    return RT_OK;
+}
+
+static rt_status check_photons(const rt_render_options *o, rt_error *error)
+{
+    if ((double)o->photons > photons_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "photons", "photons is %llu; it must not exceed %g",
+                             (unsigned long long)o->photons, photons_max);
+    if (o->k == 1 || o->k > k_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "k",
+                             "k is %u; it must lie between 2 (the k-th gives the radius and is not summed) and %d", o->k,
+                             k_max);
+    if (!(o->radius >= 0 && o->radius <= 1e15f))
+        return rt_fail_field(error, RT_ERROR_USAGE, "radius", "radius is %g m; it must not be negative", o->radius);
+    if (o->cone_k != 0 && !(o->cone_k >= 1 && o->cone_k <= 1e6f))
+        return rt_fail_field(error, RT_ERROR_USAGE, "cone_k", "cone_k is %g; it must be at least 1", o->cone_k);
+    if (o->final_gather > depth_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "final_gather", "final_gather is %u; it must not exceed %d",
+                             o->final_gather, depth_max);
+    return RT_OK;
+}
+
+static rt_status check_enums(const rt_render_options *o, rt_error *error)
+{
+    if ((unsigned)o->mode > RT_MODE_PHOTON)
+        return rt_fail_field(error, RT_ERROR_USAGE, "mode", "there is no mode %d", (int)o->mode);
+    if ((unsigned)o->sampler > RT_SAMPLER_INDEPENDENT)
+        return rt_fail_field(error, RT_ERROR_USAGE, "sampler", "there is no sampler %d", (int)o->sampler);
+    if ((unsigned)o->kernel > RT_DENSITY_GAUSSIAN_JENSEN)
+        return rt_fail_field(error, RT_ERROR_USAGE, "kernel", "there is no density kernel %d", (int)o->kernel);
+    if ((unsigned)o->direct > RT_DIRECT_PHOTONS)
+        return rt_fail_field(error, RT_ERROR_USAGE, "direct", "there is no direct mode %d", (int)o->direct);
+    return RT_OK;
+}
+
+rt_status rt_options_check(const rt_render_options *options, rt_error *error)
+{
+    rt_status status = check_enums(options, error);
+    if (status == RT_OK)
+        status = check_film(options, error);
+    return status == RT_OK ? check_photons(options, error) : status;
+}

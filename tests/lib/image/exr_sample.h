@@ -1,0 +1,23 @@
+/* exr_sample.h - OpenEXR files of kinds that the library reads but does not write. */
+#ifndef RT_TESTS_IMAGE_EXR_SAMPLE_H
+#define RT_TESTS_IMAGE_EXR_SAMPLE_H
+
+#include "image/bytes.h"
+#include "image/exr_core.h"
+
+typedef struct exr_sample {
+    exr_storage_t storage;
+    exr_pixel_type_t type;
+    exr_compression_t compression;
+    int x, y, width, height; /* data window */
+    int tile;                /* side of a tile of a tiled file */
+    int sampling;            /* subsampling of channel B; 0 means 1 */
+} exr_sample;
+
+/* The value of channel c (0 R, 1 G, 2 B) at (x, y) of the data window: whole, so that every type holds it. */
+float exr_sample_value(int x, int y, int c);
+
+/* The file; of a deep one, the header alone. The caller frees it. */
+rt_bytes exr_sample_file(const exr_sample *sample);
+
+#endif

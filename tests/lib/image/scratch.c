@@ -1,0 +1,85 @@
+#include "scratch.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+/* What scratch_leave needs to go back. */
+typedef struct scratch {
+    char path[PATH_MAX];
+    int previous; /* descriptor of the directory before */
+} scratch;
+
+int scratch_enter(void **state)
+{
+    const char *base = getenv("TMPDIR");
+    scratch *s = calloc(1, sizeof *s);
+    if (!s)
+        return -1;
+    s->previous = open(".", O_RDONLY);
+    snprintf(s->path, sizeof s->path, "%s/rt-test-XXXXXX", base && base[0] ? base : "/tmp");
+    if (s->previous < 0 || !mkdtemp(s->path) || chdir(s->path) != 0)
+        return -1;
+    *state = s;
+    return 0;
+}
+
+static int is_entry(const struct dirent *entry)
+{
+    return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+}
+
+int scratch_leave(void **state)
+{
+    scratch *s = *state;
+    DIR *directory = opendir(".");
+    if (!directory)
+        return -1;
+    for (struct dirent *entry; (entry = readdir(directory));)
+        if (is_entry(entry) && unlink(entry->d_name) != 0)
+            rmdir(entry->d_name);
+    closedir(directory);
+    int code = fchdir(s->previous) == 0 && rmdir(s->path) == 0 ? 0 : -1;
+    close(s->previous);
+    free(s);
+    return code;
+}
+
+size_t scratch_count(void)
+{
+    size_t count = 0;
+    DIR *directory = opendir(".");
+    assert_non_null(directory);
+    for (struct dirent *entry; (entry = readdir(directory));)
+        count += is_entry(entry) ? 1 : 0;
+    closedir(directory);
+    return count;
+}
+
+void scratch_write(const char *name, const char *text)
+{
+    FILE *file = fopen(name, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(fclose(file), 0);
+}
+
+void scratch_expect(const char *name, const char *text)
+{
+    char found[256] = {0};
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    size_t count = fread(found, 1, sizeof found - 1, file);
+    fclose(file);
+    assert_int_equal(count, strlen(text));
+    assert_string_equal(found, text);
+}

@@ -1,0 +1,18 @@
+/* scratch.h - a temporary directory for a test, the current one while it lasts. */
+#ifndef RT_TESTS_IMAGE_SCRATCH_H
+#define RT_TESTS_IMAGE_SCRATCH_H
+
+#include <stddef.h>
+
+/* cmocka setup and teardown: makes an empty directory and enters it; leaves and removes it. */
+int scratch_enter(void **state);
+int scratch_leave(void **state);
+
+/* How many entries the current directory has, hidden ones too. */
+size_t scratch_count(void);
+
+/* Makes a file of this text in the current directory, or checks that it has this text. */
+void scratch_write(const char *name, const char *text);
+void scratch_expect(const char *name, const char *text);
+
+#endif

@@ -1,0 +1,287 @@
+/* OpenEXR: every bit comes back under its name, and damaged files are refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "damage.h"
+#include "exr_sample.h"
+#include "image/exr.h"
+#include "scratch.h"
+
+static rt_image *create(uint32_t width, uint32_t height, const char *const *names, uint32_t count)
+{
+    rt_image *image = NULL;
+    assert_int_equal(rt_image_create(&image, width, height, names, count, NULL), RT_OK);
+    return image;
+}
+
+/* Fills an image with random bits: every kind of float occurs, NaN payloads included. */
+static void fill_with_bits(rt_image *image)
+{
+    uint64_t state = 42;
+    size_t count = (size_t)image->width * image->height * image->channel_count;
+    for (size_t i = 0; i < count; i++) {
+        state = state * UINT64_C(6364136223846793005) + 1;
+        uint32_t bits = (uint32_t)(state >> 32);
+        memcpy(&image->data[i], &bits, sizeof bits);
+    }
+}
+
+static rt_bytes encode(const rt_image *image)
+{
+    rt_bytes bytes = {0};
+    rt_error error = {0};
+    assert_int_equal(rt_exr_encode(&bytes, image, &error), RT_OK);
+    return bytes;
+}
+
+static rt_image *decode(const rt_bytes *bytes)
+{
+    rt_image *image = NULL;
+    rt_error error = {0};
+    if (rt_exr_decode(&image, bytes, "sample", &error) != RT_OK)
+        fail_msg("%s", error.message);
+    return image;
+}
+
+/* Whether both have the same channels, each with the same bits, wherever it stands. */
+static void expect_same(const rt_image *a, const rt_image *b)
+{
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_int_equal(a->channel_count, b->channel_count);
+    size_t pixel_count = (size_t)a->width * a->height;
+    for (uint32_t c = 0; c < a->channel_count; c++) {
+        uint32_t other = rt_image_channel(b, a->names[c]);
+        assert_int_not_equal(other, RT_IMAGE_NO_CHANNEL);
+        for (size_t i = 0; i < pixel_count; i++)
+            if (memcmp(&a->data[i * a->channel_count + c], &b->data[i * b->channel_count + other], sizeof(float)) != 0)
+                fail_msg("channel %s differs at pixel %zu", a->names[c], i);
+    }
+}
+
+static void every_bit_comes_back(void **state)
+{
+    (void)state;
+    static const char *const rgb[3] = {"R", "G", "B"};
+    static const uint32_t sizes[][2] = {{1, 1}, {3, 5}, {1, 100}, {100, 1}, {17, 16}, {16, 17}, {33, 63}, {513, 257},
+                                        {65536, 1}, {1, 65536}};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        rt_image *image = create(sizes[i][0], sizes[i][1], rgb, 3);
+        fill_with_bits(image);
+        rt_bytes bytes = encode(image);
+        rt_image *copy = decode(&bytes);
+        expect_same(image, copy);
+        rt_image_destroy(copy);
+        rt_bytes_free(&bytes);
+        rt_image_destroy(image);
+    }
+}
+
+static void special_values_come_back(void **state)
+{
+    (void)state;
+    static const char *const y[1] = {"Y"};
+    static const uint32_t patterns[] = {0x00000000, 0x80000000, 0x00000001, 0x807fffff, 0x00800000, 0x7f7fffff,
+                                        0x7f800000, 0xff800000, 0x7fc00000, 0x7f800001, 0xffffffff};
+    rt_image *image = create(sizeof patterns / sizeof patterns[0], 1, y, 1);
+    memcpy(image->data, patterns, sizeof patterns);
+    rt_bytes bytes = encode(image);
+    rt_image *copy = decode(&bytes);
+    assert_memory_equal(copy->data, patterns, sizeof patterns);
+    rt_image_destroy(copy);
+    rt_bytes_free(&bytes);
+    rt_image_destroy(image);
+}
+
+static void channels_are_bound_by_name(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"depth.Z", "R", "normal.X", "G", "albedo.B", "B", "albedo.R", "variance.R",
+                                        "a.name.that.is.longer.than.the.thirty-one.bytes.of.a.short.one"};
+    uint32_t count = sizeof names / sizeof names[0];
+    rt_image *image = create(19, 35, names, count);
+    for (size_t i = 0; i < (size_t)19 * 35 * count; i++)
+        image->data[i] = (float)(i % count) + 0.001f * (float)(i / count);
+    rt_bytes bytes = encode(image);
+    rt_image *copy = decode(&bytes);
+    expect_same(image, copy);
+    rt_image_destroy(copy);
+    rt_bytes_free(&bytes);
+    rt_image_destroy(image);
+}
+
+static void attributes_come_back_in_order(void **state)
+{
+    (void)state;
+    static const char *const rgb[3] = {"R", "G", "B"};
+    char *command = malloc(20001);
+    assert_non_null(command);
+    memset(command, 'c', 20000);
+    command[20000] = '\0';
+    rt_image *image = create(2, 2, rgb, 3);
+    assert_int_equal(rt_image_set_attribute(image, "scene", "K\xc3\xb6rper.rts", NULL), RT_OK);
+    assert_int_equal(rt_image_set_attribute(image, "command", command, NULL), RT_OK);
+    assert_int_equal(rt_image_set_attribute(image, "empty", "", NULL), RT_OK);
+    assert_int_equal(rt_image_set_attribute(image, "a", "first by name, last by order", NULL), RT_OK);
+    rt_bytes bytes = encode(image);
+    rt_image *copy = decode(&bytes);
+    assert_int_equal(copy->attribute_count, image->attribute_count);
+    for (size_t i = 0; i < image->attribute_count; i++) {
+        assert_string_equal(copy->attributes[i].name, image->attributes[i].name);
+        assert_string_equal(copy->attributes[i].value, image->attributes[i].value);
+    }
+    rt_image_destroy(copy);
+    rt_bytes_free(&bytes);
+    rt_image_destroy(image);
+    free(command);
+}
+
+static void the_same_image_gives_the_same_bytes(void **state)
+{
+    (void)state;
+    static const char *const rgb[3] = {"R", "G", "B"};
+    rt_image *image = create(45, 67, rgb, 3);
+    fill_with_bits(image);
+    assert_int_equal(rt_image_set_attribute(image, "scene", "box", NULL), RT_OK);
+    rt_bytes once = encode(image), twice = encode(image);
+    assert_int_equal(once.size, twice.size);
+    assert_memory_equal(once.data, twice.data, once.size);
+    rt_bytes_free(&twice);
+    rt_bytes_free(&once);
+    rt_image_destroy(image);
+}
+
+static void expect_sample(exr_sample sample)
+{
+    rt_bytes bytes = exr_sample_file(&sample);
+    rt_image *image = decode(&bytes);
+    assert_int_equal(image->width, sample.width);
+    assert_int_equal(image->height, sample.height);
+    uint32_t rgb[3];
+    assert_int_equal(rt_image_rgb_channels(rgb, image, NULL), RT_OK);
+    for (int y = 0; y < sample.height; y++)
+        for (int x = 0; x < sample.width; x++)
+            for (int c = 0; c < 3; c++)
+                if (image->data[3 * (y * sample.width + x) + (int)rgb[c]] != exr_sample_value(x, y, c))
+                    fail_msg("type %d compression %d storage %d: channel %d differs at (%d, %d)", sample.type,
+                             sample.compression, sample.storage, c, x, y);
+    rt_image_destroy(image);
+    rt_bytes_free(&bytes);
+}
+
+static void every_lossless_kind_is_read(void **state)
+{
+    (void)state;
+    static const exr_compression_t compressions[] = {EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE, EXR_COMPRESSION_ZIPS,
+                                                     EXR_COMPRESSION_ZIP, EXR_COMPRESSION_PIZ};
+    for (size_t i = 0; i < sizeof compressions / sizeof compressions[0]; i++)
+        for (int type = EXR_PIXEL_UINT; type <= EXR_PIXEL_FLOAT; type++) {
+            exr_sample sample = {EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, compressions[i], -7, 11, 41, 39, 0, 0};
+            sample.type = (exr_pixel_type_t)type;
+            expect_sample(sample);
+            sample.storage = EXR_STORAGE_TILED;
+            sample.tile = 16;
+            expect_sample(sample);
+        }
+}
+
+static void expect_refused(exr_sample sample, const char *reason)
+{
+    rt_bytes bytes = exr_sample_file(&sample);
+    rt_image *image = NULL;
+    rt_error error = {0};
+    assert_int_equal(rt_exr_decode(&image, &bytes, "sample.exr", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "sample.exr"));
+    assert_non_null(strstr(error.message, reason));
+    assert_null(image);
+    rt_bytes_free(&bytes);
+}
+
+static void deep_and_subsampled_files_are_refused(void **state)
+{
+    (void)state;
+    exr_sample sample = {EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIPS, 0, 0, 8, 8, 0, 2};
+    expect_refused(sample, "subsampled");
+    sample.sampling = 0;
+    sample.storage = EXR_STORAGE_DEEP_SCANLINE;
+    expect_refused(sample, "deep");
+}
+
+static void damaged_files_never_crash(void **state)
+{
+    (void)state;
+    static const char *const rgb[3] = {"R", "G", "B"};
+    rt_image *image = create(9, 18, rgb, 3);
+    for (size_t i = 0; i < 9 * 18 * 3; i++)
+        image->data[i] = (float)(i % 7);
+    assert_int_equal(rt_image_set_attribute(image, "scene", "box", NULL), RT_OK);
+    rt_bytes bytes = encode(image);
+    damage_truncate(&bytes, rt_exr_decode);
+    damage_flip(&bytes, rt_exr_decode);
+    rt_bytes_free(&bytes);
+    rt_image_destroy(image);
+}
+
+static void damaged_tiles_never_crash(void **state)
+{
+    (void)state;
+    exr_sample sample = {EXR_STORAGE_TILED, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 11, 6, 8, 0};
+    rt_bytes bytes = exr_sample_file(&sample);
+    damage_truncate(&bytes, rt_exr_decode);
+    damage_flip(&bytes, rt_exr_decode);
+    rt_bytes_free(&bytes);
+}
+
+static void what_is_no_exr_is_refused(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"", "P6 1 1 255 abc", "v/1\x01", "v/1\x01\x02", "\x76\x2f\x31\x01"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        rt_bytes bytes = {0};
+        rt_image *image = NULL;
+        rt_error error = {0};
+        assert_int_equal(rt_bytes_put(&bytes, 0, texts[i], strlen(texts[i]), NULL), RT_OK);
+        assert_int_equal(rt_exr_decode(&image, &bytes, "text", &error), RT_ERROR_INPUT);
+        assert_true(error.message[0] != '\0');
+        rt_bytes_free(&bytes);
+    }
+}
+
+static void coding_touches_no_file(void **state)
+{
+    (void)state;
+    static const char *const rgb[3] = {"R", "G", "B"};
+    rt_image *image = create(4, 4, rgb, 3);
+    scratch_write("(memory)", "a user's file");
+    rt_bytes bytes = encode(image);
+    bytes.size /= 2;
+    rt_image *copy = NULL;
+    assert_int_equal(rt_exr_decode(&copy, &bytes, "half", NULL), RT_ERROR_INPUT);
+    scratch_expect("(memory)", "a user's file");
+    assert_int_equal(scratch_count(), 1);
+    rt_bytes_free(&bytes);
+    rt_image_destroy(image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_bit_comes_back),
+        cmocka_unit_test(special_values_come_back),
+        cmocka_unit_test(channels_are_bound_by_name),
+        cmocka_unit_test(attributes_come_back_in_order),
+        cmocka_unit_test(the_same_image_gives_the_same_bytes),
+        cmocka_unit_test(every_lossless_kind_is_read),
+        cmocka_unit_test(deep_and_subsampled_files_are_refused),
+        cmocka_unit_test(damaged_files_never_crash),
+        cmocka_unit_test(damaged_tiles_never_crash),
+        cmocka_unit_test(what_is_no_exr_is_refused),
+        cmocka_unit_test_setup_teardown(coding_touches_no_file, scratch_enter, scratch_leave),
+    };
+    return cmocka_run_group_tests_name("image/exr", tests, NULL, NULL);
+}

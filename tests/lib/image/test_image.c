@@ -1,0 +1,104 @@
+/* Images in memory: sizes, names and attributes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "image/image.h"
+
+static const char *const rgb[3] = {"R", "G", "B"};
+
+static rt_status create(uint32_t width, uint32_t height, const char *const *names, uint32_t count)
+{
+    rt_image *image = NULL;
+    rt_error error = {0};
+    rt_status status = rt_image_create(&image, width, height, names, count, &error);
+    assert_int_equal(status == RT_OK, image != NULL);
+    assert_int_equal(error.status, status);
+    rt_image_destroy(image);
+    return status;
+}
+
+static void a_new_image_is_black(void **state)
+{
+    (void)state;
+    rt_image *image = NULL;
+    assert_int_equal(rt_image_create(&image, 5, 3, rgb, 3, NULL), RT_OK);
+    assert_int_equal(image->width, 5);
+    assert_int_equal(image->height, 3);
+    assert_int_equal(image->channel_count, 3);
+    for (int i = 0; i < 45; i++)
+        assert_true(image->data[i] == 0.0f);
+    rt_image_destroy(image);
+    rt_image_destroy(NULL);
+}
+
+static void impossible_sizes_are_refused(void **state)
+{
+    (void)state;
+    assert_int_equal(create(1, 1, rgb, 3), RT_OK);
+    assert_int_equal(create(0, 1, rgb, 3), RT_ERROR_USAGE);
+    assert_int_equal(create(1, 0, rgb, 3), RT_ERROR_USAGE);
+    assert_int_equal(create(1, 1, rgb, 0), RT_ERROR_USAGE);
+    assert_int_equal(create(RT_IMAGE_SIDE_MAX + 1, 1, rgb, 3), RT_ERROR_USAGE);
+    assert_int_equal(create(1, UINT32_MAX, rgb, 3), RT_ERROR_USAGE);
+    /* 2^31 x 2^31 pixels of 4 channels wrap to zero bytes in 64 bits. */
+    assert_int_equal(create(UINT32_C(1) << 31, UINT32_C(1) << 31, rgb, 3), RT_ERROR_USAGE);
+    assert_int_equal(create(1, 1, rgb, RT_IMAGE_CHANNELS_MAX + 1), RT_ERROR_USAGE);
+}
+
+static void channels_are_found_by_name(void **state)
+{
+    (void)state;
+    const char *const names[] = {"B", "albedo.R", "R", "depth.Z"}, *const twice[] = {"R", "G", "R"};
+    char long_name[RT_IMAGE_NAME_SIZE + 1];
+    const char *bad[] = {long_name}, *empty[] = {""};
+    uint32_t found[3];
+    rt_image *image = NULL;
+    rt_error error = {0};
+    assert_int_equal(rt_image_create(&image, 1, 1, names, 4, NULL), RT_OK);
+    assert_int_equal(rt_image_channel(image, "B"), 0);
+    assert_int_equal(rt_image_channel(image, "depth.Z"), 3);
+    assert_int_equal(rt_image_channel(image, "depth"), RT_IMAGE_NO_CHANNEL);
+    assert_int_equal(rt_image_rgb_channels(found, image, &error), RT_ERROR_USAGE);
+    assert_non_null(strstr(error.message, "channel G"));
+    rt_image_destroy(image);
+
+    memset(long_name, 'x', sizeof long_name - 1);
+    long_name[sizeof long_name - 1] = '\0';
+    assert_int_equal(create(1, 1, twice, 3), RT_ERROR_USAGE);
+    assert_int_equal(create(1, 1, empty, 1), RT_ERROR_USAGE);
+    assert_int_equal(create(1, 1, bad, 1), RT_ERROR_USAGE);
+    long_name[RT_IMAGE_NAME_SIZE - 1] = '\0';
+    assert_int_equal(create(1, 1, bad, 1), RT_OK);
+}
+
+static void attributes_are_set_and_replaced(void **state)
+{
+    (void)state;
+    rt_image *image = NULL;
+    assert_int_equal(rt_image_create(&image, 1, 1, rgb, 3, NULL), RT_OK);
+    assert_null(rt_image_attribute_value(image, "seed"));
+    assert_int_equal(rt_image_set_attribute(image, "seed", "1", NULL), RT_OK);
+    assert_int_equal(rt_image_set_attribute(image, "scene", "box", NULL), RT_OK);
+    assert_int_equal(rt_image_set_attribute(image, "seed", "22", NULL), RT_OK);
+    assert_int_equal(rt_image_set_attribute(image, "", "1", NULL), RT_ERROR_USAGE);
+    assert_int_equal(image->attribute_count, 2);
+    assert_string_equal(image->attributes[0].name, "seed");
+    assert_string_equal(rt_image_attribute_value(image, "seed"), "22");
+    assert_string_equal(rt_image_attribute_value(image, "scene"), "box");
+    rt_image_destroy(image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_new_image_is_black),
+        cmocka_unit_test(impossible_sizes_are_refused),
+        cmocka_unit_test(channels_are_found_by_name),
+        cmocka_unit_test(attributes_are_set_and_replaced),
+    };
+    return cmocka_run_group_tests_name("image/image", tests, NULL, NULL);
+}

@@ -1,0 +1,130 @@
+/* Images as files: the extension decides, and what fails leaves nothing behind. */
+#include <errno.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "image/image_file.h"
+#include "scratch.h"
+
+static const char *const rgb[3] = {"R", "G", "B"};
+
+static rt_image *create(void)
+{
+    rt_image *image = NULL;
+    assert_int_equal(rt_image_create(&image, 5, 4, rgb, 3, NULL), RT_OK);
+    for (int i = 0; i < 60; i++)
+        image->data[i] = 0.37f * (float)i;
+    assert_int_equal(rt_image_set_attribute(image, "scene", "box", NULL), RT_OK);
+    return image;
+}
+
+static void the_extension_decides_the_format(void **state)
+{
+    (void)state;
+    rt_image_format format;
+    rt_error error = {0};
+    assert_int_equal(rt_image_format_of(&format, "a.b/c.png", NULL), RT_OK);
+    assert_int_equal(format, RT_IMAGE_PNG);
+    assert_int_equal(rt_image_format_of(&format, "C.EXR", NULL), RT_OK);
+    assert_int_equal(format, RT_IMAGE_EXR);
+    assert_int_equal(rt_image_format_of(&format, "c.ppm", NULL), RT_OK);
+    assert_int_equal(format, RT_IMAGE_PPM);
+    assert_int_equal(rt_image_format_of(&format, "c.exr.pfm", NULL), RT_OK);
+    assert_int_equal(format, RT_IMAGE_PFM);
+    assert_int_equal(rt_image_format_of(&format, "dir.png/c", &error), RT_ERROR_USAGE);
+    assert_non_null(strstr(error.message, "dir.png/c"));
+    assert_int_equal(rt_image_format_of(&format, "c.jpeg", NULL), RT_ERROR_USAGE);
+    assert_int_equal(rt_image_format_of(&format, "", NULL), RT_ERROR_USAGE);
+}
+
+static void every_format_is_written(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.exr", "a.png", "a.ppm", "a.pfm"};
+    static const char *const magic[] = {"v/1\x01", "\x89PNG", "P6\n5", "PF\n5"};
+    rt_image *image = create();
+    for (int i = 0; i < 4; i++) {
+        unsigned char head[4] = {0};
+        assert_int_equal(rt_image_write(image, names[i], NULL, NULL), RT_OK);
+        FILE *file = fopen(names[i], "rb");
+        assert_non_null(file);
+        assert_int_equal(fread(head, 1, 4, file), 4);
+        fclose(file);
+        assert_memory_equal(head, magic[i], 4);
+    }
+    assert_int_equal(scratch_count(), 4);
+    rt_image_destroy(image);
+}
+
+static void float_formats_are_read_back(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.exr", "a.PFM"};
+    rt_image *image = create();
+    for (int i = 0; i < 2; i++) {
+        rt_image *copy = NULL;
+        uint32_t channels[3];
+        assert_int_equal(rt_image_write(image, names[i], NULL, NULL), RT_OK);
+        assert_int_equal(rt_image_read(&copy, names[i], NULL), RT_OK);
+        assert_int_equal(rt_image_rgb_channels(channels, copy, NULL), RT_OK);
+        for (int p = 0; p < 20; p++)
+            for (int c = 0; c < 3; c++)
+                assert_true(copy->data[3 * p + (int)channels[c]] == image->data[3 * p + c]);
+        rt_image_destroy(copy);
+    }
+    rt_image_destroy(image);
+}
+
+static void failures_leave_no_file(void **state)
+{
+    (void)state;
+    rt_image *image = create();
+    rt_error error = {0};
+    rt_image_options options = {0};
+    assert_int_equal(rt_image_write(image, "missing/a.exr", NULL, &error), RT_ERROR_OUTPUT);
+    assert_non_null(strstr(error.message, "missing/a.exr"));
+    assert_non_null(strstr(error.message, strerror(ENOENT)));
+    assert_int_equal(rt_image_write(image, "a.tiff", NULL, &error), RT_ERROR_USAGE);
+    options.exposure = 1.0f / 0.0f;
+    assert_int_equal(rt_image_write(image, "a.png", &options, &error), RT_ERROR_USAGE);
+    assert_int_equal(symlink("/dev/full", "full.png"), 0);
+    assert_int_equal(rt_image_write(image, "full.png", NULL, &error), RT_ERROR_OUTPUT);
+    assert_non_null(strstr(error.message, strerror(ENOSPC)));
+    assert_int_equal(scratch_count(), 1);
+    rt_image_destroy(image);
+}
+
+static void unreadable_files_are_named(void **state)
+{
+    (void)state;
+    rt_image *image = NULL;
+    rt_error error = {0};
+    assert_int_equal(rt_image_read(&image, "missing.exr", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "missing.exr"));
+    assert_int_equal(rt_image_read(&image, "a.png", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, ".exr or .pfm"));
+    scratch_write("text.exr", "not an image");
+    assert_int_equal(rt_image_read(&image, "text.exr", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "text.exr"));
+    assert_null(image);
+}
+
+#define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_extension_decides_the_format),
+        IN_SCRATCH(every_format_is_written),
+        IN_SCRATCH(float_formats_are_read_back),
+        IN_SCRATCH(failures_leave_no_file),
+        IN_SCRATCH(unreadable_files_are_named),
+    };
+    return cmocka_run_group_tests_name("image/image_file", tests, NULL, NULL);
+}

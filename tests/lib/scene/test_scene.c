@@ -1,0 +1,211 @@
+/* test_scene.c - what the builder calls accept, refuse and derive. */
+#include "support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "light/lights.h"
+#include "scene/scene.h"
+
+static const float origin[3], up[3] = {0, 1, 0};
+
+/* A fresh scene with one white material, index 0. */
+static rt_scene *new_scene(void)
+{
+    rt_material white = {.kd = {0.5f, 0.5f, 0.5f}};
+    rt_scene *scene = NULL;
+    rt_error error;
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_material(scene, NULL, "white", &white, &error), &error);
+    return scene;
+}
+
+static void expect_refused(rt_status status, const rt_error *error, const char *field)
+{
+    assert_int_equal(status, RT_ERROR_INPUT);
+    assert_int_equal(error->status, RT_ERROR_INPUT);
+    assert_string_equal(error->field, field);
+    assert_true(error->message[0] != '\0' && !strchr(error->message, '\n'));
+}
+
+static void materials_that_gain_energy_are_refused(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    rt_material m = {.kd = {0.6f, 0, 0}, .ks = {0.3f, 0, 0}, .kt = {0.2f, 0, 0}};
+    (void)state;
+
+    expect_refused(rt_scene_add_material(scene, NULL, "m", &m, &error), &error, "kd");
+    assert_non_null(strstr(error.message, "red"));
+    m.kt[0] = 0.1f; /* exactly 1, but for the rounding of decimals */
+    assert_int_equal(rt_scene_add_material(scene, NULL, "m", &m, &error), RT_OK);
+    m.kd[1] = -0.1f;
+    expect_refused(rt_scene_add_material(scene, NULL, "m", &m, &error), &error, "kd");
+    m.kd[1] = NAN;
+    expect_refused(rt_scene_add_material(scene, NULL, "m", &m, &error), &error, "kd");
+    m.kd[1] = 0;
+    m.ior = -1;
+    expect_refused(rt_scene_add_material(scene, NULL, "m", &m, &error), &error, "ior");
+    rt_scene_destroy(scene);
+}
+
+static void shapes_without_extent_are_refused(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_surface surface = {0};
+    rt_error error;
+    static const float line[9] = {0, 0, 0, 1, 1, 1, 2, 2, 2}, nan_point[3] = {0, NAN, 0};
+    static const uint32_t corners[3] = {0, 1, 2}, beyond[3] = {0, 1, 3};
+    (void)state;
+
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 0, &surface, &error), &error, "radius");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, -1, &surface, &error), &error, "radius");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, NAN, &surface, &error), &error, "radius");
+    expect_refused(rt_scene_add_sphere(scene, NULL, nan_point, 1, &surface, &error), &error, "centre");
+    expect_refused(rt_scene_add_plane(scene, NULL, origin, origin, &surface, &error), &error, "normal");
+    expect_refused(rt_scene_add_quad(scene, NULL, origin, up, up, &surface, &error), &error, "edge2");
+    expect_refused(rt_scene_add_triangles(scene, NULL, line, 3, corners, 1, NULL, &surface, &error), &error,
+                   "positions");
+    expect_refused(rt_scene_add_triangles(scene, NULL, line, 3, beyond, 1, NULL, &surface, &error), &error, "indices");
+    surface.material = 1;
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error, "material");
+    rt_scene_destroy(scene);
+}
+
+static void infinite_planes_cannot_emit(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_surface surface = {.radiance = {1, 1, 1}};
+    rt_error error;
+    (void)state;
+    expect_refused(rt_scene_add_plane(scene, NULL, origin, up, &surface, &error), &error, "radiance");
+    rt_scene_destroy(scene);
+}
+
+static void cameras_that_see_nothing_are_refused(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    rt_camera c = {.eye = {0, 0, 1}, .look_at = {0, 0, 1}};
+    (void)state;
+
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "look_at");
+    c.look_at[2] = 0;
+    c.up[2] = 2;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "up");
+    c.up[2] = 0;
+    c.fov = 180;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "fov");
+    c.fov = 60;
+    c.aperture = -1;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "aperture");
+    c.aperture = 0;
+    c.focal_distance = -1;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "focal_distance");
+    rt_scene_destroy(scene);
+}
+
+/* Emitted power, W, of the only light of a scene. */
+static float power_of_only_light(rt_scene *scene)
+{
+    rt_light_data light;
+    rt_u32 first_prim[1] = {0}, first_light[1];
+    assert_int_equal(rt_lights_count(scene), 1);
+    rt_lights_fill(scene, first_prim, &light, first_light);
+    assert_true(light.pmf == 1 && light.cdf == 1);
+    rt_scene_destroy(scene);
+    return light.power;
+}
+
+static void power_of_a_point_light_is_four_pi_intensity(void **state)
+{
+    rt_error error;
+    rt_point_light by_intensity = {.intensity = {1, 2, 3}}, by_power = {.power = {5, 5, 5}}, both = {.power = {1, 1, 1}};
+    (void)state;
+
+    rt_scene *scene = new_scene();
+    expect_ok(rt_scene_add_point_light(scene, &by_intensity, &error), &error);
+    assert_float_equal(power_of_only_light(scene), 4 * 3.14159265f * 2, 1e-5f);
+    scene = new_scene();
+    expect_ok(rt_scene_add_point_light(scene, &by_power, &error), &error);
+    assert_float_equal(power_of_only_light(scene), 5, 1e-5f);
+    scene = new_scene();
+    both.intensity[0] = 1;
+    expect_refused(rt_scene_add_point_light(scene, &both, &error), &error, "power");
+    rt_scene_destroy(scene);
+}
+
+static void power_of_an_area_light_is_pi_radiance_area(void **state)
+{
+    static const float x[3] = {2, 0, 0}, z[3] = {0, 0, 3};
+    rt_error error;
+    rt_surface radiant = {.radiance = {1, 1, 1}}, powered = {.power = {7, 7, 7}};
+    (void)state;
+
+    rt_scene *scene = new_scene();
+    expect_ok(rt_scene_add_quad(scene, NULL, origin, x, z, &radiant, &error), &error);
+    assert_float_equal(power_of_only_light(scene), 3.14159265f * 6, 1e-4f);
+    scene = new_scene();
+    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 2, &powered, &error), &error);
+    assert_float_equal(power_of_only_light(scene), 7, 1e-5f);
+}
+
+static void lights_are_chosen_in_proportion_to_power(void **state)
+{
+    static const rt_u32 first_prim[1] = {0};
+    rt_scene *scene = new_scene();
+    rt_point_light dim = {.intensity = {1, 1, 1}}, bright = {.intensity = {3, 3, 3}}, off = {0};
+    rt_light_data lights[3];
+    rt_u32 first_light[1];
+    rt_error error;
+    (void)state;
+
+    expect_ok(rt_scene_add_point_light(scene, &dim, &error), &error);
+    expect_ok(rt_scene_add_point_light(scene, &bright, &error), &error);
+    expect_ok(rt_scene_add_point_light(scene, &off, &error), &error);
+    rt_lights_fill(scene, first_prim, lights, first_light);
+    assert_float_equal(lights[0].pmf, 0.25f, 1e-6f);
+    assert_float_equal(lights[1].pmf, 0.75f, 1e-6f);
+    assert_true(lights[1].cdf == 1 && lights[2].pmf == 0);
+    rt_scene_destroy(scene);
+}
+
+static void options_out_of_range_are_refused(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    const struct {
+        rt_render_options options;
+        const char *field;
+    } cases[] = {
+        {{.k = 1}, "k"},
+        {{.cone_k = 0.5f}, "cone_k"},
+        {{.radius = -1}, "radius"},
+        {{.width = 100000}, "width"},
+        {{.width = 65536, .height = 65536}, "height"},
+        {{.time = NAN}, "time"},
+        {{.photons = UINT64_C(1) << 40}, "photons"},
+        {{.mode = (rt_mode)99}, "mode"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_int_equal(rt_scene_set_options(scene, &cases[i].options, &error), RT_ERROR_USAGE);
+        assert_string_equal(error.field, cases[i].field);
+    }
+    rt_scene_destroy(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(materials_that_gain_energy_are_refused),
+        cmocka_unit_test(shapes_without_extent_are_refused),
+        cmocka_unit_test(infinite_planes_cannot_emit),
+        cmocka_unit_test(cameras_that_see_nothing_are_refused),
+        cmocka_unit_test(power_of_a_point_light_is_four_pi_intensity),
+        cmocka_unit_test(power_of_an_area_light_is_pi_radiance_area),
+        cmocka_unit_test(lights_are_chosen_in_proportion_to_power),
+        cmocka_unit_test(options_out_of_range_are_refused),
+    };
+    return cmocka_run_group_tests_name("lib/scene", tests, NULL, NULL);
+}

@@ -1,0 +1,196 @@
+/* The comparison itself: it must pass noise and catch errors just past what is allowed. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "compare.h"
+
+#define SIDE 128u
+#define VALUES (3u * SIDE * SIDE)
+
+static double uniform(uint64_t *state)
+{
+    *state = *state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (double)(*state >> 11) / 9007199254740992.0;
+}
+
+/* Noise of mean 0 and variance 1 with a long tail to the bright side, as that of path tracing. */
+static double noise(uint64_t *state)
+{
+    return -log(1.0 - uniform(state)) - 1.0;
+}
+
+/* A picture with a slope and an edge, times `scale`, with noise of relative deviation `deviation`. */
+static float *picture(double scale, double deviation, uint64_t seed)
+{
+    float *rgb = malloc(VALUES * sizeof *rgb);
+    assert_non_null(rgb);
+    for (uint32_t i = 0; i < VALUES; i++) {
+        uint32_t x = i / 3 % SIDE, y = i / 3 / SIDE;
+        double truth = (0.2 + 0.01 * y + (x > 37 ? 1.0 : 0.0)) * (1 + i % 3);
+        rgb[i] = (float)(scale * truth * (1.0 + deviation * noise(&seed)));
+    }
+    return rgb;
+}
+
+static compare_result compare(const float *render, float *reference, double tolerance)
+{
+    compare_image image = {SIDE, SIDE, reference};
+    compare_result result;
+    assert_true(compare_blocks(&result, &render, 1, &image, tolerance));
+    assert_int_equal(result.count, 3 * (SIDE / COMPARE_BLOCK) * (SIDE / COMPARE_BLOCK));
+    return result;
+}
+
+static void equal_images_agree(void **state)
+{
+    (void)state;
+    float *a = picture(1.0, 0.1, 1);
+    compare_result result = compare(a, a, 0.0);
+    assert_int_equal(result.failed, 0);
+    assert_true(result.rmse == 0.0 && result.ratio == 1.0 && result.excess == 0.0);
+    free(a);
+}
+
+static void the_tolerance_is_where_it_says(void **state)
+{
+    (void)state;
+    float *reference = picture(1.0, 0.0, 1), *within = picture(1.009, 0.0, 1), *beyond = picture(1.011, 0.0, 1);
+    /* Without noise but with an edge inside: the plane and the edge must not pass for noise of a percent. */
+    assert_int_equal(compare(within, reference, 0.01).failed, 0);
+    compare_result result = compare(beyond, reference, 0.01);
+    assert_true(result.failed > result.count / 2);
+    assert_true(fabs(result.ratio - 1.011) < 1e-5);
+    free(beyond);
+    free(within);
+    free(reference);
+}
+
+static void noise_alone_agrees_and_is_measured(void **state)
+{
+    (void)state;
+    float *reference = picture(1.0, 0.3, 1), *render = picture(1.0, 0.4, 2);
+    compare_result result = compare(render, reference, 0.0);
+    assert_int_equal(result.failed, 0);
+    /* Relative error of a block's difference: sqrt(0.3^2 + 0.4^2) / 16. */
+    assert_true(result.error / result.reference_mean > 0.7 * 0.5 / 16);
+    assert_true(result.error / result.reference_mean < 1.4 * 0.5 / 16);
+    free(render);
+    free(reference);
+}
+
+static void an_error_above_the_noise_is_caught(void **state)
+{
+    (void)state;
+    /* The noise of a block is 0.5 / 16 = 3.1 percent; 25 percent is eight times that. */
+    float *reference = picture(1.0, 0.3, 1), *render = picture(1.25, 0.4, 2);
+    compare_result result = compare(render, reference, 0.01);
+    assert_true(result.failed > result.count / 2);
+    free(render);
+    free(reference);
+}
+
+static void one_wrong_block_is_found(void **state)
+{
+    (void)state;
+    float *reference = picture(1.0, 0.01, 1), *render = picture(1.0, 0.01, 2);
+    for (uint32_t y = 32; y < 48; y++)
+        for (uint32_t x = 80; x < 96; x++)
+            render[3 * (y * SIDE + x) + 1] *= 1.02f;
+    compare_result result = compare(render, reference, 0.01);
+    assert_int_equal(result.failed, 1);
+    assert_int_equal(result.x, 80);
+    assert_int_equal(result.y, 32);
+    assert_int_equal(result.channel, 1);
+    assert_true(result.excess > 1.5 && result.excess < 2.5);
+    free(render);
+    free(reference);
+}
+
+static void what_is_not_finite_fails(void **state)
+{
+    (void)state;
+    static const float bad[] = {NAN, INFINITY, -INFINITY};
+    for (int i = 0; i < 3; i++) {
+        float *reference = picture(1.0, 0.01, 1), *render = picture(1.0, 0.01, 2);
+        render[3 * (20 * SIDE + 20)] = bad[i];
+        compare_result result = compare(render, reference, 0.01);
+        assert_int_equal(result.failed, 1);
+        assert_int_equal(result.x, 16);
+        assert_int_equal(result.y, 16);
+        free(render);
+        free(reference);
+    }
+}
+
+static void black_agrees_with_black_alone(void **state)
+{
+    (void)state;
+    float *black = calloc(VALUES, sizeof *black), *grey = picture(1.0, 0.0, 1);
+    assert_non_null(black);
+    assert_int_equal(compare(black, black, 0.01).failed, 0);
+    compare_result result = compare(grey, black, 0.01);
+    assert_true(result.failed > result.count / 2);
+    free(grey);
+    free(black);
+}
+
+/* Noise that all pixels of a block share, of relative deviation 2 percent. */
+static float *blotchy(double scale, uint64_t seed)
+{
+    float *rgb = picture(scale, 0.0, 1);
+    for (uint32_t row = 0; row < SIDE / COMPARE_BLOCK; row++)
+        for (uint32_t column = 0; column < SIDE / COMPARE_BLOCK; column++) {
+            double factor = 1.0 + 0.02 * noise(&seed);
+            for (uint32_t i = 0; i < COMPARE_BLOCK * COMPARE_BLOCK; i++) {
+                uint32_t x = column * COMPARE_BLOCK + i % COMPARE_BLOCK, y = row * COMPARE_BLOCK + i / COMPARE_BLOCK;
+                for (int c = 0; c < 3; c++)
+                    rgb[3 * (y * SIDE + x) + (uint32_t)c] *= (float)factor;
+            }
+        }
+    return rgb;
+}
+
+static void shared_noise_is_measured_from_several_renders(void **state)
+{
+    (void)state;
+    enum { COUNT = 8 };
+    const float *renders[COUNT], *wrong[COUNT];
+    compare_image reference = {SIDE, SIDE, picture(1.0, 0.0, 1)};
+    compare_result result;
+    for (int i = 0; i < COUNT; i++) {
+        renders[i] = blotchy(1.0, 10 + (uint64_t)i);
+        wrong[i] = blotchy(1.06, 30 + (uint64_t)i);
+    }
+    /* One render alone does not show its noise; several do, and still an error of 6 percent is seen. */
+    assert_true(compare_blocks(&result, renders, 1, &reference, 0.005));
+    assert_true(result.failed > result.count / 4);
+    assert_true(compare_blocks(&result, renders, COUNT, &reference, 0.005));
+    assert_int_equal(result.failed, 0);
+    assert_true(compare_blocks(&result, wrong, COUNT, &reference, 0.005));
+    assert_true(result.failed > result.count / 2);
+    for (int i = 0; i < COUNT; i++) {
+        free((void *)renders[i]);
+        free((void *)wrong[i]);
+    }
+    free(reference.rgb);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equal_images_agree),
+        cmocka_unit_test(the_tolerance_is_where_it_says),
+        cmocka_unit_test(noise_alone_agrees_and_is_measured),
+        cmocka_unit_test(an_error_above_the_noise_is_caught),
+        cmocka_unit_test(one_wrong_block_is_found),
+        cmocka_unit_test(what_is_not_finite_fails),
+        cmocka_unit_test(black_agrees_with_black_alone),
+        cmocka_unit_test(shared_noise_is_measured_from_several_renders),
+    };
+    return cmocka_run_group_tests_name("render/compare", tests, NULL, NULL);
+}

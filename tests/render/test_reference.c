@@ -1,0 +1,132 @@
+/*
+ * The reference scenes against the renders of an independent renderer: linear radiance agrees block by
+ * block, by the rule of compare.h, in path and in photon mode.
+ *
+ * RT_REFERENCE names the directory that holds box_point.exr, box_area.exr and box_caustic.exr, 256x256.
+ * Without it the program fails: it is run by a target of its own. The signed differences are left as
+ * .exr files in the directory that RT_REFERENCE_OUT names, if it is set.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare.h"
+#include "support.h"
+
+#define RENDERS_MAX 8
+
+/* What is rendered, and how far it may be off. */
+typedef struct reference_case {
+    const char *scene;
+    rt_mode mode;
+    uint32_t spp;
+    uint32_t renders; /* independent ones, of seeds 1, 2, ...: more than one where pixels share photons */
+    uint64_t photons;
+    uint32_t k;
+    double tolerance;
+} reference_case;
+
+static const reference_case cases[] = {
+    {"box_point", RT_MODE_PATH, 512, 1, 0, 0, 0.01},
+    {"box_area", RT_MODE_PATH, 512, 1, 0, 0, 0.01},
+    {"box_caustic", RT_MODE_PATH, 2048, 1, 0, 0, 0.02},
+    {"box_point", RT_MODE_PHOTON, 64, 4, 2000000, 100, 0.01},
+    {"box_area", RT_MODE_PHOTON, 64, 4, 2000000, 100, 0.01},
+    {"box_caustic", RT_MODE_PHOTON, 64, 4, 4000000, 100, 0.02},
+};
+
+static rt_film *render(rt_renderer *renderer, const rt_scene *scene, const reference_case *c,
+                       const compare_image *reference, uint32_t seed)
+{
+    rt_film *film = NULL;
+    rt_error error;
+    rt_render_options options;
+    rt_scene_get_options(scene, &options);
+    options.width = reference->width;
+    options.height = reference->height;
+    options.mode = c->mode;
+    options.spp = c->spp;
+    options.seed = seed;
+    options.photons = c->photons;
+    options.k = c->k;
+    /* The map's own bias at edges would show: gather after the first bounce. */
+    options.final_gather = c->mode == RT_MODE_PHOTON ? 1 : 0;
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    return film;
+}
+
+static const char *mode_name(const reference_case *c)
+{
+    return c->mode == RT_MODE_PHOTON ? "photon" : "path";
+}
+
+static void keep_difference(const reference_case *c, const float *const *renders, const compare_image *reference)
+{
+    char path[1024];
+    const char *directory = getenv("RT_REFERENCE_OUT");
+    if (!directory)
+        return;
+    snprintf(path, sizeof path, "%s/%s-%s-difference.exr", directory, c->scene, mode_name(c));
+    assert_true(compare_write_difference(path, renders, c->renders, reference));
+}
+
+static void compare_with_reference(const reference_case *c, const float *const *renders,
+                                   const compare_image *reference)
+{
+    compare_result result;
+    assert_true(compare_blocks(&result, renders, c->renders, reference, c->tolerance));
+    printf("%s %s: %zu of %zu blocks off, mean ratio %.5f, RMSE %.5f; worst at (%u, %u) channel %u: %.6f for %.6f, "
+           "standard error %.6f, %.2f of what is allowed\n",
+           c->scene, mode_name(c), result.failed, result.count, result.ratio, result.rmse, result.x, result.y,
+           result.channel, result.mean, result.reference_mean, result.error, result.excess);
+    keep_difference(c, renders, reference);
+    assert_int_equal(result.failed, 0);
+}
+
+static void agrees_with_the_reference(void **state)
+{
+    const reference_case *c = *state;
+    char path[1024];
+    compare_image reference;
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_film *films[RENDERS_MAX] = {0};
+    const float *renders[RENDERS_MAX];
+    rt_error error;
+
+    snprintf(path, sizeof path, "%s/%s.exr", getenv("RT_REFERENCE"), c->scene);
+    assert_true(compare_load(&reference, path));
+    snprintf(path, sizeof path, "scenes/%s.rts", c->scene);
+    expect_ok(rt_scene_load(&scene, path, NULL, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    for (uint32_t i = 0; i < c->renders; i++) {
+        films[i] = render(renderer, scene, c, &reference, i + 1);
+        renders[i] = rt_film_rgb(films[i]);
+    }
+    compare_with_reference(c, renders, &reference);
+
+    for (uint32_t i = 0; i < c->renders; i++)
+        rt_film_destroy(films[i]);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+    free(reference.rgb);
+}
+
+int main(void)
+{
+    enum { COUNT = sizeof cases / sizeof cases[0] };
+    struct CMUnitTest tests[COUNT];
+    char names[COUNT][64];
+    if (!getenv("RT_REFERENCE")) {
+        fprintf(stderr, "RT_REFERENCE does not name the directory of the reference renders\n");
+        return 1;
+    }
+    memset(tests, 0, sizeof tests);
+    for (int i = 0; i < COUNT; i++) {
+        snprintf(names[i], sizeof names[i], "%s_agrees_in_mode_%s", cases[i].scene, mode_name(&cases[i]));
+        tests[i].name = names[i];
+        tests[i].test_func = agrees_with_the_reference;
+        tests[i].initial_state = (void *)&cases[i];
+    }
+    return cmocka_run_group_tests_name("render/reference", tests, NULL, NULL);
+}

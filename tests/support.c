@@ -1,0 +1,58 @@
+#include "support.h"
+
+#include <stdlib.h>
+
+static rt_device *device;
+
+void expect_ok(rt_status status, const rt_error *error)
+{
+    if (status != RT_OK)
+        fail_msg("status %d: %s", (int)status, error->message);
+}
+
+static void close_device(void)
+{
+    rt_device_close(device);
+}
+
+rt_device *test_device(void)
+{
+    if (!device) {
+        rt_error error;
+        expect_ok(rt_device_open(&device, NULL, &error), &error);
+        atexit(close_device);
+    }
+    return device;
+}
+
+cl_kernel test_kernel(const char *program, const char *kernel)
+{
+    rt_error error;
+    cl_kernel made = NULL;
+    expect_ok(rt_device_kernel_from(test_device(), &made, rt_test_kernel_sources, program, kernel, NULL, &error),
+              &error);
+    return made;
+}
+
+cl_mem test_buffer(size_t bytes, const void *host)
+{
+    rt_error error;
+    cl_mem buffer = NULL;
+    expect_ok(rt_buffer_create(test_device(), &buffer, CL_MEM_READ_WRITE, bytes, (void *)host, "test data", &error),
+              &error);
+    return buffer;
+}
+
+void test_run(cl_kernel kernel, const rt_arg *args, cl_uint count, size_t items)
+{
+    rt_error error;
+    expect_ok(rt_kernel_args(kernel, args, count, &error), &error);
+    expect_ok(rt_launch(test_device(), kernel, items, &error), &error);
+    expect_ok(rt_device_finish(test_device(), &error), &error);
+}
+
+void test_read(cl_mem buffer, size_t bytes, void *host)
+{
+    rt_error error;
+    expect_ok(rt_buffer_read(test_device(), buffer, 0, bytes, host, &error), &error);
+}

@@ -1,0 +1,107 @@
+/* help.c - the help of every command, from the table of options. */
+#include <stdio.h>
+#include <string.h>
+
+#include "options.h"
+
+enum { LEFT = 26, WIDTH = 80 };
+
+static const char *const usages[COMMAND_COUNT] = {
+    [COMMAND_RENDER] =
+        "usage: rtc SCENE.rts [OPTION]...        render a scene; SCENE - reads it from stdin\n"
+        "       rtc check SCENE.rts...           say all that is wrong with scenes\n"
+        "       rtc devices                      list the OpenCL devices\n"
+        "       rtc doctor [OPTION]...           check that everything works here\n"
+        "       rtc COMMAND --help               options of one command\n"
+        "       rtc --version\n"
+        "\n"
+        "Renders a scene of the .rts language by path tracing or photon mapping.\n"
+        "An option is written --name value or --name=value; of one given twice the last\n"
+        "counts.\n",
+    [COMMAND_CHECK] = "usage: rtc check SCENE.rts...\n"
+                      "\n"
+                      "Reads scenes without rendering them and says all that is wrong, each with its\n"
+                      "place. SCENE - reads from stdin.\n",
+    [COMMAND_DEVICES] = "usage: rtc devices\n"
+                        "\n"
+                        "Lists the OpenCL devices of this machine; the number selects one by --device.\n",
+    [COMMAND_DOCTOR] = "usage: rtc doctor [OPTION]...\n"
+                       "\n"
+                       "Checks step by step that OpenCL, the kernels, both render modes and the image\n"
+                       "writers work on this machine, and says what to do about what does not.\n",
+};
+
+static const char footer[] =
+    "\n"
+    "Exit status: 0 done, 1 the scene or an input file is wrong, 2 usage, 3 device,\n"
+    "OpenCL or memory, 4 an output could not be written, 130 interrupted. On Ctrl-C\n"
+    "the samples so far are written; a second one stops at once.\n"
+    "\n"
+    "Example: rtc scenes/cornell.rts --mode photon --k 50 --kernel epanechnikov\n";
+
+/* Prints text from column LEFT on, broken between words, on lines of at most WIDTH columns. */
+static void print_wrapped(const char *text, size_t column)
+{
+    while (*text) {
+        size_t length = strcspn(text, " ");
+        if (column > LEFT && column + 1 + length > WIDTH) {
+            fputc('\n', stdout);
+            column = 0;
+        }
+        if (column < LEFT) {
+            printf("%*s", (int)(LEFT - column), "");
+            column = LEFT;
+        } else if (column > LEFT) {
+            fputc(' ', stdout);
+            column++;
+        }
+        printf("%.*s", (int)length, text);
+        column += length;
+        text += length;
+        text += strspn(text, " ");
+    }
+    fputc('\n', stdout);
+}
+
+/* The words that an option of KIND_CHOICE takes, as one text. */
+static void join_choices(char *out, size_t size, const option_choice *choices)
+{
+    out[0] = '\0';
+    for (; choices->word; choices++) {
+        size_t used = strlen(out);
+        snprintf(out + used, size - used, "%s%s", used ? ", " : "", choices->word);
+    }
+}
+
+/* The option's name and beside it "help (choice, choice; default ...)". */
+static void print_option(const option *option)
+{
+    char text[512], choices[128] = "";
+    const char *fallback = option->fallback;
+    if (option->choices)
+        join_choices(choices, sizeof choices, option->choices);
+    if (fallback)
+        snprintf(text, sizeof text, "%s (%s%sdefault %s)", option->help, choices, choices[0] ? "; " : "", fallback);
+    else
+        snprintf(text, sizeof text, "%s", option->help);
+    int column = printf("  --%s%s%s", option->name, option->value ? " " : "", option->value ? option->value : "");
+    print_wrapped(text, (size_t)column);
+}
+
+void help_print(command_id command)
+{
+    fputs(usages[command], stdout);
+    for (int group = 0; group < GROUP_COUNT; group++) {
+        int titled = 0;
+        for (int i = 0; i < OPTION_COUNT; i++) {
+            const option *option = &option_table[i];
+            if (option->group != (option_group)group || !(option->commands & (1u << command)))
+                continue;
+            if (!titled++)
+                printf("\n%s:\n", option_group_titles[group]);
+            print_option(option);
+        }
+    }
+    if (command == COMMAND_RENDER)
+        fputs(footer, stdout);
+}

@@ -1,0 +1,44 @@
+#include "interrupt.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <unistd.h>
+
+static volatile sig_atomic_t pending;
+
+static void handle(int signal_number)
+{
+    static const char text[] = "\nrtc: stopping; interrupt again to stop at once\n";
+    int saved = errno;
+    (void)signal_number;
+    pending = 1;
+    /* Either signal, coming next, ends the program. */
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) {
+        /* There is nobody to tell. */
+    }
+    errno = saved;
+}
+
+static void catch_one(int signal_number)
+{
+    struct sigaction old, action = {0};
+    if (sigaction(signal_number, NULL, &old) != 0 || old.sa_handler == SIG_IGN)
+        return;
+    action.sa_handler = handle;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(signal_number, &action, NULL);
+}
+
+void interrupt_catch(void)
+{
+    catch_one(SIGINT);
+    catch_one(SIGTERM);
+}
+
+int interrupt_pending(void)
+{
+    return pending;
+}

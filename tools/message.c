@@ -1,0 +1,182 @@
+#include "message.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "rtc.h"
+
+#define RED "\033[1;31m"
+#define YELLOW "\033[1;33m"
+#define CYAN "\033[1;36m"
+#define GREEN "\033[1;32m"
+#define BOLD "\033[1m"
+#define PLAIN "\033[0m"
+
+/* Longest part of a source line that is shown, and how much of it stands before the place. */
+enum { EXCERPT = 110, EXCERPT_BEFORE = 70 };
+
+/* The escape sequence on a terminal that wants colours (https://no-color.org), else nothing. */
+static const char *colour(const char *escape)
+{
+    const char *no_color = getenv("NO_COLOR"), *term = getenv("TERM");
+    int plain = (no_color && no_color[0]) || !term || strcmp(term, "dumb") == 0 || !isatty(STDERR_FILENO);
+    return plain ? "" : escape;
+}
+
+/* Prints text with control characters, which could drive the terminal, as '?'. */
+static void put_safe(const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++) {
+        unsigned char c = (unsigned char)text[i];
+        fputc((c < 0x20 && c != '\t') || c == 0x7f ? '?' : c, stderr);
+    }
+}
+
+static void put_message(const char *before, const char *escape, const char *label, const char *format, va_list args)
+{
+    char text[2048];
+    vsnprintf(text, sizeof text, format, args);
+    fprintf(stderr, "%s%s%s%s", before, colour(escape), label, colour(PLAIN));
+    put_safe(text, strlen(text));
+    fputc('\n', stderr);
+}
+
+void message_error(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    put_message("rtc: ", RED, "error: ", format, args);
+    va_end(args);
+}
+
+void message_warning(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    put_message("rtc: ", YELLOW, "warning: ", format, args);
+    va_end(args);
+}
+
+void message_hint(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    put_message("  ", CYAN, "hint: ", format, args);
+    va_end(args);
+}
+
+void message_note(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    put_message("", "", "", format, args);
+    va_end(args);
+}
+
+/* ---- Diagnostics --------------------------------------------------------- */
+
+static int is_continuation(char c)
+{
+    return ((unsigned char)c & 0xc0) == 0x80;
+}
+
+/* Spaces as wide as text[0] to text[length - 1]: a tab stays one, and a UTF-8 character counts once. */
+static void put_blank(const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++)
+        if (!is_continuation(text[i]))
+            fputc(text[i] == '\t' ? '\t' : ' ', stderr);
+}
+
+/* The source line, cut to a window around the place when it is long, and the place underlined. */
+static void put_excerpt(const char *line, size_t at, size_t marked)
+{
+    size_t length = strlen(line);
+    if (at > length)
+        at = length;
+    size_t first = at > EXCERPT_BEFORE && length > EXCERPT ? at - EXCERPT_BEFORE : 0;
+    while (first > 0 && is_continuation(line[first]))
+        first--;
+    size_t end = length - first > EXCERPT ? first + EXCERPT : length;
+    while (end < length && is_continuation(line[end]))
+        end++;
+    const char *lead = first > 0 ? "..." : "";
+
+    fprintf(stderr, "    %s", lead);
+    put_safe(line + first, end - first);
+    fprintf(stderr, "%s\n    %*s", end < length ? "..." : "", (int)strlen(lead), "");
+    put_blank(line + first, at - first);
+    fprintf(stderr, "%s^", colour(GREEN));
+    for (size_t i = at + 1; i < at + marked && i < end; i++)
+        if (!is_continuation(line[i]))
+            fputc('~', stderr);
+    fprintf(stderr, "%s\n", colour(PLAIN));
+}
+
+void message_diagnostic(const rt_diagnostic *diagnostic)
+{
+    const char *label = diagnostic->is_warning ? "warning: " : "error: ";
+    fputs(colour(BOLD), stderr);
+    put_safe(diagnostic->file, strlen(diagnostic->file));
+    if (diagnostic->line > 0)
+        fprintf(stderr, ":%d:%d", diagnostic->line, diagnostic->column);
+    fprintf(stderr, ": %s%s%s%s", colour(PLAIN), colour(diagnostic->is_warning ? YELLOW : RED), label, colour(PLAIN));
+    put_safe(diagnostic->message, strlen(diagnostic->message));
+    fputc('\n', stderr);
+    if (diagnostic->line > 0 && diagnostic->source_line)
+        put_excerpt(diagnostic->source_line, diagnostic->column > 0 ? (size_t)diagnostic->column - 1 : 0,
+                    diagnostic->length > 0 ? (size_t)diagnostic->length : 1);
+    if (diagnostic->hint)
+        message_hint("%s", diagnostic->hint);
+}
+
+/* ---- Failures of the library --------------------------------------------- */
+
+int message_status(rt_status status)
+{
+    switch (status) {
+    case RT_OK:
+        return STATUS_DONE;
+    case RT_ERROR_INPUT:
+        return STATUS_INPUT;
+    case RT_ERROR_USAGE:
+        return STATUS_USAGE;
+    case RT_ERROR_OUTPUT:
+        return STATUS_OUTPUT;
+    case RT_CANCELLED:
+        return STATUS_INTERRUPTED;
+    case RT_ERROR_DEVICE:
+    case RT_ERROR_MEMORY:
+        break;
+    }
+    return STATUS_DEVICE;
+}
+
+int message_failure(const rt_error *error)
+{
+    char place[sizeof error->file + 32] = "";
+    if (error->file[0] && error->line)
+        snprintf(place, sizeof place, "%s:%d:%d: ", error->file, error->line, error->column);
+    else if (error->file[0] && !strstr(error->message, error->file))
+        snprintf(place, sizeof place, "%s: ", error->file);
+    message_error("%s%s", place, error->message);
+    if (error->status == RT_ERROR_DEVICE && strcmp(error->field, "device") == 0)
+        message_hint("`rtc devices` lists them");
+    else if (error->status == RT_ERROR_DEVICE)
+        message_hint("`rtc doctor` checks OpenCL step by step and says what to install");
+    return message_status(error->status);
+}
+
+int message_finish_stdout(void)
+{
+    errno = 0;
+    int failed = fflush(stdout) != 0 || ferror(stdout);
+    /* A reader that has gone, as in `rtc --help | head`, chose to. */
+    if (!failed || errno == EPIPE)
+        return STATUS_DONE;
+    message_error("cannot write to stdout%s%s", errno ? ": " : "", errno ? strerror(errno) : "");
+    return STATUS_OUTPUT;
+}

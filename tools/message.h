@@ -1,0 +1,33 @@
+/* message.h - what rtc says to a person, on stderr. */
+#ifndef RTC_MESSAGE_H
+#define RTC_MESSAGE_H
+
+#include <stdio.h>
+
+#include "rt.h"
+
+#if defined(__GNUC__)
+#define PRINTF_LIKE(text, first) __attribute__((format(printf, text, first)))
+#else
+#define PRINTF_LIKE(text, first)
+#endif
+
+/* "rtc: error: ...", "rtc: warning: ...", "  hint: ..." and, without a prefix, a note; each one line. */
+void message_error(const char *format, ...) PRINTF_LIKE(1, 2);
+void message_warning(const char *format, ...) PRINTF_LIKE(1, 2);
+void message_hint(const char *format, ...) PRINTF_LIKE(1, 2);
+void message_note(const char *format, ...) PRINTF_LIKE(1, 2);
+
+/* An error or a warning of a scene: place, message, source line, caret and hint. */
+void message_diagnostic(const rt_diagnostic *diagnostic);
+
+/* The exit status that stands for a status of the library. */
+int message_status(rt_status status);
+
+/* Prints what the library failed with; returns the exit status that stands for it. */
+int message_failure(const rt_error *error);
+
+/* Ends output on stdout: returns STATUS_DONE, or STATUS_OUTPUT after saying that it could not be written. */
+int message_finish_stdout(void);
+
+#endif

@@ -1,0 +1,102 @@
+/* option_table.c - every option of rtc. */
+#include "options.h"
+
+#include <float.h>
+
+#include "rt.h"
+
+#define RENDER (1u << COMMAND_RENDER)
+#define DOCTOR (1u << COMMAND_DOCTOR)
+#define ALL ((1u << COMMAND_COUNT) - 1u)
+
+static const option_choice modes[] = {{"path", RT_MODE_PATH}, {"photon", RT_MODE_PHOTON}, {NULL, 0}};
+static const option_choice samplers[] = {{"sobol", RT_SAMPLER_SOBOL}, {"independent", RT_SAMPLER_INDEPENDENT}, {NULL, 0}};
+static const option_choice accels[] = {{"bvh", RT_ACCEL_BVH}, {"none", RT_ACCEL_NONE}, {NULL, 0}};
+static const option_choice directs[] = {{"nee", RT_DIRECT_NEE}, {"photons", RT_DIRECT_PHOTONS}, {NULL, 0}};
+static const option_choice kernels[] = {
+    {"box", RT_DENSITY_BOX},
+    {"cone", RT_DENSITY_CONE},
+    {"gaussian", RT_DENSITY_GAUSSIAN},
+    {"epanechnikov", RT_DENSITY_EPANECHNIKOV},
+    {"silverman", RT_DENSITY_SILVERMAN},
+    {"gaussian-jensen", RT_DENSITY_GAUSSIAN_JENSEN},
+    {NULL, 0},
+};
+static const option_choice tonemaps[] = {
+    {"none", RT_TONEMAP_NONE}, {"reinhard", RT_TONEMAP_REINHARD}, {"aces", RT_TONEMAP_ACES}, {NULL, 0}};
+static const option_choice progress_styles[] = {
+    {"auto", PROGRESS_AUTO}, {"plain", PROGRESS_PLAIN}, {"json", PROGRESS_JSON}, {"none", PROGRESS_NONE}, {NULL, 0}};
+
+const char *const option_group_titles[GROUP_COUNT] = {
+    [GROUP_RENDER] = "What to render (each overrides the scene's own setting)",
+    [GROUP_PHOTON] = "Photon mode (each overrides the scene's own setting)",
+    [GROUP_OUTPUT] = "Output",
+    [GROUP_DEVICE] = "Device",
+    [GROUP_TALK] = "What it says",
+};
+
+const option option_table[OPTION_COUNT] = {
+    [OPTION_MODE] = {"mode", "MODE", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, modes, 1,
+                     "path", "path tracing or photon mapping"},
+    [OPTION_SPP] = {"spp", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1,
+                     "64 in path mode, 16 in photon mode", "samples a pixel"},
+    [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1,
+                     "16", "longest path in segments, from the eye or from a light"},
+    [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1,
+                     "0, no limit", "stop after so many seconds of rendering"},
+    [OPTION_SEED] = {"seed", "S", KIND_WHOLE, GROUP_RENDER, RENDER, 0, UINT32_MAX, NULL, 1,
+                     "0", "the same seed gives the same image, bit for bit"},
+    [OPTION_SAMPLER] = {"sampler", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, samplers, 1,
+                     "sobol", "Owen-scrambled Sobol or independent samples"},
+    [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, accels, 1,
+                     "bvh", "a bounding volume hierarchy, or none: every primitive is tested"},
+    [OPTION_WIDTH] = {"width", "W", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1,
+                     "512", "width in pixels"},
+    [OPTION_HEIGHT] = {"height", "H", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1,
+                     "512", "height in pixels"},
+
+    [OPTION_PHOTONS] = {"photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, NULL, 1,
+                     "1e6", "photon paths emitted"},
+    [OPTION_K] = {"k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, NULL, 1,
+                     "50", "nearest photons; the k-th gives the radius and is not summed"},
+    [OPTION_RADIUS] = {"radius", "R", KIND_REAL, GROUP_PHOTON, RENDER, 0, FLT_MAX, NULL, 1,
+                     "0, no limit", "largest gather radius in metres"},
+    [OPTION_KERNEL] = {"kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1,
+                     "epanechnikov",
+                     "density kernel; gaussian-jensen, for comparison only, keeps the often printed constant "
+                     "that loses 47 % of the light"},
+    [OPTION_CONE_K] = {"cone-k", "C", KIND_REAL, GROUP_PHOTON, RENDER, 1, FLT_MAX, NULL, 1,
+                     "1.1", "constant of the cone kernel, at least 1"},
+    [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, directs, 1,
+                     "nee", "direct light by shadow rays (nee) or from the photon map"},
+    [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, UINT32_MAX, NULL, 1,
+                     "0", "gather after N diffuse bounces instead of at the first hit"},
+
+    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0,
+                     "NAME.png and NAME.exr in the current directory for NAME.rts",
+                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB); may be repeated"},
+    [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER, -126, 126, NULL, 1,
+                     "0", "brighten .png and .ppm by 2^EV"},
+    [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER, 0, 0, tonemaps, 1,
+                     "none", "tone curve of .png and .ppm"},
+
+    [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | DOCTOR, 0, 0, NULL, 0,
+                     "0", "a number of `rtc devices`, or part of a device's or platform's name"},
+    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | DOCTOR, 1, UINT32_MAX, NULL, 0,
+                     "all", "host threads, and compute units used of a CPU device"},
+    [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | DOCTOR, 1, UINT32_MAX, NULL, 0,
+                     "chosen for the device", "work-items a work-group"},
+
+    [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER, 0, 0, progress_styles, 0,
+                     "auto", "progress on stderr; auto is one redrawn line on a terminal and plain lines elsewhere"},
+    [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,
+                     "print what the render did and how long it took on stdout"},
+    [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | DOCTOR, 0, 0, NULL, 0, NULL,
+                     "say on stderr what is going on inside"},
+    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,
+                     "say nothing but errors; progress only where --progress asks for it"},
+    [OPTION_HELP] = {"help", NULL, KIND_FLAG, GROUP_TALK, ALL, 0, 0, NULL, 0, NULL,
+                     "print this and stop"},
+    [OPTION_VERSION] = {"version", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,
+                     "print the version and stop"},
+};

@@ -1,0 +1,163 @@
+#include "outputs.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "message.h"
+#include "nearest.h"
+#include "rtc.h"
+
+static const struct {
+    const char *name;
+    int is_8bit;
+} formats[] = {{".exr", 0}, {".png", 1}, {".ppm", 1}, {".pfm", 0}};
+
+enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
+
+static const char *file_part(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* The extension with its dot, or "". */
+static const char *extension(const char *path)
+{
+    const char *dot = strrchr(file_part(path), '.');
+    return dot ? dot : "";
+}
+
+/* The index in formats, or -1. */
+static int find_format(const char *path)
+{
+    for (int i = 0; i < FORMAT_COUNT; i++)
+        if (strcasecmp(extension(path), formats[i].name) == 0)
+            return i;
+    return -1;
+}
+
+static int check_format(const char *path)
+{
+    if (find_format(path) >= 0)
+        return STATUS_DONE;
+    message_error("--out %s: the extension tells the format: .exr, .png, .ppm or .pfm", path);
+    nearest search = nearest_begin(extension(path));
+    for (int i = 0; i < FORMAT_COUNT; i++)
+        nearest_offer(&search, formats[i].name);
+    if (search.best)
+        message_hint("did you mean %s?", search.best);
+    return STATUS_USAGE;
+}
+
+static int fail_output(const char *path, const char *cause)
+{
+    message_error("cannot write %s: %s", path, cause);
+    return STATUS_OUTPUT;
+}
+
+/* Whether a new file can be made beside path: the image is written there first, then renamed. */
+static int check_directory(const char *path)
+{
+    char name[OUTPUT_PATH + 16];
+    snprintf(name, sizeof name, "%.*s.rtc-XXXXXX", (int)(file_part(path) - path), path);
+    int fd = mkstemp(name);
+    if (fd < 0)
+        return fail_output(path, errno == ENOENT ? "there is no such directory" : strerror(errno));
+    close(fd);
+    unlink(name);
+    return STATUS_DONE;
+}
+
+static int check_writable(const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        return errno == ENOENT ? check_directory(path) : fail_output(path, strerror(errno));
+    if (S_ISDIR(status.st_mode))
+        return fail_output(path, strerror(EISDIR));
+    if (access(path, W_OK) != 0)
+        return fail_output(path, strerror(errno));
+    return S_ISREG(status.st_mode) ? check_directory(path) : STATUS_DONE;
+}
+
+/* ---- The plan ------------------------------------------------------------- */
+
+static int add(output_list *out, const char *path, size_t stem, const char *suffix)
+{
+    if (stem + strlen(suffix) >= OUTPUT_PATH)
+        return fail_output(path, strerror(ENAMETOOLONG));
+    snprintf(out->paths[out->count++], OUTPUT_PATH, "%.*s%s", (int)stem, path, suffix);
+    return STATUS_DONE;
+}
+
+static int add_defaults(output_list *out, const char *scene)
+{
+    const char *name = strcmp(scene, "-") == 0 ? "stdin" : file_part(scene);
+    size_t stem = strlen(name);
+    if (strcmp(extension(name), ".rts") == 0 && stem > 4)
+        stem -= 4;
+    int status = add(out, name, stem, ".png");
+    return status == STATUS_DONE ? add(out, name, stem, ".exr") : status;
+}
+
+static int add_given(output_list *out, const command_line *arguments)
+{
+    for (size_t i = 0; i < arguments->output_count; i++) {
+        const char *path = arguments->outputs[i];
+        for (size_t j = 0; j < i; j++)
+            if (strcmp(path, arguments->outputs[j]) == 0) {
+                message_error("--out %s is given twice", path);
+                return STATUS_USAGE;
+            }
+        int status = check_format(path);
+        if (status == STATUS_DONE)
+            status = add(out, path, strlen(path), "");
+        if (status != STATUS_DONE)
+            return status;
+    }
+    return STATUS_DONE;
+}
+
+int outputs_plan(output_list *out, const command_line *arguments, const char *scene)
+{
+    out->count = 0;
+    out->paths = malloc((arguments->output_count + 2) * sizeof *out->paths);
+    if (!out->paths) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    int status = arguments->output_count ? add_given(out, arguments) : add_defaults(out, scene);
+    for (size_t i = 0; i < out->count && status == STATUS_DONE; i++)
+        status = check_writable(out->paths[i]);
+    return status;
+}
+
+void outputs_free(output_list *outputs)
+{
+    free(outputs->paths);
+}
+
+int outputs_have_8bit(const output_list *outputs)
+{
+    for (size_t i = 0; i < outputs->count; i++)
+        if (formats[find_format(outputs->paths[i])].is_8bit)
+            return 1;
+    return 0;
+}
+
+int outputs_write(const output_list *outputs, const rt_film *film, const rt_image_options *options)
+{
+    int status = STATUS_DONE;
+    for (size_t i = 0; i < outputs->count; i++) {
+        rt_error error;
+        if (rt_film_write(film, outputs->paths[i], options, &error) == RT_OK)
+            continue;
+        int now = message_failure(&error);
+        status = status == STATUS_DONE ? now : status;
+    }
+    return status;
+}

@@ -1,0 +1,42 @@
+/* rtc.c - the command: reads its line and hands over to a subcommand. */
+#include "rtc.h"
+
+#include <signal.h>
+#include <stdio.h>
+
+#include "message.h"
+#include "rt.h"
+
+static int (*const commands[COMMAND_COUNT])(const command_line *) = {
+    [COMMAND_RENDER] = command_render,
+    [COMMAND_CHECK] = command_check,
+    [COMMAND_DEVICES] = command_devices,
+    [COMMAND_DOCTOR] = command_doctor,
+};
+
+static int run(const command_line *arguments)
+{
+    if (arguments->options[OPTION_HELP].given) {
+        help_print(arguments->command);
+        return STATUS_DONE;
+    }
+    if (arguments->options[OPTION_VERSION].given) {
+        printf("rtc %s\n", rt_version());
+        return STATUS_DONE;
+    }
+    return commands[arguments->command](arguments);
+}
+
+int main(int argc, char **argv)
+{
+    /* A closed pipe is an error of the write, not the end of a render. */
+    signal(SIGPIPE, SIG_IGN);
+
+    command_line arguments;
+    int status = arguments_parse(&arguments, argc, argv);
+    if (status == STATUS_DONE)
+        status = run(&arguments);
+    arguments_free(&arguments);
+    int written = message_finish_stdout();
+    return status == STATUS_DONE ? written : status;
+}

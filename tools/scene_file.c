@@ -1,0 +1,87 @@
+#include "scene_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "message.h"
+#include "rtc.h"
+
+/* Longest scene that is read from stdin. */
+#define STDIN_LIMIT ((size_t)64 << 20)
+#define STDIN_CHUNK ((size_t)1 << 16)
+
+typedef struct scene_reading {
+    scene_findings findings;
+    int hush_warnings;
+} scene_reading;
+
+static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
+{
+    scene_reading *reading = user;
+    if (diagnostic->is_warning)
+        reading->findings.warnings++;
+    else
+        reading->findings.errors++;
+    if (!diagnostic->is_warning || !reading->hush_warnings)
+        message_diagnostic(diagnostic);
+}
+
+/* All of stdin as a string that the caller frees, or NULL after saying why not. */
+static char *read_stdin(int *status)
+{
+    char *text = NULL;
+    size_t used = 0, got = 0;
+    do {
+        char *grown = used < STDIN_LIMIT ? realloc(text, used + STDIN_CHUNK + 1) : NULL;
+        if (!grown) {
+            message_error("stdin: %s", used < STDIN_LIMIT ? "out of memory" : "a scene of more than 64 MiB");
+            *status = used < STDIN_LIMIT ? STATUS_DEVICE : STATUS_INPUT;
+            free(text);
+            return NULL;
+        }
+        text = grown;
+        got = fread(text + used, 1, STDIN_CHUNK, stdin);
+        used += got;
+    } while (got == STDIN_CHUNK);
+    text[used] = '\0';
+    if (!ferror(stdin) && strlen(text) == used)
+        return text;
+    message_error("stdin: %s", ferror(stdin) ? strerror(errno) : "not a text: it holds a zero byte");
+    *status = STATUS_INPUT;
+    free(text);
+    return NULL;
+}
+
+static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status *result, rt_error *error)
+{
+    int status = STATUS_DONE;
+    char *text = read_stdin(&status);
+    if (!text)
+        return status;
+    *result = rt_scene_parse(out, text, "stdin", options, error);
+    free(text);
+    return STATUS_DONE;
+}
+
+int scene_file_load(rt_scene **out, const char *path, int hush_warnings, scene_findings *findings)
+{
+    scene_reading reading = {{0, 0}, hush_warnings};
+    rt_load_options options = {on_diagnostic, &reading};
+    rt_error error;
+    rt_status result = RT_OK;
+    int status = STATUS_DONE;
+    if (strcmp(path, "-") == 0)
+        status = parse_stdin(out, &options, &result, &error);
+    else
+        result = rt_scene_load(out, path, &options, &error);
+    if (findings)
+        *findings = reading.findings;
+    if (status != STATUS_DONE || result == RT_OK)
+        return status;
+    /* What has a place was told by diagnostics. */
+    if (reading.findings.errors == 0)
+        return message_failure(&error);
+    message_note("%s: %u error%s", path, reading.findings.errors, reading.findings.errors == 1 ? "" : "s");
+    return STATUS_INPUT;
+}

@@ -1,0 +1,61 @@
+#include "stats.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+static void print_count(const char *name, uint64_t count)
+{
+    printf("%s: %" PRIu64 "\n", name, count);
+}
+
+static void print_seconds(const char *name, double seconds)
+{
+    printf("%s: %.3f s\n", name, seconds);
+}
+
+static void print_scene(const rt_scene *scene)
+{
+    rt_scene_info info;
+    rt_scene_get_info(scene, &info);
+    print_count("shapes", info.shapes);
+    print_count("primitives", info.primitives);
+    print_count("triangles", info.triangles);
+    print_count("materials", info.materials);
+    print_count("lights", info.lights);
+}
+
+static void print_photons(const rt_film_stats *stats)
+{
+    print_count("photon paths emitted", stats->photons_emitted);
+    print_count("photons stored", stats->photons_stored);
+    print_count("gathers", stats->gathers);
+    print_seconds("emit time", stats->emit_seconds);
+    print_seconds("gather time", stats->gather_seconds);
+}
+
+void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options, const rt_film *film)
+{
+    rt_device_info info;
+    rt_film_stats stats;
+    uint32_t width, height;
+    rt_device_get_info(device, &info);
+    rt_film_get_stats(film, &stats);
+    rt_film_get_size(film, &width, &height);
+
+    printf("device: %s, %s\n", info.name, info.platform);
+    print_scene(scene);
+    printf("light power: %.6g W\n", stats.light_power);
+    printf("mode: %s\n", options->mode == RT_MODE_PHOTON ? "photon" : "path");
+    printf("size: %u x %u pixels\n", (unsigned)width, (unsigned)height);
+    print_count("samples a pixel", stats.spp);
+    print_count("samples rejected", stats.rejected);
+    print_seconds("build time", stats.build_seconds);
+    print_seconds("compile time", stats.compile_seconds);
+    if (options->mode == RT_MODE_PHOTON) {
+        print_photons(&stats);
+        return;
+    }
+    print_seconds("render time", stats.render_seconds);
+    if (stats.render_seconds > 0.0)
+        printf("speed: %.3f Msamples/s\n", 1e-6 * stats.spp * width * height / stats.render_seconds);
+}

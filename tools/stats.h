@@ -1,0 +1,10 @@
+/* stats.h - what a render did, for --stats. */
+#ifndef RTC_STATS_H
+#define RTC_STATS_H
+
+#include "rt.h"
+
+/* Prints it on stdout, one `name: value unit` a line. */
+void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options, const rt_film *film);
+
+#endif
