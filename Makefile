@@ -16,7 +16,7 @@ PKG_CFLAGS  = $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isyst
 PKG_LIBS    = $(shell pkg-config --libs OpenCL libpng 2>/dev/null) -lOpenEXRCore -lflann
 
 WARNINGS := -Wall -Wextra -pedantic
-WERROR   ?=
+WERROR   ?= $(if $(CI),-Werror)
 ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread -D_POSIX_C_SOURCE=200809L \
              -Ilib -Ikernels -I. -Itests $(PKG_CFLAGS) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -lm -pthread
@@ -54,14 +54,24 @@ KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
 
 # Quick tests, the slower ones of `check`, and shell tests. tests/X/test_y.c makes build/tests/X/test_y.
 TESTS_QUICK := \
+	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c tests/dsl/test_number.c \
+	tests/dsl/test_reference.c tests/dsl/test_robustness.c tests/dsl/test_suggest.c \
 	tests/lib/image/test_display.c tests/lib/image/test_exr.c tests/lib/image/test_file.c tests/lib/image/test_image.c \
 	tests/lib/image/test_image_file.c tests/lib/image/test_netpbm.c tests/lib/image/test_png.c \
-	tests/lib/scene/test_scene.c tests/kernels/test_types.c tests/render/test_compare.c
-TESTS_FULL  :=
-TESTS_SHELL :=
-TEST_SUPPORT_SRC := tests/support.c \
-	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c
-TEST_KERNEL_SRC  := tests/kernels/types.cl
+	tests/lib/scene/test_scene.c tests/kernels/test_types.c tests/render/test_compare.c \
+	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
+	tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
+TESTS_FULL  := \
+	tests/tools/test_usage.c \
+	tests/tools/test_scenes.c \
+	tests/tools/test_rtc.c tests/tools/test_determinism.c \
+	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c
+TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh
+TEST_SUPPORT_SRC := tests/support.c tests/dsl/collect.c \
+	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
+	tests/tools/expect.c tests/tools/spawn.c \
+	tests/lib/photon/points.c
+TEST_KERNEL_SRC  := tests/kernels/density.cl tests/kernels/types.cl
 
 # ---- Build ------------------------------------------------------------------
 
@@ -69,7 +79,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(B)/kernels.o
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all demo deps need-deps check check-quick run-quick run-all bench install uninstall clean help
+.PHONY: all demo deps need-deps check check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -105,7 +115,7 @@ TEST_LIBS     = $(shell pkg-config --libs cmocka 2>/dev/null)
 TEST_SUPPORT := $(patsubst %.c,$(B)/%.o,$(TEST_SUPPORT_SRC)) $(if $(TEST_KERNEL_SRC),$(B)/test_kernels.o)
 TEST_BIN      = $(patsubst tests/%.c,$(B)/tests/%,$(1))
 
-$(B)/test_kernels.c: $(B)/embed $(KERNEL_DEPS) $(TEST_KERNEL_SRC)
+$(B)/test_kernels.c: $(B)/embed $(KERNEL_DEPS) $(TEST_KERNEL_SRC) $(wildcard tests/kernels/*.h)
 	$(B)/embed $@ rt_test_kernel_sources -I kernels $(TEST_KERNEL_SRC)
 
 $(B)/test_kernels.o: $(B)/test_kernels.c
@@ -125,6 +135,15 @@ run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
 
 run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 	tests/run.sh $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL)) $(TESTS_SHELL)
+
+# The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see tests/render/test_reference.c.
+check-reference: all $(B)/tests/render/test_reference
+	RT_TEST_TIMEOUT=3600 tests/run.sh $(B)/tests/render/test_reference
+
+# Everything again with the address and undefined-behaviour sanitizers.
+SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+check-sanitize: deps
+	+$(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
 # ---- Dependencies and demonstration -------------------------------------------
 

@@ -186,7 +186,7 @@ static void join_group(char out[RT_PHRASE_SIZE], const rt_block *block, rt_field
 static int check_group(const rt_checker *checker, const rt_statement *statement, rt_field_need need)
 {
     const rt_block *block = statement->block;
-    const rt_setting *second = NULL;
+    const rt_setting *last = NULL;
     int size = 0, given = 0;
     char group[RT_PHRASE_SIZE], title[RT_BLOCK_TITLE_SIZE];
     for (size_t i = 0; i < block->field_count; i++) {
@@ -195,8 +195,8 @@ static int check_group(const rt_checker *checker, const rt_statement *statement,
         const rt_setting *setting = rt_statement_setting(statement, &block->fields[i]);
         size++;
         given += setting != NULL;
-        if (setting && given > 1 && (!second || setting->name.order > second->name.order))
-            second = setting;
+        if (setting && (!last || setting->name.order > last->name.order))
+            last = setting;
     }
     rt_block_title(title, block);
     if (need == RT_NEED_ALL_OR_NONE) {
@@ -208,7 +208,7 @@ static int check_group(const rt_checker *checker, const rt_statement *statement,
     }
     join_group(group, block, need, " or ");
     if (given > 1) {
-        rt_report_error(checker->reports, second->name, "%s takes %s, not both", title, group);
+        rt_report_error(checker->reports, last->name, "%s takes %s, not both", title, group);
         return 0;
     }
     if (size > 0 && given == 0 && need == RT_NEED_ONE_OF && !statement->is_incomplete) {

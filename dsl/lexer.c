@@ -173,11 +173,13 @@ static void read_number(rt_lexer *lexer, rt_token *token)
 static void read_string(rt_lexer *lexer, rt_token *token)
 {
     size_t start = lexer->at++, errors = lexer->reports->errors;
+    uint64_t order = ++*lexer->order; /* before that of bad bytes inside */
     skip_free_text(lexer, '"');
     int closed = byte_at(lexer, lexer->at) == '"' && lexer->at < lexer->source->size;
     lexer->at += (size_t)closed;
     token->kind = RT_TOKEN_STRING;
     token->place = place_of(lexer, start);
+    token->place.order = order;
     token->is_broken = !closed || lexer->reports->errors != errors;
     if (!closed) {
         rt_place quote = token->place;

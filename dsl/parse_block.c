@@ -187,6 +187,8 @@ static void parse_block_name(rt_parser *parser, rt_statement *statement)
                         rt_parser_found(found, token));
         rt_report_hint(parser->reports, "as in: %s white { ... }", title);
         statement->is_broken = 1;
+        if (token->kind != '{' && rt_parser_peek(parser, 1)->kind == '{')
+            rt_parser_take(parser);
     } else if (token->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 1)->kind == '{') {
         rt_report_error(parser->reports, token->place, "%s takes no name, found %s", title,
                         rt_parser_found(found, token));

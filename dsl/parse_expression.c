@@ -122,7 +122,8 @@ static int parse_primary(rt_parser *parser, int *is_vector)
 {
     char found[RT_FOUND_SIZE];
     const rt_token *token = rt_parser_peek(parser, 0);
-    switch (token->kind) {
+    int is_next_statement = token->first_on_line && rt_parser_statement_follows(parser);
+    switch (is_next_statement ? RT_TOKEN_END : token->kind) {
     case RT_TOKEN_NUMBER:
         return parse_number(parser, is_vector);
     case RT_TOKEN_WORD:

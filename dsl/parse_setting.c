@@ -98,6 +98,8 @@ static void report_count(rt_parser *parser, const rt_context *context)
     const rt_setting *setting = context->setting;
     const rt_token *token = rt_parser_peek(parser, 0);
     char found[RT_FOUND_SIZE];
+    if (token->kind == RT_TOKEN_END)
+        return; /* the block is reported as not closed */
     if (setting->value_count > 0) {
         rt_place place = rt_place_join(setting->name, setting->values[setting->value_count - 1].place);
         rt_report_error(parser->reports, place, "'%s' takes %s, found %s", setting->field->name, context->phrase,
@@ -106,8 +108,10 @@ static void report_count(rt_parser *parser, const rt_context *context)
     }
     rt_report_error(parser->reports, setting->name, "'%s' takes %s, found %s", setting->field->name, context->phrase,
                     rt_parser_found(found, token));
-    if (is_constant(parser, token))
+    if (is_constant(parser, token)) {
         rt_report_hint(parser->reports, "write the constant in parentheses to tell it from the field");
+        rt_parser_take(parser);
+    }
 }
 
 /* Checks the number and the kinds of the values of a setting without errors so far. */
@@ -206,8 +210,8 @@ static void parse_word(rt_parser *parser, rt_context *context)
         return;
     }
     /* The mistake is where the value is missing, or the wrong value itself. */
-    int is_missing = token->kind == RT_TOKEN_WORD || token->kind == '}' || token->kind == RT_TOKEN_END;
-    if (!setting->is_broken)
+    int is_missing = token->kind == RT_TOKEN_WORD || token->kind == '}';
+    if (!setting->is_broken && token->kind != RT_TOKEN_END) /* else the block is reported as not closed */
         rt_report_error(parser->reports, is_missing ? setting->name : token->place, "'%s' takes %s, found %s",
                         setting->field->name, context->phrase, rt_parser_found(found, token));
     setting->is_broken = 1;

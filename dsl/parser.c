@@ -130,8 +130,9 @@ void rt_parser_skip_braces(rt_parser *parser)
 {
     size_t depth = 0;
     do {
-        int kind = rt_parser_peek(parser, 0)->kind;
-        if (kind == RT_TOKEN_END || (depth == 1 && rt_parser_peek(parser, 0)->first_on_line && rt_parser_statement_follows(parser)))
+        const rt_token *token = rt_parser_peek(parser, 0);
+        int kind = token->kind;
+        if (kind == RT_TOKEN_END || (depth == 1 && token->first_on_line && rt_parser_statement_follows(parser)))
             return;
         depth += kind == '{';
         depth -= kind == '}';
@@ -174,8 +175,8 @@ static int parse_let(rt_parser *parser, rt_statement *statement)
 
     token = rt_parser_peek(parser, 0);
     if (token->kind != '=') {
-        rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '=' after 'let %s', found %s", quote,
-                        rt_parser_found(found, token));
+        rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '=' after 'let %s', found %s",
+                        quote, rt_parser_found(found, token));
         statement->is_broken = 1;
         parser->depth = 0;
         rt_parser_skip_value(parser, NULL);
@@ -188,7 +189,10 @@ static int parse_let(rt_parser *parser, rt_statement *statement)
     if (parsed && token->kind != RT_TOKEN_END && !token->first_on_line) {
         rt_report_error(parser->reports, token->place, "unexpected %s after the value of '%s'",
                         rt_parser_found(found, token), quote);
-        rt_report_hint(parser->reports, "a vector stands in brackets: [0.65 0.05 0.05]; one statement a line");
+        if (token->kind == RT_TOKEN_NUMBER)
+            rt_report_hint(parser->reports, "a vector stands in brackets: [0.65 0.05 0.05]");
+        else
+            rt_report_hint(parser->reports, "the next statement begins on a new line");
         statement->is_broken = 1;
         parsed = 0;
     }
@@ -263,7 +267,7 @@ int rt_parser_next(rt_parser *parser, rt_statement *statement)
     while (!rt_reports_full(parser->reports)) {
         parser->operations->count = 0;
         parser->depth = 0;
-        memset(statement, 0, sizeof *statement);
+        memset(statement, 0, offsetof(rt_statement, settings));
 
         const rt_token *token = rt_parser_peek(parser, 0);
         int understood = 0;

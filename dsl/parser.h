@@ -31,10 +31,10 @@ typedef struct rt_statement {
     rt_expression value; /* of a constant */
     rt_place path;       /* of an include, without the quotes */
     const rt_block *block;
-    rt_setting settings[RT_BLOCK_FIELDS_MAX];
+    int is_broken;     /* has an error already reported: not to be built */
+    int is_incomplete; /* fields may be missing because of an error already reported */
     int setting_count;
-    int is_broken;      /* has an error already reported: not to be built */
-    int is_incomplete;  /* fields may be missing because of an error already reported */
+    rt_setting settings[RT_BLOCK_FIELDS_MAX]; /* last: only the first setting_count are ever written */
 } rt_statement;
 
 /* The setting of a field in a block, or NULL. */

@@ -28,6 +28,8 @@ static int must_stop(const rt_reader *reader)
     return rt_reports_full(&reader->reports) || reader->fatal.status != RT_OK;
 }
 
+#define UNUSED_MAX 100 /* names of one table that are warned of */
+
 /* ---- Names --------------------------------------------------------------- */
 
 /* Adds a name to a table; NULL when it is there already, which is reported, or without memory. */
@@ -64,11 +66,14 @@ static void read_let(rt_reader *reader, const rt_statement *statement, const rt_
 static void warn_of_unused(rt_reader *reader, const rt_names *names, const char *what)
 {
     char quote[RT_QUOTE_SIZE];
-    for (size_t i = 0; i < names->count && !must_stop(reader); i++) {
+    int warned = 0;
+    for (size_t i = 0; i < names->count && warned < UNUSED_MAX; i++) {
         const rt_name *name = &names->items[i];
-        if (!name->is_used && !name->place.source->includer)
-            rt_report_warning(&reader->reports, name->place, "%s '%s' is never used", what,
-                              rt_text_quote(quote, name->text));
+        if (name->is_used || name->place.source->includer)
+            continue;
+        rt_report_warning(&reader->reports, name->place, "%s '%s' is never used", what,
+                          rt_text_quote(quote, name->text));
+        warned++;
     }
 }
 

@@ -75,6 +75,8 @@ static int compare_reports(const void *a, const void *b)
     const rt_place *x = &((const rt_report *)a)->place, *y = &((const rt_report *)b)->place;
     if (x->order != y->order)
         return x->order < y->order ? -1 : 1;
+    if (x->offset != y->offset)
+        return x->offset < y->offset ? -1 : 1;
     size_t i = ((const rt_report *)a)->sequence, j = ((const rt_report *)b)->sequence;
     return (i > j) - (i < j);
 }

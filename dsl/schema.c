@@ -65,17 +65,20 @@ static const rt_field render_fields[] = {
     {"mode", CHOICE, OPTIONAL, ANY, "", "path", modes, AT(rt_render_options, mode)},
     {"spp", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "64, in mode photon 16", NULL,
      AT(rt_render_options, spp)},
-    {"max_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "16", NULL, AT(rt_render_options, max_depth)},
+    {"max_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "16", NULL,
+     AT(rt_render_options, max_depth)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
     {"time", NUMBER, OPTIONAL, POSITIVE, "s", "no limit", NULL, AT(rt_render_options, time)},
-    {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000", NULL, AT(rt_render_options, photons)},
+    {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000", NULL,
+     AT(rt_render_options, photons)},
     {"k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
     {"radius", NUMBER, OPTIONAL, POSITIVE, "m", "no limit", NULL, AT(rt_render_options, radius)},
     {"kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, kernel)},
     {"cone_k", NUMBER, OPTIONAL, FROM_TO(1, 1e6), "", "1.1", NULL, AT(rt_render_options, cone_k)},
     {"direct", CHOICE, OPTIONAL, ANY, "", "nee", directs, AT(rt_render_options, direct)},
-    {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL, AT(rt_render_options, final_gather)},
+    {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL,
+     AT(rt_render_options, final_gather)},
 };
 
 static const rt_field material_fields[] = {
@@ -91,8 +94,10 @@ static const rt_field material_fields[] = {
 
 static const rt_field point_light_fields[] = {
     {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_point_light, position)},
-    {"intensity", COLOUR, ONE_OF, NOT_NEGATIVE, "W/sr", "this or power is required", NULL, AT(rt_point_light, intensity)},
-    {"power", COLOUR, ONE_OF, NOT_NEGATIVE, "W", "this or intensity is required", NULL, AT(rt_point_light, power)},
+    {"intensity", COLOUR, ONE_OF, NOT_NEGATIVE, "W/sr", "this or power is required", NULL,
+     AT(rt_point_light, intensity)},
+    {"power", COLOUR, ONE_OF, NOT_NEGATIVE, "W", "this or intensity is required", NULL,
+     AT(rt_point_light, power)},
 };
 
 static const rt_field plane_fields[] = {

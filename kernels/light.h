@@ -18,6 +18,7 @@
 #include "surface.h"
 #include "types.h"
 
+#define RT_FAR_RECTANGLE 1.5f      /* distance / diagonal beyond which a rectangle is sampled by area */
 #define RT_SMALL_SOLID_ANGLE 1e-2f /* sr; there the rounding of the solid angle is below 1e-4 of it */
 #define RT_NEAR_SPHERE 1.001f      /* distance / radius under which a sphere is sampled by area */
 
@@ -61,30 +62,32 @@ static inline uint surface_light(const struct scene *scene, const struct surface
     return shape->first_light == RT_NONE ? RT_NONE : shape->first_light + (surface->prim - shape->first_prim);
 }
 
-/* The point a + x b + y c of a quad or triangle; its error bound covers a, the edges and the sum. */
-static inline void flat_point(struct surface *at, global const rt_light_data *light, float2 where)
+/* The point of a quad or triangle at these lengths along its edges; its error bound covers a, the edges and the sum. */
+static inline void flat_point(struct surface *at, global const rt_light_data *light, float2 lengths)
 {
-    const float3 a = row3(light->a), b = row3(light->b), c = row3(light->c);
-    at->position = a + (where.x * b + where.y * c);
-    at->normal = unit(cross(b, c));
-    at->error = gamma_bound(8.0f) * dot(fabs(a) + fabs(b) + fabs(c), (float3)(1.0f));
+    const float3 a = row3(light->a);
+    at->position = a + (lengths.x * row3(light->b) + lengths.y * row3(light->c));
+    at->normal = row3(light->normal);
+    at->error = gamma_bound(8.0f) * (fabs(a.x) + fabs(a.y) + fabs(a.z) + 2.0f * (light->width + light->height));
 }
 
 static inline void sphere_point(struct surface *at, global const rt_light_data *light, float3 normal)
 {
     const float3 a = row3(light->a);
+    at->position = a + light->width * normal;
     at->normal = normal;
-    at->position = a + light->size * normal;
-    at->error = gamma_bound(8.0f) * (dot(fabs(a), (float3)(1.0f)) + light->size);
+    at->error = gamma_bound(8.0f) * (fabs(a.x) + fabs(a.y) + fabs(a.z) + light->width);
 }
 
 /* A point of the light, uniform in area. */
 static inline void sample_area(struct surface *at, global const rt_light_data *light, float2 u)
 {
-    if (light->kind == RT_LIGHT_SPHERE)
+    if (light->kind == RT_LIGHT_SPHERE) {
         sphere_point(at, light, sample_sphere(u));
-    else
-        flat_point(at, light, light->kind == RT_LIGHT_TRIANGLE ? sample_triangle(u) : u);
+    } else {
+        const float2 where = light->kind == RT_LIGHT_TRIANGLE ? sample_triangle(u) : u;
+        flat_point(at, light, where * (float2)(light->width, light->height));
+    }
 }
 
 /* Density in solid angle of sampling by area, seen along `towards` (not of unit length). */
@@ -94,25 +97,28 @@ static inline float area_pdf_w(global const rt_light_data *light, float3 towards
     return d2 * sqrt(d2) / (fabs(dot(towards, normal)) * light->area);
 }
 
-/* Whether the light is a rectangle, and if so, how it is seen from a point. */
-static inline bool see_rectangular_light(global const rt_light_data *light, float3 from, struct seen_rectangle *seen,
-                                         float2 *size)
+/* How a rectangular light is seen from a point; false when it is none, or is better sampled by area. */
+static inline bool see_rectangular_light(global const rt_light_data *light, float3 from, struct seen_rectangle *seen)
 {
-    const float3 b = row3(light->b), c = row3(light->c);
-    *size = sqrt((float2)(dot(b, b), dot(c, c)));
-    if (light->kind != RT_LIGHT_QUAD || fabs(dot(b, c)) > 1e-5f * size->x * size->y)
+    if (!(light->flags & RT_LIGHT_RECTANGLE))
         return false;
-    const float2 rate = 1.0f / *size;
-    *seen = see_rectangle(row3(light->a) - from, b * rate.x, c * rate.y, *size);
+    const float3 corner = row3(light->a) - from;
+    const float x = dot(corner, row3(light->b)), y = dot(corner, row3(light->c)), z = dot(corner, row3(light->normal));
+    const float distance2 = square(x + 0.5f * light->width) + square(y + 0.5f * light->height) + z * z;
+    if (distance2 > square(RT_FAR_RECTANGLE) * (square(light->width) + square(light->height)))
+        return false;
+    *seen = see_rectangle(x, y, fabs(z), light->width, light->height);
     return seen->solid_angle >= RT_SMALL_SOLID_ANGLE;
 }
 
-/* Whether the sphere is far enough to be sampled by its visible cap; *d2 is the squared distance of its centre. */
-static inline bool see_cap(global const rt_light_data *light, float3 from, float *d2)
+/* Whether the light is a sphere far enough to be sampled by its visible cap; *d2 is its centre's squared distance. */
+static inline bool see_spherical_light(global const rt_light_data *light, float3 from, float *d2)
 {
+    if (light->kind != RT_LIGHT_SPHERE)
+        return false;
     const float3 towards = row3(light->a) - from;
     *d2 = dot(towards, towards);
-    return light->kind == RT_LIGHT_SPHERE && *d2 > square(RT_NEAR_SPHERE * light->size);
+    return *d2 > square(RT_NEAR_SPHERE * light->width);
 }
 
 /* ---- Seen from a point ----------------------------------------------------- */
@@ -120,20 +126,19 @@ static inline bool see_cap(global const rt_light_data *light, float3 from, float
 /* What the light emits at a point with this normal in direction w. */
 static inline float3 light_radiance(global const rt_light_data *light, float3 normal, float3 w)
 {
-    const bool lit = (light->flags & RT_MATERIAL_TWO_SIDED) || dot(normal, w) > 0.0f;
+    const bool lit = (light->flags & RT_LIGHT_TWO_SIDED) || dot(normal, w) > 0.0f;
     return lit ? row3(light->emission) : (float3)(0.0f);
 }
 
-/* The density of light_sample, from this point, for a direction in which the light's point `at` is met. */
+/* The density with which sample_light, from this point, makes the direction in which the light's point `at` is met. */
 static inline float light_pdf_w(global const rt_light_data *light, float3 from, const struct surface *at)
 {
     struct seen_rectangle seen;
-    float2 size;
     float d2;
-    if (see_rectangular_light(light, from, &seen, &size))
+    if (see_rectangular_light(light, from, &seen))
         return light->pmf * seen_rectangle_pdf_w(&seen);
-    if (see_cap(light, from, &d2))
-        return light->pmf * cap_pdf_w(light->size, d2);
+    if (see_spherical_light(light, from, &d2))
+        return light->pmf * cap_pdf_w(light->width, d2);
     return light->pmf * area_pdf_w(light, at->position - from, at->normal);
 }
 
@@ -141,24 +146,44 @@ static inline float light_pdf_w(global const rt_light_data *light, float3 from, 
 static inline float sample_area_light(struct surface *at, global const rt_light_data *light, float3 from, float2 u)
 {
     struct seen_rectangle seen;
-    float2 size;
     float d2;
-    if (see_rectangular_light(light, from, &seen, &size)) {
-        flat_point(at, light, sample_seen_rectangle(&seen, u) / size);
+    if (see_rectangular_light(light, from, &seen)) {
+        flat_point(at, light, sample_seen_rectangle(&seen, u));
         return seen_rectangle_pdf_w(&seen);
     }
-    if (see_cap(light, from, &d2)) {
+    if (see_spherical_light(light, from, &d2)) {
         const struct frame frame = frame_about(unit(from - row3(light->a)));
-        sphere_point(at, light, frame_to_world(frame, sample_cap(light->size, d2, u)));
-        return cap_pdf_w(light->size, d2);
+        sphere_point(at, light, frame_to_world(frame, sample_cap(light->width, d2, u)));
+        return cap_pdf_w(light->width, d2);
     }
     sample_area(at, light, u);
     return area_pdf_w(light, at->position - from, at->normal);
 }
 
+/* Whether the light shines to the side on which the point lies; a sphere's sides are told at the sampled point. */
+static inline bool light_faces(global const rt_light_data *light, float3 from)
+{
+    if (light->kind == RT_LIGHT_SPHERE || (light->flags & RT_LIGHT_TWO_SIDED))
+        return true;
+    return dot(from - row3(light->a), row3(light->normal)) > 0.0f;
+}
+
+/* Samples a light that no ray can meet: always the same point. */
+static inline void sample_point_light(struct light_sample *sample, global const rt_light_data *light, float3 from)
+{
+    const float3 towards = row3(light->a) - from;
+    const float d2 = dot(towards, towards);
+    sample->at.position = row3(light->a);
+    sample->at.error = 0.0f;
+    sample->wi = towards * (1.0f / sqrt(d2));
+    sample->at.normal = -sample->wi;
+    sample->radiance = row3(light->emission) * (1.0f / d2);
+    sample->pdf_w = light->pmf;
+}
+
 /*
- * Samples the lights from a point: u.xy the point on the light, u.z the choice. False when there is
- * nothing to arrive.
+ * Samples the lights from a point: u.xy the point on the light, u.z the choice. False when nothing
+ * can arrive.
  */
 static inline bool sample_light(const struct scene *scene, float3 from, float4 u, struct light_sample *sample)
 {
@@ -167,21 +192,14 @@ static inline bool sample_light(const struct scene *scene, float3 from, float4 u
     global const rt_light_data *light = scene->lights + choose_light(scene, u.z);
     sample->delta = light->kind == RT_LIGHT_POINT;
     if (sample->delta) {
-        sample->at.position = row3(light->a);
-        sample->at.error = 0.0f;
-        sample->pdf_w = light->pmf;
-    } else {
-        sample->pdf_w = light->pmf * sample_area_light(&sample->at, light, from, u.xy);
+        sample_point_light(sample, light, from);
+        return true;
     }
-    const float3 towards = sample->at.position - from;
-    const float d2 = dot(towards, towards);
-    sample->wi = towards * (1.0f / sqrt(d2));
-    if (sample->delta) {
-        sample->at.normal = -sample->wi;
-        sample->radiance = row3(light->emission) / d2;
-    } else {
-        sample->radiance = light_radiance(light, sample->at.normal, -sample->wi);
-    }
+    if (!light_faces(light, from))
+        return false;
+    sample->pdf_w = light->pmf * sample_area_light(&sample->at, light, from, u.xy);
+    sample->wi = unit(sample->at.position - from);
+    sample->radiance = light_radiance(light, sample->at.normal, -sample->wi);
     return largest3(sample->radiance) > 0.0f;
 }
 
@@ -213,7 +231,7 @@ static inline bool light_emit(const struct scene *scene, float4 start, float4 wa
         emission->flux = 4.0f * RT_PI / light->pmf * row3(light->emission);
         return true;
     }
-    const bool two_sided = light->flags & RT_MATERIAL_TWO_SIDED;
+    const bool two_sided = light->flags & RT_LIGHT_TWO_SIDED;
     sample_area(&emission->at, light, start.xy);
     const float3 normal = two_sided && way.z < 0.5f ? -emission->at.normal : emission->at.normal;
     emission->direction = frame_to_world(frame_about(normal), sample_cosine(way.xy));

@@ -127,15 +127,14 @@ struct seen_rectangle {
     float turn;        /* a[2] + a[3] */
 };
 
-/* The rectangle with its corner at `corner` from the viewer, unit edge directions and lengths. */
-static inline struct seen_rectangle see_rectangle(float3 corner, float3 x, float3 y, float2 size)
+/* The rectangle from x0 to x0 + width and y0 to y0 + height at distance z. */
+static inline struct seen_rectangle see_rectangle(float x0, float y0, float z, float width, float height)
 {
     struct seen_rectangle seen;
-    const float x0 = dot(corner, x), y0 = dot(corner, y);
-    seen.p = (float4)(-y0, x0 + size.x, y0 + size.y, -x0);
-    seen.z = fabs(dot(corner, cross(x, y)));
+    seen.p = (float4)(-y0, x0 + width, y0 + height, -x0);
+    seen.z = z;
     const float4 p2 = seen.p * seen.p;
-    const float4 a = atan_ratio(seen.p * seen.p.yzwx, seen.z * sqrt(p2 + p2.yzwx + seen.z * seen.z));
+    const float4 a = atan_ratio(seen.p * seen.p.yzwx, z * sqrt(p2 + p2.yzwx + z * z));
     seen.turn = a.z + a.w;
     seen.solid_angle = a.x + a.y + seen.turn;
     return seen;

@@ -118,23 +118,28 @@ RT_SIZE(rt_material_data, 64);
 #define RT_LIGHT_POINT 0u    /* a: position; emission: intensity, W/sr */
 #define RT_LIGHT_QUAD 1u     /* a: corner, b, c: edges; emission: radiance */
 #define RT_LIGHT_TRIANGLE 2u /* a: vertex, b, c: edges; emission: radiance */
-#define RT_LIGHT_SPHERE 3u   /* a: centre, size: radius; emission: radiance */
+#define RT_LIGHT_SPHERE 3u   /* a: centre, width: radius; emission: radiance */
+
+#define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
+#define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
 
 typedef struct rt_light_data {
     float a[3];
-    rt_u32 kind; /* RT_LIGHT_* */
-    float b[3];
-    rt_u32 prim; /* primitive that emits, RT_NONE for a point light */
-    float c[3];
-    float area; /* m^2, one side; 0 for a point light */
+    rt_u32 kind;   /* RT_LIGHT_* */
+    float b[3];    /* unit vector along the first edge */
+    float width;   /* length of that edge, m; sphere: radius */
+    float c[3];    /* unit vector along the second edge */
+    float height;  /* length of that edge, m */
+    float normal[3]; /* unit, b x c; not of a sphere */
+    float area;    /* m^2, one side; 0 for a point light */
     float emission[3];
-    float pmf;  /* probability of choosing this light, in proportion to its power */
-    float size; /* sphere: radius */
-    float cdf;  /* sum of pmf up to and including this light */
-    rt_u32 flags; /* RT_MATERIAL_TWO_SIDED */
-    float power;  /* total emitted flux, mean of the three channels, W */
+    float pmf;     /* probability of choosing this light, in proportion to its power */
+    float cdf;     /* sum of pmf up to and including this light */
+    float power;   /* total emitted flux, mean of the three channels, W */
+    rt_u32 prim;   /* primitive that emits, RT_NONE for a point light */
+    rt_u32 flags;
 } rt_light_data;
-RT_SIZE(rt_light_data, 80);
+RT_SIZE(rt_light_data, 96);
 
 /* ---- Camera ------------------------------------------------------------ */
 

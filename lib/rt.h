@@ -153,7 +153,7 @@ typedef struct rt_scene rt_scene;
 typedef struct rt_diagnostic {
     int is_warning;
     const char *file;
-    int line, column;        /* from 1; column counts bytes */
+    int line, column;        /* from 1; column counts bytes; 0 when the file cannot be read at all */
     int length;              /* bytes underlined, at least 1 */
     const char *message;     /* one line: what was found and what was expected */
     const char *hint;        /* the nearest known name or a way out, or NULL */

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "message.h"
@@ -28,13 +27,6 @@ typedef struct doctor_visit {
     rt_film *film;
     int verbose;
 } doctor_visit;
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static void on_log(void *user, const char *line)
 {
@@ -96,9 +88,8 @@ static rt_status check_build(doctor_visit *visit, char *said, rt_error *error)
     rt_renderer_options options = {0};
     hooks.log = visit->verbose ? on_log : NULL;
     options.hooks = &hooks;
-    double start = now();
     rt_status status = rt_renderer_create(&visit->renderer, visit->scene, visit->device, &options, error);
-    snprintf(said, SAID, "the scene is on the device, kernels built, in %.2f s", now() - start);
+    snprintf(said, SAID, "the scene is on the device");
     return status;
 }
 
@@ -129,13 +120,14 @@ static rt_status check_mode(doctor_visit *visit, char *said, rt_mode mode, const
     options.photons = 10000;
     rt_film_destroy(visit->film);
     visit->film = NULL;
-    double start = now();
     rt_status status = rt_render(&visit->film, visit->renderer, &options, error);
     if (status != RT_OK)
         return status;
     const float *rgb = rt_film_rgb(visit->film);
     float middle = rgb[3 * (8 * 16 + 8)], corner = rgb[3 * (15 * 16 + 15)];
-    snprintf(said, SAID, "%s mode renders, in %.2f s", name, now() - start);
+    rt_film_stats stats;
+    rt_film_get_stats(visit->film, &stats);
+    snprintf(said, SAID, "%s mode renders; its kernels took %.2f s to compile", name, stats.compile_seconds);
     if (middle > 0.0f && corner > 0.0f && isfinite(middle) && isfinite(corner))
         return RT_OK;
     return fail(error, RT_ERROR_DEVICE, "the picture is black where it should be lit");
@@ -178,8 +170,8 @@ static const struct {
     const char *remedy; /* what to do when it fails */
 } checks[] = {
     {check_language, "this build of rtc is broken; build it anew"},
-    {check_platform, "install an OpenCL driver: on Debian `apt-get install pocl-opencl-icd` brings one for the CPU; "
-                     "a GPU needs its vendor's. OCL_ICD_VENDORS, if set, must name a directory of .icd files"},
+    {check_platform, "for the CPU: apt-get install pocl-opencl-icd; for a GPU: its vendor's OpenCL driver. "
+                     "OCL_ICD_VENDORS, if set, must name a directory of .icd files"},
     {check_device, "`rtc devices` lists the devices that --device can name"},
     {check_build, "--verbose shows the compiler's log; another --device may do"},
     {check_trace, "the driver computes wrongly; another --device may do"},

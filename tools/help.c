@@ -8,14 +8,15 @@ enum { LEFT = 26, WIDTH = 80 };
 
 static const char *const usages[COMMAND_COUNT] = {
     [COMMAND_RENDER] =
-        "usage: rtc SCENE.rts [OPTION]...        render a scene; SCENE - reads it from stdin\n"
-        "       rtc check SCENE.rts...           say all that is wrong with scenes\n"
-        "       rtc devices                      list the OpenCL devices\n"
-        "       rtc doctor [OPTION]...           check that everything works here\n"
-        "       rtc COMMAND --help               options of one command\n"
-        "       rtc --version\n"
+        "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
+        "       rtc check SCENE.rts...      say all that is wrong with scenes\n"
+        "       rtc devices                 list the OpenCL devices\n"
+        "       rtc doctor [OPTION]...      check that everything works here\n"
+        "       rtc COMMAND --help          the options of one command\n"
+        "       rtc --version               the version\n"
         "\n"
-        "Renders a scene of the .rts language by path tracing or photon mapping.\n"
+        "Renders a scene of the .rts language by path tracing or photon mapping; SCENE -\n"
+        "reads it from stdin.\n"
         "An option is written --name value or --name=value; of one given twice the last\n"
         "counts.\n",
     [COMMAND_CHECK] = "usage: rtc check SCENE.rts...\n"

@@ -10,11 +10,13 @@ static void handle(int signal_number)
 {
     static const char text[] = "\nrtc: stopping; interrupt again to stop at once\n";
     int saved = errno;
-    (void)signal_number;
+    if (pending) {
+        /* The second one: end as the signal does, once it is no longer blocked. */
+        signal(signal_number, SIG_DFL);
+        raise(signal_number);
+        return;
+    }
     pending = 1;
-    /* Either signal, coming next, ends the program. */
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
     if (write(STDERR_FILENO, text, sizeof text - 1) < 0) {
         /* There is nobody to tell. */
     }
@@ -29,6 +31,8 @@ static void catch_one(int signal_number)
     action.sa_handler = handle;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
+    sigaddset(&action.sa_mask, SIGINT);
+    sigaddset(&action.sa_mask, SIGTERM);
     sigaction(signal_number, &action, NULL);
 }
 

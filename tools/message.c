@@ -26,12 +26,33 @@ static const char *colour(const char *escape)
     return plain ? "" : escape;
 }
 
-/* Prints text with control characters, which could drive the terminal, as '?'. */
+/*
+ * Bytes of the character at text, where `length` bytes are left, or 0 when it must not reach a terminal: a
+ * control character other than tab, or what is no UTF-8.
+ */
+static size_t character_size(const char *text, size_t length)
+{
+    const unsigned char *c = (const unsigned char *)text;
+    if (c[0] < 0x80)
+        return (c[0] >= 0x20 && c[0] != 0x7f) || c[0] == '\t';
+    size_t size = c[0] >= 0xf0 ? 4 : c[0] >= 0xe0 ? 3 : 2;
+    if (c[0] < 0xc2 || c[0] > 0xf4 || size > length || (c[0] == 0xc2 && c[1] < 0xa0))
+        return 0;
+    for (size_t i = 1; i < size; i++)
+        if ((c[i] & 0xc0) != 0x80)
+            return 0;
+    return size;
+}
+
+/* Prints text with '?' for each byte that could drive the terminal. */
 static void put_safe(const char *text, size_t length)
 {
-    for (size_t i = 0; i < length; i++) {
-        unsigned char c = (unsigned char)text[i];
-        fputc((c < 0x20 && c != '\t') || c == 0x7f ? '?' : c, stderr);
+    for (size_t i = 0, size; i < length; i += size ? size : 1) {
+        size = character_size(text + i, length - i);
+        if (size)
+            fwrite(text + i, 1, size, stderr);
+        else
+            fputc('?', stderr);
     }
 }
 
@@ -78,17 +99,18 @@ void message_note(const char *format, ...)
 
 /* ---- Diagnostics --------------------------------------------------------- */
 
+/* Spaces, or `fill`, as wide as put_safe prints text; a tab stays one. */
+static void put_blank(const char *text, size_t length, char fill)
+{
+    for (size_t i = 0, size; i < length; i += size ? size : 1) {
+        size = character_size(text + i, length - i);
+        fputc(text[i] == '\t' && fill == ' ' ? '\t' : fill, stderr);
+    }
+}
+
 static int is_continuation(char c)
 {
     return ((unsigned char)c & 0xc0) == 0x80;
-}
-
-/* Spaces as wide as text[0] to text[length - 1]: a tab stays one, and a UTF-8 character counts once. */
-static void put_blank(const char *text, size_t length)
-{
-    for (size_t i = 0; i < length; i++)
-        if (!is_continuation(text[i]))
-            fputc(text[i] == '\t' ? '\t' : ' ', stderr);
 }
 
 /* The source line, cut to a window around the place when it is long, and the place underlined. */
@@ -108,11 +130,14 @@ static void put_excerpt(const char *line, size_t at, size_t marked)
     fprintf(stderr, "    %s", lead);
     put_safe(line + first, end - first);
     fprintf(stderr, "%s\n    %*s", end < length ? "..." : "", (int)strlen(lead), "");
-    put_blank(line + first, at - first);
+    put_blank(line + first, at - first, ' ');
     fprintf(stderr, "%s^", colour(GREEN));
-    for (size_t i = at + 1; i < at + marked && i < end; i++)
-        if (!is_continuation(line[i]))
-            fputc('~', stderr);
+    if (marked > end - at)
+        marked = end - at;
+    size_t head = marked ? character_size(line + at, end - at) : 0;
+    head = head ? head : 1;
+    if (marked > head)
+        put_blank(line + at + head, marked - head, '~');
     fprintf(stderr, "%s\n", colour(PLAIN));
 }
 

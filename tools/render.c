@@ -156,7 +156,8 @@ static int open_device(render_job *job)
     if (value(job, OPTION_VERBOSE)->given) {
         rt_device_info info;
         rt_device_get_info(job->device, &info);
-        message_note("device %s, %s, %u compute units", info.name, info.platform, (unsigned)info.compute_units);
+        message_note("device %s, %s, %u compute unit%s", info.name, info.platform, (unsigned)info.compute_units,
+                     info.compute_units == 1 ? "" : "s");
     }
     return STATUS_DONE;
 }

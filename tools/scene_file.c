@@ -82,6 +82,7 @@ int scene_file_load(rt_scene **out, const char *path, int hush_warnings, scene_f
     /* What has a place was told by diagnostics. */
     if (reading.findings.errors == 0)
         return message_failure(&error);
-    message_note("%s: %u error%s", path, reading.findings.errors, reading.findings.errors == 1 ? "" : "s");
+    if (reading.findings.errors > 1)
+        message_note("%s: %u errors", path, reading.findings.errors);
     return STATUS_INPUT;
 }

@@ -72,7 +72,21 @@ static int gather(const rt_tree_node *node, int j, const rt_tree_node **out)
     return n + gather(&node->children[1], j - left, out + n);
 }
 
+/* Stable, so that the order depends on nothing else. */
+static void sort_by_area(const rt_tree_node **nodes, int count)
+{
+    for (int i = 1; i < count; i++) {
+        const rt_tree_node *node = nodes[i];
+        int at = i;
+        for (; at > 0 && area(nodes[at - 1]) < area(node); at--)
+            nodes[at] = nodes[at - 1];
+        nodes[at] = node;
+    }
+}
+
 int rt_collapse_children(const rt_tree_node *node, const rt_tree_node *out[RT_BVH_WIDTH])
 {
-    return gather(node, RT_BVH_WIDTH, out);
+    const int count = gather(node, RT_BVH_WIDTH, out);
+    sort_by_area(out, count);
+    return count;
 }

@@ -38,7 +38,10 @@ rt_collapse_cost rt_collapse_inner(struct rt_tree_node *node, const rt_collapse_
 /* The same with roots divided evenly whatever their cost, so that three binary levels make a wide one. */
 rt_collapse_cost rt_collapse_even(struct rt_tree_node *node);
 
-/* The nodes that are the children of the wide node made of `node`; returns their number, 1 to 8. */
+/*
+ * The nodes that are the children of the wide node made of `node`, the largest area first: a ray that asks
+ * only whether anything is hit tries them in this order. Returns their number, 1 to 8.
+ */
 int rt_collapse_children(const struct rt_tree_node *node, const struct rt_tree_node *out[RT_BVH_WIDTH]);
 
 #endif

@@ -133,6 +133,7 @@ static rt_status limit_threads(rt_device *device, rt_error *error)
         return status;
     device->id = part;
     device->is_sub_device = 1;
+    describe(&device->info, device->platform, part);
     return RT_OK;
 }
 

@@ -34,7 +34,8 @@ static rt_status report_build(rt_device *device, cl_program program, const char 
     if (log) {
         clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
         first_error(line, sizeof line, log);
-        for (char *at = strtok(log, "\n"); at; at = strtok(NULL, "\n"))
+        char *rest;
+        for (char *at = strtok_r(log, "\n", &rest); at; at = strtok_r(NULL, "\n", &rest))
             rt_log(hooks, "%s", at);
         free(log);
     }

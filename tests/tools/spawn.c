@@ -107,13 +107,14 @@ static run run_line(FILE *in, char *line)
     return run;
 }
 
-#define FORMAT_LINE(line, format)                            \
-    char line[LONGEST_LINE];                                 \
-    do {                                                     \
-        va_list args;                                        \
-        va_start(args, format);                              \
+/* Declares line: the text that format and the arguments after it make. */
+#define FORMAT_LINE(line, format)                                               \
+    char line[LONGEST_LINE];                                                    \
+    do {                                                                        \
+        va_list args;                                                           \
+        va_start(args, format);                                                 \
         assert_true(vsnprintf(line, sizeof line, format, args) < LONGEST_LINE); \
-        va_end(args);                                        \
+        va_end(args);                                                           \
     } while (0)
 
 run run_rtc(const char *format, ...)
@@ -131,6 +132,20 @@ run run_rtc_input(const char *input, size_t length, const char *format, ...)
     rewind(in);
     run run = run_line(in, line);
     fclose(in);
+    return run;
+}
+
+run run_rtc_to(const char *path, const char *format, ...)
+{
+    FORMAT_LINE(line, format);
+    FILE *err = tmpfile();
+    int out = open(path, O_WRONLY | O_CLOEXEC);
+    assert_true(err && out >= 0);
+    streams streams = {-1, out, fileno(err)};
+    run run = {0, calloc(1, 1), NULL};
+    run.status = wait_status(start(streams, line));
+    run.err = read_whole(err);
+    close(out);
     return run;
 }
 
@@ -182,6 +197,12 @@ int running_finish(running *running, char *buffer, size_t size)
 {
     while (read_more(running->err, buffer, size) == 0)
         ;
+    close(running->err);
+    return wait_status(running->pid);
+}
+
+int running_abandon(running *running)
+{
     close(running->err);
     return wait_status(running->pid);
 }

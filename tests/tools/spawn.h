@@ -26,6 +26,9 @@ void run_free(run *run);
 /* The same with this text, of length bytes, on stdin. */
 run run_rtc_input(const char *input, size_t length, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* The same with stdout going to the file at path; out is then empty. */
+run run_rtc_to(const char *path, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /* Runs rtc to its end with a terminal on stdin, stdout and stderr; all that it writes comes as out. */
 run run_rtc_terminal(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
@@ -42,5 +45,8 @@ int running_wait_for(const running *running, const char *text, char *buffer, siz
 
 /* Reads the rest into buffer, waits for the end and returns the status as in run. */
 int running_finish(running *running, char *buffer, size_t size);
+
+/* Closes the reading end of its stderr, waits for the end and returns the status. */
+int running_abandon(running *running);
 
 #endif

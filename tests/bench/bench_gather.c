@@ -1,0 +1,179 @@
+/*
+ * bench_gather.c - nearest photons: the library's search against plain FLANN, in one run and in turn.
+ *
+ *     bench_gather [PHOTONS [QUERIES [K]]]    1 000 000, 100 000 and 50 by default
+ *
+ * Photons lie at random on the walls of a box, queries at random on its floor. Prints queries a second,
+ * the median of five runs, on all cores, and the ratio to FLANN: for the nearest photons alone, and with
+ * the rejection of those that face elsewhere.
+ */
+#include <flann/flann.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "lib/photon/points.h"
+#include "photon/flann_index.h"
+#include "photon/search.h"
+#include "progress.h"
+
+enum { runs = 5 };
+
+/* What all contestants are given. */
+typedef struct problem {
+    size_t photons, queries;
+    uint32_t k, threads;
+    rt_photon_map map;
+    float *positions; /* [photons][3] */
+    rt_gather_point *points;
+    float *places;  /* [queries][3], theirs */
+    int *indices;   /* [queries][k], results */
+    float *squared; /* beside them */
+    rt_gather_disc *discs;
+} problem;
+
+static void *allocate(size_t count, size_t size)
+{
+    void *memory = calloc(count, size);
+    if (!memory) {
+        fprintf(stderr, "bench_gather: out of memory\n");
+        exit(1);
+    }
+    return memory;
+}
+
+static void must(rt_status status, const rt_error *error)
+{
+    if (status != RT_OK) {
+        fprintf(stderr, "bench_gather: %s\n", error->message);
+        exit(1);
+    }
+}
+
+static void lay_photon(rt_photon *photon, points_stream *stream)
+{
+    int side = (int)(6 * points_uniform(stream)), axis = side / 2;
+    photon->position[axis] = (float)(side % 2);
+    photon->position[(axis + 1) % 3] = points_uniform(stream);
+    photon->position[(axis + 2) % 3] = points_uniform(stream);
+    photon->normal[axis] = side % 2 ? -1.0f : 1.0f;
+}
+
+static void pose(problem *p)
+{
+    points_stream stream = {1};
+    p->map.photons = allocate(p->photons, sizeof *p->map.photons);
+    p->map.count = p->map.capacity = p->photons;
+    p->positions = allocate(p->photons, 3 * sizeof *p->positions);
+    p->points = allocate(p->queries, sizeof *p->points);
+    p->places = allocate(p->queries, 3 * sizeof *p->places);
+    p->indices = allocate(p->queries, p->k * sizeof *p->indices);
+    p->squared = allocate(p->queries, p->k * sizeof *p->squared);
+    p->discs = allocate(p->queries, sizeof *p->discs);
+    for (size_t i = 0; i < p->photons; i++) {
+        lay_photon(p->map.photons + i, &stream);
+        memcpy(p->positions + 3 * i, p->map.photons[i].position, 3 * sizeof *p->positions);
+    }
+    for (size_t i = 0; i < p->queries; i++) {
+        rt_gather_point *point = p->points + i;
+        point->position[0] = points_uniform(&stream);
+        point->position[2] = points_uniform(&stream);
+        point->normal[1] = point->weight[0] = 1;
+        memcpy(p->places + 3 * i, point->position, 3 * sizeof *p->places);
+    }
+}
+
+static void discard(problem *p)
+{
+    rt_photon_map_clear(&p->map);
+    free(p->positions);
+    free(p->points);
+    free(p->places);
+    free(p->indices);
+    free(p->squared);
+    free(p->discs);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double times[runs])
+{
+    qsort(times, runs, sizeof *times, by_value);
+    return times[runs / 2];
+}
+
+static void report(const char *name, const problem *p, double times[runs], double flann)
+{
+    double seconds = median(times);
+    printf("%-34s %8.0f k queries/s %6.2f x FLANN\n", name, (double)p->queries / seconds / 1e3, flann / seconds);
+}
+
+static void compete(problem *p)
+{
+    struct FLANNParameters parameters = DEFAULT_FLANN_PARAMETERS;
+    double plain[runs], nearest[runs], ranked[runs];
+    rt_flann_index *index = NULL;
+    rt_photon_search *search = NULL;
+    rt_error error;
+    float speedup;
+
+    parameters.algorithm = FLANN_INDEX_KDTREE_SINGLE;
+    parameters.checks = FLANN_CHECKS_UNLIMITED;
+    parameters.eps = 0;
+    parameters.sorted = 1;
+    parameters.cores = (int)p->threads;
+    parameters.leaf_max_size = 10;
+    flann_index_t tree = flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
+    must(rt_flann_index_create(&index, p->positions, p->photons, &error), &error);
+    must(rt_photon_search_create(&search, &p->map, p->k, HUGE_VALF, p->threads, &error), &error);
+
+    for (int run = 0; run < runs; run++) {
+        double t0 = rt_clock();
+        flann_find_nearest_neighbors_index_float(tree, p->places, (int)p->queries, p->indices, p->squared, (int)p->k,
+                                                 &parameters);
+        double t1 = rt_clock();
+        must(rt_flann_index_nearest(index, p->places, p->queries, p->k, p->threads, p->indices, p->squared, &error),
+             &error);
+        double t2 = rt_clock();
+        must(rt_photon_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs, NULL, &error),
+             &error);
+        double t3 = rt_clock();
+        plain[run] = t1 - t0;
+        nearest[run] = t2 - t1;
+        ranked[run] = t3 - t2;
+    }
+    double flann = median(plain);
+    report("FLANN", p, plain, flann);
+    report("librt, nearest", p, nearest, flann);
+    report("librt, nearest that face the point", p, ranked, flann);
+    flann_free_index_float(tree, &parameters);
+    rt_flann_index_destroy(index);
+    rt_photon_search_destroy(search);
+}
+
+int main(int argc, char **argv)
+{
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    problem p;
+    memset(&p, 0, sizeof p);
+    p.photons = argc > 1 ? strtoul(argv[1], NULL, 10) : 1000000;
+    p.queries = argc > 2 ? strtoul(argv[2], NULL, 10) : 100000;
+    p.k = argc > 3 ? (uint32_t)strtoul(argv[3], NULL, 10) : 50;
+    p.threads = cores > 0 ? (uint32_t)cores : 1;
+    if (p.k < 1 || p.photons < p.k || p.queries < 1) {
+        fprintf(stderr, "usage: bench_gather [PHOTONS [QUERIES [K]]], 1 <= K <= PHOTONS\n");
+        return 2;
+    }
+    pose(&p);
+    printf("gather: k = %u of %zu photons, %zu queries, %u threads\n", (unsigned)p.k, p.photons, p.queries,
+           (unsigned)p.threads);
+    compete(&p);
+    discard(&p);
+    return 0;
+}

@@ -1,0 +1,305 @@
+/* Malformed scenes: each mistake gives its one error, at its place, in these words. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/dsl/collect.h"
+
+/* A text with one error. `hint` is a part of the hint; "" when there must be none. */
+typedef struct bad_text {
+    const char *text;
+    int line, column, length;
+    const char *message, *hint;
+} bad_text;
+
+#define WHITE "material white { kd 0.7 }\n"
+#define BALL WHITE "sphere { centre 0 0 0  radius 1  material white }\n"
+
+static const bad_text bad_texts[] = {
+    /* Whole texts. */
+    {"", 1, 1, 1, "the scene is empty: expected a block, such as camera { ... }", ""},
+    {"# only a comment\n", 1, 1, 1, "the scene is empty", ""},
+    {"let a = 1\n", 1, 1, 1, "the scene is empty", ""},
+    {"\xff\xfe" "c\1", 1, 1, 1, "the file is UTF-16 text", "UTF-8"},
+
+    /* Characters. */
+    {"camera { eye 0 0 -1 $ look_at 0 0 0 }", 1, 21, 1, "unexpected '$'", ""},
+    {"\x01" BALL, 1, 1, 1, "unexpected byte 0x01", ""},
+    {"# \xff\n" BALL, 1, 3, 1, "byte 0xff is not UTF-8", "save the file as UTF-8"},
+    {"\xc0\xaf" BALL, 1, 1, 2, "byte 0xc0 is not UTF-8", "UTF-8"},
+    {"\xe2\x82\xac" BALL, 1, 1, 3, "unexpected '\xe2\x82\xac'", ""},
+    {"// no comment\n" BALL, 1, 1, 1, "expected a block, 'let' or 'include', found '/'", "'#'"},
+
+    /* Statements. */
+    {"spere { centre 0 0 0 radius 1 }", 1, 1, 5, "unknown block 'spere'", "did you mean 'sphere'?"},
+    {"Camera { eye 0 0 0 }", 1, 1, 6, "unknown block 'Camera'", "did you mean 'camera'?"},
+    {"teapot { size 3 }", 1, 1, 6, "unknown block 'teapot'", "begins with one of: let include camera film"},
+    {BALL "}\n", 3, 1, 1, "'}' closes nothing", ""},
+    {BALL "42\n", 3, 1, 2, "expected a block, 'let' or 'include', found '42'", ""},
+    {"{ centre 0 0 0 }\n" BALL, 1, 1, 1, "expected a block, 'let' or 'include', found '{'", ""},
+    {"light { position 0 0 0 }", 1, 1, 5, "expected a kind of light, found '{'", "light point { ... }"},
+    {"light pont { position 0 0 0 }", 1, 7, 4, "expected a kind of light, found 'pont'", "did you mean 'point'?"},
+    {"material { kd 1 }", 1, 1, 8, "material needs a name, found '{'", "material white { ... }"},
+    {"material \"white\" { kd 1 }", 1, 1, 8, "material needs a name, found a string", "material white { ... }"},
+    {"material off-white { kd 1 }", 1, 10, 9, "'off-white' is not a name", "'_'"},
+    {WHITE "sphere ball { centre 0 0 0 radius 1 material white }", 2, 8, 4, "sphere takes no name, found 'ball'", ""},
+    {WHITE "sphere centre 0 0 0 radius 1 material white }", 2, 8, 6, "expected '{' after sphere, found 'centre'", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white\n", 2, 1, 6,
+     "sphere is not closed: expected '}' before the end of the file", ""},
+    {"film { width", 1, 1, 4, "film is not closed", ""},
+    {"render { mode", 1, 1, 6, "render is not closed", ""},
+    {"camera = { eye 0 0 0 }", 1, 8, 1, "expected '{' after camera, found '='", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white\nlight point { position 0 0 0 power 1 }", 2, 1, 6,
+     "sphere is not closed: expected '}' before 'light'", "line 3"},
+    {"material white {\n kd 0.7\nmaterial black { }\n", 1, 1, 8,
+     "material is not closed: expected '}' before 'material'", "line 3"},
+    {"film { width 4 }\nfilm { height 4 }", 2, 1, 4, "a scene has only one film", "the first is at text:1"},
+    {WHITE WHITE, 2, 10, 5, "material 'white' is defined twice", "first at text:1"},
+
+    /* Fields. */
+    {"camera { eye 0 0 0 lookat 0 0 1 }", 1, 20, 6, "unknown field 'lookat' in camera", "did you mean 'look_at'?"},
+    {WHITE "sphere { center 0 0 0 radius 1 material white }", 2, 10, 6, "unknown field 'center' in sphere",
+     "did you mean 'centre'?"},
+    {"film { colour 3 }", 1, 8, 6, "unknown field 'colour' in film", "the fields of film are: width height"},
+    {"film { width 3 width 4 }", 1, 16, 5, "'width' is given twice", "first at line 1"},
+    {"camera { eye 0 0 0 }", 1, 1, 6, "camera needs 'look_at'", ""},
+    {WHITE "sphere { material white }", 2, 1, 6, "sphere needs 'centre', 'radius'", ""},
+    {"light point { position 0 0 0 }", 1, 1, 11, "light point needs 'intensity' or 'power'", ""},
+    {"light point { position 0 0 0 intensity 1 power 2 }", 1, 42, 5,
+     "light point takes 'intensity' or 'power', not both", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white power 1 radiance 2 }", 2, 55, 8,
+     "sphere takes 'radiance' or 'power', not both", ""},
+    {WHITE "triangle { a 0 0 0 b 1 0 0 c 0 1 0 na 0 0 1 material white }", 2, 1, 8,
+     "triangle needs all of 'na', 'nb' and 'nc', or none", ""},
+    {"film { 4 width 4 }", 1, 8, 1, "expected a field of film or '}', found '4'", ""},
+    {"film { width 4 { } }", 1, 16, 1, "expected a field of film or '}', found '{'", ""},
+
+    /* Numbers of numbers. */
+    {"camera { eye 0 0 look_at 0 0 1 }", 1, 10, 7, "'eye' takes three numbers, found two", ""},
+    {"camera { eye look_at 0 0 1 }", 1, 10, 3, "'eye' takes three numbers, found 'look_at'", ""},
+    {"camera { eye 0 0 0 7 look_at 0 0 1 }", 1, 20, 1, "'eye' takes three numbers, found one more: '7'", ""},
+    {"material m { kd 0.5 0.5 }", 1, 14, 10, "'kd' takes one or three numbers, found two", ""},
+    {"film { width }", 1, 8, 5, "'width' takes a whole number, found '}'", ""},
+    {"film { width \"4\" }", 1, 8, 5, "'width' takes a whole number, found a string", ""},
+    {"film { width [1 2 3] }", 1, 14, 7, "'width' takes a whole number, found a vector", ""},
+    {"let v = [1 2 3]\ncamera { eye v 0 0 look_at 0 0 9 }", 2, 16, 1,
+     "'eye' takes three numbers, found one more: '0'", ""},
+    {"camera { eye 0, 0, 0 look_at 0 0 1 }", 1, 15, 1, "unexpected ',' in 'eye'", "separated by spaces"},
+    {"film { width = 4 }", 1, 14, 1, "unexpected '=' in 'width'", "without a sign"},
+    {"film { width: 4; }", 1, 13, 1, "unexpected ':' in 'width'", "without a sign"},
+
+    /* Words. */
+    {"render { mode phton }", 1, 15, 5, "'mode' takes path or photon, found 'phton'", "did you mean 'photon'?"},
+    {"render { mode 3 }", 1, 15, 1, "'mode' takes path or photon, found '3'", ""},
+    {"render { kernel gaussian-jensen }", 1, 17, 15, "'gaussian-jensen' is not a name", "'_'"},
+    {"material g { fresnel yes }", 1, 22, 3, "'fresnel' takes true or false, found 'yes'", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material whit }", 2, 41, 4, "unknown material 'whit'",
+     "did you mean 'white'?"},
+    {"sphere { centre 0 0 0 radius 1 material late }\nmaterial late { }", 1, 41, 4, "unknown material 'late'",
+     "it is defined further down, at text:2"},
+    {WHITE "sphere { centre 0 0 0 material radius 1 }", 2, 23, 8,
+     "'material' takes the name of a material, found 'radius'", ""},
+
+    /* Values. */
+    {"film { width 0 }", 1, 14, 1, "'width' is 0; it must be from 1 to 65536", ""},
+    {"film { width 2.5 }", 1, 14, 3, "'width' is 2.5; it must be a whole number", ""},
+    {"film { width 1e9 }", 1, 14, 3, "'width' is 1000000000; it must be from 1 to 65536", ""},
+    {"camera { eye 0 0 0 look_at 0 0 1 fov 180 }", 1, 38, 3,
+     "'fov' is 180; it must be between 0 and 180, both excluded", ""},
+    {"camera { eye 0 0 1e39 look_at 0 0 1 }", 1, 18, 4, "'eye' is 1e+39; numbers must not exceed 3.4", ""},
+    {"film { width 1e999 }", 1, 14, 5, "the number '1e999' is too large", ""},
+    {"film { width 1.2.3 }", 1, 14, 5, "'1.2.3' is not a number", "1e-3"},
+    {"film { width 12px }", 1, 14, 4, "'12px' is not a number", "1e-3"},
+    {"film { width 0x10 }", 1, 14, 4, "'0x10' is not a number", "1e-3"},
+    {"film { width 1e }", 1, 14, 2, "'1e' is not a number", "1e-3"},
+    {"film { width nan }", 1, 14, 3, "unknown constant 'nan'", "every number is finite"},
+    {"film { width -inf }", 1, 15, 3, "unknown constant 'inf'", "every number is finite"},
+    {WHITE "sphere { centre 0 0 0 radius -1 material white }", 2, 30, 2, "'radius' is -1; it must be greater than 0",
+     ""},
+    {WHITE "sphere { centre 0 0 0 radius 1e-60 material white }", 2, 30, 5, "'radius' is 0; it must be greater than 0",
+     ""},
+    {WHITE "plane { point 0 0 0 normal 0 0 0 material white }", 2, 28, 5, "'normal' must not be zero", ""},
+    {"material m { kd 0.5 1.5 0.5 }", 1, 21, 3, "'kd' is 1.5; it must be from 0 to 1", ""},
+    {"material m { kd 0.6 ks 0.6 }", 1, 17, 3, "kd + ks + kt is 1.2", ""},
+    {"camera { eye 1 2 3 look_at 1 2 3 }", 1, 28, 5, "eye and look_at are the same point", ""},
+    {WHITE "quad { corner 0 0 0 edge1 1 0 0 edge2 2 0 0 material white }", 2, 39, 5, "its area is zero", ""},
+    {WHITE "triangle { a 0 0 0 b 1 0 0 c 2 0 0 material white }", 2, 1, 8, "its area is zero", ""},
+    {"material l { emission 1 }\nplane { point 0 0 0 normal 0 1 0 material l }", 2, 43, 1, "cannot emit", ""},
+
+    /* let and arithmetic. */
+    {"let = 3\n" BALL, 1, 1, 3, "expected a name after 'let', found '='", ""},
+    {"let a 3\n" BALL, 1, 7, 1, "expected '=' after 'let a', found '3'", ""},
+    {"let a =\n" BALL, 1, 8, 1, "expected a number, found 'material'", ""},
+    {"let a = 1\nlet a = 2\n" BALL, 2, 5, 1, "constant 'a' is defined twice", "first at text:1"},
+    {"let a = 1 / 0\n" BALL, 1, 11, 1, "division by zero", ""},
+    {"let a = [1 2 3] / [1 0 1]\n" BALL, 1, 17, 1, "division by zero", ""},
+    {"let a = 1e200 * 1e200\n" BALL, 1, 15, 1, "the result of this '*' is too large", ""},
+    {"let a = (1 + 2\n" BALL, 1, 15, 1, "expected ')', found 'material'", "closes the '(' at line 1, column 9"},
+    {"let a = 1 + * 2\n" BALL, 1, 13, 1, "expected a number, found '*'", ""},
+    {"let a = 0.6 0.1 0.1\n" BALL, 1, 13, 3, "unexpected '0.1' after the value of 'a'", "in brackets"},
+    {"let a = 5;\n" BALL, 1, 10, 1, "unexpected ';' after the value of 'a'", "begins on a new line"},
+    {"let a = [1 2]\n" BALL, 1, 13, 1, "a vector has three numbers, found 2", ""},
+    {"let a = [1 2 3 4]\n" BALL, 1, 16, 1, "expected ']', found '4'", "closes the '[' at line 1, column 9"},
+    {"let a = [1, 2, 3]\n" BALL, 1, 11, 1, "expected a number, found ','", "separated by spaces"},
+    {"let a = [[1 2 3] 2 3]\n" BALL, 1, 10, 7, "expected a number, found a vector", ""},
+    {"let height = 1\nfilm { width heigth }", 2, 14, 6, "unknown constant 'heigth'", "did you mean 'height'?"},
+    {"film { width w }\nlet w = 3", 1, 14, 1, "unknown constant 'w'", "it is defined further down, at text:2"},
+    {"let a = b\nlet b = 3\n" BALL, 1, 9, 1, "unknown constant 'b'", "further down"},
+    {"camera { eye 0 1 - 4 look_at 0 0 1 }", 1, 18, 1, "this '-' is neither a sign nor inside parentheses", "(a - b)"},
+    {"camera { eye 0 1-4 look_at 0 0 1 }", 1, 17, 1, "this '-' is neither a sign nor inside parentheses", "(a - b)"},
+    {"film { width 2 * 3 }", 1, 16, 1, "unexpected '*' after the value of 'width'", "(2 * 3)"},
+    {"film { width 5 -3 }", 1, 16, 1, "unexpected '-' after the value of 'width'", "in parentheses"},
+    {"film { width +3 }", 1, 8, 5, "'width' takes a whole number, found '+'", ""},
+    {"let radius = 1\n" WHITE "sphere { centre 0 0 0 radius radius material white }", 3, 23, 6,
+     "'radius' takes a number, found 'radius'", "in parentheses"},
+
+    /* include and strings. */
+    {"include box\n" BALL, 1, 1, 7, "expected a file name in quotes after 'include', found 'box'", "materials.rts"},
+    {"include \"box.rts\n" BALL, 1, 9, 1, "the string is not closed", ""},
+    {"include \"\"\n" BALL, 1, 10, 1, "the name of the file to include is empty", ""},
+    {"include \"no/such/file.rts\"\n" BALL, 1, 10, 16, "cannot include 'no/such/file.rts': No such file", ""},
+    {"include \"scenes\"\n" BALL, 1, 10, 6, "cannot include 'scenes': it is a directory", ""},
+};
+
+static void every_mistake_is_one_error_at_its_place(void **state)
+{
+    static collected c;
+    int failures = 0;
+    (void)state;
+    for (size_t i = 0; i < sizeof bad_texts / sizeof *bad_texts; i++) {
+        const bad_text *bad = &bad_texts[i];
+        const collected_diagnostic *d = &c.items[0];
+        collect_text(&c, bad->text);
+        int good = c.status == RT_ERROR_INPUT && c.scene == NULL && c.count == 1 && d->line == bad->line &&
+                   d->column == bad->column && d->length == bad->length && strstr(d->message, bad->message) &&
+                   (bad->hint[0] ? strstr(d->hint, bad->hint) != NULL : d->hint[0] == '\0');
+        /* The caller's error says the same. */
+        good = good && c.error.status == RT_ERROR_INPUT && c.error.line == d->line && c.error.column == d->column &&
+               strcmp(c.error.file, "text") == 0 && strcmp(c.error.message, d->message) == 0;
+        if (good)
+            continue;
+        failures++;
+        print_error("text %zu:\n%s\nexpected %d:%d+%d %s (%s)\n", i, bad->text, bad->line, bad->column, bad->length,
+                    bad->message, bad->hint);
+        for (int j = 0; j < c.count && j < COLLECTED_MAX; j++)
+            print_error("   found %d:%d+%d %s (%s)\n", c.items[j].line, c.items[j].column, c.items[j].length,
+                        c.items[j].message, c.items[j].hint);
+        collected_free(&c);
+    }
+    assert_int_equal(failures, 0);
+}
+
+static void five_errors_give_five_reports_in_order(void **state)
+{
+    static const char text[] = "camera { eye 0 0  look_at 0 0 1  fov 200 }\n" /* two numbers, fov */
+                               "let a = 2 * (3 + )\n"
+                               "sphere { centre 0 0 0  raduis a  material white }\n" /* field, material */
+                               "light point { position 0 0 0  intensity a }\n";
+    static const int places[5][2] = {{1, 10}, {1, 38}, {2, 18}, {3, 24}, {3, 43}};
+    static collected c;
+    (void)state;
+    collect_text(&c, text);
+    assert_int_equal(c.count, 5);
+    for (int i = 0; i < 5; i++) {
+        assert_int_equal(c.items[i].line, places[i][0]);
+        assert_int_equal(c.items[i].column, places[i][1]);
+    }
+    assert_string_equal(c.error.message, "'eye' takes three numbers, found two (and 4 more)");
+    assert_int_equal(c.error.line, 1);
+    assert_int_equal(c.error.column, 10);
+}
+
+static void the_source_line_is_quoted_whole(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_text(&c, "\xef\xbb\xbf" "film {\r\n\twidth 0 # none\r\n}\r\n");
+    assert_int_equal(c.count, 1);
+    assert_string_equal(c.items[0].source_line, "\twidth 0 # none");
+    assert_int_equal(c.items[0].column, 8);
+    collect_text(&c, "\xef\xbb\xbf" "flim { }");
+    assert_string_equal(c.items[0].source_line, "flim { }");
+    assert_int_equal(c.items[0].column, 1);
+}
+
+static void what_nothing_uses_is_warned_of(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_text(&c, "let a = 1\nlet b = a\nmaterial m { }\nfilm { width 4 }\n");
+    assert_int_equal(c.status, RT_OK);
+    assert_int_equal(c.count, 2);
+    assert_true(c.items[0].is_warning && c.items[1].is_warning);
+    assert_string_equal(c.items[0].message, "constant 'b' is never used");
+    assert_string_equal(c.items[1].message, "material 'm' is never used");
+    collected_free(&c);
+}
+
+static void reading_stops_after_a_thousand_errors(void **state)
+{
+    static collected c;
+    const size_t lines = 100000;
+    char *text = malloc(4 * lines + 1);
+    (void)state;
+    assert_non_null(text);
+    for (size_t i = 0; i < lines; i++)
+        memcpy(text + 4 * i, "foo\n", 4);
+    text[4 * lines] = '\0';
+    collect_text(&c, text);
+    assert_int_equal(c.status, RT_ERROR_INPUT);
+    assert_int_equal(c.errors, 1001);
+    free(text);
+}
+
+/* Deep or long input neither overflows a stack nor takes more than linear time. */
+static void deep_and_long_texts_are_refused(void **state)
+{
+    static const struct {
+        const char *head, *repeated, *message;
+    } cases[] = {
+        {"let a = ", "(", "parentheses are nested deeper than 64"},
+        {"let a = ", "[", "parentheses are nested deeper than 64"},
+        {"let a = ", "-", "expected a number, found the end of the file"},
+        {"let a = 1", "+1", "the expression is too long"},
+        {"film { width ", "{", "'width' takes a whole number, found '{'"},
+        {"foo ", "{", "unknown block 'foo'"},
+        {"", "{", "expected a block, 'let' or 'include', found '{'"},
+    };
+    static collected c;
+    const size_t count = 1000000;
+    (void)state;
+    char *text = malloc(3 * count);
+    assert_non_null(text);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *end = text + sprintf(text, "%s", cases[i].head);
+        for (size_t j = 0; j < count; j++, end += strlen(cases[i].repeated))
+            strcpy(end, cases[i].repeated);
+        collect_text(&c, text);
+        assert_int_equal(c.status, RT_ERROR_INPUT);
+        int found = 0;
+        for (int j = 0; j < c.count && j < COLLECTED_MAX; j++)
+            found |= strstr(c.items[j].message, cases[i].message) != NULL;
+        if (!found)
+            fail_msg("%s...: %s", cases[i].head, c.items[0].message);
+    }
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_mistake_is_one_error_at_its_place),
+        cmocka_unit_test(five_errors_give_five_reports_in_order),
+        cmocka_unit_test(the_source_line_is_quoted_whole),
+        cmocka_unit_test(what_nothing_uses_is_warned_of),
+        cmocka_unit_test(reading_stops_after_a_thousand_errors),
+        cmocka_unit_test(deep_and_long_texts_are_refused),
+    };
+    return cmocka_run_group_tests_name("errors", tests, NULL, NULL);
+}

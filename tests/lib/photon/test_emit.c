@@ -1,0 +1,294 @@
+/*
+ * test_emit.c - the flux that photons carry, against what energy conservation says of closed rooms,
+ * and that a map does not depend on how the work was shared out.
+ *
+ * Bounds: sums that every path reaches exactly are held to rounding (1e-4); random ones to five
+ * standard errors, from the variance of a geometric series of bounces. Seeds are fixed.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "photon/emit.h"
+#include "render/renderer.h"
+
+enum { paths = 100000 };
+enum { sides = 6, top_side = 3 }; /* shapes of the room, in the order of make_room */
+
+static const double light_power[3] = {2, 3, 5};
+
+typedef enum ceiling { CEILING_LIKE_WALLS, CEILING_MIRROR } ceiling;
+typedef enum lamp { LAMP_BARE, LAMP_IN_GLASS } lamp;
+
+static uint32_t add_material(rt_scene *scene, const rt_material *material)
+{
+    uint32_t index = 0;
+    rt_error error;
+    expect_ok(rt_scene_add_material(scene, &index, NULL, material, &error), &error);
+    return index;
+}
+
+/* One side of the room, facing inwards: the axis that it is across, and which end. */
+static void add_side(rt_scene *scene, int axis, int end, uint32_t material)
+{
+    float corner[3] = {-1, -1, -1}, edge1[3] = {0}, edge2[3] = {0};
+    rt_surface surface = {material, {0}, {0}};
+    rt_error error;
+    corner[axis] = end ? 1 : -1;
+    edge1[(axis + 1) % 3] = 2;
+    edge2[(axis + 2) % 3] = 2;
+    expect_ok(rt_scene_add_quad(scene, NULL, corner, edge1, edge2, &surface, &error), &error);
+}
+
+/* A closed room [-1,1]^3 with walls of this albedo and a point light. */
+static rt_renderer *make_room_on(rt_device *device, const float kd[3], ceiling above, lamp how)
+{
+    rt_material wall = {{kd[0], kd[1], kd[2]}, {0}, {0}, {0}, 0, 0, 0, 0};
+    rt_material mirror = {{0}, {1, 1, 1}, {0}, {0}, 0, 0, 0, 0};
+    rt_material glass = {{0}, {0}, {1, 1, 1}, {0}, 1.5f, 1, 0, 0};
+    rt_point_light light = {{0.1f, 0.2f, -0.1f}, {0}, {2, 3, 5}};
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_error error;
+
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    uint32_t walls = add_material(scene, &wall);
+    uint32_t top = above == CEILING_MIRROR ? add_material(scene, &mirror) : walls;
+    for (int axis = 0; axis < 3; axis++)
+        for (int end = 0; end < 2; end++)
+            add_side(scene, axis, end, 2 * axis + end == top_side ? top : walls);
+    if (how == LAMP_IN_GLASS) {
+        rt_surface surface = {add_material(scene, &glass), {0}, {0}};
+        const float centre[3] = {0, 0.2f, 0};
+        expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.4f, &surface, &error), &error);
+    }
+    expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, device, NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+static rt_renderer *make_room(const float kd[3], ceiling above, lamp how)
+{
+    return make_room_on(test_device(), kd, above, how);
+}
+
+static rt_photon_map emit(rt_renderer *renderer, uint32_t max_depth, rt_direct direct, uint64_t count)
+{
+    rt_photon_map map = {0};
+    rt_stage_progress progress;
+    rt_params params;
+    rt_error error;
+    cl_kernel kernel = NULL;
+
+    memset(&params, 0, sizeof params);
+    params.seed = 11;
+    params.max_depth = max_depth;
+    params.direct = direct;
+    expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_EMIT), &error);
+    expect_ok(rt_device_kernel(renderer->device, &kernel, "photon_emit", "photon_emit", NULL, &error), &error);
+    expect_ok(rt_photon_emit(&map, renderer->device, kernel, renderer->scene, &params, count, &progress, &error),
+              &error);
+    rt_kernel_release(kernel);
+    assert_int_equal(map.emitted, count);
+    assert_int_equal(map.rejected, 0);
+    return map;
+}
+
+static uint32_t segments(const rt_photon *photon)
+{
+    return photon->flags >> 8;
+}
+
+typedef int filter(const rt_photon *photon);
+
+static int any(const rt_photon *photon)
+{
+    (void)photon;
+    return 1;
+}
+
+static int after_one_segment(const rt_photon *photon)
+{
+    return segments(photon) == 1;
+}
+
+/* The first photon that a path leaves has met delta surfaces only. */
+static int first_of_path(const rt_photon *photon)
+{
+    return segments(photon) == 1 || (photon->flags & RT_PHOTON_CAUSTIC);
+}
+
+static int caustic(const rt_photon *photon)
+{
+    return (photon->flags & RT_PHOTON_CAUSTIC) != 0;
+}
+
+static double sum_flux(const rt_photon_map *map, filter *which, int channel)
+{
+    double sum = 0;
+    for (size_t i = 0; i < map->count; i++)
+        if (which(map->photons + i))
+            sum += map->photons[i].flux[channel];
+    return sum;
+}
+
+static void light_arrives_whole_at_the_walls(void **state)
+{
+    static const float kd[3] = {0.5f, 0.5f, 0.5f};
+    (void)state;
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    rt_photon_map map = emit(renderer, 4, RT_DIRECT_PHOTONS, paths);
+    for (int c = 0; c < 3; c++)
+        assert_float_equal(sum_flux(&map, after_one_segment, c), light_power[c], 1e-4 * light_power[c]);
+    rt_photon_map_clear(&map);
+    rt_renderer_destroy(renderer);
+}
+
+/* Bounce i brings albedo^i of the power, up to the longest path. */
+static void flux_of_all_bounces_is_the_geometric_series(void **state)
+{
+    static const float kd[3] = {0.2f, 0.5f, 0.8f};
+    static const uint32_t depths[] = {2, 3, 6, 64};
+    (void)state;
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    for (size_t d = 0; d < sizeof depths / sizeof *depths; d++) {
+        rt_photon_map map = emit(renderer, depths[d], RT_DIRECT_PHOTONS, paths);
+        for (int c = 0; c < 3; c++) {
+            double expected = light_power[c] * (1 - pow(kd[c], depths[d] - 1)) / (1 - kd[c]);
+            double sigma = light_power[c] * sqrt(kd[c] / paths) / (1 - kd[c]);
+            double found = sum_flux(&map, any, c);
+            if (fabs(found - expected) > 5 * sigma + 1e-4 * expected)
+                fail_msg("depth %u channel %d: %g W stored, %g expected, sigma %g", depths[d], c, found, expected, sigma);
+        }
+        rt_photon_map_clear(&map);
+    }
+    rt_renderer_destroy(renderer);
+}
+
+static void photons_straight_from_the_light_are_left_to_shadow_rays(void **state)
+{
+    static const float kd[3] = {0.5f, 0.5f, 0.5f};
+    (void)state;
+    rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LAMP_BARE);
+    rt_photon_map nee = emit(renderer, 16, RT_DIRECT_NEE, paths);
+    rt_photon_map all = emit(renderer, 16, RT_DIRECT_PHOTONS, paths);
+    size_t j = 0;
+    /* One map is the other without its photons of one segment. */
+    for (size_t i = 0; i < all.count; i++)
+        if (!after_one_segment(all.photons + i)) {
+            assert_true(j < nee.count);
+            assert_memory_equal(nee.photons + j++, all.photons + i, sizeof *all.photons);
+        }
+    assert_int_equal(j, nee.count);
+    assert_true(all.count - nee.count > paths / 2);
+    rt_photon_map_clear(&nee);
+    rt_photon_map_clear(&all);
+    rt_renderer_destroy(renderer);
+}
+
+static void delta_surfaces_store_nothing_and_pass_all_flux(void **state)
+{
+    static const float kd[3] = {0.5f, 0.5f, 0.5f};
+    (void)state;
+    for (lamp how = LAMP_BARE; how <= LAMP_IN_GLASS; how++) {
+        rt_renderer *renderer = make_room(kd, CEILING_MIRROR, how);
+        rt_photon_map map = emit(renderer, 64, RT_DIRECT_PHOTONS, paths);
+        for (int c = 0; c < 3; c++) {
+            double first = sum_flux(&map, first_of_path, c);
+            if (fabs(first - light_power[c]) > 1e-4 * light_power[c])
+                fail_msg("lamp %d channel %d: %g W arrive of %g", (int)how, c, first, light_power[c]);
+            assert_true(sum_flux(&map, caustic, c) > (how == LAMP_IN_GLASS ? 0.999 : 0.1) * light_power[c]);
+        }
+        for (size_t i = 0; i < map.count; i++)
+            assert_true(map.photons[i].shape < sides && map.photons[i].shape != top_side);
+        rt_photon_map_clear(&map);
+        rt_renderer_destroy(renderer);
+    }
+}
+
+static void photons_are_whole(void **state)
+{
+    static const float kd[3] = {0.2f, 0.5f, 0.8f};
+    (void)state;
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    rt_photon_map map = emit(renderer, 16, RT_DIRECT_PHOTONS, 5000);
+    for (size_t i = 0; i < map.count; i++) {
+        const rt_photon *p = map.photons + i;
+        float facing = 0, wi2 = 0, outermost = 0;
+        for (int c = 0; c < 3; c++) {
+            facing += p->wi[c] * p->normal[c];
+            wi2 += p->wi[c] * p->wi[c];
+            outermost = fmaxf(outermost, fabsf(p->position[c]));
+            assert_true(p->flux[c] >= 0);
+        }
+        assert_true(facing > 0); /* the normal is on the lit side */
+        assert_float_equal(wi2, 1, 1e-5);
+        assert_float_equal(outermost, 1, 1e-5);
+        assert_true(segments(p) >= 1 && segments(p) <= 15);
+        assert_true(p->shape < sides);
+        /* In the order of paths, and along each path from the light on. */
+        assert_true(i == 0 || p->path > p[-1].path || (p->path == p[-1].path && segments(p) == segments(p - 1) + 1));
+    }
+    rt_photon_map_clear(&map);
+    rt_renderer_destroy(renderer);
+}
+
+static void maps_do_not_depend_on_batches(void **state)
+{
+    static const float kd[3] = {0.8f, 0.8f, 0.8f};
+    enum { count = 20000, shallow = 16, deep = 128 }; /* deep paths need more slots: smaller batches */
+    (void)state;
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    rt_photon_map one = emit(renderer, shallow, RT_DIRECT_PHOTONS, count);
+    rt_photon_map many = emit(renderer, deep, RT_DIRECT_PHOTONS, count);
+    size_t j = 0;
+    for (size_t i = 0; i < many.count; i++)
+        if (segments(many.photons + i) < shallow) {
+            assert_true(j < one.count);
+            assert_memory_equal(one.photons + j++, many.photons + i, sizeof *one.photons);
+        }
+    assert_int_equal(j, one.count);
+    rt_photon_map_clear(&one);
+    rt_photon_map_clear(&many);
+    rt_renderer_destroy(renderer);
+}
+
+static void maps_do_not_depend_on_threads_and_work_groups(void **state)
+{
+    static const float kd[3] = {0.2f, 0.5f, 0.8f};
+    static const rt_device_options options[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 2, 64}};
+    (void)state;
+    rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LAMP_IN_GLASS);
+    rt_photon_map expected = emit(renderer, 16, RT_DIRECT_NEE, 10000);
+    rt_renderer_destroy(renderer);
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+        rt_device *device = NULL;
+        rt_error error;
+        expect_ok(rt_device_open(&device, options + i, &error), &error);
+        renderer = make_room_on(device, kd, CEILING_MIRROR, LAMP_IN_GLASS);
+        rt_photon_map map = emit(renderer, 16, RT_DIRECT_NEE, 10000);
+        assert_int_equal(map.count, expected.count);
+        assert_memory_equal(map.photons, expected.photons, map.count * sizeof *map.photons);
+        rt_photon_map_clear(&map);
+        rt_renderer_destroy(renderer);
+        rt_device_close(device);
+    }
+    rt_photon_map_clear(&expected);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_arrives_whole_at_the_walls),
+        cmocka_unit_test(flux_of_all_bounces_is_the_geometric_series),
+        cmocka_unit_test(photons_straight_from_the_light_are_left_to_shadow_rays),
+        cmocka_unit_test(delta_surfaces_store_nothing_and_pass_all_flux),
+        cmocka_unit_test(photons_are_whole),
+        cmocka_unit_test(maps_do_not_depend_on_batches),
+        cmocka_unit_test(maps_do_not_depend_on_threads_and_work_groups),
+    };
+    return cmocka_run_group_tests_name("lib/photon/emit", tests, NULL, NULL);
+}

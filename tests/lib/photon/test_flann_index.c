@@ -1,0 +1,164 @@
+/* test_flann_index.c - FLANN behind the library's conventions finds what brute force finds. */
+#include "support.h"
+
+#include <flann/flann.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/photon/points.h"
+#include "photon/flann_index.h"
+
+enum { queries = 40 };
+
+typedef enum layout { SCATTERED, ON_A_PLANE, CLUSTERED, DUPLICATED } layout;
+
+static void place(float p[3], layout how, size_t i, points_stream *stream)
+{
+    for (int c = 0; c < 3; c++)
+        p[c] = points_uniform(stream);
+    if (how == ON_A_PLANE)
+        p[1] = 0.25f;
+    if (how == CLUSTERED) /* each tenth point far from the rest, which crowd at a corner */
+        for (int c = 0; c < 3; c++)
+            p[c] *= i % 10 ? 1e-4f : 10.0f;
+    if (how == DUPLICATED) /* 27 places, so that most distances are tied */
+        for (int c = 0; c < 3; c++)
+            p[c] = floorf(3 * p[c]) / 3;
+}
+
+static float squared_distance(const float *a, const float *b)
+{
+    float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+static void assert_is_set(const int *indices, size_t k, size_t count)
+{
+    unsigned char *seen = calloc(count, 1);
+    for (size_t i = 0; i < k; i++) {
+        assert_true(indices[i] >= 0 && (size_t)indices[i] < count);
+        assert_false(seen[indices[i]]);
+        seen[indices[i]] = 1;
+    }
+    free(seen);
+}
+
+/* The indices are different, every distance is that of its index, they ascend, and no nearer point is left out. */
+static void assert_nearest(const float *positions, size_t count, const float *query, size_t k, const int *indices,
+                           const float *squared)
+{
+    float nearer = squared[k - 1] * (1 - 1e-6f);
+    size_t in_all = 0, in_list = 0;
+
+    assert_is_set(indices, k, count);
+    for (size_t i = 0; i < k; i++) {
+        float expected = squared_distance(positions + 3 * indices[i], query);
+        assert_float_equal(squared[i], expected, 1e-6 * expected);
+        assert_true(i == 0 || squared[i] >= squared[i - 1]);
+        in_list += expected < nearer;
+    }
+    for (size_t i = 0; i < count; i++)
+        in_all += squared_distance(positions + 3 * i, query) < nearer;
+    assert_int_equal(in_list, in_all);
+}
+
+static void compare_with_brute_force(size_t count, size_t k, layout how)
+{
+    points_stream stream = {count + 1000 * k};
+    float *positions = malloc(count * 3 * sizeof *positions), asked[queries][3];
+    int *indices = malloc(queries * k * sizeof *indices);
+    float *squared = malloc(queries * k * sizeof *squared);
+    rt_flann_index *index = NULL;
+    rt_error error;
+
+    for (size_t i = 0; i < count; i++)
+        place(positions + 3 * i, how, i, &stream);
+    for (size_t i = 0; i < queries; i++)
+        if (i % 2)
+            place(asked[i], how, i, &stream);
+        else
+            memcpy(asked[i], positions + 3 * (i % count), sizeof asked[i]);
+    expect_ok(rt_flann_index_create(&index, positions, count, &error), &error);
+    expect_ok(rt_flann_index_nearest(index, asked[0], queries, k, 2, indices, squared, &error), &error);
+    for (size_t i = 0; i < queries; i++)
+        assert_nearest(positions, count, asked[i], k, indices + i * k, squared + i * k);
+    rt_flann_index_destroy(index);
+    free(positions);
+    free(indices);
+    free(squared);
+}
+
+static void nearest_equal_brute_force(void **state)
+{
+    static const size_t counts[] = {1, 2, 17, 100, 1001, 20000, 100000};
+    static const size_t ks[] = {1, 5, 50, 250, 251, 500, 1000};
+    (void)state;
+    for (size_t n = 0; n < sizeof counts / sizeof *counts; n++)
+        for (size_t k = 0; k < sizeof ks / sizeof *ks; k++)
+            if (ks[k] <= counts[n])
+                for (layout how = SCATTERED; how <= DUPLICATED; how++)
+                    compare_with_brute_force(counts[n], ks[k], how);
+}
+
+static void all_points_can_be_asked_for(void **state)
+{
+    (void)state;
+    compare_with_brute_force(1, 1, SCATTERED);
+    compare_with_brute_force(300, 300, SCATTERED);
+    compare_with_brute_force(300, 300, DUPLICATED);
+}
+
+static void an_empty_set_is_an_index(void **state)
+{
+    rt_flann_index *index = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_flann_index_create(&index, NULL, 0, &error), &error);
+    assert_int_equal(rt_flann_index_count(index), 0);
+    rt_flann_index_destroy(index);
+    rt_flann_index_destroy(NULL);
+}
+
+static void results_do_not_depend_on_threads(void **state)
+{
+    enum { count = 5000, k = 60, asked = 1000 };
+    static float positions[count][3];
+    static int indices[2][asked * k];
+    static float squared[2][asked * k];
+    points_stream stream = {7};
+    rt_flann_index *index = NULL;
+    rt_error error;
+    (void)state;
+    for (size_t i = 0; i < count; i++)
+        place(positions[i], DUPLICATED, i, &stream);
+    expect_ok(rt_flann_index_create(&index, positions[0], count, &error), &error);
+    for (uint32_t threads = 1; threads <= 2; threads++)
+        expect_ok(rt_flann_index_nearest(index, positions[0], asked, k, threads == 2 ? 3 : 1, indices[threads - 1],
+                                         squared[threads - 1], &error),
+                  &error);
+    assert_memory_equal(indices[0], indices[1], sizeof indices[0]);
+    assert_memory_equal(squared[0], squared[1], sizeof squared[0]);
+    rt_flann_index_destroy(index);
+}
+
+static void the_process_keeps_its_distance_type(void **state)
+{
+    (void)state;
+    flann_set_distance_type(FLANN_DIST_MANHATTAN, 3);
+    compare_with_brute_force(1000, 10, SCATTERED);
+    assert_int_equal(flann_get_distance_type(), FLANN_DIST_MANHATTAN);
+    flann_set_distance_type(FLANN_DIST_EUCLIDEAN, 3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nearest_equal_brute_force),
+        cmocka_unit_test(all_points_can_be_asked_for),
+        cmocka_unit_test(an_empty_set_is_an_index),
+        cmocka_unit_test(results_do_not_depend_on_threads),
+        cmocka_unit_test(the_process_keeps_its_distance_type),
+    };
+    return cmocka_run_group_tests_name("lib/photon/flann_index", tests, NULL, NULL);
+}

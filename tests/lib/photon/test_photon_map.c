@@ -1,0 +1,80 @@
+/* test_photon_map.c - a map is its paths' photons, one path after the other. */
+#include "support.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "photon/photon_map.h"
+
+enum { slots_per_path = 4, path_count = 100 };
+
+/* Path i leaves i % 5 photons at most slots_per_path, numbered by path and slot. */
+static void fill(rt_photon slots[path_count * slots_per_path], rt_u32 counts[path_count])
+{
+    memset(slots, 0, path_count * slots_per_path * sizeof *slots);
+    for (rt_u32 i = 0; i < path_count; i++) {
+        counts[i] = i % (slots_per_path + 1);
+        for (rt_u32 j = 0; j < slots_per_path; j++) {
+            slots[i * slots_per_path + j].path = i;
+            slots[i * slots_per_path + j].flags = j;
+        }
+    }
+}
+
+static void photons_follow_in_the_order_of_paths(void **state)
+{
+    static rt_photon slots[path_count * slots_per_path];
+    static rt_u32 counts[path_count];
+    rt_photon_map whole = {0}, parts = {0};
+    rt_error error;
+    size_t at = 0;
+    (void)state;
+    fill(slots, counts);
+    expect_ok(rt_photon_map_append(&whole, slots, counts, path_count, slots_per_path, &error), &error);
+    for (rt_u32 i = 0; i < path_count; i++)
+        for (rt_u32 j = 0; j < counts[i]; j++, at++) {
+            assert_int_equal(whole.photons[at].path, i);
+            assert_int_equal(whole.photons[at].flags, j);
+        }
+    assert_int_equal(whole.count, at);
+    assert_int_equal(whole.emitted, path_count);
+
+    /* Appending part by part makes the same map. */
+    for (size_t first = 0; first < path_count; first += 25)
+        expect_ok(rt_photon_map_append(&parts, slots + first * slots_per_path, counts + first, 25, slots_per_path,
+                                       &error),
+                  &error);
+    assert_int_equal(parts.count, whole.count);
+    assert_memory_equal(parts.photons, whole.photons, whole.count * sizeof *whole.photons);
+    rt_photon_map_clear(&parts);
+    rt_photon_map_clear(&whole);
+    assert_int_equal(whole.count, 0);
+    assert_null(whole.photons);
+}
+
+static void photons_that_are_not_finite_are_counted_and_left_out(void **state)
+{
+    static rt_photon slots[path_count * slots_per_path];
+    static rt_u32 counts[path_count];
+    rt_photon_map map = {0};
+    rt_error error;
+    (void)state;
+    fill(slots, counts);
+    slots[1 * slots_per_path].position[2] = INFINITY;
+    slots[2 * slots_per_path + 1].flux[0] = NAN;
+    slots[5 * slots_per_path].flux[0] = NAN; /* not among the counted */
+    expect_ok(rt_photon_map_append(&map, slots, counts, path_count, slots_per_path, &error), &error);
+    assert_int_equal(map.rejected, 2);
+    assert_int_equal(map.count, 200 - 2);
+    assert_int_equal(map.photons[0].path, 2);
+    rt_photon_map_clear(&map);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(photons_follow_in_the_order_of_paths),
+        cmocka_unit_test(photons_that_are_not_finite_are_counted_and_left_out),
+    };
+    return cmocka_run_group_tests_name("lib/photon/photon_map", tests, NULL, NULL);
+}

@@ -1,0 +1,53 @@
+#!/bin/sh
+# test_symbols.sh - what the library promises about itself, read from its objects: it never prints, exits or
+# touches signals, locale or environment, and it has no writable data outside the file that owns FLANN.
+set -u
+library=build/librt.a
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+bad=0
+
+# check NAME FILE: the test passes when FILE, which lists offences, is empty.
+check() {
+    if [ -s "$2" ]; then
+        printf 'not ok %s\n' "$1"
+        sed 's/^/    /' "$2"
+        bad=1
+    else
+        printf 'ok %s\n' "$1"
+    fi
+}
+
+# uses NAME REGEX: no object of the library calls a function of these names.
+uses() {
+    nm -A -u "$library" | grep -E "[: ]U ($2)(@.*)?\$" >"$work/offences"
+    check "$1" "$work/offences"
+}
+
+nm -A "$library" >"$work/all" 2>&1 || echo "nm $library failed" >>"$work/unreadable"
+grep -q ' T rt_render$' "$work/all" || echo "no rt_render in $library" >>"$work/unreadable"
+: >>"$work/unreadable"
+check library_is_readable "$work/unreadable"
+
+uses never_prints '(v|f|vf|w|fw)?printf|puts|fputs|fputc|putc|putchar|perror|psignal|vsyslog|syslog|stdout|stderr|__printf_chk|__fprintf_chk|__vfprintf_chk'
+uses never_exits '_?exit|_Exit|abort|quick_exit|atexit|on_exit|err|errx|verr'
+uses never_touches_signals 'signal|sigaction|sigprocmask|pthread_sigmask|raise|kill|alarm|setitimer|sigsetjmp|__sigsetjmp'
+uses never_touches_locale_or_environment 'setlocale|uselocale|newlocale|setenv|unsetenv|putenv|getenv|secure_getenv|clearenv|chdir|fchdir|umask'
+uses never_runs_programs 'system|popen|fork|vfork|exec[a-z]*|posix_spawnp?'
+uses never_draws_from_hidden_state 'rand|srand|random|srandom|drand48|strtok|localtime|gmtime|asctime|ctime|strerror'
+
+# Constant tables of pointers stand in .data.rel.ro, which is read-only once the program runs.
+objdump -t "$library" | awk '
+    /^[^ ]+: +file format/ { sub(/:.*/, "", $1); object = $1; next }
+    object != "flann_index.o" && $0 ~ / O / && $0 ~ /[ \t](\.data|\.bss|\.tdata|\.tbss|\*COM\*)/ &&
+        $0 !~ /\.data\.rel\.ro/ { print object ": " $0 }' >"$work/offences"
+check no_writable_data_outside_flann "$work/offences"
+
+objdump -t "$library" | grep -E '[ \t]O[ \t]+\.(data|bss)' | grep -v '\.data\.rel\.ro' >"$work/flann"
+[ -s "$work/flann" ] || echo 'not even the file that owns FLANN has any' >"$work/offences"
+check writable_data_is_seen_where_it_is "$work/offences"
+
+# What other programs can link against: names of the library alone.
+nm -D --defined-only build/librt-render.so.0 | awk '$3 !~ /^rt_/ { print }' >"$work/offences"
+check exports_only_rt_names "$work/offences"
+exit $bad

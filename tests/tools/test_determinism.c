@@ -1,0 +1,90 @@
+/* test_determinism.c - the same seed gives the same bytes of EXR, run after run, however the work is shared out. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+/* Diffuse, mirror and glass, a point light and a lamp, a thin lens: everything that draws samples. */
+static const char scene[] = "camera { eye 0 1.5 -5  look_at 0 0.8 0  fov 45  aperture 0.05 }\n"
+                            "film { width 37  height 29 }\n"
+                            "material white { kd 0.7 }\n"
+                            "material mirror { ks 0.9 }\n"
+                            "material glass { kt 1  ior 1.5  fresnel true }\n"
+                            "plane { point 0 0 0  normal 0 1 0  material white }\n"
+                            "sphere { centre -1.2 1 0  radius 1  material mirror }\n"
+                            "sphere { centre 1 1 0  radius 0.9  material glass }\n"
+                            "triangle { a -4 0 3  b 0 6 3  c 4 0 3  material white }\n"
+                            "quad { corner -1 4 -1  edge1 2 0 0  edge2 0 0 2  material white  radiance 8 }\n"
+                            "light point { position 2 4 -3  intensity 20 }\n";
+
+enum { RUNS = 10 };
+
+static void render(const char *mode, const char *how, const char *out)
+{
+    run run = run_rtc("a.rts --quiet --spp 5 --photons 20000 --final-gather 1 --seed 3 %s %s --out %s", mode, how, out);
+    expect_status(&run, 0);
+    run_free(&run);
+}
+
+static void check_mode(const char *mode)
+{
+    static const char *const threads[] = {"1", "2"};
+    static const char *const groups[] = {"1", "16", "64"};
+    scratch_write("a.rts", scene);
+    render(mode, "", "first.exr");
+    for (int i = 1; i < RUNS; i++) {
+        render(mode, "", "again.exr");
+        expect_same_files("first.exr", "again.exr");
+    }
+    for (int t = 0; t < 2; t++)
+        for (int g = 0; g < 3; g++) {
+            char how[64];
+            snprintf(how, sizeof how, "--threads %s --work-group %s", threads[t], groups[g]);
+            render(mode, how, "shared.exr");
+            expect_same_files("first.exr", "shared.exr");
+        }
+}
+
+static void path_mode_gives_the_same_bytes(void **state)
+{
+    (void)state;
+    check_mode("--mode path");
+}
+
+static void photon_mode_gives_the_same_bytes(void **state)
+{
+    (void)state;
+    check_mode("--mode photon");
+}
+
+/* Else the tests above could not fail. */
+static void another_seed_gives_other_bytes(void **state)
+{
+    (void)state;
+    static const char *const modes[] = {"--mode path", "--mode photon"};
+    scratch_write("a.rts", scene);
+    for (int i = 0; i < 2; i++) {
+        render(modes[i], "--seed 3", "a.pfm");
+        render(modes[i], "--seed 4", "b.pfm");
+        expect_different_files("a.pfm", "b.pfm");
+    }
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(path_mode_gives_the_same_bytes),
+        TEST(photon_mode_gives_the_same_bytes),
+        TEST(another_seed_gives_other_bytes),
+    };
+    return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+}

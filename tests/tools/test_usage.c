@@ -1,0 +1,313 @@
+/* test_usage.c - the command line of rtc: what it takes, what it refuses, and what it says. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+static const char scene[] = "camera { eye 0 0 -4  look_at 0 0 0 }\n"
+                            "film { width 8  height 8 }\n"
+                            "material white { kd 0.7 }\n"
+                            "sphere { centre 0 0 0  radius 1  material white }\n"
+                            "light point { position 2 4 -3  intensity 20 }\n";
+
+/* ---- Refusals -------------------------------------------------------------- */
+
+static const struct {
+    const char *line, *says;
+} refusals[] = {
+    {"", "which scene?"},
+    {"a.rts b.rts", "one scene at a time: 'a.rts' and 'b.rts'"},
+    {"chekc a.rts", "did you mean `rtc check`?"},
+    {"a.rts --spp", "--spp needs a value"},
+    {"a.rts --spp=", "--spp needs a value"},
+    {"a.rts --mode --spp 3", "--mode needs a value"},
+    {"a.rts --spp 0", "--spp takes a whole number from 1"},
+    {"a.rts --spp -3", "not '-3'"},
+    {"a.rts --spp 2.5", "not '2.5'"},
+    {"a.rts --spp 3x", "not '3x'"},
+    {"a.rts --spp 0x10", "not '0x10'"},
+    {"a.rts --spp 1e10", "not '1e10'"},
+    {"a.rts --spp 1e400", "not '1e400'"},
+    {"a.rts --seed 4294967296", "not '4294967296'"},
+    {"a.rts --photons 1.5e0", "not '1.5e0'"},
+    {"a.rts --time nan", "--time takes a number"},
+    {"a.rts --time inf", "--time takes a number"},
+    {"a.rts --time -1", "--time takes a number"},
+    {"a.rts --radius -0.5", "--radius takes a number"},
+    {"a.rts --cone-k 0.9", "--cone-k takes a number from 1"},
+    {"a.rts --exposure ++1", "--exposure takes a number"},
+    {"a.rts --exposure 1000", "--exposure takes a number"},
+    {"a.rts --mode paht", "did you mean path?"},
+    {"a.rts --kernel gausian", "did you mean gaussian?"},
+    {"a.rts --kernel q", "--kernel takes one of box, cone, gaussian, epanechnikov, silverman, gaussian-jensen"},
+    {"a.rts --sampler halton", "--sampler takes one of sobol, independent"},
+    {"a.rts --direct no", "--direct takes one of nee, photons"},
+    {"a.rts --accel kd", "--accel takes one of bvh, none"},
+    {"a.rts --tonemap filmic", "--tonemap takes one of none, reinhard, aces"},
+    {"a.rts --progress yes", "--progress takes one of auto, plain, json, none"},
+    {"a.rts --stats=1", "--stats takes no value"},
+    {"a.rts --mdoe path", "did you mean --mode?"},
+    {"a.rts --frobnicate", "unknown option '--frobnicate'"},
+    {"a.rts -s 3", "unknown option '-s'"},
+    {"a.rts --verbose --quiet", "exclude each other"},
+    {"a.rts --out a.jpg", "the extension tells the format"},
+    {"a.rts --out a.exrr", "did you mean .exr?"},
+    {"a.rts --out noextension", "the extension tells the format"},
+    {"a.rts --out a.png --out a.png", "--out a.png is given twice"},
+    {"a.rts --mode photon --k 1", "--k: "},
+    {"a.rts --width 100000", "--width: "},
+    {"a.rts --max-depth 1e6", "--max-depth: "},
+    {"a.rts --work-group 1e6", "--work-group: "},
+    {"check", "which scene?"},
+    {"check a.rts --spp 3", "`rtc check` takes no option --spp"},
+    {"devices --spp 3", "`rtc devices` takes no option --spp"},
+    {"devices a.rts", "takes no argument"},
+    {"doctor a.rts", "takes no argument but options"},
+    {"check --help=yes", "--help takes no value"},
+};
+
+static void wrong_usage_is_refused_with_status_2(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    for (size_t i = 0; i < sizeof refusals / sizeof refusals[0]; i++) {
+        run run = run_rtc("%s", refusals[i].line);
+        expect_status(&run, 2);
+        expect_err(&run, "rtc: error: ");
+        expect_err(&run, refusals[i].says);
+        assert_string_equal(run.out, "");
+        run_free(&run);
+    }
+    /* Nothing was rendered. */
+    assert_int_equal(scratch_count(), 1);
+}
+
+static void several_mistakes_are_all_told(void **state)
+{
+    (void)state;
+    run run = run_rtc("a.rts --spp x --kernel y --bogus");
+    expect_status(&run, 2);
+    expect_err(&run, "--spp takes");
+    expect_err(&run, "--kernel takes");
+    expect_err(&run, "unknown option '--bogus'");
+    run_free(&run);
+}
+
+/* ---- What is accepted ------------------------------------------------------- */
+
+static void both_forms_of_an_option_are_the_same(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run a = run_rtc("a.rts --spp 3 --stats --out a.pfm");
+    run b = run_rtc("a.rts --spp=3 --stats --out=b.pfm");
+    expect_status(&a, 0);
+    expect_status(&b, 0);
+    assert_true(stats_number(&a, "samples a pixel") == 3.0);
+    expect_same_files("a.pfm", "b.pfm");
+    run_free(&a);
+    run_free(&b);
+}
+
+static void last_of_a_repeated_option_counts(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("a.rts --spp 9 --spp 2 --stats --out a.pfm");
+    expect_status(&run, 0);
+    assert_true(stats_number(&run, "samples a pixel") == 2.0);
+    run_free(&run);
+}
+
+static void two_dashes_end_the_options(void **state)
+{
+    (void)state;
+    scratch_write("--spp.rts", scene);
+    run run = run_rtc("--spp 1 --out a.pfm -- --spp.rts");
+    expect_status(&run, 0);
+    expect_file("a.pfm");
+    run_free(&run);
+}
+
+static void negative_value_is_a_value(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("a.rts --spp 1 --exposure -1 --out a.png");
+    expect_status(&run, 0);
+    run_free(&run);
+}
+
+/* ---- Help, version, and the small commands ---------------------------------- */
+
+/* Every option of the specification is there, and no line is wider than a terminal. */
+static void help_describes_every_option(void **state)
+{
+    (void)state;
+    static const char *const options[] = {
+        "--mode ",     "--spp ",    "--max-depth ",    "--photons ", "--k ",        "--kernel ",  "--cone-k ",
+        "--radius ",   "--direct ", "--final-gather ", "--accel ",   "--sampler ",  "--width ",   "--height ",
+        "--seed ",     "--time ",   "--out ",          "--exposure ", "--tonemap ", "--device ",  "--threads ",
+        "--work-group ", "--progress ", "--stats",     "--verbose",  "--quiet",     "--help",     "--version"};
+    run run = run_rtc("--help");
+    expect_status(&run, 0);
+    assert_string_equal(run.err, "");
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        char entry[64];
+        snprintf(entry, sizeof entry, "\n  %s", options[i]);
+        expect_out(&run, entry);
+    }
+    expect_out(&run, "Exit status: 0 done");
+    for (const char *line = run.out; *line; line += strcspn(line, "\n") + 1)
+        assert_true(strcspn(line, "\n") <= 80);
+    run_free(&run);
+}
+
+static void each_command_has_its_help(void **state)
+{
+    (void)state;
+    static const char *const commands[] = {"check", "devices", "doctor"};
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+        char usage[64];
+        snprintf(usage, sizeof usage, "usage: rtc %s", commands[i]);
+        run run = run_rtc("%s --help", commands[i]);
+        expect_status(&run, 0);
+        expect_out(&run, usage);
+        run_free(&run);
+    }
+}
+
+static void version_is_told(void **state)
+{
+    (void)state;
+    run run = run_rtc("--version");
+    expect_status(&run, 0);
+    assert_string_equal(run.out, "rtc 0.1.0\n");
+    run_free(&run);
+}
+
+static void devices_are_listed(void **state)
+{
+    (void)state;
+    run run = run_rtc("devices");
+    expect_status(&run, 0);
+    assert_memory_equal(run.out, "0  ", 3);
+    expect_out(&run, "compute unit");
+    run_free(&run);
+}
+
+static void doctor_finds_all_well(void **state)
+{
+    (void)state;
+    run run = run_rtc("doctor");
+    expect_status(&run, 0);
+    expect_out(&run, "ok    path mode renders");
+    expect_out(&run, "ok    photon mode renders");
+    expect_out(&run, "all is well\n");
+    run_free(&run);
+}
+
+static void check_counts_what_a_scene_holds(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("check a.rts");
+    expect_status(&run, 0);
+    assert_string_equal(run.out, "a.rts: ok: 1 shape, 0 triangles, 1 material, 1 light\n");
+    run_free(&run);
+}
+
+static void check_of_several_scenes_goes_on_after_a_bad_one(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    scratch_write("b.rts", "bad { }\n");
+    run run = run_rtc("check b.rts a.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "b.rts:1:1: error: ");
+    expect_out(&run, "a.rts: ok");
+    run_free(&run);
+}
+
+/* ---- Without OpenCL, and other failures --------------------------------------- */
+
+static void no_platform_is_status_3_and_says_what_to_install(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    static const char *const lines[] = {"a.rts", "devices", "doctor"};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        run run = run_rtc("OCL_ICD_VENDORS=/nonexistent rtc %s", lines[i]);
+        expect_status(&run, 3);
+        assert_true(strstr(run.err, "pocl-opencl-icd") || strstr(run.out, "pocl-opencl-icd"));
+        run_free(&run);
+    }
+    assert_int_equal(scratch_count(), 1);
+}
+
+static void check_needs_no_device(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("OCL_ICD_VENDORS=/nonexistent rtc check a.rts");
+    expect_status(&run, 0);
+    run_free(&run);
+}
+
+static void unknown_device_is_status_3(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("a.rts --device nosuchdevice");
+    expect_status(&run, 3);
+    expect_err(&run, "nosuchdevice");
+    expect_err(&run, "`rtc devices` lists them");
+    run_free(&run);
+}
+
+static void full_stdout_is_status_4(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {"--version", "--help", "devices"};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        run run = run_rtc_to("/dev/full", "%s", lines[i]);
+        expect_status(&run, 4);
+        expect_err(&run, "cannot write to stdout");
+        run_free(&run);
+    }
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(wrong_usage_is_refused_with_status_2),
+        TEST(several_mistakes_are_all_told),
+        TEST(both_forms_of_an_option_are_the_same),
+        TEST(last_of_a_repeated_option_counts),
+        TEST(two_dashes_end_the_options),
+        TEST(negative_value_is_a_value),
+        TEST(help_describes_every_option),
+        TEST(each_command_has_its_help),
+        TEST(version_is_told),
+        TEST(devices_are_listed),
+        TEST(doctor_finds_all_well),
+        TEST(check_counts_what_a_scene_holds),
+        TEST(check_of_several_scenes_goes_on_after_a_bad_one),
+        TEST(no_platform_is_status_3_and_says_what_to_install),
+        TEST(check_needs_no_device),
+        TEST(unknown_device_is_status_3),
+        TEST(full_stdout_is_status_4),
+    };
+    return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+}
