@@ -31,11 +31,12 @@ LIB_SRC := \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
 	lib/light/lights.c \
 	lib/image/bytes.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
-	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/pfm.c lib/image/png.c lib/image/ppm.c \
-	lib/image/srgb.c \
+	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/pfm.c \
+	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \
 	lib/photon/emit.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_map.c lib/photon/search.c \
 	lib/render/film.c lib/render/film_image.c lib/render/render.c lib/render/renderer.c lib/render/path_mode.c lib/render/photon_mode.c \
-	lib/render/sobol.c lib/render/trace.c
+	lib/render/sobol.c lib/render/trace.c \
+	lib/texture/half.c lib/texture/texture.c
 
 DSL_SRC := \
 	dsl/build.c dsl/check.c dsl/load.c dsl/reader.c dsl/expression.c dsl/lexer.c dsl/names.c dsl/number.c dsl/parse_block.c \
@@ -54,24 +55,28 @@ KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
 
 # Quick tests, the slower ones of `check`, and shell tests. tests/X/test_y.c makes build/tests/X/test_y.
 TESTS_QUICK := \
+	tests/test_api.c \
 	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c tests/dsl/test_number.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c tests/dsl/test_suggest.c \
 	tests/lib/image/test_display.c tests/lib/image/test_exr.c tests/lib/image/test_file.c tests/lib/image/test_image.c \
 	tests/lib/image/test_image_file.c tests/lib/image/test_netpbm.c tests/lib/image/test_png.c \
+	tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c tests/lib/image/test_srgb.c tests/lib/texture/test_half.c \
+	tests/lib/texture/test_texture.c tests/kernels/test_texture.c \
 	tests/lib/scene/test_scene.c tests/kernels/test_types.c tests/render/test_compare.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
+	tests/kernels/test_bsdf.c tests/kernels/test_camera.c tests/kernels/test_light.c tests/kernels/test_path.c \
+	tests/kernels/test_rng.c tests/kernels/test_sample.c \
 	tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
 TESTS_FULL  := \
-	tests/tools/test_usage.c \
-	tests/tools/test_scenes.c \
-	tests/tools/test_rtc.c tests/tools/test_determinism.c \
+	tests/tools/test_usage.c tests/tools/test_scenes.c tests/tools/test_rtc.c tests/tools/test_determinism.c \
 	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c
-TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh
-TEST_SUPPORT_SRC := tests/support.c tests/dsl/collect.c \
+TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
+TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
 	tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c
-TEST_KERNEL_SRC  := tests/kernels/density.cl tests/kernels/types.cl
+	tests/lib/photon/points.c tests/kernels/statistics.c
+TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
+	tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
 
 # ---- Build ------------------------------------------------------------------
 
@@ -79,7 +84,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(B)/kernels.o
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all demo deps need-deps check check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
+.PHONY: all demo deps need-deps check check-corpus check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -93,7 +98,7 @@ $(B)/embed: tools/embed.c | need-deps
 	@mkdir -p $(@D)
 	$(CC) -std=c99 $(WARNINGS) -D_POSIX_C_SOURCE=200809L -O1 -o $@ $<
 
-$(B)/kernels.c: $(B)/embed $(KERNEL_DEPS)
+$(B)/kernels.c: $(B)/embed $(KERNEL_DEPS) Makefile
 	$(B)/embed $@ rt_kernel_sources $(KERNEL_SRC)
 
 $(B)/kernels.o: $(B)/kernels.c
@@ -115,7 +120,7 @@ TEST_LIBS     = $(shell pkg-config --libs cmocka 2>/dev/null)
 TEST_SUPPORT := $(patsubst %.c,$(B)/%.o,$(TEST_SUPPORT_SRC)) $(if $(TEST_KERNEL_SRC),$(B)/test_kernels.o)
 TEST_BIN      = $(patsubst tests/%.c,$(B)/tests/%,$(1))
 
-$(B)/test_kernels.c: $(B)/embed $(KERNEL_DEPS) $(TEST_KERNEL_SRC) $(wildcard tests/kernels/*.h)
+$(B)/test_kernels.c: $(B)/embed $(KERNEL_DEPS) $(TEST_KERNEL_SRC) $(wildcard tests/kernels/*.h) Makefile
 	$(B)/embed $@ rt_test_kernel_sources -I kernels $(TEST_KERNEL_SRC)
 
 $(B)/test_kernels.o: $(B)/test_kernels.c
@@ -139,6 +144,11 @@ run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 # The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see tests/render/test_reference.c.
 check-reference: all $(B)/tests/render/test_reference
 	RT_TEST_TIMEOUT=3600 tests/run.sh $(B)/tests/render/test_reference
+
+# Files that others wrote, from RT_CORPUS, a directory of folders; see tests/corpus/manifest.h.
+TESTS_CORPUS := tests/corpus/test_img.c
+check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
+	tests/run.sh $(call TEST_BIN,$(TESTS_CORPUS))
 
 # Everything again with the address and undefined-behaviour sanitizers.
 SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer

@@ -52,11 +52,11 @@ struct scatter {
  */
 static inline float fresnel(float cos_i, float eta, float *cos_t)
 {
-    const float sine2 = eta * eta * (1.0f - cos_i * cos_i);
+    const float cos2_t = (1.0f - eta) * (1.0f + eta) + square(eta * cos_i); /* Snell's law, kept precise when grazing */
     *cos_t = 0.0f;
-    if (sine2 >= 1.0f)
+    if (cos2_t <= 0.0f)
         return 1.0f;
-    *cos_t = sqrt(1.0f - sine2);
+    *cos_t = sqrt(cos2_t);
     const float s = (eta * cos_i - *cos_t) / (eta * cos_i + *cos_t);
     const float p = (cos_i - eta * *cos_t) / (cos_i + eta * *cos_t);
     return 0.5f * (s * s + p * p);

@@ -70,13 +70,14 @@ static inline struct ray_frame make_ray_frame(const struct ray *ray)
     return frame;
 }
 
-/* Where the ray meets the eight lanes of a block; meaningful in the lanes of the mask that came with it. */
+/* Where the ray meets the lanes of a block, each multiplied by det; meaningful in the lanes that are hit. */
 struct block_hits {
     float8 t, u, v;
+    float8 det; /* above 0 */
 };
 
 /* One product rounded before the other is subtracted: exactly opposite when the factors change sides. */
-static inline float8 edge_function(float8 ax, float8 ay, float8 bx, float8 by)
+INLINE_ALWAYS float8 edge_function(float8 ax, float8 ay, float8 bx, float8 by)
 {
 #pragma OPENCL FP_CONTRACT OFF
     const float8 left = ax * by;
@@ -86,29 +87,30 @@ static inline float8 edge_function(float8 ax, float8 ay, float8 bx, float8 by)
 
 /*
  * Tests the block's lanes; returns a bit for each that is hit with t in [t_min, t_max]. Both
- * sides count, edges belong to the lane. A parallelogram's two far edges are moved out by 1e-6
+ * sides count, and edges belong to the lane. The division by det is left to those that are hit. A
+ * parallelogram's two far edges are moved out by 1e-6
  * of its size, because its fourth corner is not stored.
  */
-static inline uint intersect_block(global const rt_tri_block *block, const struct ray_frame *frame, float t_min,
+INLINE_ALWAYS uint intersect_block(global const rt_tri_block *block, const struct ray_frame *frame, float t_min,
                                    float t_max, struct block_hits *hits)
 {
     /* Move the vertices to the ray's frame: origin at 0, ray along +-z. */
     const float8 az = vload8(0, block->v0[frame->z]) - frame->origin_z;
     const float8 bz = vload8(0, block->v1[frame->z]) - frame->origin_z;
     const float8 cz = vload8(0, block->v2[frame->z]) - frame->origin_z;
-    const float8 ax = fma(az, -frame->shear_x, vload8(0, block->v0[frame->x]) - frame->origin_x);
-    const float8 ay = fma(az, -frame->shear_y, vload8(0, block->v0[frame->y]) - frame->origin_y);
-    const float8 bx = fma(bz, -frame->shear_x, vload8(0, block->v1[frame->x]) - frame->origin_x);
-    const float8 by = fma(bz, -frame->shear_y, vload8(0, block->v1[frame->y]) - frame->origin_y);
-    const float8 cx = fma(cz, -frame->shear_x, vload8(0, block->v2[frame->x]) - frame->origin_x);
-    const float8 cy = fma(cz, -frame->shear_y, vload8(0, block->v2[frame->y]) - frame->origin_y);
+    const float8 ax = lane_mad(az, (float8)(-frame->shear_x), vload8(0, block->v0[frame->x]) - frame->origin_x);
+    const float8 ay = lane_mad(az, (float8)(-frame->shear_y), vload8(0, block->v0[frame->y]) - frame->origin_y);
+    const float8 bx = lane_mad(bz, (float8)(-frame->shear_x), vload8(0, block->v1[frame->x]) - frame->origin_x);
+    const float8 by = lane_mad(bz, (float8)(-frame->shear_y), vload8(0, block->v1[frame->y]) - frame->origin_y);
+    const float8 cx = lane_mad(cz, (float8)(-frame->shear_x), vload8(0, block->v2[frame->x]) - frame->origin_x);
+    const float8 cy = lane_mad(cz, (float8)(-frame->shear_y), vload8(0, block->v2[frame->y]) - frame->origin_y);
 
     /* Edge functions are the weights of v0, v1 and v2, scaled by det; make det positive. */
     float8 a = edge_function(cx, cy, bx, by);
     float8 b = edge_function(ax, ay, cx, cy);
     float8 c = edge_function(bx, by, ax, ay);
     float8 det = a + b + c;
-    float8 depth = fma(a, az, fma(b, bz, c * cz));
+    float8 depth = lane_mad(a, az, lane_mad(b, bz, c * cz));
     const int8 sign = as_int8(det) & (int)0x80000000;
     a = as_float8(as_int8(a) ^ sign);
     b = as_float8(as_int8(b) ^ sign);
@@ -119,13 +121,14 @@ static inline uint intersect_block(global const rt_tri_block *block, const struc
     /* A parallelogram asks b <= det and c <= det instead of a >= 0, that is a + min(b, c) >= 0. */
     const float8 least = lane_min(b, c);
     const int8 quad = as_int8(vload8(0, block->prim)) >> 31;
-    const float8 third = a + as_float8(quad & as_int8(fma(det, 1e-6f, least)));
+    const float8 third = a + as_float8(quad & as_int8(lane_mad(det, (float8)(1e-6f), least)));
 
-    const float8 scale = 1.0f / det;
-    hits->t = depth * scale * frame->scale_z;
-    hits->u = b * scale;
-    hits->v = c * scale;
-    return lane_mask((lane_min(least, third) >= 0.0f) & (det > 0.0f) & (hits->t >= t_min) & (hits->t <= t_max));
+    hits->t = depth * frame->scale_z;
+    hits->u = b;
+    hits->v = c;
+    hits->det = det;
+    return lane_mask((lane_min(least, third) >= 0.0f) & (det > 0.0f) & (hits->t >= t_min * det) &
+                     (hits->t <= t_max * det));
 }
 
 /*
@@ -163,7 +166,7 @@ static inline float intersect_plane(global const rt_shape *plane, const struct r
 }
 
 /* The same for any shape that is not kept in blocks. */
-static inline float intersect_shape(global const rt_shape *shape, const struct ray *ray)
+INLINE_NEVER float intersect_shape(global const rt_shape *shape, const struct ray *ray)
 {
     return shape->kind == RT_SHAPE_PLANE ? intersect_plane(shape, ray) : intersect_sphere(shape, ray);
 }

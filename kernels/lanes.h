@@ -17,6 +17,16 @@ static inline float8 lane_max(float8 a, float8 b)
     return a > b ? a : b;
 }
 
+/* a b + c, rounded once where the target does that in one instruction, else twice. */
+static inline float8 lane_mad(float8 a, float8 b, float8 c)
+{
+#if defined(__FMA__) || defined(FP_FAST_FMAF)
+    return fma(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
 /* Bit i is set where lane i of a comparison is true. */
 static inline uint lane_mask(int8 truth)
 {
@@ -35,7 +45,30 @@ static inline uint lane_mask(int8 truth)
 /* The lowest set bit's index; mask is not 0. */
 static inline uint lane_first(uint mask)
 {
+#if defined(__clang__)
+    return (uint)__builtin_ctz(mask);
+#else
     return 31u - clz(mask & (0u - mask));
+#endif
 }
+
+/* The highest set bit's index; mask is not 0. */
+static inline uint lane_last(uint mask)
+{
+    return 31u - clz(mask);
+}
+
+/*
+ * Inner loops are to be inlined wherever they are used. A function with a stack of its own is to be called:
+ * inlined into a kernel, a runtime that runs a work-group as a loop gives each work-item an array of its own,
+ * and the stacks no longer fit the nearest cache.
+ */
+#if defined(__clang__)
+#define INLINE_ALWAYS static inline __attribute__((always_inline))
+#define INLINE_NEVER static __attribute__((noinline))
+#else
+#define INLINE_ALWAYS static inline
+#define INLINE_NEVER static
+#endif
 
 #endif

@@ -45,17 +45,18 @@ static bool start_path(struct light_path *path, const struct scene *scene, const
     return true;
 }
 
-static rt_photon make_photon(const struct light_path *path, const struct surface *surface, float3 normal, uint index)
+static rt_photon make_photon(const struct light_path *path, const struct surface *surface, const struct bsdf *bsdf,
+                             uint index)
 {
     const bool caustic = !path->straight && !path->diffused;
     rt_photon photon;
     vstore3(surface->position, 0, photon.position);
     photon.path = index;
-    vstore3(-path->ray.direction, 0, photon.wi);
+    vstore3(bsdf->wo, 0, photon.wi);
     photon.flags = (path->depth << 8) | (caustic ? RT_PHOTON_CAUSTIC : 0u);
     vstore3(path->flux, 0, photon.flux);
-    photon.reserved0 = 0.0f;
-    vstore3(normal, 0, photon.normal);
+    photon.shading = max(dot(bsdf->wo, bsdf->shading), 0.0f) / dot(bsdf->wo, bsdf->normal);
+    vstore3(bsdf->normal, 0, photon.normal);
     photon.shape = surface->shape;
     return photon;
 }
@@ -127,7 +128,7 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         /* Leave a photon, unless shadow rays account for it. */
         const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, path.flux);
         if (bsdf_is_diffuse(&bsdf) && !(path.straight && params.direct == RT_DIRECT_NEE))
-            own[count++] = make_photon(&path, &surface, bsdf.normal, index);
+            own[count++] = make_photon(&path, &surface, &bsdf, index);
 
         /* Choose an event, or absorption, and go on. */
         const float4 u = sampler_set(&sampler, set_scatter(path.depth - 1u));

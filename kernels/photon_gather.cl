@@ -4,7 +4,9 @@
  *
  *   L(x, wo) = sum over the photons p in the disc of fr(x, wo, w_p) flux_p K(|x - x_p|)
  *
- * with fr = kd/pi; each flux_p carries the division by the number of emitted paths.
+ * with fr = kd/pi; each flux_p carries the division by the number of emitted paths. Photons are as
+ * dense as the geometric surface makes them, while reflection goes by the shading normal: photon.shading
+ * is the ratio of the two cosines (Veach 1997, section 5.3).
  */
 #include "density.h"
 #include "film.h"
@@ -34,8 +36,8 @@ kernel void photon_gather(const rt_params params, global const rt_scene_header *
         for (uint i = 0; i < disc.count; i++) {
             global const rt_photon *photon = photons + list[i];
             const float3 away = row3(photon->position) - row3(point->position);
-            flux_density += row3(photon->flux) *
-                            density_kernel(estimate.density, estimate.cone_k, dot(away, away), disc.squared_radius);
+            const float k = density_kernel(estimate.density, estimate.cone_k, dot(away, away), disc.squared_radius);
+            flux_density += (k * photon->shading) * row3(photon->flux);
         }
         radiance += row3(point->weight) * fr * flux_density;
     }

@@ -185,15 +185,16 @@ static inline float cap_height(float r, float d2)
 /* The point of the unit sphere about the origin, seen by a viewer on +z, uniform in solid angle of the cone. */
 static inline float3 sample_cap(float r, float d2, float2 u)
 {
-    const float sine_max2 = r * r / d2;
+    /* Angle at the viewer: cos = 1 - h. */
+    const float far2 = d2 / (r * r);
     const float h = u.x * cap_height(r, d2);
-    /* Angle at the viewer: cos = 1 - h. Angle at the centre from the law of sines. */
     const float sine2 = h * (2.0f - h);
-    const float ratio2 = sine2 / sine_max2;
-    const float z = sine2 / sqrt(sine_max2) + (1.0f - h) * sqrt(ratio2 < 1.0f ? 1.0f - ratio2 : 0.0f);
+    /* Distance to the nearer point where that direction meets the sphere, and what it is off the axis. */
+    const float inside2 = 1.0f - far2 * sine2;
+    const float t = (far2 - 1.0f) / (sqrt(far2) * (1.0f - h) + sqrt(inside2 > 0.0f ? inside2 : 0.0f));
+    const float off2 = t * t * sine2;
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
-    const float r2 = 1.0f - z * z;
-    return (float3)(sqrt(r2 > 0.0f ? r2 : 0.0f) * arc.yx, z);
+    return (float3)(sqrt(off2) * arc.yx, sqrt(off2 < 1.0f ? 1.0f - off2 : 0.0f));
 }
 
 static inline float cap_pdf_w(float r, float d2)

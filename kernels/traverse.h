@@ -1,11 +1,10 @@
 /*
  * traverse.h - the nearest hit of a ray, and whether anything is hit.
  *
- * The tree is eight wide: a node's children are tested at once against the ray's slabs, the
- * near and far plane of each axis chosen by the sign of the direction. Slabs are widened by
- * the rounding of their distances, so no box that the ray touches is missed (Ize, "Robust BVH
- * Ray Traversal", JCGT 2(2), 2013); a direction component of 0 makes infinite distances, or
- * NaN for an origin in the plane, which lane_min and lane_max then leave out.
+ * The tree is eight wide: a node's children are tested at once against the ray's slabs, the near and far plane
+ * of each axis chosen by the sign of the direction. The distance to a plane is one multiply-add,
+ * plane * rate + shift; the bounds on its rounding are in rate and shift, so that no box that the ray touches is
+ * missed (after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, which has them in the far distance).
  *
  * Ties: of two hits with equal t, the lower primitive wins, whatever order they are met in.
  */
@@ -18,59 +17,73 @@
 #include "surface.h"
 #include "types.h"
 
-/* The ray's constants for boxes. */
+/* The ray's constants for boxes: the distance to a plane is plane * rate + shift. */
 struct ray_slabs {
-    float3 origin;
-    float3 near_rate, far_rate;           /* 1 / direction, made smaller and larger by the rounding */
-    uint near_x, near_y, near_z;          /* rows of rt_bvh_node.bounds */
+    float3 near_rate, near_shift; /* never above the true distance */
+    float3 far_rate, far_shift;   /* never below it */
+    uint near_x, near_y, near_z;  /* rows of rt_bvh_node.bounds */
     uint far_x, far_y, far_z;
 };
 
-static inline struct ray_slabs make_ray_slabs(const struct ray *ray)
+/*
+ * With e = 2^-24, the distance (plane - origin) rate is off by at most 4 e of itself and 4 e |origin rate|; both
+ * are allowed for twice. A direction component near 0 is taken as 2^-80: then distances are finite, and far
+ * beyond any other, wherever the plane is not within rounding of the origin.
+ */
+INLINE_ALWAYS struct ray_slabs make_ray_slabs(const struct ray *ray)
 {
-    const float3 rate = 1.0f / ray->direction;
-    const float margin = 0x1p-21f; /* three roundings of each distance, with room */
+    const float least = 0x1p-80f, relative = 0x1p-21f, absolute = 0x1p-60f;
+    const float3 direction = copysign(fmax(fabs(ray->direction), (float3)(least)), ray->direction);
+    const float3 rate = 1.0f / direction;
+    const float3 slack = fabs(rate) * (fabs(ray->origin) * relative + absolute);
     struct ray_slabs slabs;
-    slabs.origin = ray->origin;
-    slabs.near_rate = rate * (1.0f - margin);
-    slabs.far_rate = rate * (1.0f + margin);
-    slabs.near_x = signbit(rate.x) ? 3u : 0u;
-    slabs.near_y = signbit(rate.y) ? 4u : 1u;
-    slabs.near_z = signbit(rate.z) ? 5u : 2u;
+    slabs.near_rate = rate * (1.0f - relative);
+    slabs.far_rate = rate * (1.0f + relative);
+    slabs.near_shift = -(ray->origin * slabs.near_rate) - slack;
+    slabs.far_shift = -(ray->origin * slabs.far_rate) + slack;
+    slabs.near_x = rate.x < 0.0f ? 3u : 0u;
+    slabs.near_y = rate.y < 0.0f ? 4u : 1u;
+    slabs.near_z = rate.z < 0.0f ? 5u : 2u;
     slabs.far_x = 3u - slabs.near_x;
     slabs.far_y = 5u - slabs.near_y;
     slabs.far_z = 7u - slabs.near_z;
     return slabs;
 }
 
+INLINE_ALWAYS float8 plane_distance(global const rt_bvh_node *node, uint row, float rate, float shift)
+{
+    return lane_mad(vload8(0, node->bounds[row]), (float8)(rate), (float8)(shift));
+}
+
 /* Tests the node's children; returns a bit for each whose box is met in [t_min, t_max], and where. */
-static inline uint intersect_boxes(global const rt_bvh_node *node, const struct ray_slabs *slabs, float t_min,
+INLINE_ALWAYS uint intersect_boxes(global const rt_bvh_node *node, const struct ray_slabs *slabs, float t_min,
                                    float t_max, float8 *entry)
 {
-    const float8 near_x = (vload8(0, node->bounds[slabs->near_x]) - slabs->origin.x) * slabs->near_rate.x;
-    const float8 near_y = (vload8(0, node->bounds[slabs->near_y]) - slabs->origin.y) * slabs->near_rate.y;
-    const float8 near_z = (vload8(0, node->bounds[slabs->near_z]) - slabs->origin.z) * slabs->near_rate.z;
-    const float8 far_x = (vload8(0, node->bounds[slabs->far_x]) - slabs->origin.x) * slabs->far_rate.x;
-    const float8 far_y = (vload8(0, node->bounds[slabs->far_y]) - slabs->origin.y) * slabs->far_rate.y;
-    const float8 far_z = (vload8(0, node->bounds[slabs->far_z]) - slabs->origin.z) * slabs->far_rate.z;
-    const float8 near = lane_max(near_z, lane_max(near_y, lane_max(near_x, (float8)(t_min))));
-    const float8 far = lane_min(far_z, lane_min(far_y, lane_min(far_x, (float8)(t_max))));
+    const float8 near_x = plane_distance(node, slabs->near_x, slabs->near_rate.x, slabs->near_shift.x);
+    const float8 near_y = plane_distance(node, slabs->near_y, slabs->near_rate.y, slabs->near_shift.y);
+    const float8 near_z = plane_distance(node, slabs->near_z, slabs->near_rate.z, slabs->near_shift.z);
+    const float8 far_x = plane_distance(node, slabs->far_x, slabs->far_rate.x, slabs->far_shift.x);
+    const float8 far_y = plane_distance(node, slabs->far_y, slabs->far_rate.y, slabs->far_shift.y);
+    const float8 far_z = plane_distance(node, slabs->far_z, slabs->far_rate.z, slabs->far_shift.z);
+    const float8 near = lane_max(lane_max(near_x, near_y), lane_max(near_z, (float8)(t_min)));
+    const float8 far = lane_min(lane_min(far_x, far_y), lane_min(far_z, (float8)(t_max)));
     *entry = near;
     return lane_mask(near <= far);
 }
 
-/* Takes the nearest of the block's hits in `mask` into *hit when it is nearer still. */
-static inline void take_block_hits(struct hit *hit, const struct block_hits *found, uint mask,
+/* Takes the nearest of the block's hits in `mask` into *hit when it is nearer still and not before t_min. */
+INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *found, uint mask, float t_min,
                                    global const rt_tri_block *block, uint index)
 {
+    const float8 scale = 1.0f / found->det;
     float t[8], u[8], v[8];
-    vstore8(found->t, 0, t);
-    vstore8(found->u, 0, u);
-    vstore8(found->v, 0, v);
+    vstore8(found->t * scale, 0, t);
+    vstore8(found->u * scale, 0, u);
+    vstore8(found->v * scale, 0, v);
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
         const uint prim = block->prim[lane] & RT_BLOCK_PRIM;
-        if (t[lane] < hit->t || (t[lane] == hit->t && prim < hit->prim)) {
+        if (t[lane] >= t_min && (t[lane] < hit->t || (t[lane] == hit->t && prim < hit->prim))) {
             hit->t = t[lane];
             hit->u = u[lane];
             hit->v = v[lane];
@@ -80,14 +93,14 @@ static inline void take_block_hits(struct hit *hit, const struct block_hits *fou
     }
 }
 
-static inline void test_block(const struct scene *scene, const struct ray *ray, const struct ray_frame *frame,
+INLINE_ALWAYS void test_block(const struct scene *scene, const struct ray *ray, const struct ray_frame *frame,
                               uint index, struct hit *hit)
 {
     global const rt_tri_block *block = scene->blocks + index;
     struct block_hits found;
     const uint mask = intersect_block(block, frame, ray->t_min, hit->t, &found);
     if (mask)
-        take_block_hits(hit, &found, mask, block, index);
+        take_block_hits(hit, &found, mask, ray->t_min, block, index);
 }
 
 static inline void test_shape(const struct scene *scene, const struct ray *ray, uint index, struct hit *hit)
@@ -104,7 +117,7 @@ static inline void test_shape(const struct scene *scene, const struct ray *ray, 
     }
 }
 
-static inline void test_leaf(const struct scene *scene, const struct ray *ray, const struct ray_frame *frame,
+INLINE_ALWAYS void test_leaf(const struct scene *scene, const struct ray *ray, const struct ray_frame *frame,
                              uint child, struct hit *hit)
 {
     const uint index = child & RT_CHILD_INDEX;
@@ -114,75 +127,114 @@ static inline void test_leaf(const struct scene *scene, const struct ray *ray, c
         test_block(scene, ray, frame, index, hit);
 }
 
-/* Children still to visit, and where the ray enters them. */
+/* Children still to visit, and where the ray enters them, the nearest of each node last. */
 struct stack {
-    uint count;
     uint child[RT_BVH_STACK];
     float entry[RT_BVH_STACK];
 };
 
-/* Sorts the children in `mask` by entry onto the stack, the nearest last. */
-static inline void push_sorted(struct stack *stack, global const rt_bvh_node *node, uint mask, float8 entry)
+/* Returns the nearest of the node's children in `mask`, which is not 0, and pushes the others. */
+INLINE_ALWAYS uint push_farther(struct stack *stack, uint *count, global const rt_bvh_node *node, uint mask,
+                                float8 entry)
 {
+    const uint first = lane_first(mask);
+    mask &= mask - 1u;
+    if (!mask)
+        return node->child[first];
+
     float distance[8];
     vstore8(entry, 0, distance);
-    const uint first = stack->count;
+    const uint second = lane_first(mask);
+    if (!(mask & (mask - 1u))) {
+        const uint a = node->child[first], b = node->child[second];
+        const bool in_order = distance[first] <= distance[second];
+        stack->child[*count] = in_order ? b : a;
+        stack->entry[*count] = in_order ? distance[second] : distance[first];
+        (*count)++;
+        return in_order ? a : b;
+    }
+
+    /* Three and more are rare: sort them in. */
+    const uint base = *count;
+    stack->child[base] = node->child[first];
+    stack->entry[base] = distance[first];
+    uint top = base + 1u;
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
-        uint at = stack->count++;
-        for (; at > first && stack->entry[at - 1u] < distance[lane]; at--) {
+        uint at = top++;
+        for (; at > base && stack->entry[at - 1u] < distance[lane]; at--) {
             stack->entry[at] = stack->entry[at - 1u];
             stack->child[at] = stack->child[at - 1u];
         }
         stack->entry[at] = distance[lane];
         stack->child[at] = node->child[lane];
     }
+    *count = top - 1u;
+    return stack->child[*count];
 }
 
-static inline void traverse_closest(const struct scene *scene, const struct ray *ray, struct hit *hit)
+/* Takes the last child pushed that begins no farther than t; false when there is none. */
+INLINE_ALWAYS bool pop_nearer(const struct stack *stack, uint *count, float t, uint *child)
+{
+    do {
+        if (*count == 0u)
+            return false;
+        (*count)--;
+    } while (stack->entry[*count] > t);
+    *child = stack->child[*count];
+    return true;
+}
+
+INLINE_ALWAYS void traverse_closest(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
     const struct ray_slabs slabs = make_ray_slabs(ray);
     const struct ray_frame frame = make_ray_frame(ray);
+    struct hit nearest = *hit;
     struct stack stack;
-    stack.count = 1u;
-    stack.child[0] = 0u;
-    stack.entry[0] = ray->t_min;
-    while (stack.count) {
-        const uint top = --stack.count;
-        const uint child = stack.child[top];
-        if (stack.entry[top] > hit->t)
-            continue;
-        if (child & RT_CHILD_LEAF) {
-            test_leaf(scene, ray, &frame, child, hit);
-        } else {
-            float8 entry;
+    uint count = 0u;
+    uint child = 0u;
+    do {
+        /* Go down to a leaf, always to the nearest child, or until no box is met. */
+        uint mask = 1u;
+        while (!(child & RT_CHILD_LEAF)) {
             global const rt_bvh_node *node = scene->nodes + child;
-            const uint mask = intersect_boxes(node, &slabs, ray->t_min, hit->t, &entry);
-            push_sorted(&stack, node, mask, entry);
+            float8 entry;
+            mask = intersect_boxes(node, &slabs, ray->t_min, nearest.t, &entry);
+            if (!mask)
+                break;
+            child = push_farther(&stack, &count, node, mask, entry);
         }
-    }
+        if (mask)
+            test_leaf(scene, ray, &frame, child, &nearest);
+    } while (pop_nearer(&stack, &count, nearest.t, &child));
+    *hit = nearest;
+}
+
+/* Tests every primitive but the planes. */
+static inline void test_all(const struct scene *scene, const struct ray *ray, struct hit *hit)
+{
+    const struct ray_frame frame = make_ray_frame(ray);
+    for (uint i = 0; i < scene->header->block_count; i++)
+        test_block(scene, ray, &frame, i, hit);
+    for (uint i = 0; i < scene->header->analytic_count; i++)
+        test_shape(scene, ray, scene->analytic[i], hit);
 }
 
 /* The nearest hit in [t_min, t_max]; false, and *hit without meaning, when there is none. */
-static inline bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
+INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
     hit->t = ray->t_max;
     hit->prim = RT_NONE;
     for (uint i = 0; i < scene->header->plane_count; i++)
         test_shape(scene, ray, scene->planes[i], hit);
-    if (scene->header->accel == RT_ACCEL_BVH) {
+    if (scene->header->accel == RT_ACCEL_BVH)
         traverse_closest(scene, ray, hit);
-    } else {
-        const struct ray_frame frame = make_ray_frame(ray);
-        for (uint i = 0; i < scene->header->block_count; i++)
-            test_block(scene, ray, &frame, i, hit);
-        for (uint i = 0; i < scene->header->analytic_count; i++)
-            test_shape(scene, ray, scene->analytic[i], hit);
-    }
+    else
+        test_all(scene, ray, hit);
     return hit->prim != RT_NONE;
 }
 
-static inline bool leaf_occludes(const struct scene *scene, const struct ray *ray, const struct ray_frame *frame,
+INLINE_ALWAYS bool leaf_occludes(const struct scene *scene, const struct ray *ray, const struct ray_frame *frame,
                                  uint child)
 {
     const uint index = child & RT_CHILD_INDEX;
@@ -192,37 +244,45 @@ static inline bool leaf_occludes(const struct scene *scene, const struct ray *ra
     return intersect_block(scene->blocks + index, frame, ray->t_min, ray->t_max, &found) != 0u;
 }
 
-static inline bool traverse_any(const struct scene *scene, const struct ray *ray)
+/* Goes to the first child met, and pushes the others in reverse: the builder put the largest first. */
+INLINE_ALWAYS uint push_later(uint *stack, uint *count, global const rt_bvh_node *node, uint mask)
+{
+    const uint first = lane_first(mask);
+    for (mask &= mask - 1u; mask;) {
+        const uint lane = lane_last(mask);
+        stack[(*count)++] = node->child[lane];
+        mask ^= 1u << lane;
+    }
+    return node->child[first];
+}
+
+INLINE_ALWAYS bool traverse_any(const struct scene *scene, const struct ray *ray)
 {
     const struct ray_slabs slabs = make_ray_slabs(ray);
     const struct ray_frame frame = make_ray_frame(ray);
     uint stack[RT_BVH_STACK];
-    uint count = 1u;
-    stack[0] = 0u;
-    while (count) {
-        const uint child = stack[--count];
-        if (child & RT_CHILD_LEAF) {
-            if (leaf_occludes(scene, ray, &frame, child))
-                return true;
-        } else {
-            float8 entry;
+    uint count = 0u;
+    uint child = 0u;
+    for (;;) {
+        uint mask = 1u;
+        while (!(child & RT_CHILD_LEAF)) {
             global const rt_bvh_node *node = scene->nodes + child;
-            uint mask = intersect_boxes(node, &slabs, ray->t_min, ray->t_max, &entry);
-            for (; mask; mask &= mask - 1u)
-                stack[count++] = node->child[lane_first(mask)];
+            float8 entry;
+            mask = intersect_boxes(node, &slabs, ray->t_min, ray->t_max, &entry);
+            if (!mask)
+                break;
+            child = push_later(stack, &count, node, mask);
         }
+        if (mask && leaf_occludes(scene, ray, &frame, child))
+            return true;
+        if (count == 0u)
+            return false;
+        child = stack[--count];
     }
-    return false;
 }
 
-/* Whether the ray meets anything in [t_min, t_max]; stops at the first. */
-static inline bool occluded(const struct scene *scene, const struct ray *ray)
+static inline bool all_occlude(const struct scene *scene, const struct ray *ray)
 {
-    for (uint i = 0; i < scene->header->plane_count; i++)
-        if (intersect_shape(scene->shapes + scene->planes[i], ray) < INFINITY)
-            return true;
-    if (scene->header->accel == RT_ACCEL_BVH)
-        return traverse_any(scene, ray);
     const struct ray_frame frame = make_ray_frame(ray);
     for (uint i = 0; i < scene->header->block_count; i++)
         if (leaf_occludes(scene, ray, &frame, i | RT_CHILD_LEAF))
@@ -231,6 +291,15 @@ static inline bool occluded(const struct scene *scene, const struct ray *ray)
         if (leaf_occludes(scene, ray, &frame, i | RT_CHILD_LEAF | RT_CHILD_ANALYTIC))
             return true;
     return false;
+}
+
+/* Whether the ray meets anything in [t_min, t_max]; stops at the first. */
+INLINE_NEVER bool occluded(const struct scene *scene, const struct ray *ray)
+{
+    for (uint i = 0; i < scene->header->plane_count; i++)
+        if (intersect_shape(scene->shapes + scene->planes[i], ray) < INFINITY)
+            return true;
+    return scene->header->accel == RT_ACCEL_BVH ? traverse_any(scene, ray) : all_occlude(scene, ray);
 }
 
 #endif

@@ -113,6 +113,43 @@ typedef struct rt_material_data {
 } rt_material_data;
 RT_SIZE(rt_material_data, 64);
 
+/* ---- Textures ---------------------------------------------------------- */
+
+/*
+ * A texture is a colour at each point (s, t) = scale (u, v) + offset. An image fills the unit square
+ * upright: s = 0 is its left edge, t = 0 its bottom edge.
+ */
+#define RT_TEXTURE_IMAGE 0u
+#define RT_TEXTURE_CHECKER 1u  /* unit squares: a where floor(s) + floor(t) is even, else b */
+#define RT_TEXTURE_GRADIENT 2u /* from a at 0 to b at 1, along s or t as `axis` says */
+
+/* How an image or gradient goes on outside the unit square; a checker has no end. */
+#define RT_WRAP_REPEAT 0u
+#define RT_WRAP_MIRROR 1u
+#define RT_WRAP_CLAMP 2u
+
+/* How texels are kept, rows from the bottom up. */
+#define RT_TEXELS_CODE8 0u /* float decode[256], then uchar[4] a texel: codes of red, green and blue, 0 */
+#define RT_TEXELS_GREY 1u  /* float a texel */
+#define RT_TEXELS_HALF 2u  /* half[4] a texel: red, green and blue over `unit`, 0 */
+
+typedef struct rt_texture_data {
+    rt_u32 kind; /* RT_TEXTURE_* */
+    rt_u32 wrap; /* RT_WRAP_* */
+    rt_u32 axis; /* gradient: 0 along s, 1 along t */
+    rt_u32 format; /* image: RT_TEXELS_* */
+    float scale[2];
+    float offset[2];
+    rt_u32 width, height; /* image: texels, 1 to 65536 */
+    rt_u32 texels;        /* image: first 64-byte row in the table of texels */
+    float unit;           /* RT_TEXELS_HALF: a power of two */
+    float a[3];           /* checker and gradient: linear colours */
+    rt_u32 reserved0;
+    float b[3];
+    rt_u32 reserved1;
+} rt_texture_data;
+RT_SIZE(rt_texture_data, 80);
+
 /* ---- Lights ------------------------------------------------------------ */
 
 #define RT_LIGHT_POINT 0u    /* a: position; emission: intensity, W/sr */
@@ -228,7 +265,7 @@ typedef struct rt_photon {
     float wi[3]; /* unit, away from the surface, towards where it came from */
     rt_u32 flags; /* RT_PHOTON_* | bounce << 8 */
     float flux[3]; /* W; carries the division by the number of emitted paths */
-    float reserved0;
+    float shading; /* cosine of wi to the shading normal / cosine to the geometric one: 1 on flat surfaces */
     float normal[3]; /* unit geometric normal on the side of wi */
     rt_u32 shape;
 } rt_photon;

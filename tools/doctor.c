@@ -10,13 +10,12 @@
 #include "rtc.h"
 
 /* A lamp over a white sphere on a floor; the camera's middle pixel sees the sphere. */
-static const char scene_text[] =
-    "camera { eye 0 1 -4  look_at 0 1 0  fov 40 }\n"
-    "film { width 16  height 16 }\n"
-    "material white { kd 0.7 }\n"
-    "plane { point 0 0 0  normal 0 1 0  material white }\n"
-    "sphere { centre 0 1 0  radius 1  material white }\n"
-    "light point { position 2 4 -3  intensity 20 }\n";
+static const char scene_text[] = "camera { eye 0 1 -4  look_at 0 1 0  fov 40 }\n"
+                                 "film { width 16  height 16 }\n"
+                                 "material white { kd 0.7 }\n"
+                                 "plane { point 0 0 0  normal 0 1 0  material white }\n"
+                                 "sphere { centre 0 1 0  radius 1  material white }\n"
+                                 "light point { position 2 4 -3  intensity 20 }\n";
 
 /* What the checks share and leave behind for the next. */
 typedef struct doctor_visit {

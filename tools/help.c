@@ -7,18 +7,16 @@
 enum { LEFT = 26, WIDTH = 80 };
 
 static const char *const usages[COMMAND_COUNT] = {
-    [COMMAND_RENDER] =
-        "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
-        "       rtc check SCENE.rts...      say all that is wrong with scenes\n"
-        "       rtc devices                 list the OpenCL devices\n"
-        "       rtc doctor [OPTION]...      check that everything works here\n"
-        "       rtc COMMAND --help          the options of one command\n"
-        "       rtc --version               the version\n"
-        "\n"
-        "Renders a scene of the .rts language by path tracing or photon mapping; SCENE -\n"
-        "reads it from stdin.\n"
-        "An option is written --name value or --name=value; of one given twice the last\n"
-        "counts.\n",
+    [COMMAND_RENDER] = "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
+                       "       rtc check SCENE.rts...      say all that is wrong with scenes\n"
+                       "       rtc devices                 list the OpenCL devices\n"
+                       "       rtc doctor [OPTION]...      check that everything works here\n"
+                       "       rtc COMMAND --help          the options of one command\n"
+                       "       rtc --version               the version\n"
+                       "\n"
+                       "Renders a scene of the .rts language by path tracing or photon mapping. The\n"
+                       "name - stands for stdin. An option is written --name value or --name=value; of\n"
+                       "one given twice the last counts.\n",
     [COMMAND_CHECK] = "usage: rtc check SCENE.rts...\n"
                       "\n"
                       "Reads scenes without rendering them and says all that is wrong, each with its\n"
@@ -32,13 +30,12 @@ static const char *const usages[COMMAND_COUNT] = {
                        "writers work on this machine, and says what to do about what does not.\n",
 };
 
-static const char footer[] =
-    "\n"
-    "Exit status: 0 done, 1 the scene or an input file is wrong, 2 usage, 3 device,\n"
-    "OpenCL or memory, 4 an output could not be written, 130 interrupted. On Ctrl-C\n"
-    "the samples so far are written; a second one stops at once.\n"
-    "\n"
-    "Example: rtc scenes/cornell.rts --mode photon --k 50 --kernel epanechnikov\n";
+static const char footer[] = "\n"
+                             "Exit status: 0 done, 1 the scene or an input file is wrong, 2 usage, 3 device,\n"
+                             "OpenCL or memory, 4 an output could not be written, 130 interrupted. On Ctrl-C\n"
+                             "the samples so far are written; a second one stops at once.\n"
+                             "\n"
+                             "Example: rtc scenes/cornell.rts --mode photon --k 50 --kernel epanechnikov\n";
 
 /* Prints text from column LEFT on, broken between words, on lines of at most WIDTH columns. */
 static void print_wrapped(const char *text, size_t column)
@@ -64,23 +61,13 @@ static void print_wrapped(const char *text, size_t column)
     fputc('\n', stdout);
 }
 
-/* The words that an option of KIND_CHOICE takes, as one text. */
-static void join_choices(char *out, size_t size, const option_choice *choices)
-{
-    out[0] = '\0';
-    for (; choices->word; choices++) {
-        size_t used = strlen(out);
-        snprintf(out + used, size - used, "%s%s", used ? ", " : "", choices->word);
-    }
-}
-
 /* The option's name and beside it "help (choice, choice; default ...)". */
 static void print_option(const option *option)
 {
     char text[512], choices[128] = "";
     const char *fallback = option->fallback;
     if (option->choices)
-        join_choices(choices, sizeof choices, option->choices);
+        option_join_choices(choices, sizeof choices, option->choices);
     if (fallback)
         snprintf(text, sizeof text, "%s (%s%sdefault %s)", option->help, choices, choices[0] ? "; " : "", fallback);
     else

@@ -56,19 +56,27 @@ static int fail_unknown_option(const char *name, size_t length, command_id comma
 
 /* ---- Values --------------------------------------------------------------- */
 
+void option_join_choices(char *out, size_t size, const option_choice *choices)
+{
+    out[0] = '\0';
+    for (; choices->word; choices++) {
+        size_t used = strlen(out);
+        snprintf(out + used, size - used, "%s%s", used ? ", " : "", choices->word);
+    }
+}
+
 static int read_choice(option_value *value, const option *option, const char *text)
 {
     nearest search = nearest_begin(text);
-    char words[256] = "";
+    char words[128];
     for (const option_choice *choice = option->choices; choice->word; choice++) {
         if (strcmp(choice->word, text) == 0) {
             value->choice = choice->value;
             return STATUS_DONE;
         }
         nearest_offer(&search, choice->word);
-        size_t used = strlen(words);
-        snprintf(words + used, sizeof words - used, "%s%s", used ? ", " : "", choice->word);
     }
+    option_join_choices(words, sizeof words, option->choices);
     message_error("--%s takes one of %s; not '%s'", option->name, words, text);
     if (search.best)
         message_hint("did you mean %s?", search.best);

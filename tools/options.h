@@ -57,7 +57,14 @@ typedef struct option_choice {
 } option_choice;
 
 /* What an option is for; the headings of the help. */
-typedef enum option_group { GROUP_RENDER, GROUP_PHOTON, GROUP_OUTPUT, GROUP_DEVICE, GROUP_TALK, GROUP_COUNT } option_group;
+typedef enum option_group {
+    GROUP_RENDER,
+    GROUP_PHOTON,
+    GROUP_OUTPUT,
+    GROUP_DEVICE,
+    GROUP_TALK,
+    GROUP_COUNT
+} option_group;
 
 typedef struct option {
     const char *name;  /* without the two dashes */
@@ -106,6 +113,9 @@ void arguments_free(command_line *arguments);
 
 /* The name of a subcommand as typed; "" for COMMAND_RENDER. */
 const char *command_name(command_id command);
+
+/* "path, photon": the words of a list, as far as they fit in out. */
+void option_join_choices(char *out, size_t size, const option_choice *choices);
 
 /* Prints the help of a command on stdout. */
 void help_print(command_id command);

@@ -8,9 +8,9 @@
 /* What was shown last. Begin with progress_begin; it needs no destruction. */
 typedef struct progress_display {
     progress_style style; /* never PROGRESS_AUTO */
-    int redraw;      /* one line, redrawn */
-    int drawn;       /* a line without its newline stands on the terminal */
-    int started;     /* the members below are set */
+    int redraw;           /* one line, redrawn */
+    int drawn;            /* a line without its newline stands on the terminal */
+    int started;          /* the members below are set */
     rt_stage stage;
     int ended;       /* the end of the stage was shown */
     double shown_at; /* seconds of the stage */

@@ -53,7 +53,7 @@ static void on_log(void *user, const char *line)
 static void begin_hooks(render_job *job)
 {
     const option_value *style = value(job, OPTION_PROGRESS);
-    job->progress = progress_begin(style->given   ? (progress_style)style->choice
+    job->progress = progress_begin(style->given ? (progress_style)style->choice
                                    : job->quiet ? PROGRESS_NONE
                                                 : PROGRESS_AUTO);
     job->hooks.progress = on_progress;
@@ -104,14 +104,14 @@ static void merge_options(render_job *job)
 static void warn_idle_options(const render_job *job)
 {
     for (int i = 0; i < OPTION_COUNT; i++)
-        if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON && value(job, (option_id)i)->given)
+        if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON &&
+            value(job, (option_id)i)->given)
             message_warning("--%s has no effect in path mode; --mode photon asks for photon mapping",
                             option_table[i].name);
     if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
         job->options.kernel != RT_DENSITY_CONE)
         message_warning("--cone-k has no effect without --kernel cone");
-    if (!outputs_have_8bit(&job->outputs) &&
-        (value(job, OPTION_EXPOSURE)->given || value(job, OPTION_TONEMAP)->given))
+    if (!outputs_have_8bit(&job->outputs) && (value(job, OPTION_EXPOSURE)->given || value(job, OPTION_TONEMAP)->given))
         message_warning("--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
 }
 
@@ -229,8 +229,8 @@ static int write_images(const render_job *job, int status)
     }
     rt_image_options options = {0};
     options.exposure = value(job, OPTION_EXPOSURE)->given ? (float)value(job, OPTION_EXPOSURE)->real : 0.0f;
-    options.tonemap = value(job, OPTION_TONEMAP)->given ? (rt_tonemap)value(job, OPTION_TONEMAP)->choice
-                                                        : RT_TONEMAP_NONE;
+    options.tonemap =
+        value(job, OPTION_TONEMAP)->given ? (rt_tonemap)value(job, OPTION_TONEMAP)->choice : RT_TONEMAP_NONE;
     options.scene = job->scene_path;
     char *command = recorded_command(job);
     options.command = command;

@@ -95,19 +95,45 @@ static void clear_bins(bins *b, int count)
         }
 }
 
+static void add_to_bins(bins *b, const rt_ref *ref, const binning *map)
+{
+    const box4 box = rt_ref_box(ref);
+    const vec4 place = (rt_ref_centre(ref) - map->origin) * map->scale;
+    const ivec4 bin = __builtin_convertvector(vec4_min(place, map->limit), ivec4);
+    for (int a = 0; a < 3; a++) {
+        box4 *into = &b->box[a][bin[a]];
+        *into = box4_join(*into, box);
+        b->count[a][bin[a]]++;
+    }
+}
+
+static void join_bins(bins *into, const bins *from, int count)
+{
+    for (int a = 0; a < 3; a++)
+        for (int i = 0; i < count; i++) {
+            into->box[a][i] = box4_join(into->box[a][i], from->box[a][i]);
+            into->count[a][i] += from->count[a][i];
+        }
+}
+
+/* Neighbours mostly share a bin, so in long sets every second one has bins of its own: no one waits for the last. */
 static void fill_bins(bins *b, const rt_set *set, const binning *map)
 {
     clear_bins(b, map->bins);
-    for (uint32_t i = 0; i < set->count; i++) {
-        const box4 box = rt_ref_box(&set->refs[i]);
-        const vec4 place = (rt_ref_centre(&set->refs[i]) - map->origin) * map->scale;
-        const ivec4 bin = __builtin_convertvector(vec4_min(place, map->limit), ivec4);
-        for (int a = 0; a < 3; a++) {
-            box4 *into = &b->box[a][bin[a]];
-            *into = box4_join(*into, box);
-            b->count[a][bin[a]]++;
-        }
+    if (set->count < 256) {
+        for (uint32_t i = 0; i < set->count; i++)
+            add_to_bins(b, &set->refs[i], map);
+        return;
     }
+    bins odd;
+    clear_bins(&odd, map->bins);
+    for (uint32_t i = 0; i + 1 < set->count; i += 2) {
+        add_to_bins(b, &set->refs[i], map);
+        add_to_bins(&odd, &set->refs[i + 1], map);
+    }
+    if (set->count % 2)
+        add_to_bins(b, &set->refs[set->count - 1], map);
+    join_bins(b, &odd, map->bins);
 }
 
 static void fill_part(void *user, uint32_t index)
@@ -124,11 +150,7 @@ static void fill_bins_parallel(bins *out, const rt_set *set, const binning *map,
     rt_parallel(threads, JOBS, fill_part, &job);
     *out = parts[0];
     for (int p = 1; p < JOBS; p++)
-        for (int a = 0; a < 3; a++)
-            for (int i = 0; i < map->bins; i++) {
-                out->box[a][i] = box4_join(out->box[a][i], parts[p].box[a][i]);
-                out->count[a][i] += parts[p].count[a][i];
-            }
+        join_bins(out, &parts[p], map->bins);
 }
 
 static float side_cost(box4 box, uint32_t count)

@@ -5,8 +5,6 @@
 
 #include "image/exr_core.h"
 
-#define VALUES_MAX (UINT64_C(1) << 30) /* most pixels times channels: 4 GiB of floats */
-
 /* What the callbacks of a read context share. */
 typedef struct source {
     rt_exr_message message; /* first, as rt_exr_on_error expects */
@@ -66,7 +64,7 @@ static rt_status check_header(reader *r, exr_storage_t *storage, rt_error *error
         return fail_input(r, "the data window is empty or too large", error);
     if (count < 1 || count > RT_IMAGE_CHANNELS_MAX)
         return fail_input(r, "it has no channels or too many", error);
-    if ((uint64_t)width * (uint64_t)height * (uint64_t)count > VALUES_MAX)
+    if ((uint64_t)width * (uint64_t)height * (uint64_t)count > RT_IMAGE_VALUES_MAX)
         return fail_input(r, "it holds more than 2^30 values", error);
     for (int i = 0; i < count; i++)
         if (r->channels->entries[i].x_sampling != 1 || r->channels->entries[i].y_sampling != 1)

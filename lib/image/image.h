@@ -1,8 +1,9 @@
 /*
  * image.h - an image in memory: named float channels and text attributes.
  *
- * Colour channels are named R, G, B and hold linear sRGB; a channel of a further layer is named
- * LAYER.CHANNEL, such as albedo.R or depth.Z.
+ * Colour channels are named R, G, B and hold linear sRGB, or codes of the sRGB transfer function where
+ * is_srgb says so; grey alone is named Y. A channel of a further layer is named LAYER.CHANNEL, such as
+ * albedo.R or depth.Z.
  */
 #ifndef RT_LIB_IMAGE_IMAGE_H
 #define RT_LIB_IMAGE_IMAGE_H
@@ -14,6 +15,7 @@
 
 #define RT_IMAGE_SIDE_MAX 65536u
 #define RT_IMAGE_CHANNELS_MAX 256u
+#define RT_IMAGE_VALUES_MAX (UINT64_C(1) << 30) /* most pixels times channels that are read: 4 GiB of floats */
 #define RT_IMAGE_NAME_SIZE 256u /* with the closing zero; what the EXR format allows */
 #define RT_IMAGE_NO_CHANNEL UINT32_MAX
 
@@ -25,6 +27,7 @@ typedef struct rt_image_attribute {
 typedef struct rt_image {
     uint32_t width, height, channel_count;
     char (*names)[RT_IMAGE_NAME_SIZE]; /* [channel_count], all different, in the order of the data */
+    int is_srgb;                       /* values are sRGB codes from 0 to 1, as 8- and 16-bit files hold */
     float *data;                       /* [height][width][channel_count], top row first */
     rt_image_attribute *attributes;    /* [attribute_count], in the order in which they were set */
     size_t attribute_count;

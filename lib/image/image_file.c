@@ -52,16 +52,39 @@ rt_status rt_image_write(const rt_image *image, const char *path, const rt_image
     return status;
 }
 
+typedef rt_status decoder(rt_image **out, const rt_bytes *file, const char *name, rt_error *error);
+
+/* The decoder of a file by its first bytes, or NULL. */
+static decoder *decoder_of(const rt_bytes *file)
+{
+    static const struct {
+        const char *magic;
+        size_t size;
+        decoder *decode;
+    } known[] = {{"\x76\x2f\x31\x01", 4, rt_exr_decode},
+                 {"\x89PNG\r\n\x1a\n", 8, rt_png_decode},
+                 {"PF", 2, rt_pfm_decode},
+                 {"Pf", 2, rt_pfm_decode},
+                 {"P2", 2, rt_ppm_decode},
+                 {"P3", 2, rt_ppm_decode},
+                 {"P5", 2, rt_ppm_decode},
+                 {"P6", 2, rt_ppm_decode}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (file->size >= known[i].size && memcmp(file->data, known[i].magic, known[i].size) == 0)
+            return known[i].decode;
+    return NULL;
+}
+
 rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)
 {
-    rt_image_format format;
-    if (rt_image_format_of(&format, path, NULL) != RT_OK || (format != RT_IMAGE_EXR && format != RT_IMAGE_PFM))
-        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: its name does not end in .exr or .pfm", path);
     rt_bytes bytes = {0};
     rt_status status = rt_file_read(&bytes, path, FILE_SIZE_LIMIT, error);
-    if (status == RT_OK)
-        status = format == RT_IMAGE_EXR ? rt_exr_decode(out, &bytes, path, error)
-                                        : rt_pfm_decode(out, &bytes, path, error);
+    decoder *decode = status == RT_OK ? decoder_of(&bytes) : NULL;
+    if (decode)
+        status = decode(out, &bytes, path, error);
+    else if (status == RT_OK)
+        status = rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is %s", path,
+                         bytes.size ? "not an EXR, PNG, PPM, PGM or PFM image" : "empty");
     rt_bytes_free(&bytes);
     return status;
 }

@@ -1,4 +1,4 @@
-/* image_file.h - images as files, in the format that the name's extension says. */
+/* image_file.h - images as files: written in the format of the name's extension, read by content. */
 #ifndef RT_LIB_IMAGE_IMAGE_FILE_H
 #define RT_LIB_IMAGE_IMAGE_FILE_H
 
@@ -17,7 +17,11 @@ rt_status rt_image_format_of(rt_image_format *out, const char *path, rt_error *e
  */
 rt_status rt_image_write(const rt_image *image, const char *path, const rt_image_options *options, rt_error *error);
 
-/* Reads an .exr or .pfm. Fails with RT_ERROR_INPUT, naming path and cause. The caller destroys *out. */
+/*
+ * Reads an EXR, PNG, PPM, PGM or PFM, known by its first bytes and not by its name. Values of PNG, PPM and
+ * PGM are sRGB codes, see rt_image.is_srgb. Fails with RT_ERROR_INPUT, naming path and cause. The caller
+ * destroys *out.
+ */
 rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
 
 #endif

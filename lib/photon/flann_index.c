@@ -4,8 +4,9 @@
  * What FLANN 1.9.2's C interface needs to be told or kept from:
  *   - the distance type picks, at every call, the C++ type that an index pointer is cast to,
  *     so it must be the same at building, asking and freeing;
- *   - cores = 0 and sorted = 0 are its defaults, and sorted counts above k = 250, where the
- *     results come from a heap;
+ *   - sorted = 0 is its default, and counts above k = 250, where the results come from a heap;
+ *   - cores > 1 makes it share out queries by OpenMP, evenly, and gather the results on one thread;
+ *     callers share out better themselves, and finish their share while it is in the cache;
  *   - it writes fewer than k results when there are fewer points, or distances that overflow;
  *   - it lets std::bad_alloc escape through C, so its memory is tried before each call;
  *   - a positive random_seed would seed the C library's generator.
@@ -33,32 +34,39 @@ struct rt_flann_index {
     flann_index_t tree; /* NULL for an empty set */
 };
 
-/* FLANN's process-wide state belongs to whoever holds this. */
-static pthread_mutex_t flann_lock = PTHREAD_MUTEX_INITIALIZER;
+/* FLANN's process-wide state is ours while calls are under way; then it is what it was before. */
+static struct {
+    pthread_mutex_t lock;
+    int calls; /* under way */
+    enum flann_distance_t before;
+} shared = {PTHREAD_MUTEX_INITIALIZER, 0, FLANN_DIST_EUCLIDEAN};
 
-/* Takes the lock and makes the distance Euclidean; returns what it was. */
-static enum flann_distance_t enter(void)
+static void enter(void)
 {
-    pthread_mutex_lock(&flann_lock);
-    enum flann_distance_t before = flann_get_distance_type();
-    flann_set_distance_type(FLANN_DIST_EUCLIDEAN, flann_get_distance_order());
-    return before;
+    pthread_mutex_lock(&shared.lock);
+    if (shared.calls++ == 0) {
+        shared.before = flann_get_distance_type();
+        flann_set_distance_type(FLANN_DIST_EUCLIDEAN, flann_get_distance_order());
+    }
+    pthread_mutex_unlock(&shared.lock);
 }
 
-static void leave(enum flann_distance_t before)
+static void leave(void)
 {
-    flann_set_distance_type(before, flann_get_distance_order());
-    pthread_mutex_unlock(&flann_lock);
+    pthread_mutex_lock(&shared.lock);
+    if (--shared.calls == 0)
+        flann_set_distance_type(shared.before, flann_get_distance_order());
+    pthread_mutex_unlock(&shared.lock);
 }
 
-static struct FLANNParameters parameters(uint32_t threads)
+static struct FLANNParameters parameters(void)
 {
     struct FLANNParameters p = DEFAULT_FLANN_PARAMETERS;
     p.algorithm = FLANN_INDEX_KDTREE_SINGLE;
     p.checks = FLANN_CHECKS_UNLIMITED;
     p.eps = 0;
     p.sorted = 1;
-    p.cores = threads > INT_MAX ? INT_MAX : (int)threads;
+    p.cores = 1;
     p.leaf_max_size = LEAF_SIZE;
     p.log_level = FLANN_LOG_NONE;
     p.random_seed = 0;
@@ -77,14 +85,14 @@ static int memory_is_there(size_t count, size_t bytes)
 
 static rt_status build(rt_flann_index *index, rt_error *error)
 {
-    struct FLANNParameters p = parameters(1);
+    struct FLANNParameters p = parameters();
     float speedup;
 
     if (!memory_is_there(index->count, BYTES_PER_POINT))
         return rt_fail(error, RT_ERROR_MEMORY, "no memory for the search tree of %zu photons", index->count);
-    enum flann_distance_t before = enter();
+    enter();
     index->tree = flann_build_index_float(index->positions, (int)index->count, 3, &speedup, &p);
-    leave(before);
+    leave();
     if (!index->tree)
         return rt_fail(error, RT_ERROR_MEMORY, "the search tree of %zu photons could not be built", index->count);
     return RT_OK;
@@ -123,10 +131,10 @@ void rt_flann_index_destroy(rt_flann_index *index)
     if (!index)
         return;
     if (index->tree) {
-        struct FLANNParameters p = parameters(1);
-        enum flann_distance_t before = enter();
+        struct FLANNParameters p = parameters();
+        enter();
         flann_free_index_float(index->tree, &p);
-        leave(before);
+        leave();
     }
     free(index->positions);
     free(index);
@@ -138,9 +146,9 @@ size_t rt_flann_index_count(const rt_flann_index *index)
 }
 
 rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries, size_t query_count, size_t k,
-                                 uint32_t threads, int *indices, float *squared, rt_error *error)
+                                 int *indices, float *squared, rt_error *error)
 {
-    struct FLANNParameters p = parameters(threads ? threads : 1);
+    struct FLANNParameters p = parameters();
 
     assert(k >= 1 && k <= index->count);
     if (query_count == 0)
@@ -149,10 +157,10 @@ rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queri
         return rt_fail(error, RT_ERROR_MEMORY, "no memory for the %zu nearest photons of %zu points", k, query_count);
     for (size_t i = 0; i < query_count * k; i++)
         squared[i] = HUGE_VALF;
-    enum flann_distance_t before = enter();
+    enter();
     int failed = flann_find_nearest_neighbors_index_float(index->tree, (float *)queries, (int)query_count, indices,
                                                           squared, (int)k, &p);
-    leave(before);
+    leave();
     if (failed)
         return rt_fail(error, RT_ERROR_MEMORY, "the search for the %zu nearest photons failed", k);
     return RT_OK;

@@ -2,7 +2,8 @@
  * flann_index.h - exact nearest neighbours among points, by FLANN's kd-tree.
  *
  * The one place that calls FLANN, whose distance type and log level are global to the
- * process: flann_index.c sets them before each call and holds a lock through it.
+ * process: flann_index.c sets them while any call of its own is under way. All functions may be
+ * called from many threads at once.
  */
 #ifndef RT_LIB_PHOTON_FLANN_INDEX_H
 #define RT_LIB_PHOTON_FLANN_INDEX_H
@@ -28,9 +29,9 @@ size_t rt_flann_index_count(const rt_flann_index *index);
  * The k nearest points of each query, nearest first: indices and squared distances, both
  * [query_count][k]. queries: [query_count][3], finite. k must be between 1 and the number of
  * points. An index beside an infinite distance means nothing: the distance overflowed. Takes 8
- * bytes of memory for each result while it works; uses `threads` threads.
+ * bytes of memory for each result while it works, on the calling thread alone.
  */
 rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries, size_t query_count, size_t k,
-                                 uint32_t threads, int *indices, float *squared, rt_error *error);
+                                 int *indices, float *squared, rt_error *error);
 
 #endif

@@ -26,7 +26,8 @@ static int finite3(const float v[3])
 
 static int finite_photon(const rt_photon *p)
 {
-    return finite3(p->position) && finite3(p->wi) && finite3(p->flux) && finite3(p->normal);
+    return finite3(p->position) && finite3(p->wi) && finite3(p->flux) && isfinite(p->shading) &&
+           finite3(p->normal);
 }
 
 rt_status rt_photon_map_append(rt_photon_map *map, const rt_photon *slots, const rt_u32 *counts, size_t path_count,

@@ -9,13 +9,11 @@
 #include "error.h"
 #include "photon/flann_index.h"
 
-/* Results that FLANN is asked for at a time: bounds the memory, 16 bytes each. */
-enum { RESULTS_A_CALL = 1 << 22 };
-
 /* Most photons looked at for a point, as a multiple of k. */
 enum { LOOK_MAX = 16 };
 
-enum { POINTS_A_JOB = 512 };
+/* Neighbours that a thread asks for at a time, 16 bytes each: few enough to stay in its cache. */
+enum { NEIGHBOURS_A_JOB = 1 << 16 };
 
 static const float normal_cosine_min = 0.5f;
 
@@ -26,9 +24,6 @@ struct rt_photon_search {
     uint32_t k;
     float squared_limit; /* of the radius */
     uint32_t threads;
-    int *found;     /* [RESULTS_A_CALL at least], photons by distance */
-    float *squared; /* beside it, squared distances */
-    size_t results; /* length of both */
 };
 
 /* Positions alone, as the tree wants them, or normals alone, close together in memory. */
@@ -69,10 +64,7 @@ rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_map *m
     search->k = k;
     search->squared_limit = max_radius * max_radius;
     search->threads = threads;
-    search->results = look_limit(search) > RESULTS_A_CALL ? look_limit(search) : RESULTS_A_CALL;
-    search->found = malloc(search->results * sizeof *search->found);
-    search->squared = malloc(search->results * sizeof *search->squared);
-    if (!search->normals || !search->found || !search->squared)
+    if (!search->normals)
         status = rt_fail(error, RT_ERROR_MEMORY, "no memory to search %zu photons", map->count);
     if (status == RT_OK)
         status = rt_flann_index_create(&search->index, positions[0], map->count, error);
@@ -90,8 +82,6 @@ void rt_photon_search_destroy(rt_photon_search *search)
         return;
     rt_flann_index_destroy(search->index);
     free(search->normals);
-    free(search->found);
-    free(search->squared);
     free(search);
 }
 
@@ -153,83 +143,99 @@ static int rank(const rt_photon_search *search, const rt_gather_point *point, co
     return 0;
 }
 
-/* Points to be ranked. */
-typedef struct ranking {
+/* Points whose nearest `look` photons are looked at. */
+typedef struct looking {
     const rt_photon_search *search;
     const rt_gather_point *points;
     const rt_u32 *asked; /* [count], which points */
-    size_t count, looked;
+    size_t count, look;
+    size_t points_a_job;
     rt_u32 *lists;
     rt_gather_disc *discs;
-} ranking;
+    unsigned char *failed; /* [jobs], set where memory ran out */
+} looking;
 
-/* Ranks a share of the points; a disc that needs more photons gets a negative squared radius. */
-static void rank_share(void *user, uint32_t index)
+/* Looks at the photons of a share of the points; a disc that needs more gets a negative squared radius. */
+static void look_at_share(void *user, uint32_t index)
 {
-    const ranking *r = user;
-    const rt_photon_search *search = r->search;
-    size_t begin = (size_t)index * POINTS_A_JOB, end = smaller(begin + POINTS_A_JOB, r->count);
+    const looking *l = user;
+    const rt_photon_search *search = l->search;
+    const rt_u32 *asked = l->asked + index * l->points_a_job;
+    size_t count = smaller(l->points_a_job, l->count - index * l->points_a_job), look = l->look;
+    float(*queries)[3] = malloc(count * sizeof *queries);
+    int *found = malloc(count * look * sizeof *found);
+    float *squared = malloc(count * look * sizeof *squared);
 
-    for (size_t i = begin; i < end; i++) {
-        size_t at = r->asked[i];
-        if (!rank(search, r->points + at, search->found + i * r->looked, search->squared + i * r->looked, r->looked,
-                  r->lists + at * rt_photon_search_stride(search), r->discs + at))
-            r->discs[at].squared_radius = -1;
+    l->failed[index] = !queries || !found || !squared;
+    for (size_t i = 0; i < count && !l->failed[index]; i++)
+        memcpy(queries[i], l->points[asked[i]].position, sizeof *queries);
+    if (!l->failed[index])
+        l->failed[index] = rt_flann_index_nearest(search->index, queries[0], count, look, found, squared, NULL) != RT_OK;
+    for (size_t i = 0; i < count && !l->failed[index]; i++) {
+        rt_u32 *list = l->lists + asked[i] * rt_photon_search_stride(search);
+        rt_gather_disc *disc = l->discs + asked[i];
+        if (!rank(search, l->points + asked[i], found + i * look, squared + i * look, look, list, disc))
+            disc->squared_radius = -1;
     }
+    free(queries);
+    free(found);
+    free(squared);
 }
 
 /*
- * Looks at the nearest `look` photons of the points in asked[*count]; those that need more stay
- * in asked, and *count becomes their number.
+ * Looks at the nearest `look` photons of the points in asked[*count], on all threads; those that need
+ * more stay in asked, and *count becomes their number.
  */
-static rt_status look_at(rt_photon_search *search, const rt_gather_point *points, rt_u32 *asked, size_t *count,
-                         size_t look, float *queries, rt_u32 *lists, rt_gather_disc *discs, rt_error *error)
+static rt_status look_at(const rt_photon_search *search, const rt_gather_point *points, rt_u32 *asked, size_t *count,
+                         size_t look, rt_u32 *lists, rt_gather_disc *discs, rt_error *error)
 {
-    size_t batch = search->results / look, left = 0;
+    looking l = {search, points, asked, *count, look, 1, lists, discs, NULL};
+    size_t left = 0;
+    int failed = 0;
 
-    for (size_t first = 0; first < *count; first += batch) {
-        ranking part = {search, points, asked + first, smaller(batch, *count - first), look, lists, discs};
-        for (size_t i = 0; i < part.count; i++)
-            for (int c = 0; c < 3; c++)
-                queries[3 * i + c] = points[part.asked[i]].position[c];
-        rt_status status = rt_flann_index_nearest(search->index, queries, part.count, look, search->threads,
-                                                  search->found, search->squared, error);
-        if (status != RT_OK)
-            return status;
-        rt_parallel(search->threads, (uint32_t)((part.count + POINTS_A_JOB - 1) / POINTS_A_JOB), rank_share, &part);
-        for (size_t i = 0; i < part.count; i++)
-            if (discs[part.asked[i]].squared_radius < 0)
-                asked[left++] = part.asked[i];
+    if (look < NEIGHBOURS_A_JOB)
+        l.points_a_job = NEIGHBOURS_A_JOB / look;
+    size_t jobs = (*count + l.points_a_job - 1) / l.points_a_job;
+    l.failed = calloc(jobs, 1);
+    if (l.failed)
+        rt_parallel(search->threads, (uint32_t)jobs, look_at_share, &l);
+    for (size_t i = 0; i < jobs && l.failed; i++)
+        failed |= l.failed[i];
+    if (!l.failed || failed) {
+        free(l.failed);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the %zu nearest photons of %zu points", look, *count);
     }
+    free(l.failed);
+    for (size_t i = 0; i < *count; i++)
+        if (discs[asked[i]].squared_radius < 0)
+            asked[left++] = asked[i];
     *count = left;
     return RT_OK;
 }
 
-rt_status rt_photon_search_find(rt_photon_search *search, const rt_gather_point *points, size_t count, rt_u32 *lists,
-                                rt_gather_disc *discs, uint64_t *asked_count, rt_error *error)
+rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points, size_t count,
+                                rt_u32 *lists, rt_gather_disc *discs, uint64_t *asked_count, rt_error *error)
 {
     rt_u32 *asked = malloc((count ? count : 1) * sizeof *asked);
-    float *queries = malloc((count ? count : 1) * 3 * sizeof *queries);
     rt_status status = RT_OK;
     size_t left = 0;
 
-    if (!asked || !queries)
-        status = rt_fail(error, RT_ERROR_MEMORY, "no memory for %zu queries of the photon map", count);
-    for (size_t i = 0; i < count && status == RT_OK; i++) {
+    if (!asked)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to ask for photons at %zu points", count);
+    for (size_t i = 0; i < count; i++) {
         discs[i] = (rt_gather_disc){0};
         if (is_asked(points + i))
             asked[left++] = (rt_u32)i;
     }
     if (asked_count)
         *asked_count += left;
-    /* Most points are done with k photons; the others look at twice as many, and again. */
     if (search->count == 0)
         left = 0;
+    /* Most points are done with k photons; the others look at twice as many, and again. */
     for (size_t look = rt_photon_search_stride(search); left > 0 && status == RT_OK;) {
-        status = look_at(search, points, asked, &left, look, queries, lists, discs, error);
+        status = look_at(search, points, asked, &left, look, lists, discs, error);
         look = smaller(2 * look, look_limit(search));
     }
     free(asked);
-    free(queries);
     return status;
 }

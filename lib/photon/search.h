@@ -40,10 +40,10 @@ size_t rt_photon_search_stride(const rt_photon_search *search);
 /*
  * Finds the disc of each point and its photons, nearest first: row i of lists, which has the
  * search's stride, holds discs[i].count indices into the map. A point whose weight is zero is
- * not asked for and has none. *asked, if not NULL, grows by the number of the others. One search
- * serves one call at a time.
+ * not asked for and has none. *asked, if not NULL, grows by the number of the others. Works on all
+ * of the search's threads.
  */
-rt_status rt_photon_search_find(rt_photon_search *search, const rt_gather_point *points, size_t count, rt_u32 *lists,
-                                rt_gather_disc *discs, uint64_t *asked, rt_error *error);
+rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points, size_t count,
+                                rt_u32 *lists, rt_gather_disc *discs, uint64_t *asked, rt_error *error);
 
 #endif

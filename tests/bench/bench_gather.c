@@ -1,11 +1,11 @@
 /*
- * bench_gather.c - nearest photons: the library's search against plain FLANN, in one run and in turn.
+ * bench_gather.c - nearest photons: the library's search, which also leaves out the photons that face
+ * elsewhere, against plain FLANN, in one run and in turn.
  *
  *     bench_gather [PHOTONS [QUERIES [K]]]    1 000 000, 100 000 and 50 by default
  *
  * Photons lie at random on the walls of a box, queries at random on its floor. Prints queries a second,
- * the median of five runs, on all cores, and the ratio to FLANN: for the nearest photons alone, and with
- * the rejection of those that face elsewhere.
+ * the median of five runs, on all cores, and the ratio to FLANN.
  */
 #include <flann/flann.h>
 #include <math.h>
@@ -15,7 +15,6 @@
 #include <unistd.h>
 
 #include "lib/photon/points.h"
-#include "photon/flann_index.h"
 #include "photon/search.h"
 #include "progress.h"
 
@@ -111,14 +110,13 @@ static double median(double times[runs])
 static void report(const char *name, const problem *p, double times[runs], double flann)
 {
     double seconds = median(times);
-    printf("%-34s %8.0f k queries/s %6.2f x FLANN\n", name, (double)p->queries / seconds / 1e3, flann / seconds);
+    printf("%-6s %8.0f k queries/s %6.2f x FLANN\n", name, (double)p->queries / seconds / 1e3, flann / seconds);
 }
 
 static void compete(problem *p)
 {
     struct FLANNParameters parameters = DEFAULT_FLANN_PARAMETERS;
-    double plain[runs], nearest[runs], ranked[runs];
-    rt_flann_index *index = NULL;
+    double plain[runs], ours[runs];
     rt_photon_search *search = NULL;
     rt_error error;
     float speedup;
@@ -130,7 +128,6 @@ static void compete(problem *p)
     parameters.cores = (int)p->threads;
     parameters.leaf_max_size = 10;
     flann_index_t tree = flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
-    must(rt_flann_index_create(&index, p->positions, p->photons, &error), &error);
     must(rt_photon_search_create(&search, &p->map, p->k, HUGE_VALF, p->threads, &error), &error);
 
     for (int run = 0; run < runs; run++) {
@@ -138,22 +135,15 @@ static void compete(problem *p)
         flann_find_nearest_neighbors_index_float(tree, p->places, (int)p->queries, p->indices, p->squared, (int)p->k,
                                                  &parameters);
         double t1 = rt_clock();
-        must(rt_flann_index_nearest(index, p->places, p->queries, p->k, p->threads, p->indices, p->squared, &error),
-             &error);
-        double t2 = rt_clock();
         must(rt_photon_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs, NULL, &error),
              &error);
-        double t3 = rt_clock();
         plain[run] = t1 - t0;
-        nearest[run] = t2 - t1;
-        ranked[run] = t3 - t2;
+        ours[run] = rt_clock() - t1;
     }
     double flann = median(plain);
     report("FLANN", p, plain, flann);
-    report("librt, nearest", p, nearest, flann);
-    report("librt, nearest that face the point", p, ranked, flann);
+    report("librt", p, ours, flann);
     flann_free_index_float(tree, &parameters);
-    rt_flann_index_destroy(index);
     rt_photon_search_destroy(search);
 }
 

@@ -70,7 +70,7 @@ check header_is_cpp c++ -std=c++98 -pedantic -Wall -Wextra -Wno-long-long -Werro
 # ---- The example of the manual ---------------------------------------------------
 
 # From the header's first comment, and from the README's block of C.
-example=$(awk '/^ \*     cc / { exit } on { sub(/^ \*( {5})?/, ""); print } /A COMPLETE EXAMPLE/ { on = 1 }' \
+example=$(awk '/^ \*     cc / { exit } on { sub(/^ \*(     )?/, ""); print } /A COMPLETE EXAMPLE/ { on = 1 }' \
     "$includedir/rt/rt.h" | sed '/./,$!d')
 printf '%s\n' "$example" >"$work/example.c"
 sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' >"$work/readme.c"

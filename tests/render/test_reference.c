@@ -30,9 +30,9 @@ static const reference_case cases[] = {
     {"box_point", RT_MODE_PATH, 512, 1, 0, 0, 0.01},
     {"box_area", RT_MODE_PATH, 512, 1, 0, 0, 0.01},
     {"box_caustic", RT_MODE_PATH, 2048, 1, 0, 0, 0.02},
-    {"box_point", RT_MODE_PHOTON, 64, 4, 2000000, 100, 0.01},
-    {"box_area", RT_MODE_PHOTON, 64, 4, 2000000, 100, 0.01},
-    {"box_caustic", RT_MODE_PHOTON, 64, 4, 4000000, 100, 0.02},
+    {"box_point", RT_MODE_PHOTON, 32, 4, 8000000, 40, 0.01},
+    {"box_area", RT_MODE_PHOTON, 32, 4, 8000000, 40, 0.01},
+    {"box_caustic", RT_MODE_PHOTON, 32, 4, 8000000, 40, 0.02},
 };
 
 static rt_film *render(rt_renderer *renderer, const rt_scene *scene, const reference_case *c,

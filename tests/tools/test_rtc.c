@@ -366,12 +366,39 @@ static void json_progress_is_one_object_a_line(void **state)
         char stage[16], remaining[32];
         double fraction, elapsed;
         assert_int_equal(sscanf(line, "{\"stage\":\"%15[a-z]\",\"fraction\":%lf,\"elapsed\":%lf,\"remaining\":%31[^}]}",
-                                stage, &fraction, &elapsed, remaining), 4);
+                                stage, &fraction, &elapsed, remaining),
+                         4);
         assert_true(fraction >= 0.0 && fraction <= 1.0 && elapsed >= 0.0);
         assert_int_equal(line[strlen(line) - 1], '}');
     }
     /* The beginning and the end of three stages. */
     assert_true(lines >= 6);
+    run_free(&run);
+}
+
+/* With an empty cache of the driver, the build takes seconds. */
+static void first_compile_keeps_reporting(void **state)
+{
+    (void)state;
+    char cache[64];
+    snprintf(cache, sizeof cache, "/tmp/rtc-cache-%ld", (long)getpid());
+    write_scene();
+    assert_int_equal(mkdir(cache, 0777), 0);
+    run run =
+        run_rtc("POCL_CACHE_DIR=%s rtc a.rts --spp 1 --mode photon --photons 1000 --progress json --out a.pfm", cache);
+    char remove[96];
+    snprintf(remove, sizeof remove, "rm -rf %s", cache);
+    assert_int_equal(system(remove), 0);
+    expect_status(&run, 0);
+    double last = 0.0, elapsed;
+    int reports = 0;
+    for (char *at = run.err; (at = strstr(at, "{\"stage\":\"compile\"")); at++, reports++) {
+        assert_int_equal(sscanf(strstr(at, "elapsed"), "elapsed\":%lf", &elapsed), 1);
+        assert_true(elapsed - last < 1.5);
+        last = elapsed;
+    }
+    /* On another driver, or a fast machine, there is little to tell. */
+    assert_true(reports >= 2);
     run_free(&run);
 }
 
@@ -498,6 +525,7 @@ int main(void)
         TEST(verbose_names_the_device_and_its_threads),
         TEST(plain_progress_names_the_stages),
         TEST(json_progress_is_one_object_a_line),
+        TEST(first_compile_keeps_reporting),
         TEST(no_progress_when_none_is_asked),
         TEST(terminal_gets_a_redrawn_line_and_colours),
         TEST(closed_stderr_does_not_end_a_render),

@@ -86,8 +86,7 @@ static void five_mistakes_are_five_errors(void **state)
 {
     (void)state;
     scratch_write("five.rts", "camera { eye 0 0 -4  look_at 0 0 0  fov 400 }\n"
-                              "film { widht 64 }\n" WHITE
-                              "sphere { centre 0 1 0  radius -1  material white }\n"
+                              "film { widht 64 }\n" WHITE "sphere { centre 0 1 0  radius -1  material white }\n"
                               "plane { point 0 0 0  normal 0 1 0  material whit }\n"
                               "spere { }\n");
     run run = run_rtc("check five.rts");
@@ -209,14 +208,10 @@ static void scene_cut_short_anywhere_never_crashes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(each_mistake_is_placed_and_explained),
-        TEST(five_mistakes_are_five_errors),
-        TEST(error_in_an_included_file_names_that_file),
-        TEST(caret_stands_under_the_place),
-        TEST(long_line_is_cut_around_the_place),
-        TEST(control_characters_do_not_reach_the_terminal),
-        TEST(what_is_no_scene_file_is_status_1),
-        TEST(binary_scene_is_status_1),
+        TEST(each_mistake_is_placed_and_explained),      TEST(five_mistakes_are_five_errors),
+        TEST(error_in_an_included_file_names_that_file), TEST(caret_stands_under_the_place),
+        TEST(long_line_is_cut_around_the_place),         TEST(control_characters_do_not_reach_the_terminal),
+        TEST(what_is_no_scene_file_is_status_1),         TEST(binary_scene_is_status_1),
         TEST(scene_cut_short_anywhere_never_crashes),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;

@@ -154,10 +154,10 @@ static void help_describes_every_option(void **state)
 {
     (void)state;
     static const char *const options[] = {
-        "--mode ",     "--spp ",    "--max-depth ",    "--photons ", "--k ",        "--kernel ",  "--cone-k ",
-        "--radius ",   "--direct ", "--final-gather ", "--accel ",   "--sampler ",  "--width ",   "--height ",
-        "--seed ",     "--time ",   "--out ",          "--exposure ", "--tonemap ", "--device ",  "--threads ",
-        "--work-group ", "--progress ", "--stats",     "--verbose",  "--quiet",     "--help",     "--version"};
+        "--mode ",       "--spp ",      "--max-depth ",    "--photons ",  "--k ",       "--kernel ", "--cone-k ",
+        "--radius ",     "--direct ",   "--final-gather ", "--accel ",    "--sampler ", "--width ",  "--height ",
+        "--seed ",       "--time ",     "--out ",          "--exposure ", "--tonemap ", "--device ", "--threads ",
+        "--work-group ", "--progress ", "--stats",         "--verbose",   "--quiet",    "--help",    "--version"};
     run run = run_rtc("--help");
     expect_status(&run, 0);
     assert_string_equal(run.err, "");

@@ -1,4 +1,4 @@
-/* Images as files: the extension decides, and what fails leaves nothing behind. */
+/* Images as files: the extension decides how one is written, the content how it is read. */
 #include <errno.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "image/image_file.h"
+#include "image/srgb.h"
 #include "scratch.h"
 
 static const char *const rgb[3] = {"R", "G", "B"};
@@ -81,6 +82,46 @@ static void float_formats_are_read_back(void **state)
     rt_image_destroy(image);
 }
 
+/* The name says nothing: each is read under the name of another format. */
+static void the_content_decides_how_a_file_is_read(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.exr", "a.png", "a.ppm", "a.pfm"};
+    rt_image *image = create();
+    for (int i = 0; i < 4; i++) {
+        rt_image *copy = NULL;
+        rt_error error = {0};
+        uint32_t channels[3];
+        assert_int_equal(rt_image_write(image, names[i], NULL, NULL), RT_OK);
+        assert_int_equal(rename(names[i], names[(i + 1) % 4]), 0);
+        assert_int_equal(rt_image_read(&copy, names[(i + 1) % 4], &error), RT_OK);
+        assert_int_equal(rt_image_rgb_channels(channels, copy, NULL), RT_OK);
+        assert_int_equal(copy->is_srgb, i == 1 || i == 2);
+        for (int c = 0; c < 3; c++) {
+            float linear = image->data[c], found = copy->data[channels[c]];
+            assert_true(found == (copy->is_srgb ? (float)rt_srgb_quantise(linear) / 255.0f : linear));
+        }
+        rt_image_destroy(copy);
+    }
+    rt_image_destroy(image);
+}
+
+static void grey_files_are_read(void **state)
+{
+    (void)state;
+    rt_image *image = NULL;
+    scratch_write("a", "P2 1 1 4 3");
+    assert_int_equal(rt_image_read(&image, "a", NULL), RT_OK);
+    assert_string_equal(image->names[0], "Y");
+    assert_true(image->data[0] == 0.75f);
+    rt_image_destroy(image);
+    scratch_write("a", "Pf 1 1 -1 abcd");
+    assert_int_equal(rt_image_read(&image, "a", NULL), RT_OK);
+    assert_string_equal(image->names[0], "Y");
+    assert_false(image->is_srgb);
+    rt_image_destroy(image);
+}
+
 static void failures_leave_no_file(void **state)
 {
     (void)state;
@@ -109,11 +150,17 @@ static void unreadable_files_are_named(void **state)
     rt_error error = {0};
     assert_int_equal(rt_image_read(&image, "missing.exr", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "missing.exr"));
-    assert_int_equal(rt_image_read(&image, "a.png", &error), RT_ERROR_INPUT);
-    assert_non_null(strstr(error.message, ".exr or .pfm"));
-    scratch_write("text.exr", "not an image");
+    assert_non_null(strstr(error.message, strerror(ENOENT)));
+    scratch_write("text.exr", "P, not an image");
     assert_int_equal(rt_image_read(&image, "text.exr", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "text.exr"));
+    assert_non_null(strstr(error.message, "not an EXR, PNG, PPM, PGM or PFM"));
+    scratch_write("empty.png", "");
+    assert_int_equal(rt_image_read(&image, "empty.png", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "empty.png: it is empty"));
+    scratch_write("short.png", "P6 9 9 255 123");
+    assert_int_equal(rt_image_read(&image, "short.png", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "short.png: cut short"));
     assert_null(image);
 }
 
@@ -125,6 +172,8 @@ int main(void)
         cmocka_unit_test(the_extension_decides_the_format),
         IN_SCRATCH(every_format_is_written),
         IN_SCRATCH(float_formats_are_read_back),
+        IN_SCRATCH(the_content_decides_how_a_file_is_read),
+        IN_SCRATCH(grey_files_are_read),
         IN_SCRATCH(failures_leave_no_file),
         IN_SCRATCH(unreadable_files_are_named),
     };

@@ -225,6 +225,7 @@ static void photons_are_whole(void **state)
             assert_true(p->flux[c] >= 0);
         }
         assert_true(facing > 0); /* the normal is on the lit side */
+        assert_true(p->shading == 1);
         assert_float_equal(wi2, 1, 1e-5);
         assert_float_equal(outermost, 1, 1e-5);
         assert_true(segments(p) >= 1 && segments(p) <= 15);

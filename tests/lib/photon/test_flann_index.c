@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accel/parallel.h"
 #include "lib/photon/points.h"
 #include "photon/flann_index.h"
 
@@ -80,7 +81,7 @@ static void compare_with_brute_force(size_t count, size_t k, layout how)
         else
             memcpy(asked[i], positions + 3 * (i % count), sizeof asked[i]);
     expect_ok(rt_flann_index_create(&index, positions, count, &error), &error);
-    expect_ok(rt_flann_index_nearest(index, asked[0], queries, k, 2, indices, squared, &error), &error);
+    expect_ok(rt_flann_index_nearest(index, asked[0], queries, k, indices, squared, &error), &error);
     for (size_t i = 0; i < queries; i++)
         assert_nearest(positions, count, asked[i], k, indices + i * k, squared + i * k);
     rt_flann_index_destroy(index);
@@ -120,25 +121,41 @@ static void an_empty_set_is_an_index(void **state)
     rt_flann_index_destroy(NULL);
 }
 
+enum { many = 5000, jobs = 20, queries_a_job = 100, neighbours = 60 };
+
+/* One index, asked from many threads at once. */
+typedef struct shared_index {
+    const rt_flann_index *index;
+    const float *positions;
+    int indices[jobs][queries_a_job * neighbours];
+    float squared[jobs][queries_a_job * neighbours];
+} shared_index;
+
+static void ask_share(void *user, uint32_t job)
+{
+    shared_index *s = user;
+    rt_flann_index_nearest(s->index, s->positions + 3 * job * queries_a_job, queries_a_job, neighbours, s->indices[job],
+                           s->squared[job], NULL);
+}
+
 static void results_do_not_depend_on_threads(void **state)
 {
-    enum { count = 5000, k = 60, asked = 1000 };
-    static float positions[count][3];
-    static int indices[2][asked * k];
-    static float squared[2][asked * k];
+    static float positions[many][3];
+    static shared_index alone, together;
     points_stream stream = {7};
     rt_flann_index *index = NULL;
     rt_error error;
     (void)state;
-    for (size_t i = 0; i < count; i++)
-        place(positions[i], DUPLICATED, i, &stream);
-    expect_ok(rt_flann_index_create(&index, positions[0], count, &error), &error);
-    for (uint32_t threads = 1; threads <= 2; threads++)
-        expect_ok(rt_flann_index_nearest(index, positions[0], asked, k, threads == 2 ? 3 : 1, indices[threads - 1],
-                                         squared[threads - 1], &error),
-                  &error);
-    assert_memory_equal(indices[0], indices[1], sizeof indices[0]);
-    assert_memory_equal(squared[0], squared[1], sizeof squared[0]);
+    for (size_t i = 0; i < many; i++)
+        place(positions[i], i % 2 ? SCATTERED : DUPLICATED, i, &stream);
+    expect_ok(rt_flann_index_create(&index, positions[0], many, &error), &error);
+    alone.index = together.index = index;
+    alone.positions = together.positions = positions[0];
+    rt_parallel(1, jobs, ask_share, &alone);
+    rt_parallel(4, jobs, ask_share, &together);
+    assert_memory_equal(alone.indices, together.indices, sizeof alone.indices);
+    assert_memory_equal(alone.squared, together.squared, sizeof alone.squared);
+    assert_true(alone.squared[0][2 * neighbours - 1] > 0);
     rt_flann_index_destroy(index);
 }
 

@@ -39,6 +39,7 @@ static rt_photon_map make_map(void)
         p->position[0] = points_uniform(&stream);
         p->position[2] = points_uniform(&stream);
         p->normal[1] = 1;
+        p->shading = 0.5f + points_uniform(&stream);
         for (int c = 0; c < 3; c++)
             p->flux[c] = points_uniform(&stream);
     }
@@ -70,7 +71,7 @@ static void expected_radiance(double out[3], const rt_photon_map *map, const rt_
         double x = map->photons[i].position[0] - point->position[0];
         double z = map->photons[i].position[2] - point->position[2], t2 = (x * x + z * z) / (r * r);
         for (int c = 0; c < 3 && t2 < 1; c++)
-            sum[c] += map->photons[i].flux[c] * 2 * (1 - t2) / (PI * r * r);
+            sum[c] += map->photons[i].flux[c] * map->photons[i].shading * 2 * (1 - t2) / (PI * r * r);
     }
     for (int c = 0; c < 3; c++)
         out[c] = point->radiance[c] + point->weight[c] * kd[point->material][c] / PI * sum[c];

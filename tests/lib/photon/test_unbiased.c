@@ -31,7 +31,7 @@ enum { kernels = sizeof kernel_names / sizeof *kernel_names };
 /* A map of all fields, n photons in each square, of which one in `facing` faces the gather points. */
 static void lay_down(rt_photon_map *map, int n, int facing)
 {
-    points_stream stream = {(uint64_t)n};
+    points_stream stream = {12};
     map->capacity = (size_t)fields * n * 9;
     map->photons = calloc(map->capacity, sizeof *map->photons);
     assert_non_null(map->photons);
@@ -46,6 +46,7 @@ static void lay_down(rt_photon_map *map, int n, int facing)
                 p->position[0] = cx;
                 p->position[1] = apart * (float)field;
                 p->position[2] = cz;
+                p->shading = 1;
                 p->normal[1] = i % facing == 0 ? 1.0f : -1.0f;
                 p->flux[0] = p->flux[1] = p->flux[2] = 1;
             }

@@ -121,6 +121,55 @@ static void every_way_agrees_with_path_tracing(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* A floor whose shading normals lean away from each other, under a point light. */
+static rt_renderer *make_smooth_floor(void)
+{
+    const float positions[12] = {-1, 0, -1, 1, 0, -1, 1, 0, 1, -1, 0, 1};
+    const float normals[12] = {-0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, -0.6f, 0.8f, 0};
+    const uint32_t indices[6] = {0, 2, 1, 0, 3, 2};
+    rt_point_light light = {{-0.3f, 0.8f, 0.2f}, {1, 1, 1}, {0}};
+    rt_camera camera = {{0, 3, -0.01f}, {0, 0, 0}, {0, 0, 1}, 30, 0, 0};
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_error error;
+
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    rt_surface surface = {add(scene, 0.8f, 0, 0), {0}, {0}};
+    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 4, indices, 2, normals, &surface, &error), &error);
+    expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
+    expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+static void smooth_surfaces_agree_with_path_tracing(void **state)
+{
+    rt_render_options options = photon_options();
+    (void)state;
+    rt_renderer *renderer = make_smooth_floor();
+    options.direct = RT_DIRECT_PHOTONS;
+    options.photons = 1000000;
+    rt_film *photon = render(renderer, &options);
+    options.mode = RT_MODE_PATH;
+    rt_film *path = render(renderer, &options);
+    print_message("smooth floor: %.4f of path tracing\n", mean_of(photon) / mean_of(path));
+    for (int y = 0; y < side; y += 8)
+        for (int x = 0; x < side; x += 8) {
+            double sums[2] = {0};
+            for (int i = 0; i < 64; i++) {
+                size_t at = 3 * ((size_t)(y + i / 8) * side + (size_t)(x + i % 8));
+                sums[0] += rt_film_rgb(photon)[at];
+                sums[1] += rt_film_rgb(path)[at];
+            }
+            /* Thousands of photons lie in a block: noise of about 1 %. */
+            assert_true(fabs(sums[0] / sums[1] - 1) < 0.05);
+        }
+    rt_film_destroy(photon);
+    rt_film_destroy(path);
+    rt_renderer_destroy(renderer);
+}
+
 static void films_do_not_depend_on_threads_and_work_groups(void **state)
 {
     static const rt_device_options devices[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 2, 64}};
@@ -201,6 +250,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_way_agrees_with_path_tracing),
+        cmocka_unit_test(smooth_surfaces_agree_with_path_tracing),
         cmocka_unit_test(films_do_not_depend_on_threads_and_work_groups),
         cmocka_unit_test(the_film_tells_what_was_done),
         cmocka_unit_test(a_cancel_ends_the_render),

@@ -1,0 +1,113 @@
+#include "mesh/canonical.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Makes room for `count` elements of `size` bytes, zeroed; at least one byte, so that NULL means failure. */
+static void *zeroed(uint64_t count, size_t size)
+{
+    return count <= SIZE_MAX / size ? calloc(count ? (size_t)count : 1, size) : NULL;
+}
+
+rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source, uint64_t count, int normals, int uv,
+                                int colours)
+{
+    if (count > RT_CANONICAL_MAX)
+        return rt_mesh_fail(source, 0, "%llu vertices are more than the %d that a mesh can have",
+                            (unsigned long long)count, RT_CANONICAL_MAX);
+    mesh->vertex_count = (uint32_t)count;
+    mesh->has_normals = normals;
+    mesh->has_uv = uv;
+    mesh->row = 3u + (normals ? 3u : 0u) + (uv ? 2u : 0u);
+    mesh->vertices = zeroed(count, mesh->row * sizeof *mesh->vertices);
+    mesh->colours = colours ? zeroed(count, 3 * sizeof *mesh->colours) : NULL;
+    return mesh->vertices && (!colours || mesh->colours) ? RT_OK : rt_mesh_fail_memory(source, count, "vertices");
+}
+
+float *rt_canonical_position(const rt_canonical *mesh, uint32_t vertex)
+{
+    return mesh->vertices + (size_t)vertex * mesh->row;
+}
+
+float *rt_canonical_normal(const rt_canonical *mesh, uint32_t vertex)
+{
+    return mesh->vertices + (size_t)vertex * mesh->row + 3;
+}
+
+float *rt_canonical_uv(const rt_canonical *mesh, uint32_t vertex)
+{
+    return mesh->vertices + (size_t)vertex * mesh->row + (mesh->has_normals ? 6 : 3);
+}
+
+rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source, uint64_t triangles)
+{
+    if (triangles <= mesh->triangle_room)
+        return RT_OK;
+    if (triangles > RT_CANONICAL_MAX)
+        return rt_mesh_fail(source, 0, "%llu triangles are more than the %d that a mesh can have",
+                            (unsigned long long)triangles, RT_CANONICAL_MAX);
+    uint8_t *faces = triangles <= SIZE_MAX / RT_CANONICAL_FACE
+                         ? realloc(mesh->faces, (size_t)triangles * RT_CANONICAL_FACE)
+                         : NULL;
+    if (!faces)
+        return rt_mesh_fail_memory(source, triangles, "triangles");
+    mesh->faces = faces;
+    mesh->triangle_room = (uint32_t)triangles;
+    return RT_OK;
+}
+
+/* Makes room for `more` triangles, growing by at least a half so that adding stays linear in time. */
+static rt_status grow(rt_canonical *mesh, const rt_mesh_source *source, uint64_t more)
+{
+    uint64_t needed = mesh->triangle_count + more, roomy = mesh->triangle_room + (uint64_t)mesh->triangle_room / 2;
+    if (needed <= mesh->triangle_room)
+        return RT_OK;
+    if (roomy > RT_CANONICAL_MAX)
+        roomy = RT_CANONICAL_MAX;
+    return rt_canonical_reserve(mesh, source, needed > roomy ? needed : roomy);
+}
+
+static void put(rt_canonical *mesh, uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t corners[3] = {a, b, c};
+    uint8_t *face = mesh->faces + (size_t)mesh->triangle_count++ * RT_CANONICAL_FACE;
+    face[0] = 3;
+    memcpy(face + 1, corners, sizeof corners);
+}
+
+rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source, uint32_t a, uint32_t b, uint32_t c)
+{
+    rt_status status = grow(mesh, source, 1);
+    if (status == RT_OK)
+        put(mesh, a, b, c);
+    return status;
+}
+
+rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source, const uint32_t *corners,
+                               uint64_t count)
+{
+    uint64_t face = mesh->file_faces++;
+    if (count < 3) {
+        if (mesh->skipped_faces++ == 0)
+            mesh->first_skipped = face;
+        return RT_OK;
+    }
+    rt_status status = grow(mesh, source, count - 2);
+    for (uint64_t i = 2; i < count && status == RT_OK; i++)
+        put(mesh, corners[0], corners[i - 1], corners[i]);
+    return status;
+}
+
+void rt_canonical_corners(const rt_canonical *mesh, uint32_t triangle, uint32_t corners[3])
+{
+    memcpy(corners, mesh->faces + (size_t)triangle * RT_CANONICAL_FACE + 1, 3 * sizeof *corners);
+}
+
+void rt_canonical_free(rt_canonical *mesh)
+{
+    free(mesh->vertices);
+    free(mesh->faces);
+    free(mesh->colours);
+    free(mesh->texture);
+    memset(mesh, 0, sizeof *mesh);
+}

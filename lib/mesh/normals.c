@@ -1,0 +1,100 @@
+#include "mesh/normals.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Twice the area of a triangle times its normal, in double: float coordinates cannot overflow it. */
+static void area_vector(const rt_mesh *mesh, uint32_t triangle, double out[3])
+{
+    const uint32_t *v = mesh->indices + 3 * (size_t)triangle;
+    const float *a = mesh->positions + 3 * (size_t)v[0];
+    const float *b = mesh->positions + 3 * (size_t)v[1];
+    const float *c = mesh->positions + 3 * (size_t)v[2];
+    double e[3], f[3];
+    for (int i = 0; i < 3; i++) {
+        e[i] = (double)b[i] - a[i];
+        f[i] = (double)c[i] - a[i];
+    }
+    out[0] = e[1] * f[2] - e[2] * f[1];
+    out[1] = e[2] * f[0] - e[0] * f[2];
+    out[2] = e[0] * f[1] - e[1] * f[0];
+}
+
+uint64_t rt_normals_zero_area(const rt_mesh *mesh)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        double n[3];
+        area_vector(mesh, i, n);
+        count += n[0] == 0 && n[1] == 0 && n[2] == 0;
+    }
+    return count;
+}
+
+/* Writes v at length 1; returns 0 when it has no direction. */
+static int normalise(const double v[3], float out[3])
+{
+    double length = hypot(hypot(v[0], v[1]), v[2]);
+    if (!(length > 0))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)(v[i] / length);
+    return 1;
+}
+
+/* The sum of the area vectors around each vertex; the caller frees it. */
+static double *sum_faces(const rt_mesh *mesh)
+{
+    double *sums = calloc(mesh->vertex_count ? mesh->vertex_count : 1, 3 * sizeof *sums);
+    for (uint32_t i = 0; sums && i < mesh->triangle_count; i++) {
+        double n[3];
+        area_vector(mesh, i, n);
+        for (int corner = 0; corner < 3; corner++)
+            for (int axis = 0; axis < 3; axis++)
+                sums[3 * (size_t)mesh->indices[3 * (size_t)i + (size_t)corner] + (size_t)axis] += n[axis];
+    }
+    return sums;
+}
+
+static void set_from(const double *sums, size_t vertex, float *normals)
+{
+    static const float up[3] = {0, 1, 0};
+    if (!normalise(sums + 3 * vertex, normals + 3 * vertex))
+        memcpy(normals + 3 * vertex, up, sizeof up);
+}
+
+rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error)
+{
+    double *sums = NULL;
+    *replaced = 0;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *n = mesh->normals + 3 * i;
+        const double wide[3] = {n[0], n[1], n[2]};
+        if (normalise(wide, mesh->normals + 3 * i))
+            continue;
+        if (!sums && !(sums = sum_faces(mesh)))
+            return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the normals of %u vertices", mesh->vertex_count);
+        set_from(sums, i, mesh->normals);
+        ++*replaced;
+    }
+    free(sums);
+    return RT_OK;
+}
+
+rt_status rt_mesh_smooth(rt_mesh *mesh, rt_error *error)
+{
+    double *sums = sum_faces(mesh);
+    float *normals = calloc(mesh->vertex_count ? mesh->vertex_count : 1, 3 * sizeof *normals);
+    if (!sums || !normals) {
+        free(sums);
+        free(normals);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the normals of %u vertices", mesh->vertex_count);
+    }
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        set_from(sums, i, normals);
+    free(sums);
+    free(mesh->normals);
+    mesh->normals = normals;
+    return RT_OK;
+}

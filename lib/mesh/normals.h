@@ -1,0 +1,17 @@
+/* normals.h - the normals of a mesh. */
+#ifndef RT_LIB_MESH_NORMALS_H
+#define RT_LIB_MESH_NORMALS_H
+
+#include "mesh/mesh.h"
+
+/*
+ * Brings normals to length 1. One of length 0 becomes the mean of the faces around its vertex, weighted by
+ * area, or (0, 1, 0) where that has no direction either. Returns how many were of length 0.
+ * Fails with RT_ERROR_MEMORY.
+ */
+rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error);
+
+/* How many triangles have no area: two corners in one place, or all on a line. */
+uint64_t rt_normals_zero_area(const rt_mesh *mesh);
+
+#endif

@@ -1,0 +1,178 @@
+#include "mesh/ply_vertices.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Names of properties that belong together; the first group that is there in full counts. */
+#define PARTS_MAX 3
+static const char *const position_names[][PARTS_MAX] = {{"x", "y", "z"}};
+static const char *const normal_names[][PARTS_MAX] = {{"nx", "ny", "nz"}};
+static const char *const uv_names[][PARTS_MAX] = {
+    {"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
+static const char *const colour_names[][PARTS_MAX] = {
+    {"red", "green", "blue"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}};
+
+/* The parts of one attribute: the properties that give them. */
+typedef struct attribute {
+    const rt_ply_property *parts[PARTS_MAX];
+    int count; /* 0: the vertices do not have it */
+} attribute;
+
+typedef struct attributes {
+    attribute position, normal, uv, colour;
+} attributes;
+
+static attribute find(const rt_ply_element *element, const char *const (*groups)[PARTS_MAX], size_t group_count, int parts)
+{
+    attribute found = {{NULL, NULL, NULL}, 0};
+    for (size_t g = 0; g < group_count; g++) {
+        int i = 0;
+        for (; i < parts; i++) {
+            found.parts[i] = rt_ply_find_property(element, groups[g][i]);
+            if (!found.parts[i] || found.parts[i]->is_list)
+                break;
+        }
+        if (i == parts) {
+            found.count = parts;
+            return found;
+        }
+    }
+    return found;
+}
+
+#define FIND(element, names, parts) find(element, names, sizeof(names) / sizeof *(names), parts)
+
+static attributes find_all(const rt_ply_element *element)
+{
+    attributes found = {
+        .position = FIND(element, position_names, 3),
+        .normal = FIND(element, normal_names, 3),
+        .uv = FIND(element, uv_names, 2),
+        .colour = FIND(element, colour_names, 3),
+    };
+    return found;
+}
+
+rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader, const rt_ply_element *element, int with_uv)
+{
+    attributes found = find_all(element);
+    if (element->count && !found.position.count)
+        return rt_mesh_fail(reader->source, element->line, "element vertex has not all of the properties x, y and z");
+    mesh->file_vertices = element->count;
+    return rt_canonical_vertices(mesh, reader->source, element->count, found.normal.count != 0,
+                                 found.uv.count != 0 || with_uv, found.colour.count != 0);
+}
+
+/* Where one property of a vertex goes. */
+typedef struct target {
+    float *first;  /* of vertex 0; NULL: nowhere */
+    size_t stride; /* floats from vertex to vertex */
+    float scale;
+} target;
+
+static float unit_scale(rt_ply_type type)
+{
+    return rt_ply_is_float(type) ? 1.0f : 1.0f / (float)rt_ply_greatest(type);
+}
+
+static int part_of(const attribute *attribute, const rt_ply_property *property)
+{
+    for (int i = 0; i < attribute->count; i++)
+        if (attribute->parts[i] == property)
+            return i;
+    return -1;
+}
+
+static target find_target(const rt_canonical *mesh, const attributes *found, const rt_ply_property *property)
+{
+    target to = {NULL, mesh->row, 1.0f};
+    int part;
+    if ((part = part_of(&found->position, property)) >= 0) {
+        to.first = rt_canonical_position(mesh, 0) + part;
+    } else if ((part = part_of(&found->normal, property)) >= 0) {
+        to.first = rt_canonical_normal(mesh, 0) + part;
+    } else if ((part = part_of(&found->uv, property)) >= 0) {
+        to.first = rt_canonical_uv(mesh, 0) + part;
+        to.scale = unit_scale(property->type);
+    } else if ((part = part_of(&found->colour, property)) >= 0) {
+        to.first = mesh->colours + part;
+        to.stride = 3;
+        to.scale = unit_scale(property->type);
+    }
+    return to;
+}
+
+/* Row by row, whatever the format. */
+static rt_status read_rows(rt_ply_reader *reader, const target *targets)
+{
+    const rt_ply_element *element = reader->element;
+    rt_status status = RT_OK;
+    while (reader->row < element->count && status == RT_OK) {
+        for (size_t i = 0; i < element->property_count && status == RT_OK; i++) {
+            const rt_ply_property *property = &element->properties[i];
+            float value;
+            if (!targets[i].first) {
+                status = rt_ply_skip(reader, property);
+                continue;
+            }
+            reader->property = property;
+            status = rt_ply_finite(reader, property->type, &value);
+            if (status == RT_OK)
+                targets[i].first[(size_t)reader->row * targets[i].stride] = value * targets[i].scale;
+        }
+        if (status == RT_OK)
+            status = rt_ply_end_row(reader);
+    }
+    return status;
+}
+
+/* The bytes of a row of scalars, or 0 when a list is among them. */
+static size_t fixed_size(const rt_ply_element *element)
+{
+    size_t size = 0;
+    for (size_t i = 0; i < element->property_count; i++) {
+        if (element->properties[i].is_list)
+            return 0;
+        size += rt_ply_size(element->properties[i].type);
+    }
+    return size;
+}
+
+/* Column by column: binary rows of one size, which rt_ply_enter found to fit in the file. */
+static rt_status read_columns(rt_ply_reader *reader, const target *targets, size_t size)
+{
+    const rt_ply_element *element = reader->element;
+    int native = rt_ply_is_native(reader->format);
+    const uint8_t *from = reader->at;
+    for (size_t i = 0; i < element->property_count; i++) {
+        rt_ply_type type = element->properties[i].type;
+        for (uint64_t row = 0; row < element->count && targets[i].first; row++) {
+            const uint8_t *at = from + (size_t)row * size;
+            float value;
+            if (type == RT_PLY_FLOAT32 && native)
+                memcpy(&value, at, sizeof value);
+            else
+                value = (float)rt_ply_decode(at, type, native);
+            if (!isfinite(value)) {
+                reader->row = row;
+                reader->property = &element->properties[i];
+                return rt_ply_fail(reader, "%g is not a finite float", rt_ply_decode(at, type, native));
+            }
+            targets[i].first[(size_t)row * targets[i].stride] = value * targets[i].scale;
+        }
+        from += rt_ply_size(type);
+    }
+    reader->at += (size_t)element->count * size;
+    return rt_mesh_step(reader->source, (uint64_t)(reader->at - reader->source->data), reader->source->size);
+}
+
+rt_status rt_ply_vertices_read(rt_canonical *mesh, rt_ply_reader *reader)
+{
+    const rt_ply_element *element = reader->element;
+    attributes found = find_all(element);
+    target targets[RT_PLY_PROPERTIES];
+    for (size_t i = 0; i < element->property_count; i++)
+        targets[i] = find_target(mesh, &found, &element->properties[i]);
+    size_t size = fixed_size(element);
+    return reader->format != RT_PLY_ASCII && size ? read_columns(reader, targets, size) : read_rows(reader, targets);
+}

@@ -1,0 +1,67 @@
+#include "mesh/unique.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNT_MAX 0x40000000u /* the table of slots, twice as long, still has 32-bit indices */
+
+static uint64_t mix(uint64_t h)
+{
+    /* The finaliser of MurmurHash3 (A. Appleby): every bit of the input reaches every bit of the output. */
+    h ^= h >> 33;
+    h *= 0xff51afd7ed558ccdu;
+    h ^= h >> 33;
+    h *= 0xc4ceb9fe1a85ec53u;
+    return h ^ h >> 33;
+}
+
+/* The slot that holds the key, or the free one where it belongs. */
+static uint32_t *find(const rt_unique *set, const uint32_t key[3])
+{
+    uint32_t mask = set->slot_count - 1;
+    uint32_t i = (uint32_t)mix(mix((uint64_t)key[0] << 32 | key[1]) + key[2]) & mask;
+    while (set->slots[i] && memcmp(set->keys[set->slots[i] - 1], key, sizeof *set->keys) != 0)
+        i = (i + 1) & mask;
+    return &set->slots[i];
+}
+
+/* Doubles the room; a quarter to a half of the slots are taken. */
+static rt_status grow(rt_unique *set, const rt_mesh_source *source)
+{
+    uint32_t room = set->room ? 2 * set->room : 1024;
+    uint32_t(*keys)[3] = room <= COUNT_MAX ? realloc(set->keys, room * sizeof *keys) : NULL;
+    if (!keys)
+        return rt_mesh_fail_memory(source, room, "vertices");
+    set->keys = keys;
+    uint32_t *slots = calloc(2 * (size_t)room, sizeof *slots);
+    if (!slots)
+        return rt_mesh_fail_memory(source, room, "vertices");
+    free(set->slots);
+    set->slots = slots;
+    set->slot_count = 2 * room;
+    set->room = room;
+    for (uint32_t i = 0; i < set->count; i++)
+        *find(set, set->keys[i]) = i + 1;
+    return RT_OK;
+}
+
+rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint32_t key[3], uint32_t *number)
+{
+    rt_status status;
+    if (set->count == set->room && (status = grow(set, source)) != RT_OK)
+        return status;
+    uint32_t *slot = find(set, key);
+    if (*slot == 0) {
+        memcpy(set->keys[set->count], key, sizeof *set->keys);
+        *slot = ++set->count;
+    }
+    *number = *slot - 1;
+    return RT_OK;
+}
+
+void rt_unique_free(rt_unique *set)
+{
+    free(set->keys);
+    free(set->slots);
+    memset(set, 0, sizeof *set);
+}

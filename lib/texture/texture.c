@@ -1,0 +1,152 @@
+#include "texture/texture.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "image/srgb.h"
+#include "texture/half.h"
+
+enum { codes = 256, half_top_exponent = 14 };
+
+/* An image being packed. */
+typedef struct packing {
+    const rt_image *image;
+    const char *name;
+    uint32_t channels[3];
+    int is_srgb;  /* values are still to be decoded */
+    int is_code8; /* every value is a multiple of 1/255 */
+    int is_grey;  /* the channels are equal everywhere */
+    float largest; /* greatest magnitude of a value, decoded or not: both have the same bounds */
+    rt_texture_data texture;
+} packing;
+
+static rt_status find_channels(packing *p, rt_error *error)
+{
+    uint32_t grey = p->image->channel_count == 1 ? 0 : rt_image_channel(p->image, "Y");
+    if (rt_image_rgb_channels(p->channels, p->image, NULL) == RT_OK)
+        return RT_OK;
+    if (grey == RT_IMAGE_NO_CHANNEL)
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "cannot use %.350s as a texture: it has neither the channels R, G and B nor Y nor only one",
+                       p->name);
+    for (int c = 0; c < 3; c++)
+        p->channels[c] = grey;
+    return RT_OK;
+}
+
+static int is_code(float value)
+{
+    return value >= 0.0f && value <= 1.0f && (float)(int)(255.0f * value + 0.5f) / 255.0f == value;
+}
+
+/* Finds what the choice of format depends on, and what no format can hold. */
+static rt_status survey(packing *p, rt_error *error)
+{
+    const rt_image *image = p->image;
+    const float *pixel = image->data;
+    p->is_code8 = p->is_grey = 1;
+    for (uint32_t y = 0; y < image->height; y++)
+        for (uint32_t x = 0; x < image->width; x++, pixel += image->channel_count) {
+            const float rgb[3] = {pixel[p->channels[0]], pixel[p->channels[1]], pixel[p->channels[2]]};
+            for (int c = 0; c < 3; c++) {
+                if (!isfinite(rgb[c]))
+                    return rt_fail(error, RT_ERROR_INPUT,
+                                   "cannot use %.300s as a texture: pixel (%u, %u) from the top left is %f", p->name, x,
+                                   y, (double)rgb[c]);
+                p->is_code8 = p->is_code8 && is_code(rgb[c]);
+                p->largest = fabsf(rgb[c]) > p->largest ? fabsf(rgb[c]) : p->largest;
+            }
+            p->is_grey = p->is_grey && rgb[0] == rgb[1] && rgb[1] == rgb[2];
+        }
+    return RT_OK;
+}
+
+/* Chooses the format; returns the bytes it takes. */
+static uint64_t choose_format(packing *p)
+{
+    rt_texture_data *t = &p->texture;
+    uint64_t count = (uint64_t)p->image->width * p->image->height;
+    t->kind = RT_TEXTURE_IMAGE;
+    t->wrap = RT_WRAP_REPEAT;
+    t->scale[0] = t->scale[1] = 1.0f;
+    t->width = p->image->width;
+    t->height = p->image->height;
+    t->unit = 1.0f;
+    t->format = p->is_code8 ? RT_TEXELS_CODE8 : p->is_grey ? RT_TEXELS_GREY : RT_TEXELS_HALF;
+    if (t->format == RT_TEXELS_CODE8)
+        return codes * sizeof(float) + 4 * count;
+    if (t->format == RT_TEXELS_GREY)
+        return sizeof(float) * count;
+    /* Bring the brightest value close under the greatest half: what is dark then keeps most bits. */
+    int exponent = p->is_srgb ? 0 : ilogbf(p->largest);
+    t->unit = ldexpf(1.0f, exponent < -112 ? -126 : exponent - half_top_exponent);
+    return 4 * sizeof(uint16_t) * count;
+}
+
+/* Lengthens the table to a whole number of rows with room for size bytes, all zero; *row is the first. */
+static rt_status reserve(rt_bytes *texels, uint64_t size, rt_u32 *row, rt_error *error)
+{
+    uint64_t first = ((uint64_t)texels->size + RT_SCENE_ROW - 1) / RT_SCENE_ROW;
+    uint64_t count = (size + RT_SCENE_ROW - 1) / RT_SCENE_ROW;
+    if (first + count > UINT32_MAX)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: textures of more than 2^32 rows of %u bytes",
+                       RT_SCENE_ROW);
+    *row = (rt_u32)first;
+    return rt_bytes_put(texels, (first + count) * RT_SCENE_ROW - 1, "", 1, error);
+}
+
+static void write_code_table(const packing *p, float *decode)
+{
+    for (int i = 0; i < codes; i++)
+        decode[i] = (float)(p->is_srgb ? rt_srgb_decode(i / 255.0) : i / 255.0);
+}
+
+/* Writes one texel at its place in the image. */
+static void write_texel(const packing *p, void *image, size_t place, const float rgb[3])
+{
+    if (p->texture.format == RT_TEXELS_CODE8) {
+        uint8_t *texel = (uint8_t *)((float *)image + codes) + 4 * place;
+        for (int c = 0; c < 3; c++)
+            texel[c] = (uint8_t)(255.0f * rgb[c] + 0.5f);
+    } else if (p->texture.format == RT_TEXELS_GREY) {
+        ((float *)image)[place] = p->is_srgb ? (float)rt_srgb_decode(rgb[0]) : rgb[0];
+    } else {
+        uint16_t *texel = (uint16_t *)image + 4 * place;
+        for (int c = 0; c < 3; c++)
+            texel[c] = rt_half_from_float((p->is_srgb ? (float)rt_srgb_decode(rgb[c]) : rgb[c]) / p->texture.unit);
+    }
+}
+
+/* Writes all texels. The image begins with its top row, the texture with the bottom one. */
+static void write_texels(const packing *p, void *image)
+{
+    const float *pixel = p->image->data;
+    size_t width = p->image->width;
+    if (p->texture.format == RT_TEXELS_CODE8)
+        write_code_table(p, image);
+    for (size_t row = p->image->height; row-- > 0;)
+        for (size_t x = 0; x < width; x++, pixel += p->image->channel_count) {
+            const float rgb[3] = {pixel[p->channels[0]], pixel[p->channels[1]], pixel[p->channels[2]]};
+            write_texel(p, image, row * width + x, rgb);
+        }
+}
+
+rt_status rt_texture_pack(rt_texture_data *out, rt_bytes *texels, const rt_image *image, int is_linear,
+                          const char *name, rt_error *error)
+{
+    packing p;
+    memset(&p, 0, sizeof p);
+    p.image = image;
+    p.name = name;
+    p.is_srgb = image->is_srgb && !is_linear;
+    rt_status status = find_channels(&p, error);
+    if (status == RT_OK)
+        status = survey(&p, error);
+    if (status == RT_OK)
+        status = reserve(texels, choose_format(&p), &p.texture.texels, error);
+    if (status != RT_OK)
+        return status;
+    write_texels(&p, texels->data + (size_t)p.texture.texels * RT_SCENE_ROW);
+    *out = p.texture;
+    return RT_OK;
+}

@@ -1,0 +1,13 @@
+/* rng.cl - sets of samplers, for their test. */
+#include "rng.h"
+
+kernel void sets(const rt_params params, global const rt_scene_header *header, uint stream, uint set, uint count,
+                 global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct scene scene = scene_open(header);
+    const struct sampler sampler = sampler_start(&scene, &params, stream, params.first_sample + i);
+    out[i] = sampler_set(&sampler, set);
+}

@@ -1,0 +1,338 @@
+/* test_bsdf.c - Fresnel against double precision, energy, Snell's law, and what radiance and flux keep. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "statistics.h"
+#include "types.h"
+
+#define PI 3.14159265358979323846
+
+enum { n = 1 << 16 };
+enum { carry_radiance, carry_flux };                  /* enum transport */
+enum { absorbed, diffuse, reflected, refracted };     /* enum event */
+
+typedef struct situation {
+    float normal[4], shading[4];
+    float wo[3], eta;
+    float beta[3], survival;
+} situation;
+
+typedef struct result {
+    float wi[3], event;
+    float weight[3], squeeze;
+    float eval[3], eval_pdf_w;
+    float albedo[3], pdf_w;
+} result;
+
+static result results[n];
+
+static const rt_material_data mixture = {.kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f},
+                                         .ior = 1.5f};
+
+/* Seen at 50 degrees from above, flat, by a white path that is never ended. */
+static situation flat(float eta)
+{
+    situation s = {{0, 0, 1, 0}, {0, 0, 1, 0}, {0.76604444f, 0, 0.64278761f}, 0, {1, 1, 1}, 1};
+    s.eta = eta;
+    return s;
+}
+
+static void scatter(const rt_material_data *material, const situation *at, uint32_t transport)
+{
+    uint32_t count = n;
+    cl_kernel kernel = test_kernel("bsdf", "scatter");
+    cl_mem m = test_buffer(sizeof *material, material), s = test_buffer(sizeof *at, at);
+    cl_mem out = test_buffer(sizeof results, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(m), RT_ARG(s), RT_ARG(transport), RT_ARG(out)};
+    test_run(kernel, args, 5, n);
+    test_read(out, sizeof results, results);
+    rt_buffer_release(m);
+    rt_buffer_release(s);
+    rt_buffer_release(out);
+    rt_kernel_release(kernel);
+}
+
+/* Closed form in double precision; eta = eta_i / eta_t. */
+static double fresnel(double cos_i, double eta)
+{
+    double sine2 = eta * eta * (1 - cos_i * cos_i);
+    if (sine2 >= 1)
+        return 1;
+    double cos_t = sqrt(1 - sine2);
+    double s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t), p = (eta * cos_t - cos_i) / (eta * cos_t + cos_i);
+    return (s * s + p * p) / 2;
+}
+
+static void fresnel_agrees_with_the_closed_form(void **state)
+{
+    static const float etas[] = {1 / 1.5f, 1.5f, 1 / 1.33f, 1.33f, 1, 2.4f, 1 / 2.4f};
+    static float in[n][2], out[n][2];
+    uint32_t count = n;
+    (void)state;
+    for (int i = 0; i < n; i++) {
+        in[i][0] = (float)(i / 7 + 1) / (n / 7 + 1);
+        in[i][1] = etas[i % 7];
+    }
+    cl_kernel kernel = test_kernel("bsdf", "reflectance");
+    cl_mem given = test_buffer(sizeof in, in), made = test_buffer(sizeof out, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(given), RT_ARG(made)};
+    test_run(kernel, args, 3, n);
+    test_read(made, sizeof out, out);
+    for (int i = 0; i < n; i++) {
+        double critical = in[i][1] > 1 ? sqrt(1 - 1 / ((double)in[i][1] * in[i][1])) : 0;
+        /* The reflectance is infinitely steep at the critical angle: rounding may show there. */
+        double near = fabs(in[i][0] - critical) < 1e-3 && critical > 0 ? 2e-2 : 1e-5;
+        assert_float_equal(out[i][0], fresnel(in[i][0], in[i][1]), near);
+        if (in[i][0] < critical - 1e-6)
+            assert_true(out[i][0] == 1 && out[i][1] == 0);
+    }
+    rt_buffer_release(given);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+/* The mean of weights is what the events keep of the light, whatever the roulette. */
+static void expect_energy(const rt_material_data *material, const situation *at, const double kept[3], const char *what)
+{
+    static double values[n];
+    scatter(material, at, carry_radiance);
+    for (int c = 0; c < 3; c++) {
+        for (int i = 0; i < n; i++)
+            values[i] = results[i].weight[c];
+        expect_mean(values, n, kept[c], 1e-6, what);
+        assert_float_equal(results[0].albedo[c], kept[c], 1e-6);
+    }
+}
+
+static void energy_is_kept_without_bias(void **state)
+{
+    const double all[3] = {0.9, 0.7, 0.8}, survivals[] = {1, 0.5, 0.1};
+    rt_material_data fresnel_mixture = mixture;
+    (void)state;
+    fresnel_mixture.flags = RT_MATERIAL_FRESNEL;
+    for (int i = 0; i < 3; i++) {
+        situation at = flat(1 / 1.5f);
+        at.survival = (float)survivals[i];
+        expect_energy(&mixture, &at, all, "mixture");
+        expect_energy(&fresnel_mixture, &at, all, "mixture with Fresnel");
+        at.beta[0] = 0.01f;
+        at.beta[1] = 3;
+        expect_energy(&mixture, &at, all, "mixture, coloured path");
+        at.eta = 1.5f; /* total internal reflection */
+        expect_energy(&mixture, &at, all, "mixture, total reflection");
+    }
+}
+
+static void events_come_as_often_as_the_coefficients_say(void **state)
+{
+    rt_material_data material = mixture;
+    const situation at = flat(1 / 1.5f);
+    double r = fresnel(0.64278761, 1 / 1.5), sum = 2.4;
+    (void)state;
+    for (int with_fresnel = 0; with_fresnel < 2; with_fresnel++) {
+        uint32_t counts[4] = {0};
+        double delta = 1.8, expected[4] = {0, 0.6 * n / sum, 0.6 * n / sum, 1.2 * n / sum};
+        if (with_fresnel) {
+            material.flags = RT_MATERIAL_FRESNEL;
+            expected[reflected] = r * delta * n / sum;
+            expected[refracted] = (1 - r) * delta * n / sum;
+        }
+        scatter(&material, &at, carry_radiance);
+        for (int i = 0; i < n; i++)
+            counts[(int)results[i].event]++;
+        expect_counts(counts, expected, 4, "events");
+    }
+}
+
+static void diffuse_density_is_what_is_sampled(void **state)
+{
+    enum { side = 16 };
+    static uint32_t counts[side * side];
+    static double expected[side * side];
+    const rt_material_data matte = {.kd = {0.5f, 0.5f, 0.5f}, .ior = 1};
+    const situation at = flat(1);
+    (void)state;
+    scatter(&matte, &at, carry_radiance);
+    for (int i = 0; i < n; i++) {
+        const result *r = results + i;
+        double t = atan2(r->wi[1], r->wi[0]) / (2 * PI) + 0.5;
+        int ring = (int)((double)r->wi[2] * r->wi[2] * side), sector = (int)(t * side);
+        counts[(ring > side - 1 ? side - 1 : ring) * side + (sector > side - 1 ? side - 1 : sector)]++;
+        assert_float_equal(r->pdf_w, r->wi[2] / PI, 1e-6);
+        assert_float_equal(r->eval_pdf_w, r->pdf_w, 1e-6);
+        assert_float_equal(r->eval[1], 0.5 * r->wi[2] / PI, 1e-6);
+        assert_float_equal(r->weight[1] * r->pdf_w, r->eval[1], 1e-6);
+    }
+    for (int i = 0; i < side * side; i++)
+        expected[i] = (double)n / (side * side);
+    expect_counts(counts, expected, side * side, "diffuse directions");
+}
+
+static void delta_directions_obey_the_laws_of_reflection_and_refraction(void **state)
+{
+    static const float etas[] = {1 / 1.5f, 1.1f};
+    (void)state;
+    for (int e = 0; e < 2; e++)
+        for (int below = 0; below < 2; below++) {
+            situation at = flat(etas[e]);
+            int seen[4] = {0};
+            double side = below ? -1 : 1;
+            at.wo[2] *= (float)side;
+            scatter(&mixture, &at, carry_radiance);
+            for (int i = 0; i < n; i++) {
+                const result *r = results + i;
+                seen[(int)r->event]++;
+                if (r->event == reflected) {
+                    assert_float_equal(r->wi[0], -at.wo[0], 1e-6);
+                    assert_float_equal(r->wi[2], at.wo[2], 1e-6);
+                } else if (r->event == refracted) {
+                    assert_float_equal(r->wi[0], -etas[e] * at.wo[0], 1e-6);
+                    assert_true(r->wi[2] * side < 0);
+                }
+                if (r->event != diffuse)
+                    assert_true(r->pdf_w == 0);
+            }
+            assert_true(seen[diffuse] && seen[reflected] && seen[refracted]);
+        }
+}
+
+static void radiance_is_squeezed_by_refraction_and_flux_is_not(void **state)
+{
+    const situation at = flat(1 / 1.5f);
+    (void)state;
+    for (uint32_t transport = carry_radiance; transport <= carry_flux; transport++) {
+        scatter(&mixture, &at, transport);
+        for (int i = 0; i < n; i++) {
+            double factor = results[i].event == refracted && transport == carry_radiance ? 1 / 2.25 : 1;
+            assert_float_equal(results[i].squeeze, factor, 1e-6);
+        }
+    }
+}
+
+static void shading_normals_leak_no_light(void **state)
+{
+    situation at = flat(1 / 1.5f);
+    int lost = 0;
+    (void)state;
+    /* The shading normal leans 60 degrees away, so many directions about it are below the surface. */
+    at.shading[0] = -0.8660254f;
+    at.shading[2] = 0.5f;
+    scatter(&mixture, &at, carry_radiance);
+    for (int i = 0; i < n; i++) {
+        const result *r = results + i;
+        int keeps = r->weight[0] > 0;
+        lost += !keeps;
+        if (keeps && r->event != absorbed)
+            assert_true((r->wi[2] > 0) == (r->event != refracted));
+        if (r->wi[2] <= 0)
+            assert_true(r->eval[0] == 0);
+    }
+    assert_true(lost > 0 && lost < n);
+}
+
+static void black_absorbs(void **state)
+{
+    const rt_material_data black = {.ior = 1};
+    const situation at = flat(1);
+    (void)state;
+    scatter(&black, &at, carry_radiance);
+    for (int i = 0; i < n; i++)
+        assert_true(results[i].event == absorbed);
+}
+
+/* Boundaries crossed in turn, by materials of index 1.1 + material / 10 and priority 0, 0, 1, 2, 0, 0. */
+static void cross(const uint32_t (*steps)[2], uint32_t count, float (*out)[4])
+{
+    static const rt_u32 priorities[6] = {0, 0, 1, 2, 0, 0};
+    struct {
+        rt_scene_header header;
+        rt_material_data materials[6];
+    } scene;
+    memset(&scene, 0, sizeof scene);
+    scene.header.materials = sizeof scene.header / RT_SCENE_ROW;
+    for (int i = 0; i < 6; i++) {
+        scene.materials[i].ior = 1.1f + (float)i / 10;
+        scene.materials[i].priority = priorities[i];
+    }
+    cl_kernel kernel = test_kernel("bsdf", "cross_boundaries");
+    cl_mem s = test_buffer(sizeof scene, &scene), in = test_buffer(count * sizeof *steps, steps);
+    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(s), RT_ARG(count), RT_ARG(in), RT_ARG(made)};
+    test_run(kernel, args, 4, 1);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(s);
+    rt_buffer_release(in);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+static void expect_crossing(const float made[4], double eta, int exists, int medium)
+{
+    assert_float_equal(made[0], eta, 1e-6);
+    assert_int_equal((int)made[1], exists);
+    assert_int_equal((int)made[2], medium);
+}
+
+static void solids_nest_and_overlap_by_priority(void **state)
+{
+    /* Into 2, into 0 which it hides, out of 2 into 0, out of 0. */
+    static const uint32_t overlap[4][2] = {{2, 1}, {0, 1}, {2, 0}, {0, 0}};
+    /* Into 0, a bubble of 1 in it, out of both. */
+    static const uint32_t bubble[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    float made[4][4];
+    (void)state;
+    cross(overlap, 4, made);
+    expect_crossing(made[0], 1 / 1.3, 1, 2);
+    expect_crossing(made[1], 1, 0, 2);
+    expect_crossing(made[2], 1.3 / 1.1, 1, 0);
+    expect_crossing(made[3], 1.1, 1, -1);
+    cross(bubble, 4, made);
+    expect_crossing(made[0], 1 / 1.1, 1, 0);
+    expect_crossing(made[1], 1.1 / 1.2, 1, 1);
+    expect_crossing(made[2], 1.2 / 1.1, 1, 0);
+    expect_crossing(made[3], 1.1, 1, -1);
+}
+
+static void a_path_that_starts_inside_leaves_as_from_that_solid(void **state)
+{
+    static const uint32_t steps[2][2] = {{3, 0}, {3, 1}};
+    float made[2][4];
+    (void)state;
+    cross(steps, 2, made);
+    expect_crossing(made[0], 1.4, 1, -1);
+    expect_crossing(made[1], 1 / 1.4, 1, 3);
+}
+
+static void the_fifth_solid_makes_the_last_forgotten(void **state)
+{
+    static const uint32_t steps[8][2] = {{0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}, {3, 0}, {2, 0}, {4, 0}};
+    float made[8][4];
+    (void)state;
+    cross(steps, 8, made);
+    expect_crossing(made[3], 1.3 / 1.4, 1, 3);
+    expect_crossing(made[4], 1, 0, 3);
+    expect_crossing(made[5], 1.4 / 1.3, 1, 2);
+    expect_crossing(made[6], 1.3 / 1.5, 1, 4);
+    expect_crossing(made[7], 1.5 / 1.2, 1, 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fresnel_agrees_with_the_closed_form),
+        cmocka_unit_test(energy_is_kept_without_bias),
+        cmocka_unit_test(events_come_as_often_as_the_coefficients_say),
+        cmocka_unit_test(diffuse_density_is_what_is_sampled),
+        cmocka_unit_test(delta_directions_obey_the_laws_of_reflection_and_refraction),
+        cmocka_unit_test(radiance_is_squeezed_by_refraction_and_flux_is_not),
+        cmocka_unit_test(shading_normals_leak_no_light),
+        cmocka_unit_test(black_absorbs),
+        cmocka_unit_test(solids_nest_and_overlap_by_priority),
+        cmocka_unit_test(a_path_that_starts_inside_leaves_as_from_that_solid),
+        cmocka_unit_test(the_fifth_solid_makes_the_last_forgotten),
+    };
+    return cmocka_run_group_tests_name("kernels/bsdf", tests, NULL, NULL);
+}

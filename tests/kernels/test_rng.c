@@ -1,0 +1,187 @@
+/* test_rng.c - the random numbers: how evenly they lie, and that streams do not resemble each other. */
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/sobol.h"
+#include "statistics.h"
+#include "types.h"
+
+/* A scene with nothing but the table of Sobol points. */
+static cl_mem table_buffer(void)
+{
+    static struct {
+        rt_scene_header header;
+        uint32_t table[RT_SOBOL_WORDS];
+    } scene;
+    scene.header.sobol = sizeof scene.header / RT_SCENE_ROW;
+    scene.header.sobol_count = RT_SOBOL_WORDS / 4;
+    rt_sobol_table(scene.table);
+    return test_buffer(sizeof scene, &scene);
+}
+
+/* count samples, from `first` on, of one set of one stream. */
+static void draw(rt_sampler kind, uint32_t seed, uint32_t stream, uint32_t set, uint32_t first, uint32_t count,
+                 float (*out)[4])
+{
+    rt_params params;
+    memset(&params, 0, sizeof params);
+    params.sampler = kind;
+    params.seed = seed;
+    params.first_sample = first;
+    cl_kernel kernel = test_kernel("rng", "sets");
+    cl_mem scene = table_buffer(), buffer = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(stream), RT_ARG(set), RT_ARG(count), RT_ARG(buffer)};
+    test_run(kernel, args, 6, count);
+    test_read(buffer, count * sizeof *out, out);
+    rt_buffer_release(buffer);
+    rt_buffer_release(scene);
+    rt_kernel_release(kernel);
+}
+
+static uint32_t reverse(uint32_t x)
+{
+    uint32_t reversed = 0;
+    for (int i = 0; i < 32; i++)
+        reversed |= (x >> i & 1u) << (31 - i);
+    return reversed;
+}
+
+static void the_table_holds_the_first_points_of_the_sobol_sequence(void **state)
+{
+    /* By hand from the direction numbers: the columns of index bits 0, 1 and 2, in eighths. */
+    static const uint32_t column[3][4] = {{4, 4, 4, 4}, {2, 6, 6, 6}, {1, 5, 3, 1}};
+    static uint32_t table[RT_SOBOL_WORDS];
+    (void)state;
+    rt_sobol_table(table);
+    for (uint32_t i = 0; i < 8; i++)
+        for (int d = 0; d < 4; d++) {
+            uint32_t point = 0, expected = 0, r = reverse(i);
+            for (int b = 0; b < 4; b++)
+                point ^= table[(b * 256 + (r >> (8 * b) & 255u)) * 4 + d];
+            for (int bit = 0; bit < 3; bit++)
+                expected ^= i >> bit & 1u ? column[bit][d] : 0;
+            assert_int_equal(reverse(point), expected << 29);
+        }
+}
+
+/* Whether each of the 2^a x 2^b cells of the square holds exactly one of 2^(a+b) points. */
+static int fills_cells(const float (*points)[4], int x, int y, int a, int b)
+{
+    static unsigned char seen[4096];
+    memset(seen, 0, sizeof seen);
+    for (int i = 0; i < 1 << (a + b); i++) {
+        int cell = (int)ldexpf(points[i][x], a) << b | (int)ldexpf(points[i][y], b);
+        if (seen[cell]++)
+            return 0;
+    }
+    return 1;
+}
+
+static void every_coordinate_of_sobol_sets_is_stratified(void **state)
+{
+    static float points[4096][4];
+    (void)state;
+    for (uint32_t trial = 0; trial < 8; trial++) {
+        draw(RT_SAMPLER_SOBOL, trial, 977 * trial + 5, 3 * trial, 0, 4096, points);
+        for (int m = 0; m <= 12; m++)
+            for (int d = 0; d < 4; d++)
+                assert_true(fills_cells((const float(*)[4])points, d, d, m, 0));
+    }
+}
+
+static void the_first_two_coordinates_fill_all_elementary_intervals(void **state)
+{
+    static float points[1024][4];
+    (void)state;
+    for (uint32_t trial = 0; trial < 8; trial++)
+        for (int m = 4; m <= 10; m += 3) {
+            /* Any aligned block of 2^m samples is a net, not the first alone. */
+            draw(RT_SAMPLER_SOBOL, trial, trial * 31, trial, (trial & 3u) << m, 1u << m, points);
+            for (int a = 0; a <= m; a++)
+                assert_true(fills_cells((const float(*)[4])points, 0, 1, a, m - a));
+        }
+}
+
+static void numbers_lie_in_the_unit_interval_with_the_right_mean(void **state)
+{
+    enum { n = 1 << 16 };
+    static float points[n][4];
+    static double values[n];
+    (void)state;
+    for (int kind = RT_SAMPLER_SOBOL; kind <= RT_SAMPLER_INDEPENDENT; kind++) {
+        draw((rt_sampler)kind, 1, 7, 2, 0, n, points);
+        for (int d = 0; d < 4; d++) {
+            for (int i = 0; i < n; i++) {
+                assert_true(points[i][d] >= 0 && points[i][d] < 1);
+                values[i] = points[i][d];
+            }
+            expect_mean(values, n, 0.5, 0, "mean of a coordinate");
+        }
+    }
+}
+
+static void independent_numbers_fill_the_hypercube_evenly(void **state)
+{
+    enum { n = 1 << 17, side = 8, cells = side * side * side * side };
+    static float points[n][4];
+    static uint32_t counts[cells];
+    static double expected[cells];
+    (void)state;
+    for (uint32_t seed = 0; seed < 3; seed++) {
+        memset(counts, 0, sizeof counts);
+        draw(RT_SAMPLER_INDEPENDENT, seed, 11, 3, 0, n, points);
+        for (int i = 0; i < n; i++) {
+            int cell = 0;
+            for (int d = 0; d < 4; d++)
+                cell = cell * side + (int)(points[i][d] * side);
+            counts[cell]++;
+        }
+        for (int i = 0; i < cells; i++)
+            expected[i] = (double)n / cells;
+        expect_counts(counts, expected, cells, "independent numbers");
+    }
+}
+
+/* Correlation of two coordinates over n samples; below 5 / sqrt(n) for all but 1 in a million unrelated pairs. */
+static void expect_unrelated(const float (*a)[4], const float (*b)[4], int n)
+{
+    for (int x = 0; x < 4; x++)
+        for (int y = 0; y < 4; y++) {
+            double sum = 0;
+            for (int i = 0; i < n; i++)
+                sum += (a[i][x] - 0.5) * (b[i][y] - 0.5);
+            assert_true(fabs(12 * sum / n) < 5 / sqrt(n));
+        }
+}
+
+static void streams_sets_and_seeds_are_unrelated(void **state)
+{
+    enum { n = 4096 };
+    static float base[n][4], other[n][4];
+    (void)state;
+    for (int kind = RT_SAMPLER_SOBOL; kind <= RT_SAMPLER_INDEPENDENT; kind++) {
+        draw((rt_sampler)kind, 5, 100, 2, 0, n, base);
+        draw((rt_sampler)kind, 5, 101, 2, 0, n, other);
+        expect_unrelated((const float(*)[4])base, (const float(*)[4])other, n);
+        draw((rt_sampler)kind, 5, 100, 3, 0, n, other);
+        expect_unrelated((const float(*)[4])base, (const float(*)[4])other, n);
+        draw((rt_sampler)kind, 6, 100, 2, 0, n, other);
+        expect_unrelated((const float(*)[4])base, (const float(*)[4])other, n);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_table_holds_the_first_points_of_the_sobol_sequence),
+        cmocka_unit_test(every_coordinate_of_sobol_sets_is_stratified),
+        cmocka_unit_test(the_first_two_coordinates_fill_all_elementary_intervals),
+        cmocka_unit_test(numbers_lie_in_the_unit_interval_with_the_right_mean),
+        cmocka_unit_test(independent_numbers_fill_the_hypercube_evenly),
+        cmocka_unit_test(streams_sets_and_seeds_are_unrelated),
+    };
+    return cmocka_run_group_tests_name("kernels/rng", tests, NULL, NULL);
+}
