@@ -62,19 +62,21 @@ TESTS_QUICK := \
 	tests/lib/image/test_image_file.c tests/lib/image/test_netpbm.c tests/lib/image/test_png.c \
 	tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c tests/lib/image/test_srgb.c tests/lib/texture/test_half.c \
 	tests/lib/texture/test_texture.c tests/kernels/test_texture.c \
+	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
 	tests/lib/scene/test_scene.c tests/kernels/test_types.c tests/render/test_compare.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_camera.c tests/kernels/test_light.c tests/kernels/test_path.c \
 	tests/kernels/test_rng.c tests/kernels/test_sample.c \
 	tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
 TESTS_FULL  := \
-	tests/tools/test_usage.c tests/tools/test_scenes.c tests/tools/test_rtc.c tests/tools/test_determinism.c \
+	tests/tools/test_usage.c tests/tools/test_scenes.c tests/tools/test_rtc.c tests/tools/test_progress.c \
+	tests/tools/test_determinism.c \
 	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
 	tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c tests/kernels/statistics.c
+	tests/lib/photon/points.c tests/kernels/rays.c tests/kernels/statistics.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
 	tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
 
@@ -195,6 +197,17 @@ uninstall:
 	rm -f $(addprefix $(DESTDIR),$(INSTALLED))
 	[ ! -d $(DESTDIR)$(INCLUDEDIR)/rt ] || rmdir $(DESTDIR)$(INCLUDEDIR)/rt
 	[ -n "$(DESTDIR)" ] || [ "$$(id -u)" -ne 0 ] || ldconfig
+
+help:
+	@echo 'make                 builds $(B)/rtc, $(B)/librt.a and $(B)/$(SONAME)'
+	@echo 'make demo            installs what is missing, builds, renders scenes/cornell.rts to cornell.png'
+	@echo 'make check           installs what is missing, builds, runs every test'
+	@echo 'make check-quick     only the tests that take seconds'
+	@echo 'make check-sanitize  the quick tests under the address and undefined-behaviour sanitizers'
+	@echo 'make deps            installs what is missing'
+	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
+	@echo 'make uninstall       takes that away again'
+	@echo 'make clean           removes $(B)/'
 
 clean:
 	rm -rf $(B)

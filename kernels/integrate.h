@@ -38,10 +38,13 @@ struct gather {
     uint material;
 };
 
-/* The power heuristic's weight of a sample of density a that another technique makes with density b. */
-static inline float mis_weight(float a, float b)
+/*
+ * The power heuristic's weight of a sample that another technique makes `ratio` times as often:
+ * p^2 / (p^2 + q^2), ratio = q / p.
+ */
+static inline float mis_weight(float ratio)
 {
-    return 1.0f / (1.0f + square(b / a));
+    return 1.0f / (1.0f + ratio * ratio);
 }
 
 /*
@@ -58,7 +61,7 @@ static inline float3 emitted_light(const struct scene *scene, const struct surfa
     const float3 emitted = light_radiance(light, surface->normal, wo);
     if (pdf_w == 0.0f || largest3(emitted) <= 0.0f)
         return emitted;
-    return emitted * mis_weight(pdf_w, light_pdf_w(light, from, surface));
+    return emitted * mis_weight(light_pdf_w(light, from, surface) / pdf_w);
 }
 
 /* The light that one sampled point of a light sends by way of the surface to wo; `alone`: not weighted. */
@@ -74,8 +77,8 @@ static inline float3 direct_light(const struct scene *scene, const struct surfac
     const struct ray ray = shadow_ray(surface, &sample);
     if (occluded(scene, &ray))
         return (float3)(0.0f);
-    const float weight = alone || sample.delta ? 1.0f : mis_weight(sample.pdf_w, bsdf_pdf_w(bsdf, sample.wi));
-    return scattered * sample.radiance * (weight / sample.pdf_w);
+    const float weight = alone || sample.delta ? 1.0f : mis_weight(bsdf_pdf_w(bsdf, sample.wi) * sample.spread);
+    return scattered * sample.radiance * (weight * sample.spread);
 }
 
 /* The chance to go on after a vertex, from the throughput that would be left. */
@@ -132,15 +135,15 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
             break;
 
         /* Add direct light, except where the photon map holds it. */
+        const float8 u = sampler_pair(sampler, set_light(vertex));
         const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, beta);
         const bool last = to_gather && diffuse_events == params->final_gather;
         if (bsdf_is_diffuse(&bsdf) && !(last && params->direct == RT_DIRECT_PHOTONS))
-            radiance += squeeze * beta * direct_light(scene, &surface, &bsdf, sampler_set(sampler, set_light(vertex)), last);
+            radiance += squeeze * beta * direct_light(scene, &surface, &bsdf, u.lo, last);
 
         /* Choose an event, or the end of the path by roulette. */
-        const float4 u = sampler_set(sampler, set_scatter(vertex));
         const float survival = survival_chance(vertex, beta * bsdf_albedo(&bsdf));
-        const uint event = bsdf_choose(&bsdf, survival, u.z);
+        const uint event = bsdf_choose(&bsdf, survival, u.hi.z);
         if (event == EVENT_ABSORBED)
             break;
         beta *= 1.0f / survival;
@@ -160,7 +163,7 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
         }
 
         /* Take the event's direction and go on. */
-        const struct scatter scatter = bsdf_scatter(&bsdf, event, u.xy, CARRY_RADIANCE);
+        const struct scatter scatter = bsdf_scatter(&bsdf, event, u.hi.xy, CARRY_RADIANCE);
         beta *= scatter.weight;
         if (largest3(beta) <= 0.0f)
             break;

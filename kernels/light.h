@@ -27,7 +27,7 @@ struct light_sample {
     struct surface at; /* position, normal and error only */
     float3 wi;         /* unit, towards the light */
     float3 radiance;   /* that arrives if nothing is in between; point light: intensity / distance^2 */
-    float pdf_w;       /* of the direction, choice of the light included; point light: of the choice */
+    float spread;      /* sr: 1 / pdf_w of the direction, choice of the light included; point light: of the choice */
     bool delta;        /* no ray can meet it by chance: multiple importance sampling must leave it alone */
 };
 
@@ -90,11 +90,11 @@ static inline void sample_area(struct surface *at, global const rt_light_data *l
     }
 }
 
-/* Density in solid angle of sampling by area, seen along `towards` (not of unit length). */
-static inline float area_pdf_w(global const rt_light_data *light, float3 towards, float3 normal)
+/* 1 / pdf_w of sampling by area, seen along `towards` (not of unit length): the whole area's solid angle, were it all there. */
+static inline float area_spread(global const rt_light_data *light, float3 towards, float3 normal)
 {
     const float d2 = dot(towards, towards);
-    return d2 * sqrt(d2) / (fabs(dot(towards, normal)) * light->area);
+    return fabs(dot(towards, normal)) * light->area / (d2 * sqrt(d2));
 }
 
 /* How a rectangular light is seen from a point; false when it is none, or is better sampled by area. */
@@ -139,25 +139,25 @@ static inline float light_pdf_w(global const rt_light_data *light, float3 from, 
         return light->pmf * seen_rectangle_pdf_w(&seen);
     if (see_spherical_light(light, from, &d2))
         return light->pmf * cap_pdf_w(light->width, d2);
-    return light->pmf * area_pdf_w(light, at->position - from, at->normal);
+    return light->pmf / area_spread(light, at->position - from, at->normal);
 }
 
-/* Samples a point of an area light; returns its density in solid angle, without the choice. */
+/* Samples a point of an area light; returns 1 / pdf_w, without the choice. */
 static inline float sample_area_light(struct surface *at, global const rt_light_data *light, float3 from, float2 u)
 {
     struct seen_rectangle seen;
     float d2;
     if (see_rectangular_light(light, from, &seen)) {
         flat_point(at, light, sample_seen_rectangle(&seen, u));
-        return seen_rectangle_pdf_w(&seen);
+        return seen.solid_angle;
     }
     if (see_spherical_light(light, from, &d2)) {
         const struct frame frame = frame_about(unit(from - row3(light->a)));
         sphere_point(at, light, frame_to_world(frame, sample_cap(light->width, d2, u)));
-        return cap_pdf_w(light->width, d2);
+        return 1.0f / cap_pdf_w(light->width, d2);
     }
     sample_area(at, light, u);
-    return area_pdf_w(light, at->position - from, at->normal);
+    return area_spread(light, at->position - from, at->normal);
 }
 
 /* Whether the light shines to the side on which the point lies; a sphere's sides are told at the sampled point. */
@@ -178,7 +178,7 @@ static inline void sample_point_light(struct light_sample *sample, global const 
     sample->wi = towards * (1.0f / sqrt(d2));
     sample->at.normal = -sample->wi;
     sample->radiance = row3(light->emission) * (1.0f / d2);
-    sample->pdf_w = light->pmf;
+    sample->spread = 1.0f / light->pmf;
 }
 
 /*
@@ -197,7 +197,7 @@ static inline bool sample_light(const struct scene *scene, float3 from, float4 u
     }
     if (!light_faces(light, from))
         return false;
-    sample->pdf_w = light->pmf * sample_area_light(&sample->at, light, from, u.xy);
+    sample->spread = sample_area_light(&sample->at, light, from, u.xy) / light->pmf;
     sample->wi = unit(sample->at.position - from);
     sample->radiance = light_radiance(light, sample->at.normal, -sample->wi);
     return largest3(sample->radiance) > 0.0f;

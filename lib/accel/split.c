@@ -95,16 +95,11 @@ static void clear_bins(bins *b, int count)
         }
 }
 
-static void add_to_bins(bins *b, const rt_ref *ref, const binning *map)
+static inline void add_to_bin(bins *b, int axis, int bin, box4 box)
 {
-    const box4 box = rt_ref_box(ref);
-    const vec4 place = (rt_ref_centre(ref) - map->origin) * map->scale;
-    const ivec4 bin = __builtin_convertvector(vec4_min(place, map->limit), ivec4);
-    for (int a = 0; a < 3; a++) {
-        box4 *into = &b->box[a][bin[a]];
-        *into = box4_join(*into, box);
-        b->count[a][bin[a]]++;
-    }
+    box4 *into = &b->box[axis][bin];
+    *into = box4_join(*into, box);
+    b->count[axis][bin]++;
 }
 
 static void join_bins(bins *into, const bins *from, int count)
@@ -119,21 +114,23 @@ static void join_bins(bins *into, const bins *from, int count)
 /* Neighbours mostly share a bin, so in long sets every second one has bins of its own: no one waits for the last. */
 static void fill_bins(bins *b, const rt_set *set, const binning *map)
 {
-    clear_bins(b, map->bins);
-    if (set->count < 256) {
-        for (uint32_t i = 0; i < set->count; i++)
-            add_to_bins(b, &set->refs[i], map);
-        return;
+    const binning m = *map;
+    bins second;
+    bins *const turn[2] = {b, set->count < 256 ? b : &second};
+    clear_bins(b, m.bins);
+    if (turn[1] != b)
+        clear_bins(&second, m.bins);
+    for (uint32_t i = 0; i < set->count; i++) {
+        const box4 box = rt_ref_box(&set->refs[i]);
+        const vec4 place = (rt_ref_centre(&set->refs[i]) - m.origin) * m.scale;
+        const ivec4 bin = __builtin_convertvector(vec4_min(place, m.limit), ivec4);
+        bins *into = turn[i % 2];
+        add_to_bin(into, 0, bin[0], box);
+        add_to_bin(into, 1, bin[1], box);
+        add_to_bin(into, 2, bin[2], box);
     }
-    bins odd;
-    clear_bins(&odd, map->bins);
-    for (uint32_t i = 0; i + 1 < set->count; i += 2) {
-        add_to_bins(b, &set->refs[i], map);
-        add_to_bins(&odd, &set->refs[i + 1], map);
-    }
-    if (set->count % 2)
-        add_to_bins(b, &set->refs[set->count - 1], map);
-    join_bins(b, &odd, map->bins);
+    if (turn[1] != b)
+        join_bins(b, &second, m.bins);
 }
 
 static void fill_part(void *user, uint32_t index)
@@ -196,13 +193,13 @@ uint32_t rt_split_sah(const rt_set *set, uint32_t threads, uint32_t *scratch)
     else
         fill_bins(&b, set, &map);
 
-    rt_plane_split plane = {-1, 0.0f, 0.0f, (float)(map.bins - 1), 0.0f};
+    rt_plane_split plane = {-1, 0.0f, 0.0f, (float)(map.bins - 1), 0};
     float cost = INFINITY;
     for (int a = 0; a < 3; a++) {
         const int bin = best_plane(b.box[a], b.count[a], map.bins, &cost);
         if (bin > 0) {
             plane.axis = a;
-            plane.bin = (float)bin;
+            plane.bin = bin;
         }
     }
     if (plane.axis < 0)
