@@ -4,6 +4,7 @@ VERSION   := 0.1.0
 SOVERSION := 0
 
 CC      ?= cc
+CXX     ?= c++
 CFLAGS  ?= -O2 -g
 PREFIX  ?= /usr/local
 LIBDIR  ?= $(PREFIX)/lib
@@ -11,14 +12,18 @@ B       := build
 
 # ---- Dependencies -----------------------------------------------------------
 
-PKGS       := OpenCL OpenEXR libpng
+PKGS       := OpenCL OpenEXR libpng openmesh
 PKG_CFLAGS  = $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
-PKG_LIBS    = $(shell pkg-config --libs OpenCL libpng 2>/dev/null) -lOpenEXRCore -lflann
+PKG_LIBS    = $(shell pkg-config --libs OpenCL libpng 2>/dev/null) -lOpenEXRCore -lflann \
+              -lOpenMeshCore -lstdc++
 
 WARNINGS := -Wall -Wextra -pedantic
 WERROR   ?= $(if $(CI),-Werror)
 ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread -D_POSIX_C_SOURCE=200809L \
              -Ilib -Ikernels -I. -Itests $(PKG_CFLAGS) $(CFLAGS)
+# For the one C++ file, the way to OpenMesh.
+CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden -fPIC -pthread -Ilib \
+             $(PKG_CFLAGS) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 
 # ---- Sources ----------------------------------------------------------------
@@ -30,6 +35,9 @@ LIB_SRC := \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
 	lib/light/lights.c \
+	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/mesh.c lib/mesh/normals.c lib/mesh/obj.c lib/mesh/off.c \
+	lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c lib/mesh/ply_reader.c \
+	lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/image/bytes.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
 	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \
@@ -37,6 +45,8 @@ LIB_SRC := \
 	lib/render/film.c lib/render/film_image.c lib/render/render.c lib/render/renderer.c lib/render/path_mode.c lib/render/photon_mode.c \
 	lib/render/sobol.c lib/render/trace.c \
 	lib/texture/half.c lib/texture/texture.c
+
+LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
 	dsl/build.c dsl/check.c dsl/load.c dsl/reader.c dsl/expression.c dsl/lexer.c dsl/names.c dsl/number.c dsl/parse_block.c \
@@ -78,11 +88,11 @@ TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c 
 	tests/tools/expect.c tests/tools/spawn.c \
 	tests/lib/photon/points.c tests/kernels/rays.c tests/kernels/statistics.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
-	tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
+	tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
 
 # ---- Build ------------------------------------------------------------------
 
-LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(B)/kernels.o
+LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) $(B)/kernels.o
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
@@ -95,6 +105,10 @@ all: $(B)/librt.a $(B)/$(SONAME) $(B)/rtc
 $(B)/%.o: %.c | need-deps
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+
+$(B)/%.o: %.cc | need-deps
+	@mkdir -p $(@D)
+	$(CXX) $(CXX_FLAGS) -MMD -MP -c -o $@ $<
 
 $(B)/embed: tools/embed.c | need-deps
 	@mkdir -p $(@D)
@@ -148,7 +162,7 @@ check-reference: all $(B)/tests/render/test_reference
 	RT_TEST_TIMEOUT=3600 tests/run.sh $(B)/tests/render/test_reference
 
 # Files that others wrote, from RT_CORPUS, a directory of folders; see tests/corpus/manifest.h.
-TESTS_CORPUS := tests/corpus/test_img.c
+TESTS_CORPUS := tests/corpus/test_img.c tests/corpus/test_ply.c
 check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
 	tests/run.sh $(call TEST_BIN,$(TESTS_CORPUS))
 

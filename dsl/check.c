@@ -48,7 +48,7 @@ static int check_number(const rt_checker *checker, const rt_setting *setting, rt
         *number = (float)*number;
     }
     if (!rt_range_holds(field->range, *number)) {
-        rt_report_error(checker->reports, place, "'%s' is %.10g; it must be %s", field->name, *number,
+        rt_report_error(checker->reports, place, "'%s' is %.7g; it must be %s", field->name, *number,
                         rt_range_phrase(phrase, field->range));
         return 0;
     }

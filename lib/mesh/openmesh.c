@@ -54,7 +54,7 @@ typedef struct stage {
 static int step(void *user, uint64_t done)
 {
     stage *s = user;
-    return rt_stage_update(s->progress, (double)done / (double)s->all) != RT_OK;
+    return rt_stage_update(s->progress, 0.5 + 0.5 * (double)done / (double)s->all) != RT_OK;
 }
 
 static rt_status read_through(rt_mesh *mesh, const rt_canonical *canonical, const char *path,

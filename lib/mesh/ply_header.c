@@ -52,8 +52,9 @@ static rt_status bad_line(const parser *p, const char *expected)
     rt_token line = p->words[0];
     if (p->word_count)
         line.length = (size_t)(p->words[p->word_count - 1].at + p->words[p->word_count - 1].length - line.at);
-    return rt_mesh_fail(p->source, p->text.line, "PLY header: '%s'; expected %s",
-                        p->word_count ? rt_token_quote(line, quote) : "", expected);
+    if (p->word_count == 0)
+        return rt_mesh_fail(p->source, p->text.line, "PLY header: an empty line; expected %s", expected);
+    return rt_mesh_fail(p->source, p->text.line, "PLY header: '%s'; expected %s", rt_token_quote(line, quote), expected);
 }
 
 static rt_status read_type(const parser *p, rt_token word, rt_ply_type *out)

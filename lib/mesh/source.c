@@ -34,5 +34,6 @@ void rt_mesh_log(const rt_mesh_source *source, const char *format, ...)
 
 rt_status rt_mesh_step(const rt_mesh_source *source, uint64_t done, uint64_t all)
 {
-    return rt_stage_update(source->progress, all ? (double)done / (double)all : 0.0);
+    /* OpenMesh has the second half. */
+    return rt_stage_update(source->progress, all ? 0.5 * (double)done / (double)all : 0.0);
 }

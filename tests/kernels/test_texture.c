@@ -238,9 +238,10 @@ static void scale_and_offset_move_the_image(void **state)
 /* The texture lies between two others of huge values: a read outside would show. */
 static void no_coordinate_reads_outside(void **state)
 {
-    static const float hard[] = {0.0f,    -0.0f,   1.0f,     -1e-30f,  1e-30f,     0.99999994f, 1.0000001f, -1e-8f,
-                                 1e7f,    -1e7f,   16777217, 1e30f,    -1e30f,     FLT_MAX,     -FLT_MAX,   INFINITY,
-                                 -INFINITY, NAN,   2147483648.0f, -2147483648.0f, 4294967296.0f, 1.9999999f, -2.0f, 3.0f};
+    static const float hard[] = {
+        0.0f, -0.0f, 1.0f, -2.0f, 3.0f, -1e-30f, 1e-30f, -1e-8f, 0.99999994f, 1.0000001f, 1.9999999f, 1e7f, -1e7f,
+        16777217.0f, 2147483648.0f, -2147483648.0f, 4294967296.0f, 1e30f, -1e30f, FLT_MAX, -FLT_MAX, INFINITY,
+        -INFINITY, NAN};
     enum { hard_count = sizeof hard / sizeof *hard };
     static float uv[hard_count * hard_count][2], out[hard_count * hard_count][4], slope[hard_count * hard_count][2];
     (void)state;
