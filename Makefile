@@ -169,7 +169,8 @@ check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
 # Everything again with the address and undefined-behaviour sanitizers.
 SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
 check-sanitize: deps
-	+$(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
+	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
+	 $(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
 # ---- Dependencies and demonstration -------------------------------------------
 
