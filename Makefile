@@ -72,6 +72,9 @@ TESTS_QUICK := \
 	tests/lib/image/test_image_file.c tests/lib/image/test_netpbm.c tests/lib/image/test_png.c \
 	tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c tests/lib/image/test_srgb.c tests/lib/texture/test_half.c \
 	tests/lib/texture/test_texture.c tests/kernels/test_texture.c \
+	tests/lib/mesh/test_damage.c tests/lib/mesh/test_mesh.c tests/lib/mesh/test_obj.c tests/lib/mesh/test_off.c \
+	tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c \
+	tests/lib/mesh/test_text.c \
 	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
 	tests/lib/scene/test_scene.c tests/kernels/test_types.c tests/render/test_compare.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
@@ -85,7 +88,7 @@ TESTS_FULL  := \
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
-	tests/tools/expect.c tests/tools/spawn.c \
+	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
 	tests/lib/photon/points.c tests/kernels/rays.c tests/kernels/statistics.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
 	tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl

@@ -49,7 +49,9 @@ static int check_number(const rt_checker *checker, const rt_setting *setting, rt
         *number = (float)*number;
     }
     if (!rt_range_holds(field->range, *number)) {
-        rt_report_error(checker->reports, place, "'%s' is %.10g; it must be %s", field->name, written,
+        /* Quote the number as written, unless only its rounding to float32 took it out of the range. */
+        rt_report_error(checker->reports, place, "'%s' is %.10g; it must be %s", field->name,
+                        rt_range_holds(field->range, written) ? *number : written,
                         rt_range_phrase(phrase, field->range));
         return 0;
     }

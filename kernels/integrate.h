@@ -74,7 +74,8 @@ static inline float3 direct_light(const struct scene *scene, const struct surfac
     const float3 scattered = bsdf_eval(bsdf, sample.wi);
     if (largest3(scattered) <= 0.0f)
         return (float3)(0.0f);
-    const struct ray ray = shadow_ray(surface, &sample);
+    /* Light that is scattered comes from the side of wo. */
+    const struct ray ray = shadow_ray(surface->position + surface->error * bsdf->normal, &sample);
     if (occluded(scene, &ray))
         return (float3)(0.0f);
     const float weight = alone || sample.delta ? 1.0f : mis_weight(bsdf_pdf_w(bsdf, sample.wi) * sample.spread);
@@ -104,6 +105,10 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
     uint diffuse_events = 0u;
 
     for (uint depth = 1u; depth <= params->max_depth;) {
+        /* Draw the numbers of the next vertex: they hang on nothing, so a processor makes them while it waits below. */
+        const uint vertex = depth - 1u;
+        const float8 u = sampler_pair(sampler, set_light(vertex));
+
         /* Find the nearest surface. */
         struct hit hit;
         if (!closest_hit(scene, &ray, &hit))
@@ -112,7 +117,6 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
         const uint material_index = scene->shapes[surface.shape].material;
         global const rt_material_data *material = scene->materials + material_index;
         const float3 wo = -ray.direction;
-        const uint vertex = depth - 1u;
 
         /* Go straight on through a boundary that a stronger medium hides. */
         struct boundary boundary;
@@ -135,7 +139,6 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
             break;
 
         /* Add direct light, except where the photon map holds it. */
-        const float8 u = sampler_pair(sampler, set_light(vertex));
         const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, beta);
         const bool last = to_gather && diffuse_events == params->final_gather;
         if (bsdf_is_diffuse(&bsdf) && !(last && params->direct == RT_DIRECT_PHOTONS))
@@ -172,7 +175,8 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
         from = surface.position;
         if (event == EVENT_REFRACTED)
             media = boundary.beyond;
-        ray = make_ray(leave_surface(&surface, scatter.wi), scatter.wi, 0.0f, INFINITY);
+        const float lift = event == EVENT_REFRACTED ? -surface.error : surface.error;
+        ray = make_ray(surface.position + lift * bsdf.normal, scatter.wi, 0.0f, INFINITY);
         depth++;
     }
     return radiance;

@@ -96,12 +96,14 @@ INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *fou
     }
 }
 
+/* Lets hits as far as the nearest through, ties included, and a rounding beyond: take_block_hits compares exactly. */
 INLINE_ALWAYS void test_block(const struct scene *scene, const struct ray *ray, const struct ray_frame *frame,
                               uint index, struct hit *hit)
 {
     global const rt_tri_block *block = scene->blocks + index;
+    const float reach = hit->t + fabs(hit->t) * 0x1p-22f;
     struct block_hits found;
-    const uint mask = intersect_block(block, frame, ray->t_min, hit->t, &found);
+    const uint mask = intersect_block(block, frame, ray->t_min, reach, &found);
     if (mask)
         take_block_hits(hit, &found, mask, ray->t_min, block, index);
 }

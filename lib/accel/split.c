@@ -86,15 +86,6 @@ static binning make_binning(const rt_set *set)
     return map;
 }
 
-static void clear_bins(bins *b, int count)
-{
-    for (int a = 0; a < 3; a++)
-        for (int i = 0; i < count; i++) {
-            b->box[a][i] = box4_empty();
-            b->count[a][i] = 0;
-        }
-}
-
 static inline void add_to_bin(bins *b, int axis, int bin, box4 box)
 {
     box4 *into = &b->box[axis][bin];
@@ -111,33 +102,40 @@ static void join_bins(bins *into, const bins *from, int count)
         }
 }
 
-/* Neighbours mostly share a bin, so in long sets every second one has bins of its own: no one waits for the last. */
-static void fill_bins(bins *b, const rt_set *set, const binning *map)
+/*
+ * Fills b[0]; b[1] is for its own use. Neighbours mostly share a bin, so in long sets every second one goes to b[1]
+ * until the end: none then waits for the one before it.
+ */
+static void fill_bins(bins b[2], const rt_set *set, const binning *map)
 {
     const binning m = *map;
-    bins second;
-    bins *const turn[2] = {b, set->count < 256 ? b : &second};
-    clear_bins(b, m.bins);
-    if (turn[1] != b)
-        clear_bins(&second, m.bins);
+    const uint32_t alternate = set->count >= 256;
+    for (uint32_t k = 0; k <= alternate; k++)
+        for (int a = 0; a < 3; a++)
+            for (int i = 0; i < m.bins; i++) {
+                b[k].box[a][i] = box4_empty();
+                b[k].count[a][i] = 0;
+            }
     for (uint32_t i = 0; i < set->count; i++) {
         const box4 box = rt_ref_box(&set->refs[i]);
         const vec4 place = (rt_ref_centre(&set->refs[i]) - m.origin) * m.scale;
         const ivec4 bin = __builtin_convertvector(vec4_min(place, m.limit), ivec4);
-        bins *into = turn[i % 2];
+        bins *into = &b[i & alternate];
         add_to_bin(into, 0, bin[0], box);
         add_to_bin(into, 1, bin[1], box);
         add_to_bin(into, 2, bin[2], box);
     }
-    if (turn[1] != b)
-        join_bins(b, &second, m.bins);
+    if (alternate)
+        join_bins(&b[0], &b[1], m.bins);
 }
 
 static void fill_part(void *user, uint32_t index)
 {
     const set_job *job = user;
     const rt_set part = part_of(job->set, index);
-    fill_bins(&job->bins[index], &part, job->map);
+    bins b[2];
+    fill_bins(b, &part, job->map);
+    job->bins[index] = b[0];
 }
 
 static void fill_bins_parallel(bins *out, const rt_set *set, const binning *map, uint32_t threads)
@@ -187,16 +185,16 @@ uint32_t rt_split_sah(const rt_set *set, uint32_t threads, uint32_t *scratch)
 {
     const int shared = set->count > RT_SPLIT_PARALLEL;
     const binning map = make_binning(set);
-    bins b;
+    bins b[2];
     if (shared)
-        fill_bins_parallel(&b, set, &map, threads);
+        fill_bins_parallel(&b[0], set, &map, threads);
     else
-        fill_bins(&b, set, &map);
+        fill_bins(b, set, &map);
 
     rt_plane_split plane = {-1, 0.0f, 0.0f, (float)(map.bins - 1), 0};
     float cost = INFINITY;
     for (int a = 0; a < 3; a++) {
-        const int bin = best_plane(b.box[a], b.count[a], map.bins, &cost);
+        const int bin = best_plane(b[0].box[a], b[0].count[a], map.bins, &cost);
         if (bin > 0) {
             plane.axis = a;
             plane.bin = bin;

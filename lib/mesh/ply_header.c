@@ -180,7 +180,7 @@ static int split_line(parser *p)
 static rt_status next_line(parser *p)
 {
     do {
-        if (!rt_mesh_text_line(&p->text))
+        if (!rt_mesh_text_line(&p->text) || p->text.at == p->text.end)
             return rt_mesh_fail(p->source, p->text.line, "the PLY header has no end_header line");
     } while (!split_line(p));
     return RT_OK;

@@ -16,7 +16,7 @@ typedef struct sample {
     float position[3], spread; /* sr, 1 / pdf_w */
     float wi[3], delta;
     float radiance[3], again_pdf_w;
-    float normal[3], error;
+    float normal[3], lift;
 } sample;
 
 typedef struct emission {
