@@ -53,7 +53,8 @@ DSL_SRC := \
 	dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/report.c dsl/schema.c dsl/source.c dsl/suggest.c
 
 TOOL_SRC := \
-	tools/check.c tools/devices.c tools/doctor.c tools/help.c tools/interrupt.c tools/message.c tools/nearest.c \
+	tools/check.c tools/devices.c tools/doctor.c tools/help.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \
+	tools/message.c tools/nearest.c \
 	tools/number.c tools/option_table.c tools/options.c tools/outputs.c tools/progress.c tools/render.c \
 	tools/rtc.c tools/scene_file.c tools/stats.c
 
@@ -82,7 +83,7 @@ TESTS_QUICK := \
 	tests/kernels/test_rng.c tests/kernels/test_sample.c \
 	tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
 TESTS_FULL  := \
-	tests/tools/test_usage.c tests/tools/test_scenes.c tests/tools/test_rtc.c tests/tools/test_progress.c \
+	tests/tools/test_mesh.c tests/tools/test_usage.c tests/tools/test_scenes.c tests/tools/test_rtc.c tests/tools/test_progress.c \
 	tests/tools/test_determinism.c \
 	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
@@ -174,6 +175,20 @@ SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined 
 check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
 	 $(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
+
+# ---- Benchmarks: ours beside a peer's, where it is installed ---------------------
+
+HAVE_EMBREE = $(shell echo 'int main(void) { return 0; }' | $(CC) -x c - -lembree3 -o /dev/null 2>/dev/null && echo yes)
+BENCH_TRACE := tests/bench/bench_trace.c tests/bench/embree_peer.c
+
+$(B)/tests/bench/bench_trace: $(BENCH_TRACE) $(B)/librt.a
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(if $(HAVE_EMBREE),-DRT_HAVE_EMBREE) $(LDFLAGS) -o $@ $^ $(if $(HAVE_EMBREE),-lembree3) $(ALL_LIBS)
+
+bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather
+	$(B)/tests/bench/bench_trace
+	$(B)/tests/bench/bench_gather
+	RTC=$(B)/rtc tests/bench/bench_render.sh
 
 # ---- Dependencies and demonstration -------------------------------------------
 

@@ -43,17 +43,16 @@ struct emission {
 /* ---- Choice and geometry --------------------------------------------------- */
 
 /*
- * The light at u of the cumulative distribution: chosen in proportion to its power. The bisection goes
- * right by arithmetic on the sign of u - cdf, because a branch that follows random numbers is mispredicted.
+ * The light at u of the cumulative distribution: chosen in proportion to its power. A bisection of which only
+ * the length, not the way, depends on branches: those would be mispredicted.
  */
 static inline uint choose_light(const struct scene *scene, float u)
 {
     uint first = 0u;
     for (uint count = scene->header->light_count; count > 1u;) {
-        const uint left = count >> 1;
-        const uint below = as_uint(u - scene->lights[first + left - 1u].cdf) >> 31;
-        first += left & (below - 1u);
-        count -= left;
+        const uint half_count = count >> 1;
+        first += u < scene->lights[first + half_count - 1u].cdf ? 0u : half_count;
+        count -= half_count;
     }
     return first;
 }

@@ -52,9 +52,11 @@ static rt_status read_canonical(rt_canonical *canonical, const char *path, rt_st
     status = read ? read(canonical, &source)
                   : rt_mesh_fail(&source, 0, "unknown mesh format; PLY, OBJ, OFF and STL can be read");
     if (status == RT_OK && canonical->skipped_faces)
-        rt_mesh_log(&source, "%llu of %llu faces have fewer than three corners, thus no area, and are left out; "
-                    "the first is face %llu, counted from 0", (unsigned long long)canonical->skipped_faces,
-                    (unsigned long long)canonical->file_faces, (unsigned long long)canonical->first_skipped);
+        rt_mesh_log(&source,
+                    "%llu of %llu faces have fewer than three corners, thus no area, and are left out; "
+                    "the first is face %llu, counted from 0",
+                    (unsigned long long)canonical->skipped_faces, (unsigned long long)canonical->file_faces,
+                    (unsigned long long)canonical->first_skipped);
     rt_bytes_free(&bytes);
     return status;
 }

@@ -25,8 +25,9 @@ typedef struct obj {
 /* Statements without which the mesh is the same, and those whose loss the log tells. */
 static const char *const silent[] = {"g", "o", "s", "mg", "vp", "bevel", "c_interp", "d_interp", "lod", NULL};
 static const char *const materials[] = {"usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", NULL};
-static const char *const shapes[] = {"p", "l", "curv", "curv2", "surf", "cstype", "deg", "bmat", "step", "parm", "trim",
-                                     "hole", "scrv", "sp", "end", "con", "ctech", "stech", NULL};
+static const char *const shapes[] = {"p",    "l",    "curv",  "curv2", "surf", "cstype", "deg",
+                                     "bmat", "step", "parm",  "trim",  "hole", "scrv",   "sp",
+                                     "end",  "con",  "ctech", "stech", NULL};
 
 static int is_one_of(rt_token word, const char *const *words)
 {
@@ -97,7 +98,8 @@ static rt_status read_corner(obj *o, const rt_mesh_text *text, rt_token token, c
         const char *slash = memchr(at, '/', (size_t)(end - at));
         rt_token part = {at, (size_t)((slash ? slash : end) - at)};
         if (i == 3)
-            return rt_mesh_fail(o->source, text->line, "f: '%s' has more than three indices", rt_token_quote(token, quote));
+            return rt_mesh_fail(o->source, text->line, "f: '%s' has more than three indices",
+                                rt_token_quote(token, quote));
         /* Only the middle one may be left out. */
         if (part.length || i != 1 || !slash)
             status = read_index(o, text, part, names[i], all[i], above[i], &key[i]);
@@ -159,7 +161,8 @@ static rt_status read_points(obj *o)
         else if (is_one_of(word, shapes))
             lost_shapes = 1;
         else
-            status = rt_mesh_fail(o->source, text.line, "'%s' is no statement of the OBJ format", rt_token_quote(word, quote));
+            status = rt_mesh_fail(o->source, text.line, "'%s' is no statement of the OBJ format",
+                                  rt_token_quote(word, quote));
         if (status == RT_OK)
             status = step(o, &text, 0);
     } while (status == RT_OK && rt_mesh_text_line(&text));

@@ -45,12 +45,15 @@ static rt_status read_keyword(off *o, rt_token *first)
     o->colours = take(&word, "C");
     o->normals = take(&word, "N");
     if (!rt_token_is(word, "OFF"))
-        return rt_mesh_fail(o->source, o->text.line, "'%s' is no kind of OFF file that can be read; expected OFF with "
-                            "the prefixes ST, C and N at most", rt_token_quote(*first, quote));
+        return rt_mesh_fail(o->source, o->text.line,
+                            "'%s' is no kind of OFF file that can be read; expected OFF with "
+                            "the prefixes ST, C and N at most",
+                            rt_token_quote(*first, quote));
     rt_mesh_text ahead = o->text;
     if (rt_mesh_text_token(&ahead, &next) && rt_token_is(next, "BINARY"))
         return rt_mesh_fail(o->source, o->text.line, "binary OFF cannot be read; convert it to ascii OFF or to PLY");
-    return rt_mesh_text_any(&o->text, first) ? RT_OK : rt_mesh_fail(o->source, o->text.line, "the file ends before its counts");
+    return rt_mesh_text_any(&o->text, first) ? RT_OK
+                                             : rt_mesh_fail(o->source, o->text.line, "the file ends before its counts");
 }
 
 /* Vertices, faces and, of no use, edges. The shortest vertex is "0 0 0", the shortest face "0", and a line end. */
@@ -74,13 +77,12 @@ static rt_status read_counts(off *o, rt_token first)
 static int next_line(off *o)
 {
     rt_token token;
-    do {
-        if (!rt_mesh_text_line(&o->text))
-            return 0;
+    while (rt_mesh_text_line(&o->text)) {
         rt_mesh_text ahead = o->text;
         if (rt_mesh_text_token(&ahead, &token))
             return 1;
-    } while (1);
+    }
+    return 0;
 }
 
 /* A colour is of whole numbers to 255 or of numbers to 1, which a point or an exponent tells. */
@@ -96,15 +98,16 @@ static rt_status read_colour(off *o, rt_token token, float *out)
 static rt_status read_vertex(off *o, uint32_t vertex)
 {
     int fixed = 3 + 3 * o->normals + 2 * o->uv, count = 0, colour_at = 3 + 3 * o->normals;
-    rt_token tokens[VERTEX_MAX];
+    rt_token tokens[VERTEX_MAX + 1]; /* room to see that there is one too many */
     float values[VERTEX_MAX];
     rt_status status = RT_OK;
-    while (count < VERTEX_MAX && rt_mesh_text_token(&o->text, &tokens[count]))
+    while (count <= VERTEX_MAX && rt_mesh_text_token(&o->text, &tokens[count]))
         count++;
     int colour_count = count - fixed;
     if (o->colours ? colour_count != 3 && colour_count != 4 : colour_count != 0)
         return rt_mesh_fail(o->source, o->text.line, "vertex %u has %s%d values; expected %d%s", vertex,
-                            count == VERTEX_MAX ? "at least " : "", count, fixed, o->colours ? " and 3 or 4 of colour" : "");
+                            count > VERTEX_MAX ? "at least " : "", count, fixed,
+                            o->colours ? " and 3 or 4 of colour" : "");
     for (int i = 0; i < count && status == RT_OK; i++)
         status = i >= colour_at && i < colour_at + colour_count
                      ? read_colour(o, tokens[i], &values[i])
@@ -146,11 +149,10 @@ static rt_status read_rows(off *o)
     rt_status status = RT_OK;
     for (uint64_t i = 0; i < o->vertex_count + o->face_count && status == RT_OK; i++) {
         if (!next_line(o))
-            return rt_mesh_fail(o->source, o->text.line, "the file ends after %llu of %llu vertices and %llu of %llu faces",
-                                (unsigned long long)(i < o->vertex_count ? i : o->vertex_count),
-                                (unsigned long long)o->vertex_count,
-                                (unsigned long long)(i < o->vertex_count ? 0 : i - o->vertex_count),
-                                (unsigned long long)o->face_count);
+            return rt_mesh_fail(
+                o->source, o->text.line, "the file ends after %llu of %llu vertices and %llu of %llu faces",
+                (unsigned long long)(i < o->vertex_count ? i : o->vertex_count), (unsigned long long)o->vertex_count,
+                (unsigned long long)(i < o->vertex_count ? 0 : i - o->vertex_count), (unsigned long long)o->face_count);
         status = i < o->vertex_count ? read_vertex(o, (uint32_t)i) : read_face(o, i - o->vertex_count);
         if (status == RT_OK && (i & 0xfff) == 0)
             status = rt_mesh_step(o->source, (uint64_t)(o->text.at - (const char *)o->source->data), o->source->size);

@@ -48,8 +48,10 @@ static rt_status read_binary(stl *s)
 {
     const rt_mesh_source *source = s->source;
     if (source->size < HEADER_SIZE + 4)
-        return rt_mesh_fail(source, 0, "not an STL file: it neither begins with 'solid' nor has the %d bytes of a binary "
-                            "header", HEADER_SIZE + 4);
+        return rt_mesh_fail(source, 0,
+                            "not an STL file: it neither begins with 'solid' nor has the %d bytes of a binary "
+                            "header",
+                            HEADER_SIZE + 4);
     uint64_t count = announced(source), room = (source->size - HEADER_SIZE - 4) / FACET_SIZE;
     int native = rt_ply_is_native(RT_PLY_LITTLE_ENDIAN);
     if (count > room)
