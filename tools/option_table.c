@@ -84,8 +84,8 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_TRIANGLES] = {"triangles", "N", KIND_WHOLE, GROUP_MESH, MESH, 1, 1e9, NULL, 0, "2e4",
                           "about how many triangles"},
     /* The same name as the image's; each command takes its own. */
-    [OPTION_MESH_OUT] = {"out", "FILE", KIND_TEXT, GROUP_MESH, MESH, 0, 0, NULL, 0,
-                         "KIND.ply in the current directory", "where the mesh goes, a binary PLY file"},
+    [OPTION_MESH_OUT] = {"out", "FILE", KIND_TEXT, GROUP_MESH, MESH, 0, 0, NULL, 0, "KIND.ply in the current directory",
+                         "where the mesh goes, a binary PLY file"},
 
     [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | DOCTOR, 0, 0, NULL, 0, "0",
                        "a number of `rtc devices`, or part of a device's or platform's name"},

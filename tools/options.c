@@ -9,11 +9,8 @@
 #include "rtc.h"
 
 static const char *const command_names[COMMAND_COUNT] = {
-    [COMMAND_RENDER] = "",
-    [COMMAND_CHECK] = "check",
-    [COMMAND_MESH] = "mesh",
-    [COMMAND_DEVICES] = "devices",
-    [COMMAND_DOCTOR] = "doctor",
+    [COMMAND_RENDER] = "",         [COMMAND_CHECK] = "check",   [COMMAND_MESH] = "mesh",
+    [COMMAND_DEVICES] = "devices", [COMMAND_DOCTOR] = "doctor",
 };
 
 const char *command_name(command_id command)

@@ -198,11 +198,13 @@ static rt_status read_faces(obj *o)
 static rt_status make_vertices(obj *o)
 {
     int coloured = o->position_count && o->colours.count == 3 * o->position_count;
+    uint32_t bare = 0;
     rt_canonical *mesh = o->mesh;
     rt_status status = rt_canonical_vertices(mesh, o->source, o->corners.count, o->some_normals, o->some_uv, coloured);
     for (uint32_t i = 0; i < o->corners.count && status == RT_OK; i++) {
         const uint32_t *key = o->corners.keys[i];
         size_t position = key[0] - 1;
+        bare += key[1] == 0;
         memcpy(rt_canonical_position(mesh, i), o->positions.data + 3 * position, 3 * sizeof(float));
         if (key[1])
             memcpy(rt_canonical_uv(mesh, i), o->uv.data + 2 * (size_t)(key[1] - 1), 2 * sizeof(float));
@@ -212,6 +214,8 @@ static rt_status make_vertices(obj *o)
             memcpy(mesh->colours + 3 * (size_t)i, o->colours.data + 3 * position, 3 * sizeof(float));
     }
     mesh->file_vertices = o->position_count;
+    if (status == RT_OK && o->some_uv && bare)
+        rt_mesh_log(o->source, "%u corners have no texture coordinates; they get 0 0", bare);
     return status;
 }
 

@@ -183,7 +183,7 @@ class RawImporter : public IO::BaseImporter
     void add_texture_information(int, std::string) override { refuse(); }
     // clang-format on
 
-private:
+  private:
     [[noreturn]] static void refuse()
     {
         throw std::logic_error("a property that was not announced");
