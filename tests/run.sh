@@ -58,6 +58,7 @@ for program in "$@"; do
         printf 'FAIL  %s: %d passed, %d failed%s (%d s)\n' "$program" "$good" "$bad" "${trouble:+, $trouble}" "$seconds"
     else
         printf 'ok    %s: %d passed (%d s)\n' "$program" "$good" "$seconds"
+        [ "$skip" -eq 0 ] || grep -B2 '^\[  SKIPPED \]' "$log"
     fi
     passed=$((passed + good))
     failed=$((failed + bad))

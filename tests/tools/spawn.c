@@ -212,7 +212,11 @@ run run_rtc_terminal(const char *format, ...)
     FORMAT_LINE(line, format);
     enum { SIZE = 1 << 16 };
     int master = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-    assert_true(master >= 0 && grantpt(master) == 0 && unlockpt(master) == 0);
+    if (master < 0) {
+        print_message("this system has no pseudo-terminals (%s)\n", strerror(errno));
+        skip();
+    }
+    assert_true(grantpt(master) == 0 && unlockpt(master) == 0);
     int slave = open(ptsname(master), O_RDWR | O_NOCTTY | O_CLOEXEC);
     assert_true(slave >= 0);
     streams streams = {slave, slave, slave};
