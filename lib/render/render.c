@@ -11,8 +11,7 @@
 
 enum { spp_unlimited = 1 << 24 };
 
-/* Replaces zeros by the defaults that the public header states. */
-static void complete_options(rt_render_options *o)
+void rt_options_complete(rt_render_options *o)
 {
     if (o->width == 0)
         o->width = 512;
@@ -28,6 +27,10 @@ static void complete_options(rt_render_options *o)
         o->k = 50;
     if (o->cone_k == 0)
         o->cone_k = 1.1f;
+    if (o->caustic_k == 0)
+        o->caustic_k = o->k;
+    if (o->caustic_radius == 0)
+        o->caustic_radius = o->radius;
 }
 
 static void scale(float out[3], const double v[3], double factor)
@@ -78,7 +81,6 @@ rt_params rt_params_make(const rt_render_options *options)
     p.max_depth = options->max_depth;
     p.final_gather = options->final_gather;
     p.direct = options->direct;
-    p.emitted = (float)options->photons;
     return p;
 }
 
@@ -105,7 +107,7 @@ static rt_status prepare(void *data)
     preparation *p = data;
     rt_params none;
     rt_arg first = {sizeof none, &none};
-    rt_hooks hooks = {NULL, keep_line, p};
+    rt_hooks hooks = {.log = keep_line, .user = p};
 
     memset(&none, 0, sizeof none);
     rt_status status = rt_device_kernel(p->device, &p->made, p->program, p->kernel, &hooks, p->error);
@@ -145,7 +147,7 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     *out = NULL;
     if (!renderer->has_camera)
         return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
-    complete_options(&complete);
+    rt_options_complete(&complete);
     aim(&camera, &renderer->camera, complete.width, complete.height);
     status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,
                              &camera, error);

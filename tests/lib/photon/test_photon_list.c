@@ -1,19 +1,19 @@
-/* test_photon_map.c - a map is its paths' photons, one path after the other. */
+/* test_photon_list.c - a map is its paths' photons, one path after the other. */
 #include "support.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "photon/photon_map.h"
+#include "photon/photon_list.h"
 
-enum { slots_per_path = 4, path_count = 100 };
+enum { slots_per_path = 4, path_count = 10000 };
 
 /* Path i leaves i % 5 photons at most slots_per_path, numbered by path and slot. */
-static void fill(rt_photon slots[path_count * slots_per_path], rt_u32 counts[path_count])
+static void fill(rt_photon slots[path_count * slots_per_path], rt_path_account counts[path_count])
 {
     memset(slots, 0, path_count * slots_per_path * sizeof *slots);
     for (rt_u32 i = 0; i < path_count; i++) {
-        counts[i] = i % (slots_per_path + 1);
+        counts[i].photons = i % (slots_per_path + 1);
         for (rt_u32 j = 0; j < slots_per_path; j++) {
             slots[i * slots_per_path + j].path = i;
             slots[i * slots_per_path + j].flags = j;
@@ -24,15 +24,15 @@ static void fill(rt_photon slots[path_count * slots_per_path], rt_u32 counts[pat
 static void photons_follow_in_the_order_of_paths(void **state)
 {
     static rt_photon slots[path_count * slots_per_path];
-    static rt_u32 counts[path_count];
-    rt_photon_map whole = {0}, parts = {0};
+    static rt_path_account counts[path_count];
+    rt_photon_list whole = {0}, parts = {0};
     rt_error error;
     size_t at = 0;
     (void)state;
     fill(slots, counts);
-    expect_ok(rt_photon_map_append(&whole, slots, counts, path_count, slots_per_path, &error), &error);
+    expect_ok(rt_photon_list_append(&whole, slots, counts, path_count, slots_per_path, 2, &error), &error);
     for (rt_u32 i = 0; i < path_count; i++)
-        for (rt_u32 j = 0; j < counts[i]; j++, at++) {
+        for (rt_u32 j = 0; j < counts[i].photons; j++, at++) {
             assert_int_equal(whole.photons[at].path, i);
             assert_int_equal(whole.photons[at].flags, j);
         }
@@ -40,14 +40,14 @@ static void photons_follow_in_the_order_of_paths(void **state)
     assert_int_equal(whole.emitted, path_count);
 
     /* Appending part by part makes the same map. */
-    for (size_t first = 0; first < path_count; first += 25)
-        expect_ok(rt_photon_map_append(&parts, slots + first * slots_per_path, counts + first, 25, slots_per_path,
+    for (size_t first = 0; first < path_count; first += 2500)
+        expect_ok(rt_photon_list_append(&parts, slots + first * slots_per_path, counts + first, 2500, slots_per_path, 1,
                                        &error),
                   &error);
     assert_int_equal(parts.count, whole.count);
     assert_memory_equal(parts.photons, whole.photons, whole.count * sizeof *whole.photons);
-    rt_photon_map_clear(&parts);
-    rt_photon_map_clear(&whole);
+    rt_photon_list_clear(&parts);
+    rt_photon_list_clear(&whole);
     assert_int_equal(whole.count, 0);
     assert_null(whole.photons);
 }
@@ -55,19 +55,19 @@ static void photons_follow_in_the_order_of_paths(void **state)
 static void photons_that_are_not_finite_are_counted_and_left_out(void **state)
 {
     static rt_photon slots[path_count * slots_per_path];
-    static rt_u32 counts[path_count];
-    rt_photon_map map = {0};
+    static rt_path_account counts[path_count];
+    rt_photon_list map = {0};
     rt_error error;
     (void)state;
     fill(slots, counts);
     slots[1 * slots_per_path].position[2] = INFINITY;
     slots[2 * slots_per_path + 1].flux[0] = NAN;
     slots[5 * slots_per_path].flux[0] = NAN; /* not among the counted */
-    expect_ok(rt_photon_map_append(&map, slots, counts, path_count, slots_per_path, &error), &error);
+    expect_ok(rt_photon_list_append(&map, slots, counts, path_count, slots_per_path, 2, &error), &error);
     assert_int_equal(map.rejected, 2);
-    assert_int_equal(map.count, 200 - 2);
+    assert_int_equal(map.count, 2 * path_count - 2);
     assert_int_equal(map.photons[0].path, 2);
-    rt_photon_map_clear(&map);
+    rt_photon_list_clear(&map);
 }
 
 int main(void)
@@ -76,5 +76,5 @@ int main(void)
         cmocka_unit_test(photons_follow_in_the_order_of_paths),
         cmocka_unit_test(photons_that_are_not_finite_are_counted_and_left_out),
     };
-    return cmocka_run_group_tests_name("lib/photon/photon_map", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("lib/photon/photon_list", tests, NULL, NULL);
 }
