@@ -12,6 +12,7 @@ static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_CHECK] = command_check,
     [COMMAND_DEVICES] = command_devices,
     [COMMAND_DOCTOR] = command_doctor,
+    [COMMAND_PHOTONS] = command_photons,
 };
 
 static int run(const command_line *arguments)

@@ -19,5 +19,6 @@ int command_render(const command_line *arguments);
 int command_check(const command_line *arguments);
 int command_devices(const command_line *arguments);
 int command_doctor(const command_line *arguments);
+int command_photons(const command_line *arguments);
 
 #endif

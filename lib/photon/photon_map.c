@@ -66,6 +66,12 @@ const rt_photon *rt_photon_map_photons(const rt_photon_map *map, rt_photon_kind 
     return (unsigned)kind < RT_PHOTON_KINDS ? map->lists[kind].photons : NULL;
 }
 
+const rt_path_range *rt_photon_map_ranges(const rt_photon_map *map, rt_photon_kind kind, size_t *count)
+{
+    *count = (unsigned)kind < RT_PHOTON_KINDS ? map->ranges[kind].count : 0;
+    return *count ? map->ranges[kind].ranges : NULL;
+}
+
 void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out)
 {
     memset(out, 0, sizeof *out);
@@ -80,7 +86,6 @@ void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out)
     out->max_depth = map->settings.max_depth;
     out->scene = map->settings.scene;
     out->lights = map->ledger.count;
-    out->ranges = map->ranges[RT_PHOTONS_GLOBAL].count;
 }
 
 size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *out, size_t capacity)
@@ -118,7 +123,7 @@ static void warn_list(const rt_photon_list *list, const char *name, uint32_t k, 
     if (list->count == 0)
         rt_warn(hooks, "the %s is empty: none of %llu photon paths left a photon in it", name,
                 (unsigned long long)list->emitted);
-    else if (list->count < k)
+    else if (k != RT_K_ALL && list->count < k)
         rt_warn(hooks, "the %s has only %zu photon%s, fewer than the %u nearest that an estimate wants", name,
                 list->count, list->count == 1 ? "" : "s", (unsigned)k);
     if (list->rejected > 0)
@@ -126,9 +131,10 @@ static void warn_list(const rt_photon_list *list, const char *name, uint32_t k, 
                 (unsigned long long)list->rejected, name);
 }
 
-void rt_photon_map_warn_starved(const rt_photon_map *map, uint32_t k, uint32_t caustic_k, const rt_hooks *hooks)
+void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t k, uint32_t caustic_k,
+                                const rt_hooks *hooks)
 {
-    warn_lights(&map->ledger, hooks);
+    warn_lights(ledger, hooks);
     warn_list(map->lists + RT_PHOTONS_GLOBAL, map->settings.split ? "global photon map" : "photon map", k, hooks);
     if (map->settings.split)
         warn_list(map->lists + RT_PHOTONS_CAUSTIC, "caustic photon map", caustic_k, hooks);

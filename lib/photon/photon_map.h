@@ -23,12 +23,6 @@ typedef struct rt_photon_settings {
     rt_u32 split;   /* 1: caustic photons are kept apart */
 } rt_photon_settings;
 
-/* Paths first .. first + count - 1 of a seed, which left so many photons. */
-typedef struct rt_path_range {
-    uint64_t first, count, photons;
-    rt_u32 seed;
-} rt_path_range;
-
 /* Ranges in ascending order of seed and first; none overlaps or touches another. */
 typedef struct rt_path_ranges {
     rt_path_range *ranges; /* [count] */
@@ -53,9 +47,10 @@ void rt_photon_map_reset(rt_photon_map *map);
 void rt_photon_map_free(rt_photon_map *map);
 
 /*
- * Warns of lights with power that no path came from, and of lists with fewer photons than an estimate
- * wants: k of them, or caustic_k in the caustic list.
+ * Warns of lights with power that no path came from, by the ledger of all paths, and of lists of the map with fewer
+ * photons than an estimate wants: k of them, or caustic_k in the caustic list.
  */
-void rt_photon_map_warn_starved(const rt_photon_map *map, uint32_t k, uint32_t caustic_k, const rt_hooks *hooks);
+void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t k, uint32_t caustic_k,
+                                const rt_hooks *hooks);
 
 #endif

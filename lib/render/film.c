@@ -13,6 +13,7 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_err
     if (film) {
         film->options = *options;
         film->options.hooks = NULL;
+        film->options.photon_map = NULL;
         film->pixels = calloc(count, sizeof *film->pixels);
         film->rgb = calloc(count, 3 * sizeof *film->rgb);
     }

@@ -24,6 +24,7 @@ typedef struct white_scene {
 typedef struct asking {
     rt_device *device;
     rt_render_options options; /* complete */
+    int on_device; /* the search for photons */
     cl_kernel kernel;
     cl_mem scene;
     rt_gatherer *gatherers[RT_PHOTON_KINDS];
@@ -46,12 +47,14 @@ static rt_status make_scene(asking *a, rt_error *error)
 static rt_status make_gatherer(asking *a, const rt_photon_map *map, rt_photon_kind kind, rt_error *error)
 {
     const rt_render_options *o = &a->options;
-    rt_gather_options how = {.k = o->k, .max_radius = o->radius, .density = o->kernel, .cone_k = o->cone_k};
+    rt_gather_options how = {o->k, o->radius, o->kernel, o->cone_k, a->on_device};
     if (kind == RT_PHOTONS_CAUSTIC) {
         how.k = o->caustic_k;
         how.max_radius = o->caustic_radius;
         how.density = o->caustic_kernel;
     }
+    if (how.k == RT_K_ALL)
+        how.k = 0;
     rt_status status =
         rt_gatherer_create(a->gatherers + kind, a->device, a->kernel, a->scene, map->lists + kind, &how, error);
     if (status == RT_OK && rt_gatherer_capacity(a->gatherers[kind]) < a->capacity)
@@ -62,7 +65,8 @@ static rt_status make_gatherer(asking *a, const rt_photon_map *map, rt_photon_ki
 static rt_status prepare(asking *a, const rt_photon_map *map, size_t count, rt_error *error)
 {
     a->capacity = count < RT_GATHER_POINTS_MAX ? count : RT_GATHER_POINTS_MAX;
-    rt_status status = rt_device_kernel(a->device, &a->kernel, "photon_gather", "photon_gather", a->options.hooks, error);
+    const char *name = a->on_device ? "photon_walk" : "photon_gather";
+    rt_status status = rt_device_kernel(a->device, &a->kernel, name, name, a->options.hooks, error);
     if (status == RT_OK)
         status = make_scene(a, error);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
@@ -99,6 +103,18 @@ static rt_status ask_batch(asking *a, float *rgb, const float *positions, const 
     return status;
 }
 
+/* What options must be to each other, once complete. */
+static rt_status check_options(const rt_render_options *o, rt_error *error)
+{
+    int all = o->k == RT_K_ALL, all_caustic = o->caustic_k == RT_K_ALL;
+    if ((all && o->radius == 0) || (all_caustic && o->caustic_radius == 0))
+        return rt_fail_field(error, RT_ERROR_USAGE, "radius", "to gather all photons within a radius, give the radius");
+    if ((all || all_caustic) && o->gather == RT_GATHER_FLANN)
+        return rt_fail_field(error, RT_ERROR_USAGE, "gather",
+                             "FLANN finds the k nearest photons only; for all within a radius, gather on the device");
+    return RT_OK;
+}
+
 static rt_status check_points(const float *positions, const float *normals, size_t count, rt_error *error)
 {
     for (size_t i = 0; i < 3 * count; i++)
@@ -115,11 +131,14 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
     asking a = {.device = device, .options = options ? *options : defaults};
 
     rt_status status = rt_options_check(&a.options, error);
+    rt_options_complete(&a.options);
+    if (status == RT_OK)
+        status = check_options(&a.options, error);
     if (status == RT_OK)
         status = check_points(positions, normals, count, error);
     if (status != RT_OK || count == 0)
         return status;
-    rt_options_complete(&a.options);
+    a.on_device = a.options.gather == RT_GATHER_DEVICE || a.options.k == RT_K_ALL || a.options.caustic_k == RT_K_ALL;
     status = prepare(&a, map, count, error);
     for (size_t done = 0, now; done < count && status == RT_OK; done += now) {
         now = count - done < a.capacity ? count - done : a.capacity;

@@ -61,7 +61,7 @@ static rt_status emit(emission *e, rt_error *error)
         status = emit_part(e, RT_PHOTONS_CAUSTIC, o->caustic_photons, &progress, error);
     if (status != RT_OK)
         return status;
-    rt_photon_map_warn_starved(e->map, o->k, o->caustic_k, o->hooks);
+    rt_photon_map_warn_starved(e->map, &e->map->ledger, o->k, o->caustic_k, o->hooks);
     return rt_stage_end(&progress, NULL);
 }
 
@@ -86,6 +86,7 @@ rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const r
         status = check_parts(e.how, error);
     if (status != RT_OK)
         return status;
+    e.options.passes = 1;
     rt_options_complete(&e.options);
     e.map = calloc(1, sizeof *e.map);
     if (!e.map)

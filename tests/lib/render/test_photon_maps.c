@@ -121,6 +121,7 @@ static void seeds_join_in_any_order(void **state)
     rt_emit_options options = {.render = &render};
     rt_photon_map *maps[2], *turned[2];
     rt_photon_map_info info;
+    size_t range_count = 0;
     (void)state;
     rt_renderer *renderer = open_text(ROOM);
     for (int i = 0; i < 2; i++) {
@@ -131,7 +132,10 @@ static void seeds_join_in_any_order(void **state)
     expect_same(a, b);
     rt_photon_map_get_info(a, &info);
     assert_int_equal(info.paths[RT_PHOTONS_GLOBAL], 6000);
-    assert_int_equal(info.ranges, 2);
+    const rt_path_range *ranges = rt_photon_map_ranges(a, RT_PHOTONS_GLOBAL, &range_count);
+    assert_int_equal(range_count, 2);
+    for (uint32_t i = 0; i < 2; i++)
+        assert_true(ranges[i].seed == 8 + i && ranges[i].first == 0 && ranges[i].count == 3000);
     assert_int_equal(info.photons[RT_PHOTONS_GLOBAL],
                      rt_photon_map_count(maps[0], RT_PHOTONS_GLOBAL) + rt_photon_map_count(maps[1], RT_PHOTONS_GLOBAL));
     for (int i = 0; i < 2; i++)
@@ -439,7 +443,7 @@ static void irradiance_is_flux_over_area(void **state)
 {
     enum { count = 400 };
     static const double power[3] = {2, 3, 5}, kd[3] = {0.2, 0.5, 0.7};
-    static float positions[count][3], normals[count][3], rgb[count][3];
+    static float positions[count][3], normals[count][3], rgb[count][3], again[count][3];
     rt_render_options render = {.photons = 100000, .max_depth = 100, .direct = RT_DIRECT_PHOTONS};
     rt_render_options ask = {.k = 100, .kernel = RT_DENSITY_BOX};
     rt_emit_options options = {.render = &render};
@@ -463,6 +467,28 @@ static void irradiance_is_flux_over_area(void **state)
         /* Each of 100 photons: 10 % a point, 0.5 % in the mean; a curved surface makes discs look small. */
         assert_float_equal(mean, expected, 0.03 * expected);
     }
+    /* The device finds the same photons; a fixed radius sees the same light. */
+    ask.gather = RT_GATHER_DEVICE;
+    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+              &error);
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(again[i][c], rgb[i][c], 1e-4 * rgb[i][c]);
+    ask.k = RT_K_ALL;
+    assert_int_equal(
+        rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+        RT_ERROR_USAGE);
+    assert_string_equal(error.field, "radius");
+    ask.radius = 0.15f;
+    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+              &error);
+    double sum = 0, before = 0;
+    for (int i = 0; i < count; i++) {
+        sum += again[i][1];
+        before += rgb[i][1];
+    }
+    assert_float_equal(sum, before, 0.03 * before);
+    ask = (rt_render_options){.k = 100, .kernel = RT_DENSITY_BOX};
     /* Nothing arrives on the outside. */
     for (int i = 0; i < count; i++)
         for (int c = 0; c < 3; c++)
