@@ -421,9 +421,20 @@ typedef struct rt_photon_map_info {
     rt_sampler sampler;
     uint32_t max_depth;
     size_t lights;      /* in the ledger */
-    size_t ranges;      /* of photon paths that the global list is made of: 1 unless something is missing between them */
 } rt_photon_map_info;
 RT_API void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out);
+
+/* Paths first .. first + count - 1 of a seed, which left so many photons. */
+typedef struct rt_path_range {
+    uint64_t first, count, photons;
+    uint32_t seed;
+} rt_path_range;
+
+/*
+ * The ranges of paths that a list is made of, ascending by seed and first, and as many as there are gaps; its
+ * photons follow in this order. Owned by the map.
+ */
+RT_API const rt_path_range *rt_photon_map_ranges(const rt_photon_map *map, rt_photon_kind kind, size_t *count);
 
 /* The photons of a kind and their number; owned by the map. */
 RT_API size_t rt_photon_map_count(const rt_photon_map *map, rt_photon_kind kind);
@@ -451,8 +462,9 @@ RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *ou
 
 /*
  * Irradiance, W/m^2, at count points on surfaces: positions [count][3] in metres, normals [count][3] of unit
- * length, on the side from which light is to count; rgb [count][3]. Of the options, k, radius, kernel, cone_k and
- * their like for the caustic map count; NULL: their defaults. Light that is left to shadow rays is not in the map.
+ * length, on the side from which light is to count; rgb [count][3], undefined on failure. Of the options, k, radius,
+ * kernel, cone_k, gather and their like for the caustic map count; NULL: their defaults. Light that is left to
+ * shadow rays is not in the map.
  */
 RT_API rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_device *device,
                                           const float *positions, const float *normals, size_t count,
@@ -501,6 +513,7 @@ typedef struct rt_film_stats {
     uint64_t photons_emitted;  /* photon paths */
     uint64_t photons_stored;
     uint64_t gathers;          /* queries of the photon map */
+    uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
     double light_power;        /* emitted power of all lights, W, mean of the three channels */
     double build_seconds, compile_seconds, emit_seconds, gather_seconds, render_seconds;
 } rt_film_stats;

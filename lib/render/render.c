@@ -17,12 +17,18 @@ void rt_options_complete(rt_render_options *o)
         o->width = 512;
     if (o->height == 0)
         o->height = 512;
+    if (o->passes == 0)
+        o->passes = 1;
+    if (o->alpha == 0)
+        o->alpha = 2 / 3.0f;
+    if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
+        o->spp = 1;
     if (o->spp == 0)
         o->spp = o->time > 0 ? spp_unlimited : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
     if (o->photons == 0)
-        o->photons = 1000000;
+        o->photons = o->passes > 1 ? (uint64_t)o->width * o->height : 1000000;
     if (o->k == 0)
         o->k = 50;
     if (o->cone_k == 0)
