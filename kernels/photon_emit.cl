@@ -89,6 +89,13 @@ static rt_photon make_photon(const struct light_path *path, const struct surface
     return photon;
 }
 
+static bool photon_is_finite(const rt_photon *photon)
+{
+    return all(isfinite(vload3(0, photon->position))) && all(isfinite(vload3(0, photon->wi))) &&
+           all(isfinite(vload3(0, photon->flux))) && all(isfinite(vload3(0, photon->normal))) &&
+           isfinite(photon->shading);
+}
+
 /*
  * Scatters the path at a surface; false when it ends. Survival keeps the flux of all photons alike:
  * it is the share of the strongest channel that the surface leaves.
@@ -139,7 +146,7 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
     global rt_photon *own = slots + (size_t)item * params.slots;
     rt_path_account account;
     struct light_path path;
-    uint count = 0u, end = RT_END_CUT_OFF;
+    uint count = 0u, rejected = 0u, end = RT_END_CUT_OFF;
 
     bool alive = start_path(&path, &scene, shares, &sampler, &account);
     while (alive && path.depth < params.max_depth) {
@@ -171,8 +178,13 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
 
         /* Leave a photon where the map wants one. */
         const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, path.flux);
-        if (bsdf_is_diffuse(&bsdf) && is_stored(&path, &params))
-            own[count++] = make_photon(&path, &surface, &bsdf, index);
+        if (bsdf_is_diffuse(&bsdf) && is_stored(&path, &params)) {
+            const rt_photon photon = make_photon(&path, &surface, &bsdf, index);
+            if (photon_is_finite(&photon))
+                own[count++] = photon;
+            else
+                rejected++;
+        }
 
         /* Choose an event, or absorption, and go on. */
         const float4 u = sampler_set(&sampler, set_scatter(path.depth - 1u));
@@ -189,6 +201,6 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
     vstore3(path.flux, 0, account.left);
     account.end = end;
     vstore3(path.roulette, 0, account.roulette);
-    account.reserved = 0u;
+    account.rejected = rejected;
     accounts[item] = account;
 }

@@ -281,7 +281,7 @@ typedef struct rt_path_account {
     float left[3];     /* flux at its end */
     rt_u32 end;        /* RT_END_* */
     float roulette[3]; /* what the choices of events took, less what they gave to the paths that went on */
-    rt_u32 reserved;
+    rt_u32 rejected;   /* photons that it did not store because they were not finite */
 } rt_path_account;
 RT_SIZE(rt_path_account, 64);
 

@@ -7,12 +7,14 @@
  * (rt_device) is one OpenCL device. A renderer (rt_renderer) is a scene made ready on a
  * device: the bounding volume hierarchy is built on the host and everything the kernels
  * need is uploaded. rt_render makes a film (rt_film) from it, by path tracing or photon
- * mapping; rt_trace follows single rays. A film is read in memory or written as an image.
+ * mapping; rt_photon_map_emit makes the photons alone, to be looked at, saved, merged and
+ * rendered with; rt_trace follows single rays. A film is read in memory or written as an image.
  *
  *     text or calls -> rt_scene -+
  *                                +-> rt_renderer -> rt_film -> memory, .exr, .png, ...
  *                   rt_device ---+        |
  *                                         +-> rt_hit
+ *                                         +-> rt_photon_map -> memory, .rtp, .ply
  *
  * A COMPLETE EXAMPLE
  *

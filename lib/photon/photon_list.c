@@ -35,35 +35,35 @@ int rt_photon_is_finite(const rt_photon *p)
            finite3(p->normal);
 }
 
-/* Paths whose photons are appended in shares: first each is counted, then each is copied to its place. */
+/* Paths whose photons are copied in shares, each to its place. */
 typedef struct appending {
     const rt_photon *slots;
     const rt_path_account *accounts;
     size_t path_count, slots_per_path;
-    size_t *places;     /* [jobs + 1]: photons of a share, then where they begin */
-    uint64_t *rejected; /* [jobs] */
-    rt_photon *photons; /* of the list */
+    size_t *places; /* [jobs + 1]: where the photons of a share begin */
+    rt_photon *photons;
 } appending;
 
 enum { PATHS_A_JOB = 4096 };
 
-static size_t share_end(const appending *a, uint32_t index)
+static size_t share_end(const appending *a, size_t index)
 {
-    size_t end = ((size_t)index + 1) * PATHS_A_JOB;
+    size_t end = (index + 1) * PATHS_A_JOB;
     return end < a->path_count ? end : a->path_count;
 }
 
-static void count_share(void *user, uint32_t index)
+/* Finds the places; returns how many photons were left out as not finite. */
+static uint64_t find_places(appending *a, size_t jobs)
 {
-    appending *a = user;
-    size_t count = 0, all = 0;
-    for (size_t i = (size_t)index * PATHS_A_JOB; i < share_end(a, index); i++) {
-        all += a->accounts[i].photons;
-        for (size_t j = 0; j < a->accounts[i].photons; j++)
-            count += (size_t)rt_photon_is_finite(a->slots + i * a->slots_per_path + j);
+    uint64_t rejected = 0;
+    for (size_t job = 0; job < jobs; job++) {
+        a->places[job + 1] = a->places[job];
+        for (size_t i = job * PATHS_A_JOB; i < share_end(a, job); i++) {
+            a->places[job + 1] += a->accounts[i].photons;
+            rejected += a->accounts[i].rejected;
+        }
     }
-    a->places[index + 1] = count;
-    a->rejected[index] = all - count;
+    return rejected;
 }
 
 static void copy_share(void *user, uint32_t index)
@@ -71,28 +71,20 @@ static void copy_share(void *user, uint32_t index)
     const appending *a = user;
     rt_photon *out = a->photons + a->places[index];
     for (size_t i = (size_t)index * PATHS_A_JOB; i < share_end(a, index); i++)
-        for (size_t j = 0; j < a->accounts[i].photons; j++) {
-            const rt_photon *photon = a->slots + i * a->slots_per_path + j;
-            if (rt_photon_is_finite(photon))
-                *out++ = *photon;
-        }
+        for (size_t j = 0; j < a->accounts[i].photons; j++)
+            *out++ = a->slots[i * a->slots_per_path + j];
 }
 
 rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, const rt_path_account *accounts,
                                 size_t path_count, size_t slots_per_path, uint32_t threads, rt_error *error)
 {
     size_t jobs = (path_count + PATHS_A_JOB - 1) / PATHS_A_JOB;
-    appending a = {slots, accounts, path_count, slots_per_path, NULL, NULL, NULL};
+    appending a = {slots, accounts, path_count, slots_per_path, calloc(jobs + 1, sizeof *a.places), NULL};
 
-    a.places = calloc(jobs + 1, sizeof *a.places);
-    a.rejected = calloc(jobs + 1, sizeof *a.rejected);
-    rt_status status = a.places && a.rejected ? RT_OK : rt_fail(error, RT_ERROR_MEMORY, "no memory to collect photons");
-    if (status == RT_OK) {
-        rt_parallel(threads, (uint32_t)jobs, count_share, &a);
-        for (size_t i = 0; i < jobs; i++)
-            a.places[i + 1] += a.places[i];
-        status = rt_photon_list_reserve(list, a.places[jobs], error);
-    }
+    if (!a.places)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to collect photons");
+    uint64_t rejected = find_places(&a, jobs);
+    rt_status status = rt_photon_list_reserve(list, a.places[jobs], error);
     if (status == RT_OK && a.places[jobs] > 0) {
         a.photons = list->photons + list->count;
         rt_parallel(threads, (uint32_t)jobs, copy_share, &a);
@@ -100,11 +92,9 @@ rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, co
     if (status == RT_OK) {
         list->count += a.places[jobs];
         list->emitted += path_count;
-        for (size_t i = 0; i < jobs; i++)
-            list->rejected += a.rejected[i];
+        list->rejected += rejected;
     }
     free(a.places);
-    free(a.rejected);
     return status;
 }
 

@@ -23,7 +23,7 @@ rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *er
 
 /*
  * Appends the photons of path_count more paths: path i stored accounts[i].photons of them, which lie at
- * slots + i * slots_per_path. Photons whose numbers are not all finite are left out. Works on so many threads.
+ * slots + i * slots_per_path, and left out accounts[i].rejected. Works on so many threads.
  */
 rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, const rt_path_account *accounts,
                                 size_t path_count, size_t slots_per_path, uint32_t threads, rt_error *error);

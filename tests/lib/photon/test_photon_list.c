@@ -52,7 +52,7 @@ static void photons_follow_in_the_order_of_paths(void **state)
     assert_null(whole.photons);
 }
 
-static void photons_that_are_not_finite_are_counted_and_left_out(void **state)
+static void photons_left_out_are_counted(void **state)
 {
     static rt_photon slots[path_count * slots_per_path];
     static rt_path_account counts[path_count];
@@ -60,21 +60,36 @@ static void photons_that_are_not_finite_are_counted_and_left_out(void **state)
     rt_error error;
     (void)state;
     fill(slots, counts);
-    slots[1 * slots_per_path].position[2] = INFINITY;
-    slots[2 * slots_per_path + 1].flux[0] = NAN;
-    slots[5 * slots_per_path].flux[0] = NAN; /* not among the counted */
+    counts[1].rejected = 1;
+    counts[5000].rejected = 2;
     expect_ok(rt_photon_list_append(&map, slots, counts, path_count, slots_per_path, 2, &error), &error);
-    assert_int_equal(map.rejected, 2);
-    assert_int_equal(map.count, 2 * path_count - 2);
-    assert_int_equal(map.photons[0].path, 2);
+    assert_int_equal(map.rejected, 3);
+    assert_int_equal(map.count, 2 * path_count);
     rt_photon_list_clear(&map);
+}
+
+static void numbers_that_are_not_finite_are_seen(void **state)
+{
+    rt_photon photon;
+    (void)state;
+    memset(&photon, 0, sizeof photon);
+    assert_true(rt_photon_is_finite(&photon));
+    float *const members[] = {photon.position + 2, photon.wi, photon.flux + 1, &photon.shading, photon.normal + 2};
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        *members[i] = NAN;
+        assert_false(rt_photon_is_finite(&photon));
+        *members[i] = -INFINITY;
+        assert_false(rt_photon_is_finite(&photon));
+        *members[i] = 1;
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(photons_follow_in_the_order_of_paths),
-        cmocka_unit_test(photons_that_are_not_finite_are_counted_and_left_out),
+        cmocka_unit_test(photons_left_out_are_counted),
+        cmocka_unit_test(numbers_that_are_not_finite_are_seen),
     };
     return cmocka_run_group_tests_name("lib/photon/photon_list", tests, NULL, NULL);
 }
