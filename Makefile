@@ -41,8 +41,11 @@ LIB_SRC := \
 	lib/image/bytes.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
 	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \
-	lib/photon/emit.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_map.c lib/photon/search.c \
-	lib/render/film.c lib/render/film_image.c lib/render/render.c lib/render/renderer.c lib/render/path_mode.c lib/render/photon_mode.c \
+	lib/photon/emit.c lib/photon/device_gather.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_list.c lib/photon/photon_order.c lib/photon/search.c lib/photon/tree.c \
+	lib/photon/photon_map.c lib/photon/fingerprint.c lib/photon/ledger.c lib/photon/sources.c \
+	lib/photon/crc32.c lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
+	lib/render/photon_irradiance.c lib/render/photon_maps.c \
+	lib/render/film.c lib/render/film_image.c lib/render/render.c lib/render/renderer.c lib/render/path_mode.c lib/render/photon_eye.c lib/render/photon_mode.c \
 	lib/render/sobol.c lib/render/trace.c \
 	lib/texture/half.c lib/texture/texture.c
 
@@ -56,10 +59,12 @@ TOOL_SRC := \
 	tools/check.c tools/devices.c tools/doctor.c tools/help.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \
 	tools/message.c tools/nearest.c \
 	tools/number.c tools/option_table.c tools/options.c tools/outputs.c tools/progress.c tools/render.c \
+	tools/ledger.c tools/photons.c tools/photons_emit.c tools/photons_info.c tools/session.c \
 	tools/rtc.c tools/scene_file.c tools/stats.c
 
 KERNEL_SRC := \
-	kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl kernels/photon_gather.cl kernels/trace.cl
+	kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl kernels/photon_film.cl \
+	kernels/photon_gather.cl kernels/photon_walk.cl kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
@@ -81,17 +86,18 @@ TESTS_QUICK := \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_camera.c tests/kernels/test_light.c tests/kernels/test_path.c \
 	tests/kernels/test_rng.c tests/kernels/test_sample.c \
-	tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
+	tests/lib/photon/test_emit.c tests/lib/photon/test_device_gather.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_list.c tests/lib/photon/test_search.c \
+	tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c tests/lib/render/test_photon_maps.c
 TESTS_FULL  := \
-	tests/tools/test_mesh.c tests/tools/test_usage.c tests/tools/test_scenes.c tests/tools/test_rtc.c tests/tools/test_progress.c \
-	tests/tools/test_determinism.c \
+	tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
+	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
 	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
 	tests/lib/photon/points.c tests/kernels/rays.c tests/kernels/statistics.c
-TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
+TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl tests/kernels/knn.cl \
 	tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
 
 # ---- Build ------------------------------------------------------------------

@@ -79,6 +79,10 @@ static const rt_field render_fields[] = {
     {"direct", CHOICE, OPTIONAL, ANY, "", "nee", directs, AT(rt_render_options, direct)},
     {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL,
      AT(rt_render_options, final_gather)},
+    {"caustic_photons", INTEGER, OPTIONAL, FROM_TO(0, 4e9), "", "0", NULL, AT(rt_render_options, caustic_photons)},
+    {"caustic_k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "that of k", NULL, AT(rt_render_options, caustic_k)},
+    {"caustic_radius", NUMBER, OPTIONAL, POSITIVE, "m", "that of radius", NULL, AT(rt_render_options, caustic_radius)},
+    {"caustic_kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, caustic_kernel)},
 };
 
 static const rt_field material_fields[] = {

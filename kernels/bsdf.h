@@ -114,6 +114,14 @@ static inline float3 bsdf_albedo(const struct bsdf *bsdf)
     return bsdf->kd + bsdf->reflected + bsdf->refracted;
 }
 
+/* The part of the light that an event stands for, over the probability of its choice. */
+static inline float3 bsdf_event_weight(const struct bsdf *bsdf, uint event)
+{
+    if (event == EVENT_DIFFUSE)
+        return bsdf->kd / bsdf->diffuse;
+    return event == EVENT_REFLECTED ? bsdf->reflected / bsdf->reflection : bsdf->refracted / bsdf->refraction;
+}
+
 /* Whether the surface reflects diffusely at all: if not, light sampling is pointless. */
 static inline bool bsdf_is_diffuse(const struct bsdf *bsdf)
 {

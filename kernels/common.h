@@ -25,6 +25,22 @@ typedef struct rt_hit {
 } rt_hit;
 
 /*
+ * A photon: flux that a path from a light brought to a surface. To get the flux in watts that a map's
+ * photons stand for, divide by the number of paths that were emitted for it.
+ */
+#define RT_PHOTON_CAUSTIC 1u /* flag: came from the light through specular reflections and refractions only */
+typedef struct rt_photon {
+    float position[3]; /* metres */
+    unsigned int path; /* index of the photon path that left it */
+    float wi[3];       /* unit, away from the surface, towards where it came from */
+    unsigned int flags; /* RT_PHOTON_CAUSTIC | segments of its path so far << 8 */
+    float flux[3];     /* of the path, W, not divided by the number of paths */
+    float shading;     /* cosine of wi to the shading normal / cosine to the geometric one: 1 on flat surfaces */
+    float normal[3];   /* unit geometric normal on the side of wi */
+    unsigned int shape; /* index, as rt_scene_add_* returned it */
+} rt_photon;
+
+/*
  * Density kernels K(d) over a disc of radius r, t = d/r; each integrates to 1 over the disc:
  *   box           1 / (pi r^2)
  *   cone          (1 - t/c) / ((1 - 2/(3c)) pi r^2), c >= 1                   Jensen 1996

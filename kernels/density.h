@@ -30,31 +30,42 @@
 #define GAUSSIAN_A_JENSEN 0.918f
 
 /*
- * K, 1/m^2, at squared distance d2 from the centre of a disc of squared radius r2; zero outside
+ * K, 1/m^2, at squared distances d2 from the centre of a disc of squared radius r2; zero outside
  * it, and for a disc without area. cone_k is the cone's constant c.
  */
-static inline float density_kernel(uint density, float cone_k, float d2, float r2)
+static inline float8 density_kernel8(uint density, float cone_k, float8 d2, float r2)
 {
-    const float t2 = d2 / r2;
+    const float8 t2 = d2 * (1.0f / r2);
     const float box = 1.0f / (M_PI_F * r2);
+    float8 k = (float8)(1.0f);
 
-    if (!(r2 > 0.0f) || d2 > r2)
-        return 0.0f;
+    if (!(r2 > 0.0f))
+        return (float8)(0.0f);
     switch (density) {
     case RT_DENSITY_BOX:
-        return box;
+        break;
     case RT_DENSITY_CONE:
-        return box * (1.0f - sqrt(t2) / cone_k) / (1.0f - 2.0f / (3.0f * cone_k));
+        k = (1.0f - sqrt(t2) / cone_k) / (1.0f - 2.0f / (3.0f * cone_k));
+        break;
     case RT_DENSITY_GAUSSIAN:
     case RT_DENSITY_GAUSSIAN_JENSEN: {
         const float a = density == RT_DENSITY_GAUSSIAN ? GAUSSIAN_A : GAUSSIAN_A_JENSEN;
-        return box * a * (1.0f - (1.0f - exp(-0.5f * GAUSSIAN_B * t2)) / (1.0f - exp(-GAUSSIAN_B)));
+        k = a * (1.0f - (1.0f - exp(-0.5f * GAUSSIAN_B * t2)) / (1.0f - exp(-GAUSSIAN_B)));
+        break;
     }
     case RT_DENSITY_SILVERMAN:
-        return box * 3.0f * (1.0f - t2) * (1.0f - t2);
+        k = 3.0f * (1.0f - t2) * (1.0f - t2);
+        break;
     default:
-        return box * 2.0f * (1.0f - t2);
+        k = 2.0f * (1.0f - t2);
     }
+    return d2 <= r2 ? box * k : (float8)(0.0f);
+}
+
+/* The same at one distance. */
+static inline float density_kernel(uint density, float cone_k, float d2, float r2)
+{
+    return density_kernel8(density, cone_k, (float8)(d2), r2).s0;
 }
 
 #endif

@@ -11,6 +11,9 @@
  * The same function serves photon mapping, whose eye paths end where the photon map is asked: at the
  * diffuse event after `final_gather` others. There the path is not continued, so light sampling
  * stands alone at that vertex and counts fully (or not at all, where the map holds direct light too).
+ * At the diffuse events before it, the caustic photons are asked for, which came there through delta
+ * surfaces only: eye paths would find that light too seldom, and that of a point light never. A path that
+ * goes from such a surface through delta surfaces to a lamp therefore leaves the lamp's light out.
  *
  * References:
  *   Kajiya: "The Rendering Equation", SIGGRAPH 1986.
@@ -32,14 +35,11 @@
  */
 #define RT_ROULETTE_VERTEX 1u
 
-/* Where an eye path asks the photon map; found is false when the path ended before. */
+/* Where an eye path asks photon maps. */
 struct gather {
-    bool found;
-    float3 position;
-    float3 normal; /* geometric, on the side of wo */
-    float3 wo;
-    float3 weight; /* of the reflected radiance, kd excluded */
-    uint material;
+    global rt_gather_point *point; /* where it ends: position, normal, weight and material are filled in */
+    global rt_gather_point *caustics; /* [params->final_gather], the diffuse events before that, */
+    uint stride;                      /* so many points apart */
 };
 
 /*
@@ -86,31 +86,30 @@ static inline float3 direct_light(const struct scene *scene, const struct surfac
     return scattered * sample.radiance * (weight * sample.spread);
 }
 
-static inline struct gather gather_at(const struct surface *surface, const struct bsdf *bsdf, float3 weight,
-                                      uint material)
-{
-    struct gather gather;
-    gather.found = true;
-    gather.position = surface->position;
-    gather.normal = bsdf->normal;
-    gather.wo = bsdf->wo;
-    gather.weight = weight;
-    gather.material = material;
-    return gather;
-}
-
 /* The chance to go on after a vertex, from the throughput that would be left. */
 static inline float survival_chance(uint vertex, float3 throughput)
 {
     return vertex < RT_ROULETTE_VERTEX ? 1.0f : min(1.0f, largest3(throughput));
 }
 
+/* Asks for the photons around a surface, whose diffuse reflection counts with this weight, kd excluded. */
+static inline void ask_photons(global rt_gather_point *point, const struct surface *surface, const struct bsdf *bsdf,
+                               uint material, float3 weight)
+{
+    vstore3(surface->position, 0, point->position);
+    vstore3(bsdf->normal, 0, point->normal);
+    vstore3(bsdf->wo, 0, point->wo);
+    vstore3(weight, 0, point->weight);
+    point->material = material;
+}
+
 /*
  * Follows the path that begins with `ray` (of unit direction) and returns the radiance it brings.
- * to_gather is a constant at each call: false for path tracing, true to end the path at a gather point.
+ * to_gather is a constant at each call: false for path tracing, true to end the path at a gather point, which is
+ * left alone when the path ends before.
  */
 static inline float3 follow_path(const struct scene *scene, const rt_params *params, const struct sampler *sampler,
-                                 struct ray ray, const bool to_gather, struct gather *gather)
+                                 struct ray ray, const bool to_gather, const struct gather *gather)
 {
     float3 radiance = (float3)(0.0f); /* so far */
     float3 beta = (float3)(1.0f);     /* throughput, without the change of radiance at refraction */
@@ -150,30 +149,31 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
             }
         }
 
-        /* Add what the surface emits. */
-        radiance += squeeze * beta * emitted_light(scene, &surface, wo, from, pdf_w);
+        /* Add what the surface emits, unless caustic photons account for it. */
+        const bool last = to_gather && diffuse_events == params->final_gather;
+        if (!(to_gather && diffuse_events > 0u && pdf_w == 0.0f))
+            radiance += squeeze * beta * emitted_light(scene, &surface, wo, from, pdf_w);
         if (depth == params->max_depth)
             break;
 
         /* Add direct light, except where the photon map holds it. */
         const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, beta);
-        const bool last = to_gather && diffuse_events == params->final_gather;
         if (bsdf_is_diffuse(&bsdf) && !(last && params->direct == RT_DIRECT_PHOTONS))
             radiance += squeeze * beta * direct_light(scene, &surface, &bsdf, u.lo, last);
 
-        /* Choose an event, or the end of the path by roulette. */
-        const float survival = survival_chance(vertex, beta * bsdf_albedo(&bsdf));
+        /* Choose an event, or the end of the path by roulette, which spares nothing where the path ends anyway. */
+        const float survival = last ? 1.0f : survival_chance(vertex, beta * bsdf_albedo(&bsdf));
         const uint event = bsdf_choose(&bsdf, survival, u.hi.z);
         if (event == EVENT_ABSORBED)
             break;
         beta *= 1.0f / survival;
 
-        /* In photon mapping, report the last diffuse event. */
+        /* In photon mapping, ask for photons at each diffuse event: all of them at the last, caustic ones before. */
         if (to_gather && event == EVENT_DIFFUSE) {
-            if (last) {
-                *gather = gather_at(&surface, &bsdf, squeeze * beta * (1.0f / bsdf.diffuse), material_index);
+            ask_photons(last ? gather->point : gather->caustics + diffuse_events * gather->stride, &surface, &bsdf,
+                        material_index, squeeze * beta * (1.0f / bsdf.diffuse));
+            if (last)
                 break;
-            }
             diffuse_events++;
         }
 

@@ -213,30 +213,46 @@ static inline struct ray shadow_ray(float3 origin, const struct light_sample *sa
 
 /* ---- Light paths ------------------------------------------------------------- */
 
+/* The light at u of the distribution of photon paths, which need not be that of power. */
+static inline uint choose_emitter(global const rt_light_share *shares, uint count, float u)
+{
+    uint low = 0u, high = count - 1u;
+    while (low < high) {
+        const uint middle = (low + high) >> 1;
+        if (u < shares[middle].cdf)
+            high = middle;
+        else
+            low = middle + 1u;
+    }
+    return low;
+}
+
 /*
- * Starts a light path: light in proportion to power (start.z), point uniform in area (start.xy),
+ * Starts a light path: light by its share of the paths (start.z), point uniform in area (start.xy),
  * direction by the cosine, or over the sphere for a point light (way.xy); way.z chooses the side of
  * a two-sided light. False when there is no light.
  */
-static inline bool light_emit(const struct scene *scene, float4 start, float4 way, struct emission *emission)
+static inline bool light_emit(const struct scene *scene, global const rt_light_share *shares, float4 start, float4 way,
+                              struct emission *emission)
 {
     if (scene->header->light_count == 0u)
         return false;
-    emission->light = choose_light(scene, start.z);
+    emission->light = choose_emitter(shares, scene->header->light_count, start.z);
     global const rt_light_data *light = scene->lights + emission->light;
+    const float pmf = shares[emission->light].pmf;
     if (light->kind == RT_LIGHT_POINT) {
         emission->direction = sample_sphere(way.xy);
         emission->at.position = row3(light->a);
         emission->at.normal = emission->direction;
         emission->at.error = 0.0f;
-        emission->flux = 4.0f * RT_PI / light->pmf * row3(light->emission);
+        emission->flux = 4.0f * RT_PI / pmf * row3(light->emission);
         return true;
     }
     const bool two_sided = light->flags & RT_LIGHT_TWO_SIDED;
     sample_area(&emission->at, light, start.xy);
     const float3 normal = two_sided && way.z < 0.5f ? -emission->at.normal : emission->at.normal;
     emission->direction = frame_to_world(frame_about(normal), sample_cosine(way.xy));
-    emission->flux = (two_sided ? 2.0f : 1.0f) * RT_PI * light->area / light->pmf * row3(light->emission);
+    emission->flux = (two_sided ? 2.0f : 1.0f) * RT_PI * light->area / pmf * row3(light->emission);
     return true;
 }
 

@@ -1,13 +1,33 @@
 /*
  * photon_camera.cl - photon mapping, seen from the eye: each work-item follows one sample of one
- * pixel to the place where the photon map is asked.
+ * pixel to the places where photon maps are asked.
  */
 #include "camera.h"
 #include "film.h"
 #include "integrate.h"
 
-/* points: [item_count], in the order of items; the sample is params.first_sample. */
-kernel void photon_camera(const rt_params params, global const rt_scene_header *header, global rt_gather_point *points)
+/* A point that asks for nothing. */
+static void clear_point(global rt_gather_point *point, uint pixel, uint sample)
+{
+    const float3 zero = (float3)(0.0f);
+    vstore3(zero, 0, point->position);
+    vstore3(zero, 0, point->normal);
+    vstore3(zero, 0, point->weight);
+    vstore3(zero, 0, point->wo);
+    vstore3(zero, 0, point->radiance);
+    point->pixel = pixel;
+    point->material = 0u;
+    point->sample = sample;
+    point->reserved0 = 0u;
+    point->reserved1 = 0u;
+}
+
+/*
+ * points: [item_count], in the order of items; caustics: [params.final_gather][stride], a row for each diffuse
+ * event on the way there. The sample is params.first_sample.
+ */
+kernel void photon_camera(const rt_params params, global const rt_scene_header *header, global rt_gather_point *points,
+                          global rt_gather_point *caustics, uint stride)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
@@ -21,21 +41,12 @@ kernel void photon_camera(const rt_params params, global const rt_scene_header *
     const struct ray ray = camera_ray(&header->camera, (convert_float2(at) + u.xy) / size, u.zw);
 
     struct gather gather;
-    gather.found = false;
-    gather.position = gather.normal = gather.wo = gather.weight = (float3)(0.0f);
-    gather.material = 0u;
+    gather.point = points + item;
+    gather.caustics = caustics + item;
+    gather.stride = stride;
+    clear_point(gather.point, index, params.first_sample);
+    for (uint i = 0u; i < params.final_gather; i++)
+        clear_point(gather.caustics + i * stride, index, params.first_sample);
     const float3 radiance = follow_path(&scene, &params, &sampler, ray, true, &gather);
-
-    rt_gather_point point;
-    vstore3(gather.position, 0, point.position);
-    point.pixel = index;
-    vstore3(gather.normal, 0, point.normal);
-    point.material = gather.material;
-    vstore3(gather.weight, 0, point.weight);
-    point.sample = params.first_sample;
-    vstore3(gather.wo, 0, point.wo);
-    point.reserved0 = 0u;
-    vstore3(radiance, 0, point.radiance);
-    point.reserved1 = 0u;
-    points[item] = point;
+    vstore3(radiance, 0, points[item].radiance);
 }

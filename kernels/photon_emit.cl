@@ -1,12 +1,17 @@
 /*
  * photon_emit.cl - photon tracing: each work-item follows one path from a light.
  *
- * A path starts with the flux of all lights divided by the number of paths, in the colour of the
- * light that was chosen, and leaves a photon at each surface that reflects diffusely. Its photons
- * go to slots of its own, so that the map does not depend on the order in which paths are followed.
+ * A path starts with the flux of all lights, in the colour of the light that was chosen, and leaves
+ * a photon at each surface that reflects diffusely. The division by the number of paths is left to
+ * those who use the photons, so that maps can be joined. Its photons go to slots of its own, so that
+ * the map does not depend on the order in which paths are followed.
  *
  * A path has at most max_depth - 1 segments: with the one segment from the eye to the place
  * where the map is asked, that is the longest path of path tracing.
+ *
+ * Each path keeps account of its flux: what surfaces absorb is taken off as their albedo says,
+ * whatever event is chosen, and the difference that the choice makes is booked as roulette, whose
+ * mean is zero.
  *
  * References:
  *   Jensen: "Global Illumination using Photon Maps", EGWR 1996.
@@ -23,6 +28,7 @@
 struct light_path {
     struct ray ray;
     float3 flux;
+    float3 absorbed, roulette; /* as rt_path_account says */
     uint4 media;
     uint depth;    /* segments, the one under way included */
     uint hidden;   /* boundaries crossed that a stronger medium hides */
@@ -30,35 +36,64 @@ struct light_path {
     bool diffused; /* some event was diffuse */
 };
 
-static bool start_path(struct light_path *path, const struct scene *scene, const struct sampler *sampler, float emitted)
+/* Starts a path and its account; false when there is no light. */
+static bool start_path(struct light_path *path, const struct scene *scene, global const rt_light_share *shares,
+                       const struct sampler *sampler, rt_path_account *account)
 {
     struct emission emission;
-    if (!light_emit(scene, sampler_set(sampler, SET_START), sampler_set(sampler, SET_EMISSION), &emission))
-        return false;
-    path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f, INFINITY);
-    path->flux = emission.flux / emitted;
+    const bool lit =
+        light_emit(scene, shares, sampler_set(sampler, SET_START), sampler_set(sampler, SET_EMISSION), &emission);
+    path->flux = path->absorbed = path->roulette = (float3)(0.0f);
+    account->light = RT_NONE;
+    if (lit) {
+        path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f, INFINITY);
+        path->flux = emission.flux;
+        account->light = emission.light;
+    }
+    vstore3(path->flux, 0, account->emitted);
     path->media = RT_VACUUM;
     path->depth = 1u;
     path->hidden = 0u;
     path->straight = true;
     path->diffused = false;
-    return true;
+    return lit;
+}
+
+static bool is_caustic(const struct light_path *path)
+{
+    return !path->straight && !path->diffused;
+}
+
+/* Whether the map under way takes a photon here; what comes straight from a light may be left to shadow rays. */
+static bool is_stored(const struct light_path *path, const rt_params *params)
+{
+    if (params->store == RT_STORE_CAUSTIC)
+        return is_caustic(path);
+    if (params->store == RT_STORE_GLOBAL && is_caustic(path))
+        return false;
+    return !(path->straight && params->direct == RT_DIRECT_NEE);
 }
 
 static rt_photon make_photon(const struct light_path *path, const struct surface *surface, const struct bsdf *bsdf,
                              uint index)
 {
-    const bool caustic = !path->straight && !path->diffused;
     rt_photon photon;
     vstore3(surface->position, 0, photon.position);
     photon.path = index;
     vstore3(bsdf->wo, 0, photon.wi);
-    photon.flags = (path->depth << 8) | (caustic ? RT_PHOTON_CAUSTIC : 0u);
+    photon.flags = (path->depth << 8) | (is_caustic(path) ? RT_PHOTON_CAUSTIC : 0u);
     vstore3(path->flux, 0, photon.flux);
     photon.shading = max(dot(bsdf->wo, bsdf->shading), 0.0f) / dot(bsdf->wo, bsdf->normal);
     vstore3(bsdf->normal, 0, photon.normal);
     photon.shape = surface->shape;
     return photon;
+}
+
+static bool photon_is_finite(const rt_photon *photon)
+{
+    return all(isfinite(vload3(0, photon->position))) && all(isfinite(vload3(0, photon->wi))) &&
+           all(isfinite(vload3(0, photon->flux))) && all(isfinite(vload3(0, photon->normal))) &&
+           isfinite(photon->shading);
 }
 
 /*
@@ -68,12 +103,20 @@ static rt_photon make_photon(const struct light_path *path, const struct surface
 static bool scatter_path(struct light_path *path, const struct surface *surface, const struct bsdf *bsdf, uint4 beyond,
                          float4 u)
 {
-    const float survival = min(1.0f, largest3(path->flux * bsdf_albedo(bsdf)) / largest3(path->flux));
+    const float3 arrived = path->flux;
+    const float3 kept = arrived * bsdf_albedo(bsdf);
+    const float survival = min(1.0f, largest3(kept) / largest3(arrived));
     const uint event = bsdf_choose(bsdf, survival, u.z);
+    path->absorbed += arrived - kept;
+    path->roulette += kept;
+    path->flux = (float3)(0.0f);
     if (event == EVENT_ABSORBED)
         return false;
     const struct scatter scatter = bsdf_scatter(bsdf, event, u.xy, CARRY_FLUX);
-    path->flux *= scatter.weight / survival;
+    const float3 chosen = arrived * (bsdf_event_weight(bsdf, event) / survival);
+    path->flux = arrived * (scatter.weight / survival);
+    path->roulette -= chosen;
+    path->absorbed += chosen - path->flux; /* at shading normals */
     if (!(largest3(path->flux) > 0.0f))
         return false;
     path->ray = make_ray(leave_surface(surface, scatter.wi), scatter.wi, 0.0f, INFINITY);
@@ -85,26 +128,34 @@ static bool scatter_path(struct light_path *path, const struct surface *surface,
     return true;
 }
 
-/* slots: [item_count][params.slots]; counts: [item_count], the photons that each path left. */
-kernel void photon_emit(const rt_params params, global const rt_scene_header *header, global rt_photon *slots,
-                        global uint *counts)
+/*
+ * shares: [light_count]; slots: [item_count][params.slots], of which each path fills as many as its account
+ * says; accounts: [item_count].
+ */
+kernel void photon_emit(const rt_params params, global const rt_scene_header *header,
+                        global const rt_light_share *shares, global rt_photon *slots, global rt_path_account *accounts)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);
     const uint index = params.first_item + item;
-    const struct sampler sampler = sampler_start(&scene, &params, RT_STREAM_PHOTONS, index);
+    const bool for_caustics = params.store == RT_STORE_CAUSTIC;
+    const struct sampler sampler =
+        sampler_start(&scene, &params, for_caustics ? RT_STREAM_CAUSTIC : RT_STREAM_PHOTONS, index);
     global rt_photon *own = slots + (size_t)item * params.slots;
+    rt_path_account account;
     struct light_path path;
-    uint count = 0u;
+    uint count = 0u, rejected = 0u, end = RT_END_CUT_OFF;
 
-    bool alive = start_path(&path, &scene, &sampler, params.emitted);
+    bool alive = start_path(&path, &scene, shares, &sampler, &account);
     while (alive && path.depth < params.max_depth) {
         /* Find the nearest surface. */
         struct hit hit;
-        if (!closest_hit(&scene, &path.ray, &hit))
+        if (!closest_hit(&scene, &path.ray, &hit)) {
+            end = RT_END_ESCAPED;
             break;
+        }
         const struct surface surface = surface_at(&scene, &path.ray, &hit);
         const uint material_index = scene.shapes[surface.shape].material;
         global const rt_material_data *material = scene.materials + material_index;
@@ -125,14 +176,31 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
             }
         }
 
-        /* Leave a photon, unless shadow rays account for it. */
+        /* Leave a photon where the map wants one. */
         const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, path.flux);
-        if (bsdf_is_diffuse(&bsdf) && !(path.straight && params.direct == RT_DIRECT_NEE))
-            own[count++] = make_photon(&path, &surface, &bsdf, index);
+        if (bsdf_is_diffuse(&bsdf) && is_stored(&path, &params)) {
+            const rt_photon photon = make_photon(&path, &surface, &bsdf, index);
+            if (photon_is_finite(&photon))
+                own[count++] = photon;
+            else
+                rejected++;
+        }
 
         /* Choose an event, or absorption, and go on. */
         const float4 u = sampler_set(&sampler, set_scatter(path.depth - 1u));
         alive = scatter_path(&path, &surface, &bsdf, boundary.beyond, u);
+        if (!alive)
+            end = RT_END_ABSORBED;
+
+        /* Nothing that a caustic map keeps comes after a diffuse reflection. */
+        if (for_caustics && path.diffused)
+            break;
     }
-    counts[item] = count;
+    vstore3(path.absorbed, 0, account.absorbed);
+    account.photons = count;
+    vstore3(path.flux, 0, account.left);
+    account.end = end;
+    vstore3(path.roulette, 0, account.roulette);
+    account.rejected = rejected;
+    accounts[item] = account;
 }

@@ -1,47 +1,33 @@
 /*
- * photon_gather.cl - the density sum: each work-item turns the photons around one gather point
- * into reflected radiance and adds the sample to its pixel.
- *
- *   L(x, wo) = sum over the photons p in the disc of fr(x, wo, w_p) flux_p K(|x - x_p|)
- *
- * with fr = kd/pi; each flux_p carries the division by the number of emitted paths. Photons are as
- * dense as the geometric surface makes them, while reflection goes by the shading normal: photon.shading
- * is the ratio of the two cosines (Veach 1997, section 5.3).
+ * photon_gather.cl - the density sum over the neighbours that the host found: each work-item adds to a
+ * gather point's radiance what the point makes of the photons around it.
  */
 #include "density.h"
-#include "film.h"
-#include "scene.h"
+#include "reflect.h"
 
 /*
- * discs: [item_count]; lists: rows of estimate.stride photon indices, one a point, nearest first, which
- * also is the order of summing. No two points of a launch may be of the same pixel.
+ * points: those from params.first_item on; lists: rows of estimate.stride photon
+ * indices, one a point, nearest first, which also is the order of summing.
  */
 kernel void photon_gather(const rt_params params, global const rt_scene_header *header,
-                          const rt_density_params estimate, global const rt_gather_point *points,
-                          global const rt_gather_disc *discs, global const uint *lists, global const rt_photon *photons,
-                          global rt_film_pixel *film)
+                          const rt_density_params estimate, global rt_gather_point *points,
+                          global const rt_gather_disc *discs, global const uint *lists, global const rt_photon *photons)
 {
     const uint item = (uint)get_global_id(0);
-    if (item >= params.item_count)
+    if (item >= params.item_count || discs[item].count == 0u)
         return;
-    global const rt_gather_point *point = points + item;
     global const uint *list = lists + (size_t)item * estimate.stride;
     const rt_gather_disc disc = discs[item];
-    float3 radiance = row3(point->radiance);
+    const struct scene scene = scene_open(header);
+    points += params.first_item + item;
+    const float3 position = row3(points->position);
+    float3 flux_density = (float3)(0.0f);
 
-    if (disc.count > 0u) {
-        const struct scene scene = scene_open(header);
-        const float3 fr = row3(scene.materials[point->material].kd) / RT_PI;
-        float3 flux_density = (float3)(0.0f);
-        for (uint i = 0; i < disc.count; i++) {
-            global const rt_photon *photon = photons + list[i];
-            const float3 away = row3(photon->position) - row3(point->position);
-            const float k = density_kernel(estimate.density, estimate.cone_k, dot(away, away), disc.squared_radius);
-            flux_density += (k * photon->shading) * row3(photon->flux);
-        }
-        radiance += row3(point->weight) * fr * flux_density;
+    for (uint i = 0; i < disc.count; i++) {
+        global const rt_photon *photon = photons + list[i];
+        const float3 away = row3(photon->position) - position;
+        const float k = density_kernel(estimate.density, estimate.cone_k, dot(away, away), disc.squared_radius);
+        flux_density += (k * photon->shading) * row3(photon->flux);
     }
-    rt_film_pixel pixel = film[point->pixel];
-    film_add(&pixel, radiance);
-    film[point->pixel] = pixel;
+    add_reflected(points, &scene, estimate.scale * flux_density);
 }

@@ -36,6 +36,7 @@
 #include "types.h"
 
 #define RT_STREAM_PHOTONS 0xffffffffu /* the stream of all photon paths; a path is its sample */
+#define RT_STREAM_CAUSTIC 0xfffffffeu /* that of the paths which fill a caustic map */
 
 enum { SET_START = 0, SET_EMISSION = 1 };
 

@@ -241,7 +241,7 @@ typedef struct rt_params {
     rt_u32 final_gather; /* photon mode: diffuse bounces before the map is asked */
     rt_u32 slots;        /* photon emission: photons a path can store */
     rt_u32 direct;       /* photon mode: rt_direct */
-    float emitted;       /* photon paths emitted in all */
+    rt_u32 store;        /* photon emission: RT_STORE_* */
     rt_u32 reserved[3];
 } rt_params;
 RT_SIZE(rt_params, 64);
@@ -257,19 +257,41 @@ RT_SIZE(rt_film_pixel, 32);
 
 /* ---- Photons ------------------------------------------------------------ */
 
-#define RT_PHOTON_CAUSTIC 1u /* flag: came from the light through delta surfaces only */
-
-typedef struct rt_photon {
-    float position[3];
-    rt_u32 path; /* index of the photon path that left it */
-    float wi[3]; /* unit, away from the surface, towards where it came from */
-    rt_u32 flags; /* RT_PHOTON_* | bounce << 8 */
-    float flux[3]; /* W; carries the division by the number of emitted paths */
-    float shading; /* cosine of wi to the shading normal / cosine to the geometric one: 1 on flat surfaces */
-    float normal[3]; /* unit geometric normal on the side of wi */
-    rt_u32 shape;
-} rt_photon;
 RT_SIZE(rt_photon, 64);
+
+/* Which photons a path stores. */
+#define RT_STORE_ALL 0u     /* all: one map holds them */
+#define RT_STORE_GLOBAL 1u  /* all but those flagged RT_PHOTON_CAUSTIC, which another map holds */
+#define RT_STORE_CAUSTIC 2u /* only those; a path ends where it is first reflected diffusely */
+
+/* How a photon path ended. */
+#define RT_END_ABSORBED 0u /* by roulette or by a surface: no flux is left */
+#define RT_END_ESCAPED 1u  /* it met no surface any more */
+#define RT_END_CUT_OFF 2u  /* it had its longest length */
+
+/*
+ * Where the flux of one photon path went: emitted = absorbed + left + roulette, but for rounding. W of
+ * the path, not divided by the number of paths.
+ */
+typedef struct rt_path_account {
+    float emitted[3];
+    rt_u32 light;      /* that it came from; RT_NONE when there is none */
+    float absorbed[3]; /* by surfaces, as their albedo says */
+    rt_u32 photons;    /* how many it stored */
+    float left[3];     /* flux at its end */
+    rt_u32 end;        /* RT_END_* */
+    float roulette[3]; /* what the choices of events took, less what they gave to the paths that went on */
+    rt_u32 rejected;   /* photons that it did not store because they were not finite */
+} rt_path_account;
+RT_SIZE(rt_path_account, 64);
+
+/* The part of all photon paths that a light gets, as a distribution to choose from. */
+typedef struct rt_light_share {
+    float pmf;
+    float cdf; /* sum of pmf up to and including this light */
+    rt_u32 reserved[2];
+} rt_light_share;
+RT_SIZE(rt_light_share, 16);
 
 /* Where a camera path asks the photon map. */
 typedef struct rt_gather_point {
@@ -290,17 +312,56 @@ RT_SIZE(rt_gather_point, 80);
 typedef struct rt_gather_disc {
     rt_u32 count;
     float squared_radius; /* of the disc that they lie in, m^2; 0 when there are none */
-    rt_u32 reserved[2];
+    rt_u32 asked;         /* 1 when photons were asked for */
+    rt_u32 reserved;
 } rt_gather_disc;
 RT_SIZE(rt_gather_disc, 16);
 
-/* Parameters of the density sum. */
+/* Parameters of the density estimate. */
 typedef struct rt_density_params {
-    rt_u32 density; /* rt_density */
-    float cone_k;   /* constant of the cone kernel */
-    rt_u32 stride;  /* entries of a row of the neighbour lists */
-    rt_u32 reserved;
+    rt_u32 density;      /* rt_density */
+    float cone_k;        /* constant of the cone kernel */
+    rt_u32 stride;       /* entries of a row of the neighbour lists, or of a work-item's share of scratch memory */
+    rt_u32 k;            /* device gather: the k-th photon gives the radius; 0: all within the limit count */
+    float squared_limit; /* device gather: of the radius, m^2; infinite for no limit */
+    rt_u32 look;         /* device gather: photons looked at, accepted or not, at most */
+    rt_u32 points_an_item; /* device gather: gather points that a work-item takes, one after the other */
+    float scale;         /* of the photons' flux: 1 / emitted paths */
 } rt_density_params;
-RT_SIZE(rt_density_params, 16);
+RT_SIZE(rt_density_params, 32);
+
+/*
+ * The tree of photons that the device gathers from. Photons in the order of a space-filling curve are cut into
+ * blocks of eight, eight blocks make a node, eight nodes one of the next level, up to one root. All but the last
+ * of each level are full, so that no index need be stored: child i of node n is 8 n + i of the level below, and
+ * of level 0 it is a block.
+ */
+#define RT_PHOTON_LEVELS 10
+#define RT_PHOTON_STACK 80 /* entries a walk may push: 7 a level, and the root */
+
+/* The boxes of eight children, as structure of arrays; an unused lane holds lo = +inf, hi = -inf. */
+typedef struct rt_photon_node {
+    float bounds[6][8]; /* lo x, lo y, lo z, hi x, hi y, hi z */
+} rt_photon_node;
+RT_SIZE(rt_photon_node, 192);
+
+/* Eight photons, as structure of arrays; an unused lane lies at infinity and has no flux. */
+typedef struct rt_photon_block {
+    float position[3][8];
+    float normal[3][8];
+    float flux[3][8]; /* rt_photon's flux times its factor `shading`, W */
+    rt_u32 photon[8]; /* index in the map */
+} rt_photon_block;
+RT_SIZE(rt_photon_block, 320);
+
+typedef struct rt_photon_tree {
+    rt_u32 levels; /* 0 for an empty map */
+    rt_u32 photon_count;
+    rt_u32 block_count;
+    rt_u32 reserved0;
+    rt_u32 first_node[RT_PHOTON_LEVELS]; /* of each level in the table of nodes; the root is that of level levels - 1 */
+    rt_u32 reserved1[2];
+} rt_photon_tree;
+RT_SIZE(rt_photon_tree, 64);
 
 #endif

@@ -39,6 +39,7 @@ rt_status rt_stage_begin(rt_stage_progress *progress, const rt_hooks *hooks, rt_
     progress->stage = stage;
     progress->began = rt_clock();
     progress->cancelled = 0;
+    rt_stage_part(progress, 0, 1);
     return report(progress, 0, progress->began);
 }
 
@@ -47,7 +48,13 @@ rt_status rt_stage_update(rt_stage_progress *progress, double fraction)
     double now = rt_clock();
     if (now - progress->last < 0.1)
         return progress->cancelled ? RT_CANCELLED : RT_OK;
-    return report(progress, fraction, now);
+    return report(progress, progress->from + fraction * (progress->to - progress->from), now);
+}
+
+void rt_stage_part(rt_stage_progress *progress, double from, double to)
+{
+    progress->from = from;
+    progress->to = to;
 }
 
 rt_status rt_stage_end(rt_stage_progress *progress, double *seconds)
@@ -98,7 +105,7 @@ rt_status rt_stage_run(rt_stage_progress *progress, rt_status (*work)(void *data
         }
         if (pthread_cond_timedwait(&j.ended, &j.lock, &until) == ETIMEDOUT && !j.done) {
             pthread_mutex_unlock(&j.lock);
-            report(progress, 0, rt_clock());
+            report(progress, progress->from, rt_clock());
             pthread_mutex_lock(&j.lock);
         }
     }
@@ -119,4 +126,16 @@ void rt_log(const rt_hooks *hooks, const char *format, ...)
     vsnprintf(line, sizeof line, format, args);
     va_end(args);
     hooks->log(hooks->user, line);
+}
+
+void rt_warn(const rt_hooks *hooks, const char *format, ...)
+{
+    char line[512];
+    va_list args;
+    if (!hooks || !hooks->warning)
+        return;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    hooks->warning(hooks->user, line);
 }

@@ -9,6 +9,7 @@ typedef struct rt_stage_progress {
     const rt_hooks *hooks; /* may be NULL */
     rt_stage stage;
     double began, last; /* seconds, rt_clock() */
+    double from, to;    /* the part of the stage that fractions are of, 0 to 1 */
     int cancelled;
 } rt_stage_progress;
 
@@ -18,6 +19,7 @@ double rt_clock(void);
 /* Each reports to the progress callback and returns RT_OK, or RT_CANCELLED once the callback asked for it. */
 rt_status rt_stage_begin(rt_stage_progress *progress, const rt_hooks *hooks, rt_stage stage);
 rt_status rt_stage_update(rt_stage_progress *progress, double fraction); /* at most ten reports a second */
+void rt_stage_part(rt_stage_progress *progress, double from, double to); /* what the next updates are fractions of */
 rt_status rt_stage_end(rt_stage_progress *progress, double *seconds);    /* seconds: the stage's length, or NULL */
 
 /*
@@ -27,8 +29,13 @@ rt_status rt_stage_end(rt_stage_progress *progress, double *seconds);    /* seco
  */
 rt_status rt_stage_run(rt_stage_progress *progress, rt_status (*work)(void *data), void *data);
 
-/* One line to the log callback, if there is one. */
+/* One line to the log callback, if there is one; or to that for warnings. */
 void rt_log(const rt_hooks *hooks, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+void rt_warn(const rt_hooks *hooks, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))
 #endif

@@ -7,12 +7,14 @@
  * (rt_device) is one OpenCL device. A renderer (rt_renderer) is a scene made ready on a
  * device: the bounding volume hierarchy is built on the host and everything the kernels
  * need is uploaded. rt_render makes a film (rt_film) from it, by path tracing or photon
- * mapping; rt_trace follows single rays. A film is read in memory or written as an image.
+ * mapping; rt_photon_map_emit makes the photons alone, to be looked at, saved, merged and
+ * rendered with; rt_trace follows single rays. A film is read in memory or written as an image.
  *
  *     text or calls -> rt_scene -+
  *                                +-> rt_renderer -> rt_film -> memory, .exr, .png, ...
  *                   rt_device ---+        |
  *                                         +-> rt_hit
+ *                                         +-> rt_photon_map -> memory, .rtp, .ply
  *
  * A COMPLETE EXAMPLE
  *
@@ -121,7 +123,7 @@ typedef enum rt_stage {
     RT_STAGE_COMPILE, /* building OpenCL kernels; quick once the driver has them cached */
     RT_STAGE_EMIT,    /* photon emission */
     RT_STAGE_GATHER,  /* photon mode: building the search tree, then camera paths and gathering */
-    RT_STAGE_RENDER   /* path mode: camera paths */
+    RT_STAGE_RENDER   /* path mode: camera paths; photon mode in passes: all of them */
 } rt_stage;
 
 typedef struct rt_progress {
@@ -140,6 +142,7 @@ typedef struct rt_hooks {
     int (*progress)(void *user, const rt_progress *progress);
     void (*log)(void *user, const char *line); /* one line, without newline, for --verbose */
     void *user;
+    void (*warning)(void *user, const char *line); /* the same of what a person should know in any case */
 } rt_hooks;
 
 /* The name of a stage in lower case, such as "build"; static storage. */
@@ -265,22 +268,49 @@ typedef enum rt_mode {
     RT_MODE_PHOTON    /* photon mapping */
 } rt_mode;
 
+/* How photons are found. */
+typedef enum rt_gather {
+    RT_GATHER_AUTO = 0, /* FLANN for the k nearest, the device for all within a radius */
+    RT_GATHER_FLANN,    /* on the host, by FLANN's kd-tree: the k nearest only */
+    RT_GATHER_DEVICE    /* on the device, in a tree of its own */
+} rt_gather;
+
+#define RT_K_ALL 0xffffffffu /* for k: all photons within `radius` */
+
+/* A map of photons; see below. */
+typedef struct rt_photon_map rt_photon_map;
+
 /* Everything a render can be told. A scene carries such options as its defaults. */
 typedef struct rt_render_options {
     uint32_t width, height; /* pixels; 0 means 512 */
     rt_mode mode;
-    uint32_t spp;           /* samples a pixel; 0 means 64 in path mode, 16 in photon mode */
+    uint32_t spp;           /* samples a pixel; 0 means 64 in path mode, 16 in photon mode, 1 in each of its passes */
     uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
     uint32_t seed;          /* the same seed gives the same bits */
     rt_sampler sampler;
     double time;            /* stop after so many seconds of rendering; 0: no limit */
-    uint64_t photons;       /* photon paths emitted; 0 means 1 000 000 */
-    uint32_t k;             /* nearest photons; 0 means 50. The k-th gives the radius and is not summed */
+    uint64_t photons;       /* photon paths emitted; 0 means 1 000 000. In passes, those of each pass; 0 means
+                               one a pixel */
+    uint32_t k;             /* nearest photons; 0 means 50. The k-th gives the radius and is not summed. RT_K_ALL: all
+                               photons within `radius`, which must be given */
     float radius;           /* largest gather radius, metres; 0: no limit */
+    rt_gather gather;
+    uint32_t passes;        /* progressive photon mapping in so many passes, each with fresh photons and eye paths (spp
+                               samples, 0 means 1), that gather all photons within a radius shrinking from pass to
+                               pass: r_{i+1}^2 = r_i^2 (i + alpha)/(i + 1) (Knaus and Zwicker 2011). The film is the mean
+                               of the passes. r_1 is `radius`, or if that is 0 the mean distance of the k-th photon
+                               in the first pass. 0 and 1: no passes */
+    float alpha;            /* how fast the radius shrinks, between 0 and 1; 0 means 2/3 */
     rt_density kernel;      /* density kernel, see common.h */
     float cone_k;           /* constant of the cone kernel; 0 means 1.1 */
     rt_direct direct;
     uint32_t final_gather;  /* gather after so many diffuse bounces instead of at the first hit */
+    uint64_t caustic_photons; /* keep caustic photons in a map of their own, filled by so many further paths;
+                                 0: one map for all */
+    uint32_t caustic_k;     /* nearest photons in the caustic map; 0 means k */
+    float caustic_radius;   /* largest gather radius in the caustic map, metres; 0 means radius */
+    rt_density caustic_kernel; /* density kernel of the caustic map */
+    const rt_photon_map *photon_map; /* use these photons and emit none; NULL: emit. Not kept in a scene */
     const rt_hooks *hooks;  /* NULL: none; not kept in a scene */
 } rt_render_options;
 
@@ -351,6 +381,118 @@ typedef enum rt_trace_kind {
 RT_API rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays, size_t count, rt_hit *hits,
                           rt_error *error);
 
+/* ---- Photon maps ---------------------------------------------------------- */
+
+/*
+ * An rt_photon_map is the photons of a scene: rt_photon records in the order of the paths that left them,
+ * in one list, or in two when caustic photons are kept apart. Path i of a seed is always the same path, so a
+ * map is the same to the bit whatever the number of threads and the work-group size, and parts of it can be
+ * made apart and merged. Photons that come straight from a light are stored only with RT_DIRECT_PHOTONS.
+ */
+typedef enum rt_photon_kind {
+    RT_PHOTONS_GLOBAL = 0, /* all photons, or all but the caustic ones when these are kept apart */
+    RT_PHOTONS_CAUSTIC     /* photons of RT_PHOTON_CAUSTIC, when they are kept apart */
+} rt_photon_kind;
+
+typedef struct rt_emit_options {
+    const rt_render_options *render; /* of which photons, caustic_photons, max_depth, seed, sampler, direct and
+                                        hooks count; NULL: the scene's own */
+    uint32_t part, parts; /* make part `part`, counted from 0, of a map in `parts` parts; parts 0 means 1 */
+    const float *light_shares; /* [light_share_count]: what part of the paths each light gets, in proportion and in
+                                  the order of rt_photon_map_ledger; flux is weighted so that the mean stays the
+                                  same. NULL: in proportion to power */
+    size_t light_share_count;
+} rt_emit_options;
+
+/*
+ * Emits photons from the lights of a scene on the device and collects them; options NULL: the scene's own.
+ * Warns of lights that no path came from and of a list that is empty. Fails with RT_ERROR_USAGE when an option
+ * is out of its range, RT_CANCELLED when a progress callback asks for it. The caller owns *out.
+ */
+RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const rt_emit_options *options,
+                                    rt_error *error);
+RT_API void rt_photon_map_destroy(rt_photon_map *map);
+
+typedef struct rt_photon_map_info {
+    uint64_t paths[2];   /* photon paths emitted, by rt_photon_kind */
+    uint64_t photons[2]; /* photons stored */
+    uint64_t rejected;   /* photons left out because they were not finite */
+    uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
+    int split;           /* caustic photons are kept apart */
+    rt_direct direct;
+    rt_sampler sampler;
+    uint32_t max_depth;
+    size_t lights;      /* in the ledger */
+} rt_photon_map_info;
+RT_API void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out);
+
+/* Paths first .. first + count - 1 of a seed, which left so many photons. */
+typedef struct rt_path_range {
+    uint64_t first, count, photons;
+    uint32_t seed;
+} rt_path_range;
+
+/*
+ * The ranges of paths that a list is made of, ascending by seed and first, and as many as there are gaps; its
+ * photons follow in this order. Owned by the map.
+ */
+RT_API const rt_path_range *rt_photon_map_ranges(const rt_photon_map *map, rt_photon_kind kind, size_t *count);
+
+/* The photons of a kind and their number; owned by the map. */
+RT_API size_t rt_photon_map_count(const rt_photon_map *map, rt_photon_kind kind);
+RT_API const rt_photon *rt_photon_map_photons(const rt_photon_map *map, rt_photon_kind kind);
+
+/*
+ * The energy ledger of a light: emitted = absorbed + escaped + cut_off + roulette, in W, but for rounding. A
+ * light is a light of the scene, or a whole shape that emits. All of it is a mean over the photon paths, so that
+ * `emitted` differs from the light's power by the luck of how many paths it got.
+ */
+typedef struct rt_light_ledger {
+    uint32_t shape; /* the shape that emits, or RT_NONE */
+    uint64_t paths; /* photon paths that came from it */
+    double share;   /* of all paths, as was asked for */
+    double power[3];
+    double emitted[3];
+    double absorbed[3]; /* by surfaces */
+    double escaped[3];  /* out of the scene */
+    double cut_off[3];  /* still under way when paths had their longest length */
+    double roulette[3]; /* what Russian roulette took, less what it gave to the paths that went on: mean zero */
+} rt_light_ledger;
+
+/* Writes the first `capacity` rows of the ledger of the paths that filled the global list; returns how many there are. */
+RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *out, size_t capacity);
+
+/*
+ * Irradiance, W/m^2, at count points on surfaces: positions [count][3] in metres, normals [count][3] of unit
+ * length, on the side from which light is to count; rgb [count][3], undefined on failure. Of the options, k, radius,
+ * kernel, cone_k, gather and their like for the caustic map count; NULL: their defaults. Light that is left to
+ * shadow rays is not in the map.
+ */
+RT_API rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_device *device,
+                                          const float *positions, const float *normals, size_t count,
+                                          const rt_render_options *options, rt_error *error);
+
+/*
+ * Joins maps of the same scene and options made of different seeds or parts; the result does not depend on their
+ * order, and is the map that would have been made at once, to the bit. Fails with RT_ERROR_INPUT when they do not fit
+ * together or hold the same paths. The caller owns *out.
+ */
+RT_API rt_status rt_photon_map_merge(rt_photon_map **out, const rt_photon_map *const *maps, size_t count,
+                                     rt_error *error);
+
+/*
+ * Writes a map to a file and reads it, to the bit. The file appears whole or not at all. Saving fails with
+ * RT_ERROR_OUTPUT; loading with RT_ERROR_INPUT when the file cannot be read or is damaged, with the reason.
+ */
+RT_API rt_status rt_photon_map_save(const rt_photon_map *map, const char *path, rt_error *error);
+RT_API rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *error);
+
+/*
+ * Writes the photons as the points of a binary PLY file: position, normal, flux in W, direction of travel, segments
+ * of the path, whether caustic, and an 8-bit colour (the flux by the brightest, sRGB) for viewers.
+ */
+RT_API rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error);
+
 /* ---- Film --------------------------------------------------------------- */
 
 typedef struct rt_film rt_film;
@@ -373,10 +515,14 @@ typedef struct rt_film_stats {
     uint64_t photons_emitted;  /* photon paths */
     uint64_t photons_stored;
     uint64_t gathers;          /* queries of the photon map */
+    uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
     double light_power;        /* emitted power of all lights, W, mean of the three channels */
     double build_seconds, compile_seconds, emit_seconds, gather_seconds, render_seconds;
 } rt_film_stats;
 RT_API void rt_film_get_stats(const rt_film *film, rt_film_stats *out);
+
+/* The energy ledger of all photon paths of a render, as rt_photon_map_ledger; no rows in path mode. */
+RT_API size_t rt_film_get_ledger(const rt_film *film, rt_light_ledger *out, size_t capacity);
 
 typedef enum rt_tonemap { RT_TONEMAP_NONE = 0, RT_TONEMAP_REINHARD, RT_TONEMAP_ACES } rt_tonemap;
 

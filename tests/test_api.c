@@ -325,7 +325,7 @@ static void progress_shows_each_stage_from_start_to_end(void **state)
     rt_film *film;
     rt_error error;
     watch watch = {0};
-    rt_hooks hooks = {watch_progress, NULL, &watch};
+    rt_hooks hooks = {.progress = watch_progress, .user = &watch};
     rt_render_options options = {
         .width = 16, .height = 12, .spp = 4, .mode = RT_MODE_PHOTON, .photons = 1000, .hooks = &hooks};
     expect_ok(rt_render(&film, fixture->renderer, &options, &error), &error);
@@ -344,7 +344,7 @@ static void cancelled_render_keeps_its_samples(void **state)
     rt_error error;
     rt_film_stats stats;
     watch watch = {.cancel_in = RT_STAGE_RENDER};
-    rt_hooks hooks = {watch_progress, NULL, &watch};
+    rt_hooks hooks = {.progress = watch_progress, .user = &watch};
     rt_render_options options = {.width = 16, .height = 12, .spp = 10000000, .hooks = &hooks};
     assert_int_equal(rt_render(&film, fixture->renderer, &options, &error), RT_CANCELLED);
     assert_int_equal(error.status, RT_CANCELLED);
@@ -374,7 +374,7 @@ static void cancelled_before_the_first_sample_gives_no_film(void **state)
     rt_film *film = (rt_film *)&film;
     rt_renderer *renderer = NULL;
     rt_error error;
-    rt_hooks hooks = {refuse, NULL, NULL};
+    rt_hooks hooks = {.progress = refuse};
     rt_render_options options = {.width = 16, .height = 12, .hooks = &hooks};
     rt_renderer_options renderer_options = {RT_ACCEL_BVH, &hooks};
     assert_int_equal(rt_render(&film, fixture->renderer, &options, &error), RT_CANCELLED);

@@ -12,6 +12,7 @@ static const char *const usages[COMMAND_COUNT] = {
                        "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
                        "       rtc devices                 list the OpenCL devices\n"
                        "       rtc doctor [OPTION]...      check that everything works here\n"
+                       "       rtc photons ...             make, join, look at and export photon maps\n"
                        "       rtc COMMAND --help          the options of one command\n"
                        "       rtc --version               the version\n"
                        "\n"
@@ -38,6 +39,16 @@ static const char *const usages[COMMAND_COUNT] = {
                        "\n"
                        "Checks step by step that OpenCL, the kernels, both render modes and the image\n"
                        "writers work on this machine, and says what to do about what does not.\n",
+    [COMMAND_PHOTONS] = "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
+                        "       rtc photons info MAP...                          what maps hold\n"
+                        "       rtc photons merge MAP... --out MAP               join maps into one\n"
+                        "       rtc photons diff MAP MAP                         say how two maps differ\n"
+                        "       rtc photons export MAP --out FILE.ply            points for MeshLab or Blender\n"
+                        "\n"
+                        "`rtc SCENE.rts --photon-map MAP.rtp` renders with a map. Parts made by --part, or\n"
+                        "maps of different seeds, merge in any order into the map that would have been\n"
+                        "made at once, to the bit. `diff` exits with 0 for equal maps and 1 for others.\n"
+                        "A scene called like one of these words is written ./info.\n",
 };
 
 static const char footer[] = "\n"
@@ -71,17 +82,27 @@ static void print_wrapped(const char *text, size_t column)
     fputc('\n', stdout);
 }
 
+/* What an option does in a command, where it is not what the table says. */
+static const char *help_of(const option *option, command_id command)
+{
+    if (command == COMMAND_PHOTONS && option == &option_table[OPTION_OUT])
+        return "where the map, or the file of points, goes";
+    if (command == COMMAND_PHOTONS && option == &option_table[OPTION_STATS])
+        return "print what the map holds on stdout, as `rtc photons info` does";
+    return option->help;
+}
+
 /* The option's name and beside it "help (choice, choice; default ...)". */
-static void print_option(const option *option)
+static void print_option(const option *option, command_id command)
 {
     char text[512], choices[128] = "";
-    const char *fallback = option->fallback;
+    const char *help = help_of(option, command), *fallback = help == option->help ? option->fallback : NULL;
     if (option->choices)
         option_join_choices(choices, sizeof choices, option->choices);
     if (fallback)
-        snprintf(text, sizeof text, "%s (%s%sdefault %s)", option->help, choices, choices[0] ? "; " : "", fallback);
+        snprintf(text, sizeof text, "%s (%s%sdefault %s)", help, choices, choices[0] ? "; " : "", fallback);
     else
-        snprintf(text, sizeof text, "%s", option->help);
+        snprintf(text, sizeof text, "%s", help);
     int column = printf("  --%s%s%s", option->name, option->value ? " " : "", option->value ? option->value : "");
     print_wrapped(text, (size_t)column);
 }
@@ -97,7 +118,7 @@ void help_print(command_id command)
                 continue;
             if (!titled++)
                 printf("\n%s:\n", option_group_titles[group]);
-            print_option(option);
+            print_option(option, command);
         }
     }
     if (command == COMMAND_RENDER)

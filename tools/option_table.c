@@ -8,6 +8,7 @@
 #define RENDER (1u << COMMAND_RENDER)
 #define MESH (1u << COMMAND_MESH)
 #define DOCTOR (1u << COMMAND_DOCTOR)
+#define PHOTONS (1u << COMMAND_PHOTONS)
 #define ALL ((1u << COMMAND_COUNT) - 1u)
 
 static const option_choice modes[] = {{"path", RT_MODE_PATH}, {"photon", RT_MODE_PHOTON}, {NULL, 0}};
@@ -15,6 +16,9 @@ static const option_choice samplers[] = {
     {"sobol", RT_SAMPLER_SOBOL}, {"independent", RT_SAMPLER_INDEPENDENT}, {NULL, 0}};
 static const option_choice accels[] = {{"bvh", RT_ACCEL_BVH}, {"none", RT_ACCEL_NONE}, {NULL, 0}};
 static const option_choice directs[] = {{"nee", RT_DIRECT_NEE}, {"photons", RT_DIRECT_PHOTONS}, {NULL, 0}};
+static const option_choice gathers[] = {
+    {"auto", RT_GATHER_AUTO}, {"flann", RT_GATHER_FLANN}, {"device", RT_GATHER_DEVICE}, {NULL, 0}};
+static const option_choice all_photons[] = {{"all", (int)RT_K_ALL}, {NULL, 0}};
 static const option_choice kernels[] = {
     {"box", RT_DENSITY_BOX},
     {"cone", RT_DENSITY_CONE},
@@ -42,38 +46,62 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_MODE] = {"mode", "MODE", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, modes, 1, "path",
                      "path tracing or photon mapping"},
     [OPTION_SPP] = {"spp", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1,
-                    "64 in path mode, 16 in photon mode", "samples a pixel"},
-    [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1, "16",
+                    "64 in path mode, 16 in photon mode, 1 in each of its passes", "samples a pixel"},
+    [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 1, UINT32_MAX, NULL, 1, "16",
                           "longest path in segments, from the eye or from a light"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
                      "stop after so many seconds; without --spp, go on until then"},
-    [OPTION_SEED] = {"seed", "S", KIND_WHOLE, GROUP_RENDER, RENDER, 0, UINT32_MAX, NULL, 1, "0",
+    [OPTION_SEED] = {"seed", "S", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 0, UINT32_MAX, NULL, 1, "0",
                      "the same seed gives the same image, bit for bit"},
-    [OPTION_SAMPLER] = {"sampler", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, samplers, 1, "sobol",
+    [OPTION_SAMPLER] = {"sampler", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, samplers, 1, "sobol",
                         "Owen-scrambled Sobol or independent samples"},
-    [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, accels, 1, "bvh",
+    [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, accels, 1, "bvh",
                       "a bounding volume hierarchy, or none: every primitive is tested"},
     [OPTION_WIDTH] = {"width", "W", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1, "512", "width in pixels"},
     [OPTION_HEIGHT] = {"height", "H", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1, "512",
                        "height in pixels"},
 
-    [OPTION_PHOTONS] = {"photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, NULL, 1, "1e6",
-                        "photon paths emitted"},
-    [OPTION_K] = {"k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, NULL, 1, "50",
-                  "nearest photons; the k-th gives the radius and is not summed"},
+    [OPTION_PHOTONS] = {"photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER | PHOTONS, 1, UINT32_MAX, NULL, 1, "1e6",
+                        "photon paths emitted; with --passes in each pass, as many as pixels if not given"},
+    [OPTION_K] = {"k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, all_photons, 1, "50",
+                  "nearest photons; the k-th gives the radius and is not summed; all: those within --radius"},
     [OPTION_RADIUS] = {"radius", "R", KIND_REAL, GROUP_PHOTON, RENDER, 0, FLT_MAX, NULL, 1, "0, no limit",
-                       "largest gather radius in metres"},
+                       "largest gather radius in metres; with --passes, that of the first pass"},
+    [OPTION_GATHER] = {"gather", "WHERE", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, gathers, 1, "auto",
+                       "find the nearest photons on the host by FLANN, or on the device; auto is flann for the K "
+                       "nearest, and device for all within a radius"},
+    [OPTION_PASSES] = {"passes", "P", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, NULL, 1, "1",
+                       "progressive photon mapping: P passes of fresh photons and eye paths, gathered within a radius "
+                       "that shrinks from pass to pass; without --radius it begins with the mean distance of the K-th "
+                       "photon"},
+    [OPTION_ALPHA] = {"alpha", "A", KIND_REAL, GROUP_PHOTON, RENDER, 0, 1, NULL, 1, "2/3",
+                      "how slowly the radius of --passes shrinks, between 0 and 1"},
     [OPTION_KERNEL] = {"kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1, "epanechnikov",
                        "density kernel; gaussian-jensen, for comparison only, keeps the often printed constant "
                        "that loses 47 % of the light"},
     [OPTION_CONE_K] = {"cone-k", "C", KIND_REAL, GROUP_PHOTON, RENDER, 1, FLT_MAX, NULL, 1, "1.1",
                        "constant of the cone kernel, at least 1"},
-    [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, directs, 1, "nee",
+    [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, directs, 1, "nee",
                        "direct light by shadow rays (nee) or from the photon map"},
     [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, UINT32_MAX, NULL, 1, "0",
                              "gather after N diffuse bounces instead of at the first hit"},
+    [OPTION_CAUSTIC_PHOTONS] = {"caustic-photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER | PHOTONS, 0, UINT32_MAX, NULL, 1,
+                                "0", "keep caustic photons in a map of their own, filled by N further paths"},
+    [OPTION_CAUSTIC_K] = {"caustic-k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, NULL, 1, "that of --k",
+                          "nearest photons in the caustic map"},
+    [OPTION_CAUSTIC_RADIUS] = {"caustic-radius", "R", KIND_REAL, GROUP_PHOTON, RENDER, 0, FLT_MAX, NULL, 1,
+                               "that of --radius", "largest gather radius in the caustic map in metres"},
+    [OPTION_CAUSTIC_KERNEL] = {"caustic-kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1,
+                               "epanechnikov", "density kernel of the caustic map"},
+    [OPTION_PHOTON_MAP] = {"photon-map", "FILE", KIND_TEXT, GROUP_PHOTON, RENDER, 0, 0, NULL, 1, NULL,
+                           "render with the photons of a map that `rtc photons` made of this scene, and emit none"},
+    [OPTION_PART] = {"part", "I/N", KIND_TEXT, GROUP_PHOTON, PHOTONS, 0, 0, NULL, 0, "1/1",
+                     "emit the I-th of N parts of the map, to be merged later"},
+    [OPTION_LIGHT_SHARES] = {"light-shares", "A,B,...", KIND_TEXT, GROUP_PHOTON, PHOTONS, 0, 0, NULL, 0,
+                             "in proportion to power",
+                             "what part of the paths each light gets, in proportion, in the order of `rtc photons info`"},
 
-    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0,
+    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS, 0, 0, NULL, 0,
                     "NAME.png and NAME.exr in the current directory for NAME.rts",
                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB); may be repeated"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER, -126, 126, NULL, 1, "0",
@@ -87,20 +115,20 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_MESH_OUT] = {"out", "FILE", KIND_TEXT, GROUP_MESH, MESH, 0, 0, NULL, 0, "KIND.ply in the current directory",
                          "where the mesh goes, a binary PLY file"},
 
-    [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | DOCTOR, 0, 0, NULL, 0, "0",
+    [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 0, 0, NULL, 0, "0",
                        "a number of `rtc devices`, or part of a device's or platform's name"},
-    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | DOCTOR, 1, UINT32_MAX, NULL, 0, "all",
+    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1, UINT32_MAX, NULL, 0, "all",
                         "host threads, and compute units used of a CPU device"},
-    [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | DOCTOR, 1, UINT32_MAX, NULL, 0,
+    [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1, UINT32_MAX, NULL, 0,
                            "chosen for the device", "work-items a work-group"},
 
-    [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER, 0, 0, progress_styles, 0, "auto",
+    [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS, 0, 0, progress_styles, 0, "auto",
                          "progress on stderr; auto is one redrawn line on a terminal and plain lines elsewhere"},
-    [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,
+    [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "print what the render did and how long it took on stdout"},
-    [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | DOCTOR, 0, 0, NULL, 0, NULL,
+    [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR, 0, 0, NULL, 0, NULL,
                         "say on stderr what is going on inside"},
-    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,
+    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "say nothing but errors; progress only where --progress asks for it"},
     [OPTION_HELP] = {"help", NULL, KIND_FLAG, GROUP_TALK, ALL, 0, 0, NULL, 0, NULL, "print this and stop"},
     [OPTION_VERSION] = {"version", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,

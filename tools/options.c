@@ -10,7 +10,7 @@
 
 static const char *const command_names[COMMAND_COUNT] = {
     [COMMAND_RENDER] = "",         [COMMAND_CHECK] = "check",   [COMMAND_MESH] = "mesh",
-    [COMMAND_DEVICES] = "devices", [COMMAND_DOCTOR] = "doctor",
+    [COMMAND_DEVICES] = "devices", [COMMAND_DOCTOR] = "doctor", [COMMAND_PHOTONS] = "photons",
 };
 
 const char *command_name(command_id command)
@@ -85,15 +85,31 @@ static int read_choice(option_value *value, const option *option, const char *te
     return STATUS_USAGE;
 }
 
+/* Whether text is one of the words that stand for a number; then it is read. */
+static int read_number_word(option_value *value, const option *option, const char *text)
+{
+    for (const option_choice *choice = option->choices; choice && choice->word; choice++)
+        if (strcmp(choice->word, text) == 0) {
+            value->count = (uint32_t)choice->value;
+            return 1;
+        }
+    return 0;
+}
+
 static int read_number(option_value *value, const option *option, const char *text)
 {
+    char words[128] = "";
+    if (read_number_word(value, option, text))
+        return STATUS_DONE;
     int is_count = option->kind == KIND_WHOLE;
     int bad = is_count ? number_count(&value->count, text) : number_real(&value->real, text);
     double number = is_count ? (double)value->count : value->real;
     if (!bad && number >= option->min && number <= option->max)
         return STATUS_DONE;
-    message_error("--%s takes a %s from %.10g to %.10g; not '%s'", option->name, is_count ? "whole number" : "number",
-                  option->min, option->max, text);
+    if (option->choices)
+        option_join_choices(words, sizeof words, option->choices);
+    message_error("--%s takes a %s from %.10g to %.10g%s%s; not '%s'", option->name,
+                  is_count ? "whole number" : "number", option->min, option->max, words[0] ? ", or " : "", words, text);
     return STATUS_USAGE;
 }
 

@@ -14,6 +14,7 @@ typedef enum command_id {
     COMMAND_MESH,
     COMMAND_DEVICES,
     COMMAND_DOCTOR,
+    COMMAND_PHOTONS,
     COMMAND_COUNT
 } command_id;
 
@@ -31,10 +32,20 @@ typedef enum option_id {
     OPTION_PHOTONS,
     OPTION_K,
     OPTION_RADIUS,
+    OPTION_GATHER,
+    OPTION_PASSES,
+    OPTION_ALPHA,
     OPTION_KERNEL,
     OPTION_CONE_K,
     OPTION_DIRECT,
     OPTION_FINAL_GATHER,
+    OPTION_CAUSTIC_PHOTONS,
+    OPTION_CAUSTIC_K,
+    OPTION_CAUSTIC_RADIUS,
+    OPTION_CAUSTIC_KERNEL,
+    OPTION_PHOTON_MAP,
+    OPTION_PART,
+    OPTION_LIGHT_SHARES,
     OPTION_OUT,
     OPTION_EXPOSURE,
     OPTION_TONEMAP,
@@ -83,7 +94,7 @@ typedef struct option {
     option_group group;
     unsigned commands;            /* bit 1 << command_id for each that takes it */
     double min, max;              /* KIND_WHOLE, KIND_REAL; the library checks what is narrower */
-    const option_choice *choices; /* KIND_CHOICE */
+    const option_choice *choices; /* KIND_CHOICE; KIND_WHOLE: words that may stand for a number, or NULL */
     int decides_pixels;           /* part of the command line recorded in an image */
     const char *fallback;         /* the default, in words; NULL when there is none */
     const char *help;

@@ -2,25 +2,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "interrupt.h"
 #include "message.h"
 #include "nearest.h"
 #include "outputs.h"
-#include "progress.h"
 #include "rt.h"
 #include "rtc.h"
 #include "scene_file.h"
+#include "session.h"
 #include "stats.h"
 
 /* Everything that one render holds. */
 typedef struct render_job {
-    const command_line *arguments;
+    session session;
     const char *scene_path;
-    int quiet;
     output_list outputs;
-    progress_display progress;
-    rt_hooks hooks;
     rt_render_options options;
+    rt_photon_map *photon_map;
     rt_scene *scene;
     rt_device *device;
     rt_renderer *renderer;
@@ -29,75 +26,35 @@ typedef struct render_job {
 
 static const option_value *value(const render_job *job, option_id id)
 {
-    return &job->arguments->options[id];
-}
-
-/* ---- Hooks ---------------------------------------------------------------- */
-
-static int on_progress(void *user, const rt_progress *report)
-{
-    render_job *job = user;
-    int stop = interrupt_pending();
-    if (!stop)
-        progress_show(&job->progress, report);
-    return stop;
-}
-
-static void on_log(void *user, const char *line)
-{
-    render_job *job = user;
-    progress_clear(&job->progress);
-    message_note("%s", line);
-}
-
-static void begin_hooks(render_job *job)
-{
-    const option_value *style = value(job, OPTION_PROGRESS);
-    job->progress = progress_begin(style->given ? (progress_style)style->choice
-                                   : job->quiet ? PROGRESS_NONE
-                                                : PROGRESS_AUTO);
-    job->hooks.progress = on_progress;
-    job->hooks.log = value(job, OPTION_VERBOSE)->given ? on_log : NULL;
-    job->hooks.user = job;
+    return session_value(&job->session, id);
 }
 
 /* ---- Options -------------------------------------------------------------- */
 
-static void set_u32(uint32_t *out, const option_value *value)
+/* Reads the map of --photon-map, which decides what depends on how it was made. */
+static int load_photon_map(render_job *job)
 {
-    if (value->given)
-        *out = (uint32_t)value->count;
+    rt_photon_map_info info;
+    rt_error error;
+    const char *path = value(job, OPTION_PHOTON_MAP)->text;
+    if (!value(job, OPTION_PHOTON_MAP)->given)
+        return STATUS_DONE;
+    if (rt_photon_map_load(&job->photon_map, path, &error) != RT_OK)
+        return session_fail(&error);
+    rt_photon_map_get_info(job->photon_map, &info);
+    job->options.photon_map = job->photon_map;
+    if (!value(job, OPTION_MODE)->given)
+        job->options.mode = RT_MODE_PHOTON;
+    if (!value(job, OPTION_DIRECT)->given)
+        job->options.direct = info.direct;
+    return STATUS_DONE;
 }
 
-/* What the command line says goes before what the scene says. */
-static void merge_options(render_job *job)
+static int set_options(render_job *job)
 {
-    rt_render_options *options = &job->options;
-    rt_scene_get_options(job->scene, options);
-    options->hooks = &job->hooks;
-    set_u32(&options->width, value(job, OPTION_WIDTH));
-    set_u32(&options->height, value(job, OPTION_HEIGHT));
-    set_u32(&options->spp, value(job, OPTION_SPP));
-    set_u32(&options->max_depth, value(job, OPTION_MAX_DEPTH));
-    set_u32(&options->seed, value(job, OPTION_SEED));
-    set_u32(&options->k, value(job, OPTION_K));
-    set_u32(&options->final_gather, value(job, OPTION_FINAL_GATHER));
-    if (value(job, OPTION_PHOTONS)->given)
-        options->photons = value(job, OPTION_PHOTONS)->count;
-    if (value(job, OPTION_TIME)->given)
-        options->time = value(job, OPTION_TIME)->real;
-    if (value(job, OPTION_RADIUS)->given)
-        options->radius = (float)value(job, OPTION_RADIUS)->real;
-    if (value(job, OPTION_CONE_K)->given)
-        options->cone_k = (float)value(job, OPTION_CONE_K)->real;
-    if (value(job, OPTION_MODE)->given)
-        options->mode = (rt_mode)value(job, OPTION_MODE)->choice;
-    if (value(job, OPTION_SAMPLER)->given)
-        options->sampler = (rt_sampler)value(job, OPTION_SAMPLER)->choice;
-    if (value(job, OPTION_KERNEL)->given)
-        options->kernel = (rt_density)value(job, OPTION_KERNEL)->choice;
-    if (value(job, OPTION_DIRECT)->given)
-        options->direct = (rt_direct)value(job, OPTION_DIRECT)->choice;
+    rt_scene_get_options(job->scene, &job->options);
+    session_merge_options(&job->session, &job->options);
+    return load_photon_map(job);
 }
 
 /* An option that cannot change anything in this render is probably a mistake. */
@@ -111,22 +68,16 @@ static void warn_idle_options(const render_job *job)
     if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
         job->options.kernel != RT_DENSITY_CONE)
         message_warning("--cone-k has no effect without --kernel cone");
+    if (job->photon_map && (value(job, OPTION_PHOTONS)->given || value(job, OPTION_CAUSTIC_PHOTONS)->given))
+        message_warning("--photons and --caustic-photons have no effect with --photon-map");
+    if (!job->photon_map && job->options.caustic_photons == 0 &&
+        (value(job, OPTION_CAUSTIC_K)->given || value(job, OPTION_CAUSTIC_RADIUS)->given ||
+         value(job, OPTION_CAUSTIC_KERNEL)->given))
+        message_warning("--caustic-k, --caustic-radius and --caustic-kernel have no effect without --caustic-photons");
+    if (value(job, OPTION_ALPHA)->given && job->options.mode == RT_MODE_PHOTON && job->options.passes < 2)
+        message_warning("--alpha has no effect without --passes");
     if (!outputs_have_8bit(&job->outputs) && (value(job, OPTION_EXPOSURE)->given || value(job, OPTION_TONEMAP)->given))
         message_warning("--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
-}
-
-/* A failure of the library; where an option is at fault, by its name on the command line. */
-static int fail(const rt_error *error)
-{
-    if (error->status != RT_ERROR_USAGE || !error->field[0] || error->line)
-        return message_failure(error);
-    char name[sizeof error->field];
-    snprintf(name, sizeof name, "%s", error->field);
-    for (char *c = name; *c; c++)
-        if (*c == '_')
-            *c = '-';
-    message_error("--%s: %s", name, error->message);
-    return STATUS_USAGE;
 }
 
 /* ---- The steps ------------------------------------------------------------ */
@@ -134,48 +85,32 @@ static int fail(const rt_error *error)
 static int load(render_job *job)
 {
     rt_error error;
-    int status = scene_file_load(&job->scene, job->scene_path, job->quiet, NULL);
+    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet, NULL);
     if (status != STATUS_DONE)
         return status;
-    merge_options(job);
-    if (!job->quiet)
+    status = set_options(job);
+    if (status != STATUS_DONE)
+        return status;
+    if (!job->session.quiet)
         warn_idle_options(job);
     /* Options out of range are told before any work. */
-    return rt_scene_set_options(job->scene, &job->options, &error) == RT_OK ? STATUS_DONE : fail(&error);
-}
-
-static int open_device(render_job *job)
-{
-    rt_device_options options = {0};
-    rt_error error;
-    options.select = value(job, OPTION_DEVICE)->text;
-    set_u32(&options.threads, value(job, OPTION_THREADS));
-    set_u32(&options.work_group, value(job, OPTION_WORK_GROUP));
-    if (rt_device_open(&job->device, &options, &error) != RT_OK)
-        return fail(&error);
-    if (value(job, OPTION_VERBOSE)->given) {
-        rt_device_info info;
-        rt_device_get_info(job->device, &info);
-        message_note("device %s, %s, %u compute unit%s", info.name, info.platform, (unsigned)info.compute_units,
-                     info.compute_units == 1 ? "" : "s");
-    }
-    return STATUS_DONE;
+    return rt_scene_set_options(job->scene, &job->options, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
 static int make_film(render_job *job)
 {
     rt_renderer_options options = {0};
     rt_error error;
-    options.hooks = &job->hooks;
+    options.hooks = &job->session.hooks;
     if (value(job, OPTION_ACCEL)->given)
         options.accel = (rt_accel)value(job, OPTION_ACCEL)->choice;
     rt_status result = rt_renderer_create(&job->renderer, job->scene, job->device, &options, &error);
     if (result == RT_OK)
         result = rt_render(&job->film, job->renderer, &job->options, &error);
-    progress_clear(&job->progress);
+    progress_clear(&job->session.progress);
     if (result == RT_CANCELLED)
         return STATUS_INTERRUPTED;
-    return result == RT_OK ? STATUS_DONE : fail(&error);
+    return result == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
 /* "a", "a and b", "a, b and c". */
@@ -238,7 +173,7 @@ static int write_images(const render_job *job, int status)
     free(command);
     if (written != STATUS_DONE)
         return written;
-    if (!job->quiet || status == STATUS_INTERRUPTED)
+    if (!job->session.quiet || status == STATUS_INTERRUPTED)
         say_what_was_written(job, status == STATUS_INTERRUPTED);
     if (value(job, OPTION_STATS)->given)
         stats_print(job->scene, job->device, &job->options, job->film);
@@ -247,11 +182,11 @@ static int write_images(const render_job *job, int status)
 
 static int run(render_job *job)
 {
-    int status = outputs_plan(&job->outputs, job->arguments, job->scene_path);
+    int status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path);
     if (status == STATUS_DONE)
         status = load(job);
     if (status == STATUS_DONE)
-        status = open_device(job);
+        status = session_open_device(&job->session, &job->device);
     if (status == STATUS_DONE)
         status = make_film(job);
     if (status == STATUS_DONE || status == STATUS_INTERRUPTED)
@@ -281,13 +216,11 @@ int command_render(const command_line *arguments)
     if (arguments->operand_count != 1)
         return fail_operands(arguments);
     render_job job = {0};
-    job.arguments = arguments;
+    session_begin(&job.session, arguments);
     job.scene_path = arguments->operands[0];
-    job.quiet = arguments->options[OPTION_QUIET].given;
-    begin_hooks(&job);
-    interrupt_catch();
     int status = run(&job);
     rt_film_destroy(job.film);
+    rt_photon_map_destroy(job.photon_map);
     rt_renderer_destroy(job.renderer);
     rt_device_close(job.device);
     rt_scene_destroy(job.scene);

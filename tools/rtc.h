@@ -20,5 +20,6 @@ int command_check(const command_line *arguments);
 int command_mesh(const command_line *arguments);
 int command_devices(const command_line *arguments);
 int command_doctor(const command_line *arguments);
+int command_photons(const command_line *arguments);
 
 #endif

@@ -2,6 +2,10 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
+
+#include "ledger.h"
+#include "message.h"
 
 static void print_count(const char *name, uint64_t count)
 {
@@ -29,8 +33,24 @@ static void print_photons(const rt_film_stats *stats)
     print_count("photon paths emitted", stats->photons_emitted);
     print_count("photons stored", stats->photons_stored);
     print_count("gathers", stats->gathers);
+    if (stats->passes > 0)
+        print_count("passes", stats->passes);
     print_seconds("emit time", stats->emit_seconds);
     print_seconds("gather time", stats->gather_seconds);
+}
+
+/* Where the flux of the photons went. */
+static void print_ledger(const rt_film *film)
+{
+    size_t count = rt_film_get_ledger(film, NULL, 0);
+    rt_light_ledger *rows = calloc(count + 1, sizeof *rows);
+    if (!rows) {
+        message_error("out of memory for the energy ledger");
+        return;
+    }
+    rt_film_get_ledger(film, rows, count);
+    ledger_print(rows, count);
+    free(rows);
 }
 
 void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options, const rt_film *film)
@@ -53,6 +73,7 @@ void stats_print(const rt_scene *scene, const rt_device *device, const rt_render
     print_seconds("compile time", stats.compile_seconds);
     if (options->mode == RT_MODE_PHOTON) {
         print_photons(&stats);
+        print_ledger(film);
         return;
     }
     print_seconds("render time", stats.render_seconds);

@@ -1,4 +1,6 @@
 /* buffer.c - device memory, kernel arguments and launches. */
+#include <stdio.h>
+
 #include "device/device.h"
 #include "error.h"
 
@@ -83,6 +85,30 @@ rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_
         return RT_OK;
     return rt_cl_check(clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
                        "writing to the device", error);
+}
+
+rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out, const char *what,
+                        rt_error *error)
+{
+    void *mapped = NULL;
+    cl_int code = bytes ? CL_SUCCESS : clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof bytes, &bytes, NULL);
+    if (code == CL_SUCCESS)
+        mapped = clEnqueueMapBuffer(device->queue, buffer, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL, &code);
+    if (code != CL_SUCCESS) {
+        char text[128];
+        snprintf(text, sizeof text, "reading %s from the device", what);
+        return rt_cl_check(code, text, error);
+    }
+    *out = mapped;
+    return RT_OK;
+}
+
+rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, rt_error *error)
+{
+    if (!mapped)
+        return RT_OK;
+    return rt_cl_check(clEnqueueUnmapMemObject(device->queue, buffer, (void *)mapped, 0, NULL, NULL),
+                       "returning memory to the device", error);
 }
 
 void rt_buffer_release(cl_mem buffer)

@@ -61,6 +61,15 @@ rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t
 rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, const void *host,
                           rt_error *error);
 
+/*
+ * The first `bytes` of a buffer, 0 for all, in host memory, to be read until rt_buffer_unmap: no copy where
+ * the device works on the host's memory. `what` names the content in messages.
+ */
+rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out, const char *what,
+                        rt_error *error);
+/* Ends that; NULL is allowed. */
+rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, rt_error *error);
+
 /* Releases; NULL is allowed. */
 void rt_buffer_release(cl_mem buffer);
 void rt_kernel_release(cl_kernel kernel);

@@ -57,6 +57,27 @@ rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *
     return status;
 }
 
+rt_status rt_file_read_start(void *out, size_t most, size_t *size, const char *path, rt_error *error)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
+    size_t done = 0;
+    ssize_t count = 1;
+    while (done < most && count != 0) {
+        count = read(fd, (uint8_t *)out + done, most - done);
+        if (count < 0 && errno != EINTR)
+            break;
+        done += count > 0 ? (size_t)count : 0;
+    }
+    int code = count < 0 ? errno : 0;
+    close(fd);
+    if (code)
+        return fail_errno(error, RT_ERROR_INPUT, "read", path, code);
+    *size = done;
+    return RT_OK;
+}
+
 /* The functions below return 0, or the errno of what failed. */
 
 static int write_all(int fd, const rt_bytes *bytes)

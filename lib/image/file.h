@@ -10,6 +10,9 @@
  */
 rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error);
 
+/* Reads at most `most` bytes from the start of a file into out; *size is how many there were. Fails as above. */
+rt_status rt_file_read_start(void *out, size_t most, size_t *size, const char *path, rt_error *error);
+
 /*
  * Makes path hold exactly these bytes, or leaves it as it was: they go to a temporary file in the
  * same directory, are synchronised to the disk, and the file is renamed. A new file has the

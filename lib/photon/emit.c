@@ -1,90 +1,160 @@
 #include "photon/emit.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 #include "error.h"
 
 /* Bounds of a batch: the memory of its slots, and its length, so that progress moves. */
 enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 16 };
 
-/* What a batch of paths leaves on the device. */
-typedef struct batch {
-    size_t paths;  /* at most */
-    cl_mem slots;  /* rt_photon [paths][params.slots] */
-    cl_mem counts; /* u32 [paths] */
-} batch;
+struct rt_emitter {
+    rt_device *device;
+    cl_kernel kernel;
+    cl_mem scene;
+    rt_light_sources lights;
+    cl_mem shares;   /* rt_light_share, one a light of the kernels' table */
+    size_t slots;    /* photons a path can store; 0 before the first emission */
+    size_t paths;    /* a batch, at most */
+    cl_mem photons;  /* rt_photon [paths][slots] */
+    cl_mem accounts; /* rt_path_account [paths] */
+};
 
-static rt_status create_batch(batch *b, rt_device *device, size_t slots, uint64_t paths, rt_error *error)
+rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene, const float *shares,
+                            size_t share_count, rt_error *error)
+{
+    rt_emitter *e = calloc(1, sizeof *e);
+    if (!e)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for photon emission");
+    e->device = device;
+    e->kernel = kernel;
+    e->scene = scene;
+    rt_status status = rt_light_sources_read(&e->lights, device, scene, shares, share_count, error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &e->shares, CL_MEM_READ_ONLY, e->lights.light_count * sizeof *e->lights.shares,
+                                  e->lights.light_count ? e->lights.shares : NULL, "the lights' shares", error);
+    if (status == RT_OK)
+        *out = e;
+    else
+        rt_emitter_destroy(e);
+    return status;
+}
+
+static void release_batch(rt_emitter *e)
+{
+    rt_buffer_release(e->photons);
+    rt_buffer_release(e->accounts);
+    e->photons = e->accounts = NULL;
+    e->slots = 0;
+}
+
+void rt_emitter_destroy(rt_emitter *e)
+{
+    if (!e)
+        return;
+    release_batch(e);
+    rt_buffer_release(e->shares);
+    rt_light_sources_free(&e->lights);
+    free(e);
+}
+
+/* Makes memory for batches of at most `count` paths, unless there is enough. */
+static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_error *error)
 {
     size_t most = SLOT_BYTES_A_BATCH / (slots * sizeof(rt_photon));
-    *b = (batch){most < 1 ? 1 : most > PATHS_A_BATCH ? PATHS_A_BATCH : most, NULL, NULL};
-    if (b->paths > paths)
-        b->paths = paths;
-    rt_status status = rt_buffer_create(device, &b->slots, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                                        b->paths * slots * sizeof(rt_photon), NULL, "photon slots", error);
+    size_t paths = most < 1 ? 1 : most > PATHS_A_BATCH ? PATHS_A_BATCH : most;
+    if (paths > count)
+        paths = (size_t)count;
+    if (e->slots == slots && e->paths >= paths)
+        return RT_OK;
+    release_batch(e);
+    rt_status status = rt_buffer_create(e->device, &e->photons, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                                        paths * slots * sizeof(rt_photon), NULL, "photon slots", error);
     if (status == RT_OK)
-        status = rt_buffer_create(device, &b->counts, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                                  b->paths * sizeof(rt_u32), NULL, "photon counts", error);
+        status = rt_buffer_create(e->device, &e->accounts, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                                  paths * sizeof(rt_path_account), NULL, "the accounts of photon paths", error);
+    if (status == RT_OK) {
+        e->slots = slots;
+        e->paths = paths;
+    }
     return status;
 }
 
-static void *map_for_reading(rt_device *device, cl_mem buffer, size_t bytes, rt_status *status, rt_error *error)
+/* Takes what a batch of paths left into the map; mapped memory is not copied where it is shared. */
+static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, size_t paths, rt_error *error)
 {
-    cl_int code = CL_SUCCESS;
-    void *memory = NULL;
-    if (*status == RT_OK) {
-        memory = clEnqueueMapBuffer(device->queue, buffer, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL, &code);
-        *status = rt_cl_check(code, "reading photons from the device", error);
-    }
-    return *status == RT_OK ? memory : NULL;
+    const void *photons = NULL, *accounts = NULL;
+    rt_status status = rt_buffer_map(e->device, e->accounts, paths * sizeof(rt_path_account), &accounts,
+                                     "the accounts of photon paths", error);
+    if (status == RT_OK)
+        status =
+            rt_buffer_map(e->device, e->photons, paths * e->slots * sizeof(rt_photon), &photons, "photons", error);
+    if (status == RT_OK)
+        status = rt_photon_list_append(map->lists + kind, photons, accounts, paths, e->slots, e->device->threads, error);
+    if (status == RT_OK && kind == RT_PHOTONS_GLOBAL)
+        status = rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads, error);
+    rt_status first = rt_buffer_unmap(e->device, e->photons, photons, status == RT_OK ? error : NULL);
+    status = status == RT_OK ? first : status;
+    rt_status second = rt_buffer_unmap(e->device, e->accounts, accounts, status == RT_OK ? error : NULL);
+    return status == RT_OK ? second : status;
 }
 
-static void unmap(rt_device *device, cl_mem buffer, void *memory, rt_status *status, rt_error *error)
+static rt_params make_params(const rt_emitter *e, const rt_photon_settings *settings, rt_photon_kind kind,
+                             uint32_t seed)
 {
-    if (!memory)
-        return;
-    cl_int code = clEnqueueUnmapMemObject(device->queue, buffer, memory, 0, NULL, NULL);
-    if (*status == RT_OK)
-        *status = rt_cl_check(code, "returning memory to the device", error);
+    rt_params p;
+    memset(&p, 0, sizeof p);
+    p.seed = seed;
+    p.sampler = settings->sampler;
+    p.max_depth = settings->max_depth;
+    p.direct = settings->direct;
+    p.slots = (rt_u32)e->slots;
+    p.store = kind == RT_PHOTONS_CAUSTIC ? RT_STORE_CAUSTIC : settings->split ? RT_STORE_GLOBAL : RT_STORE_ALL;
+    return p;
 }
 
-/* Takes the photons of `paths` paths into the map; mapped memory is not copied where it is shared. */
-static rt_status take_batch(rt_photon_map *map, rt_device *device, const batch *b, size_t paths, size_t slots,
-                            rt_error *error)
+/* Runs the batches of a range one after the other. */
+static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, rt_params *p, uint64_t first,
+                              uint64_t count, rt_stage_progress *progress, rt_error *error)
 {
+    rt_arg args[RT_EMIT_ARGUMENTS] = {{sizeof *p, p}, RT_ARG(e->scene), RT_ARG(e->shares), RT_ARG(e->photons),
+                                      RT_ARG(e->accounts)};
     rt_status status = RT_OK;
-    rt_u32 *counts = map_for_reading(device, b->counts, paths * sizeof *counts, &status, error);
-    rt_photon *photons = map_for_reading(device, b->slots, paths * slots * sizeof *photons, &status, error);
-    if (status == RT_OK)
-        status = rt_photon_map_append(map, photons, counts, paths, slots, error);
-    unmap(device, b->slots, photons, &status, error);
-    unmap(device, b->counts, counts, &status, error);
+    for (uint64_t done = 0; done < count && status == RT_OK; done += p->item_count) {
+        p->first_item = (rt_u32)(first + done);
+        p->item_count = (rt_u32)(count - done < e->paths ? count - done : e->paths);
+        status = rt_kernel_args(e->kernel, args, RT_EMIT_ARGUMENTS, error);
+        if (status == RT_OK)
+            status = rt_launch(e->device, e->kernel, p->item_count, error);
+        if (status == RT_OK)
+            status = take_batch(e, map, kind, p->item_count, error);
+        if (status == RT_OK)
+            status = rt_stage_update(progress, (double)(done + p->item_count) / (double)count);
+    }
     return status;
 }
 
-rt_status rt_photon_emit(rt_photon_map *map, rt_device *device, cl_kernel kernel, cl_mem scene, const rt_params *params,
-                         uint64_t paths, rt_stage_progress *progress, rt_error *error)
+rt_status rt_emitter_emit(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, uint32_t seed, uint64_t first,
+                          uint64_t count, rt_stage_progress *progress, rt_error *error)
 {
-    rt_params p = *params;
-    batch b = {0};
+    static const uint64_t indices = (uint64_t)UINT32_MAX + 1;
+    size_t slots = map->settings.max_depth > 1 ? map->settings.max_depth - 1 : 1; /* one photon a segment at most */
+    size_t before = map->lists[kind].count;
 
-    if (paths > UINT32_MAX)
-        return rt_fail_field(error, RT_ERROR_USAGE, "photons", "%llu photon paths are more than the %lu possible",
-                             (unsigned long long)paths, (unsigned long)UINT32_MAX);
-    p.emitted = (float)paths;
-    p.slots = p.max_depth > 1 ? p.max_depth - 1 : 1; /* one photon a segment at most */
-    rt_status status = create_batch(&b, device, p.slots, paths, error);
-    rt_arg args[] = {RT_ARG(p), RT_ARG(scene), RT_ARG(b.slots), RT_ARG(b.counts)};
-    for (uint64_t done = 0; done < paths && status == RT_OK; done += p.item_count) {
-        p.first_item = (rt_u32)done;
-        p.item_count = (rt_u32)(paths - done < b.paths ? paths - done : b.paths);
-        status = rt_kernel_args(kernel, args, 4, error);
-        if (status == RT_OK)
-            status = rt_launch(device, kernel, p.item_count, error);
-        if (status == RT_OK)
-            status = take_batch(map, device, &b, p.item_count, p.slots, error);
-        if (status == RT_OK)
-            status = rt_stage_update(progress, (double)(done + p.item_count) / (double)paths);
+    if (count > indices || first > indices - count)
+        return rt_fail_field(error, RT_ERROR_USAGE, "photons", "photon paths %llu to %llu are beyond the %llu of a seed",
+                             (unsigned long long)first, (unsigned long long)(first + count),
+                             (unsigned long long)indices);
+    rt_status status = map->ledger.rows ? RT_OK : rt_ledger_create(&map->ledger, &e->lights, error);
+    if (status == RT_OK && count > 0)
+        status = prepare_batch(e, slots, count, error);
+    if (status == RT_OK && count > 0) {
+        rt_params params = make_params(e, &map->settings, kind, seed);
+        status = emit_batches(e, map, kind, &params, first, count, progress, error);
     }
-    rt_buffer_release(b.slots);
-    rt_buffer_release(b.counts);
+    if (status == RT_OK) {
+        rt_path_range range = {first, count, map->lists[kind].count - before, seed};
+        status = rt_path_ranges_add(map->ranges + kind, &range, error);
+    }
     return status;
 }

@@ -4,15 +4,32 @@
 
 #include "device/device.h"
 #include "photon/photon_map.h"
+#include "photon/sources.h"
 #include "progress.h"
 
+/* What emits: a scene's lights, and memory for a batch of paths. Serves any number of emissions. */
+typedef struct rt_emitter rt_emitter;
+
+/* How many arguments photon_emit has; the first are rt_params, the scene, and then buffers. */
+enum { RT_EMIT_ARGUMENTS = 5 };
+
 /*
- * Emits `paths` photon paths from the lights of a scene on the device and appends what they leave to
- * the map, in batches of bounded memory. kernel: photon_emit of the program of that name; params: seed,
- * sampler, max_depth and direct. Path i is always the same path, whatever the batches. The flux of
- * each photon is divided by `paths`, so a map should come from one call.
+ * Makes ready to emit from a scene on a device. kernel: photon_emit of the program of that name; shares:
+ * [share_count], as rt_light_sources_read takes them. Scene and kernel must outlive the emitter. The caller
+ * owns *out.
  */
-rt_status rt_photon_emit(rt_photon_map *map, rt_device *device, cl_kernel kernel, cl_mem scene, const rt_params *params,
-                         uint64_t paths, rt_stage_progress *progress, rt_error *error);
+rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene, const float *shares,
+                            size_t share_count, rt_error *error);
+void rt_emitter_destroy(rt_emitter *emitter);
+
+/*
+ * Emits paths first .. first + count - 1 of a seed into one list of the map, behind what it holds, in batches of
+ * bounded memory. The map's settings say how (`scene` apart); its ledger is made for the lights when it has none.
+ * Path i of a seed is always the same path, whatever the batches; the paths of the caustic list are others than
+ * those of the global one. Ranges must come in ascending order. Fails with RT_ERROR_USAGE when an index is above
+ * 2^32 - 1.
+ */
+rt_status rt_emitter_emit(rt_emitter *emitter, rt_photon_map *map, rt_photon_kind kind, uint32_t seed, uint64_t first,
+                          uint64_t count, rt_stage_progress *progress, rt_error *error);
 
 #endif

@@ -1,44 +1,48 @@
 /*
- * gather.h - asks a photon map for the light that gather points reflect, and adds it to a film.
+ * gather.h - asks a photon list for the light that gather points reflect.
  *
- * The nearest photons are found on the host, the sum over them, with the material, is taken on the
- * device: shading exists once.
+ * The nearest photons are found on the host, by FLANN, or on the device; the sum over them, with the material,
+ * is taken on the device either way: shading exists once.
  */
 #ifndef RT_LIB_PHOTON_GATHER_H
 #define RT_LIB_PHOTON_GATHER_H
 
 #include "device/device.h"
-#include "photon/photon_map.h"
+#include "photon/photon_list.h"
 #include "types.h"
 
 typedef struct rt_gatherer rt_gatherer;
 
+/* The most gather points that are taken at once. */
+enum { RT_GATHER_POINTS_MAX = 1 << 16 };
+
 /* How to gather. */
 typedef struct rt_gather_options {
-    uint32_t k;       /* nearest photons, at least 1; the k-th gives the radius and does not count */
-    float max_radius; /* metres; 0: no limit */
+    uint32_t k;       /* nearest photons; the k-th gives the radius and does not count. 0: all within max_radius */
+    float max_radius; /* metres; 0: no limit, which k = 0 must have */
     rt_density density;
-    float cone_k; /* constant of the cone kernel, at least 1 */
+    float cone_k;  /* constant of the cone kernel, at least 1 */
+    int on_device; /* find the photons on the device, in a tree, instead of on the host by FLANN */
 } rt_gather_options;
 
 /*
- * Makes a map ready: builds the search tree and uploads the photons. The map must outlive the gatherer
- * unchanged, as must the device and, on it, the scene; `kernel` is photon_gather of the program of that
- * name. The caller owns *out.
+ * Makes a list ready: builds the search tree and uploads the photons. The list must outlive the gatherer
+ * unchanged, as must the device and, on it, the scene and the kernel: that of the program photon_walk for the
+ * gather on the device, else of photon_gather, both of the same name. k = 0 is for the device only. The caller
+ * owns *out.
  */
 rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel, cl_mem scene,
-                             const rt_photon_map *map, const rt_gather_options *options, rt_error *error);
+                             const rt_photon_list *list, const rt_gather_options *options, rt_error *error);
 void rt_gatherer_destroy(rt_gatherer *gatherer);
 
-/* The most points that rt_gatherer_add takes at once, and its buffer of rt_gather_point for them. */
+/* The most points that rt_gatherer_add takes at once, at most RT_GATHER_POINTS_MAX. */
 size_t rt_gatherer_capacity(const rt_gatherer *gatherer);
-cl_mem rt_gatherer_points(const rt_gatherer *gatherer);
 
 /*
- * Adds the samples of the first `count` points of the gatherer's buffer to film, a buffer of
- * rt_film_pixel: their radiance, and their weight times what the material makes of the photons. No two
- * of the points may be of the same pixel. *asked, if not NULL, grows by the points that asked the map.
+ * Adds to the radiance of points first .. first + count - 1 of a buffer of rt_gather_point their weight times what
+ * the material makes of the photons around them. discs [count], if not NULL, is what was found.
  */
-rt_status rt_gatherer_add(rt_gatherer *gatherer, size_t count, cl_mem film, uint64_t *asked, rt_error *error);
+rt_status rt_gatherer_add(rt_gatherer *gatherer, cl_mem points, size_t first, size_t count, rt_gather_disc *discs,
+                          rt_error *error);
 
 #endif

@@ -1,58 +1,141 @@
 #include "photon/photon_map.h"
 
-#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "error.h"
+#include "progress.h"
 
-static rt_status reserve(rt_photon_map *map, size_t more, rt_error *error)
+rt_status rt_path_ranges_add(rt_path_ranges *r, const rt_path_range *range, rt_error *error)
 {
-    size_t needed = map->count + more;
-    if (needed <= map->capacity)
+    rt_path_range *last = r->count ? r->ranges + r->count - 1 : NULL;
+    if (range->count == 0)
         return RT_OK;
-    size_t capacity = map->capacity + map->capacity / 2 > needed ? map->capacity + map->capacity / 2 : needed;
-    rt_photon *photons = capacity <= SIZE_MAX / sizeof *photons ? realloc(map->photons, capacity * sizeof *photons) : NULL;
-    if (!photons)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for a map of %zu photons", needed);
-    map->photons = photons;
-    map->capacity = capacity;
+    if (last && last->seed == range->seed && last->first + last->count == range->first) {
+        last->count += range->count;
+        last->photons += range->photons;
+        return RT_OK;
+    }
+    if (r->count == r->capacity) {
+        size_t capacity = r->capacity ? 2 * r->capacity : 4;
+        rt_path_range *grown = realloc(r->ranges, capacity * sizeof *grown);
+        if (!grown)
+            return rt_fail(error, RT_ERROR_MEMORY, "no memory for %zu ranges of photon paths", capacity);
+        r->ranges = grown;
+        r->capacity = capacity;
+    }
+    r->ranges[r->count++] = *range;
     return RT_OK;
 }
 
-static int finite3(const float v[3])
+void rt_photon_map_reset(rt_photon_map *map)
 {
-    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
+        rt_photon_list_reset(map->lists + kind);
+        map->ranges[kind].count = 0;
+    }
+    rt_ledger_reset(&map->ledger);
 }
 
-static int finite_photon(const rt_photon *p)
+void rt_photon_map_free(rt_photon_map *map)
 {
-    return finite3(p->position) && finite3(p->wi) && finite3(p->flux) && isfinite(p->shading) &&
-           finite3(p->normal);
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
+        rt_photon_list_clear(map->lists + kind);
+        free(map->ranges[kind].ranges);
+    }
+    rt_ledger_free(&map->ledger);
+    memset(map, 0, sizeof *map);
 }
 
-rt_status rt_photon_map_append(rt_photon_map *map, const rt_photon *slots, const rt_u32 *counts, size_t path_count,
-                               size_t slots_per_path, rt_error *error)
+void rt_photon_map_destroy(rt_photon_map *map)
 {
-    size_t more = 0;
-    for (size_t i = 0; i < path_count; i++)
-        more += counts[i];
-    rt_status status = reserve(map, more, error);
-    if (status != RT_OK)
-        return status;
-    for (size_t i = 0; i < path_count; i++)
-        for (size_t j = 0; j < counts[i]; j++) {
-            const rt_photon *photon = slots + i * slots_per_path + j;
-            if (finite_photon(photon))
-                map->photons[map->count++] = *photon;
-            else
-                map->rejected++;
-        }
-    map->emitted += path_count;
-    return RT_OK;
+    if (!map)
+        return;
+    rt_photon_map_free(map);
+    free(map);
 }
 
-void rt_photon_map_clear(rt_photon_map *map)
+size_t rt_photon_map_count(const rt_photon_map *map, rt_photon_kind kind)
 {
-    free(map->photons);
-    *map = (rt_photon_map){0};
+    return (unsigned)kind < RT_PHOTON_KINDS ? map->lists[kind].count : 0;
+}
+
+const rt_photon *rt_photon_map_photons(const rt_photon_map *map, rt_photon_kind kind)
+{
+    return (unsigned)kind < RT_PHOTON_KINDS ? map->lists[kind].photons : NULL;
+}
+
+const rt_path_range *rt_photon_map_ranges(const rt_photon_map *map, rt_photon_kind kind, size_t *count)
+{
+    *count = (unsigned)kind < RT_PHOTON_KINDS ? map->ranges[kind].count : 0;
+    return *count ? map->ranges[kind].ranges : NULL;
+}
+
+void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
+        out->paths[kind] = map->lists[kind].emitted;
+        out->photons[kind] = map->lists[kind].count;
+        out->rejected += map->lists[kind].rejected;
+    }
+    out->split = (int)map->settings.split;
+    out->direct = (rt_direct)map->settings.direct;
+    out->sampler = (rt_sampler)map->settings.sampler;
+    out->max_depth = map->settings.max_depth;
+    out->scene = map->settings.scene;
+    out->lights = map->ledger.count;
+}
+
+size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *out, size_t capacity)
+{
+    for (size_t i = 0; i < map->ledger.count && i < capacity; i++)
+        rt_ledger_read(&map->ledger, i, out + i);
+    return map->ledger.count;
+}
+
+/* "light 2 (shape 5)". */
+static void name_light(char *out, size_t size, const rt_ledger *ledger, size_t i)
+{
+    if (ledger->rows[i].shape == RT_NONE)
+        snprintf(out, size, "light %zu", i);
+    else
+        snprintf(out, size, "light %zu (shape %u)", i, ledger->rows[i].shape);
+}
+
+static void warn_lights(const rt_ledger *ledger, const rt_hooks *hooks)
+{
+    for (size_t i = 0; i < ledger->count; i++) {
+        const rt_ledger_row *row = ledger->rows + i;
+        double power = (row->power[0] + row->power[1] + row->power[2]) / 3;
+        char name[64];
+        if (!(power > 0) || row->paths > 0)
+            continue;
+        name_light(name, sizeof name, ledger, i);
+        rt_warn(hooks, "%s emits %.4g W but none of %llu photon paths came from it; its light is missing", name, power,
+                (unsigned long long)ledger->paths);
+    }
+}
+
+static void warn_list(const rt_photon_list *list, const char *name, uint32_t k, const rt_hooks *hooks)
+{
+    if (list->count == 0)
+        rt_warn(hooks, "the %s is empty: none of %llu photon paths left a photon in it", name,
+                (unsigned long long)list->emitted);
+    else if (k != RT_K_ALL && list->count < k)
+        rt_warn(hooks, "the %s has only %zu photon%s, fewer than the %u nearest that an estimate wants", name,
+                list->count, list->count == 1 ? "" : "s", (unsigned)k);
+    if (list->rejected > 0)
+        rt_warn(hooks, "%llu photons were left out of the %s because they were not finite",
+                (unsigned long long)list->rejected, name);
+}
+
+void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t k, uint32_t caustic_k,
+                                const rt_hooks *hooks)
+{
+    warn_lights(ledger, hooks);
+    warn_list(map->lists + RT_PHOTONS_GLOBAL, map->settings.split ? "global photon map" : "photon map", k, hooks);
+    if (map->settings.split)
+        warn_list(map->lists + RT_PHOTONS_CAUSTIC, "caustic photon map", caustic_k, hooks);
 }

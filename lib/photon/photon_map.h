@@ -1,31 +1,56 @@
-/* photon_map.h - the photons of a scene, in host memory. */
+/*
+ * photon_map.h - a photon map as an object: the photons, what they were made by, and where their flux went.
+ *
+ * A map is made of ranges of photon paths, in the order of seed and index. It may hold any of them,
+ * which is what lets parts of a map be made apart and joined: the photons of the whole are those of the
+ * parts, one after the other.
+ */
 #ifndef RT_LIB_PHOTON_PHOTON_MAP_H
 #define RT_LIB_PHOTON_PHOTON_MAP_H
 
-#include <stddef.h>
-
+#include "photon/ledger.h"
+#include "photon/photon_list.h"
 #include "rt.h"
-#include "types.h"
 
-/*
- * Photons in the order of their paths, and along each path in the order of its bounces, so
- * that order and content do not depend on how the work was shared out. All zero is empty.
- */
-typedef struct rt_photon_map {
-    rt_photon *photons; /* [count] */
+enum { RT_PHOTON_KINDS = 2 }; /* RT_PHOTONS_GLOBAL and RT_PHOTONS_CAUSTIC */
+
+/* What must be the same for two maps to be parts of one. */
+typedef struct rt_photon_settings {
+    uint64_t scene; /* fingerprint; 0: not taken */
+    rt_u32 max_depth;
+    rt_u32 sampler; /* rt_sampler */
+    rt_u32 direct;  /* rt_direct */
+    rt_u32 split;   /* 1: caustic photons are kept apart */
+} rt_photon_settings;
+
+/* Ranges in ascending order of seed and first; none overlaps or touches another. */
+typedef struct rt_path_ranges {
+    rt_path_range *ranges; /* [count] */
     size_t count, capacity;
-    uint64_t emitted;  /* photon paths */
-    uint64_t rejected; /* photons left out because they were not finite */
-} rt_photon_map;
+} rt_path_ranges;
+
+/* All zero is empty. */
+struct rt_photon_map {
+    rt_photon_settings settings;
+    rt_photon_list lists[RT_PHOTON_KINDS]; /* [rt_photon_kind] */
+    rt_path_ranges ranges[RT_PHOTON_KINDS];
+    rt_ledger ledger; /* of the paths that filled the global list */
+};
+
+/* Adds a range behind the last one, joining the two where they touch. */
+rt_status rt_path_ranges_add(rt_path_ranges *ranges, const rt_path_range *range, rt_error *error);
+
+/* Takes out all photons, paths and accounts but keeps the memory and the settings. */
+void rt_photon_map_reset(rt_photon_map *map);
+
+/* Frees what a map holds; it is all zero afterwards. */
+void rt_photon_map_free(rt_photon_map *map);
 
 /*
- * Appends the photons of path_count more paths: path i stored counts[i] of them, which lie at
- * slots + i * slots_per_path. Photons whose numbers are not all finite are left out.
+ * Warns of lights with power that no path came from, by the ledger of all paths, and of lists of the map with fewer
+ * photons than an estimate wants: k of them, or caustic_k in the caustic list.
  */
-rt_status rt_photon_map_append(rt_photon_map *map, const rt_photon *slots, const rt_u32 *counts, size_t path_count,
-                               size_t slots_per_path, rt_error *error);
-
-/* Frees what the map holds and empties it. */
-void rt_photon_map_clear(rt_photon_map *map);
+void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t k, uint32_t caustic_k,
+                                const rt_hooks *hooks);
 
 #endif

@@ -9,9 +9,6 @@
 #include "error.h"
 #include "photon/flann_index.h"
 
-/* Most photons looked at for a point, as a multiple of k. */
-enum { LOOK_MAX = 16 };
-
 /* Neighbours that a thread asks for at a time, 16 bytes each: few enough to stay in its cache. */
 enum { NEIGHBOURS_A_JOB = 1 << 16 };
 
@@ -27,7 +24,7 @@ struct rt_photon_search {
 };
 
 /* Positions alone, as the tree wants them, or normals alone, close together in memory. */
-static float (*copy_vectors(const rt_photon_map *map, size_t member))[3]
+static float (*copy_vectors(const rt_photon_list *map, size_t member))[3]
 {
     float(*vectors)[3] = malloc((map->count ? map->count : 1) * sizeof *vectors);
     if (vectors)
@@ -44,10 +41,10 @@ static size_t smaller(size_t a, size_t b)
 /* The most photons that are looked at for one point. */
 static size_t look_limit(const rt_photon_search *search)
 {
-    return smaller(search->count, (size_t)LOOK_MAX * search->k);
+    return smaller(search->count, (size_t)RT_PHOTON_LOOK_MAX * search->k);
 }
 
-rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_map *map, uint32_t k, float max_radius,
+rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_list *map, uint32_t k, float max_radius,
                                   uint32_t threads, rt_error *error)
 {
     rt_photon_search *search = calloc(1, sizeof *search);
@@ -214,7 +211,7 @@ static rt_status look_at(const rt_photon_search *search, const rt_gather_point *
 }
 
 rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points, size_t count,
-                                rt_u32 *lists, rt_gather_disc *discs, uint64_t *asked_count, rt_error *error)
+                                rt_u32 *lists, rt_gather_disc *discs, rt_error *error)
 {
     rt_u32 *asked = malloc((count ? count : 1) * sizeof *asked);
     rt_status status = RT_OK;
@@ -224,11 +221,11 @@ rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to ask for photons at %zu points", count);
     for (size_t i = 0; i < count; i++) {
         discs[i] = (rt_gather_disc){0};
-        if (is_asked(points + i))
+        if (is_asked(points + i)) {
+            discs[i].asked = 1;
             asked[left++] = (rt_u32)i;
+        }
     }
-    if (asked_count)
-        *asked_count += left;
     if (search->count == 0)
         left = 0;
     /* Most points are done with k photons; the others look at twice as many, and again. */

@@ -20,17 +20,20 @@
 #ifndef RT_LIB_PHOTON_SEARCH_H
 #define RT_LIB_PHOTON_SEARCH_H
 
-#include "photon/photon_map.h"
+#include "photon/photon_list.h"
 #include "rt.h"
 #include "types.h"
 
 typedef struct rt_photon_search rt_photon_search;
 
+/* Most photons looked at for a point, as a multiple of k. */
+enum { RT_PHOTON_LOOK_MAX = 16 };
+
 /*
  * Builds the search tree of a map, which is not referred to afterwards. k >= 1 photons a point; max_radius in metres, infinite for no limit; threads on the host.
  * The caller owns *out.
  */
-rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_map *map, uint32_t k, float max_radius,
+rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_list *map, uint32_t k, float max_radius,
                                   uint32_t threads, rt_error *error);
 void rt_photon_search_destroy(rt_photon_search *search);
 
@@ -40,10 +43,9 @@ size_t rt_photon_search_stride(const rt_photon_search *search);
 /*
  * Finds the disc of each point and its photons, nearest first: row i of lists, which has the
  * search's stride, holds discs[i].count indices into the map. A point whose weight is zero is
- * not asked for and has none. *asked, if not NULL, grows by the number of the others. Works on all
- * of the search's threads.
+ * not asked for and has none. Works on all of the search's threads.
  */
 rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points, size_t count,
-                                rt_u32 *lists, rt_gather_disc *discs, uint64_t *asked, rt_error *error);
+                                rt_u32 *lists, rt_gather_disc *discs, rt_error *error);
 
 #endif

@@ -13,6 +13,7 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_err
     if (film) {
         film->options = *options;
         film->options.hooks = NULL;
+        film->options.photon_map = NULL;
         film->pixels = calloc(count, sizeof *film->pixels);
         film->rgb = calloc(count, 3 * sizeof *film->rgb);
     }
@@ -29,6 +30,7 @@ void rt_film_destroy(rt_film *film)
 {
     if (!film)
         return;
+    rt_ledger_free(&film->ledger);
     free(film->pixels);
     free(film->rgb);
     free(film);
@@ -65,4 +67,11 @@ void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height)
 void rt_film_get_stats(const rt_film *film, rt_film_stats *out)
 {
     *out = film->stats;
+}
+
+size_t rt_film_get_ledger(const rt_film *film, rt_light_ledger *out, size_t capacity)
+{
+    for (size_t i = 0; i < film->ledger.count && i < capacity; i++)
+        rt_ledger_read(&film->ledger, i, out + i);
+    return film->ledger.count;
 }

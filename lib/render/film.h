@@ -2,12 +2,14 @@
 #ifndef RT_LIB_RENDER_FILM_H
 #define RT_LIB_RENDER_FILM_H
 
+#include "photon/ledger.h"
 #include "rt.h"
 #include "types.h"
 
 struct rt_film {
     rt_render_options options; /* as rendered, defaults filled in */
     rt_film_stats stats;
+    rt_ledger ledger; /* of all photon paths */
     rt_film_pixel *pixels; /* [height][width], the sums */
     float *rgb;            /* [height][width][3], the means */
 };

@@ -11,23 +11,32 @@
 
 enum { spp_unlimited = 1 << 24 };
 
-/* Replaces zeros by the defaults that the public header states. */
-static void complete_options(rt_render_options *o)
+void rt_options_complete(rt_render_options *o)
 {
     if (o->width == 0)
         o->width = 512;
     if (o->height == 0)
         o->height = 512;
+    if (o->passes == 0)
+        o->passes = 1;
+    if (o->alpha == 0)
+        o->alpha = 2 / 3.0f;
+    if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
+        o->spp = 1;
     if (o->spp == 0)
         o->spp = o->time > 0 ? spp_unlimited : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
     if (o->photons == 0)
-        o->photons = 1000000;
+        o->photons = o->passes > 1 ? (uint64_t)o->width * o->height : 1000000;
     if (o->k == 0)
         o->k = 50;
     if (o->cone_k == 0)
         o->cone_k = 1.1f;
+    if (o->caustic_k == 0)
+        o->caustic_k = o->k;
+    if (o->caustic_radius == 0)
+        o->caustic_radius = o->radius;
 }
 
 static void scale(float out[3], const double v[3], double factor)
@@ -78,7 +87,6 @@ rt_params rt_params_make(const rt_render_options *options)
     p.max_depth = options->max_depth;
     p.final_gather = options->final_gather;
     p.direct = options->direct;
-    p.emitted = (float)options->photons;
     return p;
 }
 
@@ -105,7 +113,7 @@ static rt_status prepare(void *data)
     preparation *p = data;
     rt_params none;
     rt_arg first = {sizeof none, &none};
-    rt_hooks hooks = {NULL, keep_line, p};
+    rt_hooks hooks = {.log = keep_line, .user = p};
 
     memset(&none, 0, sizeof none);
     rt_status status = rt_device_kernel(p->device, &p->made, p->program, p->kernel, &hooks, p->error);
@@ -145,7 +153,7 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     *out = NULL;
     if (!renderer->has_camera)
         return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
-    complete_options(&complete);
+    rt_options_complete(&complete);
     aim(&camera, &renderer->camera, complete.width, complete.height);
     status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,
                              &camera, error);

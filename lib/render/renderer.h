@@ -19,6 +19,13 @@ struct rt_renderer {
     double build_seconds;
 };
 
+/* Replaces zeros by the defaults that the public header states. */
+void rt_options_complete(rt_render_options *options);
+
+/* Whether the photons of a loaded map can be used in a render: they are of its scene and fit its direct light. */
+rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *renderer, const rt_render_options *options,
+                              rt_error *error);
+
 /* Parameters of a launch that follow from the options; items and samples are left to the caller. */
 rt_params rt_params_make(const rt_render_options *options);
 

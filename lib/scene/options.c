@@ -4,7 +4,7 @@
 #include "error.h"
 #include "scene/scene.h"
 
-enum { film_side_max = 65536, film_pixels_max = 1 << 28, spp_max = 1 << 24, depth_max = 4096, k_max = 1 << 16 };
+enum { film_side_max = 65536, film_pixels_max = 1 << 28, spp_max = 1 << 24, depth_max = 4096, k_max = 1 << 16, passes_max = 1 << 24 };
 static const double photons_max = 4e9;
 
 static rt_status check_film(const rt_render_options *o, rt_error *error)
@@ -33,14 +33,28 @@ static rt_status check_photons(const rt_render_options *o, rt_error *error)
     if ((double)o->photons > photons_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "photons", "photons is %llu; it must not exceed %g",
                              (unsigned long long)o->photons, photons_max);
-    if (o->k == 1 || o->k > k_max)
+    if (o->k == 1 || (o->k > k_max && o->k != RT_K_ALL))
         return rt_fail_field(error, RT_ERROR_USAGE, "k",
                              "k is %u; it must lie between 2 (the k-th gives the radius and is not summed) and %d", o->k,
                              k_max);
     if (!(o->radius >= 0 && o->radius <= 1e15f))
         return rt_fail_field(error, RT_ERROR_USAGE, "radius", "radius is %g m; it must not be negative", o->radius);
+    if (o->passes > passes_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "passes", "passes is %u; it must not exceed %d", o->passes,
+                             passes_max);
+    if (!(o->alpha >= 0 && o->alpha < 1))
+        return rt_fail_field(error, RT_ERROR_USAGE, "alpha", "alpha is %g; it must lie between 0 and 1", o->alpha);
     if (o->cone_k != 0 && !(o->cone_k >= 1 && o->cone_k <= 1e6f))
         return rt_fail_field(error, RT_ERROR_USAGE, "cone_k", "cone_k is %g; it must be at least 1", o->cone_k);
+    if ((double)o->caustic_photons > photons_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "caustic_photons", "caustic_photons is %llu; it must not exceed %g",
+                             (unsigned long long)o->caustic_photons, photons_max);
+    if (o->caustic_k == 1 || (o->caustic_k > k_max && o->caustic_k != RT_K_ALL))
+        return rt_fail_field(error, RT_ERROR_USAGE, "caustic_k", "caustic_k is %u; it must lie between 2 and %d",
+                             o->caustic_k, k_max);
+    if (!(o->caustic_radius >= 0 && o->caustic_radius <= 1e15f))
+        return rt_fail_field(error, RT_ERROR_USAGE, "caustic_radius",
+                             "caustic_radius is %g m; it must not be negative", o->caustic_radius);
     if (o->final_gather > depth_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "final_gather", "final_gather is %u; it must not exceed %d",
                              o->final_gather, depth_max);
@@ -55,6 +69,11 @@ static rt_status check_enums(const rt_render_options *o, rt_error *error)
         return rt_fail_field(error, RT_ERROR_USAGE, "sampler", "there is no sampler %d", (int)o->sampler);
     if ((unsigned)o->kernel > RT_DENSITY_GAUSSIAN_JENSEN)
         return rt_fail_field(error, RT_ERROR_USAGE, "kernel", "there is no density kernel %d", (int)o->kernel);
+    if ((unsigned)o->caustic_kernel > RT_DENSITY_GAUSSIAN_JENSEN)
+        return rt_fail_field(error, RT_ERROR_USAGE, "caustic_kernel", "there is no density kernel %d",
+                             (int)o->caustic_kernel);
+    if ((unsigned)o->gather > RT_GATHER_DEVICE)
+        return rt_fail_field(error, RT_ERROR_USAGE, "gather", "there is no way %d to gather", (int)o->gather);
     if ((unsigned)o->direct > RT_DIRECT_PHOTONS)
         return rt_fail_field(error, RT_ERROR_USAGE, "direct", "there is no direct mode %d", (int)o->direct);
     return RT_OK;

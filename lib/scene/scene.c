@@ -152,6 +152,7 @@ rt_status rt_scene_set_options(rt_scene *scene, const rt_render_options *options
         return status;
     scene->options = *options;
     scene->options.hooks = NULL;
+    scene->options.photon_map = NULL;
     return RT_OK;
 }
 

@@ -31,14 +31,15 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
 }
 
 /* Four rows an item: position, direction, flux and light, normal. */
-kernel void emit(global const rt_scene_header *header, uint seed, uint count, global float4 *out)
+kernel void emit(global const rt_scene_header *header, uint seed, uint count, global const rt_light_share *shares,
+                 global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);
     struct emission made;
-    if (!light_emit(&scene, numbers(seed, 2u * i), numbers(seed, 2u * i + 1u), &made))
+    if (!light_emit(&scene, shares, numbers(seed, 2u * i), numbers(seed, 2u * i + 1u), &made))
         return;
     out[4u * i] = (float4)(made.at.position, 0.0f);
     out[4u * i + 1u] = (float4)(made.direction, 0.0f);

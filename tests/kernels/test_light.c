@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "photon/sources.h"
 #include "render/renderer.h"
 #include "statistics.h"
 
@@ -68,10 +69,16 @@ static void draw_emissions(rt_renderer *renderer)
 {
     uint32_t count = n, seed = 1;
     cl_kernel kernel = test_kernel("light", "emit");
+    rt_light_sources lights;
+    rt_error error;
+    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
     cl_mem out = test_buffer(sizeof emissions, NULL);
-    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(out)};
-    test_run(kernel, args, 4, n);
+    cl_mem shares = test_buffer(lights.light_count * sizeof *lights.shares, lights.shares);
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(shares), RT_ARG(out)};
+    test_run(kernel, args, 5, n);
     test_read(out, sizeof emissions, emissions);
+    rt_light_sources_free(&lights);
+    rt_buffer_release(shares);
     rt_buffer_release(out);
     rt_kernel_release(kernel);
 }

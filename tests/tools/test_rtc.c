@@ -73,6 +73,14 @@ static const struct {
      "--spp 2 --mode photon --photons 1000 --kernel cone --cone-k 2"},
     {"direct", "--spp 2 --mode photon --photons 1000", "--spp 2 --mode photon --photons 1000 --direct photons"},
     {"final-gather", "--spp 2 --mode photon --photons 1000", "--spp 2 --mode photon --photons 1000 --final-gather 1"},
+    {"caustic-photons", "--spp 2 --mode photon --photons 1000",
+     "--spp 2 --mode photon --photons 1000 --caustic-photons 2000"},
+    {"caustic-k", "--spp 2 --mode photon --photons 1000 --caustic-photons 5000",
+     "--spp 2 --mode photon --photons 1000 --caustic-photons 5000 --caustic-k 9"},
+    {"caustic-radius", "--spp 2 --mode photon --photons 1000 --caustic-photons 5000",
+     "--spp 2 --mode photon --photons 1000 --caustic-photons 5000 --caustic-radius 0.05"},
+    {"caustic-kernel", "--spp 2 --mode photon --photons 1000 --caustic-photons 5000",
+     "--spp 2 --mode photon --photons 1000 --caustic-photons 5000 --caustic-kernel box"},
 };
 
 static void options_change_the_picture(void **state)

@@ -73,6 +73,29 @@ static const struct {
     {"devices a.rts", "takes no argument"},
     {"doctor a.rts", "takes no argument but options"},
     {"check --help=yes", "--help takes no value"},
+    {"a.rts --caustic-k 1", "--caustic-k: "},
+    {"a.rts --caustic-kernel q", "--caustic-kernel takes one of"},
+    {"a.rts --part 1/2", "takes no option --part"},
+    {"photons", "usage: rtc photons"},
+    {"photons a.rts", "--out FILE"},
+    {"photons a.rts b.rts --out m.rtp", "usage: rtc photons"},
+    {"photons a.rts --out m.rtp --out n.rtp", "--out FILE"},
+    {"photons a.rts --out m.rtp --part 0/2", "--part takes"},
+    {"photons a.rts --out m.rtp --part 3/2", "--part takes"},
+    {"photons a.rts --out m.rtp --part 1", "--part takes"},
+    {"photons a.rts --out m.rtp --part 1/x", "--part takes"},
+    {"photons a.rts --out m.rtp --light-shares 1,,2", "--light-shares takes"},
+    {"photons a.rts --out m.rtp --light-shares 1,-2", "--light-shares takes"},
+    {"photons a.rts --out m.rtp --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
+    {"photons a.rts --out m.rtp --k 5", "`rtc photons` takes no option --k"},
+    {"photons a.rts --out m.rtp --max-depth 1e6", "--max-depth: "},
+    {"photons info", "usage: rtc photons info"},
+    {"photons info m.rtp --seed 3", "`rtc photons info` takes no option --seed"},
+    {"photons info m.rtp --out a", "`rtc photons info` takes no option --out"},
+    {"photons merge --out m.rtp", "usage: rtc photons merge"},
+    {"photons merge a.rtp", "--out FILE"},
+    {"photons diff a.rtp", "usage: rtc photons diff"},
+    {"photons export a.rtp b.rtp --out c.ply", "usage: rtc photons export"},
 };
 
 static void wrong_usage_is_refused_with_status_2(void **state)
@@ -175,7 +198,7 @@ static void help_describes_every_option(void **state)
 static void each_command_has_its_help(void **state)
 {
     (void)state;
-    static const char *const commands[] = {"check", "mesh", "devices", "doctor"};
+    static const char *const commands[] = {"check", "mesh", "devices", "doctor", "photons"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         char usage[64];
         snprintf(usage, sizeof usage, "usage: rtc %s", commands[i]);

@@ -308,7 +308,7 @@ static void progress_cancels(void **state)
     const rt_bvh_mesh mesh = {positions[0], indices[0], 199998, 0};
     const rt_bvh_input input = {&mesh, 1, NULL, 0, NULL, 0};
     int calls = 0;
-    const rt_hooks hooks = {cancel_at_once, NULL, &calls};
+    const rt_hooks hooks = {.progress = cancel_at_once, .user = &calls};
     rt_stage_progress progress;
     rt_error error;
     rt_bvh *bvh = NULL;

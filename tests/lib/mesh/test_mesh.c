@@ -87,7 +87,7 @@ static void progress_is_reported_and_cancels(void **state)
 {
     (void)state;
     heard h = {0};
-    rt_hooks hooks = {on_progress, on_log, &h};
+    rt_hooks hooks = {.progress = on_progress, .log = on_log, .user = &h};
     rt_mesh *mesh = NULL;
     rt_error error = {0};
     scratch_write("a.ply", TRIANGLE);
@@ -117,7 +117,7 @@ static void the_log_tells_what_was_left_out(void **state)
         "4 vertices and 3 faces in the file, 4 vertices and 2 triangles in the mesh",
     };
     heard h = {0};
-    rt_hooks hooks = {NULL, on_log, &h};
+    rt_hooks hooks = {.log = on_log, .user = &h};
     rt_mesh *mesh = NULL;
     scratch_write("a.ply",
                   "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"

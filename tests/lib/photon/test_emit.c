@@ -75,26 +75,35 @@ static rt_renderer *make_room(const float kd[3], ceiling above, lamp how)
     return make_room_on(test_device(), kd, above, how);
 }
 
-static rt_photon_map emit(rt_renderer *renderer, uint32_t max_depth, rt_direct direct, uint64_t count)
+static rt_photon_map emit_map(rt_renderer *renderer, uint32_t max_depth, rt_direct direct, uint64_t count)
 {
-    rt_photon_map map = {0};
+    rt_photon_map map = {.settings = {.max_depth = max_depth, .direct = direct}};
+    rt_emitter *emitter = NULL;
     rt_stage_progress progress;
-    rt_params params;
     rt_error error;
     cl_kernel kernel = NULL;
 
-    memset(&params, 0, sizeof params);
-    params.seed = 11;
-    params.max_depth = max_depth;
-    params.direct = direct;
     expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_EMIT), &error);
     expect_ok(rt_device_kernel(renderer->device, &kernel, "photon_emit", "photon_emit", NULL, &error), &error);
-    expect_ok(rt_photon_emit(&map, renderer->device, kernel, renderer->scene, &params, count, &progress, &error),
-              &error);
+    expect_ok(rt_emitter_create(&emitter, renderer->device, kernel, renderer->scene, NULL, 0, &error), &error);
+    expect_ok(rt_emitter_emit(emitter, &map, RT_PHOTONS_GLOBAL, 11, 0, count, &progress, &error), &error);
+    rt_emitter_destroy(emitter);
     rt_kernel_release(kernel);
-    assert_int_equal(map.emitted, count);
-    assert_int_equal(map.rejected, 0);
+    assert_int_equal(map.lists[RT_PHOTONS_GLOBAL].emitted, count);
+    assert_int_equal(map.lists[RT_PHOTONS_GLOBAL].rejected, 0);
+    assert_int_equal(map.ledger.paths, count);
+    assert_int_equal(map.ledger.rejected, 0);
     return map;
+}
+
+/* The photons alone. */
+static rt_photon_list emit(rt_renderer *renderer, uint32_t max_depth, rt_direct direct, uint64_t count)
+{
+    rt_photon_map map = emit_map(renderer, max_depth, direct, count);
+    rt_photon_list list = map.lists[RT_PHOTONS_GLOBAL];
+    map.lists[RT_PHOTONS_GLOBAL] = (rt_photon_list){0};
+    rt_photon_map_free(&map);
+    return list;
 }
 
 static uint32_t segments(const rt_photon *photon)
@@ -126,13 +135,13 @@ static int caustic(const rt_photon *photon)
     return (photon->flags & RT_PHOTON_CAUSTIC) != 0;
 }
 
-static double sum_flux(const rt_photon_map *map, filter *which, int channel)
+static double sum_flux(const rt_photon_list *map, filter *which, int channel)
 {
     double sum = 0;
     for (size_t i = 0; i < map->count; i++)
         if (which(map->photons + i))
             sum += map->photons[i].flux[channel];
-    return sum;
+    return sum / (double)map->emitted;
 }
 
 static void light_arrives_whole_at_the_walls(void **state)
@@ -140,10 +149,10 @@ static void light_arrives_whole_at_the_walls(void **state)
     static const float kd[3] = {0.5f, 0.5f, 0.5f};
     (void)state;
     rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
-    rt_photon_map map = emit(renderer, 4, RT_DIRECT_PHOTONS, paths);
+    rt_photon_list map = emit(renderer, 4, RT_DIRECT_PHOTONS, paths);
     for (int c = 0; c < 3; c++)
         assert_float_equal(sum_flux(&map, after_one_segment, c), light_power[c], 1e-4 * light_power[c]);
-    rt_photon_map_clear(&map);
+    rt_photon_list_clear(&map);
     rt_renderer_destroy(renderer);
 }
 
@@ -155,7 +164,7 @@ static void flux_of_all_bounces_is_the_geometric_series(void **state)
     (void)state;
     rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
     for (size_t d = 0; d < sizeof depths / sizeof *depths; d++) {
-        rt_photon_map map = emit(renderer, depths[d], RT_DIRECT_PHOTONS, paths);
+        rt_photon_list map = emit(renderer, depths[d], RT_DIRECT_PHOTONS, paths);
         for (int c = 0; c < 3; c++) {
             double expected = light_power[c] * (1 - pow(kd[c], depths[d] - 1)) / (1 - kd[c]);
             double sigma = light_power[c] * sqrt(kd[c] / paths) / (1 - kd[c]);
@@ -163,7 +172,7 @@ static void flux_of_all_bounces_is_the_geometric_series(void **state)
             if (fabs(found - expected) > 5 * sigma + 1e-4 * expected)
                 fail_msg("depth %u channel %d: %g W stored, %g expected, sigma %g", depths[d], c, found, expected, sigma);
         }
-        rt_photon_map_clear(&map);
+        rt_photon_list_clear(&map);
     }
     rt_renderer_destroy(renderer);
 }
@@ -173,8 +182,8 @@ static void photons_straight_from_the_light_are_left_to_shadow_rays(void **state
     static const float kd[3] = {0.5f, 0.5f, 0.5f};
     (void)state;
     rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LAMP_BARE);
-    rt_photon_map nee = emit(renderer, 16, RT_DIRECT_NEE, paths);
-    rt_photon_map all = emit(renderer, 16, RT_DIRECT_PHOTONS, paths);
+    rt_photon_list nee = emit(renderer, 16, RT_DIRECT_NEE, paths);
+    rt_photon_list all = emit(renderer, 16, RT_DIRECT_PHOTONS, paths);
     size_t j = 0;
     /* One map is the other without its photons of one segment. */
     for (size_t i = 0; i < all.count; i++)
@@ -184,8 +193,8 @@ static void photons_straight_from_the_light_are_left_to_shadow_rays(void **state
         }
     assert_int_equal(j, nee.count);
     assert_true(all.count - nee.count > paths / 2);
-    rt_photon_map_clear(&nee);
-    rt_photon_map_clear(&all);
+    rt_photon_list_clear(&nee);
+    rt_photon_list_clear(&all);
     rt_renderer_destroy(renderer);
 }
 
@@ -195,7 +204,7 @@ static void delta_surfaces_store_nothing_and_pass_all_flux(void **state)
     (void)state;
     for (lamp how = LAMP_BARE; how <= LAMP_IN_GLASS; how++) {
         rt_renderer *renderer = make_room(kd, CEILING_MIRROR, how);
-        rt_photon_map map = emit(renderer, 64, RT_DIRECT_PHOTONS, paths);
+        rt_photon_list map = emit(renderer, 64, RT_DIRECT_PHOTONS, paths);
         for (int c = 0; c < 3; c++) {
             double first = sum_flux(&map, first_of_path, c);
             if (fabs(first - light_power[c]) > 1e-4 * light_power[c])
@@ -204,7 +213,7 @@ static void delta_surfaces_store_nothing_and_pass_all_flux(void **state)
         }
         for (size_t i = 0; i < map.count; i++)
             assert_true(map.photons[i].shape < sides && map.photons[i].shape != top_side);
-        rt_photon_map_clear(&map);
+        rt_photon_list_clear(&map);
         rt_renderer_destroy(renderer);
     }
 }
@@ -214,7 +223,7 @@ static void photons_are_whole(void **state)
     static const float kd[3] = {0.2f, 0.5f, 0.8f};
     (void)state;
     rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
-    rt_photon_map map = emit(renderer, 16, RT_DIRECT_PHOTONS, 5000);
+    rt_photon_list map = emit(renderer, 16, RT_DIRECT_PHOTONS, 5000);
     for (size_t i = 0; i < map.count; i++) {
         const rt_photon *p = map.photons + i;
         float facing = 0, wi2 = 0, outermost = 0;
@@ -233,7 +242,7 @@ static void photons_are_whole(void **state)
         /* In the order of paths, and along each path from the light on. */
         assert_true(i == 0 || p->path > p[-1].path || (p->path == p[-1].path && segments(p) == segments(p - 1) + 1));
     }
-    rt_photon_map_clear(&map);
+    rt_photon_list_clear(&map);
     rt_renderer_destroy(renderer);
 }
 
@@ -243,8 +252,8 @@ static void maps_do_not_depend_on_batches(void **state)
     enum { count = 20000, shallow = 16, deep = 128 }; /* deep paths need more slots: smaller batches */
     (void)state;
     rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
-    rt_photon_map one = emit(renderer, shallow, RT_DIRECT_PHOTONS, count);
-    rt_photon_map many = emit(renderer, deep, RT_DIRECT_PHOTONS, count);
+    rt_photon_list one = emit(renderer, shallow, RT_DIRECT_PHOTONS, count);
+    rt_photon_list many = emit(renderer, deep, RT_DIRECT_PHOTONS, count);
     size_t j = 0;
     for (size_t i = 0; i < many.count; i++)
         if (segments(many.photons + i) < shallow) {
@@ -252,8 +261,8 @@ static void maps_do_not_depend_on_batches(void **state)
             assert_memory_equal(one.photons + j++, many.photons + i, sizeof *one.photons);
         }
     assert_int_equal(j, one.count);
-    rt_photon_map_clear(&one);
-    rt_photon_map_clear(&many);
+    rt_photon_list_clear(&one);
+    rt_photon_list_clear(&many);
     rt_renderer_destroy(renderer);
 }
 
@@ -263,21 +272,21 @@ static void maps_do_not_depend_on_threads_and_work_groups(void **state)
     static const rt_device_options options[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 2, 64}};
     (void)state;
     rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LAMP_IN_GLASS);
-    rt_photon_map expected = emit(renderer, 16, RT_DIRECT_NEE, 10000);
+    rt_photon_list expected = emit(renderer, 16, RT_DIRECT_NEE, 10000);
     rt_renderer_destroy(renderer);
     for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
         rt_device *device = NULL;
         rt_error error;
         expect_ok(rt_device_open(&device, options + i, &error), &error);
         renderer = make_room_on(device, kd, CEILING_MIRROR, LAMP_IN_GLASS);
-        rt_photon_map map = emit(renderer, 16, RT_DIRECT_NEE, 10000);
+        rt_photon_list map = emit(renderer, 16, RT_DIRECT_NEE, 10000);
         assert_int_equal(map.count, expected.count);
         assert_memory_equal(map.photons, expected.photons, map.count * sizeof *map.photons);
-        rt_photon_map_clear(&map);
+        rt_photon_list_clear(&map);
         rt_renderer_destroy(renderer);
         rt_device_close(device);
     }
-    rt_photon_map_clear(&expected);
+    rt_photon_list_clear(&expected);
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-/* test_gather.c - a gatherer adds to the film what the photons around each point make of it. */
+/* test_gather.c - a gatherer adds to points the light that they reflect of the photons around them. */
 #include "support.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #define PI 3.14159265358979323846
 
-enum { photon_count = 2000, point_count = 300 };
+enum { photon_count = 2000, point_count = 300, emitted = 4 };
 
 static const float kd[2][3] = {{0.9f, 0.5f, 0.1f}, {0.2f, 0.4f, 0.6f}};
 
@@ -29,9 +29,9 @@ static cl_mem make_scene(void)
     return test_buffer(sizeof scene, &scene);
 }
 
-static rt_photon_map make_map(void)
+static rt_photon_list make_map(void)
 {
-    rt_photon_map map = {calloc(photon_count, sizeof *map.photons), photon_count, photon_count, photon_count, 0};
+    rt_photon_list map = {calloc(photon_count, sizeof *map.photons), photon_count, photon_count, emitted, 0};
     points_stream stream = {5};
     assert_non_null(map.photons);
     for (size_t i = 0; i < map.count; i++) {
@@ -64,7 +64,7 @@ static void make_points(rt_gather_point points[point_count])
 }
 
 /* Radiance by the definition, in float64, with an Epanechnikov kernel over all photons within the radius. */
-static void expected_radiance(double out[3], const rt_photon_map *map, const rt_gather_point *point, double r)
+static void expected_radiance(double out[3], const rt_photon_list *map, const rt_gather_point *point, double r)
 {
     double sum[3] = {0};
     for (size_t i = 0; i < map->count; i++) {
@@ -74,84 +74,113 @@ static void expected_radiance(double out[3], const rt_photon_map *map, const rt_
             sum[c] += map->photons[i].flux[c] * map->photons[i].shading * 2 * (1 - t2) / (PI * r * r);
     }
     for (int c = 0; c < 3; c++)
-        out[c] = point->radiance[c] + point->weight[c] * kd[point->material][c] / PI * sum[c];
+        out[c] = point->radiance[c] + point->weight[c] * kd[point->material][c] / PI * sum[c] / emitted;
 }
 
-static cl_kernel gather_kernel(void)
-{
-    rt_error error;
-    cl_kernel kernel = NULL;
-    expect_ok(rt_device_kernel(test_device(), &kernel, "photon_gather", "photon_gather", NULL, &error), &error);
-    return kernel;
-}
+/* The two ways to gather. */
+static const char *const programs[] = {"photon_gather", "photon_walk"};
 
-static void samples_are_radiance_plus_weighted_reflection(void **state)
+/* Gathers twice at the points behind `before` others, which are left alone; discs is what was found. */
+static void gather(const rt_photon_list *map, rt_gather_options options, size_t before, rt_gather_point *points,
+                   rt_gather_disc *discs)
 {
-    static rt_film_pixel film[point_count];
-    static rt_gather_point points[point_count];
-    const rt_gather_options options = {1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f}; /* all within 0.1 m count */
-    rt_photon_map map = make_map();
+    size_t bytes = (before + point_count) * sizeof *points;
+    const char *program = programs[options.on_device];
     rt_gatherer *gatherer = NULL;
-    cl_kernel kernel = gather_kernel();
-    cl_mem scene = make_scene(), pixels = test_buffer(sizeof film, film);
-    uint64_t asked = 0;
+    cl_kernel kernel = NULL;
+    cl_mem scene = make_scene(), buffer = test_buffer(bytes, points);
     rt_error error;
-    (void)state;
 
-    make_points(points);
-    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, scene, &map, &options, &error), &error);
+    expect_ok(rt_device_kernel(test_device(), &kernel, program, program, NULL, &error), &error);
+    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, scene, map, &options, &error), &error);
     assert_true(rt_gatherer_capacity(gatherer) >= point_count);
-    expect_ok(rt_buffer_write(test_device(), rt_gatherer_points(gatherer), 0, sizeof points, points, &error), &error);
-    for (int sample = 0; sample < 2; sample++)
-        expect_ok(rt_gatherer_add(gatherer, point_count, pixels, &asked, &error), &error);
-    test_read(pixels, sizeof film, film);
-
-    for (size_t i = 0; i < point_count; i++) {
-        const rt_film_pixel *pixel = film + points[i].pixel;
-        double expected[3];
-        expected_radiance(expected, &map, points + i, 0.1f);
-        assert_true(pixel->weight == 2);
-        for (int c = 0; c < 3; c++)
-            assert_float_equal(pixel->sum[c] / 2, expected[c], 1e-5 * (1 + expected[c]));
-    }
-    assert_int_equal(asked, 2 * (point_count - (point_count + 6) / 7));
+    for (int time = 0; time < 2; time++)
+        expect_ok(rt_gatherer_add(gatherer, buffer, before, point_count, discs, &error), &error);
+    test_read(buffer, bytes, points);
     rt_gatherer_destroy(gatherer);
-    rt_photon_map_clear(&map);
     rt_buffer_release(scene);
-    rt_buffer_release(pixels);
+    rt_buffer_release(buffer);
     rt_kernel_release(kernel);
+}
+
+static void check_reflection(rt_gather_options options)
+{
+    enum { before = 5 };
+    static rt_gather_point points[before + point_count], asked[before + point_count];
+    static rt_gather_disc discs[point_count];
+    rt_photon_list map = make_map();
+
+    make_points(asked + before);
+    memcpy(points, asked, sizeof points);
+    gather(&map, options, before, points, discs);
+    assert_memory_equal(points, asked, before * sizeof *points);
+    for (size_t i = 0; i < point_count; i++) {
+        double expected[3];
+        expected_radiance(expected, &map, asked + before + i, 0.1f);
+        assert_int_equal(discs[i].asked, i % 7 != 0);
+        assert_true(discs[i].asked == (discs[i].count > 0));
+        for (int c = 0; c < 3; c++) {
+            /* Twice the reflected light, as it was asked for twice. */
+            double found = points[before + i].radiance[c] - asked[before + i].radiance[c];
+            double wanted = 2 * (expected[c] - asked[before + i].radiance[c]);
+            assert_float_equal(found, wanted, 1e-5 * (1 + wanted));
+        }
+    }
+    rt_photon_list_clear(&map);
+}
+
+static void points_gain_what_they_reflect(void **state)
+{
+    (void)state;
+    /* With k above the number of photons inside, all within 0.1 m count. */
+    check_reflection((rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, 0});
+    check_reflection((rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, 1});
+    check_reflection((rt_gather_options){0, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, 1});
+}
+
+static void both_ways_give_the_same_light(void **state)
+{
+    static const rt_gather_options ways[] = {{50, 0, RT_DENSITY_GAUSSIAN, 1.1f, 0},
+                                             {50, 0.03f, RT_DENSITY_CONE, 1.2f, 0},
+                                             {5, 0, RT_DENSITY_SILVERMAN, 1.1f, 0},
+                                             {500, 0, RT_DENSITY_BOX, 1.1f, 0}};
+    static rt_gather_point host[point_count], device[point_count];
+    static rt_gather_disc discs[point_count];
+    rt_photon_list map = make_map();
+    (void)state;
+    for (size_t way = 0; way < sizeof ways / sizeof *ways; way++) {
+        rt_gather_options on_device = ways[way];
+        on_device.on_device = 1;
+        make_points(host);
+        make_points(device);
+        gather(&map, ways[way], 0, host, discs);
+        gather(&map, on_device, 0, device, discs);
+        for (size_t i = 0; i < point_count; i++)
+            for (int c = 0; c < 3; c++)
+                assert_float_equal(host[i].radiance[c], device[i].radiance[c], 1e-5 * (1 + host[i].radiance[c]));
+    }
+    rt_photon_list_clear(&map);
 }
 
 static void an_empty_map_leaves_the_radiance_alone(void **state)
 {
-    static rt_film_pixel film[point_count];
-    static rt_gather_point points[point_count];
-    const rt_gather_options options = {50, 0, RT_DENSITY_GAUSSIAN, 1.1f};
-    rt_photon_map map = {0};
-    rt_gatherer *gatherer = NULL;
-    cl_kernel kernel = gather_kernel();
-    cl_mem scene = make_scene(), pixels = test_buffer(sizeof film, film);
-    rt_error error;
+    static rt_gather_point points[point_count], asked[point_count];
+    static rt_gather_disc discs[point_count];
+    rt_photon_list map = {0};
     (void)state;
-
-    make_points(points);
-    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, scene, &map, &options, &error), &error);
-    expect_ok(rt_buffer_write(test_device(), rt_gatherer_points(gatherer), 0, sizeof points, points, &error), &error);
-    expect_ok(rt_gatherer_add(gatherer, point_count, pixels, NULL, &error), &error);
-    test_read(pixels, sizeof film, film);
-    for (size_t i = 0; i < point_count; i++)
-        for (int c = 0; c < 3; c++)
-            assert_true(film[points[i].pixel].sum[c] == points[i].radiance[c]);
-    rt_gatherer_destroy(gatherer);
-    rt_buffer_release(scene);
-    rt_buffer_release(pixels);
-    rt_kernel_release(kernel);
+    make_points(asked);
+    for (int on_device = 0; on_device < 2; on_device++) {
+        memcpy(points, asked, sizeof points);
+        gather(&map, (rt_gather_options){50, 0, RT_DENSITY_GAUSSIAN, 1.1f, on_device}, 0, points, discs);
+        assert_memory_equal(points, asked, sizeof points);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_are_radiance_plus_weighted_reflection),
+        cmocka_unit_test(points_gain_what_they_reflect),
+        cmocka_unit_test(both_ways_give_the_same_light),
         cmocka_unit_test(an_empty_map_leaves_the_radiance_alone),
     };
     return cmocka_run_group_tests_name("lib/photon/gather", tests, NULL, NULL);

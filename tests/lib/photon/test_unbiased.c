@@ -16,7 +16,7 @@
 #include <string.h>
 
 #include "lib/photon/points.h"
-#include "photon/search.h"
+#include "photon/gather.h"
 
 enum { fields = 100, points_a_field = 1000, estimates = fields * points_a_field };
 
@@ -29,9 +29,10 @@ static const char *const kernel_names[] = {"epanechnikov", "box", "cone", "gauss
 enum { kernels = sizeof kernel_names / sizeof *kernel_names };
 
 /* A map of all fields, n photons in each square, of which one in `facing` faces the gather points. */
-static void lay_down(rt_photon_map *map, int n, int facing)
+static void lay_down(rt_photon_list *map, int n, int facing)
 {
     points_stream stream = {12};
+    map->emitted = 1;
     map->capacity = (size_t)fields * n * 9;
     map->photons = calloc(map->capacity, sizeof *map->photons);
     assert_non_null(map->photons);
@@ -84,91 +85,60 @@ static cl_mem make_scene(void)
     return test_buffer(sizeof scene, &scene);
 }
 
-/* The search's results and what else stays the same for all kernels, on the device. */
-typedef struct setup {
-    cl_mem scene, points, discs, lists, photons, film;
-    rt_u32 stride;
-} setup;
-
-static setup find(const rt_photon_map *map, uint32_t k, float max_radius)
-{
-    rt_photon_search *search = NULL;
-    rt_gather_point *points = make_points();
-    rt_gather_disc *discs = malloc(estimates * sizeof *discs);
-    rt_error error;
-    setup s;
-
-    expect_ok(rt_photon_search_create(&search, map, k, max_radius, test_device()->threads, &error), &error);
-    s.stride = (rt_u32)rt_photon_search_stride(search);
-    rt_u32 *lists = calloc((size_t)estimates * s.stride, sizeof *lists);
-    expect_ok(rt_photon_search_find(search, points, estimates, lists, discs, NULL, &error), &error);
-    for (int i = 0; i < estimates; i++)
-        assert_true(discs[i].squared_radius < margin * margin);
-    s.scene = make_scene();
-    s.points = test_buffer(estimates * sizeof *points, points);
-    s.discs = test_buffer(estimates * sizeof *discs, discs);
-    s.lists = test_buffer((size_t)estimates * s.stride * sizeof *lists, lists);
-    s.photons = test_buffer(map->count * sizeof *map->photons, map->photons);
-    s.film = test_buffer(estimates * sizeof(rt_film_pixel), NULL);
-    rt_photon_search_destroy(search);
-    free(points);
-    free(discs);
-    free(lists);
-    return s;
-}
-
-static void release(setup *s)
-{
-    rt_buffer_release(s->scene);
-    rt_buffer_release(s->points);
-    rt_buffer_release(s->discs);
-    rt_buffer_release(s->lists);
-    rt_buffer_release(s->photons);
-    rt_buffer_release(s->film);
-}
-
 /* The mean of the fields' estimated densities, and its standard error. */
-static void estimate(const setup *s, uint32_t density, double *mean, double *error_of_mean)
+static void estimate(const rt_photon_list *map, const rt_gather_options *options, double *mean, double *error_of_mean)
 {
-    static rt_film_pixel film[estimates];
-    rt_error error;
+    static const char *const programs[] = {"photon_gather", "photon_walk"};
+    const char *program = programs[options->on_device];
+    rt_gather_point *points = make_points();
+    rt_gather_disc *discs = calloc(estimates, sizeof *discs);
+    rt_gatherer *gatherer = NULL;
     cl_kernel kernel = NULL;
-    rt_params params;
-    rt_density_params how = {density, cone_k, s->stride, 0};
+    cl_mem scene = make_scene(), buffer = test_buffer(estimates * sizeof *points, points);
+    rt_error error;
     double sum = 0, squares = 0;
 
-    memset(&params, 0, sizeof params);
-    params.item_count = estimates;
-    memset(film, 0, sizeof film);
-    expect_ok(rt_buffer_write(test_device(), s->film, 0, sizeof film, film, &error), &error);
-    expect_ok(rt_device_kernel(test_device(), &kernel, "photon_gather", "photon_gather", NULL, &error), &error);
-    rt_arg args[] = {RT_ARG(params),   RT_ARG(s->scene), RT_ARG(how),        RT_ARG(s->points),
-                     RT_ARG(s->discs), RT_ARG(s->lists), RT_ARG(s->photons), RT_ARG(s->film)};
-    test_run(kernel, args, sizeof args / sizeof *args, estimates);
-    test_read(s->film, sizeof film, film);
-    rt_kernel_release(kernel);
-
+    assert_non_null(discs);
+    expect_ok(rt_device_kernel(test_device(), &kernel, program, program, NULL, &error), &error);
+    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, scene, map, options, &error), &error);
+    size_t batch = rt_gatherer_capacity(gatherer);
+    for (size_t first = 0; first < estimates; first += batch) {
+        size_t count = estimates - first < batch ? estimates - first : batch;
+        expect_ok(rt_gatherer_add(gatherer, buffer, first, count, discs + first, &error), &error);
+    }
+    test_read(buffer, estimates * sizeof *points, points);
     for (int field = 0; field < fields; field++) {
         double one = 0;
-        for (int i = 0; i < points_a_field; i++)
-            one += film[field * points_a_field + i].sum[1] * 3.14159265358979323846 / points_a_field;
+        for (int i = field * points_a_field; i < (field + 1) * points_a_field; i++) {
+            assert_true(discs[i].squared_radius < margin * margin);
+            one += points[i].radiance[1] * 3.14159265358979323846 / points_a_field;
+        }
         sum += one;
         squares += one * one;
     }
     *mean = sum / fields;
     *error_of_mean = sqrt((squares / fields - *mean * *mean) / (fields - 1));
+    rt_gatherer_destroy(gatherer);
+    rt_kernel_release(kernel);
+    rt_buffer_release(scene);
+    rt_buffer_release(buffer);
+    free(points);
+    free(discs);
 }
 
 /* Every kernel's mean is `truth`; a box that counts the k-th photon as well would be caught. */
-static void check(const setup *s, uint32_t k, double truth, int by_nearest)
+static void check(const rt_photon_list *map, uint32_t k, float max_radius, int on_device, double truth)
 {
-    for (uint32_t density = 0; density < kernels; density++) {
+    /* The kernels are evaluated by the same function in both ways, and the tree of FLANN is slow to build. */
+    for (uint32_t density = 0; density < (on_device ? kernels : 2u); density++) {
+        rt_gather_options options = {k, max_radius, density, cone_k, on_device};
         double mean, sigma;
-        estimate(s, density, &mean, &sigma);
-        print_message("k %u %s: %.3f of %.0f, %+.2f standard errors of %.4f %%\n", (unsigned)k, kernel_names[density],
-                      mean, truth, (mean - truth) / sigma, 100 * sigma / truth);
+        estimate(map, &options, &mean, &sigma);
+        print_message("%s, k %u, radius %g, %s: %.3f of %.0f, %+.2f standard errors of %.4f %%\n",
+                      on_device ? "device" : "FLANN", (unsigned)k, max_radius, kernel_names[density], mean, truth,
+                      (mean - truth) / sigma, 100 * sigma / truth);
         assert_true(fabs(mean - truth) < standard_errors * sigma);
-        if (by_nearest && density == RT_DENSITY_BOX)
+        if (k > 0 && max_radius == 0 && density == RT_DENSITY_BOX && truth > 1000)
             assert_true(truth / (k - 1) > 2 * standard_errors * sigma);
     }
 }
@@ -177,41 +147,49 @@ static void nearest_photons_give_the_true_density(void **state)
 {
     enum { n = 4000 };
     static const uint32_t ks[] = {5, 10, 50, 500};
-    rt_photon_map map = {0};
+    rt_photon_list map = {0};
     (void)state;
     lay_down(&map, n, 1);
-    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++) {
-        setup s = find(&map, ks[i], INFINITY);
-        check(&s, ks[i], n, 1);
-        release(&s);
-    }
-    rt_photon_map_clear(&map);
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
+        for (int on_device = 0; on_device < 2; on_device++)
+            check(&map, ks[i], 0, on_device, n);
+    rt_photon_list_clear(&map);
 }
 
 static void a_limit_on_the_radius_gives_the_true_density(void **state)
 {
     enum { n = 4000, k = 50 };
-    rt_photon_map map = {0};
+    rt_photon_list map = {0};
     (void)state;
     lay_down(&map, n, 1);
     /* The expected number inside is 48: about half of the searches end at the limit. */
-    setup s = find(&map, k, sqrtf(48 / (3.14159265f * n)));
-    check(&s, k, n, 0);
-    release(&s);
-    rt_photon_map_clear(&map);
+    for (int on_device = 0; on_device < 2; on_device++)
+        check(&map, k, sqrtf(48 / (3.14159265f * n)), on_device, n);
+    rt_photon_list_clear(&map);
+}
+
+static void a_fixed_radius_gives_the_true_density(void **state)
+{
+    enum { n = 4000 };
+    static const float inside[] = {2, 48, 600};
+    rt_photon_list map = {0};
+    (void)state;
+    lay_down(&map, n, 1);
+    for (size_t i = 0; i < sizeof inside / sizeof *inside; i++)
+        check(&map, 0, sqrtf(inside[i] / (3.14159265f * n)), 1, n);
+    rt_photon_list_clear(&map);
 }
 
 static void photons_that_face_elsewhere_leave_the_density_true(void **state)
 {
     enum { n = 4000, k = 10, facing = 25 };
-    rt_photon_map map = {0};
+    rt_photon_list map = {0};
     (void)state;
     /* With few that fit, nearly all searches end at the most photons looked at. */
     lay_down(&map, n, facing);
-    setup s = find(&map, k, INFINITY);
-    check(&s, k, n / facing, 0);
-    release(&s);
-    rt_photon_map_clear(&map);
+    for (int on_device = 0; on_device < 2; on_device++)
+        check(&map, k, 0, on_device, n / facing);
+    rt_photon_list_clear(&map);
 }
 
 int main(void)
@@ -219,6 +197,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nearest_photons_give_the_true_density),
         cmocka_unit_test(a_limit_on_the_radius_gives_the_true_density),
+        cmocka_unit_test(a_fixed_radius_gives_the_true_density),
         cmocka_unit_test(photons_that_face_elsewhere_leave_the_density_true),
     };
     return cmocka_run_group_tests_name("lib/photon/unbiased", tests, NULL, NULL);

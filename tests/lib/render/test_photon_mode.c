@@ -226,7 +226,7 @@ static void a_cancel_ends_the_render(void **state)
     rt_renderer *renderer = make_renderer(test_device());
     for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
         rt_stage stage = stages[i];
-        rt_hooks hooks = {cancel_in_stage, NULL, &stage};
+        rt_hooks hooks = {.progress = cancel_in_stage, .user = &stage};
         rt_render_options options = photon_options();
         rt_film *film = NULL;
         rt_error error;

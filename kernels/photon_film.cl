@@ -1,0 +1,24 @@
+/*
+ * photon_film.cl - adds gather points to the film: one sample of the pixel of each.
+ */
+#include "film.h"
+#include "frame.h"
+
+/*
+ * points: [item_count], no two of the same pixel; caustics: [params.final_gather][stride], points whose radiance
+ * belongs to the same sample.
+ */
+kernel void photon_film(const rt_params params, global const rt_gather_point *points,
+                        global const rt_gather_point *caustics, uint stride, global rt_film_pixel *film)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= params.item_count)
+        return;
+    const uint index = points[item].pixel;
+    float3 radiance = row3(points[item].radiance);
+    for (uint i = 0u; i < params.final_gather; i++)
+        radiance += row3(caustics[i * stride + item].radiance);
+    rt_film_pixel pixel = film[index];
+    film_add(&pixel, radiance);
+    film[index] = pixel;
+}

@@ -1,0 +1,71 @@
+/*
+ * photon_sum.h - the density sum over a disc, by walking the tree of photons.
+ */
+#ifndef RT_PHOTON_SUM_H
+#define RT_PHOTON_SUM_H
+
+#include "density.h"
+#include "knn.h"
+
+struct photon_sum {
+    float3 flux_density; /* of the emitted paths together, W/m^2 */
+    float squared_radius;
+    uint count; /* photons that count */
+};
+
+INLINE_ALWAYS float sum_lanes(float8 v)
+{
+    const float4 four = v.lo + v.hi;
+    const float2 two = four.lo + four.hi;
+    return two.x + two.y;
+}
+
+/*
+ * Sums the accepted photons strictly nearer than the radius; returns how many there are of any kind. The order of
+ * summing is that of the tree.
+ */
+INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tree, const struct photon_query *query,
+                            const rt_density_params *estimate)
+{
+    const float r2 = sum->squared_radius;
+    float8 red = (float8)(0.0f), green = red, blue = red;
+    struct photon_walk walk;
+    uint first, mask, looked = 0u, count = 0u;
+
+    walk_start(&walk, tree);
+    while (walk_next(&walk, tree, query, r2, &first, &mask))
+        for (; mask; mask &= mask - 1u) {
+            global const rt_photon_block *block = tree->blocks + first + lane_first(mask);
+            const float8 d2 = photon_distances(block, query);
+            const int8 inside = d2 < r2;
+            const int8 counted = inside && photons_accepted(block, query);
+            const uint lanes = lane_mask(counted);
+            looked += popcount(lane_mask(inside));
+            if (!lanes)
+                continue;
+            count += popcount(lanes);
+            const float8 k = counted ? density_kernel8(estimate->density, estimate->cone_k, d2, r2) : (float8)(0.0f);
+            red = lane_mad(k, vload8(0, block->flux[0]), red);
+            green = lane_mad(k, vload8(0, block->flux[1]), green);
+            blue = lane_mad(k, vload8(0, block->flux[2]), blue);
+        }
+    sum->flux_density = (float3)(sum_lanes(red), sum_lanes(green), sum_lanes(blue));
+    sum->count = count;
+    return looked;
+}
+
+/* The estimate at a point; scratch: [estimate->stride]. */
+INLINE_NEVER struct photon_sum sum_photons(const struct photon_tree *tree, const struct photon_query *query,
+                                           const rt_density_params *estimate, global float *scratch)
+{
+    struct photon_sum sum;
+    sum.squared_radius = disc_radius(tree, query, estimate, scratch);
+    const uint looked = sum_disc(&sum, tree, query, estimate);
+    if (estimate->k > 0u && looked >= estimate->look && tree->shape.photon_count > estimate->look) {
+        sum.squared_radius = look_distance(tree, query, estimate->look, sum.squared_radius);
+        sum_disc(&sum, tree, query, estimate);
+    }
+    return sum;
+}
+
+#endif

@@ -1,0 +1,45 @@
+/*
+ * photon_walk.cl - the gather on the device: each work-item finds the photons around a few gather points in the
+ * tree, and adds to their radiance what the points make of them.
+ */
+#include "photon_sum.h"
+#include "reflect.h"
+
+/*
+ * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found at each point, without the lists. A point without
+ * weight, or whose place is not finite, is not asked for.
+ */
+kernel void photon_walk(const rt_params params, global const rt_scene_header *header, const rt_density_params estimate,
+                        global rt_gather_point *points, global rt_gather_disc *discs, const rt_photon_tree shape,
+                        global const rt_photon_node *nodes, global const rt_photon_block *blocks,
+                        global float *scratch)
+{
+    const uint item = (uint)get_global_id(0);
+    const uint begin = item * estimate.points_an_item, end = min(begin + estimate.points_an_item, params.item_count);
+    const struct scene scene = scene_open(header);
+    struct photon_tree tree;
+    points += params.first_item;
+    tree.shape = shape;
+    tree.nodes = nodes;
+    tree.blocks = blocks;
+
+    for (uint i = begin; i < end; i++) {
+        struct photon_query query;
+        query.position = row3(points[i].position);
+        query.normal = row3(points[i].normal);
+        rt_gather_disc disc;
+        disc.count = 0u;
+        disc.squared_radius = 0.0f;
+        disc.asked = any(row3(points[i].weight) != 0.0f) && all(isfinite(query.position));
+        disc.reserved = 0u;
+        if (disc.asked) {
+            const struct photon_sum sum =
+                sum_photons(&tree, &query, &estimate, scratch + (size_t)item * estimate.stride);
+            disc.count = sum.count;
+            disc.squared_radius = sum.squared_radius;
+            if (sum.count > 0u)
+                add_reflected(points + i, &scene, estimate.scale * sum.flux_density);
+        }
+        discs[i] = disc;
+    }
+}

@@ -1,0 +1,129 @@
+/* map_merge.c - joins photon maps: their ranges of paths in ascending order, and the photons with them. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "photon/photon_map.h"
+
+/* A range of one of the maps, and where its photons lie. */
+typedef struct piece {
+    const rt_path_range *range;
+    const rt_photon *photons;
+} piece;
+
+static int compare_pieces(const void *a, const void *b)
+{
+    const rt_path_range *x = ((const piece *)a)->range, *y = ((const piece *)b)->range;
+    if (x->seed != y->seed)
+        return x->seed < y->seed ? -1 : 1;
+    return x->first < y->first ? -1 : x->first > y->first;
+}
+
+/* Whether two maps can be parts of one. */
+static rt_status check_pair(const rt_photon_map *a, const rt_photon_map *b, rt_error *error)
+{
+    const rt_photon_settings *x = &a->settings, *y = &b->settings;
+    if (x->scene != y->scene)
+        return rt_fail(error, RT_ERROR_INPUT, "the photon maps are of different scenes");
+    if (x->direct != y->direct)
+        return rt_fail(error, RT_ERROR_INPUT, "one photon map holds direct light, another does not");
+    if (x->split != y->split)
+        return rt_fail(error, RT_ERROR_INPUT, "one photon map keeps caustic photons apart, another does not");
+    if (x->max_depth != y->max_depth)
+        return rt_fail(error, RT_ERROR_INPUT, "the photon maps have paths of %u and of %u segments at most",
+                       x->max_depth, y->max_depth);
+    if (x->sampler != y->sampler)
+        return rt_fail(error, RT_ERROR_INPUT, "the photon maps were made by different samplers");
+    if (!rt_ledger_matches(&a->ledger, &b->ledger))
+        return rt_fail(error, RT_ERROR_INPUT, "the lights of the photon maps, or their shares, are different");
+    return RT_OK;
+}
+
+/* The pieces of all maps in ascending order; the caller frees *out. */
+static rt_status list_pieces(piece **out, size_t *piece_count, const rt_photon_map *const *maps, size_t count,
+                             int kind, rt_error *error)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < count; i++)
+        n += maps[i]->ranges[kind].count;
+    piece *pieces = malloc((n ? n : 1) * sizeof *pieces);
+    if (!pieces)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for %zu ranges of photon paths", n);
+    n = 0;
+    for (size_t i = 0; i < count; i++) {
+        const rt_photon *photons = maps[i]->lists[kind].photons;
+        for (size_t j = 0; j < maps[i]->ranges[kind].count; j++) {
+            const rt_path_range *range = maps[i]->ranges[kind].ranges + j;
+            pieces[n++] = (piece){range, photons};
+            photons = range->photons ? photons + range->photons : photons;
+        }
+    }
+    qsort(pieces, n, sizeof *pieces, compare_pieces);
+    *out = pieces;
+    *piece_count = n;
+    return RT_OK;
+}
+
+static rt_status check_overlap(const piece *pieces, size_t count, rt_error *error)
+{
+    for (size_t i = 1; i < count; i++) {
+        const rt_path_range *a = pieces[i - 1].range, *b = pieces[i].range;
+        if (a->seed == b->seed && b->first < a->first + a->count)
+            return rt_fail(error, RT_ERROR_INPUT,
+                           "the photon maps hold the same paths, %llu and more of seed %u; a different seed or part "
+                           "makes others",
+                           (unsigned long long)b->first, b->seed);
+    }
+    return RT_OK;
+}
+
+/* Makes one list of the same kind of all maps. */
+static rt_status merge_lists(rt_photon_map *out, const rt_photon_map *const *maps, size_t count, int kind,
+                             rt_error *error)
+{
+    rt_photon_list *list = out->lists + kind;
+    piece *pieces = NULL;
+    size_t piece_count = 0, photons = 0;
+
+    rt_status status = list_pieces(&pieces, &piece_count, maps, count, kind, error);
+    if (status == RT_OK)
+        status = check_overlap(pieces, piece_count, error);
+    for (size_t i = 0; i < count && status == RT_OK; i++) {
+        list->emitted += maps[i]->lists[kind].emitted;
+        list->rejected += maps[i]->lists[kind].rejected;
+        photons += maps[i]->lists[kind].count;
+    }
+    if (status == RT_OK)
+        status = rt_photon_list_reserve(list, photons, error);
+    for (size_t i = 0; i < piece_count && status == RT_OK; i++) {
+        const piece *p = pieces + i;
+        if (p->range->photons > 0)
+            memcpy(list->photons + list->count, p->photons, (size_t)p->range->photons * sizeof *p->photons);
+        list->count += (size_t)p->range->photons;
+        status = rt_path_ranges_add(out->ranges + kind, p->range, error);
+    }
+    free(pieces);
+    return status;
+}
+
+rt_status rt_photon_map_merge(rt_photon_map **out, const rt_photon_map *const *maps, size_t count, rt_error *error)
+{
+    rt_status status = RT_OK;
+    if (count == 0)
+        return rt_fail(error, RT_ERROR_USAGE, "no photon maps to merge");
+    rt_photon_map *map = calloc(1, sizeof *map);
+    if (!map)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");
+    map->settings = maps[0]->settings;
+    for (size_t i = 1; i < count && status == RT_OK; i++)
+        status = check_pair(maps[0], maps[i], error);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+        status = merge_lists(map, maps, count, kind, error);
+    for (size_t i = 0; i < count && status == RT_OK; i++)
+        status = rt_ledger_add(&map->ledger, &maps[i]->ledger, error);
+    if (status == RT_OK)
+        *out = map;
+    else
+        rt_photon_map_destroy(map);
+    return status;
+}

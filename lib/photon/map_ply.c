@@ -1,0 +1,107 @@
+/* map_ply.c - a photon map as a cloud of points that MeshLab and Blender show. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "image/file.h"
+#include "image/srgb.h"
+#include "photon/photon_map.h"
+
+static const char header[] = "ply\n"
+                             "format binary_little_endian 1.0\n"
+                             "comment photons; flux in W, travel is the direction in which light came\n"
+                             "element vertex %llu\n"
+                             "property float x\n"
+                             "property float y\n"
+                             "property float z\n"
+                             "property float nx\n"
+                             "property float ny\n"
+                             "property float nz\n"
+                             "property float flux_red\n"
+                             "property float flux_green\n"
+                             "property float flux_blue\n"
+                             "property float travel_x\n"
+                             "property float travel_y\n"
+                             "property float travel_z\n"
+                             "property uint path\n"
+                             "property ushort segments\n"
+                             "property uchar caustic\n"
+                             "property uchar red\n"
+                             "property uchar green\n"
+                             "property uchar blue\n"
+                             "end_header\n";
+
+enum { POINT_BYTES = 12 * 4 + 4 + 2 + 1 + 3 };
+
+static void put_bytes(uint8_t **at, uint32_t value, int count)
+{
+    for (int i = 0; i < count; i++)
+        *(*at)++ = (uint8_t)(value >> (8 * i));
+}
+
+static void put_float(uint8_t **at, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    put_bytes(at, bits, 4);
+}
+
+/* per_path: 1 / emitted paths; brightest: flux that is shown as white. */
+static void put_point(uint8_t **at, const rt_photon *p, double per_path, double brightest)
+{
+    uint32_t segments = p->flags >> 8;
+    for (int c = 0; c < 3; c++)
+        put_float(at, p->position[c]);
+    for (int c = 0; c < 3; c++)
+        put_float(at, p->normal[c]);
+    for (int c = 0; c < 3; c++)
+        put_float(at, (float)(p->flux[c] * per_path));
+    for (int c = 0; c < 3; c++)
+        put_float(at, -p->wi[c]);
+    put_bytes(at, p->path, 4);
+    put_bytes(at, segments < UINT16_MAX ? segments : UINT16_MAX, 2);
+    put_bytes(at, p->flags & RT_PHOTON_CAUSTIC, 1);
+    for (int c = 0; c < 3; c++)
+        put_bytes(at, rt_srgb_quantise(brightest > 0 ? p->flux[c] * per_path / brightest : 0), 1);
+}
+
+static double scale_of(const rt_photon_list *list)
+{
+    return list->emitted ? 1.0 / (double)list->emitted : 0;
+}
+
+/* The largest flux of any photon in any channel, W. */
+static double find_brightest(const rt_photon_map *map)
+{
+    double brightest = 0;
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        for (size_t i = 0; i < map->lists[kind].count; i++)
+            for (int c = 0; c < 3; c++) {
+                double flux = map->lists[kind].photons[i].flux[c] * scale_of(map->lists + kind);
+                brightest = flux > brightest ? flux : brightest;
+            }
+    return brightest;
+}
+
+rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error)
+{
+    char text[sizeof header + 32];
+    size_t count = map->lists[RT_PHOTONS_GLOBAL].count + map->lists[RT_PHOTONS_CAUSTIC].count;
+    size_t start = (size_t)snprintf(text, sizeof text, header, (unsigned long long)count);
+    size_t size = start + count * POINT_BYTES;
+    uint8_t *data = malloc(size);
+    double brightest = find_brightest(map);
+
+    if (!data)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %zu bytes for a file", size);
+    memcpy(data, text, start);
+    uint8_t *at = data + start;
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        for (size_t i = 0; i < map->lists[kind].count; i++)
+            put_point(&at, map->lists[kind].photons + i, scale_of(map->lists + kind), brightest);
+    rt_bytes bytes = {data, size, size};
+    rt_status status = rt_file_replace(path, &bytes, error);
+    free(data);
+    return status;
+}

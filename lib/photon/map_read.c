@@ -1,0 +1,324 @@
+/*
+ * map_read.c - a photon map from a file; map_file.h describes the bytes.
+ *
+ * Nothing in a file is believed: sizes are compared with what is there before memory is taken, and what
+ * passes the checksum is still checked number by number, because other programs write such files too.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "image/file.h"
+#include "photon/crc32.h"
+#include "photon/map_file.h"
+
+/* A file being read; what is left is known to suffice for what is asked. */
+typedef struct reader {
+    const uint8_t *at;
+    const char *name;
+    rt_error *error;
+} reader;
+
+static uint32_t get32(reader *r)
+{
+    uint32_t value = r->at[0] | (uint32_t)r->at[1] << 8 | (uint32_t)r->at[2] << 16 | (uint32_t)r->at[3] << 24;
+    r->at += 4;
+    return value;
+}
+
+static int32_t get_signed32(reader *r)
+{
+    uint32_t bits = get32(r);
+    int32_t value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static uint64_t get64(reader *r)
+{
+    uint64_t low = get32(r);
+    return low | (uint64_t)get32(r) << 32;
+}
+
+static int64_t get_signed64(reader *r)
+{
+    uint64_t bits = get64(r);
+    int64_t value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static double get_double(reader *r)
+{
+    uint64_t bits = get64(r);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static void get_floats(reader *r, float *out, int count)
+{
+    for (int i = 0; i < count; i++) {
+        uint32_t bits = get32(r);
+        memcpy(out + i, &bits, sizeof bits);
+    }
+}
+
+/* ---- The header ------------------------------------------------------------- */
+
+/* What the header says besides the settings. */
+typedef struct counts {
+    uint64_t lights, photons[RT_PHOTON_KINDS], ranges[RT_PHOTON_KINDS];
+} counts;
+
+rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size, const char *name, rt_error *error)
+{
+    reader r = {start + sizeof rt_map_magic, name, error};
+    if (size < sizeof rt_map_magic || memcmp(start, rt_map_magic, sizeof rt_map_magic) != 0)
+        return rt_fail(error, RT_ERROR_INPUT, "%.350s: this is no photon map", name);
+    if (size < RT_MAP_HEADER)
+        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short in its header", name);
+    uint32_t version = get32(&r), header = get32(&r);
+    if (version != 1 || header != RT_MAP_HEADER)
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "%.350s: a photon map of version %u with a header of %u bytes; known is version 1 with %d", name,
+                       version, header, RT_MAP_HEADER);
+    *out = get64(&r);
+    return RT_OK;
+}
+
+/* Checks the parts that surround the content: size and checksum. */
+static rt_status check_frame(const uint8_t *data, size_t size, const char *name, rt_error *error)
+{
+    uint64_t told;
+    rt_status status = rt_photon_map_file_size(&told, data, size, name, error);
+    if (status != RT_OK)
+        return status;
+    if (told != size)
+        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map has %zu bytes instead of the %llu it was written with",
+                       name, size, (unsigned long long)told);
+    if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
+        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short", name);
+    reader r = {data + size - RT_MAP_CHECKSUM, name, error};
+    if (get32(&r) != rt_crc32(data, size - RT_MAP_CHECKSUM))
+        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is damaged: its checksum does not fit", name);
+    return RT_OK;
+}
+
+static rt_status fail_content(const reader *r, const char *what)
+{
+    return rt_fail(r->error, RT_ERROR_INPUT, "%.350s: the photon map is damaged: %s", r->name, what);
+}
+
+static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
+{
+    r->at += 24;
+    map->settings.scene = get64(r);
+    map->settings.max_depth = get32(r);
+    map->settings.sampler = get32(r);
+    map->settings.direct = get32(r);
+    map->settings.split = get32(r);
+    int32_t exponent = get_signed32(r);
+    uint32_t zero = get32(r);
+    n->lights = get64(r);
+    map->ledger.paths = get64(r);
+    map->ledger.rejected = get64(r);
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
+        map->lists[kind].emitted = get64(r);
+        map->lists[kind].rejected = get64(r);
+        n->photons[kind] = get64(r);
+        n->ranges[kind] = get64(r);
+        zero |= get64(r) != 0;
+    }
+    map->ledger.exponent = exponent;
+    if (map->settings.max_depth == 0 || map->settings.sampler > RT_SAMPLER_INDEPENDENT ||
+        map->settings.direct > RT_DIRECT_PHOTONS || map->settings.split > 1)
+        return fail_content(r, "its settings are out of range");
+    if (map->ledger.exponent < -400 || map->ledger.exponent > 400)
+        return fail_content(r, "the unit of its ledger is out of range");
+    if (zero != 0)
+        return fail_content(r, "its header is not zero where it must be");
+    if (!map->settings.split && (n->photons[RT_PHOTONS_CAUSTIC] || n->ranges[RT_PHOTONS_CAUSTIC] ||
+                                 map->lists[RT_PHOTONS_CAUSTIC].emitted || map->lists[RT_PHOTONS_CAUSTIC].rejected))
+        return fail_content(r, "it has caustic photons where it keeps none apart");
+    return RT_OK;
+}
+
+/* Takes `count` entries of a size off the bytes that are left; 0 when there are not so many. */
+static int take(uint64_t *left, uint64_t count, uint64_t size)
+{
+    if (count > *left / size)
+        return 0;
+    *left -= count * size;
+    return 1;
+}
+
+static rt_status check_counts(const reader *r, const counts *n, size_t file_size)
+{
+    uint64_t left = file_size - RT_MAP_HEADER - RT_MAP_CHECKSUM;
+    int fits = take(&left, n->lights, RT_MAP_LIGHT);
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        fits = fits && take(&left, n->ranges[kind], RT_MAP_RANGE) && take(&left, n->photons[kind], RT_MAP_PHOTON);
+    return fits && left == 0 ? RT_OK : fail_content(r, "its counts do not fit its size");
+}
+
+/* ---- The tables --------------------------------------------------------------- */
+
+static rt_status read_light(reader *r, rt_ledger_row *row)
+{
+    row->shape = get32(r);
+    uint32_t zero = get32(r);
+    row->paths = get64(r);
+    int sound = zero == 0;
+    for (int c = 0; c < 3; c++) {
+        row->power[c] = get_double(r);
+        sound = sound && row->power[c] >= 0 && isfinite(row->power[c]);
+    }
+    row->share = get_double(r);
+    sound = sound && row->share >= 0 && row->share <= 1;
+    for (int column = 0; column < RT_LEDGER_COLUMNS; column++)
+        for (int c = 0; c < 3; c++)
+            row->sums[column][c] = get_signed64(r);
+    return sound ? RT_OK : fail_content(r, "a light in its ledger is out of range");
+}
+
+static rt_status read_lights(reader *r, rt_ledger *ledger, size_t count)
+{
+    uint64_t paths = 0;
+    ledger->rows = calloc(count ? count : 1, sizeof *ledger->rows);
+    if (!ledger->rows)
+        return rt_fail(r->error, RT_ERROR_MEMORY, "out of memory for a ledger of %zu lights", count);
+    ledger->count = count;
+    for (size_t i = 0; i < count; i++) {
+        rt_status status = read_light(r, ledger->rows + i);
+        if (status != RT_OK)
+            return status;
+        if (ledger->rows[i].paths > ledger->paths - paths)
+            return fail_content(r, "its lights have more paths than it");
+        paths += ledger->rows[i].paths;
+    }
+    return RT_OK;
+}
+
+/* Ranges must be in ascending order, apart, and add up to the photons and paths of their list. */
+static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t count, uint64_t photon_count)
+{
+    static const uint64_t indices = (uint64_t)UINT32_MAX + 1;
+    rt_path_ranges *ranges = map->ranges + kind;
+    uint64_t paths = 0, photons = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        rt_path_range range;
+        range.first = get64(r);
+        range.count = get64(r);
+        range.photons = get64(r);
+        range.seed = get32(r);
+        const rt_path_range *last = ranges->count ? ranges->ranges + ranges->count - 1 : NULL;
+        if (get32(r) != 0 || range.count == 0 || range.count > indices || range.first > indices - range.count ||
+            range.photons > photon_count - photons)
+            return fail_content(r, "a range of its paths is out of range");
+        if (last && (range.seed < last->seed || (range.seed == last->seed && range.first <= last->first + last->count)))
+            return fail_content(r, "the ranges of its paths are not in order");
+        rt_status status = rt_path_ranges_add(ranges, &range, r->error);
+        if (status != RT_OK)
+            return status;
+        paths += range.count;
+        photons += range.photons;
+    }
+    if (paths != map->lists[kind].emitted || photons != photon_count)
+        return fail_content(r, "the ranges of its paths do not add up");
+    return RT_OK;
+}
+
+static int is_unit(const float v[3])
+{
+    float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    return square > 0.99f && square < 1.01f;
+}
+
+static rt_status read_photon(reader *r, rt_photon *p)
+{
+    get_floats(r, p->position, 3);
+    p->path = get32(r);
+    get_floats(r, p->wi, 3);
+    p->flags = get32(r);
+    get_floats(r, p->flux, 3);
+    get_floats(r, &p->shading, 1);
+    get_floats(r, p->normal, 3);
+    p->shape = get32(r);
+    if (!rt_photon_is_finite(p))
+        return fail_content(r, "a photon is not finite");
+    if (!is_unit(p->wi) || !is_unit(p->normal))
+        return fail_content(r, "a direction of a photon is not of unit length");
+    if (p->flux[0] < 0 || p->flux[1] < 0 || p->flux[2] < 0 || p->shading < 0)
+        return fail_content(r, "a photon has negative flux");
+    if (p->flags & 0xfeu)
+        return fail_content(r, "a photon has unknown flags");
+    return RT_OK;
+}
+
+/* Photons must be of the paths of their range, in order. */
+static rt_status read_photons(reader *r, rt_photon_list *list, const rt_path_ranges *ranges, size_t count)
+{
+    rt_status status = rt_photon_list_reserve(list, count, r->error);
+    for (size_t i = 0; i < ranges->count && status == RT_OK; i++) {
+        const rt_path_range *range = ranges->ranges + i;
+        uint64_t path = range->first;
+        for (uint64_t j = 0; j < range->photons && status == RT_OK; j++) {
+            rt_photon *photon = list->photons + list->count++;
+            status = read_photon(r, photon);
+            if (status == RT_OK && (photon->path < path || photon->path >= range->first + range->count))
+                status = fail_content(r, "a photon is not of the paths it lies among");
+            path = photon->path;
+        }
+    }
+    return status;
+}
+
+rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size, const char *name, rt_error *error)
+{
+    reader r = {data, name, error};
+    counts n = {0};
+    rt_status status = check_frame(data, size, name, error);
+    if (status != RT_OK)
+        return status;
+    rt_photon_map *map = calloc(1, sizeof *map);
+    if (!map)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");
+    status = read_header(&r, map, &n);
+    if (status == RT_OK)
+        status = check_counts(&r, &n, size);
+    if (status == RT_OK)
+        status = read_lights(&r, &map->ledger, (size_t)n.lights);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+        status = read_ranges(&r, map, kind, (size_t)n.ranges[kind], n.photons[kind]);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+        status = read_photons(&r, map->lists + kind, map->ranges + kind, (size_t)n.photons[kind]);
+    if (status == RT_OK && map->ledger.paths != map->lists[RT_PHOTONS_GLOBAL].emitted)
+        status = fail_content(&r, "its ledger is not of its paths");
+    if (status == RT_OK)
+        *out = map;
+    else
+        rt_photon_map_destroy(map);
+    return status;
+}
+
+rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *error)
+{
+    uint8_t start[RT_MAP_HEADER];
+    uint64_t told;
+    size_t size;
+    rt_bytes bytes = {0};
+
+    /* The start tells how much to read: what is no map is not read to its end, which may be far. */
+    rt_status status = rt_file_read_start(start, sizeof start, &size, path, error);
+    if (status == RT_OK)
+        status = rt_photon_map_file_size(&told, start, size, path, error);
+    if (status == RT_OK)
+        status = rt_file_read(&bytes, path, told < SIZE_MAX / 2 ? (size_t)told : SIZE_MAX / 2, error);
+    if (status == RT_OK)
+        status = rt_photon_map_decode(out, bytes.data, bytes.size, path, error);
+    rt_bytes_free(&bytes);
+    return status;
+}

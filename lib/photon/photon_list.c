@@ -1,0 +1,111 @@
+#include "photon/photon_list.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "accel/parallel.h"
+#include "error.h"
+
+rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *error)
+{
+    static const size_t most = SIZE_MAX / 2 / sizeof(rt_photon);
+    if (more > most - list->count)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for a map of so many photons");
+    size_t needed = list->count + more, capacity = list->capacity + list->capacity / 2;
+    if (needed <= list->capacity)
+        return RT_OK;
+    if (capacity < needed)
+        capacity = needed;
+    rt_photon *photons = realloc(list->photons, capacity * sizeof *photons);
+    if (!photons)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for a map of %zu photons", needed);
+    list->photons = photons;
+    list->capacity = capacity;
+    return RT_OK;
+}
+
+static int finite3(const float v[3])
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+int rt_photon_is_finite(const rt_photon *p)
+{
+    return finite3(p->position) && finite3(p->wi) && finite3(p->flux) && isfinite(p->shading) &&
+           finite3(p->normal);
+}
+
+/* Paths whose photons are copied in shares, each to its place. */
+typedef struct appending {
+    const rt_photon *slots;
+    const rt_path_account *accounts;
+    size_t path_count, slots_per_path;
+    size_t *places; /* [jobs + 1]: where the photons of a share begin */
+    rt_photon *photons;
+} appending;
+
+enum { PATHS_A_JOB = 4096 };
+
+static size_t share_end(const appending *a, size_t index)
+{
+    size_t end = (index + 1) * PATHS_A_JOB;
+    return end < a->path_count ? end : a->path_count;
+}
+
+/* Finds the places; returns how many photons were left out as not finite. */
+static uint64_t find_places(appending *a, size_t jobs)
+{
+    uint64_t rejected = 0;
+    for (size_t job = 0; job < jobs; job++) {
+        a->places[job + 1] = a->places[job];
+        for (size_t i = job * PATHS_A_JOB; i < share_end(a, job); i++) {
+            a->places[job + 1] += a->accounts[i].photons;
+            rejected += a->accounts[i].rejected;
+        }
+    }
+    return rejected;
+}
+
+static void copy_share(void *user, uint32_t index)
+{
+    const appending *a = user;
+    rt_photon *out = a->photons + a->places[index];
+    for (size_t i = (size_t)index * PATHS_A_JOB; i < share_end(a, index); i++)
+        for (size_t j = 0; j < a->accounts[i].photons; j++)
+            *out++ = a->slots[i * a->slots_per_path + j];
+}
+
+rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, const rt_path_account *accounts,
+                                size_t path_count, size_t slots_per_path, uint32_t threads, rt_error *error)
+{
+    size_t jobs = (path_count + PATHS_A_JOB - 1) / PATHS_A_JOB;
+    appending a = {slots, accounts, path_count, slots_per_path, calloc(jobs + 1, sizeof *a.places), NULL};
+
+    if (!a.places)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to collect photons");
+    uint64_t rejected = find_places(&a, jobs);
+    rt_status status = rt_photon_list_reserve(list, a.places[jobs], error);
+    if (status == RT_OK && a.places[jobs] > 0) {
+        a.photons = list->photons + list->count;
+        rt_parallel(threads, (uint32_t)jobs, copy_share, &a);
+    }
+    if (status == RT_OK) {
+        list->count += a.places[jobs];
+        list->emitted += path_count;
+        list->rejected += rejected;
+    }
+    free(a.places);
+    return status;
+}
+
+void rt_photon_list_reset(rt_photon_list *list)
+{
+    list->count = 0;
+    list->emitted = list->rejected = 0;
+}
+
+void rt_photon_list_clear(rt_photon_list *list)
+{
+    free(list->photons);
+    *list = (rt_photon_list){0};
+}

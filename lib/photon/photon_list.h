@@ -1,0 +1,40 @@
+/* photon_list.h - photons in host memory, in the order of their paths. */
+#ifndef RT_LIB_PHOTON_PHOTON_LIST_H
+#define RT_LIB_PHOTON_PHOTON_LIST_H
+
+#include <stddef.h>
+
+#include "rt.h"
+#include "types.h"
+
+/*
+ * Photons in the order of their paths, and along each path in the order of its bounces, so
+ * that order and content do not depend on how the work was shared out. All zero is empty.
+ */
+typedef struct rt_photon_list {
+    rt_photon *photons; /* [count] */
+    size_t count, capacity;
+    uint64_t emitted;  /* photon paths */
+    uint64_t rejected; /* photons left out because they were not finite */
+} rt_photon_list;
+
+/* Makes room for so many photons more. */
+rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *error);
+
+/*
+ * Appends the photons of path_count more paths: path i stored accounts[i].photons of them, which lie at
+ * slots + i * slots_per_path, and left out accounts[i].rejected. Works on so many threads.
+ */
+rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, const rt_path_account *accounts,
+                                size_t path_count, size_t slots_per_path, uint32_t threads, rt_error *error);
+
+/* Whether all numbers of a photon are finite. */
+int rt_photon_is_finite(const rt_photon *photon);
+
+/* Empties the list but keeps its memory. */
+void rt_photon_list_reset(rt_photon_list *list);
+
+/* Frees what the list holds and empties it. */
+void rt_photon_list_clear(rt_photon_list *list);
+
+#endif

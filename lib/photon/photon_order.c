@@ -1,0 +1,199 @@
+/*
+ * photon_order.c - Hilbert keys and a parallel radix sort.
+ *
+ * References:
+ *   Hamilton: "Compact Hilbert Indices", Technical Report CS-2006-07, Dalhousie University, 2006.
+ */
+#include "photon/photon_order.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accel/parallel.h"
+#include "error.h"
+
+enum { CURVE_BITS = 12 };   /* an axis */
+enum { INDEX_BITS = 28 };   /* beside a key in an item */
+enum { DIGIT_BITS = 12, DIGITS = 3 * CURVE_BITS / DIGIT_BITS, BINS = 1 << DIGIT_BITS };
+enum { SHARES = 16 };       /* of the photons, each one job */
+
+/* ---- The curve ----------------------------------------------------------------- */
+
+/*
+ * Hilbert's curve as a machine: in each of 24 states, an entry corner of the cube (3 bits) and a direction, an
+ * octant is passed in some place, and is entered in another state.
+ */
+enum { STATES = 24 };
+typedef struct curve {
+    unsigned char place[STATES][8], next[STATES][8];
+} curve;
+
+static unsigned rotate_left(unsigned bits, unsigned by)
+{
+    return (bits << by | bits >> (3 - by)) & 7;
+}
+
+/* Hamilton, sections 2.1 and 2.2: the corner at which the curve enters its w-th octant, and its direction there. */
+static unsigned entry_corner(unsigned w)
+{
+    unsigned i = w == 0 ? 0 : 2 * ((w - 1) / 2);
+    return i ^ i >> 1;
+}
+
+static unsigned direction_within(unsigned w)
+{
+    unsigned i = w == 0 ? 0 : w % 2 ? w : w - 1, ones = 0;
+    for (; i & 1; i >>= 1)
+        ones++;
+    return w == 0 ? 0 : ones % 3;
+}
+
+static void make_curve(curve *c)
+{
+    for (unsigned state = 0; state < STATES; state++)
+        for (unsigned octant = 0; octant < 8; octant++) {
+            unsigned corner = state / 3, turn = state % 3 + 1; /* direction + 1 */
+            unsigned gray = rotate_left(octant ^ corner, turn % 3 ? 3 - turn : 0), w = gray ^ gray >> 1 ^ gray >> 2;
+            unsigned to = corner ^ rotate_left(entry_corner(w), turn % 3);
+            c->place[state][octant] = (unsigned char)w;
+            c->next[state][octant] = (unsigned char)(3 * to + (turn + direction_within(w)) % 3);
+        }
+}
+
+static uint64_t hilbert_key(const curve *c, const uint32_t cell[3])
+{
+    uint64_t key = 0;
+    unsigned state = 0;
+    for (int bit = CURVE_BITS - 1; bit >= 0; bit--) {
+        unsigned octant = (cell[0] >> bit & 1) | (cell[1] >> bit & 1) << 1 | (cell[2] >> bit & 1) << 2;
+        key = key << 3 | c->place[state][octant];
+        state = c->next[state][octant];
+    }
+    return key;
+}
+
+/* ---- Sorting ------------------------------------------------------------------ */
+
+typedef struct sorting {
+    const rt_photon_list *list;
+    size_t count;
+    uint64_t *from, *to;
+    int shift; /* of the digit */
+    float low[SHARES][3], high[SHARES][3];
+    double origin[3], scale[3]; /* to cells of the curve */
+    curve curve;
+    size_t (*bins)[BINS];       /* [SHARES], counts, then where each share's items of a bin go */
+} sorting;
+
+static size_t share_begin(const sorting *s, uint32_t share)
+{
+    return s->count * share / SHARES;
+}
+
+static void bound_share(void *user, uint32_t share)
+{
+    sorting *s = user;
+    float low[3] = {HUGE_VALF, HUGE_VALF, HUGE_VALF}, high[3] = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
+    for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++)
+        for (int axis = 0; axis < 3; axis++) {
+            float x = s->list->photons[i].position[axis];
+            low[axis] = x < low[axis] ? x : low[axis];
+            high[axis] = x > high[axis] ? x : high[axis];
+        }
+    memcpy(s->low[share], low, sizeof low);
+    memcpy(s->high[share], high, sizeof high);
+}
+
+/* Maps the box around all photons to the cells; one scale for all axes keeps the cells cubes. */
+static void set_cells(sorting *s)
+{
+    double largest = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        float low = HUGE_VALF, high = -HUGE_VALF;
+        for (int i = 0; i < SHARES; i++) {
+            low = s->low[i][axis] < low ? s->low[i][axis] : low;
+            high = s->high[i][axis] > high ? s->high[i][axis] : high;
+        }
+        s->origin[axis] = low;
+        largest = (double)high - low > largest ? (double)high - low : largest;
+    }
+    for (int axis = 0; axis < 3; axis++)
+        s->scale[axis] = largest > 0 ? (1 << CURVE_BITS) * (1 - 1e-9) / largest : 0;
+}
+
+static void key_share(void *user, uint32_t share)
+{
+    sorting *s = user;
+    for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++) {
+        uint32_t cell[3];
+        for (int axis = 0; axis < 3; axis++)
+            cell[axis] = (uint32_t)((s->list->photons[i].position[axis] - s->origin[axis]) * s->scale[axis]);
+        s->from[i] = hilbert_key(&s->curve, cell) << INDEX_BITS | i;
+    }
+}
+
+static size_t digit(const sorting *s, uint64_t item)
+{
+    return (size_t)(item >> s->shift) & (BINS - 1);
+}
+
+static void count_share(void *user, uint32_t share)
+{
+    sorting *s = user;
+    size_t *bins = s->bins[share];
+    memset(bins, 0, sizeof s->bins[share]);
+    for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++)
+        bins[digit(s, s->from[i])]++;
+}
+
+/* Counts to places: bins in order, and in each bin the shares in order. */
+static void place_bins(sorting *s)
+{
+    size_t place = 0;
+    for (size_t bin = 0; bin < BINS; bin++)
+        for (size_t share = 0; share < SHARES; share++) {
+            size_t count = s->bins[share][bin];
+            s->bins[share][bin] = place;
+            place += count;
+        }
+}
+
+static void move_share(void *user, uint32_t share)
+{
+    sorting *s = user;
+    size_t *bins = s->bins[share];
+    for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++)
+        s->to[bins[digit(s, s->from[i])]++] = s->from[i];
+}
+
+rt_status rt_photon_order(uint64_t *items, uint64_t *spare, const rt_photon_list *list, uint32_t threads,
+                          rt_error *error)
+{
+    sorting s;
+    memset(&s, 0, sizeof s);
+    s.list = list;
+    s.count = list->count;
+    /* An odd number of passes ends in the other array than it began with. */
+    s.from = DIGITS % 2 ? spare : items;
+    s.to = DIGITS % 2 ? items : spare;
+    s.bins = malloc(SHARES * sizeof *s.bins);
+    if (!s.bins)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to sort %zu photons", list->count);
+    make_curve(&s.curve);
+
+    rt_parallel(threads, SHARES, bound_share, &s);
+    set_cells(&s);
+    rt_parallel(threads, SHARES, key_share, &s);
+    for (int pass = 0; pass < DIGITS; pass++) {
+        s.shift = INDEX_BITS + pass * DIGIT_BITS;
+        rt_parallel(threads, SHARES, count_share, &s);
+        place_bins(&s);
+        rt_parallel(threads, SHARES, move_share, &s);
+        uint64_t *swap = s.from;
+        s.from = s.to;
+        s.to = swap;
+    }
+    free(s.bins);
+    return RT_OK;
+}

@@ -1,0 +1,196 @@
+#include "render/photon_eye.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+
+rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, rt_device *device, cl_mem any, int on_device,
+                                 rt_stage_progress *progress, rt_error *error)
+{
+    const char *name = on_device ? "photon_walk" : "photon_gather";
+    rt_params params;
+    rt_density_params estimate;
+    rt_photon_tree tree;
+    rt_u32 stride = 0;
+    memset(&params, 0, sizeof params);
+    memset(&estimate, 0, sizeof estimate);
+    memset(&tree, 0, sizeof tree);
+    rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(stride)};
+    rt_arg gather[] = {RT_ARG(params), RT_ARG(any), RT_ARG(estimate), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any)};
+    rt_arg walk[] = {RT_ARG(params), RT_ARG(any), RT_ARG(estimate), RT_ARG(any), RT_ARG(any),
+                     RT_ARG(tree),   RT_ARG(any), RT_ARG(any),      RT_ARG(any)};
+    rt_arg film[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(stride), RT_ARG(any)};
+
+    memset(out, 0, sizeof *out);
+    rt_status status =
+        rt_kernel_prepare(device, &out->camera, "photon_camera", "photon_camera", camera, 5, progress, error);
+    if (status == RT_OK)
+        status = rt_kernel_prepare(device, &out->gather, name, name, on_device ? walk : gather, on_device ? 9 : 7,
+                                   progress, error);
+    if (status == RT_OK)
+        status = rt_kernel_prepare(device, &out->film, "photon_film", "photon_film", film, 5, progress, error);
+    return status;
+}
+
+void rt_eye_kernels_release(rt_eye_kernels *kernels)
+{
+    rt_kernel_release(kernels->camera);
+    rt_kernel_release(kernels->gather);
+    rt_kernel_release(kernels->film);
+    memset(kernels, 0, sizeof *kernels);
+}
+
+rt_status rt_photon_eye_create(rt_photon_eye *eye, rt_renderer *renderer, const rt_render_options *options,
+                               const rt_eye_kernels *kernels, const rt_film *film, rt_error *error)
+{
+    rt_device *device = renderer->device;
+    size_t pixels = (size_t)options->width * options->height;
+    memset(eye, 0, sizeof *eye);
+    eye->renderer = renderer;
+    eye->options = options;
+    eye->kernels = *kernels;
+    eye->rows = options->final_gather < options->max_depth ? options->final_gather : options->max_depth;
+    eye->capacity = RT_GATHER_POINTS_MAX / (1 + eye->rows);
+    if (pixels < eye->capacity)
+        eye->capacity = pixels;
+
+    size_t bytes = eye->capacity * sizeof(rt_gather_point);
+    eye->discs = malloc(eye->capacity * sizeof *eye->discs);
+    if (!eye->discs)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points", eye->capacity);
+    rt_status status = rt_buffer_create(device, &eye->points, CL_MEM_READ_WRITE, bytes, NULL, "gather points", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &eye->caustics, CL_MEM_READ_WRITE, eye->rows * bytes, NULL,
+                                  "gather points of caustics", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &eye->pixels, CL_MEM_READ_WRITE, pixels * sizeof *film->pixels, film->pixels,
+                                  "the film", error);
+    return status;
+}
+
+void rt_photon_eye_release(rt_photon_eye *eye)
+{
+    rt_buffer_release(eye->points);
+    rt_buffer_release(eye->caustics);
+    rt_buffer_release(eye->pixels);
+    free(eye->discs);
+    memset(eye, 0, sizeof *eye);
+}
+
+/* Follows one eye path of each of params->item_count pixels. */
+static rt_status follow_paths(rt_photon_eye *eye, rt_params *params, rt_error *error)
+{
+    rt_u32 stride = (rt_u32)eye->capacity;
+    rt_arg args[] = {{sizeof *params, params}, RT_ARG(eye->renderer->scene), RT_ARG(eye->points),
+                     RT_ARG(eye->caustics), RT_ARG(stride)};
+    params->final_gather = eye->rows;
+    rt_status status = rt_kernel_args(eye->kernels.camera, args, sizeof args / sizeof *args, error);
+    return status == RT_OK ? rt_launch(eye->renderer->device, eye->kernels.camera, params->item_count, error) : status;
+}
+
+static void count_asked(const rt_photon_eye *eye, size_t count, uint64_t *asked)
+{
+    for (size_t i = 0; i < count; i++)
+        *asked += eye->discs[i].asked;
+}
+
+/* Asks all maps for the photons of a batch. A point counts as asked once, however many lists there are. */
+static rt_status ask(rt_photon_eye *eye, const rt_eye_maps *maps, size_t count, uint64_t *asked, rt_error *error)
+{
+    rt_status status = RT_OK;
+    if (maps->global)
+        status = rt_gatherer_add(maps->global, eye->points, 0, count, eye->discs, error);
+    if (status == RT_OK && maps->global)
+        count_asked(eye, count, asked);
+    if (status == RT_OK && maps->caustic)
+        status = rt_gatherer_add(maps->caustic, eye->points, 0, count, NULL, error);
+    for (rt_u32 row = 0; row < eye->rows && maps->on_the_way && status == RT_OK; row++) {
+        status = rt_gatherer_add(maps->on_the_way, eye->caustics, row * eye->capacity, count, eye->discs, error);
+        if (status == RT_OK)
+            count_asked(eye, count, asked);
+    }
+    return status;
+}
+
+static rt_status add_to_film(rt_photon_eye *eye, const rt_params *params, rt_error *error)
+{
+    rt_u32 stride = (rt_u32)eye->capacity;
+    rt_arg args[] = {{sizeof *params, params}, RT_ARG(eye->points), RT_ARG(eye->caustics), RT_ARG(stride),
+                     RT_ARG(eye->pixels)};
+    rt_status status = rt_kernel_args(eye->kernels.film, args, sizeof args / sizeof *args, error);
+    return status == RT_OK ? rt_launch(eye->renderer->device, eye->kernels.film, params->item_count, error) : status;
+}
+
+/* The smallest batch of those in use. */
+static size_t batch_size(const rt_photon_eye *eye, const rt_eye_maps *maps)
+{
+    const rt_gatherer *all[] = {maps->global, maps->caustic, maps->on_the_way};
+    size_t batch = eye->capacity;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i] && rt_gatherer_capacity(all[i]) < batch)
+            batch = rt_gatherer_capacity(all[i]);
+    return batch;
+}
+
+rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, uint64_t *asked,
+                               rt_stage_progress *progress, rt_error *error)
+{
+    uint32_t pixels = eye->options->width * eye->options->height;
+    size_t batch = batch_size(eye, maps);
+    rt_params params = rt_params_make(eye->options);
+    rt_status status = RT_OK;
+
+    params.first_sample = sample;
+    params.sample_count = 1;
+    for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
+        params.first_item = done;
+        params.item_count = pixels - done < batch ? pixels - done : (uint32_t)batch;
+        status = follow_paths(eye, &params, error);
+        if (status == RT_OK)
+            status = ask(eye, maps, params.item_count, asked, error);
+        if (status == RT_OK)
+            status = add_to_film(eye, &params, error);
+        if (status == RT_OK)
+            status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
+    }
+    return status;
+}
+
+rt_status rt_photon_eye_mean_radius(rt_photon_eye *eye, rt_gatherer *gatherer, uint32_t sample, double *out,
+                                    rt_stage_progress *progress, rt_error *error)
+{
+    uint32_t pixels = eye->options->width * eye->options->height;
+    rt_eye_maps maps = {gatherer, NULL, NULL};
+    size_t batch = batch_size(eye, &maps);
+    rt_params params = rt_params_make(eye->options);
+    rt_status status = RT_OK;
+    double sum = 0;
+    uint64_t count = 0;
+
+    params.first_sample = sample;
+    params.sample_count = 1;
+    for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
+        params.first_item = done;
+        params.item_count = pixels - done < batch ? pixels - done : (uint32_t)batch;
+        status = follow_paths(eye, &params, error);
+        if (status == RT_OK)
+            status = rt_gatherer_add(gatherer, eye->points, 0, params.item_count, eye->discs, error);
+        for (uint32_t i = 0; i < params.item_count && status == RT_OK; i++)
+            if (eye->discs[i].count > 0) {
+                sum += sqrt(eye->discs[i].squared_radius);
+                count++;
+            }
+        if (status == RT_OK)
+            status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
+    }
+    *out = count ? sum / (double)count : 0;
+    return status;
+}
+
+rt_status rt_photon_eye_read(const rt_photon_eye *eye, rt_film *film, rt_error *error)
+{
+    size_t bytes = (size_t)eye->options->width * eye->options->height * sizeof *film->pixels;
+    return rt_buffer_read(eye->renderer->device, eye->pixels, 0, bytes, film->pixels, error);
+}

@@ -1,0 +1,154 @@
+/*
+ * photon_irradiance.c - irradiance from a photon map, by the gathering that renders use.
+ *
+ * Radiance reflected by a material of kd = pi is irradiance: fr = kd/pi = 1. So the points are gather
+ * points on such a material, which no scene could hold, in a scene of nothing else.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "photon/gather.h"
+#include "photon/photon_map.h"
+#include "render/renderer.h"
+
+/* The scene of the one material. */
+typedef struct white_scene {
+    rt_scene_header header;
+    rt_material_data material;
+    char rest[RT_SCENE_ROW - sizeof(rt_material_data) % RT_SCENE_ROW];
+} white_scene;
+
+/* Irradiance being asked for. */
+typedef struct asking {
+    rt_device *device;
+    rt_render_options options; /* complete */
+    int on_device; /* the search for photons */
+    cl_kernel kernel;
+    cl_mem scene;
+    rt_gatherer *gatherers[RT_PHOTON_KINDS];
+    size_t capacity;         /* points a batch */
+    cl_mem points;           /* rt_gather_point [capacity] */
+    rt_gather_point *host;   /* the same on the host */
+} asking;
+
+static rt_status make_scene(asking *a, rt_error *error)
+{
+    white_scene white;
+    memset(&white, 0, sizeof white);
+    white.header.materials = sizeof white.header / RT_SCENE_ROW;
+    white.header.material_count = 1;
+    for (int c = 0; c < 3; c++)
+        white.material.kd[c] = 3.14159265358979323846f;
+    return rt_buffer_create(a->device, &a->scene, CL_MEM_READ_ONLY, sizeof white, &white, "a white surface", error);
+}
+
+static rt_status make_gatherer(asking *a, const rt_photon_map *map, rt_photon_kind kind, rt_error *error)
+{
+    const rt_render_options *o = &a->options;
+    rt_gather_options how = {o->k, o->radius, o->kernel, o->cone_k, a->on_device};
+    if (kind == RT_PHOTONS_CAUSTIC) {
+        how.k = o->caustic_k;
+        how.max_radius = o->caustic_radius;
+        how.density = o->caustic_kernel;
+    }
+    if (how.k == RT_K_ALL)
+        how.k = 0;
+    rt_status status =
+        rt_gatherer_create(a->gatherers + kind, a->device, a->kernel, a->scene, map->lists + kind, &how, error);
+    if (status == RT_OK && rt_gatherer_capacity(a->gatherers[kind]) < a->capacity)
+        a->capacity = rt_gatherer_capacity(a->gatherers[kind]);
+    return status;
+}
+
+static rt_status prepare(asking *a, const rt_photon_map *map, size_t count, rt_error *error)
+{
+    a->capacity = count < RT_GATHER_POINTS_MAX ? count : RT_GATHER_POINTS_MAX;
+    const char *name = a->on_device ? "photon_walk" : "photon_gather";
+    rt_status status = rt_device_kernel(a->device, &a->kernel, name, name, a->options.hooks, error);
+    if (status == RT_OK)
+        status = make_scene(a, error);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+        if (map->lists[kind].count > 0)
+            status = make_gatherer(a, map, (rt_photon_kind)kind, error);
+    if (status == RT_OK)
+        status = rt_buffer_create(a->device, &a->points, CL_MEM_READ_WRITE, a->capacity * sizeof *a->host, NULL,
+                                  "gather points", error);
+    if (status != RT_OK)
+        return status;
+    a->host = calloc(a->capacity ? a->capacity : 1, sizeof *a->host);
+    return a->host ? RT_OK : rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu gather points", a->capacity);
+}
+
+static rt_status ask_batch(asking *a, float *rgb, const float *positions, const float *normals, size_t count,
+                           rt_error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        rt_gather_point *p = a->host + i;
+        memset(p, 0, sizeof *p);
+        memcpy(p->position, positions + 3 * i, sizeof p->position);
+        memcpy(p->normal, normals + 3 * i, sizeof p->normal);
+        for (int c = 0; c < 3; c++)
+            p->weight[c] = 1;
+    }
+    rt_status status = rt_buffer_write(a->device, a->points, 0, count * sizeof *a->host, a->host, error);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+        if (a->gatherers[kind])
+            status = rt_gatherer_add(a->gatherers[kind], a->points, 0, count, NULL, error);
+    if (status == RT_OK)
+        status = rt_buffer_read(a->device, a->points, 0, count * sizeof *a->host, a->host, error);
+    for (size_t i = 0; i < count && status == RT_OK; i++)
+        memcpy(rgb + 3 * i, a->host[i].radiance, sizeof a->host[i].radiance);
+    return status;
+}
+
+/* What options must be to each other, once complete. */
+static rt_status check_options(const rt_render_options *o, rt_error *error)
+{
+    int all = o->k == RT_K_ALL, all_caustic = o->caustic_k == RT_K_ALL;
+    if ((all && o->radius == 0) || (all_caustic && o->caustic_radius == 0))
+        return rt_fail_field(error, RT_ERROR_USAGE, "radius", "to gather all photons within a radius, give the radius");
+    if ((all || all_caustic) && o->gather == RT_GATHER_FLANN)
+        return rt_fail_field(error, RT_ERROR_USAGE, "gather",
+                             "FLANN finds the k nearest photons only; for all within a radius, gather on the device");
+    return RT_OK;
+}
+
+static rt_status check_points(const float *positions, const float *normals, size_t count, rt_error *error)
+{
+    for (size_t i = 0; i < 3 * count; i++)
+        if (!isfinite(positions[i]) || !isfinite(normals[i]))
+            return rt_fail(error, RT_ERROR_USAGE, "point %zu, or its normal, is not finite", i / 3);
+    return RT_OK;
+}
+
+rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_device *device, const float *positions,
+                                   const float *normals, size_t count, const rt_render_options *options,
+                                   rt_error *error)
+{
+    static const rt_render_options defaults;
+    asking a = {.device = device, .options = options ? *options : defaults};
+
+    rt_status status = rt_options_check(&a.options, error);
+    rt_options_complete(&a.options);
+    if (status == RT_OK)
+        status = check_options(&a.options, error);
+    if (status == RT_OK)
+        status = check_points(positions, normals, count, error);
+    if (status != RT_OK || count == 0)
+        return status;
+    a.on_device = a.options.gather == RT_GATHER_DEVICE || a.options.k == RT_K_ALL || a.options.caustic_k == RT_K_ALL;
+    status = prepare(&a, map, count, error);
+    for (size_t done = 0, now; done < count && status == RT_OK; done += now) {
+        now = count - done < a.capacity ? count - done : a.capacity;
+        status = ask_batch(&a, rgb + 3 * done, positions + 3 * done, normals + 3 * done, now, error);
+    }
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        rt_gatherer_destroy(a.gatherers[kind]);
+    rt_buffer_release(a.points);
+    rt_buffer_release(a.scene);
+    rt_kernel_release(a.kernel);
+    free(a.host);
+    return status;
+}

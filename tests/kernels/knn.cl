@@ -1,0 +1,41 @@
+/* knn.cl - the photons that the gather on the device counts at each point, in no particular order. */
+#include "photon_sum.h"
+
+/* lists: [item_count][params.slots]; the arguments before them are those of photon_walk, in its order. */
+kernel void neighbours(const rt_params params, const rt_density_params estimate, global const rt_gather_point *points,
+                       global rt_gather_disc *discs, const rt_photon_tree shape, global const rt_photon_node *nodes,
+                       global const rt_photon_block *blocks, global float *scratch, global uint *lists)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= params.item_count)
+        return;
+    struct photon_tree tree;
+    tree.shape = shape;
+    tree.nodes = nodes;
+    tree.blocks = blocks;
+    struct photon_query query;
+    query.position = row3(points[item].position);
+    query.normal = row3(points[item].normal);
+    const struct photon_sum sum = sum_photons(&tree, &query, &estimate, scratch + (size_t)item * estimate.stride);
+
+    rt_gather_disc disc;
+    disc.count = 0u;
+    disc.squared_radius = sum.squared_radius;
+    disc.asked = sum.count;
+    disc.reserved = 0u;
+    struct photon_walk walk;
+    uint first, mask;
+    walk_start(&walk, &tree);
+    while (walk_next(&walk, &tree, &query, sum.squared_radius, &first, &mask))
+        for (; mask; mask &= mask - 1u) {
+            global const rt_photon_block *block = blocks + first + lane_first(mask);
+            uint lanes = lane_mask(photon_distances(block, &query) < sum.squared_radius &&
+                                   photons_accepted(block, &query));
+            for (; lanes; lanes &= lanes - 1u) {
+                if (disc.count < params.slots)
+                    lists[(size_t)item * params.slots + disc.count] = block->photon[lane_first(lanes)];
+                disc.count++;
+            }
+        }
+    discs[item] = disc;
+}

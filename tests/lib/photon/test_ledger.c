@@ -1,0 +1,269 @@
+/*
+ * test_ledger.c - the energy ledger closes, says what happened, and does not depend on how paths are shared out.
+ *
+ * In a closed room of one albedo all columns are known: escaped is 0, the flux left after n bounces is albedo^n of
+ * the power, the rest is absorbed. Random sums are held to five standard errors.
+ */
+#include "support.h"
+
+#include <glob.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "photon/emit.h"
+#include "photon/ledger.h"
+#include "render/renderer.h"
+
+static const char room[] = "material wall { kd 0.2 0.5 0.8 }\n"
+                           "material mirror { ks 1 }\n"
+                           "quad { corner -1 -1 -1  edge1 0 0 2  edge2 2 0 0  material wall }\n"
+                           "quad { corner -1 1 -1  edge1 2 0 0  edge2 0 0 2  material wall }\n"
+                           "quad { corner -1 -1 -1  edge1 2 0 0  edge2 0 2 0  material wall }\n"
+                           "quad { corner -1 -1 1  edge1 0 2 0  edge2 2 0 0  material wall }\n"
+                           "quad { corner -1 -1 -1  edge1 0 2 0  edge2 0 0 2  material wall }\n"
+                           "quad { corner 1 -1 -1  edge1 0 0 2  edge2 0 2 0  material wall }\n"
+                           "sphere { centre 0.5 0.5 0.5  radius 0.2  material mirror }\n"
+                           "light point { position 0.1 0.2 -0.1  power 2 3 5 }\n"
+                           "sphere { centre -0.5 0 0  radius 0.1  material wall  power 1 1 0.5 }\n";
+
+static rt_renderer *open_text(const char *text)
+{
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_error error;
+    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+static rt_photon_map *emit(rt_renderer *renderer, const rt_render_options *render)
+{
+    rt_emit_options options = {.render = render};
+    rt_photon_map *map = NULL;
+    rt_error error;
+    expect_ok(rt_photon_map_emit(&map, renderer, &options, &error), &error);
+    return map;
+}
+
+/* Fails unless emitted = absorbed + escaped + cut off + roulette to 1e-5 of the light's emission. */
+static void expect_closed(const rt_light_ledger *l, const char *what)
+{
+    double largest = fmax(l->emitted[0], fmax(l->emitted[1], l->emitted[2]));
+    for (int c = 0; c < 3; c++) {
+        double rest = l->emitted[c] - l->absorbed[c] - l->escaped[c] - l->cut_off[c] - l->roulette[c];
+        if (!(fabs(rest) <= 1e-5 * largest))
+            fail_msg("%s: channel %d: %g W of %g W are missing", what, c, rest, l->emitted[c]);
+    }
+}
+
+static void closed_rooms_follow_the_geometric_series(void **state)
+{
+    static const char box[] = "material wall { kd 0.2 0.5 0.8 }\n"
+                              "sphere { centre 0 0 0  radius 1  material wall }\n"
+                              "light point { position 0.1 0.2 -0.1  power 2 3 5 }\n";
+    static const double power[3] = {2, 3, 5}, kd[3] = {0.2, 0.5, 0.8};
+    enum { paths = 50000, depth = 4 };
+    rt_render_options render = {.photons = paths, .max_depth = depth};
+    rt_light_ledger l;
+    (void)state;
+    rt_renderer *renderer = open_text(box);
+    rt_photon_map *map = emit(renderer, &render);
+    assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
+    assert_int_equal(l.paths, paths);
+    assert_true(l.shape == RT_NONE && l.share == 1);
+    expect_closed(&l, "closed room");
+    for (int c = 0; c < 3; c++) {
+        /* depth - 1 bounces are followed: that many times the albedo is left. */
+        double left = power[c] * pow(kd[c], depth - 1), sigma = power[c] * depth / sqrt(paths);
+        assert_float_equal(l.power[c], power[c], 1e-5);
+        assert_float_equal(l.emitted[c], power[c], 1e-5);
+        assert_true(l.escaped[c] == 0);
+        assert_float_equal(l.cut_off[c], left, 5 * sigma);
+        assert_float_equal(l.absorbed[c], power[c] - left, 5 * sigma);
+        assert_float_equal(l.roulette[c], 0, 5 * sigma);
+        assert_true(l.roulette[c] != 0 && l.cut_off[c] > 0.9 * left);
+    }
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+static void light_that_meets_nothing_escapes(void **state)
+{
+    rt_render_options render = {.photons = 1000};
+    rt_light_ledger l;
+    (void)state;
+    rt_renderer *renderer = open_text("light point { position 0 0 0  power 1 2 3 }\n");
+    rt_photon_map *map = emit(renderer, &render);
+    assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
+    for (int c = 0; c < 3; c++) {
+        assert_true(l.escaped[c] == l.emitted[c]);
+        assert_float_equal(l.escaped[c], 1 + c, 1e-5);
+        assert_true(l.absorbed[c] == 0 && l.cut_off[c] == 0 && l.roulette[c] == 0);
+    }
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+static void expect_closed_scene(const char *path)
+{
+    rt_render_options render = {.photons = 50000, .max_depth = 24, .direct = RT_DIRECT_PHOTONS};
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_error error;
+    expect_ok(rt_scene_load(&scene, path, NULL, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_photon_map *map = emit(renderer, &render);
+    size_t lights = rt_photon_map_ledger(map, NULL, 0);
+    rt_light_ledger *rows = calloc(lights, sizeof *rows);
+    assert_true(lights > 0 && rows);
+    rt_photon_map_ledger(map, rows, lights);
+    for (size_t i = 0; i < lights; i++)
+        expect_closed(rows + i, path);
+    free(rows);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+}
+
+static void closes_in_every_scene_that_ships(void **state)
+{
+    glob_t found;
+    (void)state;
+    assert_int_equal(glob("scenes/*.rts", 0, NULL, &found), 0);
+    for (size_t i = 0; i < found.gl_pathc; i++)
+        expect_closed_scene(found.gl_pathv[i]);
+    assert_true(found.gl_pathc >= 4);
+    globfree(&found);
+}
+
+/* What photons brought to diffuse surfaces is what these and roulette took off and what went on: the albedo says. */
+static void stored_flux_agrees_with_what_is_absorbed(void **state)
+{
+    static const double kd[3] = {0.2, 0.5, 0.8};
+    rt_render_options render = {.photons = 100000, .max_depth = 64, .direct = RT_DIRECT_PHOTONS};
+    rt_light_ledger l[2];
+    double stored[3] = {0};
+    (void)state;
+    rt_renderer *renderer = open_text(room);
+    rt_photon_map *map = emit(renderer, &render);
+    const rt_photon *photons = rt_photon_map_photons(map, RT_PHOTONS_GLOBAL);
+    for (size_t i = 0; i < rt_photon_map_count(map, RT_PHOTONS_GLOBAL); i++)
+        for (int c = 0; c < 3; c++)
+            stored[c] += photons[i].flux[c] / (double)render.photons;
+    assert_int_equal(rt_photon_map_ledger(map, l, 2), 2);
+    for (int c = 0; c < 3; c++)
+        assert_float_equal((1 - kd[c]) * stored[c], l[0].absorbed[c] + l[1].absorbed[c], 1e-4);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+static void lights_are_counted_apart(void **state)
+{
+    rt_render_options render = {.photons = 20000, .max_depth = 16};
+    rt_light_ledger l[3];
+    (void)state;
+    rt_renderer *renderer = open_text(room);
+    rt_photon_map *map = emit(renderer, &render);
+    assert_int_equal(rt_photon_map_ledger(map, l, 3), 2);
+    assert_int_equal(l[0].shape, RT_NONE);
+    assert_int_equal(l[1].shape, 7);
+    assert_int_equal(l[0].paths + l[1].paths, render.photons);
+    /* Paths in proportion to power: 10 W and 2.5 W. */
+    assert_float_equal(l[0].share, 0.8, 1e-6);
+    assert_float_equal((double)l[0].paths, 0.8 * render.photons, 5 * sqrt(0.16 * render.photons));
+    for (int i = 0; i < 2; i++)
+        expect_closed(l + i, "two lights");
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+static void accounts_that_are_not_finite_are_left_out(void **state)
+{
+    rt_light_sources lights = {0};
+    rt_ledger ledger = {0};
+    rt_light_ledger l;
+    rt_error error;
+    rt_path_account accounts[3];
+    (void)state;
+    rt_renderer *renderer = open_text("light point { position 0 0 0  power 3 3 3 }\n");
+    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
+    expect_ok(rt_ledger_create(&ledger, &lights, &error), &error);
+    memset(accounts, 0, sizeof accounts);
+    for (int i = 0; i < 3; i++) {
+        for (int c = 0; c < 3; c++)
+            accounts[i].emitted[c] = accounts[i].left[c] = 3;
+        accounts[i].end = RT_END_ESCAPED;
+    }
+    accounts[1].left[1] = NAN;
+    accounts[2].roulette[2] = INFINITY;
+    expect_ok(rt_ledger_book(&ledger, &lights, accounts, 3, 2, &error), &error);
+    assert_int_equal(ledger.rejected, 2);
+    assert_int_equal(ledger.paths, 3);
+    rt_ledger_read(&ledger, 0, &l);
+    assert_true(l.paths == 1 && l.emitted[0] == 1 && l.escaped[2] == 1);
+    rt_ledger_free(&ledger);
+    rt_light_sources_free(&lights);
+    rt_renderer_destroy(renderer);
+}
+
+static void sums_do_not_depend_on_shares_of_the_work(void **state)
+{
+    enum { count = 5000 };
+    static rt_path_account accounts[count];
+    rt_light_sources lights = {0};
+    rt_ledger whole = {0}, parts = {0}, half = {0};
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer = open_text(room);
+    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
+    expect_ok(rt_ledger_create(&whole, &lights, &error), &error);
+    expect_ok(rt_ledger_create(&half, &lights, &error), &error);
+    for (int i = 0; i < count; i++) {
+        accounts[i].light = (rt_u32)i % 2;
+        for (int c = 0; c < 3; c++) {
+            accounts[i].emitted[c] = 1.0f / (float)(i + 3);
+            accounts[i].roulette[c] = -1.0f / (float)(i + 7);
+        }
+    }
+    expect_ok(rt_ledger_book(&whole, &lights, accounts, count, 1, &error), &error);
+    for (int i = 0; i < 2; i++) {
+        rt_ledger_reset(&half);
+        expect_ok(rt_ledger_book(&half, &lights, accounts + (1 - i) * 2000, i ? 2000 : 3000, 3, &error), &error);
+        expect_ok(rt_ledger_add(&parts, &half, &error), &error);
+    }
+    assert_true(rt_ledger_matches(&whole, &parts));
+    assert_int_equal(whole.paths, parts.paths);
+    assert_memory_equal(whole.rows, parts.rows, 2 * sizeof *whole.rows);
+    rt_ledger_free(&whole);
+    rt_ledger_free(&parts);
+    rt_ledger_free(&half);
+    rt_light_sources_free(&lights);
+    rt_renderer_destroy(renderer);
+}
+
+static void sums_that_overflow_are_refused(void **state)
+{
+    rt_ledger_row a = {.sums = {{INT64_MAX}}}, b = {.sums = {{1}}};
+    rt_ledger x = {.rows = &a, .count = 1}, y = {.rows = &b, .count = 1};
+    rt_error error;
+    (void)state;
+    assert_int_equal(rt_ledger_add(&x, &y, &error), RT_ERROR_USAGE);
+    assert_true(a.sums[0][0] == INT64_MAX);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_rooms_follow_the_geometric_series),
+        cmocka_unit_test(light_that_meets_nothing_escapes),
+        cmocka_unit_test(closes_in_every_scene_that_ships),
+        cmocka_unit_test(stored_flux_agrees_with_what_is_absorbed),
+        cmocka_unit_test(lights_are_counted_apart),
+        cmocka_unit_test(accounts_that_are_not_finite_are_left_out),
+        cmocka_unit_test(sums_do_not_depend_on_shares_of_the_work),
+        cmocka_unit_test(sums_that_overflow_are_refused),
+    };
+    return cmocka_run_group_tests_name("lib/photon/ledger", tests, NULL, NULL);
+}

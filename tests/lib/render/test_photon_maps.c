@@ -1,0 +1,553 @@
+/*
+ * test_photon_maps.c - photon maps by the public interface: parts that join to the bit, caustic photons apart,
+ * shares of lights, warnings, and what the photons say of the light against theory and path tracing.
+ *
+ * Random sums are held to five standard errors or to a stated bound about as wide; seeds are fixed.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "photon/map_file.h"
+#include "render/renderer.h"
+
+#define PI 3.14159265358979323846
+
+/* A closed room with a glass ball, two lights of different kind and power. */
+#define ROOM                                                                                                           \
+    "material wall { kd 0.4 0.5 0.6 }\n"                                                                               \
+    "material glass { kt 1  ior 1.5  fresnel true }\n"                                                                 \
+    "sphere { centre 0 0 0  radius 1  material wall }\n"                                                               \
+    "sphere { centre 0.3 0 0  radius 0.3  material glass }\n"                                                          \
+    "quad { corner -0.6 0.5 -0.1  edge1 0.2 0 0  edge2 0 0 0.2  material wall  power 2 2 2 }\n"                        \
+    "light point { position 0 0.6 0  power 2 3 5 }\n"
+
+static rt_renderer *open_on(rt_device *device, const char *text, rt_accel accel)
+{
+    rt_renderer_options options = {.accel = accel};
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_error error;
+    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, device, &options, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+static rt_renderer *open_text(const char *text)
+{
+    return open_on(test_device(), text, RT_ACCEL_BVH);
+}
+
+static rt_photon_map *emit(rt_renderer *renderer, const rt_emit_options *options)
+{
+    rt_photon_map *map = NULL;
+    rt_error error;
+    expect_ok(rt_photon_map_emit(&map, renderer, options, &error), &error);
+    return map;
+}
+
+/* The same files mean the same maps, to the bit. */
+static void expect_same(const rt_photon_map *a, const rt_photon_map *b)
+{
+    rt_bytes x = {0}, y = {0};
+    rt_error error;
+    expect_ok(rt_photon_map_encode(&x, a, &error), &error);
+    expect_ok(rt_photon_map_encode(&y, b, &error), &error);
+    assert_int_equal(x.size, y.size);
+    assert_memory_equal(x.data, y.data, x.size);
+    rt_bytes_free(&x);
+    rt_bytes_free(&y);
+}
+
+static rt_photon_map *merge(rt_photon_map *const *maps, size_t count)
+{
+    rt_photon_map *map = NULL;
+    rt_error error;
+    expect_ok(rt_photon_map_merge(&map, (const rt_photon_map *const *)maps, count, &error), &error);
+    return map;
+}
+
+static void expect_no_merge(rt_photon_map *a, rt_photon_map *b, const char *reason)
+{
+    const rt_photon_map *both[] = {a, b};
+    rt_photon_map *map = NULL;
+    rt_error error;
+    assert_int_equal(rt_photon_map_merge(&map, both, 2, &error), RT_ERROR_INPUT);
+    assert_null(map);
+    if (!strstr(error.message, reason))
+        fail_msg("'%s' does not say '%s'", error.message, reason);
+}
+
+/* ---- Parts ------------------------------------------------------------------- */
+
+static void parts_join_to_the_map_of_all(void **state)
+{
+    rt_render_options render = {.photons = 10007, .caustic_photons = 5003, .max_depth = 10, .seed = 5};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map *parts[3];
+    (void)state;
+    rt_renderer *renderer = open_text(ROOM);
+    rt_photon_map *whole = emit(renderer, &options);
+    options.parts = 3;
+    for (options.part = 0; options.part < 3; options.part++)
+        parts[options.part] = emit(renderer, &options);
+    static const int orders[][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}};
+    for (int i = 0; i < 3; i++) {
+        rt_photon_map *some[] = {parts[orders[i][0]], parts[orders[i][1]], parts[orders[i][2]]};
+        rt_photon_map *joined = merge(some, 3);
+        expect_same(joined, whole);
+        rt_photon_map_destroy(joined);
+        /* Two at a time comes to the same, with a gap in between or not. */
+        rt_photon_map *pair = merge(some, 2);
+        rt_photon_map *rest[] = {some[2], pair};
+        joined = merge(rest, 2);
+        expect_same(joined, whole);
+        rt_photon_map_destroy(pair);
+        rt_photon_map_destroy(joined);
+    }
+    for (int i = 0; i < 3; i++)
+        rt_photon_map_destroy(parts[i]);
+    rt_photon_map_destroy(whole);
+    rt_renderer_destroy(renderer);
+}
+
+static void seeds_join_in_any_order(void **state)
+{
+    rt_render_options render = {.photons = 3000};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map *maps[2], *turned[2];
+    rt_photon_map_info info;
+    size_t range_count = 0;
+    (void)state;
+    rt_renderer *renderer = open_text(ROOM);
+    for (int i = 0; i < 2; i++) {
+        render.seed = (uint32_t)(9 - i);
+        maps[i] = turned[1 - i] = emit(renderer, &options);
+    }
+    rt_photon_map *a = merge(maps, 2), *b = merge(turned, 2);
+    expect_same(a, b);
+    rt_photon_map_get_info(a, &info);
+    assert_int_equal(info.paths[RT_PHOTONS_GLOBAL], 6000);
+    const rt_path_range *ranges = rt_photon_map_ranges(a, RT_PHOTONS_GLOBAL, &range_count);
+    assert_int_equal(range_count, 2);
+    for (uint32_t i = 0; i < 2; i++)
+        assert_true(ranges[i].seed == 8 + i && ranges[i].first == 0 && ranges[i].count == 3000);
+    assert_int_equal(info.photons[RT_PHOTONS_GLOBAL],
+                     rt_photon_map_count(maps[0], RT_PHOTONS_GLOBAL) + rt_photon_map_count(maps[1], RT_PHOTONS_GLOBAL));
+    for (int i = 0; i < 2; i++)
+        rt_photon_map_destroy(maps[i]);
+    rt_photon_map_destroy(a);
+    rt_photon_map_destroy(b);
+    rt_renderer_destroy(renderer);
+}
+
+static void maps_that_do_not_fit_are_not_joined(void **state)
+{
+    static const float shares[] = {1, 1};
+    rt_render_options render = {.photons = 100}, other = {.photons = 100, .seed = 1};
+    rt_emit_options options = {.render = &render}, others = {.render = &other};
+    (void)state;
+    rt_renderer *renderer = open_text(ROOM);
+    rt_renderer *changed = open_text(ROOM "light point { position 0 0 0.5  power 1 }\n");
+    rt_photon_map *map = emit(renderer, &options), *odd[6];
+    expect_no_merge(map, map, "the same paths");
+    odd[0] = emit(changed, &others);
+    expect_no_merge(map, odd[0], "different scenes");
+    other.max_depth = 5;
+    odd[1] = emit(renderer, &others);
+    expect_no_merge(map, odd[1], "segments");
+    other = (rt_render_options){.photons = 100, .seed = 1, .direct = RT_DIRECT_PHOTONS};
+    odd[2] = emit(renderer, &others);
+    expect_no_merge(map, odd[2], "direct light");
+    other = (rt_render_options){.photons = 100, .seed = 1, .caustic_photons = 10};
+    odd[3] = emit(renderer, &others);
+    expect_no_merge(map, odd[3], "caustic photons apart");
+    other = (rt_render_options){.photons = 100, .seed = 1, .sampler = RT_SAMPLER_INDEPENDENT};
+    odd[4] = emit(renderer, &others);
+    expect_no_merge(map, odd[4], "samplers");
+    other = (rt_render_options){.photons = 100, .seed = 1};
+    others.light_shares = shares;
+    others.light_share_count = 2;
+    odd[5] = emit(renderer, &others);
+    expect_no_merge(map, odd[5], "shares");
+    for (int i = 0; i < 6; i++)
+        rt_photon_map_destroy(odd[i]);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(changed);
+    rt_renderer_destroy(renderer);
+}
+
+static void maps_do_not_depend_on_threads_and_work_groups(void **state)
+{
+    static const rt_device_options devices[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 3, 64}};
+    rt_render_options render = {.photons = 20000, .caustic_photons = 5000};
+    rt_emit_options options = {.render = &render};
+    (void)state;
+    rt_renderer *renderer = open_text(ROOM);
+    rt_photon_map *expected = emit(renderer, &options);
+    rt_renderer_destroy(renderer);
+    for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
+        rt_device *device = NULL;
+        rt_error error;
+        expect_ok(rt_device_open(&device, devices + i, &error), &error);
+        renderer = open_on(device, ROOM, RT_ACCEL_BVH);
+        rt_photon_map *map = emit(renderer, &options);
+        expect_same(map, expected);
+        rt_photon_map_destroy(map);
+        rt_renderer_destroy(renderer);
+        rt_device_close(device);
+    }
+    rt_photon_map_destroy(expected);
+}
+
+/* ---- Caustics and shares --------------------------------------------------------- */
+
+static double flux_of(const rt_photon_map *map, rt_photon_kind kind, int caustic_only, int channel)
+{
+    const rt_photon *photons = rt_photon_map_photons(map, kind);
+    rt_photon_map_info info;
+    double sum = 0;
+    rt_photon_map_get_info(map, &info);
+    for (size_t i = 0; i < rt_photon_map_count(map, kind); i++)
+        if (!caustic_only || (photons[i].flags & RT_PHOTON_CAUSTIC))
+            sum += photons[i].flux[channel];
+    return sum / (double)info.paths[kind];
+}
+
+static void caustic_photons_are_kept_apart_when_asked(void **state)
+{
+    rt_render_options render = {.photons = 60000};
+    rt_emit_options options = {.render = &render};
+    size_t j = 0;
+    (void)state;
+    rt_renderer *renderer = open_text(ROOM);
+    rt_photon_map *one = emit(renderer, &options);
+    render.caustic_photons = 60000;
+    rt_photon_map *two = emit(renderer, &options);
+    const rt_photon *all = rt_photon_map_photons(one, RT_PHOTONS_GLOBAL);
+    const rt_photon *global = rt_photon_map_photons(two, RT_PHOTONS_GLOBAL);
+    const rt_photon *caustic = rt_photon_map_photons(two, RT_PHOTONS_CAUSTIC);
+    assert_int_equal(rt_photon_map_count(one, RT_PHOTONS_CAUSTIC), 0);
+    /* The global list is the one map without its caustic photons. */
+    for (size_t i = 0; i < rt_photon_map_count(one, RT_PHOTONS_GLOBAL); i++)
+        if (!(all[i].flags & RT_PHOTON_CAUSTIC)) {
+            assert_true(j < rt_photon_map_count(two, RT_PHOTONS_GLOBAL));
+            assert_memory_equal(global + j++, all + i, sizeof *all);
+        }
+    assert_int_equal(j, rt_photon_map_count(two, RT_PHOTONS_GLOBAL));
+    /* The caustic list has only such photons, of other paths, with the flux of those that the global one lacks. */
+    assert_true(rt_photon_map_count(two, RT_PHOTONS_CAUSTIC) > 3000);
+    for (size_t i = 0; i < rt_photon_map_count(two, RT_PHOTONS_CAUSTIC); i++)
+        assert_true(caustic[i].flags & RT_PHOTON_CAUSTIC);
+    for (int c = 0; c < 3; c++) {
+        double expected = flux_of(one, RT_PHOTONS_GLOBAL, 1, c);
+        assert_true(expected > 0.1);
+        assert_float_equal(flux_of(two, RT_PHOTONS_CAUSTIC, 0, c), expected, 0.03 * expected);
+    }
+    rt_photon_map_destroy(one);
+    rt_photon_map_destroy(two);
+    rt_renderer_destroy(renderer);
+}
+
+/* Lights in the order of the ledger: the point light first, then the quad. */
+static void shares_move_paths_but_not_flux(void **state)
+{
+    static const float shares[] = {1, 9};
+    rt_render_options render = {.photons = 100000, .direct = RT_DIRECT_PHOTONS};
+    rt_emit_options options = {.render = &render};
+    rt_light_ledger by_power[2], by_shares[2];
+    (void)state;
+    rt_renderer *renderer = open_text(ROOM);
+    rt_photon_map *plain = emit(renderer, &options);
+    options.light_shares = shares;
+    options.light_share_count = 2;
+    rt_photon_map *shared = emit(renderer, &options);
+    assert_int_equal(rt_photon_map_ledger(plain, by_power, 2), 2);
+    assert_int_equal(rt_photon_map_ledger(shared, by_shares, 2), 2);
+    assert_true(by_shares[0].shape == RT_NONE && by_shares[1].shape == 2);
+    assert_float_equal(by_shares[1].share, 0.9, 1e-6);
+    assert_float_equal((double)by_shares[1].paths / render.photons, 0.9, 5 * 0.3 / sqrt(1e5));
+    assert_float_equal((double)by_power[1].paths / render.photons, 0.375, 5 * 0.5 / sqrt(1e5));
+    for (int i = 0; i < 2; i++)
+        for (int c = 0; c < 3; c++) {
+            assert_float_equal(by_shares[i].emitted[c], by_shares[i].power[c], 0.05 * by_shares[i].power[c]);
+            assert_float_equal(by_shares[i].power[c], by_power[i].power[c], 0);
+        }
+    for (int c = 0; c < 3; c++) {
+        double expected = flux_of(plain, RT_PHOTONS_GLOBAL, 0, c);
+        assert_float_equal(flux_of(shared, RT_PHOTONS_GLOBAL, 0, c), expected, 0.05 * expected);
+    }
+    rt_photon_map_destroy(plain);
+    rt_photon_map_destroy(shared);
+    rt_renderer_destroy(renderer);
+}
+
+static void wrong_options_are_refused(void **state)
+{
+    static const float zero[] = {1, 0}, negative[] = {1, -1}, nan[] = {1, NAN}, one[] = {1};
+    static const struct {
+        rt_emit_options options;
+        const char *field;
+    } cases[] = {
+        {{.part = 1}, "part"},
+        {{.part = 3, .parts = 3}, "part"},
+        {{.light_shares = zero, .light_share_count = 2}, "light_shares"},
+        {{.light_shares = negative, .light_share_count = 2}, "light_shares"},
+        {{.light_shares = nan, .light_share_count = 2}, "light_shares"},
+        {{.light_shares = one, .light_share_count = 1}, "light_shares"},
+    };
+    rt_render_options bad = {.caustic_k = 1};
+    rt_emit_options options = {.render = &bad};
+    rt_photon_map *map = NULL;
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer = open_text(ROOM "render { photons 100 }\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_int_equal(rt_photon_map_emit(&map, renderer, &cases[i].options, &error), RT_ERROR_USAGE);
+        assert_string_equal(error.field, cases[i].field);
+    }
+    assert_int_equal(rt_photon_map_emit(&map, renderer, &options, &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "caustic_k");
+    assert_null(map);
+    /* Without options the scene's own count. */
+    map = emit(renderer, NULL);
+    assert_int_equal(rt_photon_map_merge(&map, NULL, 0, &error), RT_ERROR_USAGE);
+    rt_photon_map_info info;
+    rt_photon_map_get_info(map, &info);
+    assert_int_equal(info.paths[RT_PHOTONS_GLOBAL], 100);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* ---- Warnings ---------------------------------------------------------------------- */
+
+static void keep_warning(void *user, const char *line)
+{
+    char *text = user;
+    size_t used = strlen(text);
+    snprintf(text + used, 2000 - used, "%s\n", line);
+}
+
+static int cancel(void *user, const rt_progress *progress)
+{
+    (void)user;
+    return progress->stage == RT_STAGE_EMIT;
+}
+
+static void starved_lights_and_maps_are_told(void **state)
+{
+    char warnings[2000] = "";
+    rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+    rt_render_options render = {.photons = 200, .caustic_photons = 20, .hooks = &hooks};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map *map = NULL;
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer = open_text(ROOM "light point { position 0 0 0.5  power 1e-9 }\n");
+    rt_photon_map_destroy(emit(renderer, &options));
+    assert_non_null(strstr(warnings, "light 1 emits 1e-09 W but none of 200 photon paths came from it"));
+    assert_null(strstr(warnings, "light 0"));
+    assert_null(strstr(warnings, "global"));
+    assert_non_null(strstr(warnings, "the caustic photon map has only "));
+    rt_renderer_destroy(renderer);
+
+    warnings[0] = '\0';
+    renderer = open_text("light point { position 0 0 0  power 1 }\n");
+    render.caustic_photons = 0;
+    rt_photon_map_destroy(emit(renderer, &options));
+    assert_string_equal(warnings, "the photon map is empty: none of 200 photon paths left a photon in it\n");
+    hooks.progress = cancel;
+    assert_int_equal(rt_photon_map_emit(&map, renderer, &options, &error), RT_CANCELLED);
+    assert_null(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* ---- Scenes -------------------------------------------------------------------------- */
+
+static uint64_t fingerprint(const char *text, rt_accel accel)
+{
+    rt_render_options render = {.photons = 1};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map_info info;
+    rt_renderer *renderer = open_on(test_device(), text, accel);
+    rt_photon_map *map = emit(renderer, &options);
+    rt_photon_map_get_info(map, &info);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+    return info.scene;
+}
+
+static void scenes_are_told_apart_by_what_photons_see(void **state)
+{
+    static const char *const others[] = {
+        ROOM "light point { position 0 0 0.5  power 1 }\n",
+        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material wall }\n",
+        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.2 0  material wall }\n",
+        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material glass }\n",
+        ROOM "quad { corner 0 0 0  edge1 0.1 0 0  edge2 0 0.1 0  material wall }\n",
+        ROOM "plane { point 0 -3 0  normal 0 1 0  material wall }\n",
+    };
+    enum { count = sizeof others / sizeof *others };
+    uint64_t seen[count + 1] = {fingerprint(ROOM, RT_ACCEL_BVH)};
+    (void)state;
+    assert_true(fingerprint(ROOM, RT_ACCEL_NONE) == seen[0]);
+    assert_true(fingerprint(ROOM "camera { eye 0 0 1  look_at 0 0 0 }\n", RT_ACCEL_BVH) == seen[0]);
+    assert_true(fingerprint(others[1], RT_ACCEL_NONE) == fingerprint(others[1], RT_ACCEL_BVH));
+    for (int i = 1; i <= count; i++) {
+        seen[i] = fingerprint(others[i - 1], RT_ACCEL_BVH);
+        for (int j = 0; j < i; j++)
+            assert_true(seen[i] != seen[j]);
+    }
+}
+
+/* ---- The light ------------------------------------------------------------------------- */
+
+/*
+ * A sphere of radius 2 with the light in its middle: everywhere the same irradiance, power / ((1 - kd) area), of
+ * which rt_render sees kd/pi. The three agree, and path tracing, which knows no photons, is one of them.
+ */
+static const char furnace[] = "camera { eye 0 0 0.5  look_at 0 0 -1  fov 90 }\n"
+                              "material wall { kd 0.2 0.5 0.7 }\n"
+                              "sphere { centre 0 0 0  radius 2  material wall }\n"
+                              "light point { position 0 0 0  power 2 3 5 }\n";
+
+static void stored_flux_is_what_path_tracing_says(void **state)
+{
+    static const double power[3] = {2, 3, 5}, kd[3] = {0.2, 0.5, 0.7}, area = 16 * PI;
+    rt_render_options render = {.photons = 200000, .max_depth = 100, .direct = RT_DIRECT_PHOTONS};
+    rt_render_options path = {.width = 24, .height = 24, .spp = 64, .max_depth = 100};
+    rt_emit_options options = {.render = &render};
+    rt_film *film = NULL;
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer = open_text(furnace);
+    rt_photon_map *map = emit(renderer, &options);
+    expect_ok(rt_render(&film, renderer, &path, &error), &error);
+    for (int c = 0; c < 3; c++) {
+        double stored = flux_of(map, RT_PHOTONS_GLOBAL, 0, c), mean = 0;
+        for (int i = 0; i < 24 * 24; i++)
+            mean += rt_film_rgb(film)[3 * i + c] / (24 * 24);
+        assert_float_equal(stored, power[c] / (1 - kd[c]), 0.01 * stored);
+        assert_float_equal(mean, kd[c] / PI * stored / area, 0.01 * mean);
+    }
+    rt_film_destroy(film);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+static void irradiance_is_flux_over_area(void **state)
+{
+    enum { count = 400 };
+    static const double power[3] = {2, 3, 5}, kd[3] = {0.2, 0.5, 0.7};
+    static float positions[count][3], normals[count][3], rgb[count][3], again[count][3];
+    rt_render_options render = {.photons = 100000, .max_depth = 100, .direct = RT_DIRECT_PHOTONS};
+    rt_render_options ask = {.k = 100, .kernel = RT_DENSITY_BOX};
+    rt_emit_options options = {.render = &render};
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer = open_text(furnace);
+    rt_photon_map *map = emit(renderer, &options);
+    for (int i = 0; i < count; i++) {
+        double z = (i + 0.5) / count * 2 - 1, turn = 2.399963 * i, r = sqrt(1 - z * z);
+        const double n[3] = {r * cos(turn), r * sin(turn), z};
+        for (int c = 0; c < 3; c++) {
+            positions[i][c] = (float)(2 * n[c]);
+            normals[i][c] = (float)-n[c];
+        }
+    }
+    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error), &error);
+    for (int c = 0; c < 3; c++) {
+        double expected = power[c] / (1 - kd[c]) / (16 * PI), mean = 0;
+        for (int i = 0; i < count; i++)
+            mean += rgb[i][c] / count;
+        /* Each of 100 photons: 10 % a point, 0.5 % in the mean; a curved surface makes discs look small. */
+        assert_float_equal(mean, expected, 0.03 * expected);
+    }
+    /* The device finds the same photons; a fixed radius sees the same light. */
+    ask.gather = RT_GATHER_DEVICE;
+    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+              &error);
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(again[i][c], rgb[i][c], 1e-4 * rgb[i][c]);
+    ask.k = RT_K_ALL;
+    assert_int_equal(
+        rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+        RT_ERROR_USAGE);
+    assert_string_equal(error.field, "radius");
+    ask.radius = 0.15f;
+    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+              &error);
+    double sum = 0, before = 0;
+    for (int i = 0; i < count; i++) {
+        sum += again[i][1];
+        before += rgb[i][1];
+    }
+    assert_float_equal(sum, before, 0.03 * before);
+    ask = (rt_render_options){.k = 100, .kernel = RT_DENSITY_BOX};
+    /* Nothing arrives on the outside. */
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            normals[i][c] = -normals[i][c];
+    ask.radius = 0.1f;
+    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error), &error);
+    for (int i = 0; i < count; i++)
+        assert_true(rgb[i][0] == 0 && rgb[i][1] == 0 && rgb[i][2] == 0);
+    /* What is not a point is refused; no points are no work. */
+    positions[count - 1][1] = NAN;
+    assert_int_equal(
+        rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, NULL, &error),
+        RT_ERROR_USAGE);
+    expect_ok(rt_photon_map_irradiance(NULL, map, test_device(), NULL, NULL, 0, NULL, &error), &error);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* A point light inside a glass ball: all light is caustic at first, and both lists together are all of it. */
+static void irradiance_sums_both_lists(void **state)
+{
+    static const char text[] = "material wall { kd 0.5 }\n"
+                               "material glass { kt 1  ior 1.5  fresnel true }\n"
+                               "sphere { centre 0 0 0  radius 2  material wall }\n"
+                               "sphere { centre 0 0 0  radius 0.5  material glass }\n"
+                               "light point { position 0 0 0  power 3 3 3 }\n";
+    static const float position[3] = {0, 2, 0}, normal[3] = {0, -1, 0};
+    rt_render_options render = {.photons = 100000, .max_depth = 60, .k = 2000, .caustic_photons = 50000};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map_info info;
+    rt_error error;
+    float rgb[3];
+    (void)state;
+    rt_renderer *renderer = open_text(text);
+    rt_photon_map *map = emit(renderer, &options);
+    rt_photon_map_get_info(map, &info);
+    assert_true(info.split && info.photons[RT_PHOTONS_CAUSTIC] > 49000);
+    expect_ok(rt_photon_map_irradiance(rgb, map, test_device(), position, normal, 1, &render, &error), &error);
+    /* 3 W directly and as much again after bounces; 2000 photons: 3 %. */
+    assert_float_equal(rgb[0], 6 / (16 * PI), 0.1 * 6 / (16 * PI));
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_join_to_the_map_of_all),
+        cmocka_unit_test(seeds_join_in_any_order),
+        cmocka_unit_test(maps_that_do_not_fit_are_not_joined),
+        cmocka_unit_test(maps_do_not_depend_on_threads_and_work_groups),
+        cmocka_unit_test(caustic_photons_are_kept_apart_when_asked),
+        cmocka_unit_test(shares_move_paths_but_not_flux),
+        cmocka_unit_test(wrong_options_are_refused),
+        cmocka_unit_test(starved_lights_and_maps_are_told),
+        cmocka_unit_test(scenes_are_told_apart_by_what_photons_see),
+        cmocka_unit_test(stored_flux_is_what_path_tracing_says),
+        cmocka_unit_test(irradiance_is_flux_over_area),
+        cmocka_unit_test(irradiance_sums_both_lists),
+    };
+    return cmocka_run_group_tests_name("lib/render/photon_maps", tests, NULL, NULL);
+}

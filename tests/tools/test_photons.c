@@ -1,0 +1,227 @@
+/* test_photons.c - `rtc photons` and --photon-map: maps made, joined, looked at, exported and rendered with. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+/* A closed box with a glass ball under a lamp, and a light far too weak for its share of the paths. */
+#define SCENE                                                                                                          \
+    "camera { eye 0 0 0.9  look_at 0 0 0  fov 80 }\n"                                                                  \
+    "film { width 16  height 16 }\n"                                                                                   \
+    "material wall { kd 0.6 }\n"                                                                                       \
+    "material glass { kt 1  ior 1.5  fresnel true }\n"                                                                 \
+    "sphere { centre 0 0 0  radius 1  material wall }\n"                                                               \
+    "sphere { centre 0 -0.3 0  radius 0.3  material glass }\n"                                                         \
+    "quad { corner -0.2 0.7 -0.2  edge1 0.4 0 0  edge2 0 0 0.4  material wall  power 5 }\n"
+
+static void succeed(const char *line)
+{
+    run run = run_rtc("%s", line);
+    expect_status(&run, 0);
+    run_free(&run);
+}
+
+/* Enters a scratch directory that holds the scene a.rts. */
+static int enter(void **state)
+{
+    int failed = scratch_enter(state);
+    if (!failed)
+        scratch_write("a.rts", SCENE);
+    return failed;
+}
+
+static void parts_merge_into_the_same_file(void **state)
+{
+    (void)state;
+    succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out whole.rtp");
+    succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out 1.rtp --part 1/3");
+    succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out 2.rtp --part 2/3 --threads 1");
+    succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out 3.rtp --part 3/3 --work-group 7");
+    succeed("photons merge 3.rtp 1.rtp 2.rtp --out merged.rtp");
+    expect_same_files("whole.rtp", "merged.rtp");
+    expect_different_files("1.rtp", "2.rtp");
+}
+
+static void info_says_what_a_map_holds(void **state)
+{
+    (void)state;
+    run made = run_rtc("photons a.rts --photons 3000 --caustic-photons 1000 --seed 9 --stats --quiet --out a.rtp");
+    run info = run_rtc("photons info a.rtp");
+    expect_status(&made, 0);
+    expect_status(&info, 0);
+    assert_string_equal(made.out, info.out);
+    assert_true(stats_number(&info, "global photon paths") == 3000 && stats_number(&info, "caustic photon paths") == 1000);
+    assert_true(stats_number(&info, "global photons") > 1000 && stats_number(&info, "caustic photons") > 50);
+    expect_out(&info, "direct light: left to shadow rays");
+    expect_out(&info, "global range: paths 0 to 2999 of seed 9, ");
+    expect_out(&info, "ledger light 0 (shape 2): 3000 paths, power 5, emitted 5 = absorbed ");
+    run_free(&made);
+    run_free(&info);
+}
+
+static void diff_tells_equal_maps_from_others(void **state)
+{
+    static const struct {
+        const char *options, *says;
+    } others[] = {
+        {"--photons 999", "only in the first"},
+        {"--photons 1000 --seed 1", "0 equal, 0 changed"},
+        {"--photons 1000 --max-depth 4", "longest path: 16 and 4"},
+        {"--photons 1000 --direct photons", "direct light in the map: 0 and 1"},
+        {"--photons 1000 --sampler independent", "sampler: 0 and 1"},
+        {"--photons 1000 --caustic-photons 10", "caustic photons apart: 0 and 1"},
+    };
+    (void)state;
+    succeed("photons a.rts --photons 1000 --quiet --out a.rtp");
+    succeed("photons a.rts --photons 1000 --quiet --out b.rtp --accel none");
+    run same = run_rtc("photons diff a.rtp b.rtp");
+    expect_status(&same, 0);
+    assert_string_equal(same.out, "the maps are equal\n");
+    run_free(&same);
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        char line[128];
+        snprintf(line, sizeof line, "photons a.rts %s --quiet --out b.rtp", others[i].options);
+        succeed(line);
+        run run = run_rtc("photons diff a.rtp b.rtp");
+        expect_status(&run, 1);
+        expect_out(&run, others[i].says);
+        run_free(&run);
+    }
+}
+
+static void maps_render_as_if_emitted(void **state)
+{
+    (void)state;
+    succeed("photons a.rts --photons 5000 --caustic-photons 2000 --quiet --out a.rtp");
+    succeed("a.rts --photon-map a.rtp --spp 2 --quiet --out with.pfm");
+    succeed("a.rts --mode photon --photons 5000 --caustic-photons 2000 --spp 2 --quiet --out without.pfm");
+    expect_same_files("with.pfm", "without.pfm");
+    /* A map that holds direct light is used so without being asked to. */
+    succeed("photons a.rts --photons 5000 --direct photons --quiet --out d.rtp");
+    succeed("a.rts --photon-map d.rtp --spp 2 --quiet --out with.pfm");
+    succeed("a.rts --mode photon --direct photons --photons 5000 --spp 2 --quiet --out without.pfm");
+    expect_same_files("with.pfm", "without.pfm");
+    run run = run_rtc("a.rts --photon-map d.rtp --direct nee --spp 1 --quiet --out x.pfm");
+    expect_status(&run, 2);
+    expect_err(&run, "--direct: the photon map already holds direct light");
+    run_free(&run);
+}
+
+static void maps_of_other_scenes_are_refused(void **state)
+{
+    (void)state;
+    scratch_write("b.rts", SCENE "sphere { centre 0.5 0 0  radius 0.1  material wall }\n");
+    succeed("photons a.rts --photons 100 --quiet --out a.rtp");
+    succeed("photons b.rts --photons 100 --seed 1 --quiet --out b.rtp");
+    run render = run_rtc("b.rts --photon-map a.rtp --spp 1 --quiet --out x.pfm");
+    expect_status(&render, 1);
+    expect_err(&render, "another scene");
+    expect_no_file("x.pfm");
+    run merge = run_rtc("photons merge a.rtp b.rtp --out c.rtp");
+    expect_status(&merge, 1);
+    expect_err(&merge, "different scenes");
+    expect_no_file("c.rtp");
+    run_free(&render);
+    run_free(&merge);
+}
+
+static void exports_are_clouds_of_points(void **state)
+{
+    char line[64];
+    (void)state;
+    succeed("photons a.rts --photons 500 --quiet --out a.rtp");
+    run info = run_rtc("photons info a.rtp");
+    run export = run_rtc("photons export a.rtp --out a.ply");
+    expect_status(&export, 0);
+    snprintf(line, sizeof line, "wrote a.ply: %.0f photons of 500 paths", stats_number(&info, "global photons"));
+    expect_err(&export, line);
+    expect_file("a.ply");
+    run_free(&info);
+    run_free(&export);
+}
+
+static void broken_maps_and_places_have_their_status(void **state)
+{
+    static const struct {
+        const char *line;
+        int status;
+        const char *says;
+    } cases[] = {
+        {"photons info a.rts", 1, "a.rts: this is no photon map"},
+        {"photons info none.rtp", 1, "none.rtp: No such file"},
+        {"photons diff a.rtp a.rts", 1, "no photon map"},
+        {"photons merge a.rtp a.rtp --out c.rtp", 1, "the same paths"},
+        {"photons export a.rtp --out nowhere/a.ply", 4, "nowhere/a.ply"},
+        {"photons merge a.rtp --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
+        {"photons a.rts --photons 10 --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
+        {"photons none.rts --out b.rtp", 1, "none.rts"},
+        {"a.rts --photon-map none.rtp --out a.pfm", 1, "none.rtp"},
+    };
+    (void)state;
+    succeed("photons a.rts --photons 100 --quiet --out a.rtp");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        run run = run_rtc("%s", cases[i].line);
+        expect_status(&run, cases[i].status);
+        expect_err(&run, "error: ");
+        expect_err(&run, cases[i].says);
+        run_free(&run);
+    }
+    assert_int_equal(scratch_count(), 2);
+}
+
+static void starved_lights_are_told_without_verbose(void **state)
+{
+    (void)state;
+    scratch_write("b.rts", SCENE "light point { position 0 0 0.5  power 1e-9 }\n");
+    run loud = run_rtc("photons b.rts --photons 1000 --out b.rtp");
+    run quiet = run_rtc("photons b.rts --photons 1000 --quiet --out b.rtp");
+    run shared = run_rtc("photons b.rts --photons 1000 --light-shares 1,1 --stats --out b.rtp");
+    expect_status(&loud, 0);
+    expect_err(&loud, "rtc: warning: light 0 emits 1e-09 W but none of 1000 photon paths came from it");
+    assert_string_equal(quiet.err, "");
+    expect_no_err(&shared, "warning");
+    expect_out(&shared, "ledger light 1 (shape 2): ");
+    expect_out(&shared, "ledger of all lights: 1000 paths");
+    run_free(&loud);
+    run_free(&quiet);
+    run_free(&shared);
+}
+
+static void renders_print_the_ledger(void **state)
+{
+    (void)state;
+    run photon = run_rtc("a.rts --mode photon --photons 1000 --spp 1 --quiet --stats --out a.pfm");
+    run path = run_rtc("a.rts --spp 1 --quiet --stats --out a.pfm");
+    expect_status(&photon, 0);
+    expect_out(&photon, "ledger light 0 (shape 2): 1000 paths, power 5, emitted 5 = absorbed ");
+    assert_null(strstr(path.out, "ledger"));
+    run_free(&photon);
+    run_free(&path);
+}
+
+int main(void)
+{
+    if (spawn_find_rtc() != 0)
+        return 1;
+#define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, enter, scratch_leave)
+    const struct CMUnitTest tests[] = {
+        IN_SCRATCH(parts_merge_into_the_same_file),
+        IN_SCRATCH(info_says_what_a_map_holds),
+        IN_SCRATCH(diff_tells_equal_maps_from_others),
+        IN_SCRATCH(maps_render_as_if_emitted),
+        IN_SCRATCH(maps_of_other_scenes_are_refused),
+        IN_SCRATCH(exports_are_clouds_of_points),
+        IN_SCRATCH(broken_maps_and_places_have_their_status),
+        IN_SCRATCH(starved_lights_are_told_without_verbose),
+        IN_SCRATCH(renders_print_the_ledger),
+    };
+    return cmocka_run_group_tests_name("tools/photons", tests, NULL, NULL);
+}

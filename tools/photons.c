@@ -1,0 +1,161 @@
+/* photons.c - `rtc photons`: makes photon maps, joins them, looks at them and exports them. */
+#include "photons.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "message.h"
+#include "session.h"
+
+int photons_load(rt_photon_map **out, const char *path)
+{
+    rt_error error;
+    return rt_photon_map_load(out, path, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
+}
+
+int photons_output(const char **out, const command_line *arguments, const char *what)
+{
+    if (arguments->output_count != 1) {
+        message_error("%s goes to one file: --out FILE", what);
+        return STATUS_USAGE;
+    }
+    *out = arguments->outputs[0];
+    return STATUS_DONE;
+}
+
+static int fail_operands(const char *usage)
+{
+    message_error("usage: rtc photons %s", usage);
+    message_hint("`rtc photons --help` says what each form does");
+    return STATUS_USAGE;
+}
+
+/* What is said of written files, unless rtc is to be quiet. */
+static void say_written(const command_line *arguments, const char *path, const rt_photon_map *map)
+{
+    rt_photon_map_info info;
+    rt_photon_map_get_info(map, &info);
+    if (!arguments->options[OPTION_QUIET].given)
+        message_note("wrote %s: %llu photons of %llu paths", path,
+                     (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] + info.photons[RT_PHOTONS_CAUSTIC]),
+                     (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
+}
+
+/* ---- Forms that work on files -------------------------------------------------- */
+
+static int info(const command_line *arguments)
+{
+    if (arguments->operand_count < 2)
+        return fail_operands("info MAP...");
+    int status = STATUS_DONE;
+    for (size_t i = 1; i < arguments->operand_count; i++) {
+        rt_photon_map *map = NULL;
+        int now = photons_load(&map, arguments->operands[i]);
+        if (now == STATUS_DONE)
+            now = photons_print_info(arguments->operands[i], map);
+        rt_photon_map_destroy(map);
+        status = status == STATUS_DONE ? now : status;
+    }
+    return status;
+}
+
+static int merge(const command_line *arguments)
+{
+    size_t count = arguments->operand_count - 1;
+    const char *path = NULL;
+    rt_photon_map *whole = NULL;
+    rt_error error;
+    if (count < 1)
+        return fail_operands("merge MAP... --out MAP");
+    int status = photons_output(&path, arguments, "the merged map");
+    if (status != STATUS_DONE)
+        return status;
+    rt_photon_map **maps = calloc(count, sizeof *maps);
+    if (!maps) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    for (size_t i = 0; i < count && status == STATUS_DONE; i++)
+        status = photons_load(maps + i, arguments->operands[1 + i]);
+    if (status == STATUS_DONE &&
+        (rt_photon_map_merge(&whole, (const rt_photon_map *const *)maps, count, &error) != RT_OK ||
+         rt_photon_map_save(whole, path, &error) != RT_OK))
+        status = session_fail(&error);
+    if (status == STATUS_DONE)
+        say_written(arguments, path, whole);
+    for (size_t i = 0; i < count; i++)
+        rt_photon_map_destroy(maps[i]);
+    free(maps);
+    rt_photon_map_destroy(whole);
+    return status;
+}
+
+static int diff(const command_line *arguments)
+{
+    rt_photon_map *a = NULL, *b = NULL;
+    int differ = 0;
+    if (arguments->operand_count != 3)
+        return fail_operands("diff MAP MAP");
+    int status = photons_load(&a, arguments->operands[1]);
+    if (status == STATUS_DONE)
+        status = photons_load(&b, arguments->operands[2]);
+    if (status == STATUS_DONE)
+        status = photons_print_difference(a, b, &differ);
+    rt_photon_map_destroy(a);
+    rt_photon_map_destroy(b);
+    return status == STATUS_DONE && differ ? STATUS_INPUT : status;
+}
+
+static int export(const command_line *arguments)
+{
+    rt_photon_map *map = NULL;
+    const char *path = NULL;
+    rt_error error;
+    if (arguments->operand_count != 2)
+        return fail_operands("export MAP --out FILE.ply");
+    int status = photons_output(&path, arguments, "the cloud of points");
+    if (status == STATUS_DONE)
+        status = photons_load(&map, arguments->operands[1]);
+    if (status == STATUS_DONE && rt_photon_map_export(map, path, &error) != RT_OK)
+        status = session_fail(&error);
+    if (status == STATUS_DONE)
+        say_written(arguments, path, map);
+    rt_photon_map_destroy(map);
+    return status;
+}
+
+/* ---- The command ------------------------------------------------------------------ */
+
+static const struct {
+    const char *word;
+    int (*run)(const command_line *arguments);
+    int writes; /* takes --out */
+} forms[] = {{"info", info, 0}, {"merge", merge, 1}, {"diff", diff, 0}, {"export", export, 1}};
+
+/* Emission has many options; the other forms have --out, where they write, and --quiet. */
+static int check_options(const command_line *arguments, const char *form, int writes)
+{
+    int status = STATUS_DONE;
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        int taken = i == OPTION_QUIET || i == OPTION_VERBOSE || (i == OPTION_OUT && writes);
+        if (arguments->options[i].given && !taken) {
+            message_error("`rtc photons %s` takes no option --%s", form, option_table[i].name);
+            status = STATUS_USAGE;
+        }
+    }
+    return status;
+}
+
+int command_photons(const command_line *arguments)
+{
+    if (arguments->operand_count == 0)
+        return fail_operands("SCENE.rts --out MAP.rtp");
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (strcmp(arguments->operands[0], forms[i].word) == 0) {
+            int status = check_options(arguments, forms[i].word, forms[i].writes);
+            return status == STATUS_DONE ? forms[i].run(arguments) : status;
+        }
+    if (arguments->operand_count > 1)
+        return fail_operands("SCENE.rts --out MAP.rtp, or info, merge, diff or export");
+    return photons_emit(arguments);
+}

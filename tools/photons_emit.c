@@ -1,0 +1,157 @@
+/* photons_emit.c - `rtc photons SCENE`: emits the photons of a scene into a file. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "message.h"
+#include "number.h"
+#include "photons.h"
+#include "scene_file.h"
+#include "session.h"
+
+/* Everything that one emission holds. */
+typedef struct emit_job {
+    session session;
+    const char *scene_path, *map_path;
+    rt_render_options render;
+    rt_emit_options options;
+    float *shares;
+    rt_scene *scene;
+    rt_device *device;
+    rt_renderer *renderer;
+    rt_photon_map *map;
+} emit_job;
+
+/* Reads "I/N", 1 <= I <= N. */
+static int read_part(emit_job *job)
+{
+    const option_value *value = session_value(&job->session, OPTION_PART);
+    char first[32];
+    uint64_t part, parts;
+    if (!value->given)
+        return STATUS_DONE;
+    const char *slash = strchr(value->text, '/');
+    size_t length = slash ? (size_t)(slash - value->text) : sizeof first;
+    if (length < sizeof first) {
+        memcpy(first, value->text, length);
+        first[length] = '\0';
+        if (!number_count(&part, first) && !number_count(&parts, slash + 1) && part >= 1 && part <= parts &&
+            parts <= UINT32_MAX) {
+            job->options.part = (uint32_t)(part - 1);
+            job->options.parts = (uint32_t)parts;
+            return STATUS_DONE;
+        }
+    }
+    message_error("--part takes the number of a part and of all parts, as in 1/4; not '%s'", value->text);
+    return STATUS_USAGE;
+}
+
+/* Reads "A,B,...". */
+static int read_shares(emit_job *job)
+{
+    const option_value *value = session_value(&job->session, OPTION_LIGHT_SHARES);
+    if (!value->given)
+        return STATUS_DONE;
+    size_t length = strlen(value->text), count = 0;
+    char *text = malloc(length + 1);
+    job->shares = calloc(length + 1, sizeof *job->shares);
+    if (!text || !job->shares) {
+        free(text);
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    memcpy(text, value->text, length + 1);
+    int bad = 0;
+    for (char *at = text, *comma; at && !bad; at = comma ? comma + 1 : NULL) {
+        double share = 0;
+        comma = strchr(at, ',');
+        if (comma)
+            *comma = '\0';
+        bad = number_real(&share, at) != 0 || share < 0 || share > 1e15;
+        job->shares[count++] = (float)share;
+    }
+    free(text);
+    if (bad) {
+        message_error("--light-shares takes numbers from 0 on with commas between them; not '%s'", value->text);
+        return STATUS_USAGE;
+    }
+    job->options.light_shares = job->shares;
+    job->options.light_share_count = count;
+    return STATUS_DONE;
+}
+
+static int read_options(emit_job *job, const command_line *arguments)
+{
+    int status = photons_output(&job->map_path, arguments, "the photon map");
+    int part = read_part(job), shares = read_shares(job);
+    status = status == STATUS_DONE ? part : status;
+    return status == STATUS_DONE ? shares : status;
+}
+
+static int load(emit_job *job)
+{
+    rt_error error;
+    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet, NULL);
+    if (status != STATUS_DONE)
+        return status;
+    rt_scene_get_options(job->scene, &job->render);
+    session_merge_options(&job->session, &job->render);
+    job->options.render = &job->render;
+    /* Options out of range are told before any work. */
+    return rt_scene_set_options(job->scene, &job->render, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
+}
+
+static int emit(emit_job *job)
+{
+    rt_renderer_options options = {.hooks = &job->session.hooks};
+    const option_value *accel = session_value(&job->session, OPTION_ACCEL);
+    rt_error error;
+    if (accel->given)
+        options.accel = (rt_accel)accel->choice;
+    rt_status result = rt_renderer_create(&job->renderer, job->scene, job->device, &options, &error);
+    if (result == RT_OK)
+        result = rt_photon_map_emit(&job->map, job->renderer, &job->options, &error);
+    progress_clear(&job->session.progress);
+    if (result == RT_CANCELLED) {
+        message_note("interrupted; nothing was written");
+        return STATUS_INTERRUPTED;
+    }
+    return result == RT_OK ? STATUS_DONE : session_fail(&error);
+}
+
+static int save(const emit_job *job)
+{
+    rt_photon_map_info info;
+    rt_error error;
+    if (rt_photon_map_save(job->map, job->map_path, &error) != RT_OK)
+        return session_fail(&error);
+    rt_photon_map_get_info(job->map, &info);
+    if (!job->session.quiet)
+        message_note("wrote %s: %llu photons of %llu paths", job->map_path,
+                     (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] + info.photons[RT_PHOTONS_CAUSTIC]),
+                     (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
+    if (session_value(&job->session, OPTION_STATS)->given)
+        return photons_print_info(job->map_path, job->map);
+    return STATUS_DONE;
+}
+
+int photons_emit(const command_line *arguments)
+{
+    emit_job job = {0};
+    job.scene_path = arguments->operands[0];
+    session_begin(&job.session, arguments);
+    int status = read_options(&job, arguments);
+    if (status == STATUS_DONE)
+        status = load(&job);
+    if (status == STATUS_DONE)
+        status = session_open_device(&job.session, &job.device);
+    if (status == STATUS_DONE)
+        status = emit(&job);
+    if (status == STATUS_DONE)
+        status = save(&job);
+    rt_photon_map_destroy(job.map);
+    rt_renderer_destroy(job.renderer);
+    rt_device_close(job.device);
+    rt_scene_destroy(job.scene);
+    free(job.shares);
+    return status;
+}

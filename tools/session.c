@@ -1,0 +1,129 @@
+#include "session.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "interrupt.h"
+#include "message.h"
+#include "rtc.h"
+
+static int on_progress(void *user, const rt_progress *report)
+{
+    session *s = user;
+    int stop = interrupt_pending();
+    if (!stop)
+        progress_show(&s->progress, report);
+    return stop;
+}
+
+static void on_log(void *user, const char *line)
+{
+    session *s = user;
+    progress_clear(&s->progress);
+    message_note("%s", line);
+}
+
+static void on_warning(void *user, const char *line)
+{
+    session *s = user;
+    progress_clear(&s->progress);
+    message_warning("%s", line);
+}
+
+void session_begin(session *s, const command_line *arguments)
+{
+    const option_value *style = &arguments->options[OPTION_PROGRESS];
+    s->arguments = arguments;
+    s->quiet = arguments->options[OPTION_QUIET].given;
+    s->progress = progress_begin(style->given ? (progress_style)style->choice
+                                 : s->quiet   ? PROGRESS_NONE
+                                              : PROGRESS_AUTO);
+    s->hooks.progress = on_progress;
+    s->hooks.log = arguments->options[OPTION_VERBOSE].given ? on_log : NULL;
+    s->hooks.warning = s->quiet ? NULL : on_warning;
+    s->hooks.user = s;
+    interrupt_catch();
+}
+
+const option_value *session_value(const session *s, option_id id)
+{
+    return &s->arguments->options[id];
+}
+
+static void set_u32(uint32_t *out, const option_value *value)
+{
+    if (value->given)
+        *out = (uint32_t)value->count;
+}
+
+void session_merge_options(const session *s, rt_render_options *options)
+{
+    options->hooks = &s->hooks;
+    set_u32(&options->width, session_value(s, OPTION_WIDTH));
+    set_u32(&options->height, session_value(s, OPTION_HEIGHT));
+    set_u32(&options->spp, session_value(s, OPTION_SPP));
+    set_u32(&options->max_depth, session_value(s, OPTION_MAX_DEPTH));
+    set_u32(&options->seed, session_value(s, OPTION_SEED));
+    set_u32(&options->k, session_value(s, OPTION_K));
+    set_u32(&options->final_gather, session_value(s, OPTION_FINAL_GATHER));
+    set_u32(&options->caustic_k, session_value(s, OPTION_CAUSTIC_K));
+    set_u32(&options->passes, session_value(s, OPTION_PASSES));
+    if (session_value(s, OPTION_ALPHA)->given)
+        options->alpha = (float)session_value(s, OPTION_ALPHA)->real;
+    if (session_value(s, OPTION_GATHER)->given)
+        options->gather = (rt_gather)session_value(s, OPTION_GATHER)->choice;
+    if (session_value(s, OPTION_PHOTONS)->given)
+        options->photons = session_value(s, OPTION_PHOTONS)->count;
+    if (session_value(s, OPTION_TIME)->given)
+        options->time = session_value(s, OPTION_TIME)->real;
+    if (session_value(s, OPTION_RADIUS)->given)
+        options->radius = (float)session_value(s, OPTION_RADIUS)->real;
+    if (session_value(s, OPTION_CONE_K)->given)
+        options->cone_k = (float)session_value(s, OPTION_CONE_K)->real;
+    if (session_value(s, OPTION_MODE)->given)
+        options->mode = (rt_mode)session_value(s, OPTION_MODE)->choice;
+    if (session_value(s, OPTION_SAMPLER)->given)
+        options->sampler = (rt_sampler)session_value(s, OPTION_SAMPLER)->choice;
+    if (session_value(s, OPTION_KERNEL)->given)
+        options->kernel = (rt_density)session_value(s, OPTION_KERNEL)->choice;
+    if (session_value(s, OPTION_CAUSTIC_PHOTONS)->given)
+        options->caustic_photons = session_value(s, OPTION_CAUSTIC_PHOTONS)->count;
+    if (session_value(s, OPTION_CAUSTIC_RADIUS)->given)
+        options->caustic_radius = (float)session_value(s, OPTION_CAUSTIC_RADIUS)->real;
+    if (session_value(s, OPTION_CAUSTIC_KERNEL)->given)
+        options->caustic_kernel = (rt_density)session_value(s, OPTION_CAUSTIC_KERNEL)->choice;
+    if (session_value(s, OPTION_DIRECT)->given)
+        options->direct = (rt_direct)session_value(s, OPTION_DIRECT)->choice;
+}
+
+int session_fail(const rt_error *error)
+{
+    if (error->status != RT_ERROR_USAGE || !error->field[0] || error->line)
+        return message_failure(error);
+    char name[sizeof error->field];
+    snprintf(name, sizeof name, "%s", error->field);
+    for (char *c = name; *c; c++)
+        if (*c == '_')
+            *c = '-';
+    message_error("--%s: %s", name, error->message);
+    return STATUS_USAGE;
+}
+
+int session_open_device(const session *s, rt_device **out)
+{
+    rt_device_options options = {0};
+    rt_error error;
+    options.select = session_value(s, OPTION_DEVICE)->text;
+    set_u32(&options.threads, session_value(s, OPTION_THREADS));
+    set_u32(&options.work_group, session_value(s, OPTION_WORK_GROUP));
+    if (rt_device_open(out, &options, &error) != RT_OK)
+        return session_fail(&error);
+    if (session_value(s, OPTION_VERBOSE)->given) {
+        rt_device_info info;
+        rt_device_get_info(*out, &info);
+        message_note("device %s, %s, %u compute unit%s", info.name, info.platform, (unsigned)info.compute_units,
+                     info.compute_units == 1 ? "" : "s");
+    }
+    return STATUS_DONE;
+}
+

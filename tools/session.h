@@ -1,0 +1,34 @@
+/* session.h - what the commands that render or emit share: hooks, options, the device. */
+#ifndef RTC_SESSION_H
+#define RTC_SESSION_H
+
+#include "options.h"
+#include "progress.h"
+#include "rt.h"
+
+/* A command under way. Must stay where it is: the hooks point to it. */
+typedef struct session {
+    const command_line *arguments;
+    int quiet;
+    progress_display progress;
+    rt_hooks hooks;
+} session;
+
+/* Begins to show progress, the log and warnings, as the command line wants them, and to catch Ctrl-C. */
+void session_begin(session *session, const command_line *arguments);
+
+const option_value *session_value(const session *session, option_id id);
+
+/* What the command line says goes before what the options say; hooks are set. */
+void session_merge_options(const session *session, rt_render_options *options);
+
+/*
+ * Prints a failure of the library; where an option is at fault, by its name on the command line. Returns the exit
+ * status.
+ */
+int session_fail(const rt_error *error);
+
+/* Opens the device that the command line names. Returns an exit status; the caller owns *out. */
+int session_open_device(const session *session, rt_device **out);
+
+#endif
