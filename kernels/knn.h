@@ -3,10 +3,9 @@
  * the k-th accepted photon, at the limit on the radius, or at the (16 k)-th photon of any kind, and the photons
  * strictly nearer count.
  *
- * The k-th distance is found in two steps. Photons near each other in the tree's order are near in space, so
- * those around the nearest block give an upper bound on it. All that are nearer than the bound are then
- * collected, by distance alone, and the k-th smallest selected. No lists are kept: knowing the radius, the sum
- * walks the tree again.
+ * The k-th distance is found by a walk that goes to the nearest child first and collects distances alone. Whenever
+ * its memory is full, the k smallest are selected, and the largest of them bounds the walk from then on. No lists are
+ * kept: knowing the radius, the sum walks the tree again.
  */
 #ifndef RT_KNN_H
 #define RT_KNN_H
@@ -21,38 +20,66 @@ struct distances {
     float bound; /* what is not below it does not matter */
 };
 
+INLINE_ALWAYS uint sum_lanes_int(int8 v)
+{
+    const int4 four = v.lo + v.hi;
+    const int2 two = four.lo + four.hi;
+    return (uint)(two.x + two.y);
+}
+
+INLINE_ALWAYS float largest_lane(float8 v)
+{
+    const float4 four = fmax(v.lo, v.hi);
+    const float2 two = fmax(four.lo, four.hi);
+    return fmax(two.x, two.y);
+}
+
+/* How many of the distances are not above a value, and the largest of these. */
+INLINE_ALWAYS uint count_up_to(const struct distances *d, float value, float *largest)
+{
+    global const float *values = d->squared;
+    const uint rows = (d->count + 7u) / 8u;
+    int8 counts = (int8)(0);
+    float8 top = (float8)(0.0f);
+    for (uint i = 0u; i < rows; i++) {
+        const float8 row = vload8(i, values);
+        const int8 below = row <= value;
+        counts -= below;
+        top = lane_max(top, as_float8(as_int8(row) & below));
+    }
+    *largest = largest_lane(top);
+    return sum_lanes_int(counts);
+}
+
 /*
- * The k-th smallest of the distances, k <= count. Floats that are not negative are in the order of their
- * bits, which a bisection walks; it ends when exactly k are not above the middle.
+ * The k-th smallest of the distances, k <= count, all of them below the bound. Squared distances on a surface are
+ * spread evenly, so every other step looks where the k-th would then be; those between halve the range of the numbers'
+ * bits, which are in the order of the numbers. It ends when exactly k are not above the place looked at.
  */
 INLINE_ALWAYS float select_distance(const struct distances *d)
 {
-    const uint rows = (d->count + 7u) / 8u;
-    global const float *values = d->squared;
-    uint low = 0u, high = as_uint(d->bound); /* the answer is in [low, high] */
+    float largest;
+    uint low = 0u, low_count = 0u; /* fewer than k are not above low - 1 */
+    count_up_to(d, FLT_MAX, &largest);
+    uint high = as_uint(largest), high_count = d->count; /* at least k are not above high */
 
-    while (low < high) {
-        const uint middle = low + (high - low) / 2u;
-        const float8 at = (float8)(as_float(middle));
-        int8 counts = (int8)(0);
-        for (uint i = 0; i < rows; i++)
-            counts -= vload8(i, values) <= at;
-        const int4 four = counts.lo + counts.hi;
-        const int2 two = four.lo + four.hi;
-        const uint below = (uint)(two.x + two.y);
-        if (below == d->k) {
-            float8 largest = (float8)(0.0f);
-            for (uint i = 0; i < rows; i++) {
-                const float8 value = vload8(i, values);
-                largest = lane_max(largest, value <= at ? value : (float8)(0.0f));
-            }
-            const float4 largest4 = fmax(largest.lo, largest.hi);
-            return fmax(fmax(largest4.x, largest4.y), fmax(largest4.z, largest4.w));
+    for (uint step = 0u; low < high; step++) {
+        uint middle = low + (high - low) / 2u;
+        if (!(step & 1u)) {
+            const float from = as_float(low), span = as_float(high) - from;
+            const float part = ((float)(d->k - low_count) - 0.5f) / (float)(high_count - low_count);
+            middle = clamp(as_uint(from + part * span), low, high - 1u);
         }
-        if (below > d->k)
-            high = middle;
-        else
+        const uint count = count_up_to(d, as_float(middle), &largest);
+        if (count == d->k)
+            return largest;
+        if (count > d->k) {
+            high = as_uint(largest);
+            high_count = count;
+        } else {
             low = middle + 1u;
+            low_count = count;
+        }
     }
     return as_float(low);
 }
@@ -70,9 +97,12 @@ INLINE_ALWAYS void shrink_distances(struct distances *d)
     uint kept = 0u;
     pad_distances(d);
     d->bound = select_distance(d);
-    for (uint i = 0u; i < d->count; i++)
-        if (d->squared[i] < d->bound)
-            d->squared[kept++] = d->squared[i];
+    for (uint i = 0u; i < d->count; i += 8u) {
+        const float8 values = vload8(0, d->squared + i);
+        const uint mask = lane_mask(values < d->bound);
+        vstore8(lane_compress(values, mask), 0, d->squared + kept);
+        kept += popcount(mask);
+    }
     while (kept < d->k) /* with all that are equal to it */
         d->squared[kept++] = d->bound;
     d->count = kept;
@@ -84,44 +114,79 @@ INLINE_ALWAYS void take_distances(struct distances *d, const struct photon_tree 
 {
     global const rt_photon_block *photons = tree->blocks + block;
     const float8 squared = photon_distances(photons, query);
-    uint mask = lane_mask(squared < d->bound && photons_accepted(photons, query));
-    float each[8];
+    const uint mask = lane_mask(squared < d->bound && photons_accepted(photons, query));
     if (!mask)
         return;
-    if (mask == 255u) {
-        vstore8(squared, 0, d->squared + d->count);
-        d->count += 8u;
-    } else {
-        vstore8(squared, 0, each);
-        for (; mask; mask &= mask - 1u)
-            d->squared[d->count++] = each[lane_first(mask)];
-    }
+    vstore8(lane_compress(squared, mask), 0, d->squared + d->count);
+    d->count += popcount(mask);
     if (d->count + 8u > d->capacity)
         shrink_distances(d);
 }
 
-/*
- * Takes the photons around the nearest block, more and more of them until k are accepted, `look` are looked at
- * or there are no more. True when k were accepted.
- */
-INLINE_ALWAYS bool take_around(struct distances *d, const struct photon_tree *tree, const struct photon_query *query,
-                               uint look)
+/* The smallest lane of a vector whose lanes in `mask` alone count; mask is not 0. */
+INLINE_ALWAYS uint nearest_lane(float8 squared, uint mask)
 {
-    const uint blocks = tree->shape.block_count, centre = nearest_block(tree, query);
-    uint begin = centre, end = centre; /* taken so far */
-    for (uint reach = d->k / 8u + 1u;; reach *= 2u) {
-        const uint left = centre - min(centre, reach / 2u), right = min(blocks, centre + reach - reach / 2u);
-        for (uint i = left; i < begin; i++)
-            take_distances(d, tree, query, i);
-        for (uint i = end; i < right; i++)
-            take_distances(d, tree, query, i);
-        begin = min(begin, left);
-        end = max(end, right);
-        if (d->count >= d->k)
-            return true;
-        if (end - begin == blocks || 8u * (end - begin) > look)
+    float each[8];
+    uint nearest = lane_first(mask);
+    vstore8(squared, 0, each);
+    for (mask &= mask - 1u; mask; mask &= mask - 1u)
+        nearest = each[lane_first(mask)] < each[nearest] ? lane_first(mask) : nearest;
+    return nearest;
+}
+
+/* Nodes still to be walked, and how near they come. */
+struct near_stack {
+    uint entry[RT_PHOTON_STACK];
+    float squared[RT_PHOTON_STACK];
+    uint count;
+};
+
+/* Pushes the children of a node that are in `mask`, the nearest last. */
+INLINE_ALWAYS void push_children(struct near_stack *stack, uint level, uint index, float8 squared, uint mask)
+{
+    const uint count = popcount(mask);
+    float each[8];
+    vstore8(squared, 0, each);
+    for (uint at = stack->count + count; mask;) {
+        const uint lane = nearest_lane(squared, mask);
+        at--;
+        stack->entry[at] = ((level - 1u) << WALK_LEVEL_SHIFT) | (8u * index + lane);
+        stack->squared[at] = each[lane];
+        mask &= ~(1u << lane);
+    }
+    stack->count += count;
+}
+
+/*
+ * Takes all accepted photons below the bound, nearest nodes first; those of `enough` photons of any kind at most. False
+ * when it stopped there, with fewer than k accepted.
+ */
+INLINE_ALWAYS bool take_nearest(struct distances *d, const struct photon_tree *tree, const struct photon_query *query,
+                                uint enough)
+{
+    struct near_stack stack;
+    uint looked = 0u;
+    stack.entry[0] = (tree->shape.levels - 1u) << WALK_LEVEL_SHIFT;
+    stack.squared[0] = 0.0f;
+    stack.count = 1u;
+    while (stack.count > 0u) {
+        stack.count--;
+        if (!(stack.squared[stack.count] < d->bound))
+            continue;
+        const uint entry = stack.entry[stack.count], level = entry >> WALK_LEVEL_SHIFT, index = entry & WALK_INDEX;
+        const float8 squared = box_distances(tree->nodes + tree->shape.first_node[level] + index, query);
+        uint near = lane_mask(squared < d->bound);
+        if (level > 0u) {
+            push_children(&stack, level, index, squared, near);
+            continue;
+        }
+        for (; near; near &= near - 1u)
+            take_distances(d, tree, query, 8u * index + lane_first(near));
+        looked += 64u;
+        if (looked >= enough && d->count < d->k)
             return false;
     }
+    return true;
 }
 
 /* The squared distance of the (look)-th photon of any kind, or the bound when fewer are nearer than that. */
@@ -143,47 +208,70 @@ INLINE_ALWAYS float look_distance(const struct photon_tree *tree, const struct p
 }
 
 /*
- * The squared radius of the disc around a point; 0 when no photon counts. scratch: [estimate->stride]. The rule
- * of the (look)-th photon is left to the caller where k photons were accepted before it: only the sum shows.
+ * Takes all accepted photons nearer than a guess, in no particular order; true when they are k or more. The walk
+ * needs no order and seldom a selection, so a good guess makes the search twice as fast.
  */
-INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_query *query,
-                                const rt_density_params *estimate, global float *scratch)
+INLINE_ALWAYS bool take_within(struct distances *d, const struct photon_tree *tree, const struct photon_query *query,
+                               float guess)
 {
-    const float limit = estimate->squared_limit;
-    struct distances d;
-    if (estimate->k == 0u || tree->shape.levels == 0u)
-        return tree->shape.levels == 0u ? 0.0f : limit;
-    d.squared = scratch;
-    d.count = 0u;
-    d.capacity = estimate->stride;
-    d.k = estimate->k;
-    d.bound = limit;
-
-    if (take_around(&d, tree, query, estimate->look)) {
-        pad_distances(&d);
-        d.bound = select_distance(&d);
-    } else if (tree->shape.photon_count > estimate->look) {
-        d.bound = look_distance(tree, query, estimate->look, limit);
-    } else if (limit == INFINITY) {
-        /* No limit, and the map has too few: the farthest stands for the k-th. */
-        float farthest = 0.0f;
-        for (uint i = 0u; i < d.count; i++)
-            farthest = fmax(farthest, d.squared[i]);
-        return farthest;
-    } else
-        return limit;
-
     struct photon_walk walk;
     uint first, mask;
-    d.count = 0u;
+    d->count = 0u;
+    d->bound = guess;
     walk_start(&walk, tree);
-    while (walk_next(&walk, tree, query, d.bound, &first, &mask))
+    while (walk_next(&walk, tree, query, d->bound, &first, &mask))
         for (; mask; mask &= mask - 1u)
-            take_distances(&d, tree, query, first + lane_first(mask));
-    if (d.count < d.k)
+            take_distances(d, tree, query, first + lane_first(mask));
+    return d->count >= d->k;
+}
+
+/*
+ * Takes the k nearest accepted photons below the limit, or as many as the rules allow; the bound is the squared radius
+ * when there are fewer.
+ */
+INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree, const struct photon_query *query,
+                            const rt_density_params *estimate)
+{
+    const bool larger = tree->shape.photon_count > estimate->look;
+    d->count = 0u;
+    d->bound = estimate->squared_limit;
+    if (take_nearest(d, tree, query, larger ? 2u * estimate->look : 0xffffffffu))
+        return;
+    /* Few photons fit. Those that do may be far away, but not all of the map is to be searched for them. */
+    d->count = 0u;
+    d->bound = look_distance(tree, query, estimate->look, estimate->squared_limit);
+    take_nearest(d, tree, query, 0xffffffffu);
+}
+
+/*
+ * The squared radius of the disc around a point; 0 when no photon counts. guess: what it may be, such as that of a point
+ * nearby; 0 for none: it changes the time taken, not the result. scratch: [estimate->stride]. The rule of the (look)-th
+ * photon is left to the caller where k photons were accepted before it: only the sum shows.
+ */
+INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_query *query,
+                                const rt_density_params *estimate, float guess, global float *scratch)
+{
+    struct distances d;
+    if (tree->shape.levels == 0u)
+        return 0.0f;
+    if (estimate->k == 0u)
+        return estimate->squared_limit;
+    d.squared = scratch;
+    d.capacity = estimate->stride;
+    d.k = estimate->k;
+    if (!(guess > 0.0f && guess < estimate->squared_limit && take_within(&d, tree, query, guess)))
+        take_all(&d, tree, query, estimate);
+    if (d.count >= d.k) {
+        pad_distances(&d);
+        return select_distance(&d);
+    }
+    if (d.bound < INFINITY)
         return d.bound;
-    pad_distances(&d);
-    return select_distance(&d);
+    /* No limit, and the map has too few: the farthest stands for the k-th. */
+    float farthest = 0.0f;
+    for (uint i = 0u; i < d.count; i++)
+        farthest = fmax(farthest, d.squared[i]);
+    return farthest;
 }
 
 #endif

@@ -42,6 +42,24 @@ static inline uint lane_mask(int8 truth)
 #endif
 }
 
+/* The lanes whose bits are set in `mask`, moved together to the front; what follows them is arbitrary. */
+static inline float8 lane_compress(float8 v, uint mask)
+{
+#if defined(__AVX512VL__) && defined(__AVX512F__)
+    return __builtin_ia32_compresssf256_mask(v, v, (uchar)mask);
+#else
+    float from[8], to[8];
+    uint count = 0u;
+    vstore8(v, 0, from);
+    vstore8(v, 0, to);
+    for (uint lane = 0u; lane < 8u; lane++) {
+        to[count & 7u] = from[lane];
+        count += mask >> lane & 1u;
+    }
+    return vload8(0, to);
+#endif
+}
+
 /* The lowest set bit's index; mask is not 0. */
 static inline uint lane_first(uint mask)
 {

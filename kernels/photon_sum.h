@@ -54,12 +54,12 @@ INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tr
     return looked;
 }
 
-/* The estimate at a point; scratch: [estimate->stride]. */
+/* The estimate at a point; guess and scratch as for disc_radius. */
 INLINE_NEVER struct photon_sum sum_photons(const struct photon_tree *tree, const struct photon_query *query,
-                                           const rt_density_params *estimate, global float *scratch)
+                                           const rt_density_params *estimate, float guess, global float *scratch)
 {
     struct photon_sum sum;
-    sum.squared_radius = disc_radius(tree, query, estimate, scratch);
+    sum.squared_radius = disc_radius(tree, query, estimate, guess, scratch);
     const uint looked = sum_disc(&sum, tree, query, estimate);
     if (estimate->k > 0u && looked >= estimate->look && tree->shape.photon_count > estimate->look) {
         sum.squared_radius = look_distance(tree, query, estimate->look, sum.squared_radius);

@@ -116,19 +116,6 @@ INLINE_ALWAYS bool walk_next(struct photon_walk *walk, const struct photon_tree 
     return false;
 }
 
-/* The block whose box is nearest, by going down to the nearest child at each level; the tree is not empty. */
-INLINE_ALWAYS uint nearest_block(const struct photon_tree *tree, const struct photon_query *query)
-{
-    uint index = 0u;
-    for (uint level = tree->shape.levels; level-- > 0u;) {
-        const float8 d2 = box_distances(tree->nodes + tree->shape.first_node[level] + index, query);
-        const float4 four = fmin(d2.lo, d2.hi);
-        const float2 two = fmin(four.lo, four.hi);
-        index = 8u * index + lane_first(lane_mask(d2 == fmin(two.lo, two.hi)));
-    }
-    return min(index, tree->shape.block_count - 1u);
-}
-
 /* Photons under a node, from the packing of the tree. */
 INLINE_ALWAYS uint photons_under(const struct photon_tree *tree, uint level, uint index)
 {

@@ -22,6 +22,7 @@ kernel void photon_walk(const rt_params params, global const rt_scene_header *he
     tree.shape = shape;
     tree.nodes = nodes;
     tree.blocks = blocks;
+    float guess = 0.0f; /* from the point before, with some to spare, so that k photons lie inside more often than not */
 
     for (uint i = begin; i < end; i++) {
         struct photon_query query;
@@ -34,7 +35,8 @@ kernel void photon_walk(const rt_params params, global const rt_scene_header *he
         disc.reserved = 0u;
         if (disc.asked) {
             const struct photon_sum sum =
-                sum_photons(&tree, &query, &estimate, scratch + (size_t)item * estimate.stride);
+                sum_photons(&tree, &query, &estimate, guess, scratch + (size_t)item * estimate.stride);
+            guess = 1.3f * sum.squared_radius;
             disc.count = sum.count;
             disc.squared_radius = sum.squared_radius;
             if (sum.count > 0u)

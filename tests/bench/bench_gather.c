@@ -1,6 +1,7 @@
 /*
- * bench_gather.c - nearest photons: the library's search, which also leaves out the photons that face
- * elsewhere, against plain FLANN, in one run and in turn.
+ * bench_gather.c - nearest photons: the library's search on the host, and the gather on the device, which both
+ * leave out the photons that face elsewhere, against plain FLANN, in one run and in turn. The gather on the device
+ * takes the density sum as well.
  *
  *     bench_gather [PHOTONS [QUERIES [K]]]    1 000 000, 100 000 and 50 by default
  *
@@ -15,6 +16,7 @@
 #include <unistd.h>
 
 #include "lib/photon/points.h"
+#include "photon/device_gather.h"
 #include "photon/search.h"
 #include "progress.h"
 
@@ -24,7 +26,7 @@ enum { runs = 5 };
 typedef struct problem {
     size_t photons, queries;
     uint32_t k, threads;
-    rt_photon_map map;
+    rt_photon_list map;
     float *positions; /* [photons][3] */
     rt_gather_point *points;
     float *places;  /* [queries][3], theirs */
@@ -86,7 +88,7 @@ static void pose(problem *p)
 
 static void discard(problem *p)
 {
-    rt_photon_map_clear(&p->map);
+    rt_photon_list_clear(&p->map);
     free(p->positions);
     free(p->points);
     free(p->places);
@@ -107,6 +109,62 @@ static double median(double times[runs])
     return times[runs / 2];
 }
 
+/* A scene buffer of one white material. */
+static cl_mem make_scene(rt_device *device)
+{
+    struct {
+        rt_scene_header header;
+        rt_material_data white;
+    } scene;
+    cl_mem buffer = NULL;
+    rt_error error;
+    memset(&scene, 0, sizeof scene);
+    scene.header.materials = sizeof scene.header / RT_SCENE_ROW;
+    scene.header.material_count = 1;
+    scene.white.kd[0] = 1;
+    must(rt_buffer_create(device, &buffer, CL_MEM_READ_ONLY, sizeof scene, &scene, "the scene", &error), &error);
+    return buffer;
+}
+
+/* The gather on the device, with all that it needs. */
+typedef struct device_side {
+    rt_device *device;
+    cl_kernel kernel;
+    cl_mem scene, points;
+    rt_device_gather gather;
+} device_side;
+
+static void open_device(device_side *d, const problem *p)
+{
+    rt_density_params estimate = {RT_DENSITY_EPANECHNIKOV, 1.1f, 0, p->k, HUGE_VALF, 0, 0, 1};
+    rt_error error;
+    must(rt_device_open(&d->device, NULL, &error), &error);
+    must(rt_device_kernel(d->device, &d->kernel, "photon_walk", "photon_walk", NULL, &error), &error);
+    d->scene = make_scene(d->device);
+    must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE, p->queries * sizeof *p->points, p->points, "points",
+                          &error),
+         &error);
+    double began = rt_clock();
+    must(rt_device_gather_prepare(&d->gather, d->device, &p->map, &estimate, p->queries, &error), &error);
+    printf("the device's tree takes %.3f s to build\n", rt_clock() - began);
+}
+
+static void close_device(device_side *d)
+{
+    rt_device_gather_release(&d->gather);
+    rt_buffer_release(d->scene);
+    rt_buffer_release(d->points);
+    rt_kernel_release(d->kernel);
+    rt_device_close(d->device);
+}
+
+static void gather_on_device(device_side *d, const problem *p)
+{
+    rt_error error;
+    must(rt_device_gather_launch(&d->gather, d->device, d->kernel, d->scene, d->points, 0, p->queries, &error), &error);
+    must(rt_device_finish(d->device, &error), &error);
+}
+
 static void report(const char *name, const problem *p, double times[runs], double flann)
 {
     double seconds = median(times);
@@ -116,7 +174,8 @@ static void report(const char *name, const problem *p, double times[runs], doubl
 static void compete(problem *p)
 {
     struct FLANNParameters parameters = DEFAULT_FLANN_PARAMETERS;
-    double plain[runs], ours[runs];
+    double plain[runs], ours[runs], device[runs];
+    device_side d;
     rt_photon_search *search = NULL;
     rt_error error;
     float speedup;
@@ -130,19 +189,26 @@ static void compete(problem *p)
     flann_index_t tree = flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
     must(rt_photon_search_create(&search, &p->map, p->k, HUGE_VALF, p->threads, &error), &error);
 
+    open_device(&d, p);
+    gather_on_device(&d, p); /* the driver compiles at the first launch */
+
     for (int run = 0; run < runs; run++) {
         double t0 = rt_clock();
         flann_find_nearest_neighbors_index_float(tree, p->places, (int)p->queries, p->indices, p->squared, (int)p->k,
                                                  &parameters);
         double t1 = rt_clock();
-        must(rt_photon_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs, NULL, &error),
-             &error);
+        must(rt_photon_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs, &error), &error);
         plain[run] = t1 - t0;
-        ours[run] = rt_clock() - t1;
+        double t2 = rt_clock();
+        gather_on_device(&d, p);
+        ours[run] = t2 - t1;
+        device[run] = rt_clock() - t2;
     }
     double flann = median(plain);
     report("FLANN", p, plain, flann);
     report("librt", p, ours, flann);
+    report("device", p, device, flann);
+    close_device(&d);
     flann_free_index_float(tree, &parameters);
     rt_photon_search_destroy(search);
 }

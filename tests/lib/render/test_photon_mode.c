@@ -96,10 +96,25 @@ static void every_way_agrees_with_path_tracing(void **state)
         const char *name;
         rt_direct direct;
         uint32_t final_gather;
-    } ways[] = {{"direct light by shadow rays", RT_DIRECT_NEE, 0},
-                {"direct light from the map", RT_DIRECT_PHOTONS, 0},
-                {"final gather", RT_DIRECT_NEE, 1},
-                {"final gather of all light", RT_DIRECT_PHOTONS, 1}};
+        rt_gather gather;
+        uint32_t k;
+        float radius;
+        uint32_t passes, spp;
+        uint64_t photons, caustic_photons;
+    } ways[] = {
+        {"direct light by shadow rays", RT_DIRECT_NEE, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
+        {"direct light from the map", RT_DIRECT_PHOTONS, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
+        {"final gather", RT_DIRECT_NEE, 1, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
+        {"final gather of all light", RT_DIRECT_PHOTONS, 1, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
+        {"two final bounces", RT_DIRECT_NEE, 2, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 0},
+        {"gather on the device", RT_DIRECT_NEE, 0, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 0},
+        {"fixed radius", RT_DIRECT_PHOTONS, 0, RT_GATHER_AUTO, RT_K_ALL, 0.02f, 0, 16, 300000, 0},
+        {"caustics apart", RT_DIRECT_NEE, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 300000},
+        {"caustics apart, final gather", RT_DIRECT_NEE, 1, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 300000},
+        {"passes", RT_DIRECT_NEE, 0, RT_GATHER_AUTO, 50, 0, 50, 1, 20000, 0},
+        {"passes, all light from the map", RT_DIRECT_PHOTONS, 0, RT_GATHER_AUTO, 50, 0.03f, 50, 1, 20000, 0},
+        {"passes, final gather, caustics apart", RT_DIRECT_NEE, 1, RT_GATHER_AUTO, 20, 0, 50, 1, 20000, 5000},
+    };
     rt_render_options options = photon_options();
     (void)state;
     rt_renderer *renderer = make_renderer(test_device());
@@ -111,6 +126,13 @@ static void every_way_agrees_with_path_tracing(void **state)
         options = photon_options();
         options.direct = ways[i].direct;
         options.final_gather = ways[i].final_gather;
+        options.gather = ways[i].gather;
+        options.k = ways[i].k;
+        options.radius = ways[i].radius;
+        options.passes = ways[i].passes;
+        options.spp = ways[i].spp;
+        options.photons = ways[i].photons;
+        options.caustic_photons = ways[i].caustic_photons;
         rt_film *film = render(renderer, &options);
         double ratio = mean_of(film) / expected;
         print_message("%s: %.4f of path tracing\n", ways[i].name, ratio);
@@ -118,6 +140,161 @@ static void every_way_agrees_with_path_tracing(void **state)
         rt_film_destroy(film);
     }
     rt_film_destroy(path);
+    rt_renderer_destroy(renderer);
+}
+
+static void both_gathers_make_the_same_picture(void **state)
+{
+    rt_render_options options = photon_options();
+    (void)state;
+    rt_renderer *renderer = make_renderer(test_device());
+    options.final_gather = 1;
+    options.gather = RT_GATHER_FLANN;
+    rt_film *host = render(renderer, &options);
+    options.gather = RT_GATHER_DEVICE;
+    rt_film *device = render(renderer, &options);
+    for (int i = 0; i < side * side * 3; i++)
+        assert_float_equal(rt_film_rgb(host)[i], rt_film_rgb(device)[i], 1e-5 * (1 + rt_film_rgb(host)[i]));
+    rt_film_destroy(host);
+    rt_film_destroy(device);
+    rt_renderer_destroy(renderer);
+}
+
+/* A floor under a glass sphere and a point light: eye paths can never find the light through the glass. */
+static rt_renderer *make_point_caustic(void)
+{
+    const float corner[3] = {-1, 0, -1}, x[3] = {2, 0, 0}, z[3] = {0, 0, 2}, ball[3] = {0, 0.5f, 0};
+    rt_point_light light = {{0.5f, 1.6f, 0}, {1, 1, 1}, {0}};
+    rt_camera camera = {{0, 3, -0.01f}, {0, 0, 0}, {0, 0, 1}, 36, 0, 0};
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_error error;
+
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    rt_surface clear = {add(scene, 0, 0, 1), {0}, {0}};
+    add_quad(scene, add(scene, 0.6f, 0, 0), 0, corner, z, x);
+    expect_ok(rt_scene_add_sphere(scene, NULL, ball, 0.3f, &clear, &error), &error);
+    expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
+    expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
+{
+    rt_render_options options = photon_options();
+    (void)state;
+    rt_renderer *renderer = make_point_caustic();
+    options.k = RT_K_ALL; /* else the other photons would make the discs smaller where all are in one list */
+    options.radius = 0.03f;
+    rt_film *film = render(renderer, &options);
+    double plain = mean_of(film);
+    rt_film_destroy(film);
+    options.mode = RT_MODE_PATH;
+    film = render(renderer, &options);
+    double without = mean_of(film);
+    rt_film_destroy(film);
+    options.mode = RT_MODE_PHOTON;
+    for (int i = 0; i < 4; i++) {
+        options.direct = i % 2 ? RT_DIRECT_PHOTONS : RT_DIRECT_NEE;
+        options.caustic_photons = i / 2 ? options.photons : 0;
+        options.final_gather = 1;
+        film = render(renderer, &options);
+        print_message("way %d: %.4f of no final gather; path tracing, without caustics, %.4f\n", i,
+                      mean_of(film) / plain, without / plain);
+        assert_true(fabs(mean_of(film) / plain - 1) < tolerance);
+        rt_film_destroy(film);
+    }
+    assert_true(without / plain < 1 - 5 * tolerance);
+    rt_renderer_destroy(renderer);
+}
+
+/* A white ball inside a ball of glass, in a room with a shining ceiling; the ball fills the picture. */
+static rt_renderer *make_ball_in_glass(const float eye[3], float fov)
+{
+    const float x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 2}, low[3] = {-1, -1, -1}, high[3] = {-1, 1, -1},
+                back[3] = {-1, -1, 1}, right[3] = {1, -1, -1}, centre[3] = {0};
+    rt_camera camera = {{eye[0], eye[1], eye[2]}, {0, 0, 0}, {0}, fov, 0, 0};
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_error error;
+
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    uint32_t walls = add(scene, 0.5f, 0, 0), black = add(scene, 0, 0, 0);
+    rt_surface clear = {add(scene, 0, 0, 1), {0}, {0}}, white = {add(scene, 0.5f, 0, 0), {0}, {0}};
+    add_quad(scene, walls, 0, low, z, x);
+    add_quad(scene, black, 1, high, x, z);
+    add_quad(scene, walls, 0, back, y, x);
+    add_quad(scene, walls, 0, low, y, z);
+    add_quad(scene, walls, 0, right, z, y);
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.6f, &clear, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.3f, &white, &error), &error);
+    expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+/*
+ * Photons bring flux into glass and the eye sees radiance: without the factor (eta_i/eta_t)^2 of radiance, the two
+ * would differ by 2.25, in one direction from outside and in the other from inside.
+ */
+static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
+{
+    static const struct {
+        const char *name;
+        float eye[3], fov;
+    } views[] = {{"from outside", {0, 0, -3}, 4}, {"from inside the glass", {0, 0, -0.5f}, 30}};
+    rt_render_options options = photon_options();
+    (void)state;
+    for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
+        rt_renderer *renderer = make_ball_in_glass(views[i].eye, views[i].fov);
+        options.radius = 0.03f;
+        options.photons = 3000000; /* of which some thousands come into the picture: noise of 2 % */
+        options.mode = RT_MODE_PATH;
+        options.spp = 256;
+        rt_film *path = render(renderer, &options);
+        options.mode = RT_MODE_PHOTON;
+        options.spp = 16;
+        rt_film *photon = render(renderer, &options);
+        double ratio = mean_of(photon) / mean_of(path);
+        print_message("%s: %.4f of path tracing\n", views[i].name, ratio);
+        assert_true(fabs(ratio - 1) < 0.08);
+        rt_film_destroy(path);
+        rt_film_destroy(photon);
+        rt_renderer_destroy(renderer);
+    }
+}
+
+/* A dark wall behind clear glass that reflects nothing. */
+static void every_eye_path_through_glass_comes_to_the_map(void **state)
+{
+    const float pane[3] = {-2, -2, 0}, behind[3] = {-2, -2, 0.2f}, wall[3] = {-2, -2, 1}, x[3] = {4, 0, 0}, y[3] = {0, 4, 0};
+    rt_point_light light = {{0, 0, 0.5f}, {1, 1, 1}, {0}};
+    rt_camera camera = {{0, 0, -2}, {0, 0, 0}, {0}, 40, 0, 0};
+    rt_material glass = {{0}, {0}, {1, 1, 1}, {0}, 1.5f, 0, 0, 0};
+    rt_render_options options = photon_options();
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_film_stats stats;
+    rt_error error;
+    uint32_t clear;
+    (void)state;
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_material(scene, &clear, NULL, &glass, &error), &error);
+    add_quad(scene, clear, 0, pane, y, x);
+    add_quad(scene, clear, 0, behind, x, y);
+    add_quad(scene, add(scene, 0.1f, 0, 0), 0, wall, y, x);
+    expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
+    expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    options.photons = 1000;
+    rt_film *film = render(renderer, &options);
+    rt_film_get_stats(film, &stats);
+    assert_int_equal(stats.gathers, side * side * options.spp);
+    rt_film_destroy(film);
     rt_renderer_destroy(renderer);
 }
 
@@ -170,14 +347,11 @@ static void smooth_surfaces_agree_with_path_tracing(void **state)
     rt_renderer_destroy(renderer);
 }
 
-static void films_do_not_depend_on_threads_and_work_groups(void **state)
+static void films_are_the_same(const rt_render_options *how)
 {
     static const rt_device_options devices[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 2, 64}};
-    rt_render_options options = photon_options();
+    rt_render_options options = *how;
     rt_film *first = NULL;
-    (void)state;
-    options.spp = 2;
-    options.photons = 50000;
     for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
         rt_device *device = NULL;
         rt_error error;
@@ -194,6 +368,21 @@ static void films_do_not_depend_on_threads_and_work_groups(void **state)
             first = film;
     }
     rt_film_destroy(first);
+}
+
+static void films_do_not_depend_on_threads_and_work_groups(void **state)
+{
+    rt_render_options options = photon_options();
+    (void)state;
+    options.spp = 2;
+    options.photons = 50000;
+    films_are_the_same(&options);
+    options.final_gather = 1;
+    options.gather = RT_GATHER_DEVICE;
+    films_are_the_same(&options);
+    options.passes = 3;
+    options.final_gather = 0;
+    films_are_the_same(&options);
 }
 
 static void the_film_tells_what_was_done(void **state)
@@ -250,6 +439,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_way_agrees_with_path_tracing),
+        cmocka_unit_test(both_gathers_make_the_same_picture),
+        cmocka_unit_test(a_final_gather_keeps_the_caustics_of_point_lights),
+        cmocka_unit_test(inside_glass_and_through_it_photons_agree_with_paths),
+        cmocka_unit_test(every_eye_path_through_glass_comes_to_the_map),
         cmocka_unit_test(smooth_surfaces_agree_with_path_tracing),
         cmocka_unit_test(films_do_not_depend_on_threads_and_work_groups),
         cmocka_unit_test(the_film_tells_what_was_done),

@@ -1,0 +1,33 @@
+/* study.h - what the studies share: a scene on a device, renders, and their errors against a reference. */
+#ifndef RT_TESTS_STUDY_H
+#define RT_TESTS_STUDY_H
+
+#include "rt.h"
+
+typedef struct study {
+    const char *name; /* of the program, for messages */
+    rt_scene *scene;
+    rt_device *device;
+    rt_renderer *renderer;
+    rt_render_options options; /* the scene's own, with the size of the study's film */
+} study;
+
+/* Opens a scene for films of side x side pixels; ends the program with a message when it cannot. */
+void study_open(study *s, const char *name, const char *scene, uint32_t side);
+void study_close(study *s);
+
+/* Renders; the same on failure. *seconds, if not NULL, is the time of emission, gathering and rendering. */
+rt_film *study_render(const study *s, const rt_render_options *options, double *seconds);
+
+/*
+ * Mean squared difference of a film from a reference of the same size, without the pixels that see a lamp or
+ * border on one: those brighter than half the brightest where that is far above the mean. Their noise is that of
+ * the pixel's coverage, whatever lights the scene.
+ */
+double study_mse(const rt_film *film, const rt_film *reference);
+double study_mean(const rt_film *film);
+
+/* The slope of the straight line that fits log y against log x best. */
+double study_slope(const double *x, const double *y, int count);
+
+#endif
