@@ -119,7 +119,10 @@ static rt_status select_device(rt_device *device, const char *select, rt_error *
                          list.count);
 }
 
-/* Limits a CPU device to some of its compute units. */
+/*
+ * Limits a CPU device to some of its compute units. The sub-device is kept until the process ends: PoCL's
+ * threads may still read it after the last command is done, and clReleaseDevice would free it under them.
+ */
 static rt_status limit_threads(rt_device *device, rt_error *error)
 {
     if (!device->info.is_cpu || device->threads >= device->info.compute_units)
@@ -132,7 +135,6 @@ static rt_status limit_threads(rt_device *device, rt_error *error)
     if (status != RT_OK)
         return status;
     device->id = part;
-    device->is_sub_device = 1;
     describe(&device->info, device->platform, part);
     return RT_OK;
 }
@@ -190,8 +192,6 @@ void rt_device_close(rt_device *device)
         clReleaseCommandQueue(device->queue);
     if (device->context)
         clReleaseContext(device->context);
-    if (device->is_sub_device)
-        clReleaseDevice(device->id);
     free(device);
 }
 

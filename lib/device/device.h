@@ -18,7 +18,6 @@ enum { RT_PROGRAMS_MAX = 32 };
 struct rt_device {
     cl_platform_id platform;
     cl_device_id id;
-    int is_sub_device; /* id was made by partitioning and is to be released */
     cl_context context;
     cl_command_queue queue; /* in order */
     rt_device_info info;
