@@ -180,7 +180,7 @@ static const struct {
     {LIGHT_AT + 16, 0x7ff8000000000000u, 8, "a light in its ledger"}, /* power NaN */
     {LIGHT_AT + 16, 0xbff0000000000000u, 8, "a light in its ledger"}, /* power -1 */
     {LIGHT_AT + 40, 0x4000000000000000u, 8, "a light in its ledger"}, /* share 2 */
-    {RANGE_AT, 1, 8, "not of the paths"},
+    {RANGE_AT, 5, 8, "not of the paths"},
     {RANGE_AT, 70, 8, "not in order"},
     {RANGE_AT, UINT64_MAX, 8, "a range of its paths"},
     {RANGE_AT + 8, 0, 8, "a range of its paths"},

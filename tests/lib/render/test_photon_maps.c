@@ -220,13 +220,13 @@ static double flux_of(const rt_photon_map *map, rt_photon_kind kind, int caustic
 
 static void caustic_photons_are_kept_apart_when_asked(void **state)
 {
-    rt_render_options render = {.photons = 60000};
+    rt_render_options render = {.photons = 300000};
     rt_emit_options options = {.render = &render};
     size_t j = 0;
     (void)state;
     rt_renderer *renderer = open_text(ROOM);
     rt_photon_map *one = emit(renderer, &options);
-    render.caustic_photons = 60000;
+    render.caustic_photons = 300000;
     rt_photon_map *two = emit(renderer, &options);
     const rt_photon *all = rt_photon_map_photons(one, RT_PHOTONS_GLOBAL);
     const rt_photon *global = rt_photon_map_photons(two, RT_PHOTONS_GLOBAL);
@@ -243,10 +243,11 @@ static void caustic_photons_are_kept_apart_when_asked(void **state)
     assert_true(rt_photon_map_count(two, RT_PHOTONS_CAUSTIC) > 3000);
     for (size_t i = 0; i < rt_photon_map_count(two, RT_PHOTONS_CAUSTIC); i++)
         assert_true(caustic[i].flags & RT_PHOTON_CAUSTIC);
+    /* Some 15 000 photons on either side: a standard error of 1.2 %. */
     for (int c = 0; c < 3; c++) {
         double expected = flux_of(one, RT_PHOTONS_GLOBAL, 1, c);
         assert_true(expected > 0.1);
-        assert_float_equal(flux_of(two, RT_PHOTONS_CAUSTIC, 0, c), expected, 0.03 * expected);
+        assert_float_equal(flux_of(two, RT_PHOTONS_CAUSTIC, 0, c), expected, 0.05 * expected);
     }
     rt_photon_map_destroy(one);
     rt_photon_map_destroy(two);
