@@ -26,10 +26,12 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/error.c lib/progress.c lib/version.c \
 	lib/device/device.c lib/device/buffer.c lib/device/program.c \
-	lib/scene/scene.c lib/scene/shape.c lib/scene/options.c lib/scene/hierarchy.c lib/scene/pack.c \
+	lib/scene/area.c lib/scene/camera.c lib/scene/hierarchy.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
+	lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/scene.c \
+	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
-	lib/light/lights.c \
+	lib/light/environment.c lib/light/lights.c \
 	lib/image/bytes.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
 	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \

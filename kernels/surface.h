@@ -58,8 +58,10 @@ static inline float3 block_vertex(global const float rows[3][RT_BVH_WIDTH], uint
 static inline float3 smooth_normal(const struct scene *scene, global const rt_shape *shape, uint prim, float u, float v,
                                    float3 normal)
 {
-    global const float4 *corner = scene->normals + shape->first_normal + 3u * (prim - shape->first_prim);
-    const float3 mixed = (1.0f - u - v) * corner[0].xyz + u * corner[1].xyz + v * corner[2].xyz;
+    global const uint *corner = scene->indices + shape->first_index + 3u * (prim - shape->first_prim);
+    global const float4 *normals = scene->normals + shape->first_normal;
+    const float3 mixed =
+        (1.0f - u - v) * normals[corner[0]].xyz + u * normals[corner[1]].xyz + v * normals[corner[2]].xyz;
     const float square = dot(mixed, mixed);
     if (!(square > 1e-12f))
         return normal;
@@ -85,7 +87,7 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
     surface->position = v0 + (hit->u * e1 + hit->v * e2);
     const float3 across = cross(e1, e2);
     const float twice_area = length(across);
-    surface->normal = across / twice_area;
+    surface->normal = across / (shape->flags & RT_SHAPE_MIRRORED ? -twice_area : twice_area);
     surface->shading = shape->flags & RT_SHAPE_SMOOTH
                            ? smooth_normal(scene, shape, surface->prim, hit->u, hit->v, surface->normal)
                            : surface->normal;
@@ -96,7 +98,7 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
     surface->error = gamma_bound(4.0f) * dot(reach, fabs(surface->normal)) + gamma_bound(2.0f) * size * sliver;
 }
 
-/* Position moved onto the sphere; u: longitude from +x towards +z, v: latitude from the south pole. */
+/* Position moved onto the sphere; u: longitude from +x towards -z, v: latitude from the south pole. */
 static inline void sphere_surface(struct surface *surface, global const rt_shape *shape, const struct ray *ray, float t)
 {
     const float3 centre = vload3(0, shape->p);
@@ -106,7 +108,7 @@ static inline void sphere_surface(struct surface *surface, global const rt_shape
     surface->shading = n;
     surface->position = centre + radius * n;
     surface->error = gamma_bound(6.0f) * radius + gamma_bound(3.0f) * dot(fabs(centre), fabs(n));
-    const float turn = atan2(n.z, n.x) * (0.5f * M_1_PI_F);
+    const float turn = atan2(-n.z, n.x) * (0.5f * M_1_PI_F);
     surface->u = turn < 0.0f ? turn + 1.0f : turn;
     surface->v = 1.0f - acos(clamp(n.y, -1.0f, 1.0f)) * M_1_PI_F;
 }

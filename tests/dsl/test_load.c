@@ -69,14 +69,15 @@ static void every_field_reaches_the_scene(void **state)
     assert_true(s[1].kind == RT_SHAPE_SPHERE && s[1].surface.material == 0 && s[1].p[3] == 0.5f);
     assert_vector(s[1].p, 1, 2, 3);
     assert_vector(s[1].surface.radiance, 4, 5, 6);
-    assert_true(s[2].kind == RT_SHAPE_TRIANGLES && s[2].triangle_count == 1 && s[2].normals);
-    assert_vector(s[2].positions + 3, 1, 0, 0);
-    assert_vector(s[2].normals + 6, 1, 0, 1);
+    const rt_scene_mesh *triangle = &c.scene->meshes[s[2].mesh];
+    assert_true(s[2].kind == RT_SHAPE_TRIANGLES && triangle->triangle_count == 1 && triangle->normals);
+    assert_vector(triangle->positions + 3, 1, 0, 0);
+    assert_vector(triangle->normals + 6, 1, 0, 1);
     assert_true(s[3].kind == RT_SHAPE_QUAD);
     assert_vector(s[3].p + 3, 2, 0, 0);
     assert_vector(s[3].p + 6, 0, 0, 2);
     assert_vector(s[3].surface.power, 8, 8, 8);
-    assert_vector(c.scene->point_lights[0].intensity, 4, 4, 4);
+    assert_vector(c.scene->lights[0].emission, 4, 4, 4);
     collected_free(&c);
 }
 
@@ -113,7 +114,7 @@ static void expect_position(const char *expression, float x, float y, float z)
              "light point { position e  power used }", expression);
     collect_text(&c, text);
     expect_clean(&c, text);
-    assert_vector(c.scene->point_lights[0].position, x, y, z);
+    assert_vector(c.scene->lights[0].position, x, y, z);
     collected_free(&c);
 }
 

@@ -111,7 +111,7 @@ static float power_of_only_light(rt_scene *scene)
     rt_light_data light;
     rt_u32 first_prim[1] = {0}, first_light[1];
     assert_int_equal(rt_lights_count(scene), 1);
-    rt_lights_fill(scene, first_prim, &light, first_light);
+    rt_lights_fill(scene, first_prim, 1, &light, first_light);
     assert_true(light.pmf == 1 && light.cdf == 1);
     rt_scene_destroy(scene);
     return light.power;
@@ -163,7 +163,7 @@ static void lights_are_chosen_in_proportion_to_power(void **state)
     expect_ok(rt_scene_add_point_light(scene, &dim, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &bright, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &off, &error), &error);
-    rt_lights_fill(scene, first_prim, lights, first_light);
+    rt_lights_fill(scene, first_prim, 1, lights, first_light);
     assert_float_equal(lights[0].pmf, 0.25f, 1e-6f);
     assert_float_equal(lights[1].pmf, 0.75f, 1e-6f);
     assert_true(lights[1].cdf == 1 && lights[2].pmf == 0);
