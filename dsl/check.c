@@ -34,6 +34,7 @@ static int evaluate(const rt_checker *checker, const rt_setting *setting, double
 static int check_number(const rt_checker *checker, const rt_setting *setting, rt_place place, double *number)
 {
     const rt_field *field = setting->field;
+    const double written = *number;
     char phrase[RT_PHRASE_SIZE];
     if (field->type == RT_FIELD_INTEGER) {
         if (floor(*number) != *number) {
@@ -48,7 +49,9 @@ static int check_number(const rt_checker *checker, const rt_setting *setting, rt
         *number = (float)*number;
     }
     if (!rt_range_holds(field->range, *number)) {
-        rt_report_error(checker->reports, place, "'%s' is %.10g; it must be %s", field->name, *number,
+        /* Quote the number as written, unless only its rounding to float32 took it out of the range. */
+        rt_report_error(checker->reports, place, "'%s' is %.10g; it must be %s", field->name,
+                        rt_range_holds(field->range, written) ? *number : written,
                         rt_range_phrase(phrase, field->range));
         return 0;
     }

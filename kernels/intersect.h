@@ -15,7 +15,7 @@
 #include "scene.h"
 #include "types.h"
 
-/* origin + t direction, 0 <= t_min <= t <= t_max, t_max may be infinite; direction of any length but zero. */
+/* origin + t direction, t_min <= t <= t_max, t_max may be infinite; direction of any length but zero. */
 struct ray {
     float3 origin;
     float3 direction;

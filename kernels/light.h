@@ -24,10 +24,11 @@
 
 /* A point on a light, chosen from a point in the scene. */
 struct light_sample {
-    struct surface at; /* position, normal and error only */
+    struct surface at; /* position and normal only */
+    float lift;        /* along at.normal, takes the position off the light by its error, to the side of the viewer */
     float3 wi;         /* unit, towards the light */
     float3 radiance;   /* that arrives if nothing is in between; point light: intensity / distance^2 */
-    float pdf_w;       /* of the direction, choice of the light included; point light: of the choice */
+    float spread;      /* sr: 1 / pdf_w of the direction, choice of the light included; point light: of the choice */
     bool delta;        /* no ray can meet it by chance: multiple importance sampling must leave it alone */
 };
 
@@ -41,18 +42,19 @@ struct emission {
 
 /* ---- Choice and geometry --------------------------------------------------- */
 
-/* The light at u of the cumulative distribution: chosen in proportion to its power. */
+/*
+ * The light at u of the cumulative distribution: chosen in proportion to its power. A bisection of which only
+ * the length, not the way, depends on branches: those would be mispredicted.
+ */
 static inline uint choose_light(const struct scene *scene, float u)
 {
-    uint low = 0u, high = scene->header->light_count - 1u;
-    while (low < high) {
-        const uint middle = (low + high) >> 1;
-        if (u < scene->lights[middle].cdf)
-            high = middle;
-        else
-            low = middle + 1u;
+    uint first = 0u;
+    for (uint count = scene->header->light_count; count > 1u;) {
+        const uint half_count = count >> 1;
+        first += u < scene->lights[first + half_count - 1u].cdf ? 0u : half_count;
+        count -= half_count;
     }
-    return low;
+    return first;
 }
 
 /* The light that a surface is part of, or RT_NONE. */
@@ -90,11 +92,11 @@ static inline void sample_area(struct surface *at, global const rt_light_data *l
     }
 }
 
-/* Density in solid angle of sampling by area, seen along `towards` (not of unit length). */
-static inline float area_pdf_w(global const rt_light_data *light, float3 towards, float3 normal)
+/* 1 / pdf_w of sampling by area, seen along `towards` (not of unit length): the whole area's solid angle, were it all there. */
+static inline float area_spread(global const rt_light_data *light, float3 towards, float3 normal)
 {
     const float d2 = dot(towards, towards);
-    return d2 * sqrt(d2) / (fabs(dot(towards, normal)) * light->area);
+    return fabs(dot(towards, normal)) * light->area / (d2 * sqrt(d2));
 }
 
 /* How a rectangular light is seen from a point; false when it is none, or is better sampled by area. */
@@ -139,33 +141,25 @@ static inline float light_pdf_w(global const rt_light_data *light, float3 from, 
         return light->pmf * seen_rectangle_pdf_w(&seen);
     if (see_spherical_light(light, from, &d2))
         return light->pmf * cap_pdf_w(light->width, d2);
-    return light->pmf * area_pdf_w(light, at->position - from, at->normal);
+    return light->pmf / area_spread(light, at->position - from, at->normal);
 }
 
-/* Samples a point of an area light; returns its density in solid angle, without the choice. */
+/* Samples a point of an area light; returns 1 / pdf_w, without the choice. */
 static inline float sample_area_light(struct surface *at, global const rt_light_data *light, float3 from, float2 u)
 {
     struct seen_rectangle seen;
     float d2;
     if (see_rectangular_light(light, from, &seen)) {
         flat_point(at, light, sample_seen_rectangle(&seen, u));
-        return seen_rectangle_pdf_w(&seen);
+        return seen.solid_angle;
     }
     if (see_spherical_light(light, from, &d2)) {
         const struct frame frame = frame_about(unit(from - row3(light->a)));
         sphere_point(at, light, frame_to_world(frame, sample_cap(light->width, d2, u)));
-        return cap_pdf_w(light->width, d2);
+        return 1.0f / cap_pdf_w(light->width, d2);
     }
     sample_area(at, light, u);
-    return area_pdf_w(light, at->position - from, at->normal);
-}
-
-/* Whether the light shines to the side on which the point lies; a sphere's sides are told at the sampled point. */
-static inline bool light_faces(global const rt_light_data *light, float3 from)
-{
-    if (light->kind == RT_LIGHT_SPHERE || (light->flags & RT_LIGHT_TWO_SIDED))
-        return true;
-    return dot(from - row3(light->a), row3(light->normal)) > 0.0f;
+    return area_spread(light, at->position - from, at->normal);
 }
 
 /* Samples a light that no ray can meet: always the same point. */
@@ -174,11 +168,11 @@ static inline void sample_point_light(struct light_sample *sample, global const 
     const float3 towards = row3(light->a) - from;
     const float d2 = dot(towards, towards);
     sample->at.position = row3(light->a);
-    sample->at.error = 0.0f;
     sample->wi = towards * (1.0f / sqrt(d2));
     sample->at.normal = -sample->wi;
+    sample->lift = 0.0f;
     sample->radiance = row3(light->emission) * (1.0f / d2);
-    sample->pdf_w = light->pmf;
+    sample->spread = 1.0f / light->pmf;
 }
 
 /*
@@ -190,24 +184,31 @@ static inline bool sample_light(const struct scene *scene, float3 from, float4 u
     if (scene->header->light_count == 0u)
         return false;
     global const rt_light_data *light = scene->lights + choose_light(scene, u.z);
+    const bool sphere = light->kind == RT_LIGHT_SPHERE;
     sample->delta = light->kind == RT_LIGHT_POINT;
     if (sample->delta) {
         sample_point_light(sample, light, from);
         return true;
     }
-    if (!light_faces(light, from))
+
+    /* The side of a flat light is known at once, that of a sphere at the sampled point. */
+    float height = dot(from - row3(light->a), row3(light->normal));
+    if (!sphere && height <= 0.0f && !(light->flags & RT_LIGHT_TWO_SIDED))
         return false;
-    sample->pdf_w = light->pmf * sample_area_light(&sample->at, light, from, u.xy);
+    sample->spread = sample_area_light(&sample->at, light, from, u.xy) / light->pmf;
     sample->wi = unit(sample->at.position - from);
-    sample->radiance = light_radiance(light, sample->at.normal, -sample->wi);
-    return largest3(sample->radiance) > 0.0f;
+    if (sphere)
+        height = -dot(sample->wi, sample->at.normal);
+    sample->lift = height < 0.0f ? -sample->at.error : sample->at.error;
+    sample->radiance = row3(light->emission);
+    return !sphere || height > 0.0f || (light->flags & RT_LIGHT_TWO_SIDED);
 }
 
-/* The ray from a surface to a sampled point of a light, ending just before it. */
-static inline struct ray shadow_ray(const struct surface *from, const struct light_sample *sample)
+/* The ray from a point that is off its surface to a sampled point of a light, ending just before it. */
+static inline struct ray shadow_ray(float3 origin, const struct light_sample *sample)
 {
-    const float3 origin = leave_surface(from, sample->wi);
-    return make_ray(origin, leave_surface(&sample->at, -sample->wi) - origin, 0.0f, 0.9999f);
+    const float3 target = sample->at.position + sample->lift * sample->at.normal;
+    return make_ray(origin, target - origin, 0.0f, 0.9999f);
 }
 
 /* ---- Light paths ------------------------------------------------------------- */

@@ -20,13 +20,14 @@
  * both by the hash of Laine and Karras with the constants of Vegdahl, which acts on numbers
  * with their bits reversed. The index is reversed once a path; the table `sobol` of the scene
  * is addressed by bytes of the reversed index and holds reversed coordinates, so that a set
- * costs one reversal, at the end.
+ * costs one reversal, at the end. The two sets of a vertex are made at once, in eight lanes.
  *
  * References:
  *   Burley: "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
  *   Laine, Karras: "Stratified Sampling for Stochastic Transparency", EGSR 2011.
  *   Vegdahl: "Building a Better LK Hash", 2021.
  *   Jarzynski, Olano: "Hash Functions for GPU Rendering", JCGT 9(3), 2020 (pcg4d).
+ *   Wellons: "Prospecting for Hash Functions", 2018 (the constants of mix_words are later finds).
  */
 #ifndef RT_RNG_H
 #define RT_RNG_H
@@ -40,9 +41,8 @@ enum { SET_START = 0, SET_EMISSION = 1 };
 
 struct sampler {
     global const uint4 *sobol; /* NULL: independent numbers */
-    uint stream;
-    uint seed;
-    uint index; /* sample, with its bits reversed for Sobol */
+    uint4 key;                 /* of the stream, from which the seeds of its sets are made */
+    uint index;                /* sample, with its bits reversed for Sobol */
 };
 
 static inline uint set_light(uint vertex)
@@ -64,7 +64,7 @@ static inline uint reverse_bits(uint x)
     return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
 
-static inline uint4 reverse_bits4(uint4 x)
+static inline uint8 reverse_bits8(uint8 x)
 {
     x = (x >> 16) | (x << 16);
     x = ((x & 0x00ff00ffu) << 8) | ((x >> 8) & 0x00ff00ffu);
@@ -99,7 +99,7 @@ static inline uint scramble_reversed(uint x, uint seed)
     return x ^ (x * 0x53a22864u);
 }
 
-static inline uint4 scramble_reversed4(uint4 x, uint4 seed)
+static inline uint8 scramble_reversed8(uint8 x, uint8 seed)
 {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -108,32 +108,51 @@ static inline uint4 scramble_reversed4(uint4 x, uint4 seed)
     return x ^ (x * 0x53a22864u);
 }
 
+/* Wellons: each word mixed on its own. */
+static inline uint8 mix_words(uint8 x)
+{
+    x = (x ^ (x >> 16)) * 0x21f0aaadu;
+    x = (x ^ (x >> 15)) * 0xd35a2d97u;
+    return x ^ (x >> 15);
+}
+
 static inline struct sampler sampler_start(const struct scene *scene, const rt_params *params, uint stream, uint sample)
 {
     const bool independent = params->sampler == RT_SAMPLER_INDEPENDENT;
     struct sampler sampler;
     sampler.sobol = independent ? 0 : scene->sobol;
-    sampler.stream = stream;
-    sampler.seed = params->seed;
+    sampler.key = pcg4d((uint4)(stream, params->seed, 0u, 0u));
     sampler.index = independent ? sample : reverse_bits(sample);
     return sampler;
 }
 
-/* Four numbers in [0, 1). */
-static inline float4 sampler_set(const struct sampler *sampler, uint set)
+/* The Sobol point of the set with these seeds, with the bits of its coordinates reversed, not yet scrambled. */
+static inline uint4 sobol_point(const struct sampler *sampler, uint4 seeds)
 {
-    uint4 bits;
+    const uint i = scramble_reversed(sampler->index, (seeds.x ^ seeds.z) * 0x9e3779b9u + seeds.w);
+    return sampler->sobol[i & 255u] ^ sampler->sobol[256u + ((i >> 8) & 255u)] ^
+           sampler->sobol[512u + ((i >> 16) & 255u)] ^ sampler->sobol[768u + (i >> 24)];
+}
+
+/* Eight numbers in [0, 1): those of set `set` and of the set after it. */
+static inline float8 sampler_pair(const struct sampler *sampler, uint set)
+{
+    uint8 bits;
     if (sampler->sobol) {
-        const uint4 seeds = pcg4d((uint4)(sampler->stream, set, sampler->seed, 0u));
-        const uint i = scramble_reversed(sampler->index, (seeds.x ^ seeds.z) * 0x9e3779b9u + seeds.w);
-        bits = sampler->sobol[i & 255u] ^ sampler->sobol[256u + ((i >> 8) & 255u)] ^
-               sampler->sobol[512u + ((i >> 16) & 255u)] ^ sampler->sobol[768u + (i >> 24)];
-        bits = reverse_bits4(scramble_reversed4(bits, seeds));
+        const uint8 seeds = mix_words((uint8)(sampler->key + set * 0x9e3779b9u, sampler->key + (set + 1u) * 0x9e3779b9u));
+        bits = (uint8)(sobol_point(sampler, seeds.lo), sobol_point(sampler, seeds.hi));
+        bits = reverse_bits8(scramble_reversed8(bits, seeds));
     } else {
-        bits = pcg4d((uint4)(sampler->stream, set, sampler->seed, sampler->index));
+        const uint4 step = (uint4)(sampler->index, set, 0u, 0u);
+        bits = (uint8)(pcg4d(sampler->key + step), pcg4d(sampler->key + step + (uint4)(0u, 1u, 0u, 0u)));
     }
     /* The upper 24 bits are exact in float32 and stay below 1. */
-    return convert_float4(bits >> 8) * 0x1p-24f;
+    return convert_float8(bits >> 8) * 0x1p-24f;
+}
+
+static inline float4 sampler_set(const struct sampler *sampler, uint set)
+{
+    return sampler_pair(sampler, set).lo;
 }
 
 #endif

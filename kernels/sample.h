@@ -20,20 +20,25 @@
 
 /* ---- Elementary functions ------------------------------------------------ */
 
-/* (sin x, cos x) for |x| <= 2 pi, absolute error below 2e-7. */
+/* (sin x, cos x) for |x| <= pi/4. */
+static inline float2 sin_cos_eighth(float x)
+{
+    const float x2 = x * x;
+    const float s = x + x * x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f + x2 * -1.9515295891e-4f));
+    const float c = 1.0f - 0.5f * x2 +
+                    x2 * x2 * (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + x2 * 2.443315711809948e-5f));
+    return (float2)(s, c);
+}
+
+/* (sin x, cos x) for |x| <= 2 pi, absolute error below 3e-7. */
 static inline float2 sin_cos(float x)
 {
     /* Take off the nearest multiple k of pi/2, in two parts so that nothing is lost. */
     const float turns = x * 0.636619772f;
     const int k = (int)(turns + (turns < 0.0f ? -0.5f : 0.5f));
-    const float r = (x - (float)k * 1.5703125f) - (float)k * 4.83826792e-4f;
-    const float r2 = r * r;
-    const float s = r + r * r2 * (-1.6666654611e-1f + r2 * (8.3321608736e-3f + r2 * -1.9515295891e-4f));
-    const float c = 1.0f - 0.5f * r2 +
-                    r2 * r2 * (4.166664568298827e-2f + r2 * (-1.388731625493765e-3f + r2 * 2.443315711809948e-5f));
-    const float sine = (k & 1) ? c : s;
-    const float cosine = (k & 1) ? s : c;
-    return (float2)((k & 2) ? -sine : sine, ((k + 1) & 2) ? -cosine : cosine);
+    const float2 arc = sin_cos_eighth((x - (float)k * 1.5703125f) - (float)k * 4.83826792e-4f);
+    const float2 turned = (k & 1) ? arc.yx : arc;
+    return (float2)((k & 2) ? -turned.x : turned.x, ((k + 1) & 2) ? -turned.y : turned.y);
 }
 
 /* atan(y / x) for x >= 0 and not both zero, absolute error below 2e-7. */
@@ -63,8 +68,8 @@ static inline float2 sample_disc(float2 u)
     const float r = wide ? p.x : p.y;
     if (r == 0.0f)
         return (float2)(0.0f, 0.0f);
-    const float2 arc = sin_cos(0.25f * RT_PI * (wide ? p.y : p.x) / r);
-    return r * (wide ? (float2)(arc.y, arc.x) : (float2)(arc.x, arc.y));
+    const float2 arc = sin_cos_eighth(0.25f * RT_PI * (wide ? p.y : p.x) / r);
+    return r * (wide ? arc.yx : arc);
 }
 
 static inline float disc_pdf_a(void)

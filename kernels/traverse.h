@@ -27,15 +27,18 @@ struct ray_slabs {
 
 /*
  * With e = 2^-24, the distance (plane - origin) rate is off by at most 4 e of itself and 4 e |origin rate|; both
- * are allowed for twice. A direction component near 0 is taken as 2^-80: then distances are finite, and far
- * beyond any other, wherever the plane is not within rounding of the origin.
+ * are allowed for twice. Making rates smaller and larger widens what lies ahead of the origin; what lies behind,
+ * where t_min allows it, is widened by as much through the slack. A direction component near 0 is taken as
+ * 2^-80: then distances are finite, and far beyond any other, wherever the plane is not within rounding of the
+ * origin.
  */
 INLINE_ALWAYS struct ray_slabs make_ray_slabs(const struct ray *ray)
 {
     const float least = 0x1p-80f, relative = 0x1p-21f, absolute = 0x1p-60f;
     const float3 direction = copysign(fmax(fabs(ray->direction), (float3)(least)), ray->direction);
     const float3 rate = 1.0f / direction;
-    const float3 slack = fabs(rate) * (fabs(ray->origin) * relative + absolute);
+    const float behind = fmax(-ray->t_min, 0.0f) * (2.0f * relative);
+    const float3 slack = fabs(rate) * (fabs(ray->origin) * relative + absolute) + behind;
     struct ray_slabs slabs;
     slabs.near_rate = rate * (1.0f - relative);
     slabs.far_rate = rate * (1.0f + relative);
@@ -93,12 +96,14 @@ INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *fou
     }
 }
 
+/* Lets hits as far as the nearest through, ties included, and a rounding beyond: take_block_hits compares exactly. */
 INLINE_ALWAYS void test_block(const struct scene *scene, const struct ray *ray, const struct ray_frame *frame,
                               uint index, struct hit *hit)
 {
     global const rt_tri_block *block = scene->blocks + index;
+    const float reach = hit->t + fabs(hit->t) * 0x1p-22f;
     struct block_hits found;
-    const uint mask = intersect_block(block, frame, ray->t_min, hit->t, &found);
+    const uint mask = intersect_block(block, frame, ray->t_min, reach, &found);
     if (mask)
         take_block_hits(hit, &found, mask, ray->t_min, block, index);
 }

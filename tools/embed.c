@@ -39,17 +39,21 @@ static void put_bytes(FILE *out, const char *text)
     fputc('\n', out);
 }
 
+/* Opens dir/name and tells its path; NULL when it cannot be read. */
+static FILE *open_in(char path[max_path], const char *dir, const char *name)
+{
+    int length = snprintf(path, max_path, "%s/%s", dir, name);
+    return length < max_path ? fopen(path, "r") : NULL;
+}
+
 /* Finds an included file beside the one that names it, else in the search folders. */
 static void find_include(char path[max_path], const char *from, const char *name)
 {
     char copy[max_path];
     snprintf(copy, sizeof copy, "%s", from);
-    snprintf(path, max_path, "%s/%s", dirname(copy), name);
-    FILE *file = fopen(path, "r");
-    for (int i = 0; !file && i < dir_count; i++) {
-        snprintf(path, max_path, "%s/%s", dirs[i], name);
-        file = fopen(path, "r");
-    }
+    FILE *file = open_in(path, dirname(copy), name);
+    for (int i = 0; !file && i < dir_count; i++)
+        file = open_in(path, dirs[i], name);
     if (!file)
         fail("included file not found", name);
     fclose(file);

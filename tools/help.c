@@ -9,6 +9,7 @@ enum { LEFT = 26, WIDTH = 80 };
 static const char *const usages[COMMAND_COUNT] = {
     [COMMAND_RENDER] = "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
                        "       rtc check SCENE.rts...      say all that is wrong with scenes\n"
+                       "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
                        "       rtc devices                 list the OpenCL devices\n"
                        "       rtc doctor [OPTION]...      check that everything works here\n"
                        "       rtc COMMAND --help          the options of one command\n"
@@ -21,6 +22,15 @@ static const char *const usages[COMMAND_COUNT] = {
                       "\n"
                       "Reads scenes without rendering them and says all that is wrong, each with its\n"
                       "place. SCENE - reads from stdin.\n",
+    [COMMAND_MESH] = "usage: rtc mesh KIND [OPTION]...\n"
+                     "\n"
+                     "Writes a mesh made from a formula, with normals and texture coordinates, for\n"
+                     "scenes of any size. KIND is one of:\n"
+                     "  sphere   radius 1\n"
+                     "  torus    around the y axis, radii 0.7 and 0.3\n"
+                     "  knot     a tube along the trefoil\n"
+                     "  terrain  hills over a square, y up\n"
+                     "Each is centred in the origin and fits in the cube from -1 to 1.\n",
     [COMMAND_DEVICES] = "usage: rtc devices\n"
                         "\n"
                         "Lists the OpenCL devices of this machine; the number selects one by --device.\n",

@@ -6,6 +6,7 @@
 #include "rt.h"
 
 #define RENDER (1u << COMMAND_RENDER)
+#define MESH (1u << COMMAND_MESH)
 #define DOCTOR (1u << COMMAND_DOCTOR)
 #define ALL ((1u << COMMAND_COUNT) - 1u)
 
@@ -32,6 +33,7 @@ const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_RENDER] = "What to render (each overrides the scene's own setting)",
     [GROUP_PHOTON] = "Photon mode (each overrides the scene's own setting)",
     [GROUP_OUTPUT] = "Output",
+    [GROUP_MESH] = "The mesh",
     [GROUP_DEVICE] = "Device",
     [GROUP_TALK] = "What it says",
 };
@@ -78,6 +80,12 @@ const option option_table[OPTION_COUNT] = {
                          "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER, 0, 0, tonemaps, 1, "none",
                         "tone curve of .png and .ppm"},
+
+    [OPTION_TRIANGLES] = {"triangles", "N", KIND_WHOLE, GROUP_MESH, MESH, 1, 1e9, NULL, 0, "2e4",
+                          "about how many triangles"},
+    /* The same name as the image's; each command takes its own. */
+    [OPTION_MESH_OUT] = {"out", "FILE", KIND_TEXT, GROUP_MESH, MESH, 0, 0, NULL, 0, "KIND.ply in the current directory",
+                         "where the mesh goes, a binary PLY file"},
 
     [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | DOCTOR, 0, 0, NULL, 0, "0",
                        "a number of `rtc devices`, or part of a device's or platform's name"},

@@ -9,10 +9,8 @@
 #include "rtc.h"
 
 static const char *const command_names[COMMAND_COUNT] = {
-    [COMMAND_RENDER] = "",
-    [COMMAND_CHECK] = "check",
-    [COMMAND_DEVICES] = "devices",
-    [COMMAND_DOCTOR] = "doctor",
+    [COMMAND_RENDER] = "",         [COMMAND_CHECK] = "check",   [COMMAND_MESH] = "mesh",
+    [COMMAND_DEVICES] = "devices", [COMMAND_DOCTOR] = "doctor",
 };
 
 const char *command_name(command_id command)
@@ -29,13 +27,17 @@ static command_id find_command(const char *word)
     return COMMAND_RENDER;
 }
 
-/* The option whose name is name[0] to name[length - 1], or NULL. */
-static const option *find_option(const char *name, size_t length)
+/* The option whose name is name[0] to name[length - 1], the command's own if it has one, or NULL. */
+static const option *find_option(const char *name, size_t length, command_id command)
 {
-    for (int i = 0; i < OPTION_COUNT; i++)
-        if (strlen(option_table[i].name) == length && memcmp(option_table[i].name, name, length) == 0)
-            return &option_table[i];
-    return NULL;
+    const option *found = NULL;
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const option *option = &option_table[i];
+        if (strlen(option->name) == length && memcmp(option->name, name, length) == 0 &&
+            (!found || option->commands & (1u << command)))
+            found = option;
+    }
+    return found;
 }
 
 static int fail_unknown_option(const char *name, size_t length, command_id command)
@@ -127,7 +129,7 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     const char *name = argv[*at] + 2;
     const char *equals = strchr(name, '=');
     size_t length = equals ? (size_t)(equals - name) : strlen(name);
-    const option *option = find_option(name, length);
+    const option *option = find_option(name, length, out->command);
     if (!option)
         return fail_unknown_option(name, length, out->command);
     if (!(option->commands & (1u << out->command))) {

@@ -8,7 +8,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef enum command_id { COMMAND_RENDER, COMMAND_CHECK, COMMAND_DEVICES, COMMAND_DOCTOR, COMMAND_COUNT } command_id;
+typedef enum command_id {
+    COMMAND_RENDER,
+    COMMAND_CHECK,
+    COMMAND_MESH,
+    COMMAND_DEVICES,
+    COMMAND_DOCTOR,
+    COMMAND_COUNT
+} command_id;
 
 /* In the order of the table and of the help. */
 typedef enum option_id {
@@ -31,6 +38,8 @@ typedef enum option_id {
     OPTION_OUT,
     OPTION_EXPOSURE,
     OPTION_TONEMAP,
+    OPTION_TRIANGLES,
+    OPTION_MESH_OUT,
     OPTION_DEVICE,
     OPTION_THREADS,
     OPTION_WORK_GROUP,
@@ -61,6 +70,7 @@ typedef enum option_group {
     GROUP_RENDER,
     GROUP_PHOTON,
     GROUP_OUTPUT,
+    GROUP_MESH,
     GROUP_DEVICE,
     GROUP_TALK,
     GROUP_COUNT

@@ -8,10 +8,8 @@
 #include "rt.h"
 
 static int (*const commands[COMMAND_COUNT])(const command_line *) = {
-    [COMMAND_RENDER] = command_render,
-    [COMMAND_CHECK] = command_check,
-    [COMMAND_DEVICES] = command_devices,
-    [COMMAND_DOCTOR] = command_doctor,
+    [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,   [COMMAND_MESH] = command_mesh,
+    [COMMAND_DEVICES] = command_devices, [COMMAND_DOCTOR] = command_doctor,
 };
 
 static int run(const command_line *arguments)

@@ -17,6 +17,7 @@ enum {
 /* Each carries out one subcommand, says what goes wrong, and returns the exit status. */
 int command_render(const command_line *arguments);
 int command_check(const command_line *arguments);
+int command_mesh(const command_line *arguments);
 int command_devices(const command_line *arguments);
 int command_doctor(const command_line *arguments);
 

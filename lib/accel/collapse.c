@@ -5,7 +5,10 @@
 
 #include "accel/tree.h"
 
-/* Measured on the device this was tuned on: a node's eight boxes and the sorting of those met, against a block. */
+/*
+ * Costs of a visit: a node's eight boxes with the sorting of those met, and a leaf's eight triangles, took about as
+ * long where this was tuned. The leaves are given, so only the node's cost decides.
+ */
 static const float node_cost = 1.0f;
 static const float leaf_cost = 1.0f;
 

@@ -26,7 +26,7 @@ typedef struct partition_job {
 static int is_left(const rt_ref *ref, const rt_plane_split *plane)
 {
     const float x = (ref->lo[plane->axis] + ref->hi[plane->axis] - plane->origin) * plane->scale;
-    return (float)(int32_t)(x < plane->limit ? x : plane->limit) < plane->bin;
+    return (int32_t)(x < plane->limit ? x : plane->limit) < plane->bin;
 }
 
 /* Keeps the order on both sides; free of branches that could be mispredicted. */
@@ -35,8 +35,8 @@ static uint32_t partition_chunk(rt_ref *refs, uint32_t count, const rt_plane_spl
     rt_ref right[RT_SPLIT_CHUNK];
     uint32_t lefts = 0, rights = 0;
     for (uint32_t i = 0; i < count; i++) {
+        const uint32_t left = (uint32_t)is_left(&refs[i], plane);
         const rt_ref ref = refs[i];
-        const uint32_t left = (uint32_t)is_left(&ref, plane);
         refs[lefts] = ref;
         right[rights] = ref;
         lefts += left;

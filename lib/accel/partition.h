@@ -11,7 +11,7 @@ typedef struct rt_plane_split {
     int axis;
     float origin, scale; /* bin = (centre - origin) scale, at most limit */
     float limit;
-    float bin;
+    int bin;
 } rt_plane_split;
 
 /* Moves the left references before the others; returns their number. The order does not depend on threads. */

@@ -86,25 +86,11 @@ static binning make_binning(const rt_set *set)
     return map;
 }
 
-static void clear_bins(bins *b, int count)
+static inline void add_to_bin(bins *b, int axis, int bin, box4 box)
 {
-    for (int a = 0; a < 3; a++)
-        for (int i = 0; i < count; i++) {
-            b->box[a][i] = box4_empty();
-            b->count[a][i] = 0;
-        }
-}
-
-static void add_to_bins(bins *b, const rt_ref *ref, const binning *map)
-{
-    const box4 box = rt_ref_box(ref);
-    const vec4 place = (rt_ref_centre(ref) - map->origin) * map->scale;
-    const ivec4 bin = __builtin_convertvector(vec4_min(place, map->limit), ivec4);
-    for (int a = 0; a < 3; a++) {
-        box4 *into = &b->box[a][bin[a]];
-        *into = box4_join(*into, box);
-        b->count[a][bin[a]]++;
-    }
+    box4 *into = &b->box[axis][bin];
+    *into = box4_join(*into, box);
+    b->count[axis][bin]++;
 }
 
 static void join_bins(bins *into, const bins *from, int count)
@@ -116,31 +102,40 @@ static void join_bins(bins *into, const bins *from, int count)
         }
 }
 
-/* Neighbours mostly share a bin, so in long sets every second one has bins of its own: no one waits for the last. */
-static void fill_bins(bins *b, const rt_set *set, const binning *map)
+/*
+ * Fills b[0]; b[1] is for its own use. Neighbours mostly share a bin, so in long sets every second one goes to b[1]
+ * until the end: none then waits for the one before it.
+ */
+static void fill_bins(bins b[2], const rt_set *set, const binning *map)
 {
-    clear_bins(b, map->bins);
-    if (set->count < 256) {
-        for (uint32_t i = 0; i < set->count; i++)
-            add_to_bins(b, &set->refs[i], map);
-        return;
+    const binning m = *map;
+    const uint32_t alternate = set->count >= 256;
+    for (uint32_t k = 0; k <= alternate; k++)
+        for (int a = 0; a < 3; a++)
+            for (int i = 0; i < m.bins; i++) {
+                b[k].box[a][i] = box4_empty();
+                b[k].count[a][i] = 0;
+            }
+    for (uint32_t i = 0; i < set->count; i++) {
+        const box4 box = rt_ref_box(&set->refs[i]);
+        const vec4 place = (rt_ref_centre(&set->refs[i]) - m.origin) * m.scale;
+        const ivec4 bin = __builtin_convertvector(vec4_min(place, m.limit), ivec4);
+        bins *into = &b[i & alternate];
+        add_to_bin(into, 0, bin[0], box);
+        add_to_bin(into, 1, bin[1], box);
+        add_to_bin(into, 2, bin[2], box);
     }
-    bins odd;
-    clear_bins(&odd, map->bins);
-    for (uint32_t i = 0; i + 1 < set->count; i += 2) {
-        add_to_bins(b, &set->refs[i], map);
-        add_to_bins(&odd, &set->refs[i + 1], map);
-    }
-    if (set->count % 2)
-        add_to_bins(b, &set->refs[set->count - 1], map);
-    join_bins(b, &odd, map->bins);
+    if (alternate)
+        join_bins(&b[0], &b[1], m.bins);
 }
 
 static void fill_part(void *user, uint32_t index)
 {
     const set_job *job = user;
     const rt_set part = part_of(job->set, index);
-    fill_bins(&job->bins[index], &part, job->map);
+    bins b[2];
+    fill_bins(b, &part, job->map);
+    job->bins[index] = b[0];
 }
 
 static void fill_bins_parallel(bins *out, const rt_set *set, const binning *map, uint32_t threads)
@@ -190,19 +185,19 @@ uint32_t rt_split_sah(const rt_set *set, uint32_t threads, uint32_t *scratch)
 {
     const int shared = set->count > RT_SPLIT_PARALLEL;
     const binning map = make_binning(set);
-    bins b;
+    bins b[2];
     if (shared)
-        fill_bins_parallel(&b, set, &map, threads);
+        fill_bins_parallel(&b[0], set, &map, threads);
     else
-        fill_bins(&b, set, &map);
+        fill_bins(b, set, &map);
 
-    rt_plane_split plane = {-1, 0.0f, 0.0f, (float)(map.bins - 1), 0.0f};
+    rt_plane_split plane = {-1, 0.0f, 0.0f, (float)(map.bins - 1), 0};
     float cost = INFINITY;
     for (int a = 0; a < 3; a++) {
-        const int bin = best_plane(b.box[a], b.count[a], map.bins, &cost);
+        const int bin = best_plane(b[0].box[a], b[0].count[a], map.bins, &cost);
         if (bin > 0) {
             plane.axis = a;
-            plane.bin = (float)bin;
+            plane.bin = bin;
         }
     }
     if (plane.axis < 0)

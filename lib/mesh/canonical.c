@@ -46,9 +46,8 @@ rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source,
     if (triangles > RT_CANONICAL_MAX)
         return rt_mesh_fail(source, 0, "%llu triangles are more than the %d that a mesh can have",
                             (unsigned long long)triangles, RT_CANONICAL_MAX);
-    uint8_t *faces = triangles <= SIZE_MAX / RT_CANONICAL_FACE
-                         ? realloc(mesh->faces, (size_t)triangles * RT_CANONICAL_FACE)
-                         : NULL;
+    uint8_t *faces =
+        triangles <= SIZE_MAX / RT_CANONICAL_FACE ? realloc(mesh->faces, (size_t)triangles * RT_CANONICAL_FACE) : NULL;
     if (!faces)
         return rt_mesh_fail_memory(source, triangles, "triangles");
     mesh->faces = faces;

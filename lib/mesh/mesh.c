@@ -12,22 +12,13 @@
 #include "mesh/normals.h"
 #include "mesh/openmesh.h"
 
-static rt_status fail_file(const char *path, rt_status status, rt_error *error)
-{
-    if (error && error->file[0] == '\0')
-        snprintf(error->file, sizeof error->file, "%s", path);
-    return status;
-}
-
 /* Reads all of a regular file; a pipe or a device might never end. */
 static rt_status read_file(rt_bytes *bytes, const char *path, rt_error *error)
 {
     struct stat info;
-    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
-        rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is not a regular file", path);
-        return fail_file(path, RT_ERROR_INPUT, error);
-    }
-    return fail_file(path, rt_file_read(bytes, path, SIZE_MAX / 4, error), error);
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
+        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is not a regular file", path);
+    return rt_file_read(bytes, path, SIZE_MAX / 4, error);
 }
 
 typedef rt_status reader(rt_canonical *mesh, const rt_mesh_source *source);
@@ -61,9 +52,11 @@ static rt_status read_canonical(rt_canonical *canonical, const char *path, rt_st
     status = read ? read(canonical, &source)
                   : rt_mesh_fail(&source, 0, "unknown mesh format; PLY, OBJ, OFF and STL can be read");
     if (status == RT_OK && canonical->skipped_faces)
-        rt_mesh_log(&source, "%llu of %llu faces have fewer than three corners, thus no area, and are left out; "
-                    "the first is face %llu, counted from 0", (unsigned long long)canonical->skipped_faces,
-                    (unsigned long long)canonical->file_faces, (unsigned long long)canonical->first_skipped);
+        rt_mesh_log(&source,
+                    "%llu of %llu faces have fewer than three corners, thus no area, and are left out; "
+                    "the first is face %llu, counted from 0",
+                    (unsigned long long)canonical->skipped_faces, (unsigned long long)canonical->file_faces,
+                    (unsigned long long)canonical->first_skipped);
     rt_bytes_free(&bytes);
     return status;
 }
@@ -83,7 +76,7 @@ static rt_status finish(rt_mesh *mesh, const char *path, const rt_hooks *hooks, 
     rt_log(hooks, "%s: %llu vertices and %llu faces in the file, %u vertices and %u triangles in the mesh", path,
            (unsigned long long)mesh->file_vertices, (unsigned long long)mesh->file_faces, mesh->vertex_count,
            mesh->triangle_count);
-    return fail_file(path, status, error);
+    return status;
 }
 
 rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, rt_error *error)
@@ -91,27 +84,25 @@ rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, r
     rt_stage_progress progress;
     rt_canonical canonical = {0};
     rt_mesh *mesh = NULL;
-    rt_error own; /* readers may count on one */
-    if (!error)
-        error = &own;
-
-    memset(error, 0, sizeof *error);
     rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_LOAD);
     if (status == RT_OK)
         status = read_canonical(&canonical, path, &progress, error);
     if (status == RT_OK)
         status = rt_mesh_from_canonical(&mesh, &canonical, path, &progress, error);
+    rt_canonical_free(&canonical);
     if (status == RT_OK)
         status = finish(mesh, path, hooks, error);
     if (status == RT_OK)
         status = rt_stage_end(&progress, NULL);
-    rt_canonical_free(&canonical);
+    if (status == RT_OK) {
+        *out = mesh;
+        return RT_OK;
+    }
+    rt_mesh_destroy(mesh);
     if (status == RT_CANCELLED)
         rt_fail(error, RT_CANCELLED, "cancelled while reading %.400s", path);
-    if (status == RT_OK)
-        *out = mesh;
-    else
-        rt_mesh_destroy(mesh);
+    if (error)
+        snprintf(error->file, sizeof error->file, "%s", path);
     return status;
 }
 

@@ -10,9 +10,9 @@
 /* Owns its arrays. Every number in them is finite and every index below vertex_count. */
 typedef struct rt_mesh {
     uint32_t vertex_count, triangle_count; /* both may be 0: a file may hold points only */
-    float *positions;  /* [vertex_count][3] */
-    float *normals;    /* [vertex_count][3], of length 1, or NULL when the file has none */
-    float *uv;         /* [vertex_count][2], as in the file, or NULL */
+    float *positions;                      /* [vertex_count][3] */
+    float *normals;                        /* [vertex_count][3], of length 1, or NULL when the file has none */
+    float *uv;                             /* [vertex_count][2], as in the file, or NULL */
     float *colours;    /* [vertex_count][3], as in the file: integers scaled to 0..1, floats as they are, never
                           sRGB-decoded; or NULL */
     uint32_t *indices; /* [triangle_count][3] */

@@ -35,7 +35,7 @@ uint64_t rt_normals_zero_area(const rt_mesh *mesh)
 /* Writes v at length 1; returns 0 when it has no direction. */
 static int normalise(const double v[3], float out[3])
 {
-    double length = hypot(hypot(v[0], v[1]), v[2]);
+    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     if (!(length > 0))
         return 0;
     for (int i = 0; i < 3; i++)

@@ -54,7 +54,7 @@ typedef struct stage {
 static int step(void *user, uint64_t done)
 {
     stage *s = user;
-    return rt_stage_update(s->progress, (double)done / (double)s->all) != RT_OK;
+    return rt_stage_update(s->progress, 0.5 + 0.5 * (double)done / (double)s->all) != RT_OK;
 }
 
 static rt_status read_through(rt_mesh *mesh, const rt_canonical *canonical, const char *path,
@@ -78,15 +78,20 @@ static rt_status read_through(rt_mesh *mesh, const rt_canonical *canonical, cons
         .user = &s,
     };
     switch (rt_openmesh_read(&sink, &file, why, sizeof why)) {
-    case RT_OPENMESH_STOPPED: return RT_CANCELLED;
-    case RT_OPENMESH_MEMORY: return rt_fail(error, RT_ERROR_MEMORY, "out of memory while reading %.350s", path);
-    case RT_OPENMESH_FAILED: return rt_fail(error, RT_ERROR_INPUT, "OpenMesh cannot read %.300s: %s", path, why);
-    case RT_OPENMESH_OK: break;
+    case RT_OPENMESH_STOPPED:
+        return RT_CANCELLED;
+    case RT_OPENMESH_MEMORY:
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory while reading %.350s", path);
+    case RT_OPENMESH_FAILED:
+        return rt_fail(error, RT_ERROR_INPUT, "OpenMesh cannot read %.300s: %s", path, why);
+    case RT_OPENMESH_OK:
+        break;
     }
     /* Nothing may be lost on the way. */
     if (sink.vertex_count != canonical->vertex_count || sink.triangle_count != canonical->triangle_count)
         return rt_fail(error, RT_ERROR_INPUT, "OpenMesh read %u of %u vertices and %u of %u triangles of %.300s",
-                       sink.vertex_count, canonical->vertex_count, sink.triangle_count, canonical->triangle_count, path);
+                       sink.vertex_count, canonical->vertex_count, sink.triangle_count, canonical->triangle_count,
+                       path);
     mesh->vertex_count = sink.vertex_count;
     mesh->triangle_count = sink.triangle_count;
     return RT_OK;

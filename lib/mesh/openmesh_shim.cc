@@ -18,16 +18,21 @@
 #include <OpenMesh/Core/IO/reader/PLYReader.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 
-namespace {
+namespace
+{
 
 using namespace OpenMesh;
 
 /* The pieces of the file as one stream. Seeking works within the first piece, the header, where OpenMesh needs it. */
-class PieceBuffer : public std::streambuf {
-public:
-    explicit PieceBuffer(const rt_openmesh_file &file) : file_(file) { enter(0); }
+class PieceBuffer : public std::streambuf
+{
+  public:
+    explicit PieceBuffer(const rt_openmesh_file &file) : file_(file)
+    {
+        enter(0);
+    }
 
-protected:
+  protected:
     int_type underflow() override
     {
         while (gptr() == egptr()) {
@@ -45,9 +50,12 @@ protected:
                                           : seek(from == std::ios_base::cur ? here + offset : offset);
     }
 
-    pos_type seekpos(pos_type position, std::ios_base::openmode) override { return seek(off_type(position)); }
+    pos_type seekpos(pos_type position, std::ios_base::openmode) override
+    {
+        return seek(off_type(position));
+    }
 
-private:
+  private:
     void enter(int piece)
     {
         /* A stream buffer's pointers are never const; nothing is written through them. */
@@ -72,9 +80,12 @@ private:
 struct Stopped : std::exception {};
 
 /* Takes vertices and faces as they come. What a triangle file has no use for is refused, not dropped. */
-class RawImporter : public IO::BaseImporter {
-public:
-    explicit RawImporter(rt_openmesh_sink &sink) : sink_(sink) {}
+class RawImporter : public IO::BaseImporter
+{
+  public:
+    explicit RawImporter(rt_openmesh_sink &sink) : sink_(sink)
+    {
+    }
 
     VertexHandle add_vertex() override
     {
@@ -119,12 +130,26 @@ public:
         return FaceHandle(static_cast<int>(sink_.triangle_count++));
     }
 
-    size_t n_vertices() const override { return sink_.vertex_count; }
-    size_t n_faces() const override { return sink_.triangle_count; }
-    size_t n_edges() const override { return 0; }
+    size_t n_vertices() const override
+    {
+        return sink_.vertex_count;
+    }
+    size_t n_faces() const override
+    {
+        return sink_.triangle_count;
+    }
+    size_t n_edges() const override
+    {
+        return 0;
+    }
 
-    void set_normal(VertexHandle vertex, const Vec3d &normal) override { set_normal(vertex, Vec3f(normal)); }
+    void set_normal(VertexHandle vertex, const Vec3d &normal) override
+    {
+        set_normal(vertex, Vec3f(normal));
+    }
 
+    /* What a file of plain triangles never asks for. */
+    // clang-format off
     HalfedgeHandle add_edge(VertexHandle, VertexHandle) override { refuse(); }
     FaceHandle add_face(HalfedgeHandle) override { refuse(); }
     void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec2f> &) override { refuse(); }
@@ -156,9 +181,13 @@ public:
     void set_color(FaceHandle, const Vec4f &) override { refuse(); }
     void set_status(FaceHandle, const Attributes::StatusInfo &) override { refuse(); }
     void add_texture_information(int, std::string) override { refuse(); }
+    // clang-format on
 
-private:
-    [[noreturn]] static void refuse() { throw std::logic_error("a property that was not announced"); }
+  private:
+    [[noreturn]] static void refuse()
+    {
+        throw std::logic_error("a property that was not announced");
+    }
 
     size_t index(VertexHandle vertex) const
     {
@@ -178,9 +207,13 @@ private:
 };
 
 /* OpenMesh's error stream, which goes to stderr, is silent while this lives. */
-class Silence {
-public:
-    Silence() : was_(omerr().is_enabled()) { omerr().disable(); }
+class Silence
+{
+  public:
+    Silence() : was_(omerr().is_enabled())
+    {
+        omerr().disable();
+    }
     ~Silence()
     {
         if (was_)
@@ -189,7 +222,7 @@ public:
     Silence(const Silence &) = delete;
     Silence &operator=(const Silence &) = delete;
 
-private:
+  private:
     bool was_;
 };
 

@@ -24,7 +24,7 @@ typedef struct rt_openmesh_sink {
     float *positions, *normals, *uv; /* [vertex_room][3], [vertex_room][3], [vertex_room][2] */
     uint32_t *indices;               /* [triangle_room][3] */
     uint32_t vertex_room, triangle_room;
-    uint32_t vertex_count, triangle_count; /* how many OpenMesh handed over */
+    uint32_t vertex_count, triangle_count;  /* how many OpenMesh handed over */
     int (*step)(void *user, uint64_t done); /* now and then, after so many vertices and triangles; non-zero stops */
     void *user;
 } rt_openmesh_sink;

@@ -46,7 +46,8 @@ static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *sourc
     rt_canonical *mesh = faces->mesh;
     rt_canonical split = {0};
     const rt_unique *corners = &faces->corners;
-    rt_status status = rt_canonical_vertices(&split, source, corners->count, mesh->has_normals, 1, mesh->colours != NULL);
+    rt_status status =
+        rt_canonical_vertices(&split, source, corners->count, mesh->has_normals, 1, mesh->colours != NULL);
     for (uint32_t i = 0; i < corners->count && status == RT_OK; i++) {
         uint32_t vertex = corners->keys[i][0];
         memcpy(rt_canonical_position(&split, i), rt_canonical_position(mesh, vertex), mesh->row * sizeof(float));
@@ -64,7 +65,8 @@ static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *sourc
     mesh->colours = split.colours;
     mesh->vertex_count = split.vertex_count;
     if (faces->bare_faces)
-        rt_mesh_log(source, "%llu faces have no texture coordinates; they get 0 0", (unsigned long long)faces->bare_faces);
+        rt_mesh_log(source, "%llu faces have no texture coordinates; they get 0 0",
+                    (unsigned long long)faces->bare_faces);
     return RT_OK;
 }
 

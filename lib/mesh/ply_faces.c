@@ -153,7 +153,8 @@ rt_status rt_ply_faces_read(rt_ply_faces *f, rt_ply_reader *reader, int strips)
         return rt_mesh_fail(reader->source, element->line, "element %s has no list vertex_indices of an integer type",
                             strips ? "tristrips" : "face");
     int direct = is_canonical(f, reader, list, strips);
-    rt_status status = strips ? RT_OK : rt_canonical_reserve(f->mesh, reader->source, f->mesh->triangle_count + element->count);
+    rt_status status =
+        strips ? RT_OK : rt_canonical_reserve(f->mesh, reader->source, f->mesh->triangle_count + element->count);
     while (reader->row < element->count && status == RT_OK) {
         if (direct)
             copy_triangles(f, reader);

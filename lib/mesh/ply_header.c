@@ -52,8 +52,10 @@ static rt_status bad_line(const parser *p, const char *expected)
     rt_token line = p->words[0];
     if (p->word_count)
         line.length = (size_t)(p->words[p->word_count - 1].at + p->words[p->word_count - 1].length - line.at);
-    return rt_mesh_fail(p->source, p->text.line, "PLY header: '%s'; expected %s",
-                        p->word_count ? rt_token_quote(line, quote) : "", expected);
+    if (p->word_count == 0)
+        return rt_mesh_fail(p->source, p->text.line, "PLY header: an empty line; expected %s", expected);
+    return rt_mesh_fail(p->source, p->text.line, "PLY header: '%s'; expected %s", rt_token_quote(line, quote),
+                        expected);
 }
 
 static rt_status read_type(const parser *p, rt_token word, rt_ply_type *out)
@@ -64,8 +66,10 @@ static rt_status read_type(const parser *p, rt_token word, rt_ply_type *out)
             *out = (rt_ply_type)i;
             return RT_OK;
         }
-    return rt_mesh_fail(p->source, p->text.line, "PLY header: '%s' is no type; expected char, uchar, short, ushort, "
-                        "int, uint, float or double", rt_token_quote(word, quote));
+    return rt_mesh_fail(p->source, p->text.line,
+                        "PLY header: '%s' is no type; expected char, uchar, short, ushort, "
+                        "int, uint, float or double",
+                        rt_token_quote(word, quote));
 }
 
 static int same(rt_token a, rt_token b)
@@ -179,7 +183,7 @@ static int split_line(parser *p)
 static rt_status next_line(parser *p)
 {
     do {
-        if (!rt_mesh_text_line(&p->text))
+        if (!rt_mesh_text_line(&p->text) || p->text.at == p->text.end)
             return rt_mesh_fail(p->source, p->text.line, "the PLY header has no end_header line");
     } while (!split_line(p));
     return RT_OK;
@@ -205,7 +209,8 @@ static rt_status read_lines(parser *p)
 
 int rt_ply_is(const uint8_t *data, size_t size)
 {
-    return size >= 3 && memcmp(data, "ply", 3) == 0 && (size == 3 || data[3] == ' ' || (data[3] >= '\t' && data[3] <= '\r'));
+    return size >= 3 && memcmp(data, "ply", 3) == 0 &&
+           (size == 3 || data[3] == ' ' || (data[3] >= '\t' && data[3] <= '\r'));
 }
 
 rt_status rt_ply_header_read(rt_ply_header *out, const rt_mesh_source *source)
@@ -214,7 +219,8 @@ rt_status rt_ply_header_read(rt_ply_header *out, const rt_mesh_source *source)
     out->element_count = 0;
     out->texture = (rt_token){NULL, 0};
     if (!rt_ply_is(source->data, source->size))
-        return rt_mesh_fail(source, 1, source->size ? "not a PLY file: its first line is not 'ply'" : "the file is empty");
+        return rt_mesh_fail(source, 1,
+                            source->size ? "not a PLY file: its first line is not 'ply'" : "the file is empty");
     split_line(&p);
     if (p.word_count != 1)
         return bad_line(&p, "'ply' alone on the first line");

@@ -40,14 +40,22 @@ double rt_ply_decode(const uint8_t *at, rt_ply_type type, int native)
     } value;
     memcpy(&value, bytes, size);
     switch (type) {
-    case RT_PLY_INT8: return value.i8;
-    case RT_PLY_UINT8: return value.u8;
-    case RT_PLY_INT16: return value.i16;
-    case RT_PLY_UINT16: return value.u16;
-    case RT_PLY_INT32: return value.i32;
-    case RT_PLY_UINT32: return value.u32;
-    case RT_PLY_FLOAT32: return value.f32;
-    case RT_PLY_FLOAT64: break;
+    case RT_PLY_INT8:
+        return value.i8;
+    case RT_PLY_UINT8:
+        return value.u8;
+    case RT_PLY_INT16:
+        return value.i16;
+    case RT_PLY_UINT16:
+        return value.u16;
+    case RT_PLY_INT32:
+        return value.i32;
+    case RT_PLY_UINT32:
+        return value.u32;
+    case RT_PLY_FLOAT32:
+        return value.f32;
+    case RT_PLY_FLOAT64:
+        break;
     }
     return value.f64;
 }
@@ -89,7 +97,8 @@ rt_status rt_ply_enter(rt_ply_reader *r, const rt_ply_element *element)
         least += least_size(r, property->is_list ? property->count_type : property->type);
     }
     if (least && element->count > bytes_left(r) / least)
-        return rt_mesh_fail(r->source, element->line, "element %s: %llu of them do not fit in the %llu bytes that follow",
+        return rt_mesh_fail(r->source, element->line,
+                            "element %s: %llu of them do not fit in the %llu bytes that follow",
                             rt_token_quote(element->name, quote), (unsigned long long)element->count,
                             (unsigned long long)bytes_left(r));
     return RT_OK;
@@ -107,8 +116,7 @@ static rt_status ascii_value(rt_ply_reader *r, rt_ply_type type, double *out)
     if (!rt_mesh_text_any(&r->text, &token))
         return cut_short(r);
     if (rt_ply_is_float(type))
-        return rt_token_real(token, out) ? RT_OK
-                                         : rt_ply_fail(r, "'%s' is not a number", rt_token_quote(token, quote));
+        return rt_token_real(token, out) ? RT_OK : rt_ply_fail(r, "'%s' is not a number", rt_token_quote(token, quote));
     int64_t value;
     if (!rt_token_integer(token, &value) || value < rt_ply_least(type) || value > rt_ply_greatest(type))
         return rt_ply_fail(r, "'%s' is not a whole number from %lld to %lld", rt_token_quote(token, quote),

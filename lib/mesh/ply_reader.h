@@ -7,7 +7,7 @@
 typedef struct rt_ply_reader {
     const rt_mesh_source *source;
     rt_ply_format format;
-    rt_mesh_text text;      /* ascii: the place in the file */
+    rt_mesh_text text;       /* ascii: the place in the file */
     const uint8_t *at, *end; /* binary: the place in the file */
 
     /* What is being read, for messages. */

@@ -22,7 +22,8 @@ typedef struct attributes {
     attribute position, normal, uv, colour;
 } attributes;
 
-static attribute find(const rt_ply_element *element, const char *const (*groups)[PARTS_MAX], size_t group_count, int parts)
+static attribute find(const rt_ply_element *element, const char *const (*groups)[PARTS_MAX], size_t group_count,
+                      int parts)
 {
     attribute found = {{NULL, NULL, NULL}, 0};
     for (size_t g = 0; g < group_count; g++) {

@@ -6,25 +6,20 @@
 
 rt_status rt_mesh_fail(const rt_mesh_source *source, size_t line, const char *format, ...)
 {
-    char message[sizeof source->error->message];
+    char message[512];
     va_list args;
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
     rt_fail(source->error, RT_ERROR_INPUT, "%s", message);
-    if (source->error) {
-        snprintf(source->error->file, sizeof source->error->file, "%s", source->path);
+    if (source->error)
         source->error->line = line <= INT_MAX ? (int)line : 0;
-    }
     return RT_ERROR_INPUT;
 }
 
 rt_status rt_mesh_fail_memory(const rt_mesh_source *source, uint64_t count, const char *what)
 {
-    rt_fail(source->error, RT_ERROR_MEMORY, "out of memory for %llu %s", (unsigned long long)count, what);
-    if (source->error)
-        snprintf(source->error->file, sizeof source->error->file, "%s", source->path);
-    return RT_ERROR_MEMORY;
+    return rt_fail(source->error, RT_ERROR_MEMORY, "out of memory for %llu %s", (unsigned long long)count, what);
 }
 
 void rt_mesh_log(const rt_mesh_source *source, const char *format, ...)
@@ -39,7 +34,6 @@ void rt_mesh_log(const rt_mesh_source *source, const char *format, ...)
 
 rt_status rt_mesh_step(const rt_mesh_source *source, uint64_t done, uint64_t all)
 {
-    if (rt_stage_update(source->progress, all ? (double)done / (double)all : 0.0) == RT_OK)
-        return RT_OK;
-    return rt_fail(source->error, RT_CANCELLED, "cancelled while reading %.400s", source->path);
+    /* OpenMesh has the second half. */
+    return rt_stage_update(source->progress, all ? 0.5 * (double)done / (double)all : 0.0);
 }

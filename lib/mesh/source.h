@@ -16,7 +16,7 @@ typedef struct rt_mesh_source {
     rt_error *error; /* may be NULL */
 } rt_mesh_source;
 
-/* Fails with RT_ERROR_INPUT at a line of the file, or at the file as a whole (line 0). */
+/* Fails with RT_ERROR_INPUT at a line of the file, or at the file as a whole (line 0). The loader adds its name. */
 rt_status rt_mesh_fail(const rt_mesh_source *source, size_t line, const char *format, ...) RT_PRINTF(3, 4);
 
 /* Fails with RT_ERROR_MEMORY, naming what did not fit. */

@@ -26,8 +26,10 @@ static int is_continued(const rt_mesh_text *text, const char **next)
         return 0;
     while (c < text->end && *c != text->newline && is_space(*c))
         c++;
+    if (c == text->end || *c != text->newline)
+        return 0;
     *next = c + 1;
-    return c < text->end && *c == text->newline;
+    return 1;
 }
 
 static void skip_space(rt_mesh_text *text)
@@ -60,16 +62,25 @@ int rt_mesh_text_token(rt_mesh_text *text, rt_token *out)
     return 1;
 }
 
+/* The byte that ends the line, or NULL at the end of the text. A comment is never continued. */
+static const char *line_end(rt_mesh_text *text)
+{
+    while (text->continued && text->at < text->end && *text->at != text->newline &&
+           !(text->comments && *text->at == '#')) {
+        const char *next = text->at + 1;
+        if (is_continued(text, &next))
+            text->line++;
+        text->at = next;
+    }
+    return text->at < text->end ? memchr(text->at, text->newline, (size_t)(text->end - text->at)) : NULL;
+}
+
 int rt_mesh_text_line(rt_mesh_text *text)
 {
-    const char *end = text->at < text->end ? memchr(text->at, text->newline, (size_t)(text->end - text->at)) : NULL;
-    if (!end) {
-        text->at = text->end;
-        return 0;
-    }
-    text->at = end + 1;
-    text->line++;
-    return 1;
+    const char *end = line_end(text);
+    text->at = end ? end + 1 : text->end;
+    text->line += end != NULL;
+    return end != NULL;
 }
 
 int rt_mesh_text_any(rt_mesh_text *text, rt_token *out)

@@ -29,7 +29,7 @@ static uint32_t *find(const rt_unique *set, const uint32_t key[3])
 static rt_status grow(rt_unique *set, const rt_mesh_source *source)
 {
     uint32_t room = set->room ? 2 * set->room : 1024;
-    uint32_t(*keys)[3] = room <= COUNT_MAX ? realloc(set->keys, room * sizeof *keys) : NULL;
+    uint32_t (*keys)[3] = room <= COUNT_MAX ? realloc(set->keys, room * sizeof *keys) : NULL;
     if (!keys)
         return rt_mesh_fail_memory(source, room, "vertices");
     set->keys = keys;

@@ -40,8 +40,6 @@ static int try_image(const char *path, void *user)
     }
     if (status != RT_OK && (status != RT_ERROR_INPUT || !strstr(error.message, path)))
         result = is_wrong;
-    if (status != RT_OK && getenv("RT_CORPUS_VERBOSE"))
-        fprintf(stderr, "%s\n", error.message);
     rt_bytes_free(&texels);
     rt_image_destroy(image);
     return result;

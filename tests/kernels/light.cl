@@ -7,7 +7,7 @@ static float4 numbers(uint seed, uint i)
     return convert_float4(pcg4d((uint4)(i, seed, 29u, 2u)) >> 8) * 0x1p-24f;
 }
 
-/* Four rows an item: position and pdf_w, wi and delta, radiance and light_pdf_w at the same point, normal and error. */
+/* Four rows an item: position and 1 / pdf_w, wi and delta, radiance and light_pdf_w at the same point, normal and lift. */
 kernel void sample(global const rt_scene_header *header, uint seed, uint count, float4 from, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
@@ -17,15 +17,17 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
     const float4 u = numbers(seed, i);
     struct light_sample made;
     made.at.position = made.at.normal = made.wi = made.radiance = (float3)(0.0f);
-    made.at.error = made.pdf_w = 0.0f;
+    made.lift = made.spread = 0.0f;
     made.delta = false;
     float again = 0.0f;
-    if (sample_light(&scene, from.xyz, u, &made) && !made.delta)
+    if (!sample_light(&scene, from.xyz, u, &made))
+        made.radiance = (float3)(0.0f);
+    else if (!made.delta)
         again = light_pdf_w(scene.lights + choose_light(&scene, u.z), from.xyz, &made.at);
-    out[4u * i] = (float4)(made.at.position, made.pdf_w);
+    out[4u * i] = (float4)(made.at.position, made.spread);
     out[4u * i + 1u] = (float4)(made.wi, made.delta ? 1.0f : 0.0f);
     out[4u * i + 2u] = (float4)(made.radiance, again);
-    out[4u * i + 3u] = (float4)(made.at.normal, made.at.error);
+    out[4u * i + 3u] = (float4)(made.at.normal, made.lift);
 }
 
 /* Four rows an item: position, direction, flux and light, normal. */

@@ -13,10 +13,10 @@
 enum { n = 1 << 16 };
 
 typedef struct sample {
-    float position[3], pdf_w;
+    float position[3], spread; /* sr, 1 / pdf_w */
     float wi[3], delta;
     float radiance[3], again_pdf_w;
-    float normal[3], error;
+    float normal[3], lift;
 } sample;
 
 typedef struct emission {
@@ -82,9 +82,9 @@ static void expect_solid_angle(double truth, const char *what)
     static double values[n];
     for (int i = 0; i < n; i++) {
         const sample *s = samples + i;
-        values[i] = s->radiance[0] > 0 ? 1 / (double)s->pdf_w : 0;
+        values[i] = s->radiance[0] > 0 ? s->spread : 0;
         if (s->radiance[0] > 0)
-            assert_float_equal(s->again_pdf_w / s->pdf_w, 1, 1e-4);
+            assert_float_equal(s->again_pdf_w * s->spread, 1, 1e-4);
     }
     expect_mean(values, n, truth, 1e-4 * truth, what);
 }
@@ -188,7 +188,7 @@ static void point_lights_fall_off_with_the_square_of_distance(void **state)
     rt_renderer *renderer = ready(scene);
     draw(renderer, 1, 1, 2, 0);
     for (int i = 0; i < n; i++) {
-        assert_true(samples[i].delta == 1 && samples[i].pdf_w == 1 && samples[i].wi[2] == 1);
+        assert_true(samples[i].delta == 1 && samples[i].spread == 1 && samples[i].wi[2] == 1);
         assert_float_equal(samples[i].radiance[1], 6.0 / 9, 1e-6);
     }
     rt_renderer_destroy(renderer);

@@ -237,8 +237,23 @@ static void promises_are_checked_before_they_are_believed(void **state)
     check_size_refused(&grey, 65536, 65536, "2^30");
     check_size_refused(&grey, 32768, 32768, "too short");
     check_size_refused(&bits, 32768, 32768, "too short");
+    check_size_refused(&bits, 16384, 4096, "too short");
     check_size_refused(&rgb, 4, 5, "");
     check_size_refused(&grey, 64, 64, "");
+}
+
+/* Pixels that are all there, but more than 1 GiB of them out of 130 KB. */
+static void a_bomb_is_refused(void **state)
+{
+    (void)state;
+    form f = form_of(0, 32768, 8);
+    rt_bytes file = make_file(&f), grown = {0};
+    assert_int_equal(rt_bytes_put(&grown, 0, file.data, file.size, NULL), RT_OK);
+    assert_int_equal(rt_bytes_put(&grown, 140000, "", 1, NULL), RT_OK);
+    set_size(&grown, 32768, 32768);
+    check_refused(&grown, "64 values a byte");
+    rt_bytes_free(&grown);
+    rt_bytes_free(&file);
 }
 
 static void an_index_outside_the_palette_is_refused(void **state)
@@ -297,6 +312,7 @@ int main(void)
         cmocka_unit_test(every_colour_type_and_depth_is_read),
         cmocka_unit_test(transparency_changes_no_colour),
         cmocka_unit_test(promises_are_checked_before_they_are_believed),
+        cmocka_unit_test(a_bomb_is_refused),
         cmocka_unit_test(an_index_outside_the_palette_is_refused),
         cmocka_unit_test(other_files_and_other_chunks_are_refused),
         cmocka_unit_test(damage_never_crashes),

@@ -1,0 +1,180 @@
+/*
+ * off.c - Geomview OFF, ascii.
+ *
+ * Reference: The Geometry Center, "Geomview Manual", section OFF files.
+ */
+#include <string.h>
+
+#include "mesh/fields.h"
+#include "mesh/formats.h"
+
+#define VERTEX_MAX 12 /* position, normal, colour with alpha, texture coordinates */
+
+typedef struct off {
+    const rt_mesh_source *source;
+    rt_canonical *mesh;
+    rt_mesh_text text;
+    int normals, colours, uv;
+    uint64_t vertex_count, face_count;
+    rt_indices polygon;
+} off;
+
+/* Takes a prefix off the word. */
+static int take(rt_token *word, const char *prefix)
+{
+    size_t length = strlen(prefix);
+    if (word->length < length || memcmp(word->at, prefix, length) != 0)
+        return 0;
+    word->at += length;
+    word->length -= length;
+    return 1;
+}
+
+/* The keyword, [ST][C][N]OFF; a file may also begin with its counts. */
+static rt_status read_keyword(off *o, rt_token *first)
+{
+    char quote[RT_QUOTE];
+    int64_t count;
+    rt_token word = {"", 0}, next;
+    if (!rt_mesh_text_any(&o->text, &word))
+        return rt_mesh_fail(o->source, 1, "the file is empty");
+    *first = word;
+    if (rt_token_integer(word, &count))
+        return RT_OK;
+    o->uv = take(&word, "ST");
+    o->colours = take(&word, "C");
+    o->normals = take(&word, "N");
+    if (!rt_token_is(word, "OFF"))
+        return rt_mesh_fail(o->source, o->text.line,
+                            "'%s' is no kind of OFF file that can be read; expected OFF with "
+                            "the prefixes ST, C and N at most",
+                            rt_token_quote(*first, quote));
+    rt_mesh_text ahead = o->text;
+    if (rt_mesh_text_token(&ahead, &next) && rt_token_is(next, "BINARY"))
+        return rt_mesh_fail(o->source, o->text.line, "binary OFF cannot be read; convert it to ascii OFF or to PLY");
+    return rt_mesh_text_any(&o->text, first) ? RT_OK
+                                             : rt_mesh_fail(o->source, o->text.line, "the file ends before its counts");
+}
+
+/* Vertices, faces and, of no use, edges. The shortest vertex is "0 0 0", the shortest face "0", and a line end. */
+static rt_status read_counts(off *o, rt_token first)
+{
+    rt_token token = {"", 0};
+    uint64_t left = (uint64_t)(o->text.end - o->text.at) + 1, edges;
+    rt_status status = rt_field_count(o->source, &o->text, first, "count of vertices", left / 6, &o->vertex_count);
+    if (status != RT_OK)
+        return status;
+    rt_mesh_text_token(&o->text, &token);
+    status = rt_field_count(o->source, &o->text, token, "count of faces", left / 2, &o->face_count);
+    if (status == RT_OK && rt_mesh_text_token(&o->text, &token))
+        status = rt_field_count(o->source, &o->text, token, "count of edges", INT64_MAX, &edges);
+    if (status == RT_OK && rt_mesh_text_token(&o->text, &token))
+        return rt_mesh_fail(o->source, o->text.line, "more than three counts");
+    return status;
+}
+
+/* Passes to the next line that holds something. */
+static int next_line(off *o)
+{
+    rt_token token;
+    while (rt_mesh_text_line(&o->text)) {
+        rt_mesh_text ahead = o->text;
+        if (rt_mesh_text_token(&ahead, &token))
+            return 1;
+    }
+    return 0;
+}
+
+/* A colour is of whole numbers to 255 or of numbers to 1, which a point or an exponent tells. */
+static rt_status read_colour(off *o, rt_token token, float *out)
+{
+    int64_t whole;
+    if (!rt_token_integer(token, &whole))
+        return rt_field_float(o->source, &o->text, token, "colour", out);
+    *out = (float)whole / 255.0f;
+    return RT_OK;
+}
+
+static rt_status read_vertex(off *o, uint32_t vertex)
+{
+    int fixed = 3 + 3 * o->normals + 2 * o->uv, count = 0, colour_at = 3 + 3 * o->normals;
+    rt_token tokens[VERTEX_MAX + 1]; /* room to see that there is one too many */
+    float values[VERTEX_MAX];
+    rt_status status = RT_OK;
+    while (count <= VERTEX_MAX && rt_mesh_text_token(&o->text, &tokens[count]))
+        count++;
+    int colour_count = count - fixed;
+    if (o->colours ? colour_count != 3 && colour_count != 4 : colour_count != 0)
+        return rt_mesh_fail(o->source, o->text.line, "vertex %u has %s%d values; expected %d%s", vertex,
+                            count > VERTEX_MAX ? "at least " : "", count, fixed,
+                            o->colours ? " and 3 or 4 of colour" : "");
+    for (int i = 0; i < count && status == RT_OK; i++)
+        status = i >= colour_at && i < colour_at + colour_count
+                     ? read_colour(o, tokens[i], &values[i])
+                     : rt_field_float(o->source, &o->text, tokens[i], "vertex", &values[i]);
+    if (status != RT_OK)
+        return status;
+    memcpy(rt_canonical_position(o->mesh, vertex), values, (size_t)colour_at * sizeof *values);
+    if (o->colours)
+        memcpy(o->mesh->colours + 3 * (size_t)vertex, values + colour_at, 3 * sizeof *values);
+    if (o->uv)
+        memcpy(rt_canonical_uv(o->mesh, vertex), values + count - 2, 2 * sizeof *values);
+    return RT_OK;
+}
+
+static rt_status read_face(off *o, uint64_t face)
+{
+    rt_token token = {"", 0};
+    uint64_t count, index;
+    rt_mesh_text_token(&o->text, &token);
+    rt_status status = rt_field_count(o->source, &o->text, token, "corners of a face",
+                                      (uint64_t)(o->text.end - o->text.at) / 2, &count);
+    o->polygon.count = 0;
+    for (uint64_t i = 0; i < count && status == RT_OK; i++) {
+        if (!rt_mesh_text_any(&o->text, &token))
+            return rt_mesh_fail(o->source, o->text.line, "the file ends in face %llu of %llu", (unsigned long long)face,
+                                (unsigned long long)o->face_count);
+        if (o->vertex_count == 0)
+            return rt_mesh_fail(o->source, o->text.line, "a face, but no vertices");
+        status = rt_field_count(o->source, &o->text, token, "vertex of a face", o->vertex_count - 1, &index);
+        if (status == RT_OK)
+            status = rt_indices_add(&o->polygon, o->source, (uint32_t)index);
+    }
+    /* What is left of the line is the face's colour. */
+    return status == RT_OK ? rt_canonical_polygon(o->mesh, o->source, o->polygon.data, count) : status;
+}
+
+static rt_status read_rows(off *o)
+{
+    rt_status status = RT_OK;
+    for (uint64_t i = 0; i < o->vertex_count + o->face_count && status == RT_OK; i++) {
+        if (!next_line(o))
+            return rt_mesh_fail(
+                o->source, o->text.line, "the file ends after %llu of %llu vertices and %llu of %llu faces",
+                (unsigned long long)(i < o->vertex_count ? i : o->vertex_count), (unsigned long long)o->vertex_count,
+                (unsigned long long)(i < o->vertex_count ? 0 : i - o->vertex_count), (unsigned long long)o->face_count);
+        status = i < o->vertex_count ? read_vertex(o, (uint32_t)i) : read_face(o, i - o->vertex_count);
+        if (status == RT_OK && (i & 0xfff) == 0)
+            status = rt_mesh_step(o->source, (uint64_t)(o->text.at - (const char *)o->source->data), o->source->size);
+    }
+    if (status == RT_OK && next_line(o))
+        rt_mesh_log(o->source, "what follows the last face, from line %zu on, is ignored", o->text.line);
+    return status;
+}
+
+rt_status rt_off_read(rt_canonical *mesh, const rt_mesh_source *source)
+{
+    off o = {.source = source, .mesh = mesh, .text = rt_mesh_text_begin(source->data, source->size)};
+    rt_token first;
+    o.text.comments = 1;
+    rt_status status = read_keyword(&o, &first);
+    if (status == RT_OK)
+        status = read_counts(&o, first);
+    if (status == RT_OK)
+        status = rt_canonical_vertices(mesh, source, o.vertex_count, o.normals, o.uv, o.colours);
+    if (status == RT_OK)
+        status = read_rows(&o);
+    mesh->file_vertices = o.vertex_count;
+    rt_indices_free(&o.polygon);
+    return status;
+}

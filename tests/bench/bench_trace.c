@@ -1,0 +1,292 @@
+/*
+ * bench_trace.c - the hierarchy's build and closest hits, ours against Embree's, in one run and in turn.
+ *
+ *     bench_trace [CELLS]    cells around the equator, 1224 by default: 1.5 M triangles
+ *
+ * The mesh is a bumpy ball, made by formula, in a box. Rays: one million from a camera, in tiles of 8 x 8, and from
+ * where those end one million diffuse bounces. Prints the median of five runs on all cores, and how our time compares;
+ * our rays are timed on the device, without their way there and back.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "accel/bvh.h"
+#include "bench/embree_peer.h"
+#include "device/device.h"
+#include "progress.h"
+#include "render/renderer.h"
+#include "rt.h"
+
+enum { runs = 5, film_side = 1024, ray_count = film_side * film_side };
+
+typedef struct mesh {
+    float *positions;
+    uint32_t *indices;
+    uint32_t vertices, triangles;
+} mesh;
+
+/* The two contestants, with what they work on. */
+typedef struct contest {
+    mesh mesh;
+    uint32_t threads;
+    rt_device *device;
+    rt_renderer *renderer;
+    cl_kernel kernel;
+    cl_mem rays_there, hits_there;
+    rt_ray *rays;
+    rt_hit *hits;
+    embree_peer *peer;
+} contest;
+
+static void must(rt_status status, const rt_error *error)
+{
+    if (status != RT_OK) {
+        fprintf(stderr, "bench_trace: %s\n", error->message);
+        exit(1);
+    }
+}
+
+static void *allocate(size_t bytes)
+{
+    void *memory = calloc(1, bytes);
+    if (memory == NULL) {
+        fprintf(stderr, "bench_trace: out of memory\n");
+        exit(1);
+    }
+    return memory;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double times[runs])
+{
+    qsort(times, runs, sizeof *times, by_value);
+    return times[runs / 2];
+}
+
+static void set_vertex(float *p, double radius, double u, double v)
+{
+    p[0] = (float)(radius * sin(v) * cos(u));
+    p[1] = (float)(radius * cos(v));
+    p[2] = (float)(radius * sin(v) * sin(u));
+}
+
+/* The ball has radius 1 and bumps of three sizes; the box, half as wide as 3, stops every bounce. */
+static mesh make_mesh(uint32_t around)
+{
+    static const uint32_t faces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                                          {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+    const double pi = acos(-1.0);
+    const uint32_t rows = around / 2, ball = around * (rows + 1);
+    mesh m = {NULL, NULL, ball + 8, 2 * around * rows + 12};
+    m.positions = allocate((size_t)m.vertices * 12 + 16);
+    m.indices = allocate((size_t)m.triangles * 12);
+
+    for (uint32_t j = 0; j <= rows; j++)
+        for (uint32_t i = 0; i < around; i++) {
+            const double u = 2 * pi * i / around, v = pi * j / rows;
+            const double bumps = 0.05 * sin(9 * u) * sin(7 * v) + 0.01 * sin(61 * u + 3 * v) * sin(53 * v) +
+                                 0.002 * sin(401 * u) * sin(307 * v);
+            set_vertex(m.positions + 3 * (size_t)(j * around + i), 1 + bumps, u, v);
+        }
+    uint32_t *at = m.indices;
+    for (uint32_t j = 0; j < rows; j++)
+        for (uint32_t i = 0; i < around; i++) {
+            const uint32_t a = j * around + i, b = j * around + (i + 1) % around;
+            const uint32_t pair[6] = {a, b, a + around, b, b + around, a + around};
+            memcpy(at, pair, sizeof pair);
+            at += 6;
+        }
+    for (uint32_t i = 0; i < 8; i++)
+        for (uint32_t a = 0; a < 3; a++)
+            m.positions[3 * (size_t)(ball + i) + a] = i >> a & 1 ? 3.0f : -3.0f;
+    for (uint32_t i = 0; i < 36; i++)
+        at[i] = ball + faces[i / 3][i % 3];
+    return m;
+}
+
+/* One ray a pixel, tile by tile. */
+static void aim_camera(rt_ray *rays)
+{
+    for (uint32_t i = 0; i < ray_count; i++) {
+        const uint32_t tile = i / 64, in_tile = i % 64, tiles = film_side / 8;
+        const float x = (float)(tile % tiles * 8 + in_tile % 8) + 0.5f, y = (float)(tile / tiles * 8 + in_tile / 8) + 0.5f;
+        const rt_ray ray = {{0.3f, 0.4f, 2.9f},
+                            0.0f,
+                            {(x / (film_side / 2) - 1.0f) * 0.45f - 0.1f, (1.0f - y / (film_side / 2)) * 0.45f - 0.13f, -1.0f},
+                            INFINITY};
+        rays[i] = ray;
+    }
+}
+
+static float uniform(uint64_t *state)
+{
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    return (float)(*state >> 40) * 0x1p-24f;
+}
+
+/* Turns each ray into one that leaves its hit with the cosine's density: the normal plus a point of the unit sphere. */
+static void bounce(rt_ray *rays, const rt_hit *hits)
+{
+    uint64_t state = 88172645463325252u;
+    for (uint32_t i = 0; i < ray_count; i++) {
+        rt_ray *ray = &rays[i];
+        const float *n = hits[i].normal, *d = ray->direction;
+        const float side = n[0] * d[0] + n[1] * d[1] + n[2] * d[2] > 0.0f ? -1.0f : 1.0f;
+        const float y = 2.0f * uniform(&state) - 1.0f, turn = 6.2831853f * uniform(&state), r = sqrtf(1.0f - y * y);
+        const float point[3] = {r * cosf(turn), y, r * sinf(turn)};
+        for (int a = 0; a < 3; a++) {
+            ray->origin[a] += hits[i].t * d[a] + 1e-3f * side * n[a];
+            ray->direction[a] = 1.001f * side * n[a] + point[a];
+        }
+    }
+}
+
+static double our_build(const contest *c)
+{
+    const rt_bvh_mesh part = {c->mesh.positions, c->mesh.indices, c->mesh.triangles, 0};
+    const rt_bvh_input input = {&part, 1, NULL, 0, NULL, 0};
+    rt_bvh *bvh = NULL;
+    rt_bvh_counts counts;
+    rt_error error;
+    const double begin = rt_clock();
+    must(rt_bvh_build(&bvh, &input, c->threads, NULL, &error), &error);
+    rt_bvh_get_counts(bvh, &counts);
+    rt_bvh_node *nodes = malloc(counts.nodes * sizeof *nodes);
+    rt_tri_block *blocks = malloc(counts.blocks * sizeof *blocks);
+    if (nodes == NULL || blocks == NULL)
+        must(RT_ERROR_MEMORY, &(rt_error){.message = "out of memory"});
+    rt_bvh_write(bvh, nodes, blocks, NULL);
+    const double seconds = rt_clock() - begin;
+    rt_bvh_destroy(bvh);
+    free(nodes);
+    free(blocks);
+    return seconds;
+}
+
+static double our_trace(const contest *c)
+{
+    const cl_uint count = ray_count;
+    const rt_arg args[] = {RT_ARG(c->renderer->scene), RT_ARG(c->rays_there), RT_ARG(count), RT_ARG(c->hits_there)};
+    rt_error error;
+    must(rt_kernel_args(c->kernel, args, 4, &error), &error);
+    const double begin = rt_clock();
+    must(rt_launch(c->device, c->kernel, ray_count, &error), &error);
+    must(rt_device_finish(c->device, &error), &error);
+    return rt_clock() - begin;
+}
+
+static void compete_in_building(contest *c)
+{
+    double ours[runs], theirs[runs];
+    for (int run = 0; run < runs; run++) {
+        ours[run] = our_build(c);
+        if (c->peer == NULL)
+            continue;
+        const double begin = rt_clock();
+        embree_peer_build(c->peer);
+        theirs[run] = rt_clock() - begin;
+    }
+    const double us = median(ours);
+    printf("build     librt %6.3f s", us);
+    if (c->peer) {
+        const double them = median(theirs);
+        printf("         Embree %6.3f s         %5.2f x", them, them / us);
+    }
+    printf("\n");
+}
+
+static void compete_in_tracing(contest *c, const char *name)
+{
+    double ours[runs], theirs[runs];
+    rt_error error;
+    must(rt_buffer_write(c->device, c->rays_there, 0, ray_count * sizeof *c->rays, c->rays, &error), &error);
+    our_trace(c); /* compiles */
+    for (int run = 0; run < runs; run++) {
+        ours[run] = our_trace(c);
+        if (c->peer == NULL)
+            continue;
+        const double begin = rt_clock();
+        embree_peer_trace(c->peer, c->rays, ray_count, c->hits);
+        theirs[run] = rt_clock() - begin;
+    }
+    must(rt_buffer_read(c->device, c->hits_there, 0, ray_count * sizeof *c->hits, c->hits, &error), &error);
+    const double us = median(ours);
+    printf("%-9s librt %6.2f Mrays/s", name, ray_count / us * 1e-6);
+    if (c->peer) {
+        const double them = median(theirs);
+        printf("   Embree %6.2f Mrays/s   %5.2f x", ray_count / them * 1e-6, them / us);
+    }
+    printf("\n");
+}
+
+static void open_contest(contest *c, uint32_t around)
+{
+    static const rt_surface plain;
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    rt_material white = {.kd = {0.5f, 0.5f, 0.5f}};
+    rt_scene *scene = NULL;
+    rt_error error;
+    uint32_t index;
+    c->threads = cores > 0 ? (uint32_t)cores : 1;
+    c->mesh = make_mesh(around);
+    c->rays = allocate(ray_count * sizeof *c->rays);
+    c->hits = allocate(ray_count * sizeof *c->hits);
+    c->peer = embree_peer_create(c->mesh.positions, c->mesh.vertices, c->mesh.indices, c->mesh.triangles, c->threads);
+    must(rt_device_open(&c->device, NULL, &error), &error);
+    must(rt_scene_create(&scene, &error), &error);
+    must(rt_scene_add_material(scene, &index, NULL, &white, &error), &error);
+    must(rt_scene_add_triangles(scene, NULL, c->mesh.positions, c->mesh.vertices, c->mesh.indices, c->mesh.triangles,
+                                NULL, &plain, &error), &error);
+    must(rt_renderer_create(&c->renderer, scene, c->device, NULL, &error), &error);
+    rt_scene_destroy(scene);
+    must(rt_device_kernel(c->device, &c->kernel, "trace", "trace_closest", NULL, &error), &error);
+    must(rt_buffer_create(c->device, &c->rays_there, CL_MEM_READ_ONLY, ray_count * sizeof *c->rays, NULL, "rays",
+                          &error), &error);
+    must(rt_buffer_create(c->device, &c->hits_there, CL_MEM_WRITE_ONLY, ray_count * sizeof *c->hits, NULL, "hits",
+                          &error), &error);
+}
+
+static void close_contest(contest *c)
+{
+    embree_peer_destroy(c->peer);
+    rt_buffer_release(c->rays_there);
+    rt_buffer_release(c->hits_there);
+    rt_kernel_release(c->kernel);
+    rt_renderer_destroy(c->renderer);
+    rt_device_close(c->device);
+    free(c->rays);
+    free(c->hits);
+    free(c->mesh.positions);
+    free(c->mesh.indices);
+}
+
+int main(int argc, char **argv)
+{
+    const unsigned long around = argc > 1 ? strtoul(argv[1], NULL, 10) : 1224;
+    if (around < 8 || around > 10000) {
+        fprintf(stderr, "usage: bench_trace [CELLS], 8 to 10000\n");
+        return 2;
+    }
+    contest c;
+    memset(&c, 0, sizeof c);
+    open_contest(&c, (uint32_t)around);
+    printf("trace: %u triangles, %d rays, %u threads%s\n", (unsigned)c.mesh.triangles, (int)ray_count,
+           (unsigned)c.threads, c.peer ? "" : "; built without Embree (libembree-dev), so no peer");
+    compete_in_building(&c);
+    aim_camera(c.rays);
+    compete_in_tracing(&c, "camera");
+    bounce(c.rays, c.hits);
+    compete_in_tracing(&c, "diffuse");
+    close_contest(&c);
+    return 0;
+}

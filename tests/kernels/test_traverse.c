@@ -1,0 +1,283 @@
+/*
+ * test_traverse.c - the tree against testing every primitive: the same hits to the bit. Both tests run the same
+ * intersections, and ties go to the lower primitive, so nothing is left to the order of the walk.
+ */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernels/rays.h"
+#include "support.h"
+
+/* Traces through the tree and through everything, expects equal results, and returns the number of hits. */
+static size_t expect_same(const rt_scene *scene, const rt_ray *rays, size_t count)
+{
+    rt_renderer *tree = rays_renderer(scene, RT_ACCEL_BVH), *all = rays_renderer(scene, RT_ACCEL_NONE);
+    rt_hit *a = rays_trace(tree, RT_TRACE_CLOSEST, rays, count);
+    rt_hit *b = rays_trace(all, RT_TRACE_CLOSEST, rays, count);
+    rt_hit *any = rays_trace(tree, RT_TRACE_ANY, rays, count);
+    rt_hit *any_of_all = rays_trace(all, RT_TRACE_ANY, rays, count);
+    size_t hits = 0;
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(a[i].shape, b[i].shape);
+        assert_int_equal(a[i].prim, b[i].prim);
+        assert_memory_equal(&a[i], &b[i], sizeof a[i]);
+        assert_int_equal(any[i].shape != RT_NONE, a[i].shape != RT_NONE);
+        assert_int_equal(any_of_all[i].shape != RT_NONE, a[i].shape != RT_NONE);
+        if (a[i].shape == RT_NONE)
+            continue;
+        assert_true(a[i].t >= rays[i].t_min && a[i].t <= rays[i].t_max);
+        hits++;
+    }
+    free(a);
+    free(b);
+    free(any);
+    free(any_of_all);
+    rt_renderer_destroy(tree);
+    rt_renderer_destroy(all);
+    return hits;
+}
+
+/* Loose triangles of the given size in a cube of half width 1, scaled and moved. */
+static void add_soup(rt_scene *scene, rays_stream *stream, size_t count, float size, float scale, const float move[3])
+{
+    float *positions = malloc(count * 9 * sizeof *positions);
+    uint32_t *indices = malloc(count * 3 * sizeof *indices);
+    for (size_t i = 0; i < count; i++) {
+        float centre[3], corner[3];
+        rays_point(stream, 1.0f, centre);
+        for (size_t c = 0; c < 3; c++) {
+            rays_point(stream, size, corner);
+            for (size_t a = 0; a < 3; a++)
+                positions[9 * i + 3 * c + a] = move[a] + scale * (centre[a] + corner[a]);
+            indices[3 * i + c] = (uint32_t)(3 * i + c);
+        }
+    }
+    rays_add_triangles(scene, positions, 3 * count, indices, count);
+    free(positions);
+    free(indices);
+}
+
+/* Rays of all kinds about that cube; every eighth along an axis, some with a range. */
+static rt_ray *make_rays(rays_stream *stream, size_t count, float scale, const float move[3])
+{
+    rt_ray *rays = malloc(count * sizeof *rays);
+    for (size_t i = 0; i < count; i++) {
+        float from[3], direction[3];
+        rays_point(stream, i % 3 ? 3.0f : 1.0f, from);
+        rays_direction(stream, direction);
+        if (i % 2)
+            for (int a = 0; a < 3; a++)
+                direction[a] = 0.5f * direction[a] - from[a]; /* roughly at the middle */
+        if (i % 8 == 0) {
+            direction[(i / 8) % 3] = 0.0f;
+            if (i % 16 == 0)
+                direction[(i / 8 + 1) % 3] = -0.0f;
+        }
+        for (int a = 0; a < 3; a++)
+            from[a] = move[a] + scale * from[a];
+        rays[i] = rays_make(from, direction, 0.0f, INFINITY);
+        if (i % 5 == 0) {
+            rays[i].t_min = rays_between(stream, 0.0f, 2.0f) * scale;
+            rays[i].t_max = rays[i].t_min + rays_uniform(stream) * 2.0f * scale;
+        }
+    }
+    return rays;
+}
+
+static const float nowhere[3] = {0, 0, 0};
+
+static void bvh_matches_brute_force_on_triangles(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t count;
+        float size, scale, move[3];
+    } soups[] = {
+        {1, 0.5f, 1, {0, 0, 0}},          {9, 0.5f, 1, {0, 0, 0}},          {500, 0.2f, 1, {0, 0, 0}},
+        {3000, 0.05f, 1, {0, 0, 0}},      {1000, 1.0f, 1, {0, 0, 0}},       {1000, 0.1f, 1e-3f, {0, 0, 0}},
+        {1000, 0.1f, 1e3f, {0, 0, 0}},    {1000, 0.1f, 1, {1e3f, -1e3f, 5}}, {1000, 0.1f, 1e6f, {0, 0, 0}},
+    };
+    rays_stream stream = {5};
+    size_t hits = 0;
+    for (size_t s = 0; s < sizeof soups / sizeof *soups; s++) {
+        rt_scene *scene = rays_scene();
+        add_soup(scene, &stream, soups[s].count, soups[s].size, soups[s].scale, soups[s].move);
+        rt_ray *rays = make_rays(&stream, 8192, soups[s].scale, soups[s].move);
+        hits += expect_same(scene, rays, 8192);
+        free(rays);
+        rt_scene_destroy(scene);
+    }
+    assert_true(hits > 10000);
+}
+
+static void bvh_matches_brute_force_on_all_kinds(void **state)
+{
+    (void)state;
+    rays_stream stream = {6};
+    rt_scene *scene = rays_scene();
+    add_soup(scene, &stream, 300, 0.2f, 1.0f, nowhere);
+    for (int i = 0; i < 60; i++) {
+        float centre[3], edge1[3], edge2[3];
+        rays_point(&stream, 1.0f, centre);
+        rays_add_sphere(scene, centre, rays_between(&stream, 0.01f, 0.2f));
+        rays_point(&stream, 1.0f, centre);
+        rays_point(&stream, 0.3f, edge1);
+        rays_point(&stream, 0.3f, edge2);
+        rays_add_quad(scene, centre, edge1, edge2);
+    }
+    rays_add_plane(scene, (const float[3]){0, -1.5f, 0}, (const float[3]){0.1f, 1, 0});
+    rays_add_plane(scene, (const float[3]){0, 0, 2.5f}, (const float[3]){0, 0, 1});
+    rt_ray *rays = make_rays(&stream, 20000, 1.0f, nowhere);
+    assert_true(expect_same(scene, rays, 20000) > 5000);
+    free(rays);
+    rt_scene_destroy(scene);
+}
+
+static void duplicates_give_the_lowest_primitive(void **state)
+{
+    (void)state;
+    static const float positions[3][3] = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    static uint32_t indices[100][3];
+    for (int i = 0; i < 100; i++)
+        for (uint32_t c = 0; c < 3; c++)
+            indices[i][c] = c;
+    rays_stream stream = {7};
+    rt_scene *scene = rays_scene();
+    rays_add_triangles(scene, positions[0], 3, indices[0], 100);
+    rt_ray *rays = make_rays(&stream, 2000, 1.0f, nowhere);
+    expect_same(scene, rays, 2000);
+    rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
+    rt_hit *hits = rays_trace(renderer, RT_TRACE_CLOSEST, rays, 2000);
+    size_t found = 0;
+    for (size_t i = 0; i < 2000; i++)
+        if (hits[i].shape != RT_NONE) {
+            assert_int_equal(hits[i].prim, 0);
+            found++;
+        }
+    assert_true(found > 50);
+    free(hits);
+    free(rays);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+}
+
+static void an_empty_scene_is_missed(void **state)
+{
+    (void)state;
+    rays_stream stream = {8};
+    rt_scene *scene = rays_scene();
+    rt_ray *rays = make_rays(&stream, 500, 1.0f, nowhere);
+    assert_int_equal(expect_same(scene, rays, 500), 0);
+    free(rays);
+    rt_scene_destroy(scene);
+}
+
+/* One triangle at z = 2, and rays along z from 0: t is 2 exactly. */
+static void the_range_includes_its_ends(void **state)
+{
+    (void)state;
+    static const float positions[3][3] = {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}, from[3] = {0, 0, 0}, along[3] = {0, 0, 1};
+    static const uint32_t indices[3] = {0, 1, 2};
+    static const struct {
+        float t_min, t_max;
+        int hit;
+    } ranges[] = {{0, 2, 1}, {2, 3, 1}, {2, 2, 1}, {0, 1.9999f, 0}, {2.0001f, 5, 0}, {-5, 5, 1}, {-5, -1, 0}};
+    rt_scene *scene = rays_scene();
+    rays_add_triangles(scene, positions[0], 3, indices, 1);
+    for (int accel = 0; accel < 2; accel++) {
+        rt_renderer *renderer = rays_renderer(scene, accel ? RT_ACCEL_NONE : RT_ACCEL_BVH);
+        for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+            const rt_ray ray = rays_make(from, along, ranges[i].t_min, ranges[i].t_max);
+            rt_hit *closest = rays_trace(renderer, RT_TRACE_CLOSEST, &ray, 1);
+            rt_hit *any = rays_trace(renderer, RT_TRACE_ANY, &ray, 1);
+            assert_int_equal(closest->shape != RT_NONE, ranges[i].hit);
+            assert_int_equal(any->shape != RT_NONE, ranges[i].hit);
+            free(closest);
+            free(any);
+        }
+        rt_renderer_destroy(renderer);
+    }
+    rt_scene_destroy(scene);
+}
+
+/* A closed bumpy surface of a grid of side x 2 side cells around the origin. */
+enum { side = 60, around = 2 * side };
+static float shell[side + 1][around][3];
+static uint32_t shell_faces[side][around][2][3];
+
+static void make_shell(float scale, const float move[3])
+{
+    const double pi = acos(-1.0);
+    for (uint32_t j = 0; j <= side; j++)
+        for (uint32_t i = 0; i < around; i++) {
+            const double u = 2 * pi * i / around, v = pi * j / side;
+            const double r = j == 0 || j == side ? 1.0 : 1.0 + 0.1 * sin(7 * u) * sin(9 * v);
+            shell[j][i][0] = move[0] + scale * (float)(r * sin(v) * (j == side ? 0 : cos(u)));
+            shell[j][i][1] = move[1] + scale * (float)(r * cos(v));
+            shell[j][i][2] = move[2] + scale * (float)(r * sin(v) * (j == side ? 0 : sin(u)));
+        }
+    for (uint32_t j = 0; j < side; j++)
+        for (uint32_t i = 0; i < around; i++) {
+            const uint32_t a = j * around + i, b = j * around + (i + 1) % around;
+            const uint32_t faces[2][3] = {{a, b, a + around}, {b, b + around, a + around}};
+            memcpy(shell_faces[j][i], faces, sizeof faces);
+        }
+}
+
+/* From inside, at vertices, at the middles of edges, and along the axes: no ray gets out. */
+static void closed_meshes_do_not_leak(void **state)
+{
+    (void)state;
+    static const struct {
+        float scale, move[3];
+    } places[] = {{1, {0, 0, 0}}, {1e-3f, {0, 0, 0}}, {1, {100, 50, -70}}};
+    enum { count = 60000 };
+    rays_stream stream = {9};
+    for (size_t p = 0; p < sizeof places / sizeof *places; p++) {
+        make_shell(places[p].scale, places[p].move);
+        rt_scene *scene = rays_scene();
+        rays_add_triangles(scene, shell[0][0], (side + 1) * around, shell_faces[0][0][0], 2 * side * around);
+        rt_ray *rays = malloc(count * sizeof *rays);
+        for (size_t i = 0; i < count; i++) {
+            float from[3], direction[3];
+            const uint32_t *face = shell_faces[0][0][(size_t)(rays_uniform(&stream) * 2 * side * around)];
+            const float *a = shell[0][face[0]], *b = shell[0][face[i % 2]];
+            rays_point(&stream, 0.4f * places[p].scale, from);
+            for (int k = 0; k < 3; k++) {
+                from[k] += places[p].move[k];
+                direction[k] = 0.5f * (a[k] + b[k]) - from[k];
+            }
+            if (i % 10 == 0)
+                for (int k = 0; k < 3; k++) {
+                    from[k] = places[p].move[k];
+                    direction[k] = k == (int)(i / 10 % 3) ? (i % 20 ? 1.0f : -1.0f) : 0.0f;
+                }
+            rays[i] = rays_make(from, direction, 0.0f, INFINITY);
+        }
+        rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
+        rt_hit *hits = rays_trace(renderer, RT_TRACE_CLOSEST, rays, count);
+        size_t leaks = 0;
+        for (size_t i = 0; i < count; i++)
+            leaks += hits[i].shape == RT_NONE;
+        assert_int_equal(leaks, 0);
+        free(hits);
+        free(rays);
+        rt_renderer_destroy(renderer);
+        rt_scene_destroy(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bvh_matches_brute_force_on_triangles),
+        cmocka_unit_test(bvh_matches_brute_force_on_all_kinds),
+        cmocka_unit_test(duplicates_give_the_lowest_primitive),
+        cmocka_unit_test(an_empty_scene_is_missed),
+        cmocka_unit_test(the_range_includes_its_ends),
+        cmocka_unit_test(closed_meshes_do_not_leak),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

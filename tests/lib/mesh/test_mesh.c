@@ -1,0 +1,181 @@
+/* Loading: formats told apart, files that are none, progress and cancelling, normals. */
+#define _XOPEN_SOURCE 700 /* mkfifo */
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "lib/image/scratch.h"
+#include "lib/mesh/sample.h"
+
+#define PLY "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+#define FACE "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+#define TRIANGLE PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+
+static void formats_go_by_content_then_by_name(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.ply", "a.PLY", "a", "a.obj", "a.b.stl"};
+    for (int i = 0; i < 5; i++)
+        rt_mesh_destroy(sample_accept(names[i], TRIANGLE));
+    rt_mesh_destroy(sample_accept("A.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    rt_mesh_destroy(sample_accept("A.Off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
+    sample_refuse("a.ply", "v 0 0 0\n", 1, "not a PLY file");
+    sample_refuse("a.txt", "v 0 0 0\n", 0, "unknown mesh format");
+    sample_refuse("plain", "v 0 0 0\n", 0, "unknown mesh format");
+    sample_refuse("a.", "", 0, "unknown mesh format");
+}
+
+static void fails(const char *path, const char *part)
+{
+    rt_mesh *mesh = NULL;
+    rt_error error = {0};
+    assert_int_equal(rt_mesh_load(&mesh, path, NULL, &error), RT_ERROR_INPUT);
+    assert_null(mesh);
+    assert_string_equal(error.file, path);
+    if (!strstr(error.message, part))
+        fail_msg("'%s' does not contain '%s'", error.message, part);
+    assert_int_equal(rt_mesh_load(&mesh, path, NULL, NULL), RT_ERROR_INPUT);
+}
+
+static void what_is_no_file_is_refused(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("directory.ply", 0755), 0);
+    assert_int_equal(mkfifo("pipe.ply", 0644), 0);
+    fails("missing.ply", "missing.ply");
+    fails("directory.ply", "not a regular file");
+    fails("pipe.ply", "not a regular file");
+    fails("/dev/zero", "not a regular file");
+    assert_int_equal(unlink("pipe.ply"), 0);
+    assert_int_equal(rmdir("directory.ply"), 0);
+}
+
+/* What the hooks were told. */
+typedef struct heard {
+    int reports, cancel_at, lines;
+    double last;
+    char text[1024];
+} heard;
+
+static int on_progress(void *user, const rt_progress *progress)
+{
+    heard *h = user;
+    assert_int_equal(progress->stage, RT_STAGE_LOAD);
+    assert_true(progress->fraction >= h->last && progress->fraction <= 1);
+    h->last = progress->fraction;
+    return ++h->reports == h->cancel_at;
+}
+
+static void on_log(void *user, const char *line)
+{
+    heard *h = user;
+    h->lines++;
+    size_t used = strlen(h->text);
+    snprintf(h->text + used, sizeof h->text - used, "%s\n", line);
+}
+
+static void progress_is_reported_and_cancels(void **state)
+{
+    (void)state;
+    heard h = {0};
+    rt_hooks hooks = {on_progress, on_log, &h};
+    rt_mesh *mesh = NULL;
+    rt_error error = {0};
+    scratch_write("a.ply", TRIANGLE);
+    assert_int_equal(rt_mesh_load(&mesh, "a.ply", &hooks, &error), RT_OK);
+    assert_true(h.reports >= 2);
+    assert_true(h.last == 1);
+    rt_mesh_destroy(mesh);
+    mesh = NULL;
+
+    for (int at = 1; at <= 2; at++) {
+        heard c = {.cancel_at = at};
+        hooks.user = &c;
+        assert_int_equal(rt_mesh_load(&mesh, "a.ply", &hooks, &error), RT_CANCELLED);
+        assert_int_equal(error.status, RT_CANCELLED);
+        assert_null(mesh);
+    }
+}
+
+static void the_log_tells_what_was_left_out(void **state)
+{
+    (void)state;
+    static const char *const parts[] = {
+        "a.ply: 1 of 3 faces have fewer than three corners, thus no area, and are left out; the first is face 1",
+        "a.ply: 1 of 2 triangles have no area",
+        "a.ply: 1 normals have no length",
+        "what follows the last element, from line 20 on, is ignored",
+        "4 vertices and 3 faces in the file, 4 vertices and 2 triangles in the mesh",
+    };
+    heard h = {0};
+    rt_hooks hooks = {NULL, on_log, &h};
+    rt_mesh *mesh = NULL;
+    scratch_write("a.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                  "property float nx\nproperty float ny\nproperty float nz\nelement face 3\n"
+                  "property list uchar int vertex_indices\nend_header\n"
+                  "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 0\n9 9 9 0 0 1\n3 0 1 2\n2 0 1\n3 0 0 1\nmore\n");
+    assert_int_equal(rt_mesh_load(&mesh, "a.ply", &hooks, NULL), RT_OK);
+    rt_mesh_destroy(mesh);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (!strstr(h.text, parts[i]))
+            fail_msg("the log lacks '%s':\n%s", parts[i], h.text);
+}
+
+static void normals_come_out_at_length_one(void **state)
+{
+    (void)state;
+    /* Lengths from the least float to the greatest; the last vertex has none and belongs to no face. */
+    static const float expected[] = {0.6f, 0, 0.8f, 0, 1, 0, -1, 0, 0, 0, 1, 0};
+    rt_mesh *mesh =
+        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                               "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n" FACE
+                               "0 0 0 3 0 4\n1 0 0 0 3e38 0\n0 1 0 -1e-45 0 0\n5 5 5 0 0 0\n3 0 1 2\n");
+    for (int i = 0; i < 12; i++)
+        assert_true(fabsf(mesh->normals[i] - expected[i]) < 1e-6f);
+    rt_mesh_destroy(mesh);
+}
+
+/* A roof: at the ridge the normal is the mean, weighted by area; far from the ridge it is the face's own. */
+static void smooth_normals_weigh_faces_by_area(void **state)
+{
+    (void)state;
+    rt_mesh *mesh =
+        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+                               "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                               "0 0 0\n0 1 0\n-3 0 0\n0 0 -1\n7 7 7\n3 0 1 2\n3 1 0 3\n");
+    rt_error error;
+    assert_null(mesh->normals);
+    assert_int_equal(rt_mesh_smooth(mesh, &error), RT_OK);
+    const float ridge = 1 / sqrtf(10.0f);
+    const float expected[] = {ridge, 0, 3 * ridge, ridge, 0, 3 * ridge, 0, 0, 1, 1, 0, 0, 0, 1, 0};
+    for (int i = 0; i < 15; i++)
+        assert_true(fabsf(mesh->normals[i] - expected[i]) < 1e-6f);
+    rt_mesh_destroy(mesh);
+}
+
+static void destroying_nothing_is_fine(void **state)
+{
+    (void)state;
+    rt_mesh_destroy(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(formats_go_by_content_then_by_name), cmocka_unit_test(what_is_no_file_is_refused),
+        cmocka_unit_test(progress_is_reported_and_cancels),   cmocka_unit_test(the_log_tells_what_was_left_out),
+        cmocka_unit_test(normals_come_out_at_length_one),     cmocka_unit_test(smooth_normals_weigh_faces_by_area),
+        cmocka_unit_test(destroying_nothing_is_fine),
+    };
+    return cmocka_run_group_tests_name("mesh/mesh", tests, scratch_enter, scratch_leave);
+}

@@ -1,0 +1,104 @@
+/* Geomview OFF: its variants, and files that are wrong. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "lib/image/scratch.h"
+#include "lib/mesh/sample.h"
+
+#define SQUARE "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+
+static void refuse(const char *text, int line, const char *part)
+{
+    sample_refuse("a.off", text, line, part);
+}
+
+static void polygons_become_fans(void **state)
+{
+    (void)state;
+    static const float square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const unsigned three[] = {0, 1, 2, 0, 2, 3, 3, 2, 1};
+    static const char *const heads[] = {"OFF\n4 2 0\n", "OFF 4 2 5\n", "# a square\nOFF\n\n# counts\n4 2\n", "4 2 0\n"};
+    for (int i = 0; i < 4; i++) {
+        char text[256];
+        strcpy(text, heads[i]);
+        strcat(text, SQUARE "\n4 0 1 2 3\n# red\n3 3 2 1 255 0 0\n");
+        rt_mesh *mesh = sample_accept("a.off", text);
+        sample_expect_floats(mesh->positions, square, 12);
+        sample_expect_triangles(mesh, three, 3);
+        assert_int_equal(mesh->file_vertices, 4);
+        assert_int_equal(mesh->file_faces, 2);
+        rt_mesh_destroy(mesh);
+    }
+}
+
+static void prefixes_announce_attributes(void **state)
+{
+    (void)state;
+    static const float normals[] = {0, 0, 1}, uv[] = {0.25f, 0.75f};
+    rt_mesh *mesh = sample_accept("a.off", "STCNOFF\n1 0 0\n1 2 3 0 0 2 255 51 0 128 .25 .75\n");
+    sample_expect_floats(mesh->normals, normals, 3);
+    sample_expect_floats(mesh->uv, uv, 2);
+    assert_true(mesh->colours[0] == 1 && fabsf(mesh->colours[1] - 0.2f) < 1e-7f && mesh->colours[2] == 0);
+    rt_mesh_destroy(mesh);
+    mesh = sample_accept("a.off", "COFF\n1 0 0\n1 2 3 0.5 1.0 0.0\n");
+    assert_true(mesh->colours[0] == 0.5f && mesh->colours[1] == 1 && mesh->colours[2] == 0);
+    assert_null(mesh->normals);
+    assert_null(mesh->uv);
+    rt_mesh_destroy(mesh);
+}
+
+static void short_faces_are_counted(void **state)
+{
+    (void)state;
+    rt_mesh *mesh = sample_accept("a.off", "OFF\n4 3 0\n" SQUARE "2 0 1\n3 0 1 2\n0\n");
+    assert_int_equal(mesh->triangle_count, 1);
+    assert_int_equal(mesh->skipped_faces, 2);
+    rt_mesh_destroy(mesh);
+}
+
+static void wrong_files_are_refused_at_the_line(void **state)
+{
+    (void)state;
+    refuse("", 1, "empty");
+    refuse("OFF\n", 2, "ends before its counts");
+    refuse("OFG\n1 0 0\n", 1, "'OFG'");
+    refuse("4OFF\n1 0 0\n", 1, "'4OFF'");
+    refuse("nOFF\n3\n1 0 0\n", 1, "'nOFF'");
+    refuse("OFF BINARY\n\1\2\3", 1, "binary OFF");
+    refuse("OFF\n-1 0 0\n", 2, "count of vertices: '-1'");
+    refuse("OFF\n1000000000 0 0\n0 0 0\n", 2, "count of vertices: '1000000000'");
+    refuse("OFF\n1 99999999999999999999 0\n0 0 0\n", 2, "count of faces");
+    refuse("OFF\n1\n0 0 0\n", 2, "count of faces: ''");
+    refuse("OFF\n1 0 0 0\n0 0 0\n", 2, "more than three counts");
+    refuse("OFF\n2 0 0\n0 0 0\n        \n", 5, "the file ends after 1 of 2 vertices");
+    refuse("OFF\n1 1 0\n0 0 0\n        \n", 5, "0 of 1 faces");
+    refuse("OFF\n1 0 0\n0 0        \n", 3, "vertex 0 has 2 values; expected 3");
+    refuse("OFF\n1 0 0\n0 0 0 1\n", 3, "vertex 0 has 4 values; expected 3");
+    refuse("COFF\n1 0 0\n0 0 0 1 1\n", 3, "vertex 0 has 5 values; expected 3 and 3 or 4 of colour");
+    refuse("STCNOFF\n1 0 0\n1 2 3 4 5 6 7 8 9 10 11 12 13 14\n", 3, "vertex 0 has at least 13 values");
+    refuse("OFF\n1 0 0\n0 nan 0\n", 3, "'nan'");
+    refuse("OFF\n1 0 0\n0 zero 0\n", 3, "'zero'");
+    refuse("OFF\n4 1 0\n" SQUARE "3 0 1 4\n", 7, "'4' is not a whole number from 0 to 3");
+    refuse("OFF\n4 1 0\n" SQUARE "3 0 1 -1\n", 7, "'-1'");
+    refuse("OFF\n4 1 0\n" SQUARE "-3 0 1 2\n", 7, "'-3'");
+    refuse("OFF\n4 1 0\n" SQUARE "1000000 0 1 2\n", 7, "'1000000'");
+    refuse("OFF\n4 1 0\n" SQUARE "3 0 1         \n", 8, "the file ends in face 0 of 1");
+    refuse("OFF\n0 1 0\n3 0 0 0\n", 3, "no vertices");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(polygons_become_fans),
+        cmocka_unit_test(prefixes_announce_attributes),
+        cmocka_unit_test(short_faces_are_counted),
+        cmocka_unit_test(wrong_files_are_refused_at_the_line),
+    };
+    return cmocka_run_group_tests_name("mesh/off", tests, scratch_enter, scratch_leave);
+}

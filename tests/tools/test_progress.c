@@ -1,0 +1,240 @@
+/* test_progress.c - what the command says while it renders, and how it is interrupted. */
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "small_scene.h"
+#include "spawn.h"
+
+/* ---- What is said --------------------------------------------------------------- */
+
+static void idle_options_are_warned_of(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 1 --k 5 --exposure 1 --out a.pfm");
+    expect_status(&run, 0);
+    expect_err(&run, "warning: --k has no effect in path mode");
+    expect_err(&run, "warning: --exposure and --tonemap have no effect");
+    run_free(&run);
+
+    run = run_rtc("a.rts --spp 1 --mode photon --photons 1000 --cone-k 2 --out a.pfm");
+    expect_err(&run, "warning: --cone-k has no effect without --kernel cone");
+    run_free(&run);
+}
+
+static void quiet_says_nothing(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 1 --quiet --k 5 --out a.pfm");
+    expect_status(&run, 0);
+    assert_string_equal(run.err, "");
+    assert_string_equal(run.out, "");
+    run_free(&run);
+}
+
+static void verbose_names_the_device_and_its_threads(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 1 --threads 1 --verbose --out a.pfm");
+    expect_status(&run, 0);
+    expect_err(&run, "device ");
+    expect_err(&run, ", 1 compute unit\n");
+    run_free(&run);
+}
+
+static void plain_progress_names_the_stages(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 1 --mode photon --photons 1000 --out a.pfm");
+    expect_status(&run, 0);
+    static const char *const stages[] = {"build   100 %", "compile 100 %", "emit    100 %", "gather  100 %"};
+    for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++)
+        expect_err(&run, stages[i]);
+    expect_no_err(&run, "\r");
+    expect_no_err(&run, "\033");
+    run_free(&run);
+}
+
+static void json_progress_is_one_object_a_line(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 1 --progress json --quiet --out a.pfm");
+    expect_status(&run, 0);
+    int lines = 0;
+    for (char *line = strtok(run.err, "\n"); line; line = strtok(NULL, "\n"), lines++) {
+        char stage[16], remaining[32];
+        double fraction, elapsed;
+        assert_int_equal(sscanf(line, "{\"stage\":\"%15[a-z]\",\"fraction\":%lf,\"elapsed\":%lf,\"remaining\":%31[^}]}",
+                                stage, &fraction, &elapsed, remaining),
+                         4);
+        assert_true(fraction >= 0.0 && fraction <= 1.0 && elapsed >= 0.0);
+        assert_int_equal(line[strlen(line) - 1], '}');
+    }
+    /* The beginning and the end of three stages. */
+    assert_true(lines >= 6);
+    run_free(&run);
+}
+
+/* With an empty cache of the driver, the build takes seconds. */
+static void first_compile_keeps_reporting(void **state)
+{
+    (void)state;
+    char cache[64];
+    snprintf(cache, sizeof cache, "/tmp/rtc-cache-%ld", (long)getpid());
+    scratch_write("a.rts", small_scene);
+    assert_int_equal(mkdir(cache, 0777), 0);
+    run run =
+        run_rtc("POCL_CACHE_DIR=%s rtc a.rts --spp 1 --mode photon --photons 1000 --progress json --out a.pfm", cache);
+    char remove[96];
+    snprintf(remove, sizeof remove, "rm -rf %s", cache);
+    assert_int_equal(system(remove), 0);
+    expect_status(&run, 0);
+    double last = 0.0, elapsed;
+    int reports = 0;
+    for (char *at = run.err; (at = strstr(at, "{\"stage\":\"compile\"")); at++, reports++) {
+        assert_int_equal(sscanf(strstr(at, "elapsed"), "elapsed\":%lf", &elapsed), 1);
+        assert_true(elapsed - last < 1.5);
+        last = elapsed;
+    }
+    /* On another driver, or a fast machine, there is little to tell. */
+    assert_true(reports >= 2);
+    run_free(&run);
+}
+
+static void no_progress_when_none_is_asked(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 1 --progress none --out a.pfm");
+    expect_status(&run, 0);
+    expect_no_err(&run, "%");
+    expect_err(&run, "wrote a.pfm");
+    run_free(&run);
+}
+
+static void terminal_gets_a_redrawn_line_and_colours(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc_terminal("TERM=xterm rtc a.rts --spp 1 --k 5 --out a.pfm");
+    expect_status(&run, 0);
+    expect_out(&run, "\rrender  100 %");
+    expect_out(&run, "\033[1;33mwarning: \033[0m");
+    run_free(&run);
+
+    run = run_rtc_terminal("TERM=xterm NO_COLOR=1 rtc a.rts --spp 1 --k 5 --out a.pfm");
+    expect_status(&run, 0);
+    expect_out(&run, "rtc: warning: --k");
+    run_free(&run);
+
+    run = run_rtc_terminal("TERM=dumb rtc a.rts --spp 1 --k 5 --out a.pfm");
+    expect_status(&run, 0);
+    expect_out(&run, "rtc: warning: --k");
+    assert_null(strstr(run.out, "\033"));
+    run_free(&run);
+}
+
+static void closed_stderr_does_not_end_a_render(void **state)
+{
+    (void)state;
+    char said[1 << 12] = "";
+    scratch_write("a.rts", small_scene);
+    running running = start_rtc("a.rts --spp 20 --progress json --out a.pfm");
+    assert_int_equal(running_wait_for(&running, "fraction", said, sizeof said), 0);
+    assert_int_equal(running_abandon(&running), 0);
+    expect_file("a.pfm");
+}
+
+/* ---- Interruption ----------------------------------------------------------------- */
+
+/* Starts a render that would last for hours, sends a signal once it renders, and looks at what is left. */
+static void interrupt_render(int signal_number, const char *options, const char *stage)
+{
+    static char said[1 << 20];
+    scratch_write("a.rts", small_scene);
+    said[0] = '\0';
+    running running = start_rtc("a.rts --spp 16000000 %s --progress json --out a.pfm", options);
+    assert_int_equal(running_wait_for(&running, stage, said, sizeof said), 0);
+    /* Let it draw a few samples. */
+    const struct timespec nap = {0, 500000000};
+    nanosleep(&nap, NULL);
+    assert_int_equal(kill(running.pid, signal_number), 0);
+    assert_int_equal(running_finish(&running, said, sizeof said), 130);
+    assert_non_null(strstr(said, "interrupted; wrote a.pfm: 24 x 16, "));
+    expect_file("a.pfm");
+}
+
+static void interrupted_path_render_writes_its_samples(void **state)
+{
+    (void)state;
+    interrupt_render(SIGINT, "", "\"render\"");
+}
+
+static void terminated_path_render_writes_its_samples(void **state)
+{
+    (void)state;
+    interrupt_render(SIGTERM, "", "\"render\"");
+}
+
+static void interrupted_photon_render_writes_its_samples(void **state)
+{
+    (void)state;
+    interrupt_render(SIGINT, "--mode photon --photons 1000", "\"gather\"");
+}
+
+static void second_interrupt_kills(void **state)
+{
+    (void)state;
+    static char said[1 << 20];
+    scratch_write("a.rts", small_scene);
+    said[0] = '\0';
+    running running = start_rtc("a.rts --spp 16000000 --progress json --out a.pfm");
+    assert_int_equal(running_wait_for(&running, "\"render\"", said, sizeof said), 0);
+    /* While it stands still it cannot act on the first, so both are there when it goes on. */
+    kill(running.pid, SIGSTOP);
+    kill(running.pid, SIGINT);
+    kill(running.pid, SIGTERM);
+    kill(running.pid, SIGCONT);
+    int status = running_finish(&running, said, sizeof said);
+    assert_true(status == 128 + SIGINT || status == 128 + SIGTERM);
+    expect_no_file("a.pfm");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(idle_options_are_warned_of),
+        TEST(quiet_says_nothing),
+        TEST(verbose_names_the_device_and_its_threads),
+        TEST(plain_progress_names_the_stages),
+        TEST(json_progress_is_one_object_a_line),
+        TEST(first_compile_keeps_reporting),
+        TEST(no_progress_when_none_is_asked),
+        TEST(terminal_gets_a_redrawn_line_and_colours),
+        TEST(closed_stderr_does_not_end_a_render),
+        TEST(interrupted_path_render_writes_its_samples),
+        TEST(terminated_path_render_writes_its_samples),
+        TEST(interrupted_photon_render_writes_its_samples),
+        TEST(second_interrupt_kills),
+    };
+    return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+}
