@@ -31,8 +31,8 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/error.c lib/progress.c lib/version.c \
 	lib/device/device.c lib/device/buffer.c lib/device/program.c \
-	lib/scene/area.c lib/scene/camera.c lib/scene/hierarchy.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
-	lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/scene.c \
+	lib/scene/area.c lib/scene/camera.c lib/scene/hierarchy.c lib/scene/light.c lib/scene/material.c \
+	lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/scene.c \
 	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
@@ -51,8 +51,9 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/build.c dsl/check.c dsl/load.c dsl/reader.c dsl/expression.c dsl/lexer.c dsl/names.c dsl/number.c dsl/parse_block.c \
-	dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/report.c dsl/schema.c dsl/source.c dsl/suggest.c
+	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c \
+	dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c \
+	dsl/source.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
 	tools/check.c tools/devices.c tools/doctor.c tools/help.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \

@@ -49,6 +49,16 @@ static double largest(const rt_scene *scene, float colour, uint32_t texture, int
     return texture ? (double)colour * scene->textures[texture - 1].largest[channel] : colour;
 }
 
+/* The field to point at: the first that counts, or its texture. */
+static const char *largest_field(const rt_material *m, double kd, double ks)
+{
+    if (kd > 0)
+        return m->kd_texture ? "kd_texture" : "kd";
+    if (ks > 0)
+        return m->ks_texture ? "ks_texture" : "ks";
+    return m->kt_texture ? "kt_texture" : "kt";
+}
+
 rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m, uint32_t shape_texture,
                                    const char *who, const char *field, rt_error *error)
 {
@@ -58,7 +68,7 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m, 
         double kt = largest(scene, m->kt[c], m->kt_texture, c);
         double sum = largest(scene, (float)kd, shape_texture, c) + ks + kt;
         if (sum > 1 + rounding)
-            return rt_fail_field(error, RT_ERROR_INPUT, field ? field : kd > 0 ? "kd" : ks > 0 ? "ks" : "kt",
+            return rt_fail_field(error, RT_ERROR_INPUT, field ? field : largest_field(m, kd, ks),
                                  "%s: kd + ks + kt is %g in %s%s; it must not exceed 1", who, sum, channel[c],
                                  m->kd_texture || m->ks_texture || m->kt_texture || shape_texture
                                      ? " where the textures are brightest"

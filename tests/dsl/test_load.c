@@ -28,7 +28,7 @@ static void every_field_reaches_the_scene(void **state)
         "film { width 640  height 480 }\n"
         "render { mode photon spp 7 max_depth 9 seed 4294967295 sampler independent time 2.5 photons 4000000000\n"
         "  k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons final_gather 2 }\n"
-        "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel true  two_sided true\n"
+        "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel dielectric  two_sided true\n"
         "  priority 3 }\n"
         "material plain { kd 0.7 }\n"
         "plane { point 0 0 0  normal 0 2 0  material plain }\n"
