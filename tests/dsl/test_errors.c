@@ -195,7 +195,7 @@ static const bad_text bad_texts[] = {
     {"texture wood { file \"none.png\" }\n", 1, 22, 8, "none.png", ""},
     {"texture wood { }\n", 1, 1, 7, "an image needs a file", ""},
     {"texture wood { file \"\" }\n", 1, 22, 0 + 1, "the name of the file is empty", ""},
-    {"texture wood { file wood.png }\n", 1, 21, 4, "'file' takes a file name in quotes, found 'wood'", ""},
+    {"texture wood { file wood }\n", 1, 21, 4, "'file' takes a file name in quotes, found 'wood'", ""},
     {"texture t { pattern checker a 1 }\nmaterial m { kd_texture t  ks 0.1 }", 2, 25, 1,
      "kd + ks + kt is 1.1 in red where the textures are brightest", ""},
     {"mesh m { file \"none.ply\" }\n", 1, 16, 8, "none.ply", ""},
