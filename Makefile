@@ -80,7 +80,8 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c \
 	tests/lib/mesh/test_text.c \
 	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
-	tests/lib/scene/test_scene.c tests/kernels/test_types.c tests/render/test_compare.c \
+	tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c tests/lib/scene/test_shapes.c \
+	tests/lib/light/test_environment.c tests/kernels/test_types.c tests/render/test_compare.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_camera.c tests/kernels/test_light.c tests/kernels/test_path.c \
 	tests/kernels/test_rng.c tests/kernels/test_sample.c \
@@ -93,7 +94,7 @@ TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/te
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c tests/kernels/rays.c tests/kernels/statistics.c
+	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/rays.c tests/kernels/statistics.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
 	tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
 

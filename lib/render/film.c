@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "error.h"
+#include "render/layers.h"
 
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error)
 {
@@ -31,6 +32,9 @@ void rt_film_destroy(rt_film *film)
         return;
     free(film->pixels);
     free(film->rgb);
+    free(film->layer_sums);
+    for (int i = 0; i < (int)RT_LAYER_COUNT; i++)
+        free(film->layers[i]);
     free(film);
 }
 
@@ -49,6 +53,7 @@ void rt_film_resolve(rt_film *film)
         film->stats.rejected += p->rejected;
     }
     film->stats.spp = (uint32_t)fewest;
+    rt_layers_resolve(film);
 }
 
 const float *rt_film_rgb(const rt_film *film)

@@ -10,6 +10,8 @@ struct rt_film {
     rt_film_stats stats;
     rt_film_pixel *pixels; /* [height][width], the sums */
     float *rgb;            /* [height][width][3], the means */
+    rt_film_pixel *layer_sums;     /* [RT_LAYER_COUNT][height][width], or NULL */
+    float *layers[RT_LAYER_COUNT]; /* [height][width][channels], the means, or NULL */
 };
 
 /* A black film for complete options; the caller owns *out. */

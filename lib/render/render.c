@@ -72,7 +72,7 @@ static void aim(rt_camera_data *out, const rt_camera *camera, const rt_render_op
     out->aperture = camera->aperture;
     out->kind = camera->kind;
     out->blades = camera->blades;
-    out->blade_rotation = (float)(camera->blade_rotation * pi / 180);
+    out->blade_rotation = (float)(fmod(camera->blade_rotation, 360) * pi / 180);
     out->focal_distance = camera->focal_distance;
     out->filter = options->filter;
     scale(out->corner, corner, 1);
@@ -95,6 +95,7 @@ rt_params rt_params_make(const rt_render_options *options)
     p.final_gather = options->final_gather;
     p.direct = options->direct;
     p.emitted = (float)options->photons;
+    p.estimator = options->estimator;
     return p;
 }
 
@@ -173,7 +174,7 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     film->stats.build_seconds = renderer->build_seconds;
     film->stats.light_power = renderer->image.light_power;
     status = complete.mode == RT_MODE_PHOTON ? rt_render_photon(renderer, &complete, film, error)
-                                             : rt_render_path(renderer, &complete, film, error);
+                                             : rt_render_samples(renderer, &complete, film, error);
     if (status == RT_OK || status == RT_CANCELLED)
         rt_film_resolve(film);
     int keep = status == RT_OK || (status == RT_CANCELLED && film->stats.spp > 0);

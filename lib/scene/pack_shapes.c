@@ -117,6 +117,14 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
     out->block_count = tree->block_count;
 }
 
+/* Whether the material differs from point to point. */
+static int is_varied(const rt_scene *scene, const rt_shape *shape)
+{
+    const rt_material *m = scene->materials + shape->material;
+    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) || m->kd_texture || m->ks_texture ||
+           m->kt_texture || m->bump_texture;
+}
+
 static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
 {
     const rt_scene_shape *shape = p->scene->shapes + index;
@@ -134,6 +142,8 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         pack_mesh(p, out, shape, p->shapes[index].normal);
     if ((out->kind == RT_SHAPE_TRIANGLES || out->kind == RT_SHAPE_QUAD) && rt_scene_is_mirrored(shape))
         out->flags |= RT_SHAPE_MIRRORED;
+    if (is_varied(p->scene, out))
+        out->flags |= RT_SHAPE_VARIED;
 }
 
 void rt_pack_shapes(const rt_packing *p)
