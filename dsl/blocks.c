@@ -28,6 +28,7 @@ static const char *const wraps[] = {"repeat", "mirror", "clamp", NULL};
 static const char *const fresnels[] = {"off", "dielectric", "conductor", NULL};
 static const char *const shadings[] = {"file", "flat", "smooth", NULL};
 static const char *const samplers[] = {"sobol", "independent", NULL};
+static const char *const estimators[] = {"mis", "light", "bsdf", NULL};
 static const char *const directs[] = {"nee", "photons", NULL};
 static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian", "silverman", "gaussian_jensen", NULL};
 
@@ -90,6 +91,7 @@ static const rt_field render_fields[] = {
      AT(rt_render_options, max_depth)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
+    {"estimator", CHOICE, OPTIONAL, ANY, "", "mis", estimators, AT(rt_render_options, estimator)},
     {"time", NUMBER, OPTIONAL, POSITIVE, "s", "no limit", NULL, AT(rt_render_options, time)},
     {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000", NULL,
      AT(rt_render_options, photons)},
