@@ -4,9 +4,9 @@
  *
  *   L(x, wo) = sum over the photons p in the disc of fr(x, wo, w_p) flux_p K(|x - x_p|)
  *
- * with fr = kd/pi; each flux_p carries the division by the number of emitted paths. Photons are as
- * dense as the geometric surface makes them, while reflection goes by the shading normal: photon.shading
- * is the ratio of the two cosines (Veach 1997, section 5.3).
+ * with fr = kd/pi, of which the point's weight has kd; each flux_p carries the division by the number of
+ * emitted paths. Photons are as dense as the geometric surface makes them, while reflection goes by the
+ * shading normal: photon.shading is the ratio of the two cosines (Veach 1997, section 5.3).
  */
 #include "density.h"
 #include "film.h"
@@ -30,8 +30,6 @@ kernel void photon_gather(const rt_params params, global const rt_scene_header *
     float3 radiance = row3(point->radiance);
 
     if (disc.count > 0u) {
-        const struct scene scene = scene_open(header);
-        const float3 fr = row3(scene.materials[point->material].kd) / RT_PI;
         float3 flux_density = (float3)(0.0f);
         for (uint i = 0; i < disc.count; i++) {
             global const rt_photon *photon = photons + list[i];
@@ -39,7 +37,7 @@ kernel void photon_gather(const rt_params params, global const rt_scene_header *
             const float k = density_kernel(estimate.density, estimate.cone_k, dot(away, away), disc.squared_radius);
             flux_density += (k * photon->shading) * row3(photon->flux);
         }
-        radiance += row3(point->weight) * fr * flux_density;
+        radiance += row3(point->weight) * flux_density / RT_PI;
     }
     rt_film_pixel pixel = film[point->pixel];
     film_add(&pixel, radiance);
