@@ -163,7 +163,8 @@ rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh, c
     if (status != RT_OK)
         return status;
     shape.has_transform = !rt_affine_is_identity(&shape.to_world);
-    shape.area = placed_area(scene, &shape);
+    if (!rt_is_black(surface->power))
+        shape.area = placed_area(scene, &shape);
     place_bounds(&shape, scene->meshes + mesh);
     return rt_scene_add_shape(scene, out, &shape, "instance", error);
 }

@@ -33,7 +33,7 @@ typedef struct rt_scene_shape {
     rt_surface surface;
     int caps;
     int emits;
-    double area; /* of all, world space, m^2; infinite for a plane */
+    double area; /* of all, world space, m^2; infinite for a plane; of a placed mesh only where its power is given */
     float p[9];  /* as rt_shape.p; quad: corner, edge1, edge2, in world space */
     int has_transform;
     rt_affine to_world; /* of the shape's own space, or of the mesh's */
@@ -100,8 +100,7 @@ double rt_scene_primitive_area(const rt_scene *scene, const rt_scene_shape *shap
 int rt_scene_is_mirrored(const rt_scene_shape *shape);
 
 /*
- * Checks what all shapes share and appends. The shape's kind, p, to_world, area and bounds are set; the area of
- * triangles is that of the mesh placed.
+ * Checks what all shapes share and appends. The shape's kind, p, to_world, area and bounds are set.
  */
 rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who, rt_error *error);
 

@@ -10,6 +10,9 @@
 
 static const float origin[3], y_axis[3] = {0, 1, 0};
 
+/* Flags of a mesh that has all that vertices can have. */
+static const rt_u32 vertex_data = RT_SHAPE_SMOOTH | RT_SHAPE_UV | RT_SHAPE_COLOUR | RT_SHAPE_VARIED;
+
 static rt_scene_image pack(const rt_scene *scene)
 {
     rt_scene_image image;
@@ -126,7 +129,7 @@ static void instances_have_trees_of_their_own(void **state)
     for (rt_u32 i = 0; i < 4; i++) {
         size_t triangles = i % 2 ? 800 : 18;
         assert_int_equal(shapes[i].kind, RT_SHAPE_INSTANCE);
-        assert_int_equal(shapes[i].flags, RT_SHAPE_SMOOTH | RT_SHAPE_UV | RT_SHAPE_COLOUR);
+        assert_int_equal(shapes[i].flags, vertex_data);
         assert_int_equal(prim_shape[shapes[i].first_prim], i);
         assert_int_equal(count_triangles(nodes, blocks, shapes[i].root, shapes[i].first_block, shapes[i].block_count),
                          triangles);
@@ -159,8 +162,8 @@ static void single_and_shining_meshes_are_baked(void **state)
 
     assert_true(h->prim_count == 16 && h->light_count == 8 && h->transform_count == 0 && h->analytic_count == 0);
     assert_int_equal(shapes[0].kind, RT_SHAPE_TRIANGLES);
-    assert_int_equal(shapes[0].flags, RT_SHAPE_SMOOTH | RT_SHAPE_UV | RT_SHAPE_COLOUR | RT_SHAPE_MIRRORED);
-    assert_int_equal(shapes[1].flags, RT_SHAPE_SMOOTH | RT_SHAPE_UV | RT_SHAPE_COLOUR);
+    assert_int_equal(shapes[0].flags, vertex_data | RT_SHAPE_MIRRORED);
+    assert_int_equal(shapes[1].flags, vertex_data);
     assert_true(shapes[0].first_light == RT_NONE && shapes[1].first_light == 0 && lights[0].prim == 8);
     assert_true(h->bounds_lo[0] == 3 && h->bounds_hi[0] == 7);
 

@@ -215,6 +215,29 @@ static void power_becomes_the_radiance_that_emits_it(void **state)
     rt_scene_destroy(scene);
 }
 
+/* The flux of a placed mesh: pi times radiance times the area of its triangles as they stand. */
+static void power_of_a_placed_mesh_is_spread_over_its_area(void **state)
+{
+    static const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    const rt_transform *const maps[] = {&similar, &skewed};
+    rt_error error;
+    (void)state;
+    for (int m = 0; m < 2; m++) {
+        rt_scene *scene = new_scene();
+        rt_surface lamp = placed(maps[m]);
+        float radiance[3];
+        lamp.power[0] = lamp.power[1] = lamp.power[2] = 5;
+        expect_ok(rt_scene_add_triangles(scene, NULL, corners, 4, indices, 2, NULL, &lamp, &error), &error);
+        rt_scene_shape_radiance(scene, scene->shapes, radiance);
+        double area = rt_scene_primitive_area(scene, scene->shapes, 0) +
+                      rt_scene_primitive_area(scene, scene->shapes, 1);
+        expect_area(area * pi * radiance[0], 5, 1e-6);
+        assert_true(m == 1 || fabs(area - 4) < 1e-6);
+        rt_scene_destroy(scene);
+    }
+}
+
 /* ---- Bounds ----------------------------------------------------------------- */
 
 /* Points of the surface reach the bounds of the shape, to a part in a thousand, and not beyond. */
@@ -268,6 +291,7 @@ int main(void)
         cmocka_unit_test(areas_under_affine_maps_match_brute_force),
         cmocka_unit_test(areas_of_plain_shapes_are_the_known_ones),
         cmocka_unit_test(power_becomes_the_radiance_that_emits_it),
+        cmocka_unit_test(power_of_a_placed_mesh_is_spread_over_its_area),
         cmocka_unit_test(bounds_hold_the_shape_and_little_more),
     };
     return cmocka_run_group_tests_name("lib/scene/shapes", tests, NULL, NULL);
