@@ -42,9 +42,4 @@ void rt_names_truncate(rt_names *names, size_t count);
 
 void rt_names_free(rt_names *names);
 
-/* All names that a scene defines, each kind by itself. */
-typedef struct rt_scope {
-    rt_names constants, materials, textures, meshes;
-} rt_scope;
-
 #endif

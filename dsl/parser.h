@@ -11,6 +11,7 @@
 #include "dsl/expression.h"
 #include "dsl/lexer.h"
 #include "dsl/schema.h"
+#include "dsl/scope.h"
 
 /* A field as it is written. */
 typedef struct rt_setting {

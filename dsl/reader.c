@@ -17,10 +17,7 @@ rt_status rt_reader_begin(rt_reader *reader, rt_error *error)
 void rt_reader_free(rt_reader *reader)
 {
     rt_scene_destroy(reader->scene);
-    rt_names_free(&reader->scope.constants);
-    rt_names_free(&reader->scope.materials);
-    rt_names_free(&reader->scope.textures);
-    rt_names_free(&reader->scope.meshes);
+    rt_scope_free(&reader->scope);
     rt_reports_free(&reader->reports);
     rt_sources_free(&reader->sources);
 }
@@ -30,7 +27,6 @@ static int must_stop(const rt_reader *reader)
     return rt_reports_full(&reader->reports) || reader->fatal.status != RT_OK;
 }
 
-#define UNUSED_MAX 100       /* names of one table that are warned of */
 #define REPEATS_MAX 32       /* repeats inside each other */
 #define TURNS_MAX 10000000.0 /* of all repeats of a scene */
 
@@ -63,21 +59,6 @@ static void read_let(rt_reader *reader, const rt_statement *statement, const rt_
     if (name) {
         name->value = value;
         name->is_broken = !is_good;
-    }
-}
-
-/* A name that the first text defines and nothing uses is perhaps misspelt; included files may be libraries. */
-static void warn_of_unused(rt_reader *reader, const rt_names *names, size_t first, const char *what)
-{
-    char quote[RT_QUOTE_SIZE];
-    int warned = 0;
-    for (size_t i = first; i < names->count && warned < UNUSED_MAX; i++) {
-        const rt_name *name = &names->items[i];
-        if (name->is_used || name->place.source->includer)
-            continue;
-        rt_report_warning(&reader->reports, name->place, "%s '%s' is never used", what,
-                          rt_text_quote(quote, name->text));
-        warned++;
     }
 }
 
@@ -247,34 +228,6 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
 static void read_statements(rt_reader *reader, rt_parser *parser, rt_statement *statement,
                             rt_operations *operations, int *is_closed);
 
-/* How many names there are of each kind. */
-typedef struct rt_counts {
-    size_t constants, materials, textures, meshes;
-} rt_counts;
-
-static rt_counts count_names(const rt_scope *scope)
-{
-    rt_counts counts = {scope->constants.count, scope->materials.count, scope->textures.count, scope->meshes.count};
-    return counts;
-}
-
-/* Warns of names from these counts on that nothing uses. */
-static void warn_of_names(rt_reader *reader, const rt_counts *from)
-{
-    warn_of_unused(reader, &reader->scope.constants, from->constants, "constant");
-    warn_of_unused(reader, &reader->scope.materials, from->materials, "material");
-    warn_of_unused(reader, &reader->scope.textures, from->textures, "texture");
-    warn_of_unused(reader, &reader->scope.meshes, from->meshes, "mesh");
-}
-
-static void forget_names(rt_scope *scope, const rt_counts *counts)
-{
-    rt_names_truncate(&scope->constants, counts->constants);
-    rt_names_truncate(&scope->materials, counts->materials);
-    rt_names_truncate(&scope->textures, counts->textures);
-    rt_names_truncate(&scope->meshes, counts->meshes);
-}
-
 /* What a repeat counts from and to. Where that is wrong, its body is read once for its own errors. */
 static int evaluate_range(rt_reader *reader, const rt_statement *statement, const rt_operations *operations,
                           double *first, double *last)
@@ -306,7 +259,7 @@ static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *stateme
                      rt_place variable, double number, int is_good, int is_first)
 {
     size_t errors = reader->reports.errors;
-    rt_counts before = count_names(&reader->scope);
+    rt_scope_counts before = rt_scope_count(&reader->scope);
     int is_closed = 0;
     rt_name *name = define(reader, &reader->scope.constants, variable, "constant");
     if (name) {
@@ -318,8 +271,8 @@ static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *stateme
     if (!is_closed && !must_stop(reader))
         rt_report_error(&reader->reports, variable, "this repeat is not closed: expected '}' before the end of the file");
     if (is_first && reader->reports.errors == 0)
-        warn_of_names(reader, &before);
-    forget_names(&reader->scope, &before);
+        rt_scope_warn(&reader->scope, &before, &reader->reports);
+    rt_scope_forget(&reader->scope, &before);
     return is_closed && reader->reports.errors == errors;
 }
 
@@ -404,9 +357,9 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_opti
             *error = reader->fatal;
         return reader->fatal.status;
     }
-    static const rt_counts all = {0, 0, 0, 0};
+    static const rt_scope_counts all = {0, 0, 0, 0};
     if (reader->reports.errors == 0)
-        warn_of_names(reader, &all);
+        rt_scope_warn(&reader->scope, &all, &reader->reports);
     rt_status status = rt_reports_finish(&reader->reports, options, error);
     if (status == RT_OK) {
         *out = reader->scene;

@@ -8,6 +8,7 @@
 
 #include "dsl/expression.h"
 #include "dsl/schema.h"
+#include "dsl/scope.h"
 
 typedef struct rt_reader {
     rt_scene *scene; /* owned until taken */
