@@ -44,7 +44,7 @@ LIB_SRC := \
 	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \
 	lib/photon/emit.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_map.c lib/photon/search.c \
-	lib/render/film.c lib/render/film_image.c lib/render/render.c lib/render/renderer.c lib/render/path_mode.c lib/render/photon_mode.c \
+	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/render.c lib/render/renderer.c lib/render/path_mode.c lib/render/photon_mode.c \
 	lib/render/sobol.c lib/render/trace.c \
 	lib/texture/half.c lib/texture/texture.c
 
@@ -62,7 +62,7 @@ TOOL_SRC := \
 	tools/rtc.c tools/scene_file.c tools/stats.c
 
 KERNEL_SRC := \
-	kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl kernels/photon_gather.cl kernels/trace.cl
+	kernels/enclose.cl kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl kernels/photon_gather.cl kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)

@@ -100,6 +100,7 @@ RT_SIZE(rt_hit, 32);
 #define RT_SHAPE_COLOUR 4u    /* flag: its vertices have colours */
 #define RT_SHAPE_CAPS 8u      /* flag: cylinder and cone are closed */
 #define RT_SHAPE_MIRRORED 16u /* flag of triangles and quads: in world space the normal is (v2 - v0) x (v1 - v0) */
+#define RT_SHAPE_VARIED 32u   /* flag: textures, vertex colours or bumps make the material differ from point to point */
 
 typedef struct rt_shape {
     rt_u32 kind;       /* RT_SHAPE_* */
@@ -209,7 +210,7 @@ typedef struct rt_light_data {
     rt_u32 prim;    /* primitive that emits, RT_NONE for lights without */
     rt_u32 flags;   /* RT_LIGHT_* flags */
     rt_u32 texture; /* multiplies the emission at the primitive's u and v; RT_NONE: none */
-    rt_u32 reserved[3];
+    rt_u32 media[3]; /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */
 } rt_light_data;
 RT_SIZE(rt_light_data, 112);
 
@@ -286,7 +287,8 @@ typedef struct rt_scene_header {
     rt_u32 accel; /* rt_accel */
     rt_environment_data environment;
     rt_camera_data camera;
-    rt_u32 reserved[20];
+    rt_u32 eye_media[4]; /* the solids around the eye, as paths list them (medium.h): material + 1, 0: none */
+    rt_u32 reserved[16];
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 384);
 
@@ -306,7 +308,8 @@ typedef struct rt_params {
     rt_u32 slots;        /* photon emission: photons a path can store */
     rt_u32 direct;       /* photon mode: rt_direct */
     float emitted;       /* photon paths emitted in all */
-    rt_u32 reserved[3];
+    rt_u32 estimator;    /* rt_estimator */
+    rt_u32 reserved[2];
 } rt_params;
 RT_SIZE(rt_params, 64);
 
@@ -318,6 +321,12 @@ typedef struct rt_film_pixel {
     rt_u32 rejected; /* samples that were not finite, left out */
 } rt_film_pixel;
 RT_SIZE(rt_film_pixel, 32);
+
+/* Layers beside the radiance. A sample that meets nothing adds 0 to all; w is the weight of the film's filter. */
+#define RT_LAYER_ALBEDO 0u /* w times albedo */
+#define RT_LAYER_NORMAL 1u /* w times shading normal */
+#define RT_LAYER_DEPTH 2u  /* depth, 1 and w of samples that meet something */
+#define RT_LAYER_COUNT 3u
 
 /* ---- Photons ------------------------------------------------------------ */
 
@@ -341,7 +350,7 @@ typedef struct rt_gather_point {
     rt_u32 pixel; /* film index */
     float normal[3]; /* unit, on the side of wo */
     rt_u32 material;
-    float weight[3]; /* of the reflected radiance on its way to the film, kd excluded; 0: nothing to gather */
+    float weight[3]; /* of the radiance reflected diffusely on its way to the film, kd included; 0: nothing to gather */
     rt_u32 sample;
     float wo[3];
     rt_u32 reserved0;
