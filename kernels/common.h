@@ -65,6 +65,17 @@ typedef enum rt_filter {
     RT_FILTER_MITCHELL  /* Mitchell and Netravali 1988, B = C = 1/3, 2 pixels */
 } rt_filter;
 
+/*
+ * How light that comes straight from a lamp is estimated where a surface scatters it. All have the same mean. Light
+ * that no scattered ray can meet (point, spot, directional) is always sampled, and what is seen by way of mirrors
+ * and clear glass always comes from the ray that meets it.
+ */
+typedef enum rt_estimator {
+    RT_ESTIMATOR_MIS = 0, /* both of the others, combined by the power heuristic */
+    RT_ESTIMATOR_LIGHT,   /* points sampled on lights */
+    RT_ESTIMATOR_BSDF     /* directions sampled from the material that happen to meet a light */
+} rt_estimator;
+
 typedef enum rt_accel {
     RT_ACCEL_BVH = 0,
     RT_ACCEL_NONE /* every primitive is tested, for comparison */

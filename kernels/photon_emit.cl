@@ -14,7 +14,7 @@
  *     (flux is not scaled at refraction, radiance is).
  */
 #include "bsdf.h"
-#include "light.h"
+#include "light_emit.h"
 #include "medium.h"
 #include "rng.h"
 #include "traverse.h"
@@ -37,7 +37,7 @@ static bool start_path(struct light_path *path, const struct scene *scene, const
         return false;
     path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f, INFINITY);
     path->flux = emission.flux / emitted;
-    path->media = RT_VACUUM;
+    path->media = (uint4)(vload3(0, scene->lights[emission.light].media), 0u) - 1u;
     path->depth = 1u;
     path->hidden = 0u;
     path->straight = true;
@@ -72,14 +72,14 @@ static bool scatter_path(struct light_path *path, const struct surface *surface,
     const uint event = bsdf_choose(bsdf, survival, u.z);
     if (event == EVENT_ABSORBED)
         return false;
-    const struct scatter scatter = bsdf_scatter(bsdf, event, u.xy, CARRY_FLUX);
+    const struct scatter scatter = bsdf_scatter(bsdf, event, u.xyw, CARRY_FLUX);
     path->flux *= scatter.weight / survival;
     if (!(largest3(path->flux) > 0.0f))
         return false;
     path->ray = make_ray(leave_surface(surface, scatter.wi), scatter.wi, 0.0f, INFINITY);
     path->straight = false;
     path->diffused |= event == EVENT_DIFFUSE;
-    if (event == EVENT_REFRACTED)
+    if (scatter.through)
         path->media = beyond;
     path->depth++;
     return true;
@@ -110,10 +110,13 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         global const rt_material_data *material = scene.materials + material_index;
         const float3 wo = -path.ray.direction;
 
+        /* Lose what the medium absorbs on the way. */
+        path.flux *= medium_transmittance(scene.materials, path.media.x, hit.t);
+
         /* Go straight on through a boundary that a stronger medium hides. */
         struct boundary boundary;
         boundary.beyond = path.media;
-        boundary.eta = 1.0f;
+        boundary.eta = media_ior(&scene, path.media);
         if (is_transparent(material)) {
             boundary = media_cross(&scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
             if (!boundary.exists) {
@@ -126,7 +129,7 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         }
 
         /* Leave a photon, unless shadow rays account for it. */
-        const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, path.flux);
+        const struct bsdf bsdf = bsdf_at(&scene, material, &surface, wo, boundary.eta, path.flux);
         if (bsdf_is_diffuse(&bsdf) && !(path.straight && params.direct == RT_DIRECT_NEE))
             own[count++] = make_photon(&path, &surface, &bsdf, index);
 

@@ -121,7 +121,7 @@ typedef enum rt_stage {
     RT_STAGE_COMPILE, /* building OpenCL kernels; quick once the driver has them cached */
     RT_STAGE_EMIT,    /* photon emission */
     RT_STAGE_GATHER,  /* photon mode: building the search tree, then camera paths and gathering */
-    RT_STAGE_RENDER   /* path mode: camera paths */
+    RT_STAGE_RENDER   /* the other modes: camera paths */
 } rt_stage;
 
 typedef struct rt_progress {
@@ -396,7 +396,7 @@ typedef struct rt_camera {
     float up[3];          /* all zero means (0, 1, 0) */
     float fov;            /* full horizontal angle, degrees, below 180; 0 means 45 */
     float width;          /* orthographic: metres across; 0 means 2 */
-    float aperture;       /* lens radius, metres; 0 is a pinhole */
+    float aperture;       /* lens radius, metres; 0 is a pinhole; an environment camera always is one */
     float focal_distance; /* metres along the view axis to the plane in focus; 0 means that of look_at */
     uint32_t blades;      /* edges of the aperture, 3 or more; 0: round */
     float blade_rotation; /* degrees */
@@ -408,22 +408,26 @@ RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, r
 typedef enum rt_mode {
     RT_MODE_PATH = 0, /* path tracing with next-event estimation and multiple importance sampling */
     RT_MODE_PHOTON,   /* photon mapping */
-    RT_MODE_DIRECT,   /* emission and direct light at the first hit (delta surfaces are followed) */
-    RT_MODE_NORMALS,  /* shading normal n at the first hit as the colour (n + 1) / 2 */
-    RT_MODE_ALBEDO,   /* kd + ks + kt at the first hit */
-    RT_MODE_DEPTH     /* distance along the view axis, metres; 0 where nothing is hit */
+    RT_MODE_DIRECT,   /* emission and direct light at the first hit (mirrors and clear glass are followed) */
+    RT_MODE_NORMALS,  /* shading normal n at the first hit as the colour (n + 1) / 2; black where nothing is hit */
+    RT_MODE_ALBEDO,   /* the part of the light that the first hit does not absorb: kd + ks + kt */
+    RT_MODE_DEPTH     /* distance along the view axis, metres, mean of the samples that hit; 0 where none does */
 } rt_mode;
+
+/* The name of a mode in lower case, such as "path"; static storage. */
+RT_API const char *rt_mode_name(rt_mode mode);
 
 /* Everything a render can be told. A scene carries such options as its defaults. */
 typedef struct rt_render_options {
     uint32_t width, height; /* pixels; 0 means 512 */
     rt_mode mode;
-    uint32_t spp;           /* samples a pixel; 0 means 64 in path mode, 16 in photon mode */
+    uint32_t spp;           /* samples a pixel; 0 means 64, in photon mode 16 */
     uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
     uint32_t seed;          /* the same seed gives the same bits */
     rt_sampler sampler;
     rt_filter filter;
-    int aov;                /* 1: also the layers albedo, normal and depth, for .exr */
+    rt_estimator estimator; /* of direct light, see common.h; where the photon map is asked, always by light sampling */
+    int aov;                /* 1: also the layers albedo, normal and depth, see rt_film_layer */
     double time;            /* stop after so many seconds of rendering; 0: no limit */
     uint64_t photons;       /* photon paths emitted; 0 means 1 000 000 */
     uint32_t k;             /* nearest photons; 0 means 50. The k-th gives the radius and is not summed */
@@ -518,6 +522,16 @@ RT_API void rt_film_destroy(rt_film *film);
 RT_API const float *rt_film_rgb(const rt_film *film);
 RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height);
 
+/*
+ * A layer of the film, [height][width][*channels], top row first; owned by the film. NULL when there is none of
+ * that name: layers are made where rt_render_options.aov asks for them, and by the modes that show one. All are means
+ * over the samples that the picture has. channels may be NULL.
+ *   "albedo"  3  kd + ks + kt of the first hit, 0 where nothing is hit
+ *   "normal"  3  its shading normal in the world, as the shape has it, not turned to the camera; 0 likewise
+ *   "depth"   1  metres along the view axis (from the eye, for an environment camera), mean of the samples that hit
+ */
+RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
+
 typedef struct rt_film_stats {
     uint32_t spp;              /* samples that every pixel has */
     uint64_t rejected;         /* samples left out because they were not finite */
@@ -539,7 +553,7 @@ typedef struct rt_image_options {
 
 /*
  * Writes the film in the format of the file's extension: .exr (linear float, with the seed, samples and
- * version as attributes), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
+ * version as attributes, and the layers as albedo.R .G .B, normal.X .Y .Z and depth.Z), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
  * Fails with RT_ERROR_USAGE for another extension and RT_ERROR_OUTPUT when it cannot be written.
  */
 RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error);

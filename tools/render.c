@@ -94,6 +94,12 @@ static void merge_options(render_job *job)
         options->mode = (rt_mode)value(job, OPTION_MODE)->choice;
     if (value(job, OPTION_SAMPLER)->given)
         options->sampler = (rt_sampler)value(job, OPTION_SAMPLER)->choice;
+    if (value(job, OPTION_FILTER)->given)
+        options->filter = (rt_filter)value(job, OPTION_FILTER)->choice;
+    if (value(job, OPTION_ESTIMATOR)->given)
+        options->estimator = (rt_estimator)value(job, OPTION_ESTIMATOR)->choice;
+    if (value(job, OPTION_AOV)->given)
+        options->aov = 1;
     if (value(job, OPTION_KERNEL)->given)
         options->kernel = (rt_density)value(job, OPTION_KERNEL)->choice;
     if (value(job, OPTION_DIRECT)->given)
@@ -106,8 +112,8 @@ static void warn_idle_options(const render_job *job)
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON &&
             value(job, (option_id)i)->given)
-            message_warning("--%s has no effect in path mode; --mode photon asks for photon mapping",
-                            option_table[i].name);
+            message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
+                            option_table[i].name, rt_mode_name(job->options.mode));
     if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
         job->options.kernel != RT_DENSITY_CONE)
         message_warning("--cone-k has no effect without --kernel cone");

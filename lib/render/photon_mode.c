@@ -7,6 +7,7 @@
 #include "error.h"
 #include "photon/emit.h"
 #include "photon/gather.h"
+#include "render/layers.h"
 #include "render/renderer.h"
 
 /* A render under way. */
@@ -18,6 +19,7 @@ typedef struct photon_render {
     rt_photon_map map;
     rt_gatherer *gatherer;
     cl_mem pixels; /* rt_film_pixel, the film on the device */
+    rt_layers layers;
     double began;  /* of emission, for options->time */
     rt_error error; /* of the search tree's thread */
 } photon_render;
@@ -44,6 +46,8 @@ static rt_status compile(photon_render *r, rt_error *error)
         status = rt_kernel_prepare(device, &r->camera, "photon_camera", "photon_camera", camera, 3, &progress, error);
     if (status == RT_OK)
         status = rt_kernel_prepare(device, &r->gather, "photon_gather", "photon_gather", gather, 8, &progress, error);
+    if (status == RT_OK && rt_layers_wanted(r->options))
+        status = rt_layers_begin(&r->layers, r->renderer, r->film, &progress, error);
     return status == RT_OK ? rt_stage_end(&progress, &r->film->stats.compile_seconds) : status;
 }
 
@@ -90,6 +94,8 @@ static rt_status add_part(photon_render *r, const rt_params *params, rt_error *e
     rt_status status = rt_kernel_args(r->camera, args, 3, error);
     if (status == RT_OK)
         status = rt_launch(r->renderer->device, r->camera, params->item_count, error);
+    if (status == RT_OK)
+        status = rt_layers_add(&r->layers, r->renderer, params, error);
     if (status == RT_OK)
         status = rt_gatherer_add(r->gatherer, params->item_count, r->pixels, &r->film->stats.gathers, error);
     return status;
@@ -144,6 +150,8 @@ static rt_status gather(photon_render *r, rt_error *error)
     status = add_samples(r, &progress, error);
     if (status == RT_OK || status == RT_CANCELLED) {
         rt_status read = rt_buffer_read(device, r->pixels, 0, bytes, film->pixels, error);
+        if (read == RT_OK)
+            read = rt_layers_read(&r->layers, r->renderer, film, error);
         rt_status end = rt_stage_end(&progress, &film->stats.gather_seconds);
         status = read != RT_OK ? read : status != RT_OK ? status : end;
     }
@@ -165,6 +173,7 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
         status = gather(&r, error);
     rt_gatherer_destroy(r.gatherer);
     rt_photon_map_clear(&r.map);
+    rt_layers_free(&r.layers);
     rt_buffer_release(r.pixels);
     rt_kernel_release(r.emit);
     rt_kernel_release(r.camera);

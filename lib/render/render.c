@@ -83,6 +83,12 @@ static void aim(rt_camera_data *out, const rt_camera *camera, const rt_render_op
     scale(out->axis, axis, 1);
 }
 
+const char *rt_mode_name(rt_mode mode)
+{
+    static const char *const names[] = {"path", "photon", "direct", "normals", "albedo", "depth"};
+    return (unsigned)mode < sizeof names / sizeof *names ? names[mode] : "unknown";
+}
+
 rt_params rt_params_make(const rt_render_options *options)
 {
     rt_params p;
