@@ -44,8 +44,8 @@ LIB_SRC := \
 	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \
 	lib/photon/emit.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_map.c lib/photon/search.c \
-	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/render.c lib/render/renderer.c lib/render/path_mode.c lib/render/photon_mode.c \
-	lib/render/sobol.c lib/render/trace.c \
+	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/layers.c lib/render/photon_mode.c \
+	lib/render/render.c lib/render/renderer.c lib/render/sample_mode.c lib/render/sobol.c lib/render/trace.c \
 	lib/texture/half.c lib/texture/texture.c
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
@@ -62,7 +62,8 @@ TOOL_SRC := \
 	tools/rtc.c tools/scene_file.c tools/stats.c
 
 KERNEL_SRC := \
-	kernels/enclose.cl kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl kernels/photon_gather.cl kernels/trace.cl
+	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl \
+	kernels/photon_gather.cl kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
@@ -83,9 +84,9 @@ TESTS_QUICK := \
 	tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c tests/lib/scene/test_shapes.c \
 	tests/lib/light/test_environment.c tests/kernels/test_types.c tests/render/test_compare.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
-	tests/kernels/test_bsdf.c tests/kernels/test_camera.c tests/kernels/test_light.c tests/kernels/test_path.c \
-	tests/kernels/test_rng.c tests/kernels/test_sample.c \
-	tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
+	tests/kernels/test_bsdf.c tests/kernels/test_camera.c tests/kernels/test_filter.c tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_path.c \
+	tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
+	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_modes.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
 TESTS_FULL  := \
 	tests/tools/test_mesh.c tests/tools/test_usage.c tests/tools/test_scenes.c tests/tools/test_rtc.c tests/tools/test_progress.c \
 	tests/tools/test_determinism.c \
@@ -94,9 +95,9 @@ TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/te
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/rays.c tests/kernels/statistics.c
-TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
-	tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
+	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/statistics.c
+TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl tests/kernels/filter.cl \
+	tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
 
 # ---- Build ------------------------------------------------------------------
 
