@@ -40,14 +40,14 @@ kernel void aov(const rt_params params, global const rt_scene_header *header, gl
             global const rt_material_data *material = scene.materials + scene.shapes[surface.shape].material;
             const float3 wo = -ray.direction;
             const struct bsdf bsdf = bsdf_at(&scene, material, &surface, wo, 1.0f, (float3)(1.0f));
-            colour = weight * bsdf_albedo(&bsdf);
+            colour = bsdf_albedo(&bsdf);
             /* The normal that light sees, bumps included, turned back to the side that the shape has it on. */
-            shading = (dot(wo, surface.normal) < 0.0f ? -weight : weight) * bsdf.shading;
+            shading = (dot(wo, surface.normal) < 0.0f ? -1.0f : 1.0f) * bsdf.shading;
             distance = (float3)(depth_of(&header->camera, surface.position), 1.0f, weight);
         }
-        film_add(&albedo, colour);
-        film_add(&normal, shading);
-        film_add(&depth, distance);
+        film_add(&albedo, colour, weight);
+        film_add(&normal, shading, weight);
+        film_add(&depth, distance, 1.0f);
     }
     layers[RT_LAYER_ALBEDO * film_size + index] = albedo;
     layers[RT_LAYER_NORMAL * film_size + index] = normal;

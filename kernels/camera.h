@@ -48,7 +48,7 @@ static inline struct ray camera_ray(global const rt_camera_data *camera, float2 
     return make_ray(origin, unit(direction), 0.0f, INFINITY);
 }
 
-/* The ray of a sample of the pixel `at`, and how often what it brings counts: see filter.h. */
+/* The ray of a sample of the pixel `at`, and its weight, 1 or -1: see filter.h. */
 static inline struct ray pixel_ray(global const rt_camera_data *camera, const rt_params *params,
                                    const struct sampler *sampler, uint2 at, float *weight)
 {

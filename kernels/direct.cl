@@ -19,7 +19,7 @@ kernel void direct(const rt_params params, global const rt_scene_header *header,
         const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample + i);
         float weight;
         const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
-        film_add(&pixel, weight * follow_path(&scene, &params, &sampler, ray, FOLLOW_DIRECT, 0));
+        film_add(&pixel, follow_path(&scene, &params, &sampler, ray, FOLLOW_DIRECT, 0), weight);
     }
     film[index] = pixel;
 }

@@ -1,10 +1,12 @@
 /*
  * filter.h - where in the plane of the film a sample of a pixel lies: reconstruction filters by importance sampling.
  *
- * A filter f of integral 1 about the pixel's centre is sampled by the density |f| / A, A = integral of |f|, and what
- * the sample brings counts A sign(f) times: the expectation of the weights is 1, and the mean of weight times
- * radiance over a pixel's samples is the filtered radiance without bias, from samples of that pixel alone. Only
- * Mitchell's filter is negative somewhere; the others have weight 1, so that an even picture stays exactly even.
+ * A filter f about the pixel's centre is sampled by a density in proportion to |f|, and what the sample brings counts
+ * sign(f) times: sum of weight times radiance over sum of weights is the filtered radiance, from samples of that
+ * pixel alone. Only Mitchell's filter is negative somewhere; the others have weight 1, and their mean no bias. The
+ * quotient of two sums keeps an even picture exactly even with Mitchell's filter too; its bias falls with the number
+ * of samples, as the variance does. (The expectation of the signs, the integral of f over that of |f|, as divisor
+ * would have no bias, but the noise of the signs, half the radiance a sample.)
  *
  * References:
  *   Mitchell, Netravali: "Reconstruction Filters in Computer Graphics", SIGGRAPH 1988.
@@ -52,7 +54,7 @@ static inline float2 sample_mitchell(float2 u, float *weight)
         step *= 0.5f;
     }
     const bool negative = (x.x > RT_MITCHELL_ROOT) != (x.y > RT_MITCHELL_ROOT);
-    *weight = (negative ? -1.0f : 1.0f) * RT_MITCHELL_SIZE * RT_MITCHELL_SIZE;
+    *weight = negative ? -1.0f : 1.0f;
     return side * x;
 }
 

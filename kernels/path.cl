@@ -19,7 +19,7 @@ kernel void path(const rt_params params, global const rt_scene_header *header, g
         const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample + i);
         float weight;
         const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
-        film_add(&pixel, weight * follow_path(&scene, &params, &sampler, ray, FOLLOW_ALL, 0));
+        film_add(&pixel, follow_path(&scene, &params, &sampler, ray, FOLLOW_ALL, 0), weight);
     }
     film[index] = pixel;
 }

@@ -16,25 +16,25 @@ kernel void photon_camera(const rt_params params, global const rt_scene_header *
     const uint2 at = pixel_of_item(&params, params.first_item + item);
     const uint index = at.y * params.width + at.x;
     const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample);
-    float count;
-    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &count);
+    float film_weight;
+    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &film_weight);
 
     struct gather gather;
     gather.found = false;
     gather.position = gather.normal = gather.wo = gather.weight = (float3)(0.0f);
     gather.material = 0u;
-    const float3 radiance = count * follow_path(&scene, &params, &sampler, ray, FOLLOW_TO_GATHER, &gather);
+    const float3 radiance = follow_path(&scene, &params, &sampler, ray, FOLLOW_TO_GATHER, &gather);
 
     rt_gather_point point;
     vstore3(gather.position, 0, point.position);
     point.pixel = index;
     vstore3(gather.normal, 0, point.normal);
     point.material = gather.material;
-    vstore3(count * gather.weight, 0, point.weight);
+    vstore3(gather.weight, 0, point.weight);
     point.sample = params.first_sample;
     vstore3(gather.wo, 0, point.wo);
-    point.reserved0 = 0u;
+    point.film_weight = film_weight;
     vstore3(radiance, 0, point.radiance);
-    point.reserved1 = 0u;
+    point.reserved = 0u;
     points[item] = point;
 }

@@ -40,6 +40,6 @@ kernel void photon_gather(const rt_params params, global const rt_scene_header *
         radiance += row3(point->weight) * flux_density / RT_PI;
     }
     rt_film_pixel pixel = film[point->pixel];
-    film_add(&pixel, radiance);
+    film_add(&pixel, radiance, point->film_weight);
     film[point->pixel] = pixel;
 }

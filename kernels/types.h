@@ -313,19 +313,21 @@ typedef struct rt_params {
 } rt_params;
 RT_SIZE(rt_params, 64);
 
-/* A pixel of the film: compensated (Kahan) sum of radiance, in order of the samples. */
+/* A pixel of the film: compensated (Kahan) sum of weight times radiance, in order of the samples. */
 typedef struct rt_film_pixel {
     float sum[3];
-    float weight; /* number of samples */
+    float weight;  /* sum of the samples' weights, which are 1 or -1: see filter.h */
     float lost[3]; /* what rounding lost from sum */
+    rt_u32 count;  /* samples */
     rt_u32 rejected; /* samples that were not finite, left out */
+    rt_u32 reserved[3];
 } rt_film_pixel;
-RT_SIZE(rt_film_pixel, 32);
+RT_SIZE(rt_film_pixel, 48);
 
 /* Layers beside the radiance. A sample that meets nothing adds 0 to all; w is the weight of the film's filter. */
 #define RT_LAYER_ALBEDO 0u /* w times albedo */
 #define RT_LAYER_NORMAL 1u /* w times shading normal */
-#define RT_LAYER_DEPTH 2u  /* depth, 1 and w of samples that meet something */
+#define RT_LAYER_DEPTH 2u  /* depth, 1 and w of samples that meet something, with the weight 1 */
 #define RT_LAYER_COUNT 3u
 
 /* ---- Photons ------------------------------------------------------------ */
@@ -353,9 +355,9 @@ typedef struct rt_gather_point {
     float weight[3]; /* of the radiance reflected diffusely on its way to the film, kd included; 0: nothing to gather */
     rt_u32 sample;
     float wo[3];
-    rt_u32 reserved0;
+    float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
-    rt_u32 reserved1;
+    rt_u32 reserved;
 } rt_gather_point;
 RT_SIZE(rt_gather_point, 80);
 

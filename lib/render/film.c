@@ -1,5 +1,6 @@
 #include "render/film.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,21 +39,27 @@ void rt_film_destroy(rt_film *film)
     free(film);
 }
 
+double rt_film_divisor(const rt_film_pixel *pixel)
+{
+    double weight = pixel->weight, count = pixel->count;
+    return fabs(weight) >= 0.25 * count ? weight : count;
+}
+
 void rt_film_resolve(rt_film *film)
 {
     size_t count = (size_t)film->options.width * film->options.height;
-    float fewest = film->pixels[0].weight;
+    uint32_t fewest = film->pixels[0].count;
 
     film->stats.rejected = 0;
     for (size_t i = 0; i < count; i++) {
         const rt_film_pixel *p = film->pixels + i;
         for (int c = 0; c < 3; c++)
-            film->rgb[3 * i + c] = p->weight > 0 ? (p->sum[c] - p->lost[c]) / p->weight : 0;
-        if (p->weight < fewest)
-            fewest = p->weight;
+            film->rgb[3 * i + c] = p->count > 0 ? (float)((p->sum[c] - p->lost[c]) / rt_film_divisor(p)) : 0;
+        if (p->count < fewest)
+            fewest = p->count;
         film->stats.rejected += p->rejected;
     }
-    film->stats.spp = (uint32_t)fewest;
+    film->stats.spp = fewest;
     rt_layers_resolve(film);
 }
 

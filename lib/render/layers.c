@@ -85,12 +85,14 @@ static double total(const rt_film_pixel *pixel, int channel)
 /* What the mode shows of a pixel, which has samples. */
 static void show(float rgb[3], const rt_film *film, size_t i)
 {
+    const rt_film_pixel *normal = film->layer_sums + RT_LAYER_NORMAL * film_pixels(film) + i;
     const rt_film_pixel *depth = film->layer_sums + RT_LAYER_DEPTH * film_pixels(film) + i;
+    float covered = (float)(total(depth, 2) / rt_film_divisor(normal));
     for (int c = 0; c < 3; c++) {
         if (film->options.mode == RT_MODE_ALBEDO)
             rgb[c] = film->layers[RT_LAYER_ALBEDO][3 * i + c];
         else if (film->options.mode == RT_MODE_NORMALS)
-            rgb[c] = 0.5f * (film->layers[RT_LAYER_NORMAL][3 * i + c] + (float)(total(depth, 2) / depth->weight));
+            rgb[c] = 0.5f * (film->layers[RT_LAYER_NORMAL][3 * i + c] + covered);
         else
             rgb[c] = film->layers[RT_LAYER_DEPTH][i];
     }
@@ -105,11 +107,11 @@ void rt_layers_resolve(rt_film *film)
     const rt_film_pixel *normal = film->layer_sums + RT_LAYER_NORMAL * count;
     const rt_film_pixel *depth = film->layer_sums + RT_LAYER_DEPTH * count;
     for (size_t i = 0; i < count; i++) {
-        if (albedo[i].weight == 0)
+        if (albedo[i].count == 0)
             continue;
         for (int c = 0; c < 3; c++) {
-            film->layers[RT_LAYER_ALBEDO][3 * i + c] = (float)(total(albedo + i, c) / albedo[i].weight);
-            film->layers[RT_LAYER_NORMAL][3 * i + c] = (float)(total(normal + i, c) / normal[i].weight);
+            film->layers[RT_LAYER_ALBEDO][3 * i + c] = (float)(total(albedo + i, c) / rt_film_divisor(albedo + i));
+            film->layers[RT_LAYER_NORMAL][3 * i + c] = (float)(total(normal + i, c) / rt_film_divisor(normal + i));
         }
         double hits = total(depth + i, 1);
         film->layers[RT_LAYER_DEPTH][i] = hits > 0 ? (float)(total(depth + i, 0) / hits) : 0;

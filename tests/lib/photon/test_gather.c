@@ -56,6 +56,7 @@ static void make_points(rt_gather_point points[point_count])
         points[i].normal[1] = 1;
         points[i].pixel = (rt_u32)(point_count - 1 - i);
         points[i].material = i % 2;
+        points[i].film_weight = 1;
         for (int c = 0; c < 3; c++) {
             points[i].weight[c] = i % 7 ? points_uniform(&stream) : 0;
             points[i].radiance[c] = points_uniform(&stream);
@@ -74,7 +75,7 @@ static void expected_radiance(double out[3], const rt_photon_map *map, const rt_
             sum[c] += map->photons[i].flux[c] * map->photons[i].shading * 2 * (1 - t2) / (PI * r * r);
     }
     for (int c = 0; c < 3; c++)
-        out[c] = point->radiance[c] + point->weight[c] * kd[point->material][c] / PI * sum[c];
+        out[c] = point->radiance[c] + point->weight[c] / PI * sum[c];
 }
 
 static cl_kernel gather_kernel(void)
@@ -110,7 +111,7 @@ static void samples_are_radiance_plus_weighted_reflection(void **state)
         const rt_film_pixel *pixel = film + points[i].pixel;
         double expected[3];
         expected_radiance(expected, &map, points + i, 0.1f);
-        assert_true(pixel->weight == 2);
+        assert_true(pixel->weight == 2 && pixel->count == 2);
         for (int c = 0; c < 3; c++)
             assert_float_equal(pixel->sum[c] / 2, expected[c], 1e-5 * (1 + expected[c]));
     }

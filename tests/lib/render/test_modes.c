@@ -156,20 +156,15 @@ static void direct_light_is_the_path_of_two_segments(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* Away from the edge all is even: every filter leaves the albedo as it is, Mitchell's within the noise of its signs. */
+/* Away from the edge all is even: every filter leaves the albedo as it is. */
 static void filters_keep_what_is_even(void **state)
 {
     (void)state;
     for (int filter = RT_FILTER_BOX; filter <= RT_FILTER_MITCHELL; filter++) {
         rt_film *film = render(RT_MODE_ALBEDO, 0, (rt_filter)filter);
-        double sum = 0;
         for (int y = 3; y < height - 3; y++)
-            for (int x = 3; x < width / 2 - 3; x++) {
-                double red = rt_film_rgb(film)[3 * (y * width + x)];
-                assert_float_equal(red, 0.7, filter == RT_FILTER_MITCHELL ? 0.15 : 1e-6);
-                sum += red / 0.7;
-            }
-        assert_float_equal(sum / (2 * (width / 2 - 6)), 1, 0.05);
+            for (int x = 3; x < width / 2 - 3; x++)
+                assert_float_equal(rt_film_rgb(film)[3 * (y * width + x)], 0.7, 1e-6);
         rt_film_destroy(film);
     }
 }
