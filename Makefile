@@ -86,7 +86,7 @@ TESTS_QUICK := \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_path.c \
 	tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
-	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_modes.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
+	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c tests/lib/render/test_modes.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_map.c tests/lib/photon/test_search.c
 TESTS_FULL  := \
 	tests/tools/test_mesh.c tests/tools/test_usage.c tests/tools/test_scenes.c tests/tools/test_rtc.c tests/tools/test_progress.c \
 	tests/tools/test_determinism.c \

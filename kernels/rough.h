@@ -8,6 +8,7 @@
  *   alpha                                         0.01   0.1    0.2    0.5    1
  *   white metal, normal view / all directions     0/0    1/3    5/8   31/30  69/59  %
  *   clear glass, normal view / all directions     0/0    0/1    1/2    3/8   10/20  %
+ *   the same from inside                          0/0    1/3    4/10  24/30  58/52  %
  *
  * Directions are unit vectors in the frame of the surface, wo.z > 0. eta is the index on the side of wo over that
  * on the other. Refracted light is given as flux; radiance is to be scaled by eta^2.

@@ -222,7 +222,8 @@ typedef enum rt_fresnel {
 /*
  * A material: fr = kd/pi + ks R + kt T, with kd + ks + kt <= 1 in every channel, plus emission. R reflects and
  * T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX distribution (Walter et al.
- * 2007). All zero is black. The part of kt that meets total internal reflection is reflected.
+ * 2007). All zero is black. The part of kt that meets total internal reflection is reflected. Microfacets scatter
+ * light once and lose what meets a second one: a white metal loses 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5.
  */
 typedef struct rt_material {
     float kd[3];         /* diffuse albedo */
