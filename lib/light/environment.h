@@ -2,8 +2,8 @@
  * environment.h - the distribution by which an environment's image is sampled.
  *
  * The image covers the unit square: u from 0 to 1 along a row, v from 0 at the top, +y, to 1 at the bottom.
- * Over each pixel the sampled function is constant: the mean of the pixel's channels times the sine of the polar
- * angle of its row's middle.
+ * Each pixel is chosen in proportion to the mean of its channels times the sine of the polar angle of its row's
+ * middle; kernels/light_sky.h says how a direction follows.
  */
 #ifndef RT_LIB_LIGHT_ENVIRONMENT_H
 #define RT_LIB_LIGHT_ENVIRONMENT_H
