@@ -128,11 +128,6 @@ static inline float2 sample_polygon(uint corners, float turn, float2 u)
     return weight.x * sin_cos(2.0f * RT_PI * (a - floor(a))).yx + weight.y * sin_cos(2.0f * RT_PI * (b - floor(b))).yx;
 }
 
-static inline float polygon_pdf_a(uint corners)
-{
-    return 2.0f / ((float)corners * sin_cos(2.0f * RT_PI / (float)corners).x);
-}
-
 /* ---- The line ------------------------------------------------------------- */
 
 /* In [-1, 1], by the density 1 - |x|, each coordinate on its own. */
