@@ -246,6 +246,67 @@ static void shading_normals_leak_no_light(void **state)
     assert_true(lost > 0 && lost < n);
 }
 
+/* What a rough event carries is its lobe's light over its density, in a mixture as alone; below alpha 1e-3 none is rough. */
+static void rough_events_carry_their_lobe(void **state)
+{
+    rt_material_data material = mixture;
+    int through = 0, counted = 0;
+    situation at = flat(1 / 1.5f);
+    (void)state;
+    at.beta[0] = 0.3f;
+    for (int with_fresnel = 0; with_fresnel < 2; with_fresnel++) {
+        material.flags = with_fresnel ? RT_MATERIAL_FRESNEL : 0;
+        material.roughness = 0.4f;
+        scatter(&material, &at, carry_radiance);
+        for (int i = 0; i < n; i++) {
+            const result *r = results + i;
+            assert_true(r->event != reflected && r->event != refracted);
+            if (r->event != rough || r->pdf_w < 1e-3)
+                continue;
+            counted++;
+            through += r->wi[2] < 0;
+            assert_float_equal(r->pdf_w, r->eval_pdf_w, 1e-2 * r->pdf_w);
+            for (int c = 0; c < 3; c++)
+                assert_float_equal(r->weight[c] * r->pdf_w * r->squeeze, r->eval[c], 1e-2 * r->eval[c]);
+            assert_float_equal(r->squeeze, r->wi[2] < 0 ? 1 / 2.25 : 1, 1e-6);
+        }
+        material.roughness = 9e-4f;
+        scatter(&material, &at, carry_radiance);
+        for (int i = 0; i < n; i++)
+            assert_true(results[i].event != rough);
+    }
+    assert_true(through > n / 10 && counted - through > n / 20);
+}
+
+/* Veach 1997, section 5.3.2: with shading normals, the same event carries flux other than radiance. */
+static void flux_is_corrected_for_shading_normals(void **state)
+{
+    static float radiance[n][3];
+    rt_material_data material = mixture;
+    (void)state;
+    for (int is_rough = 0; is_rough < 2; is_rough++) {
+        situation at = flat(1 / 1.5f);
+        int seen[event_count] = {0};
+        at.shading[0] = 0.28f;
+        at.shading[2] = 0.96f;
+        material.roughness = is_rough ? 0.3f : 0;
+        scatter(&material, &at, carry_radiance);
+        for (int i = 0; i < n; i++)
+            memcpy(radiance[i], results[i].weight, sizeof radiance[i]);
+        scatter(&material, &at, carry_flux);
+        for (int i = 0; i < n; i++) {
+            const result *r = results + i;
+            double wo_s = at.wo[0] * 0.28 + at.wo[2] * 0.96, wi_s = r->wi[0] * 0.28 + r->wi[2] * 0.96;
+            double factor = fabs(wo_s * r->wi[2] / (at.wo[2] * wi_s));
+            if (r->event == absorbed || radiance[i][0] == 0)
+                continue;
+            seen[(int)r->event]++;
+            assert_float_equal(r->weight[0], radiance[i][0] * factor, 1e-4 * (1 + factor) * radiance[i][0]);
+        }
+        assert_true(seen[diffuse] && (is_rough ? seen[rough] : seen[reflected] && seen[refracted]));
+    }
+}
+
 static void black_absorbs(void **state)
 {
     const rt_material_data black = {.ior = 1};
@@ -266,6 +327,8 @@ int main(void)
         cmocka_unit_test(delta_directions_obey_the_laws_of_reflection_and_refraction),
         cmocka_unit_test(radiance_is_squeezed_by_refraction_and_flux_is_not),
         cmocka_unit_test(shading_normals_leak_no_light),
+        cmocka_unit_test(rough_events_carry_their_lobe),
+        cmocka_unit_test(flux_is_corrected_for_shading_normals),
         cmocka_unit_test(black_absorbs),
     };
     return cmocka_run_group_tests_name("kernels/bsdf", tests, NULL, NULL);
