@@ -31,10 +31,12 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/error.c lib/progress.c lib/version.c \
 	lib/device/device.c lib/device/buffer.c lib/device/program.c \
-	lib/scene/scene.c lib/scene/shape.c lib/scene/options.c lib/scene/hierarchy.c lib/scene/pack.c \
+	lib/scene/area.c lib/scene/camera.c lib/scene/hierarchy.c lib/scene/light.c lib/scene/material.c \
+	lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/scene.c \
+	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
-	lib/light/lights.c \
+	lib/light/environment.c lib/light/lights.c \
 	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/mesh.c lib/mesh/normals.c lib/mesh/obj.c lib/mesh/off.c \
 	lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c lib/mesh/ply_reader.c \
 	lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
@@ -45,15 +47,16 @@ LIB_SRC := \
 	lib/photon/photon_map.c lib/photon/fingerprint.c lib/photon/ledger.c lib/photon/sources.c \
 	lib/photon/crc32.c lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
 	lib/render/photon_irradiance.c lib/render/photon_maps.c \
-	lib/render/film.c lib/render/film_image.c lib/render/render.c lib/render/renderer.c lib/render/path_mode.c lib/render/photon_eye.c lib/render/photon_mode.c \
-	lib/render/sobol.c lib/render/trace.c \
+	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/layers.c lib/render/photon_eye.c lib/render/photon_mode.c \
+	lib/render/render.c lib/render/renderer.c lib/render/sample_mode.c lib/render/sobol.c lib/render/trace.c \
 	lib/texture/half.c lib/texture/texture.c
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/build.c dsl/check.c dsl/load.c dsl/reader.c dsl/expression.c dsl/lexer.c dsl/names.c dsl/number.c dsl/parse_block.c \
-	dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/report.c dsl/schema.c dsl/source.c dsl/suggest.c
+	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c \
+	dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c \
+	dsl/scope.c dsl/source.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
 	tools/check.c tools/devices.c tools/doctor.c tools/help.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \
@@ -63,8 +66,8 @@ TOOL_SRC := \
 	tools/rtc.c tools/scene_file.c tools/stats.c
 
 KERNEL_SRC := \
-	kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl kernels/photon_film.cl \
-	kernels/photon_gather.cl kernels/photon_walk.cl kernels/trace.cl
+	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl \
+	kernels/photon_film.cl kernels/photon_gather.cl kernels/photon_walk.cl kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
@@ -82,12 +85,17 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c \
 	tests/lib/mesh/test_text.c \
 	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
-	tests/lib/scene/test_scene.c tests/kernels/test_types.c tests/render/test_compare.c \
+	tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c tests/lib/scene/test_shapes.c \
+	tests/lib/light/test_environment.c tests/kernels/test_types.c tests/render/test_compare.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
-	tests/kernels/test_bsdf.c tests/kernels/test_camera.c tests/kernels/test_light.c tests/kernels/test_path.c \
-	tests/kernels/test_rng.c tests/kernels/test_sample.c \
-	tests/lib/photon/test_emit.c tests/lib/photon/test_device_gather.c tests/lib/photon/test_gather.c tests/lib/photon/test_photon_list.c tests/lib/photon/test_search.c \
-	tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c tests/lib/render/test_photon_maps.c
+	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c \
+	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_path.c \
+	tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
+	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c \
+	tests/lib/render/test_modes.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
+	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
+	tests/lib/photon/test_photon_list.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
+	tests/lib/render/test_photon_maps.c
 TESTS_FULL  := \
 	tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
@@ -96,9 +104,11 @@ TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/te
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c tests/kernels/rays.c tests/kernels/statistics.c tests/studies/study.c
-TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl tests/kernels/knn.cl \
-	tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/rng.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl
+	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/light_draw.c tests/kernels/rays.c \
+	tests/kernels/statistics.c tests/studies/study.c
+TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
+	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
+	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
 
 # ---- Build ------------------------------------------------------------------
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "dsl/suggest.h"
+#include "dsl/transform.h"
 
 static rt_place place_of_values(const rt_setting *setting)
 {
@@ -14,18 +15,18 @@ static rt_place place_of_values(const rt_setting *setting)
 
 /* ---- Numbers ------------------------------------------------------------- */
 
-/* Evaluates the values of a setting to three numbers; one number is repeated. */
-static int evaluate(const rt_checker *checker, const rt_setting *setting, double out[3])
+/* Evaluates the values of a setting to single numbers; one number alone is repeated to three. */
+static int evaluate(const rt_checker *checker, const rt_setting *setting, double out[RT_FIELD_VALUES_MAX])
 {
     rt_value value;
+    int count = 0;
     for (int i = 0; i < setting->value_count; i++) {
-        if (!rt_expression_evaluate(&value, &setting->values[i], checker->operations, checker->constants,
+        if (!rt_expression_evaluate(&value, &setting->values[i], checker->operations, &checker->scope->constants,
                                     checker->reports))
             return 0;
-        if (setting->value_count == 1)
-            memcpy(out, value.v, sizeof value.v);
-        else
-            out[i] = value.v[0];
+        int numbers = value.is_vector || setting->value_count == 1 ? 3 : 1;
+        for (int c = 0; c < numbers && count < RT_FIELD_VALUES_MAX; c++)
+            out[count++] = value.v[c];
     }
     return 1;
 }
@@ -78,12 +79,13 @@ static int check_numbers(const rt_checker *checker, const rt_setting *setting, u
 {
     const rt_field *field = setting->field;
     int is_scalar = field->type == RT_FIELD_NUMBER || field->type == RT_FIELD_INTEGER;
-    double numbers[3];
+    int count = is_scalar ? 1 : field->type == RT_FIELD_PAIR ? 2 : 3;
+    double numbers[RT_FIELD_VALUES_MAX];
     float stored[3];
     if (!evaluate(checker, setting, numbers))
         return 0;
-    for (int i = 0; i < (is_scalar ? 1 : 3); i++) {
-        rt_place place = setting->value_count == 3 ? setting->values[i].place : setting->values[0].place;
+    for (int i = 0; i < count; i++) {
+        rt_place place = setting->values[setting->value_count == count ? i : 0].place;
         if (!check_number(checker, setting, place, &numbers[i]))
             return 0;
         stored[i] = (float)numbers[i];
@@ -96,8 +98,39 @@ static int check_numbers(const rt_checker *checker, const rt_setting *setting, u
         rt_report_error(checker->reports, place_of_values(setting), "'%s' must not be zero", field->name);
         return 0;
     }
-    memcpy(member, stored, sizeof stored);
+    memcpy(member, stored, (size_t)count * sizeof *stored);
     return 1;
+}
+
+/* One step of a transform. */
+static int check_step(const rt_checker *checker, const rt_setting *setting, rt_steps *steps)
+{
+    const rt_field *field = setting->field;
+    int count = field->type == RT_FIELD_MATRIX ? 12 : field->type == RT_FIELD_ROTATE ? 4 : 3;
+    double numbers[RT_FIELD_VALUES_MAX];
+    if (setting->is_broken || !evaluate(checker, setting, numbers))
+        return 0;
+    for (int i = 0; i < count; i++)
+        if (!check_number(checker, setting, setting->values[setting->value_count == count ? i : 0].place, &numbers[i]))
+            return 0;
+    if (field->range.kind == RT_RANGE_DIRECTION && numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0) {
+        rt_report_error(checker->reports, place_of_values(setting), "the axis of '%s' must not be zero", field->name);
+        return 0;
+    }
+    rt_steps_add(steps, field->type, numbers);
+    return 1;
+}
+
+/* Stores the steps of a transform, if there are any. */
+static void store_transform(const rt_steps *steps, const rt_statement *statement, rt_block_fields *fields)
+{
+    rt_transform transform;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            transform.m[i][j] = (float)steps->m[i][j];
+    for (size_t i = 0; i < statement->block->field_count && steps->count > 0; i++)
+        if (rt_field_is_transform(&statement->block->fields[i]))
+            memcpy((unsigned char *)fields + statement->block->fields[i].offset, &transform, sizeof transform);
 }
 
 /* ---- Words --------------------------------------------------------------- */
@@ -128,26 +161,53 @@ static int check_choice(const rt_checker *checker, const rt_setting *setting, un
     return 0;
 }
 
-static int check_material(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, rt_place place, const char *kind)
 {
     char quote[RT_QUOTE_SIZE];
-    rt_text word = rt_place_text(&setting->word);
-    size_t found = rt_names_find(checker->materials, word);
+    rt_text word = rt_place_text(&place);
+    size_t found = rt_names_find(names, word);
     if (found != RT_NAME_NONE) {
-        rt_name *name = &checker->materials->items[found];
-        name->is_used = 1;
-        memcpy(member, &name->index, sizeof name->index);
-        return !name->is_broken;
+        names->items[found].is_used = 1;
+        return &names->items[found];
     }
     rt_suggestion suggestion = rt_suggestion_begin(word);
-    rt_suggestion_offer_names(&suggestion, checker->materials);
-    rt_report_error(checker->reports, setting->word, "unknown material '%s'", rt_text_quote(quote, word));
+    rt_suggestion_offer_names(&suggestion, names);
+    rt_report_error(checker->reports, place, "unknown %s '%s'", kind, rt_text_quote(quote, word));
     if (suggestion.best.at)
         rt_report_hint(checker->reports, "did you mean '%s'?", rt_text_quote(quote, suggestion.best));
     else
-        rt_report_hint(checker->reports, "materials are defined by 'material NAME { ... }' above their use");
-    rt_report_unknown(checker->reports, checker->materials);
-    return 0;
+        rt_report_hint(checker->reports, "%s%s are defined by '%s NAME { ... }' above their use", kind,
+                       strcmp(kind, "mesh") == 0 ? "es" : "s", kind);
+    rt_report_unknown(checker->reports, names);
+    return NULL;
+}
+
+static int check_name(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+{
+    const char *kind = setting->field->type == RT_FIELD_MATERIAL ? "material" : "texture";
+    const rt_names *names = rt_scope_names(checker->scope, setting->field->type);
+    const rt_name *name = rt_check_known(checker, names, setting->word, kind);
+    if (!name)
+        return 0;
+    memcpy(member, &name->index, sizeof name->index);
+    return !name->is_broken;
+}
+
+/* The path of a file, relative to the text that names it. */
+static int check_file(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+{
+    rt_text name = rt_place_text(&setting->word);
+    if (name.length == 0) {
+        rt_report_error(checker->reports, setting->word, "the name of the file is empty");
+        return 0;
+    }
+    *checker->path = rt_source_resolve(setting->word.source, name);
+    if (!*checker->path) {
+        checker->reports->out_of_memory = 1;
+        return 0;
+    }
+    memcpy(member, checker->path, sizeof *checker->path);
+    return 1;
 }
 
 static int check_setting(const rt_checker *checker, const rt_setting *setting, rt_block_fields *fields)
@@ -156,18 +216,17 @@ static int check_setting(const rt_checker *checker, const rt_setting *setting, r
     if (setting->is_broken)
         return 0;
     switch (setting->field->type) {
-    case RT_FIELD_NUMBER:
-    case RT_FIELD_INTEGER:
-    case RT_FIELD_VECTOR:
-    case RT_FIELD_COLOUR:
-        return check_numbers(checker, setting, member);
     case RT_FIELD_BOOLEAN:
     case RT_FIELD_CHOICE:
         return check_choice(checker, setting, member);
     case RT_FIELD_MATERIAL:
-        return check_material(checker, setting, member);
+    case RT_FIELD_TEXTURE:
+        return check_name(checker, setting, member);
+    case RT_FIELD_FILE:
+        return check_file(checker, setting, member);
+    default:
+        return check_numbers(checker, setting, member);
     }
-    return 0;
 }
 
 /* ---- Completeness -------------------------------------------------------- */
@@ -202,7 +261,7 @@ static int check_group(const rt_checker *checker, const rt_statement *statement,
             last = setting;
     }
     rt_block_title(title, block);
-    if (need == RT_NEED_ALL_OR_NONE) {
+    if (need == RT_NEED_ALL_OR_NONE || need == RT_NEED_ALL_OR_NONE_TOO) {
         if (given == 0 || given == size || statement->is_incomplete)
             return 1;
         join_group(group, block, need, " and ");
@@ -242,11 +301,18 @@ static int check_required(const rt_checker *checker, const rt_statement *stateme
 int rt_check_block(const rt_checker *checker, const rt_statement *statement, rt_block_fields *fields)
 {
     int is_good = !statement->is_broken;
-    for (int i = 0; i < statement->setting_count; i++)
-        is_good &= check_setting(checker, &statement->settings[i], fields);
+    rt_steps steps;
+    rt_steps_begin(&steps);
+    for (int i = 0; i < statement->setting_count; i++) {
+        const rt_setting *setting = &statement->settings[i];
+        is_good &= rt_field_is_transform(setting->field) ? check_step(checker, setting, &steps)
+                                                         : check_setting(checker, setting, fields);
+    }
+    store_transform(&steps, statement, fields);
     is_good &= check_required(checker, statement);
     is_good &= check_group(checker, statement, RT_NEED_ONE_OF);
     is_good &= check_group(checker, statement, RT_NEED_AT_MOST_ONE);
     is_good &= check_group(checker, statement, RT_NEED_ALL_OR_NONE);
+    is_good &= check_group(checker, statement, RT_NEED_ALL_OR_NONE_TOO);
     return is_good;
 }

@@ -8,8 +8,12 @@
 typedef struct rt_checker {
     rt_reports *reports;
     const rt_operations *operations;
-    const rt_names *constants, *materials;
+    const rt_scope *scope;
+    char **path; /* receives the path of the block's file, to be freed */
 } rt_checker;
+
+/* The name of this kind that a word means, marked as used; NULL when there is none, which is reported. */
+const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, rt_place place, const char *kind);
 
 /*
  * Stores the value of every setting of a block into *fields, which holds the defaults, and reports

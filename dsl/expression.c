@@ -1,5 +1,7 @@
 #include "dsl/expression.h"
 
+#include "dsl/function.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
@@ -7,7 +9,7 @@
 
 /*
  * A nesting level holds at most four values while it works on the next: the left sides of
- * a sum and of a product, and two earlier components of a vector.
+ * a sum and of a product, and two earlier components of a vector or arguments of a function.
  */
 #define STACK_SIZE (4 * (RT_NESTING_MAX + 1) + 4)
 
@@ -82,6 +84,26 @@ static int apply_binary(rt_value *top, const rt_operation *operation, rt_reports
     return 1;
 }
 
+/* Replaces the arguments of a function, the topmost values, by its value. */
+static int apply_function(rt_value *top, const rt_operation *operation, rt_reports *reports)
+{
+    const rt_function *function = &rt_functions[operation->constant];
+    rt_value *arguments = top - function->arguments, result = {{0, 0, 0}, 0};
+    for (int c = 0; c < 3; c++) {
+        double numbers[RT_FUNCTION_ARGUMENTS_MAX];
+        for (int i = 0; i < function->arguments; i++) {
+            numbers[i] = arguments[i].v[c];
+            result.is_vector |= arguments[i].is_vector;
+        }
+        result.v[c] = function->value(numbers);
+    }
+    *arguments = result;
+    if (is_finite(&result))
+        return 1;
+    rt_report_error(reports, operation->place, "'%s' has no finite value here", function->name);
+    return 0;
+}
+
 int rt_expression_evaluate(rt_value *out, const rt_expression *expression, const rt_operations *operations,
                            const rt_names *constants, rt_reports *reports)
 {
@@ -101,6 +123,11 @@ int rt_expression_evaluate(rt_value *out, const rt_expression *expression, const
             top[-1].v[1] = top[0].v[0];
             top[-1].v[2] = top[1].v[0];
             top[-1].is_vector = 1;
+            break;
+        case RT_OPERATION_CALL:
+            if (!apply_function(top, operation, reports))
+                return 0;
+            top -= rt_functions[operation->constant].arguments - 1;
             break;
         case RT_OPERATION_NEGATE:
             for (int c = 0; c < 3; c++)

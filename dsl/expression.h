@@ -16,6 +16,7 @@ typedef enum rt_operation_kind {
     RT_OPERATION_NUMBER,   /* push a number */
     RT_OPERATION_CONSTANT, /* push a constant's value */
     RT_OPERATION_VECTOR,   /* pop three numbers, push them as a vector */
+    RT_OPERATION_CALL,   /* pop a function's arguments, push its value, component by component */
     RT_OPERATION_NEGATE,
     RT_OPERATION_ADD, /* these four: pop two values, push the result, component by component */
     RT_OPERATION_SUBTRACT,
@@ -27,7 +28,7 @@ typedef struct rt_operation {
     rt_operation_kind kind;
     rt_place place;
     double number;
-    size_t constant; /* position in the table of constants */
+    size_t constant; /* position in the table of constants, or of the function in theirs */
 } rt_operation;
 
 /* The operations of all expressions of a statement. All zero is none. */

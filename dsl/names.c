@@ -66,6 +66,15 @@ rt_name *rt_names_add(rt_names *names, rt_place place)
     return name;
 }
 
+/* The latest name is the last of its chain of slots, so to take it away breaks no other's. */
+void rt_names_truncate(rt_names *names, size_t count)
+{
+    while (names->count > count) {
+        names->slots[find_slot(names, names->items[names->count - 1].text)] = 0;
+        names->count--;
+    }
+}
+
 void rt_names_free(rt_names *names)
 {
     free(names->items);

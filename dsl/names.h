@@ -17,7 +17,8 @@ typedef struct rt_name {
     int is_used;
     int is_broken;   /* its definition is wrong; already reported, so its uses are not */
     rt_value value;  /* of a constant */
-    uint32_t index;  /* of a material */
+    uint32_t index;   /* of a material, texture or mesh: what rt.h calls it by */
+    uint32_t texture; /* of a mesh: the texture that its file names, or 0 */
 } rt_name;
 
 #define RT_NAME_NONE ((size_t)-1)
@@ -35,6 +36,9 @@ size_t rt_names_find(const rt_names *names, rt_text text);
 
 /* Adds a name that is not there yet, with zero content; NULL when memory is exhausted. Moves items. */
 rt_name *rt_names_add(rt_names *names, rt_place place);
+
+/* Takes the latest names away until `count` are left. */
+void rt_names_truncate(rt_names *names, size_t count);
 
 void rt_names_free(rt_names *names);
 

@@ -53,7 +53,7 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
 
     /* The field that was meant counts as given, so that it is not reported as missing too. */
     const rt_field *meant = rt_schema_field(block, suggestion.best);
-    if (!rt_statement_setting(statement, meant)) {
+    if (!rt_statement_setting(statement, meant) && statement->setting_count < RT_SETTINGS_MAX) {
         rt_setting *setting = &statement->settings[statement->setting_count++];
         memset(setting, 0, sizeof *setting);
         setting->field = meant;
@@ -94,9 +94,15 @@ static void parse_field(rt_parser *parser, rt_statement *statement)
     rt_parse_setting(parser, statement->block, &setting);
     statement->is_broken |= setting.is_broken;
 
-    const rt_setting *earlier = rt_statement_setting(statement, field);
-    if (!earlier) {
+    const rt_setting *earlier = rt_field_is_transform(field) ? NULL : rt_statement_setting(statement, field);
+    if (!earlier && statement->setting_count < RT_SETTINGS_MAX) {
         statement->settings[statement->setting_count++] = setting;
+        return;
+    }
+    if (!earlier) {
+        if (statement->setting_count == RT_SETTINGS_MAX && !statement->is_incomplete)
+            rt_report_error(parser->reports, setting.name, "a block holds at most %d fields", RT_SETTINGS_MAX);
+        statement->is_broken = statement->is_incomplete = 1;
         return;
     }
     statement->is_broken = 1;
@@ -161,7 +167,7 @@ static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
     for (size_t i = 0; i < RT_BLOCK_COUNT; i++)
         if (rt_blocks[i].kind && rt_text_equal(word, rt_blocks[i].word)) {
             rt_suggestion_offer_word(&suggestion, rt_blocks[i].kind);
-            example = rt_blocks[i].kind;
+            example = *example ? example : rt_blocks[i].kind;
         }
     rt_text_quote(quote, word);
     rt_report_error(parser->reports, token->kind == RT_TOKEN_WORD ? token->place : statement->place,
@@ -178,14 +184,17 @@ static void parse_block_name(rt_parser *parser, rt_statement *statement)
     char found[RT_FOUND_SIZE], title[RT_BLOCK_TITLE_SIZE];
     const rt_token *token = rt_parser_peek(parser, 0);
     rt_block_title(title, statement->block);
-    if (statement->block->flags & RT_BLOCK_NAMED) {
+    if (statement->block->flags & (RT_BLOCK_NAMED | RT_BLOCK_REFERS)) {
         if (token->kind == RT_TOKEN_WORD) {
             statement->name = rt_parser_take_word(parser, &statement->is_broken);
             return;
         }
         rt_report_error(parser->reports, statement->place, "%s needs a name, found %s", title,
                         rt_parser_found(found, token));
-        rt_report_hint(parser->reports, "as in: %s white { ... }", title);
+        rt_report_hint(parser->reports, "as in: %s %s { ... }", title,
+                       statement->block->id == RT_BLOCK_MATERIAL  ? "white"
+                       : statement->block->id == RT_BLOCK_TEXTURE ? "wood"
+                                                                  : "bunny");
         statement->is_broken = 1;
         if (token->kind != '{' && rt_parser_peek(parser, 1)->kind == '{')
             rt_parser_take(parser);

@@ -4,11 +4,13 @@
  *     expression = term { ( "+" | "-" ) term }
  *     term       = factor { ( "*" | "/" ) factor }
  *     factor     = { "-" } primary
- *     primary    = number | name | "(" expression ")" | "[" value value value "]"
+ *     primary    = number | name | call | "(" expression ")" | "[" value value value "]"
+ *     call       = function "(" expression { "," expression } ")"
  *     value      = [ "-" ] primary
  */
 #include <string.h>
 
+#include "dsl/function.h"
 #include "dsl/parse_expression.h"
 #include "dsl/suggest.h"
 
@@ -37,27 +39,29 @@ static void report_unknown_constant(rt_parser *parser, rt_place place)
     rt_text text = rt_place_text(&place);
     rt_report_error(parser->reports, place, "unknown constant '%s'", rt_text_quote(quote, text));
     rt_suggestion suggestion = rt_suggestion_begin(text);
-    rt_suggestion_offer_names(&suggestion, parser->constants);
+    rt_suggestion_offer_names(&suggestion, &parser->scope->constants);
     if (suggestion.best.at)
         rt_report_hint(parser->reports, "did you mean '%s'?", rt_text_quote(quote, suggestion.best));
     else if (rt_text_equal(text, "nan") || rt_text_equal(text, "inf") || rt_text_equal(text, "infinity"))
         rt_report_hint(parser->reports, "every number is finite");
     else
         rt_report_hint(parser->reports, "constants are defined by 'let NAME = VALUE' above their use");
-    rt_report_unknown(parser->reports, parser->constants);
+    rt_report_unknown(parser->reports, &parser->scope->constants);
 }
 
 static int parse_constant(rt_parser *parser, int *is_vector)
 {
     rt_place place = rt_parser_take(parser).place;
-    size_t found = rt_names_find(parser->constants, rt_place_text(&place));
+    size_t found = rt_names_find(&parser->scope->constants, rt_place_text(&place));
     *is_vector = 0;
+    if (found == RT_NAME_NONE && rt_text_equal(rt_place_text(&place), "pi"))
+        return add(parser, RT_OPERATION_NUMBER, place, 3.14159265358979323846, 0);
     if (found == RT_NAME_NONE) {
         report_unknown_constant(parser, place);
         parser->value_broken = 1;
         return 1;
     }
-    rt_name *name = &parser->constants->items[found];
+    rt_name *name = &parser->scope->constants.items[found];
     name->is_used = 1;
     *is_vector = name->value.is_vector;
     parser->value_broken |= name->is_broken;
@@ -95,6 +99,49 @@ static int parse_parentheses(rt_parser *parser, int *is_vector)
     return open_bracket(parser, &open) && parse_sum(parser, is_vector) && close_bracket(parser, open, ')');
 }
 
+static void report_unknown_function(rt_parser *parser, rt_place place)
+{
+    char quote[RT_QUOTE_SIZE];
+    rt_text text = rt_place_text(&place);
+    rt_suggestion suggestion = rt_suggestion_begin(text);
+    rt_suggestion_offer_functions(&suggestion);
+    rt_report_error(parser->reports, place, "unknown function '%s'", rt_text_quote(quote, text));
+    if (rt_parser_is_constant(parser, text))
+        rt_report_hint(parser->reports, "a space separates a constant from the value that follows");
+    else if (suggestion.best.at)
+        rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
+    parser->value_broken = 1;
+}
+
+/* The function's name comes next, and its '(' touches it. */
+static int parse_call(rt_parser *parser, int *is_vector)
+{
+    rt_place place = rt_parser_take(parser).place, open;
+    int function = rt_function_find(rt_place_text(&place)), given = 0, is_more = 1;
+    *is_vector = 0;
+    if (function < 0)
+        report_unknown_function(parser, place);
+    if (!open_bracket(parser, &open))
+        return 0;
+    for (; is_more; given++) {
+        int argument_is_vector;
+        if (!parse_sum(parser, &argument_is_vector))
+            return 0;
+        *is_vector |= argument_is_vector;
+        is_more = rt_parser_peek(parser, 0)->kind == ',';
+        if (is_more)
+            rt_parser_take(parser);
+    }
+    if (!close_bracket(parser, open, ')'))
+        return 0;
+    if (function >= 0 && given != rt_functions[function].arguments) {
+        rt_report_error(parser->reports, place, "'%s' takes %s, found %d", rt_functions[function].name,
+                        rt_functions[function].arguments == 1 ? "one value" : "two values, separated by a comma", given);
+        parser->value_broken = 1;
+    }
+    return add(parser, RT_OPERATION_CALL, place, 0, (size_t)(function < 0 ? 0 : function));
+}
+
 static int parse_vector(rt_parser *parser, int *is_vector)
 {
     rt_place open;
@@ -127,7 +174,7 @@ static int parse_primary(rt_parser *parser, int *is_vector)
     case RT_TOKEN_NUMBER:
         return parse_number(parser, is_vector);
     case RT_TOKEN_WORD:
-        return parse_constant(parser, is_vector);
+        return rt_parser_call_follows(parser) ? parse_call(parser, is_vector) : parse_constant(parser, is_vector);
     case '(':
         return parse_parentheses(parser, is_vector);
     case '[':

@@ -4,6 +4,7 @@
  * Fields are not delimited: a value list ends when the field has what it takes, or where
  * a word that is a field of the block begins the next one.
  */
+#include "dsl/function.h"
 #include "dsl/parse_block.h"
 #include "dsl/parse_expression.h"
 #include "dsl/suggest.h"
@@ -17,7 +18,8 @@ typedef struct rt_context {
 
 static const char *count_word(int count)
 {
-    static const char *const words[] = {"none", "one", "two", "three"};
+    static const char *const words[RT_FIELD_VALUES_MAX + 1] = {
+        "none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"};
     return words[count];
 }
 
@@ -28,13 +30,15 @@ static int is_field(const rt_block *block, const rt_token *token)
 
 static int is_constant(const rt_parser *parser, const rt_token *token)
 {
-    return token->kind == RT_TOKEN_WORD &&
-           rt_names_find(parser->constants, rt_place_text(&token->place)) != RT_NAME_NONE;
+    return token->kind == RT_TOKEN_WORD && rt_parser_is_constant(parser, rt_place_text(&token->place));
 }
 
-/* Whether a token can only be the start of a value. */
-static int is_value(const rt_parser *parser, const rt_block *block, const rt_token *token)
+/* Whether the next token can only be the start of a value. */
+static int is_value(rt_parser *parser, const rt_block *block)
 {
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (rt_parser_call_follows(parser) && rt_function_find(rt_place_text(&token->place)) >= 0)
+        return 1;
     return token->kind == RT_TOKEN_NUMBER || token->kind == '(' || token->kind == '[' || token->kind == '-' ||
            (is_constant(parser, token) && !is_field(block, token));
 }
@@ -47,20 +51,44 @@ static int is_near_field(const rt_block *block, const rt_token *token)
     return suggestion.best.at != NULL;
 }
 
+/* The numbers that a field takes, at most. */
+static int numbers_of(rt_field_type type)
+{
+    switch (type) {
+    case RT_FIELD_NUMBER:
+    case RT_FIELD_INTEGER:
+        return 1;
+    case RT_FIELD_PAIR:
+        return 2;
+    case RT_FIELD_ROTATE:
+        return 4;
+    case RT_FIELD_MATRIX:
+        return 12;
+    default:
+        return 3;
+    }
+}
+
+/* Whether one number alone will do where three are taken. */
+static int takes_one(rt_field_type type)
+{
+    return type == RT_FIELD_COLOUR || type == RT_FIELD_SCALE;
+}
+
 /* Whether the field has the values it takes, as far as is known: a colour of one number may go on. */
 static int is_complete(const rt_setting *setting)
 {
-    rt_field_type type = setting->field->type;
-    if (type == RT_FIELD_NUMBER || type == RT_FIELD_INTEGER)
-        return setting->value_count == 1;
-    return setting->value_count == 3 || (setting->value_count == 1 && setting->values[0].is_vector);
+    int numbers = 0;
+    for (int i = 0; i < setting->value_count; i++)
+        numbers += setting->values[i].is_vector ? 3 : 1;
+    return numbers >= numbers_of(setting->field->type);
 }
 
 /* Whether the next token is taken as one more value. */
 static int value_follows(rt_parser *parser, const rt_context *context)
 {
     const rt_token *token = rt_parser_peek(parser, 0);
-    if (is_value(parser, context->block, token))
+    if (is_value(parser, context->block))
         return 1;
     if (token->kind != RT_TOKEN_WORD || is_field(context->block, token) || token->first_on_line)
         return 0;
@@ -68,7 +96,7 @@ static int value_follows(rt_parser *parser, const rt_context *context)
     const rt_setting *setting = context->setting;
     if (setting->value_count == 0)
         return 1;
-    return !(setting->field->type == RT_FIELD_COLOUR && setting->value_count == 1) &&
+    return !(takes_one(setting->field->type) && setting->value_count == 1) &&
            !is_near_field(context->block, token);
 }
 
@@ -119,12 +147,12 @@ static void check_values(rt_parser *parser, const rt_context *context)
 {
     rt_setting *setting = context->setting;
     rt_field_type type = setting->field->type;
-    int is_scalar = type == RT_FIELD_NUMBER || type == RT_FIELD_INTEGER;
-    int is_grey = type == RT_FIELD_COLOUR && setting->value_count == 1;
+    int is_triple = numbers_of(type) == 3, is_grey = takes_one(type) && setting->value_count == 1;
     for (int i = 0; i < setting->value_count; i++)
-        if (setting->values[i].is_vector && (is_scalar || setting->value_count > 1)) {
+        if (setting->values[i].is_vector && !(is_triple && setting->value_count == 1) &&
+            !(type == RT_FIELD_ROTATE && i == 0)) {
             rt_report_error(parser->reports, setting->values[i].place, "'%s' takes %s, found a vector",
-                            setting->field->name, is_scalar ? context->phrase : "three numbers or one vector");
+                            setting->field->name, is_triple ? "three numbers or one vector" : context->phrase);
             setting->is_broken = 1;
             return;
         }
@@ -145,7 +173,7 @@ static void check_end(rt_parser *parser, const rt_context *context)
         rt_report_error(parser->reports, token->place, "unexpected '%c' after the value of '%s'", token->kind,
                         setting->field->name);
         rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
-    } else if (is_value(parser, context->block, token) || token->kind == RT_TOKEN_STRING) {
+    } else if (is_value(parser, context->block) || token->kind == RT_TOKEN_STRING) {
         rt_report_error(parser->reports, token->place, "'%s' takes %s, found one more: %s", setting->field->name,
                         context->phrase, rt_parser_found(found, token));
     } else {
@@ -182,8 +210,9 @@ static void parse_numbers(rt_parser *parser, rt_context *context)
 /* Whether a word is a value of the field, rather than a word that belongs elsewhere. */
 static int is_known_word(const rt_parser *parser, const rt_field *field, rt_text word)
 {
-    if (field->type == RT_FIELD_MATERIAL)
-        return rt_names_find(parser->materials, word) != RT_NAME_NONE;
+    const rt_names *names = rt_scope_names(parser->scope, field->type);
+    if (names)
+        return rt_names_find(names, word) != RT_NAME_NONE;
     if (field->type == RT_FIELD_BOOLEAN)
         return rt_text_equal(word, "true") || rt_text_equal(word, "false");
     for (size_t i = 0; field->choices[i]; i++)
@@ -218,6 +247,37 @@ static void parse_word(rt_parser *parser, rt_context *context)
     rt_parser_skip_value(parser, context->block);
 }
 
+static void parse_string(rt_parser *parser, rt_context *context)
+{
+    rt_setting *setting = context->setting;
+    char found[RT_FOUND_SIZE];
+    skip_separators(parser, context);
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (token->kind == RT_TOKEN_STRING) {
+        rt_token string = rt_parser_take(parser);
+        setting->is_broken |= string.is_broken;
+        setting->word = string.place;
+        setting->word.offset++;
+        setting->word.column++;
+        setting->word.length = string.is_broken ? 0 : string.place.length - 2;
+        if (!setting->is_broken)
+            check_end(parser, context);
+        return;
+    }
+    int is_missing = token->kind == '}' || is_field(context->block, token);
+    if (!setting->is_broken && token->kind != RT_TOKEN_END)
+        rt_report_error(parser->reports, is_missing ? setting->name : token->place, "'%s' takes %s, found %s",
+                        setting->field->name, context->phrase, rt_parser_found(found, token));
+    setting->is_broken = 1;
+    /* A name without quotes, as in images/wood.png, goes on to the next space. */
+    if (token->kind == RT_TOKEN_WORD && !is_missing && !token->first_on_line)
+        do
+            rt_parser_take(parser);
+        while (!rt_parser_peek(parser, 0)->space_before && rt_parser_peek(parser, 0)->kind != RT_TOKEN_END &&
+               rt_parser_peek(parser, 0)->kind != '}');
+    rt_parser_skip_value(parser, context->block);
+}
+
 void rt_parse_setting(rt_parser *parser, const rt_block *block, rt_setting *setting)
 {
     rt_context context;
@@ -225,16 +285,16 @@ void rt_parse_setting(rt_parser *parser, const rt_block *block, rt_setting *sett
     context.setting = setting;
     rt_field_phrase(context.phrase, setting->field);
     switch (setting->field->type) {
-    case RT_FIELD_NUMBER:
-    case RT_FIELD_INTEGER:
-    case RT_FIELD_VECTOR:
-    case RT_FIELD_COLOUR:
-        parse_numbers(parser, &context);
-        break;
     case RT_FIELD_BOOLEAN:
     case RT_FIELD_CHOICE:
     case RT_FIELD_MATERIAL:
+    case RT_FIELD_TEXTURE:
         parse_word(parser, &context);
         break;
+    case RT_FIELD_FILE:
+        parse_string(parser, &context);
+        break;
+    default:
+        parse_numbers(parser, &context);
     }
 }

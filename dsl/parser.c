@@ -1,8 +1,10 @@
 #include "dsl/parser.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "dsl/function.h"
 #include "dsl/parse_block.h"
 #include "dsl/parse_expression.h"
 #include "dsl/suggest.h"
@@ -10,14 +12,13 @@
 /* ---- Tokens -------------------------------------------------------------- */
 
 void rt_parser_begin(rt_parser *parser, const rt_source *source, rt_reports *reports, uint64_t *order,
-                     rt_operations *operations, const rt_names *constants, const rt_names *materials)
+                     rt_operations *operations, const rt_scope *scope)
 {
     memset(parser, 0, sizeof *parser);
     rt_lexer_begin(&parser->lexer, source, reports, order);
     parser->reports = reports;
     parser->operations = operations;
-    parser->constants = constants;
-    parser->materials = materials;
+    parser->scope = scope;
 }
 
 const rt_token *rt_parser_peek(rt_parser *parser, int n)
@@ -91,6 +92,24 @@ static int is_word(const rt_token *token, const char *word)
     return token->kind == RT_TOKEN_WORD && rt_text_equal(rt_place_text(&token->place), word);
 }
 
+int rt_parser_call_follows(rt_parser *parser)
+{
+    if (rt_parser_peek(parser, 0)->kind != RT_TOKEN_WORD)
+        return 0;
+    const rt_token *next = rt_parser_peek(parser, 1);
+    return next->kind == '(' && !next->space_before;
+}
+
+int rt_parser_is_constant(const rt_parser *parser, rt_text word)
+{
+    return rt_names_find(&parser->scope->constants, word) != RT_NAME_NONE || rt_text_equal(word, "pi");
+}
+
+const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type)
+{
+    return type == RT_FIELD_MATERIAL ? &scope->materials : type == RT_FIELD_TEXTURE ? &scope->textures : NULL;
+}
+
 /* ---- Recovery ------------------------------------------------------------ */
 
 void rt_parser_skip_value(rt_parser *parser, const rt_block *block)
@@ -104,7 +123,8 @@ void rt_parser_skip_value(rt_parser *parser, const rt_block *block)
             return;
         if (token->kind == RT_TOKEN_WORD && depth <= 0 && block)
             if (rt_schema_field(block, rt_place_text(&token->place)) ||
-                rt_names_find(parser->constants, rt_place_text(&token->place)) == RT_NAME_NONE)
+                (!rt_parser_is_constant(parser, rt_place_text(&token->place)) &&
+                 rt_function_find(rt_place_text(&token->place)) < 0))
                 return;
         depth += (token->kind == '(' || token->kind == '[') - (token->kind == ')' || token->kind == ']');
         rt_parser_take(parser);
@@ -120,6 +140,8 @@ int rt_parser_statement_follows(rt_parser *parser)
         return rt_parser_peek(parser, 1)->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 2)->kind == '=';
     if (is_word(word, "include"))
         return rt_parser_peek(parser, 1)->kind == RT_TOKEN_STRING;
+    if (is_word(word, "repeat"))
+        return rt_parser_peek(parser, 1)->kind == RT_TOKEN_WORD && is_word(rt_parser_peek(parser, 2), "from");
     if (!rt_schema_is_block(rt_place_text(&word->place)))
         return 0;
     const rt_token *next = rt_parser_peek(parser, 1);
@@ -225,12 +247,87 @@ static int parse_include(rt_parser *parser, rt_statement *statement)
     return 1;
 }
 
-/* Offers every word that begins a statement, and lists them: " let include camera ...". */
+/* One of the two words of a repeat's range, and the value behind it. */
+static int parse_bound(rt_parser *parser, const char *word, rt_expression *value)
+{
+    char found[RT_FOUND_SIZE];
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (is_word(token, word)) {
+        rt_parser_take(parser);
+        return rt_parse_value(parser, value);
+    }
+    rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '%s', found %s", word,
+                    rt_parser_found(found, token));
+    rt_report_hint(parser->reports, "as in: repeat i from 1 to 10 { ... }");
+    return 0;
+}
+
+/* "repeat" NAME "from" value "to" value "{". Returns 0 when its body cannot be read as one. */
+static int parse_repeat(rt_parser *parser, rt_statement *statement)
+{
+    char found[RT_FOUND_SIZE];
+    statement->kind = RT_STATEMENT_REPEAT;
+    statement->place = rt_parser_take(parser).place;
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (token->kind != RT_TOKEN_WORD || token->first_on_line) {
+        rt_report_error(parser->reports, statement->place, "expected a name after 'repeat', found %s",
+                        rt_parser_found(found, token));
+        rt_report_hint(parser->reports, "as in: repeat i from 1 to 10 { ... }");
+        rt_parser_skip_statement(parser);
+        return 0;
+    }
+    statement->name = rt_parser_take_word(parser, &statement->is_broken);
+    if (!parse_bound(parser, "from", &statement->value) || !parse_bound(parser, "to", &statement->last)) {
+        statement->is_broken = 1;
+        while (rt_parser_peek(parser, 0)->kind != '{' && !rt_parser_peek(parser, 0)->first_on_line &&
+               rt_parser_peek(parser, 0)->kind != RT_TOKEN_END)
+            rt_parser_take(parser);
+    }
+    token = rt_parser_peek(parser, 0);
+    if (token->kind != '{') {
+        rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '{' after repeat, found %s",
+                        rt_parser_found(found, token));
+        if (token->kind == '+' || token->kind == '-' || token->kind == '*' || token->kind == '/')
+            rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (n - 1)");
+        rt_parser_skip_statement(parser);
+        return 0;
+    }
+    rt_parser_take(parser);
+    statement->is_broken |= statement->value.is_broken | statement->last.is_broken;
+    parser->repeats++;
+    return 1;
+}
+
+rt_parser_mark rt_parser_remember(const rt_parser *parser)
+{
+    assert(parser->ahead_count == 0);
+    return parser->lexer;
+}
+
+void rt_parser_return(rt_parser *parser, const rt_parser_mark *mark)
+{
+    parser->lexer = *mark;
+    parser->ahead_count = 0;
+    parser->repeats++;
+}
+
+void rt_parser_skip_repeat(rt_parser *parser)
+{
+    int depth = 1;
+    while (depth > 0 && rt_parser_peek(parser, 0)->kind != RT_TOKEN_END) {
+        int kind = rt_parser_take(parser).kind;
+        depth += (kind == '{') - (kind == '}');
+    }
+    parser->repeats--;
+}
+
+/* Offers every word that begins a statement, and lists them: " let include repeat camera ...". */
 static void offer_statements(rt_suggestion *suggestion, char *list, size_t size)
 {
-    size_t used = (size_t)snprintf(list, size, " let include");
+    size_t used = (size_t)snprintf(list, size, " let include repeat");
     rt_suggestion_offer_word(suggestion, "let");
     rt_suggestion_offer_word(suggestion, "include");
+    rt_suggestion_offer_word(suggestion, "repeat");
     for (size_t i = 0; i < RT_BLOCK_COUNT; i++) {
         const char *word = rt_blocks[i].word;
         rt_suggestion_offer_word(suggestion, word);
@@ -248,7 +345,7 @@ static void report_unknown_statement(rt_parser *parser, const rt_token *token)
         return;
     }
     if (token->kind != RT_TOKEN_WORD) {
-        rt_report_error(parser->reports, token->place, "expected a block, 'let' or 'include', found %s", found);
+        rt_report_error(parser->reports, token->place, "expected a block, 'let', 'include' or 'repeat', found %s", found);
         if (token->kind == '/')
             rt_report_hint(parser->reports, "a comment begins with '#'");
         return;
@@ -277,6 +374,13 @@ int rt_parser_next(rt_parser *parser, rt_statement *statement)
             understood = parse_let(parser, statement);
         } else if (is_word(token, "include")) {
             understood = parse_include(parser, statement);
+        } else if (is_word(token, "repeat")) {
+            understood = parse_repeat(parser, statement);
+        } else if (token->kind == '}' && parser->repeats > 0) {
+            statement->kind = RT_STATEMENT_END;
+            statement->place = rt_parser_take(parser).place;
+            parser->repeats--;
+            understood = 1;
         } else if (token->kind == RT_TOKEN_WORD && rt_schema_is_block(rt_place_text(&token->place))) {
             understood = rt_parse_block(parser, statement);
         } else {

@@ -11,30 +11,40 @@
 #include "dsl/expression.h"
 #include "dsl/lexer.h"
 #include "dsl/schema.h"
+#include "dsl/scope.h"
 
 /* A field as it is written. */
 typedef struct rt_setting {
     const rt_field *field;
     rt_place name;
-    rt_place word;           /* of a choice, boolean or material: the word given */
-    rt_expression values[3]; /* of a number, vector or colour */
+    rt_place word; /* the word given, or the text of a string */
+    rt_expression values[RT_FIELD_VALUES_MAX];
     int value_count;
     int is_broken; /* has an error already reported */
 } rt_setting;
 
-typedef enum rt_statement_kind { RT_STATEMENT_LET, RT_STATEMENT_INCLUDE, RT_STATEMENT_BLOCK } rt_statement_kind;
+typedef enum rt_statement_kind {
+    RT_STATEMENT_LET,
+    RT_STATEMENT_INCLUDE,
+    RT_STATEMENT_BLOCK,
+    RT_STATEMENT_REPEAT, /* up to its '{' */
+    RT_STATEMENT_END     /* the '}' of a repeat */
+} rt_statement_kind;
+
+#define RT_SETTINGS_MAX 64 /* in one block */
 
 typedef struct rt_statement {
     rt_statement_kind kind;
     rt_place place;      /* of its first word, or first two: `light point` */
-    rt_place name;       /* of a constant or a material; length 0 when it is missing */
-    rt_expression value; /* of a constant */
+    rt_place name;       /* the word that names it or, of a repeat, its constant; length 0 when it is missing */
+    rt_expression value; /* of a constant; of a repeat the first */
+    rt_expression last;  /* of a repeat */
     rt_place path;       /* of an include, without the quotes */
     const rt_block *block;
     int is_broken;     /* has an error already reported: not to be built */
     int is_incomplete; /* fields may be missing because of an error already reported */
     int setting_count;
-    rt_setting settings[RT_BLOCK_FIELDS_MAX]; /* last: only the first setting_count are ever written */
+    rt_setting settings[RT_SETTINGS_MAX]; /* last: only the first setting_count are ever written */
 } rt_statement;
 
 /* The setting of a field in a block, or NULL. */
@@ -44,23 +54,30 @@ typedef struct rt_parser {
     rt_lexer lexer;
     rt_reports *reports;
     rt_operations *operations; /* of the current statement */
-    const rt_names *constants, *materials;
+    const rt_scope *scope;
     rt_token ahead[3];
     int ahead_count;
     int last_kind;    /* kind of the latest token taken */
     rt_place last;    /* and its place */
     int depth;        /* parentheses and brackets open */
+    int repeats;      /* whose '}' is still to come */
     int value_broken; /* the expression being parsed has an error that does not stop parsing */
 } rt_parser;
 
 void rt_parser_begin(rt_parser *parser, const rt_source *source, rt_reports *reports, uint64_t *order,
-                     rt_operations *operations, const rt_names *constants, const rt_names *materials);
+                     rt_operations *operations, const rt_scope *scope);
 
 /*
  * Parses the next statement that can be understood, errors included; returns 0 at the end of the text.
  * Nothing past the statement's last token is read, but for the one that ends a `let`.
  */
 int rt_parser_next(rt_parser *parser, rt_statement *statement);
+
+/* A place between two statements, to go back to; and going on behind the '}' of the repeat that the parser is in. */
+typedef rt_lexer rt_parser_mark;
+rt_parser_mark rt_parser_remember(const rt_parser *parser);
+void rt_parser_return(rt_parser *parser, const rt_parser_mark *mark);
+void rt_parser_skip_repeat(rt_parser *parser);
 
 /* ---- Shared by the parser's files ---------------------------------------- */
 
@@ -77,6 +94,15 @@ rt_place rt_parser_expected_place(rt_parser *parser);
 
 /* Takes a word, joining `red-wall` into one mistake; the next token must be a word. */
 rt_place rt_parser_take_word(rt_parser *parser, int *is_broken);
+
+/* Whether the next tokens are a call: a word and, touching it, a parenthesis. */
+int rt_parser_call_follows(rt_parser *parser);
+
+/* Whether a word is the name of a constant, one that the scene defines or `pi`. */
+int rt_parser_is_constant(const rt_parser *parser, rt_text word);
+
+/* The table of the names that a field takes, or NULL. */
+const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type);
 
 /* Whether a statement begins at the next token: inside a block this shows that its '}' is missing. */
 int rt_parser_statement_follows(rt_parser *parser);

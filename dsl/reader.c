@@ -17,8 +17,7 @@ rt_status rt_reader_begin(rt_reader *reader, rt_error *error)
 void rt_reader_free(rt_reader *reader)
 {
     rt_scene_destroy(reader->scene);
-    rt_names_free(&reader->constants);
-    rt_names_free(&reader->materials);
+    rt_scope_free(&reader->scope);
     rt_reports_free(&reader->reports);
     rt_sources_free(&reader->sources);
 }
@@ -28,7 +27,8 @@ static int must_stop(const rt_reader *reader)
     return rt_reports_full(&reader->reports) || reader->fatal.status != RT_OK;
 }
 
-#define UNUSED_MAX 100 /* names of one table that are warned of */
+#define REPEATS_MAX 32       /* repeats inside each other */
+#define TURNS_MAX 10000000.0 /* of all repeats of a scene */
 
 /* ---- Names --------------------------------------------------------------- */
 
@@ -54,26 +54,11 @@ static void read_let(rt_reader *reader, const rt_statement *statement, const rt_
 {
     rt_value value = {{0, 0, 0}, statement->value.is_vector};
     int is_good = !statement->is_broken && rt_expression_evaluate(&value, &statement->value, operations,
-                                                                  &reader->constants, &reader->reports);
-    rt_name *name = define(reader, &reader->constants, statement->name, "constant");
+                                                                  &reader->scope.constants, &reader->reports);
+    rt_name *name = define(reader, &reader->scope.constants, statement->name, "constant");
     if (name) {
         name->value = value;
         name->is_broken = !is_good;
-    }
-}
-
-/* A name that the first text defines and nothing uses is perhaps misspelt; included files may be libraries. */
-static void warn_of_unused(rt_reader *reader, const rt_names *names, const char *what)
-{
-    char quote[RT_QUOTE_SIZE];
-    int warned = 0;
-    for (size_t i = 0; i < names->count && warned < UNUSED_MAX; i++) {
-        const rt_name *name = &names->items[i];
-        if (name->is_used || name->place.source->includer)
-            continue;
-        rt_report_warning(&reader->reports, name->place, "%s '%s' is never used", what,
-                          rt_text_quote(quote, name->text));
-        warned++;
     }
 }
 
@@ -96,22 +81,40 @@ static int check_once(rt_reader *reader, const rt_statement *statement)
     return 0;
 }
 
+/* The setting that a refusal is about: by its name, a step of the transform, or the file that was read. */
+static const rt_setting *setting_at_fault(const rt_statement *statement, const rt_error *error)
+{
+    const rt_setting *found = NULL;
+    for (int i = 0; i < statement->setting_count; i++) {
+        const rt_field *field = statement->settings[i].field;
+        int is_it = strcmp(error->field, field->name) == 0 ||
+                    (strcmp(error->field, "transform") == 0 && rt_field_is_transform(field)) ||
+                    (strcmp(error->field, "path") == 0 && field->type == RT_FIELD_FILE);
+        if (is_it)
+            found = &statement->settings[i];
+    }
+    return found;
+}
+
 /* Points at the field that the scene refused, or else at the block. */
 static void report_refusal(rt_reader *reader, const rt_statement *statement, const rt_error *error)
 {
-    rt_text name = {error->field, strlen(error->field)};
-    const rt_field *field = rt_schema_field(statement->block, name);
-    const rt_setting *setting = field ? rt_statement_setting(statement, field) : NULL;
+    const rt_setting *setting = setting_at_fault(statement, error);
     rt_place place = statement->place;
     if (setting && setting->value_count > 0)
         place = rt_place_join(setting->values[0].place, setting->values[setting->value_count - 1].place);
     else if (setting)
         place = setting->word;
-    rt_report_error(&reader->reports, place, "%s", error->message);
+    if (error->file[0] && error->line > 0)
+        rt_report_error(&reader->reports, place, "%s:%d: %s", error->file, error->line, error->message);
+    else if (error->file[0] && !strstr(error->message, error->file))
+        rt_report_error(&reader->reports, place, "%s: %s", error->file, error->message);
+    else
+        rt_report_error(&reader->reports, place, "%s", error->message);
 }
 
 /* Builds a block; returns whether the scene took it. */
-static int build(rt_reader *reader, const rt_statement *statement, const rt_block_fields *fields, uint32_t *material)
+static int build(rt_reader *reader, const rt_statement *statement, const rt_block_fields *fields, rt_build_name *as)
 {
     rt_text text = statement->name.source ? rt_place_text(&statement->name) : (rt_text){"", 0};
     char *name = malloc(text.length + 1);
@@ -123,7 +126,10 @@ static int build(rt_reader *reader, const rt_statement *statement, const rt_bloc
     name[text.length] = '\0';
 
     rt_error error;
-    rt_status status = rt_build_block(reader->scene, statement->block, fields, name, material, &error);
+    memset(&error, 0, sizeof error);
+    as->text = name;
+    rt_status status = rt_build_block(reader->scene, statement->block, fields, as, &error);
+    as->text = NULL;
     free(name);
     if (status == RT_ERROR_INPUT || status == RT_ERROR_USAGE)
         report_refusal(reader, statement, &error);
@@ -132,23 +138,58 @@ static int build(rt_reader *reader, const rt_statement *statement, const rt_bloc
     return status == RT_OK;
 }
 
+/* The table that holds the names of a kind of block, or NULL. */
+static rt_names *table_of(rt_scope *scope, const rt_block *block)
+{
+    switch (block->id) {
+    case RT_BLOCK_MATERIAL:
+        return &scope->materials;
+    case RT_BLOCK_TEXTURE:
+        return &scope->textures;
+    case RT_BLOCK_MESH:
+    case RT_BLOCK_INSTANCE:
+        return &scope->meshes;
+    default:
+        return NULL;
+    }
+}
+
+/* Looks up the mesh that an instance names. */
+static int find_mesh(const rt_checker *checker, const rt_statement *statement, rt_build_name *mesh)
+{
+    if (statement->name.length == 0)
+        return 0;
+    const rt_name *name = rt_check_known(checker, &checker->scope->meshes, statement->name, "mesh");
+    if (!name)
+        return 0;
+    mesh->index = name->index;
+    mesh->texture = name->texture;
+    return !name->is_broken;
+}
+
 static void read_block(rt_reader *reader, const rt_statement *statement, const rt_operations *operations)
 {
-    rt_checker checker = {&reader->reports, operations, &reader->constants, &reader->materials};
+    const rt_block *block = statement->block;
+    char *path = NULL;
+    rt_checker checker = {&reader->reports, operations, &reader->scope, &path};
     rt_block_fields fields;
-    uint32_t material = 0;
+    rt_build_name as = {NULL, 0, 0};
     reader->blocks++;
-    rt_build_begin(&fields, statement->block, reader->scene);
+    rt_build_begin(&fields, block, reader->scene);
     int is_good = check_once(reader, statement);
+    if (block->flags & RT_BLOCK_REFERS)
+        is_good &= find_mesh(&checker, statement, &as);
     is_good &= rt_check_block(&checker, statement, &fields);
     if (is_good)
-        is_good = build(reader, statement, &fields, &material);
+        is_good = build(reader, statement, &fields, &as);
+    free(path);
 
-    /* A material is known by its name even if it is wrong, so that its uses are no errors too. */
-    if (statement->block->id == RT_BLOCK_MATERIAL && statement->name.length > 0) {
-        rt_name *name = define(reader, &reader->materials, statement->name, "material");
+    /* A material is known by its name even if it is wrong, so that its uses are no errors too; so are the others. */
+    if ((block->flags & RT_BLOCK_NAMED) && statement->name.length > 0) {
+        rt_name *name = define(reader, table_of(&reader->scope, block), statement->name, block->word);
         if (name) {
-            name->index = material;
+            name->index = as.index;
+            name->texture = as.texture;
             name->is_broken = !is_good;
         }
     }
@@ -182,6 +223,115 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
     }
 }
 
+/* ---- Repeats --------------------------------------------------------------- */
+
+static void read_statements(rt_reader *reader, rt_parser *parser, rt_statement *statement,
+                            rt_operations *operations, int *is_closed);
+
+/* What a repeat counts from and to. Where that is wrong, its body is read once for its own errors. */
+static int evaluate_range(rt_reader *reader, const rt_statement *statement, const rt_operations *operations,
+                          double *first, double *last)
+{
+    rt_value from = {{0, 0, 0}, 0}, to = {{0, 0, 0}, 0};
+    const rt_expression *bounds[] = {&statement->value, &statement->last};
+    *first = *last = 0;
+    if (statement->is_broken ||
+        !rt_expression_evaluate(&from, bounds[0], operations, &reader->scope.constants, &reader->reports) ||
+        !rt_expression_evaluate(&to, bounds[1], operations, &reader->scope.constants, &reader->reports))
+        return 0;
+    for (int i = 0; i < 2; i++)
+        if (bounds[i]->is_vector) {
+            rt_report_error(&reader->reports, bounds[i]->place, "expected a number, found a vector");
+            return 0;
+        }
+    if (to.v[0] - from.v[0] >= TURNS_MAX) {
+        rt_report_error(&reader->reports, statement->place, "the repeats of a scene have more than %.0f turns",
+                        TURNS_MAX);
+        return 0;
+    }
+    *first = from.v[0];
+    *last = to.v[0];
+    return 1;
+}
+
+/* Reads the body once; returns whether there may be another turn. */
+static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *statement, rt_operations *operations,
+                     rt_place variable, double number, int is_good, int is_first)
+{
+    size_t errors = reader->reports.errors;
+    rt_scope_counts before = rt_scope_count(&reader->scope);
+    int is_closed = 0;
+    rt_name *name = define(reader, &reader->scope.constants, variable, "constant");
+    if (name) {
+        name->value = (rt_value){{number, number, number}, 0};
+        name->is_used = 1;
+        name->is_broken = !is_good;
+    }
+    read_statements(reader, parser, statement, operations, &is_closed);
+    if (!is_closed && !must_stop(reader))
+        rt_report_error(&reader->reports, variable, "this repeat is not closed: expected '}' before the end of the file");
+    if (is_first && reader->reports.errors == 0)
+        rt_scope_warn(&reader->scope, &before, &reader->reports);
+    rt_scope_forget(&reader->scope, &before);
+    return is_closed && reader->reports.errors == errors;
+}
+
+static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *statement, rt_operations *operations)
+{
+    double first, last;
+    rt_place variable = statement->name, place = statement->place;
+    rt_parser_mark body = rt_parser_remember(parser);
+    int is_good = evaluate_range(reader, statement, operations, &first, &last);
+    if (reader->repeats == REPEATS_MAX) {
+        rt_report_error(&reader->reports, place, "repeats are nested deeper than %d", REPEATS_MAX);
+        rt_parser_skip_repeat(parser);
+        return;
+    }
+    if (first > last)
+        rt_parser_skip_repeat(parser);
+    reader->repeats++;
+    for (size_t turn = 0; first + (double)turn <= last; turn++) {
+        if (turn > 0)
+            rt_parser_return(parser, &body);
+        if ((double)++reader->turns > TURNS_MAX) {
+            rt_report_error(&reader->reports, place, "the repeats of a scene have more than %.0f turns", TURNS_MAX);
+            rt_parser_skip_repeat(parser);
+            break;
+        }
+        /* An error would be the same at every turn: report it once. */
+        if (!read_turn(reader, parser, statement, operations, variable, first + (double)turn, is_good, turn == 0))
+            break;
+    }
+    reader->repeats--;
+}
+
+/* ---- Statements ------------------------------------------------------------ */
+
+/* Reads to the end of the text, or of the repeat that the parser is in. */
+static void read_statements(rt_reader *reader, rt_parser *parser, rt_statement *statement,
+                            rt_operations *operations, int *is_closed)
+{
+    while (!must_stop(reader) && rt_parser_next(parser, statement)) {
+        switch (statement->kind) {
+        case RT_STATEMENT_LET:
+            read_let(reader, statement, operations);
+            break;
+        case RT_STATEMENT_INCLUDE:
+            read_include(reader, statement);
+            break;
+        case RT_STATEMENT_BLOCK:
+            read_block(reader, statement, operations);
+            break;
+        case RT_STATEMENT_REPEAT:
+            read_repeat(reader, parser, statement, operations);
+            break;
+        case RT_STATEMENT_END:
+            *is_closed = 1;
+            return;
+        }
+    }
+}
+
 void rt_reader_read(rt_reader *reader, const rt_source *source)
 {
     if (!rt_lexer_check_text(source, &reader->reports, &reader->order))
@@ -190,23 +340,12 @@ void rt_reader_read(rt_reader *reader, const rt_source *source)
     rt_operations operations = {NULL, 0, 0};
     rt_statement *statement = malloc(sizeof *statement);
     rt_parser parser;
-    rt_parser_begin(&parser, source, &reader->reports, &reader->order, &operations, &reader->constants,
-                    &reader->materials);
-    if (!statement)
+    int is_closed = 0;
+    rt_parser_begin(&parser, source, &reader->reports, &reader->order, &operations, &reader->scope);
+    if (statement)
+        read_statements(reader, &parser, statement, &operations, &is_closed);
+    else
         reader->reports.out_of_memory = 1;
-    while (!must_stop(reader) && rt_parser_next(&parser, statement)) {
-        switch (statement->kind) {
-        case RT_STATEMENT_LET:
-            read_let(reader, statement, &operations);
-            break;
-        case RT_STATEMENT_INCLUDE:
-            read_include(reader, statement);
-            break;
-        case RT_STATEMENT_BLOCK:
-            read_block(reader, statement, &operations);
-            break;
-        }
-    }
     free(statement);
     rt_operations_free(&operations);
 }
@@ -218,10 +357,9 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_opti
             *error = reader->fatal;
         return reader->fatal.status;
     }
-    if (reader->reports.errors == 0) {
-        warn_of_unused(reader, &reader->constants, "constant");
-        warn_of_unused(reader, &reader->materials, "material");
-    }
+    static const rt_scope_counts all = {0, 0, 0, 0};
+    if (reader->reports.errors == 0)
+        rt_scope_warn(&reader->scope, &all, &reader->reports);
     rt_status status = rt_reports_finish(&reader->reports, options, error);
     if (status == RT_OK) {
         *out = reader->scene;

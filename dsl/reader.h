@@ -8,15 +8,18 @@
 
 #include "dsl/expression.h"
 #include "dsl/schema.h"
+#include "dsl/scope.h"
 
 typedef struct rt_reader {
     rt_scene *scene; /* owned until taken */
     rt_sources sources;
     rt_reports reports;
-    rt_names constants, materials;
+    rt_scope scope;
     rt_place once[RT_BLOCK_COUNT]; /* the first block of each kind that may stand only once; length 0: none yet */
     uint64_t order;                /* tokens so far */
     size_t blocks;                 /* blocks so far */
+    size_t turns;                  /* of all repeats so far */
+    int repeats;                   /* inside each other */
     rt_error fatal;                /* a failure that is no fault of the text; status RT_OK while there is none */
 } rt_reader;
 

@@ -1,41 +1,49 @@
 /*
- * bsdf.h - how a surface scatters: a mixture of diffuse reflection, mirror reflection and refraction.
+ * bsdf.h - how a surface scatters: a mixture of diffuse reflection, and specular reflection and refraction, which are
+ * perfect or rough.
  *
- *   fr = kd/pi + ks delta_r/|n.wi| + kt delta_t/|n.wi|
+ *   fr = kd/pi + ks R + kt T;   smooth: R = delta_r/|n.wi|, T = delta_t/|n.wi|;   rough: see rough.h
  *
  * wo and wi are unit vectors that point away from the surface. The geometric normal says on which
  * side a direction is, the shading normal gives the cosine of diffuse reflection and the axis of
  * reflection and refraction; light that would cross the surface by the shading normal alone is
  * lost, not leaked.
  *
+ * A path takes one event a surface, diffuse or specular, and carries the light of that event alone. So each
+ * event is weighed by itself against light sampling, and photon maps, which hold what diffuse events scatter,
+ * leave the others to the path, rough or not.
+ *
  * References:
  *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, chapter 5
  *     (radiance and flux at refraction and at shading normals), chapter 10 (Russian roulette).
- *   Born, Wolf: "Principles of Optics", 7th ed., section 1.5.2 (Fresnel formulae).
  */
 #ifndef RT_BSDF_H
 #define RT_BSDF_H
 
 #include "frame.h"
+#include "paint.h"
+#include "rough.h"
 #include "sample.h"
+#include "scene.h"
 #include "surface.h"
 #include "types.h"
 
 /* What a path carries: radiance from the eye, or flux from a light. They differ where the scattering is not symmetric. */
 enum transport { CARRY_RADIANCE, CARRY_FLUX };
 
-enum event { EVENT_ABSORBED, EVENT_DIFFUSE, EVENT_REFLECTED, EVENT_REFRACTED };
+/* A rough surface chooses between reflection and refraction late, at the facet. */
+enum event { EVENT_ABSORBED, EVENT_DIFFUSE, EVENT_REFLECTED, EVENT_REFRACTED, EVENT_ROUGH };
 
 /* A surface's scattering as seen from wo. */
 struct bsdf {
     float3 kd;
-    float3 reflected, refracted; /* weights of the two delta parts; refracted without the radiance's (eta_i/eta_t)^2 */
+    float3 reflected, refracted; /* specular parts about the shading normal; refracted without the radiance's (eta_i/eta_t)^2 */
     float3 normal;               /* geometric, on the side of wo */
     float3 shading;              /* on the side of wo as well */
     float3 wo;
-    float eta;                   /* index on the side of wo / index on the other */
     float cos_t;                 /* of the refracted direction, unless reflected totally */
     float diffuse, reflection, refraction; /* probabilities of the events, given survival; all 0: black */
+    struct specular specular;    /* alpha 0: smooth; the rest is set only where there is a specular part */
 };
 
 /* One scattering event, survival left out. */
@@ -43,62 +51,52 @@ struct scatter {
     float3 wi;     /* unit */
     float3 weight; /* fr |n.wi| / density, without `squeeze`; 0: the direction is on the wrong side */
     float squeeze; /* (eta_i/eta_t)^2 of a refraction that carries radiance, else 1 */
-    float pdf_w;   /* diffuse: density of wi, the choice of the event included; delta events: 0 */
+    float pdf_w;   /* density of wi by this event, its choice included; delta events: 0 */
+    bool through;  /* wi is on the other side */
 };
 
 /*
- * Fresnel reflectance of unpolarised light at cos_i > 0, eta = eta_i/eta_t; 1 at total internal
- * reflection. Writes the cosine of the refracted direction.
+ * Makes the specular part rough. Where the shading normal turns away from wo there are no facets to see, and the
+ * geometric one takes its place.
  */
-static inline float fresnel(float cos_i, float eta, float *cos_t)
+static inline void roughen(struct bsdf *bsdf, float alpha)
 {
-    const float cos2_t = (1.0f - eta) * (1.0f + eta) + square(eta * cos_i); /* Snell's law, kept precise when grazing */
-    *cos_t = 0.0f;
-    if (cos2_t <= 0.0f)
-        return 1.0f;
-    *cos_t = sqrt(cos2_t);
-    const float s = (eta * cos_i - *cos_t) / (eta * cos_i + *cos_t);
-    const float p = (cos_i - eta * *cos_t) / (cos_i + eta * *cos_t);
-    return 0.5f * (s * s + p * p);
-}
-
-/* Splits the delta part of the material between reflection and refraction. */
-static inline void split_delta(struct bsdf *bsdf, global const rt_material_data *material)
-{
-    const float cos_i = fabs(dot(bsdf->wo, bsdf->shading));
-    const float3 ks = row3(material->ks), kt = row3(material->kt);
-    const float reflectance = fresnel(cos_i, bsdf->eta, &bsdf->cos_t);
-    if (material->flags & RT_MATERIAL_FRESNEL) {
-        bsdf->reflected = reflectance * (ks + kt);
-        bsdf->refracted = (1.0f - reflectance) * (ks + kt);
-    } else {
-        const bool total = reflectance >= 1.0f;
-        bsdf->reflected = total ? ks + kt : ks;
-        bsdf->refracted = total ? (float3)(0.0f) : kt;
-    }
+    bsdf->specular.alpha = alpha;
+    if (dot(bsdf->wo, bsdf->shading) < RT_LEAST_TILT)
+        bsdf->shading = bsdf->normal;
 }
 
 /*
- * The scattering of a surface for a path that arrives along -wo with throughput beta. The events
- * are to be chosen in proportion to what the throughput keeps in each.
+ * The scattering of a surface for a path that arrives along -wo with throughput beta. eta is the index on the side
+ * of wo over that on the other. The events are to be chosen in proportion to what the throughput keeps in each.
  */
-static inline struct bsdf bsdf_at(global const rt_material_data *material, const struct surface *surface, float3 wo,
-                                  float eta, float3 beta)
+static inline struct bsdf bsdf_at(const struct scene *scene, global const rt_material_data *material,
+                                  const struct surface *surface, float3 wo, float eta, float3 beta)
 {
+    const struct paint paint = paint_at(scene, material, surface);
     const float side = dot(wo, surface->normal) < 0.0f ? -1.0f : 1.0f;
     struct bsdf bsdf;
     bsdf.normal = side * surface->normal;
-    bsdf.shading = side * surface->shading;
+    bsdf.shading = side * paint.shading;
     bsdf.wo = wo;
-    bsdf.eta = eta;
-    bsdf.kd = row3(material->kd);
+    bsdf.kd = paint.kd;
     bsdf.reflected = (float3)(0.0f);
     bsdf.refracted = (float3)(0.0f);
+    bsdf.specular.alpha = 0.0f;
     bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
     bsdf.reflection = 0.0f;
     bsdf.refraction = 0.0f;
-    if (largest3(row3(material->ks) + row3(material->kt)) > 0.0f) {
-        split_delta(&bsdf, material);
+    if (largest3(paint.ks + paint.kt) > 0.0f) {
+        bsdf.specular.ks = paint.ks;
+        bsdf.specular.kt = paint.kt;
+        bsdf.specular.eta = eta;
+        bsdf.specular.material = material;
+        if (material->roughness >= RT_SMOOTH_ALPHA)
+            roughen(&bsdf, material->roughness);
+        const struct split split = split_light(&bsdf.specular, fabs(dot(wo, bsdf.shading)));
+        bsdf.reflected = split.reflected;
+        bsdf.refracted = split.refracted;
+        bsdf.cos_t = split.cos_t;
         const float d = dot(beta, bsdf.kd), r = dot(beta, bsdf.reflected), t = dot(beta, bsdf.refracted);
         const float sum = d + r + t;
         bsdf.diffuse = sum > 0.0f ? d / sum : 0.0f;
@@ -119,25 +117,44 @@ static inline float3 bsdf_event_weight(const struct bsdf *bsdf, uint event)
 {
     if (event == EVENT_DIFFUSE)
         return bsdf->kd / bsdf->diffuse;
+    if (event == EVENT_ROUGH)
+        return (bsdf->reflected + bsdf->refracted) / (bsdf->reflection + bsdf->refraction);
     return event == EVENT_REFLECTED ? bsdf->reflected / bsdf->reflection : bsdf->refracted / bsdf->refraction;
 }
 
-/* Whether the surface reflects diffusely at all: if not, light sampling is pointless. */
+/* Whether the surface reflects diffusely: photons are left, and asked for, only there. */
 static inline bool bsdf_is_diffuse(const struct bsdf *bsdf)
 {
     return largest3(bsdf->kd) > 0.0f;
 }
 
-/* fr |n.wi| of the diffuse part; 0 below the surface. The delta parts evaluate to 0. */
-static inline float3 bsdf_eval(const struct bsdf *bsdf, float3 wi)
+/* Whether it scatters to a lamp by a rough lobe. */
+static inline bool bsdf_is_rough(const struct bsdf *bsdf)
 {
-    return dot(wi, bsdf->normal) > 0.0f ? bsdf->kd * cosine_pdf_w(dot(wi, bsdf->shading)) : (float3)(0.0f);
+    return bsdf->specular.alpha > 0.0f;
 }
 
-/* The density of wi by diffuse events, their choice included, survival left out. */
-static inline float bsdf_pdf_w(const struct bsdf *bsdf, float3 wi)
+/* Diffuse light from wi, and its density by diffuse events, their choice included, survival left out; 0 below the surface. */
+static inline struct lobe bsdf_diffuse(const struct bsdf *bsdf, float3 wi)
 {
-    return bsdf->diffuse * cosine_pdf_w(dot(wi, bsdf->shading));
+    const float pdf_w = dot(wi, bsdf->normal) > 0.0f ? cosine_pdf_w(dot(wi, bsdf->shading)) : 0.0f;
+    struct lobe lobe;
+    lobe.value = bsdf->kd * pdf_w;
+    lobe.pdf_w = bsdf->diffuse * pdf_w;
+    return lobe;
+}
+
+/* The same of rough events, for a path that carries radiance. */
+static inline struct lobe bsdf_rough(const struct bsdf *bsdf, float3 wi)
+{
+    const struct frame frame = frame_about(bsdf->shading);
+    const float3 way = frame_to_local(frame, wi);
+    struct lobe lobe = rough_eval(&bsdf->specular, frame_to_local(frame, bsdf->wo), way);
+    const bool above = way.z > 0.0f;
+    const float kept = above == (dot(wi, bsdf->normal) > 0.0f) ? 1.0f : 0.0f;
+    lobe.value *= kept * (above ? 1.0f : square(bsdf->specular.eta));
+    lobe.pdf_w *= kept * (bsdf->reflection + bsdf->refraction);
+    return lobe;
 }
 
 /*
@@ -151,13 +168,13 @@ static inline float shading_factor(const struct bsdf *bsdf, float3 wi)
     return above == below ? 1.0f : above / below;
 }
 
-static inline void scatter_diffuse(struct scatter *scatter, const struct bsdf *bsdf, float2 u, uint transport)
+static inline void scatter_diffuse(struct scatter *scatter, const struct bsdf *bsdf, float2 u)
 {
     const float3 way = sample_cosine(u);
     scatter->wi = frame_to_world(frame_about(bsdf->shading), way);
     scatter->pdf_w = bsdf->diffuse * cosine_pdf_w(way.z);
     if (way.z > 0.0f && dot(scatter->wi, bsdf->normal) > 0.0f)
-        scatter->weight = bsdf->kd * ((transport == CARRY_FLUX ? shading_factor(bsdf, scatter->wi) : 1.0f) / bsdf->diffuse);
+        scatter->weight = bsdf->kd / bsdf->diffuse;
 }
 
 static inline void scatter_reflected(struct scatter *scatter, const struct bsdf *bsdf)
@@ -167,15 +184,29 @@ static inline void scatter_reflected(struct scatter *scatter, const struct bsdf 
         scatter->weight = bsdf->reflected / bsdf->reflection;
 }
 
-static inline void scatter_refracted(struct scatter *scatter, const struct bsdf *bsdf, uint transport)
+static inline void scatter_refracted(struct scatter *scatter, const struct bsdf *bsdf)
 {
+    const float eta = bsdf->specular.eta;
     const float cos_i = dot(bsdf->wo, bsdf->shading);
     const float3 axis = cos_i < 0.0f ? -bsdf->shading : bsdf->shading;
-    scatter->wi = unit((bsdf->eta * fabs(cos_i) - bsdf->cos_t) * axis - bsdf->eta * bsdf->wo);
-    if (transport == CARRY_RADIANCE)
-        scatter->squeeze = bsdf->eta * bsdf->eta;
+    scatter->wi = unit((eta * fabs(cos_i) - bsdf->cos_t) * axis - eta * bsdf->wo);
+    scatter->through = true;
     if (dot(scatter->wi, bsdf->normal) < 0.0f)
         scatter->weight = bsdf->refracted / bsdf->refraction;
+}
+
+static inline void scatter_rough(struct scatter *scatter, const struct bsdf *bsdf, float3 u)
+{
+    const struct frame frame = frame_about(bsdf->shading);
+    const float chosen = bsdf->reflection + bsdf->refraction;
+    float3 way;
+    const float3 weight =
+        rough_sample(&bsdf->specular, frame_to_local(frame, bsdf->wo), u, &way, &scatter->pdf_w);
+    scatter->wi = unit(frame_to_world(frame, way));
+    scatter->pdf_w *= chosen;
+    scatter->through = way.z < 0.0f;
+    if (scatter->through == (dot(scatter->wi, bsdf->normal) < 0.0f))
+        scatter->weight = weight / chosen;
 }
 
 /* Chooses an event of a path that survives with probability `survival`, by u in [0,1). */
@@ -186,24 +217,33 @@ static inline uint bsdf_choose(const struct bsdf *bsdf, float survival, float u)
     const float t = survival * bsdf->refraction;
     if (u < d)
         return EVENT_DIFFUSE;
-    if (u < d + r)
-        return EVENT_REFLECTED;
-    return u < d + r + t ? EVENT_REFRACTED : EVENT_ABSORBED;
+    if (u >= d + r + t)
+        return EVENT_ABSORBED;
+    if (bsdf_is_rough(bsdf))
+        return EVENT_ROUGH;
+    return u < d + r ? EVENT_REFLECTED : EVENT_REFRACTED;
 }
 
-/* Makes the direction of an event other than absorption, by u in [0,1)^2. */
-static inline struct scatter bsdf_scatter(const struct bsdf *bsdf, uint event, float2 u, uint transport)
+/* Makes the direction of an event other than absorption, by u in [0,1)^3. */
+static inline struct scatter bsdf_scatter(const struct bsdf *bsdf, uint event, float3 u, uint transport)
 {
     struct scatter scatter;
     scatter.weight = (float3)(0.0f);
     scatter.squeeze = 1.0f;
     scatter.pdf_w = 0.0f;
+    scatter.through = false;
     if (event == EVENT_DIFFUSE)
-        scatter_diffuse(&scatter, bsdf, u, transport);
+        scatter_diffuse(&scatter, bsdf, u.xy);
     else if (event == EVENT_REFLECTED)
         scatter_reflected(&scatter, bsdf);
+    else if (event == EVENT_REFRACTED)
+        scatter_refracted(&scatter, bsdf);
     else
-        scatter_refracted(&scatter, bsdf, transport);
+        scatter_rough(&scatter, bsdf, u);
+    if (transport == CARRY_FLUX)
+        scatter.weight *= shading_factor(bsdf, scatter.wi);
+    else if (scatter.through)
+        scatter.squeeze = square(bsdf->specular.eta);
     return scatter;
 }
 

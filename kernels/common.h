@@ -64,6 +64,34 @@ typedef enum rt_sampler {
     RT_SAMPLER_INDEPENDENT /* independent random numbers */
 } rt_sampler;
 
+typedef enum rt_texture_kind {
+    RT_TEXTURE_IMAGE = 0, /* bilinear lookup in an image */
+    RT_TEXTURE_CHECKER,   /* unit squares: a where floor(u) + floor(v) is even, else b */
+    RT_TEXTURE_GRADIENT   /* from a at v = 0 to b at v = 1 */
+} rt_texture_kind;
+
+/* How an image or gradient goes on outside the unit square; a checker has no end. */
+typedef enum rt_wrap { RT_WRAP_REPEAT = 0, RT_WRAP_MIRROR, RT_WRAP_CLAMP } rt_wrap;
+
+/* Reconstruction filters; each sample is placed by importance sampling of the filter, so pixels stay independent. */
+typedef enum rt_filter {
+    RT_FILTER_BOX = 0,  /* half a pixel to each side */
+    RT_FILTER_TENT,     /* 1 pixel */
+    RT_FILTER_GAUSSIAN, /* standard deviation 0.5 pixel, cut at 1.5 */
+    RT_FILTER_MITCHELL  /* Mitchell and Netravali 1988, B = C = 1/3, 2 pixels */
+} rt_filter;
+
+/*
+ * How light that comes straight from a lamp is estimated where a surface scatters it. All have the same mean. Light
+ * that no scattered ray can meet (point, spot, directional) is always sampled, and what is seen by way of mirrors
+ * and clear glass always comes from the ray that meets it.
+ */
+typedef enum rt_estimator {
+    RT_ESTIMATOR_MIS = 0, /* both of the others, combined by the power heuristic */
+    RT_ESTIMATOR_LIGHT,   /* points sampled on lights */
+    RT_ESTIMATOR_BSDF     /* directions sampled from the material that happen to meet a light */
+} rt_estimator;
+
 typedef enum rt_accel {
     RT_ACCEL_BVH = 0,
     RT_ACCEL_NONE /* every primitive is tested, for comparison */

@@ -27,26 +27,27 @@ static inline uint2 pixel_of_item(const rt_params *params, uint item)
 }
 
 /*
- * Adds a sample to the pixel. What rounding takes from the sum is carried along (Kahan, "Further
+ * Adds a sample, of weight 1 or -1, to the pixel. What rounding takes from the sum is carried along (Kahan, "Further
  * remarks on reducing truncation errors", CACM 8(1), 1965), and the order is that of the samples: the
  * same film results however the samples are cut into launches. A sample that is not finite is counted and
  * left out.
  */
-static inline void film_add(rt_film_pixel *pixel, float3 radiance)
+static inline void film_add(rt_film_pixel *pixel, float3 radiance, float weight)
 {
 #pragma OPENCL FP_CONTRACT OFF
     if (!all(isfinite(radiance))) {
         pixel->rejected++;
         return;
     }
-    const float value[3] = {radiance.x, radiance.y, radiance.z};
+    const float value[3] = {weight * radiance.x, weight * radiance.y, weight * radiance.z};
     for (int i = 0; i < 3; i++) {
         const float term = value[i] - pixel->lost[i];
         const float sum = pixel->sum[i] + term;
         pixel->lost[i] = (sum - pixel->sum[i]) - term;
         pixel->sum[i] = sum;
     }
-    pixel->weight += 1.0f;
+    pixel->weight += weight;
+    pixel->count++;
 }
 
 #endif

@@ -61,4 +61,10 @@ static inline float3 frame_to_world(struct frame frame, float3 v)
     return v.x * frame.s + v.y * frame.t + v.z * frame.n;
 }
 
+/* World coordinates to local ones. */
+static inline float3 frame_to_local(struct frame frame, float3 v)
+{
+    return (float3)(dot(v, frame.s), dot(v, frame.t), dot(v, frame.n));
+}
+
 #endif

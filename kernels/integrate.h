@@ -42,12 +42,21 @@ struct gather {
     uint stride;                      /* so many points apart */
 };
 
+/* Which light is wanted of a path. */
+enum purpose {
+    FOLLOW_ALL,       /* all that comes by any way */
+    FOLLOW_DIRECT,    /* emission, and light scattered once; delta events do not count */
+    FOLLOW_TO_GATHER, /* what the photon map is not asked for; the path ends where it is */
+};
+
 /*
- * The power heuristic's weight of a sample that another technique makes `ratio` times as often:
- * p^2 / (p^2 + q^2), ratio = q / p.
+ * The weight of a sample that the other technique makes `ratio` times as often: the power heuristic
+ * p^2 / (p^2 + q^2), ratio = q / p; or all or nothing, where one technique stands alone.
  */
-static inline float mis_weight(float ratio)
+static inline float mis_weight(const rt_params *params, uint technique, float ratio)
 {
+    if (params->estimator != RT_ESTIMATOR_MIS)
+        return params->estimator == technique ? 1.0f : 0.0f;
     return 1.0f / (1.0f + ratio * ratio);
 }
 
@@ -55,35 +64,61 @@ static inline float mis_weight(float ratio)
  * The light that a surface emits along wo, weighted against the light sampling at the previous vertex
  * `from`, whose scattering had density pdf_w; 0: nothing to weigh against.
  */
-static inline float3 emitted_light(const struct scene *scene, const struct surface *surface, float3 wo, float3 from,
-                                   float pdf_w)
+static inline float3 emitted_light(const struct scene *scene, const rt_params *params, const struct surface *surface,
+                                   float3 wo, float3 from, float pdf_w)
 {
     const uint index = surface_light(scene, surface);
     if (index == RT_NONE)
         return (float3)(0.0f);
     global const rt_light_data *light = scene->lights + index;
-    const float3 emitted = light_radiance(light, surface->normal, wo);
+    const float3 emitted = light_radiance(scene, light, surface, wo);
     if (pdf_w == 0.0f || largest3(emitted) <= 0.0f)
         return emitted;
-    return emitted * mis_weight(light_pdf_w(light, from, surface) / pdf_w);
+    return emitted * mis_weight(params, RT_ESTIMATOR_BSDF, light_pdf_w(scene, light, from, surface) / pdf_w);
 }
 
-/* The light that one sampled point of a light sends by way of the surface to wo; `alone`: not weighted. */
-static inline float3 direct_light(const struct scene *scene, const struct surface *surface, const struct bsdf *bsdf,
-                                  float4 u, bool alone)
+/* The same of the environment, for a ray in direction w that meets nothing. */
+INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params *params, float3 w, float pdf_w)
+{
+    const float3 radiance = sky_radiance(scene, w);
+    if (pdf_w == 0.0f || largest3(radiance) <= 0.0f)
+        return radiance;
+    return radiance * mis_weight(params, RT_ESTIMATOR_BSDF, sky_light_pdf_w(scene, w) / pdf_w);
+}
+
+/* What counts of a lobe's light from a sampled point; `alone`: not weighted. */
+static inline float3 counted(const rt_params *params, const struct light_sample *sample, struct lobe lobe, bool alone)
+{
+    if (alone || sample->delta)
+        return lobe.value;
+    return lobe.value * mis_weight(params, RT_ESTIMATOR_LIGHT, lobe.pdf_w * sample->spread);
+}
+
+/*
+ * The light that one sampled point of a light sends by way of the surface to wo. Diffuse light stands alone at the
+ * last vertex of a path, unless the photon map has it; rough events go on there.
+ */
+static inline float3 direct_light(const struct scene *scene, const rt_params *params, const struct surface *surface,
+                                  const struct bsdf *bsdf, uint medium, uint beyond, float4 u, bool last)
 {
     struct light_sample sample;
     if (!sample_light(scene, surface->position, u, &sample))
         return (float3)(0.0f);
-    const float3 scattered = bsdf_eval(bsdf, sample.wi);
+    float3 scattered = (float3)(0.0f);
+    if (!(last && params->direct == RT_DIRECT_PHOTONS))
+        scattered = counted(params, &sample, bsdf_diffuse(bsdf, sample.wi), last);
+    if (bsdf_is_rough(bsdf))
+        scattered += counted(params, &sample, bsdf_rough(bsdf, sample.wi), false);
     if (largest3(scattered) <= 0.0f)
         return (float3)(0.0f);
-    /* Light that is scattered comes from the side of wo. */
-    const struct ray ray = shadow_ray(surface->position + surface->error * bsdf->normal, &sample);
+    const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
+    const float lift = through ? -surface->error : surface->error;
+    const struct ray ray = shadow_ray(surface->position + lift * bsdf->normal, &sample);
     if (occluded(scene, &ray))
         return (float3)(0.0f);
-    const float weight = alone || sample.delta ? 1.0f : mis_weight(bsdf_pdf_w(bsdf, sample.wi) * sample.spread);
-    return scattered * sample.radiance * (weight * sample.spread);
+    const float distance = sample.distant ? INFINITY : length(ray.direction);
+    const float3 arrived = medium_transmittance(scene->materials, through ? beyond : medium, distance);
+    return scattered * arrived * sample.radiance * sample.spread;
 }
 
 /* The chance to go on after a vertex, from the throughput that would be left. */
@@ -92,7 +127,16 @@ static inline float survival_chance(uint vertex, float3 throughput)
     return vertex < RT_ROULETTE_VERTEX ? 1.0f : min(1.0f, largest3(throughput));
 }
 
-/* Asks for the photons around a surface, whose diffuse reflection counts with this weight, kd excluded. */
+/*
+ * Whether caustic photons account for a light that the path meets: they come by delta events alone to a diffuse
+ * surface, where the final gather asks for them.
+ */
+static inline bool left_to_photons(const uint purpose, uint diffuse_events, float pdf_w, bool rough)
+{
+    return purpose == FOLLOW_TO_GATHER && diffuse_events > 0u && pdf_w == 0.0f && !rough;
+}
+
+/* Asks for the photons around a surface, whose diffuse reflection counts with this weight, kd included. */
 static inline void ask_photons(global rt_gather_point *point, const struct surface *surface, const struct bsdf *bsdf,
                                uint material, float3 weight)
 {
@@ -105,20 +149,22 @@ static inline void ask_photons(global rt_gather_point *point, const struct surfa
 
 /*
  * Follows the path that begins with `ray` (of unit direction) and returns the radiance it brings.
- * to_gather is a constant at each call: false for path tracing, true to end the path at a gather point, which is
- * left alone when the path ends before.
+ * purpose is a constant at each call; *gather serves FOLLOW_TO_GATHER alone, and its points are left alone when the
+ * path ends before.
  */
 static inline float3 follow_path(const struct scene *scene, const rt_params *params, const struct sampler *sampler,
-                                 struct ray ray, const bool to_gather, const struct gather *gather)
+                                 struct ray ray, const uint purpose, const struct gather *gather)
 {
     float3 radiance = (float3)(0.0f); /* so far */
     float3 beta = (float3)(1.0f);     /* throughput, without the change of radiance at refraction */
     float squeeze = 1.0f;             /* which is kept here, and means nothing to roulette */
     float pdf_w = 0.0f;               /* density of the ray's direction, 0 for the camera and delta events */
     float3 from = ray.origin;         /* the previous vertex */
-    uint4 media = RT_VACUUM;
+    uint4 media = vload4(0, scene->header->eye_media) - 1u;
     uint hidden = 0u;
     uint diffuse_events = 0u;
+    bool scattered = false; /* by an event other than a delta one */
+    bool rough = false;     /* by a rough event since the last diffuse one */
 
     for (uint depth = 1u; depth <= params->max_depth;) {
         /* Draw the numbers of the next vertex: they hang on nothing, so a processor makes them while it waits below. */
@@ -127,16 +173,24 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
 
         /* Find the nearest surface. */
         struct hit hit;
-        if (!closest_hit(scene, &ray, &hit))
+        if (!closest_hit(scene, &ray, &hit)) {
+            if (has_sky(scene) && !left_to_photons(purpose, diffuse_events, pdf_w, rough))
+                radiance += squeeze * beta * medium_transmittance(scene->materials, media.x, INFINITY) *
+                            environment_light(scene, params, ray.direction, pdf_w);
             break;
+        }
         const struct surface surface = surface_at(scene, &ray, &hit);
         const uint material_index = scene->shapes[surface.shape].material;
         global const rt_material_data *material = scene->materials + material_index;
         const float3 wo = -ray.direction;
 
+        /* Lose what the medium absorbs on the way. */
+        beta *= medium_transmittance(scene->materials, media.x, hit.t);
+
         /* Go straight on through a boundary that a stronger medium hides. */
         struct boundary boundary;
-        boundary.eta = 1.0f;
+        boundary.beyond = media;
+        boundary.eta = media_ior(scene, media);
         if (is_transparent(material)) {
             boundary = media_cross(scene, media, material_index, dot(wo, surface.normal) > 0.0f);
             if (!boundary.exists) {
@@ -150,16 +204,17 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
         }
 
         /* Add what the surface emits, unless caustic photons account for it. */
-        const bool last = to_gather && diffuse_events == params->final_gather;
-        if (!(to_gather && diffuse_events > 0u && pdf_w == 0.0f))
-            radiance += squeeze * beta * emitted_light(scene, &surface, wo, from, pdf_w);
-        if (depth == params->max_depth)
+        if (!left_to_photons(purpose, diffuse_events, pdf_w, rough))
+            radiance += squeeze * beta * emitted_light(scene, params, &surface, wo, from, pdf_w);
+        if (depth == params->max_depth || (purpose == FOLLOW_DIRECT && scattered))
             break;
 
-        /* Add direct light, except where the photon map holds it. */
-        const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, beta);
-        if (bsdf_is_diffuse(&bsdf) && !(last && params->direct == RT_DIRECT_PHOTONS))
-            radiance += squeeze * beta * direct_light(scene, &surface, &bsdf, u.lo, last);
+        /* Add direct light. */
+        const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, boundary.eta, beta);
+        const bool last = purpose == FOLLOW_TO_GATHER && diffuse_events == params->final_gather;
+        if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
+            radiance += squeeze * beta *
+                        direct_light(scene, params, &surface, &bsdf, media.x, boundary.beyond.x, u.lo, last);
 
         /* Choose an event, or the end of the path by roulette, which spares nothing where the path ends anyway. */
         const float survival = last ? 1.0f : survival_chance(vertex, beta * bsdf_albedo(&bsdf));
@@ -169,25 +224,27 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
         beta *= 1.0f / survival;
 
         /* In photon mapping, ask for photons at each diffuse event: all of them at the last, caustic ones before. */
-        if (to_gather && event == EVENT_DIFFUSE) {
+        if (purpose == FOLLOW_TO_GATHER && event == EVENT_DIFFUSE) {
             ask_photons(last ? gather->point : gather->caustics + diffuse_events * gather->stride, &surface, &bsdf,
-                        material_index, squeeze * beta * (1.0f / bsdf.diffuse));
+                        material_index, squeeze * beta * bsdf_event_weight(&bsdf, EVENT_DIFFUSE));
             if (last)
                 break;
             diffuse_events++;
         }
+        rough = event == EVENT_ROUGH || (rough && event != EVENT_DIFFUSE);
 
         /* Take the event's direction and go on. */
-        const struct scatter scatter = bsdf_scatter(&bsdf, event, u.hi.xy, CARRY_RADIANCE);
+        const struct scatter scatter = bsdf_scatter(&bsdf, event, u.hi.xyw, CARRY_RADIANCE);
         beta *= scatter.weight;
         if (largest3(beta) <= 0.0f)
             break;
         squeeze *= scatter.squeeze;
         pdf_w = scatter.pdf_w;
+        scattered |= pdf_w > 0.0f;
         from = surface.position;
-        if (event == EVENT_REFRACTED)
+        if (scatter.through)
             media = boundary.beyond;
-        const float lift = event == EVENT_REFRACTED ? -surface.error : surface.error;
+        const float lift = scatter.through ? -surface.error : surface.error;
         ray = make_ray(surface.position + lift * bsdf.normal, scatter.wi, 0.0f, INFINITY);
         depth++;
     }

@@ -1,7 +1,7 @@
 /*
- * intersect.h - rays against primitives.
+ * intersect.h - rays against triangles and parallelograms.
  *
- * Triangles and parallelograms come eight to a block and are tested at once, by the watertight
+ * They come eight to a block and are tested at once, by the watertight
  * test of Woop, Benthin and Wald ("Watertight Ray/Triangle Intersection", JCGT 2(1), 2013): the
  * edge functions of a shared edge are computed from the same numbers for both triangles, so no
  * ray passes between them.
@@ -12,34 +12,9 @@
 #define RT_INTERSECT_H
 
 #include "lanes.h"
+#include "ray.h"
 #include "scene.h"
 #include "types.h"
-
-/* origin + t direction, t_min <= t <= t_max, t_max may be infinite; direction of any length but zero. */
-struct ray {
-    float3 origin;
-    float3 direction;
-    float t_min;
-    float t_max;
-};
-
-/* What a traversal keeps of the nearest hit; surface_at makes a surface of it. */
-struct hit {
-    float t;
-    float u, v; /* triangle: weights of v1 and v2; parallelogram: along the edges; else 0 */
-    uint prim;  /* primitive of the scene */
-    uint slot;  /* see RT_SLOT_ANALYTIC */
-};
-
-static inline struct ray make_ray(float3 origin, float3 direction, float t_min, float t_max)
-{
-    struct ray ray;
-    ray.origin = origin;
-    ray.direction = direction;
-    ray.t_min = t_min;
-    ray.t_max = t_max;
-    return ray;
-}
 
 /* The ray's frame for triangles: axis z is the direction's largest component, x and y are sheared along it. */
 struct ray_frame {
@@ -129,46 +104,6 @@ INLINE_ALWAYS uint intersect_block(global const rt_tri_block *block, const struc
     hits->det = det;
     return lane_mask((lane_min(least, third) >= 0.0f) & (det > 0.0f) & (hits->t >= t_min * det) &
                      (hits->t <= t_max * det));
-}
-
-/*
- * The nearest t in [t_min, t_max] at which the ray meets the sphere, or infinity. The discriminant
- * and the smaller root are computed without cancellation: Haines, Gunther and Akenine-Moeller,
- * "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7.
- */
-static inline float intersect_sphere(global const rt_shape *sphere, const struct ray *ray)
-{
-    const float radius = sphere->p[3];
-    const float3 f = ray->origin - vload3(0, sphere->p);
-    const float3 d = ray->direction;
-    const float a = dot(d, d);
-    const float b = -dot(f, d);
-    const float3 nearest = f + (b / a) * d; /* from the centre to the line's nearest point */
-    const float h = (radius - length(nearest)) * (radius + length(nearest));
-    if (!(h >= 0.0f))
-        return INFINITY;
-    const float q = b + copysign(sqrt(a * h), b);
-    const float distance = length(f);
-    const float c = (distance - radius) * (distance + radius);
-    const float t0 = c / q, t1 = q / a;
-    const float near = t0 < t1 ? t0 : t1, far = t0 < t1 ? t1 : t0;
-    if (near >= ray->t_min && near <= ray->t_max)
-        return near;
-    return far >= ray->t_min && far <= ray->t_max ? far : INFINITY;
-}
-
-/* The t in [t_min, t_max] at which the ray meets the plane, or infinity. */
-static inline float intersect_plane(global const rt_shape *plane, const struct ray *ray)
-{
-    const float3 normal = vload3(0, plane->p + 4);
-    const float t = dot(normal, vload3(0, plane->p) - ray->origin) / dot(normal, ray->direction);
-    return t >= ray->t_min && t <= ray->t_max ? t : INFINITY;
-}
-
-/* The same for any shape that is not kept in blocks. */
-INLINE_NEVER float intersect_shape(global const rt_shape *shape, const struct ray *ray)
-{
-    return shape->kind == RT_SHAPE_PLANE ? intersect_plane(shape, ray) : intersect_sphere(shape, ray);
 }
 
 #endif

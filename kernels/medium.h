@@ -11,6 +11,7 @@
 #ifndef RT_MEDIUM_H
 #define RT_MEDIUM_H
 
+#include "frame.h"
 #include "scene.h"
 #include "types.h"
 
@@ -64,6 +65,15 @@ static inline uint4 media_leave(uint4 media, uint material)
 static inline float media_ior(const struct scene *scene, uint4 media)
 {
     return media.x == RT_NONE ? 1.0f : scene->materials[media.x].ior;
+}
+
+/* What a medium leaves of light after so many metres, which may be infinitely many: Beer and Lambert's law. */
+static inline float3 medium_transmittance(global const rt_material_data *materials, uint medium, float distance)
+{
+    if (medium == RT_NONE)
+        return (float3)(1.0f);
+    const float3 absorption = row3(materials[medium].absorption);
+    return largest3(absorption) > 0.0f ? exp(-absorption * fmin(distance, FLT_MAX)) : (float3)(1.0f);
 }
 
 /* Crosses the boundary of a solid of this material, from outside (entering) or from inside. */

@@ -7,7 +7,7 @@
 #include "integrate.h"
 
 /* A point that asks for nothing. */
-static void clear_point(global rt_gather_point *point, uint pixel, uint sample)
+static void clear_point(global rt_gather_point *point, uint pixel, uint sample, float film_weight)
 {
     const float3 zero = (float3)(0.0f);
     vstore3(zero, 0, point->position);
@@ -18,8 +18,8 @@ static void clear_point(global rt_gather_point *point, uint pixel, uint sample)
     point->pixel = pixel;
     point->material = 0u;
     point->sample = sample;
-    point->reserved0 = 0u;
-    point->reserved1 = 0u;
+    point->film_weight = film_weight;
+    point->reserved = 0u;
 }
 
 /*
@@ -35,18 +35,17 @@ kernel void photon_camera(const rt_params params, global const rt_scene_header *
     const struct scene scene = scene_open(header);
     const uint2 at = pixel_of_item(&params, params.first_item + item);
     const uint index = at.y * params.width + at.x;
-    const float2 size = (float2)(params.width, params.height);
     const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample);
-    const float4 u = sampler_set(&sampler, SET_START);
-    const struct ray ray = camera_ray(&header->camera, (convert_float2(at) + u.xy) / size, u.zw);
+    float film_weight;
+    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &film_weight);
 
     struct gather gather;
     gather.point = points + item;
     gather.caustics = caustics + item;
     gather.stride = stride;
-    clear_point(gather.point, index, params.first_sample);
+    clear_point(gather.point, index, params.first_sample, film_weight);
     for (uint i = 0u; i < params.final_gather; i++)
-        clear_point(gather.caustics + i * stride, index, params.first_sample);
-    const float3 radiance = follow_path(&scene, &params, &sampler, ray, true, &gather);
+        clear_point(gather.caustics + i * stride, index, params.first_sample, film_weight);
+    const float3 radiance = follow_path(&scene, &params, &sampler, ray, FOLLOW_TO_GATHER, &gather);
     vstore3(radiance, 0, points[item].radiance);
 }

@@ -19,7 +19,7 @@
  *     (flux is not scaled at refraction, radiance is).
  */
 #include "bsdf.h"
-#include "light.h"
+#include "light_emit.h"
 #include "medium.h"
 #include "rng.h"
 #include "traverse.h"
@@ -33,7 +33,7 @@ struct light_path {
     uint depth;    /* segments, the one under way included */
     uint hidden;   /* boundaries crossed that a stronger medium hides */
     bool straight; /* nothing was met yet: a shadow ray would find the light */
-    bool diffused; /* some event was diffuse */
+    bool scattered; /* by some event other than a delta one */
 };
 
 /* Starts a path and its account; false when there is no light. */
@@ -44,24 +44,25 @@ static bool start_path(struct light_path *path, const struct scene *scene, globa
     const bool lit =
         light_emit(scene, shares, sampler_set(sampler, SET_START), sampler_set(sampler, SET_EMISSION), &emission);
     path->flux = path->absorbed = path->roulette = (float3)(0.0f);
+    path->media = RT_VACUUM;
     account->light = RT_NONE;
     if (lit) {
         path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f, INFINITY);
         path->flux = emission.flux;
+        path->media = (uint4)(vload3(0, scene->lights[emission.light].media), 0u) - 1u;
         account->light = emission.light;
     }
     vstore3(path->flux, 0, account->emitted);
-    path->media = RT_VACUUM;
     path->depth = 1u;
     path->hidden = 0u;
     path->straight = true;
-    path->diffused = false;
+    path->scattered = false;
     return lit;
 }
 
 static bool is_caustic(const struct light_path *path)
 {
-    return !path->straight && !path->diffused;
+    return !path->straight && !path->scattered;
 }
 
 /* Whether the map under way takes a photon here; what comes straight from a light may be left to shadow rays. */
@@ -112,7 +113,7 @@ static bool scatter_path(struct light_path *path, const struct surface *surface,
     path->flux = (float3)(0.0f);
     if (event == EVENT_ABSORBED)
         return false;
-    const struct scatter scatter = bsdf_scatter(bsdf, event, u.xy, CARRY_FLUX);
+    const struct scatter scatter = bsdf_scatter(bsdf, event, u.xyw, CARRY_FLUX);
     const float3 chosen = arrived * (bsdf_event_weight(bsdf, event) / survival);
     path->flux = arrived * (scatter.weight / survival);
     path->roulette -= chosen;
@@ -121,8 +122,8 @@ static bool scatter_path(struct light_path *path, const struct surface *surface,
         return false;
     path->ray = make_ray(leave_surface(surface, scatter.wi), scatter.wi, 0.0f, INFINITY);
     path->straight = false;
-    path->diffused |= event == EVENT_DIFFUSE;
-    if (event == EVENT_REFRACTED)
+    path->scattered |= event == EVENT_DIFFUSE || event == EVENT_ROUGH;
+    if (scatter.through)
         path->media = beyond;
     path->depth++;
     return true;
@@ -161,10 +162,19 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         global const rt_material_data *material = scene.materials + material_index;
         const float3 wo = -path.ray.direction;
 
+        /* Lose what the medium absorbs on the way. */
+        const float3 passed = path.flux * medium_transmittance(scene.materials, path.media.x, hit.t);
+        path.absorbed += path.flux - passed;
+        path.flux = passed;
+        if (!(largest3(path.flux) > 0.0f)) {
+            end = RT_END_ABSORBED;
+            break;
+        }
+
         /* Go straight on through a boundary that a stronger medium hides. */
         struct boundary boundary;
         boundary.beyond = path.media;
-        boundary.eta = 1.0f;
+        boundary.eta = media_ior(&scene, path.media);
         if (is_transparent(material)) {
             boundary = media_cross(&scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
             if (!boundary.exists) {
@@ -177,7 +187,7 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         }
 
         /* Leave a photon where the map wants one. */
-        const struct bsdf bsdf = bsdf_at(material, &surface, wo, boundary.eta, path.flux);
+        const struct bsdf bsdf = bsdf_at(&scene, material, &surface, wo, boundary.eta, path.flux);
         if (bsdf_is_diffuse(&bsdf) && is_stored(&path, &params)) {
             const rt_photon photon = make_photon(&path, &surface, &bsdf, index);
             if (photon_is_finite(&photon))
@@ -192,8 +202,8 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         if (!alive)
             end = RT_END_ABSORBED;
 
-        /* Nothing that a caustic map keeps comes after a diffuse reflection. */
-        if (for_caustics && path.diffused)
+        /* Nothing that a caustic map keeps comes after an event that spreads light. */
+        if (for_caustics && path.scattered)
             break;
     }
     vstore3(path.absorbed, 0, account.absorbed);

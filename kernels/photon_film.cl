@@ -19,6 +19,6 @@ kernel void photon_film(const rt_params params, global const rt_gather_point *po
     for (uint i = 0u; i < params.final_gather; i++)
         radiance += row3(caustics[i * stride + item].radiance);
     rt_film_pixel pixel = film[index];
-    film_add(&pixel, radiance);
+    film_add(&pixel, radiance, points[item].film_weight);
     film[index] = pixel;
 }

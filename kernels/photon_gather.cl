@@ -9,8 +9,7 @@
  * points: those from params.first_item on; lists: rows of estimate.stride photon
  * indices, one a point, nearest first, which also is the order of summing.
  */
-kernel void photon_gather(const rt_params params, global const rt_scene_header *header,
-                          const rt_density_params estimate, global rt_gather_point *points,
+kernel void photon_gather(const rt_params params, const rt_density_params estimate, global rt_gather_point *points,
                           global const rt_gather_disc *discs, global const uint *lists, global const rt_photon *photons)
 {
     const uint item = (uint)get_global_id(0);
@@ -18,7 +17,6 @@ kernel void photon_gather(const rt_params params, global const rt_scene_header *
         return;
     global const uint *list = lists + (size_t)item * estimate.stride;
     const rt_gather_disc disc = discs[item];
-    const struct scene scene = scene_open(header);
     points += params.first_item + item;
     const float3 position = row3(points->position);
     float3 flux_density = (float3)(0.0f);
@@ -29,5 +27,5 @@ kernel void photon_gather(const rt_params params, global const rt_scene_header *
         const float k = density_kernel(estimate.density, estimate.cone_k, dot(away, away), disc.squared_radius);
         flux_density += (k * photon->shading) * row3(photon->flux);
     }
-    add_reflected(points, &scene, estimate.scale * flux_density);
+    add_reflected(points, estimate.scale * flux_density);
 }

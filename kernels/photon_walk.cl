@@ -9,14 +9,13 @@
  * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found at each point, without the lists. A point without
  * weight, or whose place is not finite, is not asked for.
  */
-kernel void photon_walk(const rt_params params, global const rt_scene_header *header, const rt_density_params estimate,
+kernel void photon_walk(const rt_params params, const rt_density_params estimate,
                         global rt_gather_point *points, global rt_gather_disc *discs, const rt_photon_tree shape,
                         global const rt_photon_node *nodes, global const rt_photon_block *blocks,
                         global float *scratch)
 {
     const uint item = (uint)get_global_id(0);
     const uint begin = item * estimate.points_an_item, end = min(begin + estimate.points_an_item, params.item_count);
-    const struct scene scene = scene_open(header);
     struct photon_tree tree;
     points += params.first_item;
     tree.shape = shape;
@@ -40,7 +39,7 @@ kernel void photon_walk(const rt_params params, global const rt_scene_header *he
             disc.count = sum.count;
             disc.squared_radius = sum.squared_radius;
             if (sum.count > 0u)
-                add_reflected(points + i, &scene, estimate.scale * sum.flux_density);
+                add_reflected(points + i, estimate.scale * sum.flux_density);
         }
         discs[i] = disc;
     }

@@ -10,7 +10,7 @@
  *                 light  point on the light       choice of light     -
  *   SET_EMISSION  light  direction                -                   -
  *   set_light(v)         point on the light       choice of light     -
- *   set_scatter(v)       direction of diffusion   event or roulette   -
+ *   set_scatter(v)       direction                event or roulette   side of a rough boundary
  *
  * v counts the vertices of the path from 0, the first surface met. Two-dimensional decisions
  * sit in x and y, which form a (0,2)-sequence in base 2 together.

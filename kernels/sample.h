@@ -115,6 +115,27 @@ static inline float triangle_pdf_a(float3 e1, float3 e2)
     return 2.0f / sqrt(dot(n, n));
 }
 
+/*
+ * The regular polygon in the unit circle, one corner `turn` turns from +x, evenly: u.x chooses the triangle between
+ * the centre and an edge, and with u.y the point in it.
+ */
+static inline float2 sample_polygon(uint corners, float turn, float2 u)
+{
+    const float place = u.x * (float)corners;
+    const float edge = floor(place);
+    const float a = turn + edge / (float)corners, b = turn + (edge + 1.0f) / (float)corners;
+    const float2 weight = sample_triangle((float2)(place - edge, u.y));
+    return weight.x * sin_cos(2.0f * RT_PI * (a - floor(a))).yx + weight.y * sin_cos(2.0f * RT_PI * (b - floor(b))).yx;
+}
+
+/* ---- The line ------------------------------------------------------------- */
+
+/* In [-1, 1], by the density 1 - |x|, each coordinate on its own. */
+static inline float2 sample_tent(float2 u)
+{
+    return select(1.0f - sqrt(2.0f - 2.0f * u), sqrt(2.0f * u) - 1.0f, u < 0.5f);
+}
+
 /* ---- Rectangle by solid angle -------------------------------------------- */
 
 /*

@@ -20,7 +20,13 @@ struct scene {
     global const uint *prim_shape; /* shape of each primitive */
     global const rt_material_data *materials;
     global const rt_light_data *lights;
+    global const rt_transform_data *transforms;
+    global const uint *indices;
     global const float4 *normals;
+    global const float2 *uvs;
+    global const float4 *colours;
+    global const rt_texture_data *textures;
+    global const uchar *texels;
     global const uint4 *sobol;
 };
 
@@ -37,7 +43,13 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     scene.prim_shape = (global const uint *)(base + (size_t)header->prim_shape * RT_SCENE_ROW);
     scene.materials = (global const rt_material_data *)(base + (size_t)header->materials * RT_SCENE_ROW);
     scene.lights = (global const rt_light_data *)(base + (size_t)header->lights * RT_SCENE_ROW);
+    scene.transforms = (global const rt_transform_data *)(base + (size_t)header->transforms * RT_SCENE_ROW);
+    scene.indices = (global const uint *)(base + (size_t)header->indices * RT_SCENE_ROW);
     scene.normals = (global const float4 *)(base + (size_t)header->normals * RT_SCENE_ROW);
+    scene.uvs = (global const float2 *)(base + (size_t)header->uvs * RT_SCENE_ROW);
+    scene.colours = (global const float4 *)(base + (size_t)header->colours * RT_SCENE_ROW);
+    scene.textures = (global const rt_texture_data *)(base + (size_t)header->textures * RT_SCENE_ROW);
+    scene.texels = base + (size_t)header->texels * RT_SCENE_ROW;
     scene.sobol = (global const uint4 *)(base + (size_t)header->sobol * RT_SCENE_ROW);
     return scene;
 }

@@ -36,7 +36,7 @@ kernel void trace_closest(global const rt_scene_header *scene_data, global const
         hit.t = found.t;
         hit.u = surface.u;
         hit.v = surface.v;
-        hit.prim = surface.prim - scene.shapes[surface.shape].first_prim;
+        hit.prim = surface.triangle;
         vstore3(surface.normal, 0, hit.normal);
         hit.shape = surface.shape;
     }

@@ -78,29 +78,61 @@ RT_SIZE(rt_hit, 32);
 
 /* ---- Shapes and materials ---------------------------------------------- */
 
-/* Kinds of shape. The order of the enum is the order of the table in intersect.h. */
-#define RT_SHAPE_TRIANGLES 0u /* one or many triangles: p unused, geometry in rt_tri_block */
+/*
+ * Kinds of shape. Sphere and plane are in world space; the other analytic shapes are given in a space of
+ * their own, where they are as simple as below, and their transform places them there. A transform maps
+ * normals by the transpose of its inverse, so that what is outside stays outside even when it mirrors.
+ */
+#define RT_SHAPE_TRIANGLES 0u /* a mesh in world space, geometry in rt_tri_block */
 #define RT_SHAPE_QUAD 1u      /* one parallelogram, geometry in rt_tri_block */
-#define RT_SHAPE_SPHERE 2u    /* p[0..2] centre, p[3] radius */
-#define RT_SHAPE_PLANE 3u     /* p[0..2] a point, p[4..6] unit normal; infinite, kept beside the tree */
+#define RT_SHAPE_SPHERE 2u    /* p[0..2] centre, p[3] radius; a transform turns the point's normal to that of its u, v */
+#define RT_SHAPE_PLANE 3u     /* p[0..2] a point, p[4..6] unit normal; infinite, kept beside the tree; a transform
+                                 maps the point to x = u, y = v */
+#define RT_SHAPE_ELLIPSOID 4u /* the unit sphere */
+#define RT_SHAPE_DISC 5u      /* z = 0, p[0] <= radius <= 1, normal +z */
+#define RT_SHAPE_CYLINDER 6u  /* radius 1 about z, z in [0, 1] */
+#define RT_SHAPE_CONE 7u      /* about z, radius 1 at z = 0 and p[0] <= 1 at z = 1 */
+#define RT_SHAPE_TORUS 8u     /* about z, major radius 1, minor radius p[0] < 1 */
+#define RT_SHAPE_INSTANCE 9u  /* a mesh with a tree of its own, placed by the transform; one primitive */
 
-#define RT_SHAPE_SMOOTH 1u /* flag: shading normals from the table `normals` */
+#define RT_SHAPE_SMOOTH 1u    /* flag: its vertices have normals */
+#define RT_SHAPE_UV 2u        /* flag: its vertices have texture coordinates */
+#define RT_SHAPE_COLOUR 4u    /* flag: its vertices have colours */
+#define RT_SHAPE_CAPS 8u      /* flag: cylinder and cone are closed */
+#define RT_SHAPE_MIRRORED 16u /* flag of triangles and quads: in world space the normal is (v2 - v0) x (v1 - v0) */
+#define RT_SHAPE_VARIED 32u   /* flag: textures, vertex colours or bumps make the material differ from point to point */
 
 typedef struct rt_shape {
     rt_u32 kind;       /* RT_SHAPE_* */
-    rt_u32 flags;      /* RT_SHAPE_SMOOTH */
+    rt_u32 flags;      /* RT_SHAPE_* flags */
     rt_u32 material;   /* index in materials */
     rt_u32 first_prim; /* its primitives are first_prim .. first_prim + prim_count - 1 */
     rt_u32 prim_count;
     rt_u32 first_light;  /* its primitive i is light first_light + i; RT_NONE when it does not emit */
-    rt_u32 first_normal; /* RT_SHAPE_SMOOTH: corner c of primitive i has normal first_normal + 3 i + c */
+    rt_u32 transform;    /* index in transforms; RT_NONE: none */
+    rt_u32 texture;      /* index in textures, of the texture that multiplies kd; RT_NONE: none */
+    rt_u32 root;         /* instance: root node of the mesh's tree; its blocks name triangles of the mesh, from 0 */
+    rt_u32 first_index;  /* mesh with vertex data: corner c of triangle i is vertex indices[first_index + 3 i + c] ... */
+    rt_u32 first_normal; /* ... of those that begin here in normals, ... */
+    rt_u32 first_uv;     /* ... in uvs ... */
+    rt_u32 first_colour; /* ... and in colours */
+    rt_u32 first_block;  /* instance: blocks of the mesh's tree, one after the other */
+    rt_u32 block_count;
     rt_u32 reserved;
     float p[8]; /* parameters of analytic shapes, as the kind says */
 } rt_shape;
-RT_SIZE(rt_shape, 64);
+RT_SIZE(rt_shape, 96);
 
-#define RT_MATERIAL_FRESNEL 1u   /* flag: the delta part ks + kt is split Fr : 1 - Fr */
+/* An affine placement: the upper three rows of its matrix and of the inverse, for column vectors. */
+typedef struct rt_transform_data {
+    float to_world[3][4];
+    float to_object[3][4];
+} rt_transform_data;
+RT_SIZE(rt_transform_data, 96);
+
+#define RT_MATERIAL_FRESNEL 1u   /* flag: dielectric; ks + kt is split Fr : 1 - Fr */
 #define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
+#define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
 
 typedef struct rt_material_data {
     float kd[3]; /* diffuse albedo */
@@ -109,9 +141,16 @@ typedef struct rt_material_data {
     rt_u32 flags;
     float kt[3];     /* specular transmittance */
     rt_u32 priority; /* nested media: the higher wins where solids overlap */
-    float reserved[4]; /* what a material emits is kept by its lights */
+    float eta[3];    /* conductor: complex index of refraction eta + i k */
+    float roughness; /* GGX alpha; 0 is smooth */
+    float k[3];
+    float bump_scale;    /* height in metres of a texture value of 1 */
+    float absorption[3]; /* of the inside, 1/m */
+    rt_u32 bump_texture; /* indices in textures; RT_NONE: none */
+    rt_u32 kd_texture, ks_texture, kt_texture;
+    rt_u32 reserved;
 } rt_material_data;
-RT_SIZE(rt_material_data, 64);
+RT_SIZE(rt_material_data, 112);
 
 /* ---- Textures ---------------------------------------------------------- */
 
@@ -119,23 +158,14 @@ RT_SIZE(rt_material_data, 64);
  * A texture is a colour at each point (s, t) = scale (u, v) + offset. An image fills the unit square
  * upright: s = 0 is its left edge, t = 0 its bottom edge.
  */
-#define RT_TEXTURE_IMAGE 0u
-#define RT_TEXTURE_CHECKER 1u  /* unit squares: a where floor(s) + floor(t) is even, else b */
-#define RT_TEXTURE_GRADIENT 2u /* from a at 0 to b at 1, along s or t as `axis` says */
-
-/* How an image or gradient goes on outside the unit square; a checker has no end. */
-#define RT_WRAP_REPEAT 0u
-#define RT_WRAP_MIRROR 1u
-#define RT_WRAP_CLAMP 2u
-
 /* How texels are kept, rows from the bottom up. */
 #define RT_TEXELS_CODE8 0u /* float decode[256], then uchar[4] a texel: codes of red, green and blue, 0 */
 #define RT_TEXELS_GREY 1u  /* float a texel */
 #define RT_TEXELS_HALF 2u  /* half[4] a texel: red, green and blue over `unit`, 0 */
 
 typedef struct rt_texture_data {
-    rt_u32 kind; /* RT_TEXTURE_* */
-    rt_u32 wrap; /* RT_WRAP_* */
+    rt_u32 kind; /* rt_texture_kind */
+    rt_u32 wrap; /* rt_wrap */
     rt_u32 axis; /* gradient: 0 along s, 1 along t */
     rt_u32 format; /* image: RT_TEXELS_* */
     float scale[2];
@@ -152,53 +182,81 @@ RT_SIZE(rt_texture_data, 80);
 
 /* ---- Lights ------------------------------------------------------------ */
 
-#define RT_LIGHT_POINT 0u    /* a: position; emission: intensity, W/sr */
-#define RT_LIGHT_QUAD 1u     /* a: corner, b, c: edges; emission: radiance */
-#define RT_LIGHT_TRIANGLE 2u /* a: vertex, b, c: edges; emission: radiance */
-#define RT_LIGHT_SPHERE 3u   /* a: centre, width: radius; emission: radiance */
+#define RT_LIGHT_POINT 0u       /* a: position; emission: intensity, W/sr */
+#define RT_LIGHT_QUAD 1u        /* a: corner, b, c: edges; emission: radiance */
+#define RT_LIGHT_TRIANGLE 2u    /* a: vertex, b, c: edges; emission: radiance */
+#define RT_LIGHT_SPHERE 3u      /* a: centre, width: radius; emission: radiance */
+#define RT_LIGHT_SHAPE 4u       /* the analytic shape of prim, sampled by its parameters; emission: radiance */
+#define RT_LIGHT_SPOT 5u        /* a: position, b: unit axis, c[0] > c[1]: cosines of inner and outer angle; emission: W/sr on the axis */
+#define RT_LIGHT_DIRECTIONAL 6u /* b: unit direction of travel; emission: irradiance on a facing surface, W/m^2 */
+#define RT_LIGHT_ENVIRONMENT 7u /* from all around; emission: radiance, which multiplies the environment's image */
 
 #define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
 
 typedef struct rt_light_data {
     float a[3];
-    rt_u32 kind;   /* RT_LIGHT_* */
-    float b[3];    /* unit vector along the first edge */
-    float width;   /* length of that edge, m; sphere: radius */
-    float c[3];    /* unit vector along the second edge */
-    float height;  /* length of that edge, m */
-    float normal[3]; /* unit, b x c; not of a sphere */
-    float area;    /* m^2, one side; 0 for a point light */
+    rt_u32 kind;     /* RT_LIGHT_* */
+    float b[3];      /* unit vector along the first edge */
+    float width;     /* length of that edge, m; sphere: radius */
+    float c[3];      /* unit vector along the second edge */
+    float height;    /* length of that edge, m */
+    float normal[3]; /* quad and triangle: unit, on the side that shines */
+    float area;      /* m^2, one side; 0 for lights without */
     float emission[3];
-    float pmf;     /* probability of choosing this light, in proportion to its power */
-    float cdf;     /* sum of pmf up to and including this light */
-    float power;   /* total emitted flux, mean of the three channels, W */
-    rt_u32 prim;   /* primitive that emits, RT_NONE for a point light */
-    rt_u32 flags;
+    float pmf;      /* probability of choosing this light, in proportion to its power */
+    float cdf;      /* sum of pmf up to and including this light */
+    float power;    /* total emitted flux, mean of the three channels, W */
+    rt_u32 prim;    /* primitive that emits, RT_NONE for lights without */
+    rt_u32 flags;   /* RT_LIGHT_* flags */
+    rt_u32 texture; /* multiplies the emission at the primitive's u and v; RT_NONE: none */
+    rt_u32 media[3]; /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */
 } rt_light_data;
-RT_SIZE(rt_light_data, 96);
+RT_SIZE(rt_light_data, 112);
+
+/*
+ * The environment: an image of latitude and longitude and the distribution that samples it, in proportion to
+ * radiance and the sine of the polar angle. Offsets count 64-byte rows from the start of the scene buffer.
+ */
+typedef struct rt_environment_data {
+    rt_u32 width, height; /* pixels of the image; 0: constant */
+    rt_u32 texels;        /* float[4] a pixel, top row first */
+    rt_u32 conditional;   /* float[height][width + 1]: cumulative distribution along each row */
+    rt_u32 marginal;      /* float[height + 1]: cumulative distribution of the rows */
+    rt_u32 light;         /* index in lights; RT_NONE: no environment */
+    float turn;           /* rotation about y, in turns */
+    float mean;           /* integral of the sampled function over the unit square */
+} rt_environment_data;
+RT_SIZE(rt_environment_data, 32);
 
 /* ---- Camera ------------------------------------------------------------ */
 
+#define RT_CAMERA_KIND_PERSPECTIVE 0u
+#define RT_CAMERA_KIND_ORTHOGRAPHIC 1u
+#define RT_CAMERA_KIND_ENVIRONMENT 2u
+
 /*
- * Thin lens. The film point (s, t), s to the right, t down, both in [0,1], is seen along
- * corner + s across + t down (world units, at the focal distance, relative to the eye).
+ * The film point (s, t), s to the right, t down, both in [0,1]. Perspective: seen along corner + s across + t down,
+ * relative to the eye, which is the point at the focal distance. Orthographic: from the eye moved by
+ * corner + s across + t down, along axis. Environment: longitude 2 pi s, latitude pi t about lens_v, axis in the centre.
  */
 typedef struct rt_camera_data {
     float eye[3];
     float aperture; /* lens radius, 0 for a pinhole */
     float corner[3];
-    float reserved0;
+    rt_u32 kind; /* RT_CAMERA_KIND_* */
     float across[3];
-    float reserved1;
+    rt_u32 blades; /* edges of the aperture; 0: round */
     float down[3];
-    float reserved2;
-    float lens_u[3]; /* unit vector to the right */
-    float reserved3;
+    float blade_rotation; /* radians */
+    float lens_u[3];      /* unit vector to the right */
+    float focal_distance;
     float lens_v[3]; /* unit vector up */
-    float reserved4;
+    rt_u32 filter;   /* rt_filter, which places the samples */
+    float axis[3];   /* unit vector of view */
+    float reserved;
 } rt_camera_data;
-RT_SIZE(rt_camera_data, 96);
+RT_SIZE(rt_camera_data, 112);
 
 /* ---- The scene in one buffer ------------------------------------------- */
 
@@ -208,23 +266,31 @@ RT_SIZE(rt_camera_data, 96);
  */
 #define RT_SCENE_ROW 64u
 typedef struct rt_scene_header {
-    rt_u32 nodes, node_count;           /* rt_bvh_node; node 0 is the root */
-    rt_u32 blocks, block_count;         /* rt_tri_block */
-    rt_u32 analytic, analytic_count;    /* u32: index of an analytic shape, one an entry */
+    rt_u32 nodes, node_count;           /* rt_bvh_node; node 0 is the root, the trees of meshes follow */
+    rt_u32 blocks, block_count;         /* rt_tri_block of the tree at the root; those of meshes follow */
+    rt_u32 analytic, analytic_count;    /* u32: index of an analytic shape or an instance, one an entry */
     rt_u32 planes, plane_count;         /* u32: index of a plane's shape; planes are infinite and tested beside the tree */
     rt_u32 shapes, shape_count;         /* rt_shape */
     rt_u32 prim_shape, prim_count;      /* u32: the shape of each primitive */
     rt_u32 materials, material_count;   /* rt_material_data */
     rt_u32 lights, light_count;         /* rt_light_data */
-    rt_u32 normals, normal_count;       /* float[4]: unit normals of smooth triangles, w = 0 */
+    rt_u32 transforms, transform_count; /* rt_transform_data */
+    rt_u32 indices, index_count;        /* u32: vertices of the corners of meshes with attributes */
+    rt_u32 normals, normal_count;       /* float[4]: unit normals of vertices, w = 0 */
+    rt_u32 uvs, uv_count;               /* float[2]: texture coordinates of vertices */
+    rt_u32 colours, colour_count;       /* float[4]: colours of vertices, w = 0 */
+    rt_u32 textures, texture_count;     /* rt_texture_data */
+    rt_u32 texels, texel_rows;          /* texels of all images, 64-byte rows */
     rt_u32 sobol, sobol_count;          /* uint4[4][256]: XOR of the first four Sobol matrices' columns, by byte of the index */
     float bounds_lo[3], radius;         /* lowest corner and bounding-sphere radius of all finite shapes */
     float bounds_hi[3];
-    rt_u32 accel;                       /* rt_accel */
+    rt_u32 accel; /* rt_accel */
+    rt_environment_data environment;
     rt_camera_data camera;
-    rt_u32 reserved[12];
+    rt_u32 eye_media[4]; /* the solids around the eye, as paths list them (medium.h): material + 1, 0: none */
+    rt_u32 reserved[16];
 } rt_scene_header;
-RT_SIZE(rt_scene_header, 256);
+RT_SIZE(rt_scene_header, 384);
 
 /* ---- Rendering ---------------------------------------------------------- */
 
@@ -241,19 +307,28 @@ typedef struct rt_params {
     rt_u32 final_gather; /* photon mode: diffuse bounces before the map is asked */
     rt_u32 slots;        /* photon emission: photons a path can store */
     rt_u32 direct;       /* photon mode: rt_direct */
+    rt_u32 estimator;    /* rt_estimator */
     rt_u32 store;        /* photon emission: RT_STORE_* */
-    rt_u32 reserved[3];
+    rt_u32 reserved[2];
 } rt_params;
 RT_SIZE(rt_params, 64);
 
-/* A pixel of the film: compensated (Kahan) sum of radiance, in order of the samples. */
+/* A pixel of the film: compensated (Kahan) sum of weight times radiance, in order of the samples. */
 typedef struct rt_film_pixel {
     float sum[3];
-    float weight; /* number of samples */
+    float weight;  /* sum of the samples' weights, which are 1 or -1: see filter.h */
     float lost[3]; /* what rounding lost from sum */
+    rt_u32 count;  /* samples */
     rt_u32 rejected; /* samples that were not finite, left out */
+    rt_u32 reserved[3];
 } rt_film_pixel;
-RT_SIZE(rt_film_pixel, 32);
+RT_SIZE(rt_film_pixel, 48);
+
+/* Layers beside the radiance. A sample that meets nothing adds 0 to all; w is the weight of the film's filter. */
+#define RT_LAYER_ALBEDO 0u /* w times albedo */
+#define RT_LAYER_NORMAL 1u /* w times shading normal */
+#define RT_LAYER_DEPTH 2u  /* depth, 1 and w of samples that meet something, with the weight 1 */
+#define RT_LAYER_COUNT 3u
 
 /* ---- Photons ------------------------------------------------------------ */
 
@@ -299,12 +374,12 @@ typedef struct rt_gather_point {
     rt_u32 pixel; /* film index */
     float normal[3]; /* unit, on the side of wo */
     rt_u32 material;
-    float weight[3]; /* of the reflected radiance on its way to the film, kd excluded; 0: nothing to gather */
+    float weight[3]; /* of the radiance reflected diffusely on its way to the film, kd included; 0: nothing to gather */
     rt_u32 sample;
     float wo[3];
-    rt_u32 reserved0;
+    float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
-    rt_u32 reserved1;
+    rt_u32 reserved;
 } rt_gather_point;
 RT_SIZE(rt_gather_point, 80);
 

@@ -123,7 +123,7 @@ typedef enum rt_stage {
     RT_STAGE_COMPILE, /* building OpenCL kernels; quick once the driver has them cached */
     RT_STAGE_EMIT,    /* photon emission */
     RT_STAGE_GATHER,  /* photon mode: building the search tree, then camera paths and gathering */
-    RT_STAGE_RENDER   /* path mode: camera paths; photon mode in passes: all of them */
+    RT_STAGE_RENDER   /* the other modes: camera paths; photon mode in passes: all of them */
 } rt_stage;
 
 typedef struct rt_progress {
@@ -188,20 +188,62 @@ RT_API rt_status rt_scene_create(rt_scene **out, rt_error *error);
 RT_API void rt_scene_destroy(rt_scene *scene);
 
 /*
- * A material: fr = kd/pi + ks delta_reflection/|n.wi| + kt delta_transmission/|n.wi|, with
- * kd + ks + kt <= 1 in every channel, plus emission. All zero is black.
+ * An affine map as the upper three rows of its matrix, for column vectors: world = m (x, y, z, 1).
+ * All zero means the identity. It must be invertible; mirroring is allowed.
+ */
+typedef struct rt_transform {
+    float m[3][4];
+} rt_transform;
+
+/* ---- Textures ----------------------------------------------------------- */
+
+/* A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds and wraps are in common.h. */
+typedef struct rt_texture {
+    rt_texture_kind kind;
+    const char *path; /* image: .png, .ppm, .pgm, .exr or .pfm, decided by content */
+    int linear;       /* image: 1, 8 and 16 bit samples are linear; 0, they are sRGB-encoded */
+    rt_wrap wrap;     /* image and gradient */
+    float a[3], b[3]; /* checker and gradient */
+    float scale[2];    /* u and v are multiplied by this, 0 means 1, ... */
+    float offset[2];   /* ... and then moved by this, before the lookup */
+} rt_texture;
+
+/*
+ * Adds a texture and reads its file. *out is its handle, from 1: 0 stands for "none" wherever a texture is
+ * asked. Fails with RT_ERROR_INPUT, error->field naming the member.
+ */
+RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture, rt_error *error);
+
+/* ---- Materials ---------------------------------------------------------- */
+
+typedef enum rt_fresnel {
+    RT_FRESNEL_OFF = 0,    /* ks and kt are used as given */
+    RT_FRESNEL_DIELECTRIC, /* ks + kt is split Fr : 1 - Fr by the exact unpolarised equations for ior */
+    RT_FRESNEL_CONDUCTOR   /* ks is multiplied by the exact reflectance of a metal of index eta + i k */
+} rt_fresnel;
+
+/*
+ * A material: fr = kd/pi + ks R + kt T, with kd + ks + kt <= 1 in every channel, plus emission. R reflects and
+ * T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX distribution (Walter et al.
+ * 2007). All zero is black. The part of kt that meets total internal reflection is reflected. Microfacets scatter
+ * light once and lose what meets a second one: a white metal loses 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5.
  */
 typedef struct rt_material {
-    float kd[3];       /* diffuse albedo */
-    float ks[3];       /* specular reflectance (perfect mirror) */
-    float kt[3];       /* specular transmittance (smooth refraction) */
-    float emission[3]; /* emitted radiance, W/(m^2 sr), on the side of the normal */
-    float ior;         /* index of refraction of the inside; 0 means 1.5 */
-    int fresnel;       /* 1: the delta part ks + kt is split Fr : 1 - Fr by the exact unpolarised
-                          Fresnel equations; 0: ks and kt are used as given. Either way the part of
-                          kt that meets total internal reflection is reflected. */
-    int two_sided;     /* 1: emission on both sides */
-    int priority;      /* nested media: where two solids overlap, the higher priority is inside; >= 0 */
+    float kd[3];         /* diffuse albedo */
+    float ks[3];         /* specular reflectance */
+    float kt[3];         /* specular transmittance */
+    float emission[3];   /* emitted radiance, W/(m^2 sr), on the side of the normal */
+    float ior;           /* index of refraction of the inside; 0 means 1.5 */
+    float eta[3], k[3];  /* RT_FRESNEL_CONDUCTOR: complex index of refraction, by channel */
+    float roughness;     /* GGX alpha of ks and kt, 0 to 1; 0 is perfectly smooth */
+    float absorption[3]; /* Beer-Lambert coefficient of the inside, 1/m */
+    rt_fresnel fresnel;
+    int two_sided;       /* 1: emission on both sides */
+    int priority;        /* nested media: where two solids overlap, the higher priority is inside; >= 0 */
+    /* Texture handles; a texture multiplies the colour beside it, and where that is all zero, stands for it. */
+    uint32_t kd_texture, ks_texture, kt_texture, emission_texture;
+    uint32_t bump_texture; /* mean of its channels is the height, in units of bump_scale */
+    float bump_scale;      /* metres; 0 means 1 */
 } rt_material;
 
 /*
@@ -211,36 +253,99 @@ typedef struct rt_material {
 RT_API rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name, const rt_material *material,
                                        rt_error *error);
 
+/* ---- Shapes ------------------------------------------------------------- */
+
 /* What every shape has. */
 typedef struct rt_surface {
     uint32_t material; /* index from rt_scene_add_material */
     float radiance[3]; /* emitted radiance, W/(m^2 sr); all zero: that of the material */
-    float power[3];    /* or the emitted flux of the whole shape, W, spread evenly over its area */
+    float power[3];    /* or the emitted flux of the whole shape, W, spread evenly over its area (before texture) */
+    uint32_t texture;  /* texture handle: multiplies kd, or the radiance when the shape has its own; 0: none */
+    rt_transform transform; /* of the shape as its call describes it */
 } rt_surface;
 
 /*
- * Shapes. Each call adds one and, if out is not NULL, writes its index, the one that
- * rt_hit.shape gives back. All fail with RT_ERROR_INPUT, error->field naming the parameter,
- * when a value is not finite or the shape has no extent; finite shapes can emit.
+ * Each call adds one shape and, if out is not NULL, writes its index, the one that rt_hit.shape
+ * gives back. All fail with RT_ERROR_INPUT, error->field naming the parameter, when a value is not
+ * finite or the shape has no extent. Every finite shape can emit; every closed one can be glass.
  */
 
 /* The infinite plane through `point`; normal need not be of unit length. u, v: metres along the plane. */
 RT_API rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3], const float normal[3],
                                     const rt_surface *surface, rt_error *error);
-/* A sphere. u: longitude from +x towards +z, v: latitude from the south pole, both in [0,1]. */
+/* A sphere. u: longitude from +x towards -z, v: latitude from the south pole, both in [0,1]. */
 RT_API rt_status rt_scene_add_sphere(rt_scene *scene, uint32_t *out, const float centre[3], float radius,
                                      const rt_surface *surface, rt_error *error);
+/* An ellipsoid with its half-axes along x, y and z; surface->transform rotates it. u, v: as for the sphere. */
+RT_API rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const float centre[3], const float radii[3],
+                                        const rt_surface *surface, rt_error *error);
 /* The parallelogram corner + u edge1 + v edge2; its normal is edge1 x edge2. */
 RT_API rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3], const float edge1[3],
                                    const float edge2[3], const rt_surface *surface, rt_error *error);
+/* A disc, with a hole when inner_radius > 0. u: angle in [0,1], v: from 0 at the inner to 1 at the outer rim. */
+RT_API rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3], const float normal[3],
+                                   float radius, float inner_radius, const rt_surface *surface, rt_error *error);
+/* A cylinder from a to b, open or closed by caps. u: angle in [0,1], v: height in [0,1]; caps as a disc. */
+RT_API rt_status rt_scene_add_cylinder(rt_scene *scene, uint32_t *out, const float a[3], const float b[3],
+                                       float radius, int caps, const rt_surface *surface, rt_error *error);
+/* A cone from its base to its apex; apex_radius > 0 makes a frustum. u, v and caps: as for the cylinder. */
+RT_API rt_status rt_scene_add_cone(rt_scene *scene, uint32_t *out, const float base[3], const float apex[3],
+                                   float radius, float apex_radius, int caps, const rt_surface *surface,
+                                   rt_error *error);
+/* A torus, minor_radius < major_radius. u: angle around the axis, v: angle around the tube, both in [0,1]. */
+RT_API rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float centre[3], const float axis[3],
+                                    float major_radius, float minor_radius, const rt_surface *surface,
+                                    rt_error *error);
+
 /*
- * Triangles: positions [vertex_count][3] in metres, indices [triangle_count][3], counter-clockwise
- * seen from the side of the normal; normals [vertex_count][3], one a vertex, or NULL for flat
- * shading. u, v: barycentric coordinates of the second and third vertex. The arrays are copied.
+ * A mesh of triangles, to be placed by instances. positions [vertex_count][3] in metres, indices
+ * [triangle_count][3], counter-clockwise seen from the side of the normal. normals [vertex_count][3], uv
+ * [vertex_count][2] and colours [vertex_count][3] (multiply kd) may be NULL: flat shading, barycentric u and v,
+ * white. The arrays are copied.
  */
+typedef struct rt_mesh_data {
+    const float *positions, *normals, *uv, *colours;
+    const uint32_t *indices;
+    size_t vertex_count, triangle_count;
+} rt_mesh_data;
+
+/* Adds a mesh from memory; *out is its handle, for rt_scene_add_instance. It is not seen until it is placed. */
+RT_API rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh, rt_error *error);
+
+/* What a mesh file held. */
+typedef struct rt_mesh_info {
+    size_t vertex_count, triangle_count;
+    size_t degenerate;  /* triangles of zero area, kept but never hit */
+    uint32_t texture;   /* handle of the texture that the file names, or 0 */
+    float lo[3], hi[3]; /* bounds, metres */
+} rt_mesh_info;
+
+typedef enum rt_shading {
+    RT_SHADING_FILE = 0, /* smooth where the file has normals, else flat */
+    RT_SHADING_FLAT,     /* the normals of the file are ignored */
+    RT_SHADING_SMOOTH    /* normals are made: at each vertex the mean of the faces around it, weighted by area */
+} rt_shading;
+
+/*
+ * Reads a mesh from a .ply, .obj, .off or .stl file, decided by content. info may be NULL. Fails with
+ * RT_ERROR_INPUT; error->file and, in text files, error->line name the place.
+ */
+RT_API rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, rt_shading shading,
+                                    rt_mesh_info *info, rt_error *error);
+
+/*
+ * Places a mesh by surface->transform. A mesh that is placed many times takes its memory once, but for placements
+ * that emit. rt_hit.prim is the triangle.
+ */
+RT_API rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh, const rt_surface *surface,
+                                       rt_error *error);
+
+/* A mesh placed once: rt_scene_add_mesh and rt_scene_add_instance in one call. normals may be NULL. */
 RT_API rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions, size_t vertex_count,
                                         const uint32_t *indices, size_t triangle_count, const float *normals,
                                         const rt_surface *surface, rt_error *error);
+
+/* ---- Lights ------------------------------------------------------------- */
 
 /* A point light. Give intensity, or power: power = 4 pi intensity (isotropic). */
 typedef struct rt_point_light {
@@ -250,14 +355,55 @@ typedef struct rt_point_light {
 } rt_point_light;
 RT_API rt_status rt_scene_add_point_light(rt_scene *scene, const rt_point_light *light, rt_error *error);
 
-/* A thin-lens camera; image x grows to the right of one who stands at eye and looks at look_at. */
+/*
+ * A spot light: full intensity within inner degrees of the axis, falling smoothly (3x^2 - 2x^3 in the cosine) to none
+ * at outer.
+ */
+typedef struct rt_spot_light {
+    float position[3], target[3];
+    float intensity[3];  /* W/sr, on the axis */
+    float inner, outer;  /* half-angles, degrees; outer 0 means 30, inner 0 to outer */
+} rt_spot_light;
+RT_API rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, rt_error *error);
+
+/* Parallel light from infinitely far. */
+typedef struct rt_directional_light {
+    float direction[3];  /* in which the light travels; need not be of unit length */
+    float irradiance[3]; /* on a surface that faces the light, W/m^2 */
+} rt_directional_light;
+RT_API rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_directional_light *light, rt_error *error);
+
+/*
+ * Light from all around, infinitely far: constant, or an image of latitude and longitude whose centre column is
+ * seen towards -z and whose top row is +y, turned by `rotation` degrees about y. One a scene.
+ */
+typedef struct rt_environment {
+    float radiance[3]; /* W/(m^2 sr); multiplies the image; all zero means 1 with an image */
+    const char *path;  /* .exr, .pfm or another image; NULL: constant */
+    float rotation;
+} rt_environment;
+RT_API rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment, rt_error *error);
+
+/* ---- Camera ------------------------------------------------------------- */
+
+typedef enum rt_camera_kind {
+    RT_CAMERA_PERSPECTIVE = 0,
+    RT_CAMERA_ORTHOGRAPHIC, /* parallel rays; `width` metres across */
+    RT_CAMERA_ENVIRONMENT   /* all directions: longitude across, latitude down, look_at in the centre */
+} rt_camera_kind;
+
+/* A camera; image x grows to the right of one who stands at eye and looks at look_at. */
 typedef struct rt_camera {
+    rt_camera_kind kind;
     float eye[3];
     float look_at[3];
     float up[3];          /* all zero means (0, 1, 0) */
     float fov;            /* full horizontal angle, degrees, below 180; 0 means 45 */
-    float aperture;       /* lens radius, metres; 0 is a pinhole */
+    float width;          /* orthographic: metres across; 0 means 2 */
+    float aperture;       /* lens radius, metres; 0 is a pinhole; an environment camera always is one */
     float focal_distance; /* metres along the view axis to the plane in focus; 0 means that of look_at */
+    uint32_t blades;      /* edges of the aperture, 3 or more; 0: round */
+    float blade_rotation; /* degrees */
 } rt_camera;
 RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error);
 
@@ -265,9 +411,15 @@ RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, r
 
 typedef enum rt_mode {
     RT_MODE_PATH = 0, /* path tracing with next-event estimation and multiple importance sampling */
-    RT_MODE_PHOTON    /* photon mapping */
+    RT_MODE_PHOTON,   /* photon mapping */
+    RT_MODE_DIRECT,   /* emission and direct light at the first hit (mirrors and clear glass are followed) */
+    RT_MODE_NORMALS,  /* shading normal n at the first hit as the colour (n + 1) / 2; black where nothing is hit */
+    RT_MODE_ALBEDO,   /* the part of the light that the first hit does not absorb: kd + ks + kt */
+    RT_MODE_DEPTH     /* distance along the view axis, metres, mean of the samples that hit; 0 where none does */
 } rt_mode;
 
+/* The name of a mode in lower case, such as "path"; static storage. */
+RT_API const char *rt_mode_name(rt_mode mode);
 /* How photons are found. */
 typedef enum rt_gather {
     RT_GATHER_AUTO = 0, /* FLANN for the k nearest, the device for all within a radius */
@@ -284,10 +436,13 @@ typedef struct rt_photon_map rt_photon_map;
 typedef struct rt_render_options {
     uint32_t width, height; /* pixels; 0 means 512 */
     rt_mode mode;
-    uint32_t spp;           /* samples a pixel; 0 means 64 in path mode, 16 in photon mode, 1 in each of its passes */
+    uint32_t spp;           /* samples a pixel; 0 means 64, in photon mode 16, 1 in each of its passes */
     uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
     uint32_t seed;          /* the same seed gives the same bits */
     rt_sampler sampler;
+    rt_filter filter;
+    rt_estimator estimator; /* of direct light, see common.h; where the photon map is asked, always by light sampling */
+    int aov;                /* 1: also the layers albedo, normal and depth, see rt_film_layer */
     double time;            /* stop after so many seconds of rendering; 0: no limit */
     uint64_t photons;       /* photon paths emitted; 0 means 1 000 000. In passes, those of each pass; 0 means
                                one a pixel */
@@ -509,6 +664,16 @@ RT_API void rt_film_destroy(rt_film *film);
 RT_API const float *rt_film_rgb(const rt_film *film);
 RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height);
 
+/*
+ * A layer of the film, [height][width][*channels], top row first; owned by the film. NULL when there is none of
+ * that name: layers are made where rt_render_options.aov asks for them, and by the modes that show one. All are means
+ * over the samples that the picture has. channels may be NULL.
+ *   "albedo"  3  kd + ks + kt of the first hit, 0 where nothing is hit
+ *   "normal"  3  its shading normal in the world, as the shape has it, not turned to the camera; 0 likewise
+ *   "depth"   1  metres along the view axis (from the eye, for an environment camera), mean of the samples that hit
+ */
+RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
+
 typedef struct rt_film_stats {
     uint32_t spp;              /* samples that every pixel has */
     uint64_t rejected;         /* samples left out because they were not finite */
@@ -534,7 +699,7 @@ typedef struct rt_image_options {
 
 /*
  * Writes the film in the format of the file's extension: .exr (linear float, with the seed, samples and
- * version as attributes), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
+ * version as attributes, and the layers as albedo.R .G .B, normal.X .Y .Z and depth.Z), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
  * Fails with RT_ERROR_USAGE for another extension and RT_ERROR_OUTPUT when it cannot be written.
  */
 RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error);

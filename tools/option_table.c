@@ -11,9 +11,19 @@
 #define PHOTONS (1u << COMMAND_PHOTONS)
 #define ALL ((1u << COMMAND_COUNT) - 1u)
 
-static const option_choice modes[] = {{"path", RT_MODE_PATH}, {"photon", RT_MODE_PHOTON}, {NULL, 0}};
+static const option_choice modes[] = {
+    {"path", RT_MODE_PATH},       {"photon", RT_MODE_PHOTON}, {"direct", RT_MODE_DIRECT},
+    {"normals", RT_MODE_NORMALS}, {"albedo", RT_MODE_ALBEDO}, {"depth", RT_MODE_DEPTH},
+    {NULL, 0},
+};
 static const option_choice samplers[] = {
     {"sobol", RT_SAMPLER_SOBOL}, {"independent", RT_SAMPLER_INDEPENDENT}, {NULL, 0}};
+static const option_choice filters[] = {
+    {"box", RT_FILTER_BOX},           {"tent", RT_FILTER_TENT}, {"gaussian", RT_FILTER_GAUSSIAN},
+    {"mitchell", RT_FILTER_MITCHELL}, {NULL, 0},
+};
+static const option_choice estimators[] = {
+    {"mis", RT_ESTIMATOR_MIS}, {"light", RT_ESTIMATOR_LIGHT}, {"bsdf", RT_ESTIMATOR_BSDF}, {NULL, 0}};
 static const option_choice accels[] = {{"bvh", RT_ACCEL_BVH}, {"none", RT_ACCEL_NONE}, {NULL, 0}};
 static const option_choice directs[] = {{"nee", RT_DIRECT_NEE}, {"photons", RT_DIRECT_PHOTONS}, {NULL, 0}};
 static const option_choice gathers[] = {
@@ -44,9 +54,9 @@ const char *const option_group_titles[GROUP_COUNT] = {
 
 const option option_table[OPTION_COUNT] = {
     [OPTION_MODE] = {"mode", "MODE", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, modes, 1, "path",
-                     "path tracing or photon mapping"},
+                     "path tracing, photon mapping, direct light alone, or what the first hit is like"},
     [OPTION_SPP] = {"spp", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1,
-                    "64 in path mode, 16 in photon mode, 1 in each of its passes", "samples a pixel"},
+                    "64, in photon mode 16, in each of its passes 1", "samples a pixel"},
     [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 1, UINT32_MAX, NULL, 1, "16",
                           "longest path in segments, from the eye or from a light"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
@@ -55,6 +65,11 @@ const option option_table[OPTION_COUNT] = {
                      "the same seed gives the same image, bit for bit"},
     [OPTION_SAMPLER] = {"sampler", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, samplers, 1, "sobol",
                         "Owen-scrambled Sobol or independent samples"},
+    [OPTION_FILTER] = {"filter", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, filters, 1, "box",
+                       "reconstruction filter of the picture"},
+    [OPTION_ESTIMATOR] = {"estimator", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, estimators, 1, "mis",
+                          "direct light by sampling lights, by sampling the material (bsdf), or by both (mis); the "
+                          "mean is the same, the noise is not"},
     [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, accels, 1, "bvh",
                       "a bounding volume hierarchy, or none: every primitive is tested"},
     [OPTION_WIDTH] = {"width", "W", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1, "512", "width in pixels"},
@@ -104,6 +119,8 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS, 0, 0, NULL, 0,
                     "NAME.png and NAME.exr in the current directory for NAME.rts",
                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB); may be repeated"},
+    [OPTION_AOV] = {"aov", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
+                    "add the layers albedo, normal and depth to .exr"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER, -126, 126, NULL, 1, "0",
                          "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER, 0, 0, tonemaps, 1, "none",

@@ -63,8 +63,8 @@ static void warn_idle_options(const render_job *job)
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON &&
             value(job, (option_id)i)->given)
-            message_warning("--%s has no effect in path mode; --mode photon asks for photon mapping",
-                            option_table[i].name);
+            message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
+                            option_table[i].name, rt_mode_name(job->options.mode));
     if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
         job->options.kernel != RT_DENSITY_CONE)
         message_warning("--cone-k has no effect without --kernel cone");

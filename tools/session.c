@@ -84,6 +84,12 @@ void session_merge_options(const session *s, rt_render_options *options)
         options->mode = (rt_mode)session_value(s, OPTION_MODE)->choice;
     if (session_value(s, OPTION_SAMPLER)->given)
         options->sampler = (rt_sampler)session_value(s, OPTION_SAMPLER)->choice;
+    if (session_value(s, OPTION_FILTER)->given)
+        options->filter = (rt_filter)session_value(s, OPTION_FILTER)->choice;
+    if (session_value(s, OPTION_ESTIMATOR)->given)
+        options->estimator = (rt_estimator)session_value(s, OPTION_ESTIMATOR)->choice;
+    if (session_value(s, OPTION_AOV)->given)
+        options->aov = 1;
     if (session_value(s, OPTION_KERNEL)->given)
         options->kernel = (rt_density)session_value(s, OPTION_KERNEL)->choice;
     if (session_value(s, OPTION_CAUSTIC_PHOTONS)->given)

@@ -65,7 +65,7 @@ void stats_print(const rt_scene *scene, const rt_device *device, const rt_render
     printf("device: %s, %s\n", info.name, info.platform);
     print_scene(scene);
     printf("light power: %.6g W\n", stats.light_power);
-    printf("mode: %s\n", options->mode == RT_MODE_PHOTON ? "photon" : "path");
+    printf("mode: %s\n", rt_mode_name(options->mode));
     printf("size: %u x %u pixels\n", (unsigned)width, (unsigned)height);
     print_count("samples a pixel", stats.spp);
     print_count("samples rejected", stats.rejected);

@@ -112,9 +112,10 @@ void rt_bvh_get_bounds(const rt_bvh *bvh, float lo[3], float hi[3])
     memcpy(hi, bvh->tree.root.hi, sizeof bvh->tree.root.hi);
 }
 
-void rt_bvh_write(const rt_bvh *bvh, rt_bvh_node *nodes, rt_tri_block *blocks, uint32_t *analytic)
+void rt_bvh_write(const rt_bvh *bvh, rt_bvh_node *nodes, rt_tri_block *blocks, uint32_t *analytic,
+                  uint32_t first_node, uint32_t first_block)
 {
-    const rt_wide_output output = {&bvh->input, bvh->origins, nodes, blocks, analytic};
+    const rt_wide_output output = {&bvh->input, bvh->origins, nodes, blocks, analytic, first_node, first_block};
     if (bvh->count)
         rt_wide_write(&bvh->plan, &bvh->tree, &output, bvh->threads);
     else

@@ -8,7 +8,7 @@
  *     rt_bvh_build(&bvh, &input, threads, progress, error);
  *     rt_bvh_get_counts(bvh, &counts);
  *     ... allocate counts.nodes rt_bvh_node, counts.blocks rt_tri_block, counts.analytic u32 ...
- *     rt_bvh_write(bvh, nodes, blocks, analytic);
+ *     rt_bvh_write(bvh, nodes, blocks, analytic, 0, 0);
  *     rt_bvh_destroy(bvh);
  *
  * The result does not depend on the number of threads, to the bit.
@@ -72,8 +72,13 @@ void rt_bvh_get_counts(const rt_bvh *bvh, rt_bvh_counts *out);
 /* The box around everything in the tree; lo = hi = 0 when it is empty. */
 void rt_bvh_get_bounds(const rt_bvh *bvh, float lo[3], float hi[3]);
 
-/* Writes the tree into arrays as long as the counts say. Pointers of empty arrays may be NULL. */
-void rt_bvh_write(const rt_bvh *bvh, rt_bvh_node *nodes, rt_tri_block *blocks, uint32_t *analytic);
+/*
+ * Writes the tree into arrays as long as the counts say. Pointers of empty arrays may be NULL. Where the arrays
+ * are parts of tables that hold more trees, child references count from the start of the tables: first_node and
+ * first_block say where in them nodes and blocks begin.
+ */
+void rt_bvh_write(const rt_bvh *bvh, rt_bvh_node *nodes, rt_tri_block *blocks, uint32_t *analytic,
+                  uint32_t first_node, uint32_t first_block);
 
 void rt_bvh_destroy(rt_bvh *bvh);
 

@@ -108,7 +108,7 @@ static uint32_t write_leaf(writer *w, const rt_tree_node *leaf)
         return w->at.analytic++ | RT_CHILD_LEAF | RT_CHILD_ANALYTIC;
     }
     write_block(w->out, &w->out->blocks[w->at.block], leaf);
-    return w->at.block++ | RT_CHILD_LEAF;
+    return (w->out->first_block + w->at.block++) | RT_CHILD_LEAF;
 }
 
 static void write_lane(rt_bvh_node *node, int lane, const rt_tree_node *child, uint32_t reference)
@@ -132,10 +132,10 @@ static void write_node(writer *w, const rt_tree_node *from)
             write_lane(node, i, child, write_leaf(w, child));
         } else if (w->next_part && w->next_part->root == child) {
             /* Another thread writes it: go on behind it. */
-            write_lane(node, i, child, w->at.node);
+            write_lane(node, i, child, w->out->first_node + w->at.node);
             w->at = w->next_part++->end;
         } else {
-            write_lane(node, i, child, w->at.node);
+            write_lane(node, i, child, w->out->first_node + w->at.node);
             write_node(w, child);
         }
     }

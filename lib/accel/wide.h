@@ -37,6 +37,7 @@ typedef struct rt_wide_output {
     rt_bvh_node *nodes;
     rt_tri_block *blocks;
     uint32_t *analytic;
+    uint32_t first_node, first_block; /* added to references */
 } rt_wide_output;
 
 /* Numbers nodes and leaves depth first. Returns 0 when there is no memory; plan is to be freed either way. */

@@ -17,24 +17,47 @@ static double mean(const float c[3])
 
 size_t rt_lights_count(const rt_scene *scene)
 {
-    size_t count = scene->point_light_count;
-    for (size_t i = 0; i < scene->shape_count; i++) {
-        float radiance[3];
-        rt_scene_shape_radiance(scene, scene->shapes + i, radiance);
-        if (!rt_is_black(radiance))
-            count += rt_scene_shape_primitives(scene->shapes + i);
-    }
+    size_t count = scene->light_count;
+    for (size_t i = 0; i < scene->shape_count; i++)
+        if (scene->shapes[i].emits)
+            count += rt_scene_shape_primitives(scene, scene->shapes + i);
     return count;
 }
 
-static void fill_point(rt_light_data *light, const rt_point_light *from)
+/*
+ * The power of a light that is no shape, W, mean of the channels. What comes from infinitely far is counted where
+ * it meets a disc of the scene's radius: pi r^2 of it from a direction, the same from every one of 4 pi sr from an
+ * environment. A spot's falloff 3x^2 - 2x^3 is 1/2 in the mean over its edge.
+ */
+static double light_power(const rt_scene *scene, const rt_scene_light *light, double radius)
+{
+    const float *sky = scene->environment.mean;
+    double disc = pi * radius * radius;
+    switch (light->kind) {
+    case RT_LIGHT_POINT:
+        return 4 * pi * mean(light->emission);
+    case RT_LIGHT_SPOT:
+        return 2 * pi * (1 - 0.5 * ((double)light->inner + light->outer)) * mean(light->emission);
+    case RT_LIGHT_DIRECTIONAL:
+        return disc * mean(light->emission);
+    default:
+        return 4 * pi * disc * mean((const float[3]){light->emission[0] * sky[0], light->emission[1] * sky[1],
+                                                     light->emission[2] * sky[2]});
+    }
+}
+
+static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_scene_light *from, double radius)
 {
     memset(light, 0, sizeof *light);
-    light->kind = RT_LIGHT_POINT;
+    light->kind = from->kind;
     light->prim = RT_NONE;
+    light->texture = RT_NONE;
     memcpy(light->a, from->position, sizeof light->a);
-    memcpy(light->emission, from->intensity, sizeof light->emission);
-    light->power = (float)(4 * pi * mean(from->intensity));
+    memcpy(light->b, from->direction, sizeof light->b);
+    light->c[0] = from->inner;
+    light->c[1] = from->outer;
+    memcpy(light->emission, from->emission, sizeof light->emission);
+    light->power = (float)light_power(scene, from, radius);
 }
 
 /* Splits the two edges into direction and length, and adds what follows from them. */
@@ -46,7 +69,8 @@ static void fill_edges(rt_light_data *light, const double b[3], const double c[3
     double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     double cosine = (b[0] * c[0] + b[1] * c[1] + b[2] * c[2]) / (width * height);
 
-    for (int i = 0; i < 3; i++) {
+    /* A triangle without area has no power and is never chosen. */
+    for (int i = 0; i < 3 && length > 0; i++) {
         light->b[i] = (float)(b[i] / width);
         light->c[i] = (float)(c[i] / height);
         light->normal[i] = (float)(normal[i] / length);
@@ -57,48 +81,65 @@ static void fill_edges(rt_light_data *light, const double b[3], const double c[3
         light->flags |= RT_LIGHT_RECTANGLE;
 }
 
-static void fill_geometry(rt_light_data *light, const rt_scene_shape *shape, size_t primitive)
+static void fill_triangle(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape, size_t primitive)
 {
+    const uint32_t *corner = scene->meshes[shape->mesh].indices + 3 * primitive;
+    float v[3][3];
     double b[3], c[3];
-    if (shape->kind == RT_SHAPE_SPHERE) {
-        light->kind = RT_LIGHT_SPHERE;
-        memcpy(light->a, shape->p, sizeof light->a);
-        light->width = shape->p[3];
-        return;
-    }
-    if (shape->kind == RT_SHAPE_QUAD) {
-        light->kind = RT_LIGHT_QUAD;
-        memcpy(light->a, shape->p, sizeof light->a);
-        for (int i = 0; i < 3; i++) {
-            b[i] = shape->p[3 + i];
-            c[i] = shape->p[6 + i];
-        }
-    } else {
-        const uint32_t *corner = shape->indices + 3 * primitive;
-        const float *v0 = shape->positions + 3 * (size_t)corner[0];
-        light->kind = RT_LIGHT_TRIANGLE;
-        memcpy(light->a, v0, sizeof light->a);
-        for (int i = 0; i < 3; i++) {
-            b[i] = (double)shape->positions[3 * (size_t)corner[1] + i] - v0[i];
-            c[i] = (double)shape->positions[3 * (size_t)corner[2] + i] - v0[i];
-        }
-    }
+    light->kind = RT_LIGHT_TRIANGLE;
+    for (int i = 0; i < 3; i++)
+        rt_scene_vertex(scene, shape, corner[i], v[i]);
+    memcpy(light->a, v[0], sizeof light->a);
+    rt_vec_sub(b, v[1], v[0]);
+    rt_vec_sub(c, v[2], v[0]);
     fill_edges(light, b, c);
 }
 
-/* One emitting primitive: power = pi radiance area, on one side or both. */
+static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape, size_t primitive)
+{
+    static const float zero[3];
+    double b[3], c[3];
+    switch (shape->kind) {
+    case RT_SHAPE_SPHERE:
+        light->kind = RT_LIGHT_SPHERE;
+        memcpy(light->a, shape->p, sizeof light->a);
+        light->width = shape->p[3];
+        break;
+    case RT_SHAPE_QUAD:
+        light->kind = RT_LIGHT_QUAD;
+        memcpy(light->a, shape->p, sizeof light->a);
+        rt_vec_sub(b, shape->p + 3, zero);
+        rt_vec_sub(c, shape->p + 6, zero);
+        fill_edges(light, b, c);
+        break;
+    case RT_SHAPE_TRIANGLES:
+        fill_triangle(light, scene, shape, primitive);
+        break;
+    default:
+        light->kind = RT_LIGHT_SHAPE;
+    }
+    for (int i = 0; i < 3 && rt_scene_is_mirrored(shape); i++)
+        light->normal[i] = -light->normal[i];
+}
+
+/* One emitting primitive: power = pi radiance area, on one side or both; a texture counts by its mean. */
 static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape, size_t primitive,
                       const float radiance[3])
 {
     int two_sided = scene->materials[shape->surface.material].two_sided;
-    double area = rt_scene_primitive_area(shape, primitive);
+    double area = rt_scene_primitive_area(scene, shape, primitive);
+    uint32_t texture = rt_scene_emission_texture(scene, shape);
+    float shown[3];
 
     memset(light, 0, sizeof *light);
     light->flags = two_sided ? RT_LIGHT_TWO_SIDED : 0;
-    fill_geometry(light, shape, primitive);
+    light->texture = texture ? texture - 1 : RT_NONE;
+    fill_geometry(light, scene, shape, primitive);
     light->area = (float)area;
     memcpy(light->emission, radiance, sizeof light->emission);
-    light->power = (float)(pi * mean(radiance) * area * (two_sided ? 2 : 1));
+    for (int c = 0; c < 3; c++)
+        shown[c] = radiance[c] * (texture ? scene->textures[texture - 1].mean[c] : 1);
+    light->power = (float)(pi * mean(shown) * area * (two_sided ? 2 : 1));
 }
 
 /* Makes the probabilities of choice from the powers. */
@@ -121,20 +162,21 @@ static double normalise(rt_light_data *lights, size_t count)
     return total;
 }
 
-double rt_lights_fill(const rt_scene *scene, const rt_u32 *first_prim, rt_light_data *lights, rt_u32 *first_light)
+double rt_lights_fill(const rt_scene *scene, const rt_u32 *first_prim, double radius, rt_light_data *lights,
+                      rt_u32 *first_light)
 {
     size_t count = 0;
-    for (size_t i = 0; i < scene->point_light_count; i++)
-        fill_point(lights + count++, scene->point_lights + i);
+    for (size_t i = 0; i < scene->light_count; i++)
+        fill_light(lights + count++, scene, scene->lights + i, radius > 0 ? radius : 1);
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         float radiance[3];
         first_light[i] = RT_NONE;
-        rt_scene_shape_radiance(scene, shape, radiance);
-        if (rt_is_black(radiance))
+        if (!shape->emits)
             continue;
+        rt_scene_shape_radiance(scene, shape, radiance);
         first_light[i] = (rt_u32)count;
-        for (size_t k = 0; k < rt_scene_shape_primitives(shape); k++) {
+        for (size_t k = 0; k < rt_scene_shape_primitives(scene, shape); k++) {
             fill_area(lights + count, scene, shape, k, radiance);
             lights[count++].prim = first_prim[i] + (rt_u32)k;
         }

@@ -69,17 +69,16 @@ void rt_device_gather_release(rt_device_gather *g)
     memset(g, 0, sizeof *g);
 }
 
-rt_status rt_device_gather_launch(const rt_device_gather *g, rt_device *device, cl_kernel kernel, cl_mem scene,
-                                  cl_mem points, size_t first, size_t count,
-                                  rt_error *error)
+rt_status rt_device_gather_launch(const rt_device_gather *g, rt_device *device, cl_kernel kernel, cl_mem points,
+                                  size_t first, size_t count, rt_error *error)
 {
     size_t each = g->estimate.points_an_item;
     rt_params params;
     memset(&params, 0, sizeof params);
     params.first_item = (rt_u32)first;
     params.item_count = (rt_u32)count;
-    rt_arg args[] = {RT_ARG(params),        RT_ARG(scene),    RT_ARG(g->estimate), RT_ARG(points), RT_ARG(g->discs),
-                     RT_ARG(g->tree.shape), RT_ARG(g->nodes), RT_ARG(g->blocks),   RT_ARG(g->scratch)};
+    rt_arg args[] = {RT_ARG(params),        RT_ARG(g->estimate), RT_ARG(points),    RT_ARG(g->discs),
+                     RT_ARG(g->tree.shape), RT_ARG(g->nodes),    RT_ARG(g->blocks), RT_ARG(g->scratch)};
     rt_status status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
     return status == RT_OK ? rt_launch(device, kernel, (count + each - 1) / each, error) : status;
 }

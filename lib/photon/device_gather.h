@@ -22,8 +22,7 @@ rt_status rt_device_gather_prepare(rt_device_gather *out, rt_device *device, con
 void rt_device_gather_release(rt_device_gather *gather);
 
 /* Enqueues the kernel photon_walk, or one of the same arguments, for points first .. first + count - 1. */
-rt_status rt_device_gather_launch(const rt_device_gather *gather, rt_device *device, cl_kernel kernel, cl_mem scene,
-                                  cl_mem points, size_t first, size_t count,
-                                  rt_error *error);
+rt_status rt_device_gather_launch(const rt_device_gather *gather, rt_device *device, cl_kernel kernel, cl_mem points,
+                                  size_t first, size_t count, rt_error *error);
 
 #endif

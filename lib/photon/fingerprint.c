@@ -54,29 +54,84 @@ static uint64_t hash_lane(const rt_tri_block *block, int lane)
     return hash(hash(basis, v, sizeof v), &quad, sizeof quad);
 }
 
-static rt_status hash_triangles(uint64_t *h, const rt_scene_header *scene, rt_error *error)
+/* Blocks that hold primitives from 0 to prim_count - 1, in the order of these. */
+static rt_status hash_triangles(uint64_t *h, const rt_tri_block *blocks, rt_u32 block_count, rt_u32 prim_count,
+                                rt_error *error)
 {
-    const rt_tri_block *blocks = table(scene, scene->blocks);
-    uint64_t *prims = calloc(scene->prim_count + (size_t)1, sizeof *prims);
+    uint64_t *prims = calloc(prim_count + (size_t)1, sizeof *prims);
     if (!prims)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the fingerprint of a scene");
-    for (rt_u32 b = 0; b < scene->block_count; b++)
+    for (rt_u32 b = 0; b < block_count; b++)
         for (int lane = 0; lane < RT_BVH_WIDTH; lane++)
             if (blocks[b].prim[lane] != RT_NONE)
                 prims[blocks[b].prim[lane] & RT_BLOCK_PRIM] = hash_lane(blocks + b, lane);
-    *h = hash(*h, prims, scene->prim_count * sizeof *prims);
+    *h = hash(*h, prims, prim_count * sizeof *prims);
     free(prims);
     return RT_OK;
+}
+
+/* The triangles of a mesh that instances share. */
+static rt_status hash_mesh(uint64_t *h, const rt_tri_block *blocks, rt_u32 block_count, rt_error *error)
+{
+    rt_u32 prim_count = 0;
+    for (rt_u32 b = 0; b < block_count; b++)
+        for (int lane = 0; lane < RT_BVH_WIDTH; lane++)
+            if (blocks[b].prim[lane] != RT_NONE && (blocks[b].prim[lane] & RT_BLOCK_PRIM) >= prim_count)
+                prim_count = (blocks[b].prim[lane] & RT_BLOCK_PRIM) + 1;
+    return hash_triangles(h, blocks, block_count, prim_count, error);
+}
+
+/*
+ * The shapes, but for their places in the hierarchy. A mesh is hashed where its first instance is; the others
+ * name the blocks of it, counted from the first of any mesh.
+ */
+static rt_status hash_shapes(uint64_t *h, const rt_scene_header *scene, rt_error *error)
+{
+    const rt_shape *shapes = table(scene, scene->shapes);
+    const rt_tri_block *blocks = table(scene, scene->blocks);
+    rt_status status = RT_OK;
+    rt_u32 end = scene->block_count;
+    *h = hash(*h, &scene->shape_count, sizeof scene->shape_count);
+    for (rt_u32 i = 0; i < scene->shape_count && status == RT_OK; i++) {
+        rt_shape shape = shapes[i];
+        if (shape.kind == RT_SHAPE_INSTANCE) {
+            if (shape.first_block >= end) {
+                status = hash_mesh(h, blocks + shape.first_block, shape.block_count, error);
+                end = shape.first_block + shape.block_count;
+            }
+            shape.first_block -= scene->block_count;
+        }
+        shape.root = 0;
+        *h = hash(*h, &shape, sizeof shape);
+    }
+    return status;
+}
+
+/* The image around the scene; what it is sampled by follows from it. */
+static uint64_t hash_environment(uint64_t h, const rt_scene_header *scene)
+{
+    const rt_environment_data *e = &scene->environment;
+    h = hash(h, &e->turn, sizeof e->turn);
+    h = hash(h, &e->height, sizeof e->height);
+    return hash_table(h, scene, e->texels, e->width, e->height * 4 * sizeof(float));
 }
 
 static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_error *error)
 {
     uint64_t h = basis;
-    h = hash_table(h, scene, scene->shapes, scene->shape_count, sizeof(rt_shape));
+    rt_status status = hash_shapes(&h, scene, error);
+    h = hash_table(h, scene, scene->transforms, scene->transform_count, sizeof(rt_transform_data));
     h = hash_table(h, scene, scene->materials, scene->material_count, sizeof(rt_material_data));
     h = hash_table(h, scene, scene->lights, scene->light_count, sizeof(rt_light_data));
+    h = hash_table(h, scene, scene->indices, scene->index_count, sizeof(rt_u32));
     h = hash_table(h, scene, scene->normals, scene->normal_count, 4 * sizeof(float));
-    rt_status status = hash_triangles(&h, scene, error);
+    h = hash_table(h, scene, scene->uvs, scene->uv_count, 2 * sizeof(float));
+    h = hash_table(h, scene, scene->colours, scene->colour_count, 4 * sizeof(float));
+    h = hash_table(h, scene, scene->textures, scene->texture_count, sizeof(rt_texture_data));
+    h = hash_table(h, scene, scene->texels, scene->texel_rows, RT_SCENE_ROW);
+    h = hash_environment(h, scene);
+    if (status == RT_OK)
+        status = hash_triangles(&h, table(scene, scene->blocks), scene->block_count, scene->prim_count, error);
     if (status == RT_OK)
         *out = h;
     return status;

@@ -26,7 +26,6 @@ typedef struct host_gather {
 struct rt_gatherer {
     rt_device *device;
     cl_kernel kernel;
-    cl_mem scene;
     size_t capacity; /* points a batch */
     int on_device;
     host_gather host; /* one of the two is used */
@@ -70,7 +69,7 @@ static rt_status prepare_host(rt_gatherer *g, const rt_photon_list *list, const 
     return create_buffers(g, list, error);
 }
 
-rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel, cl_mem scene,
+rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel,
                              const rt_photon_list *list, const rt_gather_options *options, rt_error *error)
 {
     float max_radius = options->max_radius > 0 ? options->max_radius : HUGE_VALF;
@@ -82,7 +81,6 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather");
     g->device = device;
     g->kernel = kernel;
-    g->scene = scene;
     g->capacity = RT_GATHER_POINTS_MAX;
     g->on_device = options->on_device;
     rt_status status = g->on_device ? rt_device_gather_prepare(&g->on, device, list, &estimate, g->capacity, error)
@@ -138,8 +136,8 @@ static rt_status add_from_host(rt_gatherer *g, cl_mem points, size_t first, size
     params.first_item = (rt_u32)first;
     params.item_count = (rt_u32)count;
 
-    rt_arg args[] = {RT_ARG(params),   RT_ARG(g->scene), RT_ARG(h->estimate), RT_ARG(points),
-                     RT_ARG(h->discs), RT_ARG(h->lists), RT_ARG(h->photons)};
+    rt_arg args[] = {RT_ARG(params),   RT_ARG(h->estimate), RT_ARG(points),
+                     RT_ARG(h->discs), RT_ARG(h->lists),    RT_ARG(h->photons)};
     rt_status status = find(g, points, first, count, error);
     if (status == RT_OK)
         status = rt_kernel_args(g->kernel, args, sizeof args / sizeof *args, error);
@@ -155,7 +153,7 @@ rt_status rt_gatherer_add(rt_gatherer *g, cl_mem points, size_t first, size_t co
 {
     if (!g->on_device)
         return add_from_host(g, points, first, count, discs, error);
-    rt_status status = rt_device_gather_launch(&g->on, g->device, g->kernel, g->scene, points, first, count, error);
+    rt_status status = rt_device_gather_launch(&g->on, g->device, g->kernel, points, first, count, error);
     if (status == RT_OK && discs)
         status = rt_buffer_read(g->device, g->on.discs, 0, count * sizeof *discs, discs, error);
     return status == RT_OK ? rt_device_finish(g->device, error) : status;

@@ -27,11 +27,11 @@ typedef struct rt_gather_options {
 
 /*
  * Makes a list ready: builds the search tree and uploads the photons. The list must outlive the gatherer
- * unchanged, as must the device and, on it, the scene and the kernel: that of the program photon_walk for the
+ * unchanged, as must the device and, on it, the kernel: that of the program photon_walk for the
  * gather on the device, else of photon_gather, both of the same name. k = 0 is for the device only. The caller
  * owns *out.
  */
-rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel, cl_mem scene,
+rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel,
                              const rt_photon_list *list, const rt_gather_options *options, rt_error *error);
 void rt_gatherer_destroy(rt_gatherer *gatherer);
 

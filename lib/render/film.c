@@ -1,9 +1,11 @@
 #include "render/film.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "error.h"
+#include "render/layers.h"
 
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error)
 {
@@ -33,24 +35,34 @@ void rt_film_destroy(rt_film *film)
     rt_ledger_free(&film->ledger);
     free(film->pixels);
     free(film->rgb);
+    free(film->layer_sums);
+    for (int i = 0; i < (int)RT_LAYER_COUNT; i++)
+        free(film->layers[i]);
     free(film);
+}
+
+double rt_film_divisor(const rt_film_pixel *pixel)
+{
+    double weight = pixel->weight, count = pixel->count;
+    return fabs(weight) >= 0.25 * count ? weight : count;
 }
 
 void rt_film_resolve(rt_film *film)
 {
     size_t count = (size_t)film->options.width * film->options.height;
-    float fewest = film->pixels[0].weight;
+    uint32_t fewest = film->pixels[0].count;
 
     film->stats.rejected = 0;
     for (size_t i = 0; i < count; i++) {
         const rt_film_pixel *p = film->pixels + i;
         for (int c = 0; c < 3; c++)
-            film->rgb[3 * i + c] = p->weight > 0 ? (p->sum[c] - p->lost[c]) / p->weight : 0;
-        if (p->weight < fewest)
-            fewest = p->weight;
+            film->rgb[3 * i + c] = p->count > 0 ? (float)((p->sum[c] - p->lost[c]) / rt_film_divisor(p)) : 0;
+        if (p->count < fewest)
+            fewest = p->count;
         film->stats.rejected += p->rejected;
     }
-    film->stats.spp = (uint32_t)fewest;
+    film->stats.spp = fewest;
+    rt_layers_resolve(film);
 }
 
 const float *rt_film_rgb(const rt_film *film)

@@ -12,10 +12,18 @@ struct rt_film {
     rt_ledger ledger; /* of all photon paths */
     rt_film_pixel *pixels; /* [height][width], the sums */
     float *rgb;            /* [height][width][3], the means */
+    rt_film_pixel *layer_sums;     /* [RT_LAYER_COUNT][height][width], or NULL */
+    float *layers[RT_LAYER_COUNT]; /* [height][width][channels], the means, or NULL */
 };
 
 /* A black film for complete options; the caller owns *out. */
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error);
+
+/*
+ * What the sums of a pixel are divided by: the sum of weights. Where a few samples' signs nearly cancel, which
+ * only Mitchell's filter has, their number. 0 without samples.
+ */
+double rt_film_divisor(const rt_film_pixel *pixel);
 
 /* Makes the means from the sums, and from them the counts of samples and of rejected ones. */
 void rt_film_resolve(rt_film *film);

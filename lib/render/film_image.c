@@ -23,7 +23,7 @@ static rt_status describe(rt_image *image, const rt_film *film, const rt_image_o
     if (status == RT_OK && options && options->command)
         status = rt_image_set_attribute(image, "librt.command", options->command, error);
     if (status == RT_OK)
-        status = rt_image_set_attribute(image, "librt.mode", o->mode == RT_MODE_PHOTON ? "photon" : "path", error);
+        status = rt_image_set_attribute(image, "librt.mode", rt_mode_name(o->mode), error);
     if (status == RT_OK)
         status = set_number(image, "librt.seed", o->seed, error);
     if (status == RT_OK)
@@ -33,16 +33,35 @@ static rt_status describe(rt_image *image, const rt_film *film, const rt_image_o
     return status;
 }
 
+/* Copies `from` [pixels][channels] to the channels of the image from `first` on. */
+static void fill(rt_image *image, uint32_t first, const float *from, uint32_t channels)
+{
+    size_t pixels = (size_t)image->width * image->height;
+    for (size_t i = 0; i < pixels; i++)
+        memcpy(image->data + i * image->channel_count + first, from + i * channels, channels * sizeof *from);
+}
+
 rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error)
 {
-    static const char *const names[] = {"R", "G", "B"};
+    static const char *const names[] = {"R",        "G",        "B",        "albedo.R", "albedo.G",
+                                        "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
     const rt_render_options *o = &film->options;
+    rt_image_format format;
     rt_image *image = NULL;
 
-    rt_status status = rt_image_create(&image, o->width, o->height, names, 3, error);
+    rt_status status = rt_image_format_of(&format, path, error);
     if (status != RT_OK)
         return status;
-    memcpy(image->data, film->rgb, (size_t)o->width * o->height * 3 * sizeof *film->rgb);
+    int layers = film->layer_sums && format == RT_IMAGE_EXR;
+    status = rt_image_create(&image, o->width, o->height, names, layers ? 10 : 3, error);
+    if (status != RT_OK)
+        return status;
+    fill(image, 0, film->rgb, 3);
+    if (layers) {
+        fill(image, 3, film->layers[RT_LAYER_ALBEDO], 3);
+        fill(image, 6, film->layers[RT_LAYER_NORMAL], 3);
+        fill(image, 9, film->layers[RT_LAYER_DEPTH], 1);
+    }
     status = describe(image, film, options, error);
     if (status == RT_OK)
         status = rt_image_write(image, path, options, error);

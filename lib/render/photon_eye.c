@@ -18,8 +18,8 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, rt_device *device, cl_mem 
     memset(&estimate, 0, sizeof estimate);
     memset(&tree, 0, sizeof tree);
     rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(stride)};
-    rt_arg gather[] = {RT_ARG(params), RT_ARG(any), RT_ARG(estimate), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any)};
-    rt_arg walk[] = {RT_ARG(params), RT_ARG(any), RT_ARG(estimate), RT_ARG(any), RT_ARG(any),
+    rt_arg gather[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any)};
+    rt_arg walk[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(any),
                      RT_ARG(tree),   RT_ARG(any), RT_ARG(any),      RT_ARG(any)};
     rt_arg film[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(stride), RT_ARG(any)};
 
@@ -27,7 +27,7 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, rt_device *device, cl_mem 
     rt_status status =
         rt_kernel_prepare(device, &out->camera, "photon_camera", "photon_camera", camera, 5, progress, error);
     if (status == RT_OK)
-        status = rt_kernel_prepare(device, &out->gather, name, name, on_device ? walk : gather, on_device ? 9 : 7,
+        status = rt_kernel_prepare(device, &out->gather, name, name, on_device ? walk : gather, on_device ? 8 : 6,
                                    progress, error);
     if (status == RT_OK)
         status = rt_kernel_prepare(device, &out->film, "photon_film", "photon_film", film, 5, progress, error);
@@ -43,7 +43,8 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels)
 }
 
 rt_status rt_photon_eye_create(rt_photon_eye *eye, rt_renderer *renderer, const rt_render_options *options,
-                               const rt_eye_kernels *kernels, const rt_film *film, rt_error *error)
+                               const rt_eye_kernels *kernels, rt_layers *layers, const rt_film *film,
+                               rt_error *error)
 {
     rt_device *device = renderer->device;
     size_t pixels = (size_t)options->width * options->height;
@@ -51,6 +52,7 @@ rt_status rt_photon_eye_create(rt_photon_eye *eye, rt_renderer *renderer, const 
     eye->renderer = renderer;
     eye->options = options;
     eye->kernels = *kernels;
+    eye->layers = layers;
     eye->rows = options->final_gather < options->max_depth ? options->final_gather : options->max_depth;
     eye->capacity = RT_GATHER_POINTS_MAX / (1 + eye->rows);
     if (pixels < eye->capacity)
@@ -152,6 +154,8 @@ rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint
             status = ask(eye, maps, params.item_count, asked, error);
         if (status == RT_OK)
             status = add_to_film(eye, &params, error);
+        if (status == RT_OK)
+            status = rt_layers_add(eye->layers, eye->renderer, &params, error);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
     }

@@ -6,6 +6,7 @@
 #define RT_LIB_RENDER_PHOTON_EYE_H
 
 #include "photon/gather.h"
+#include "render/layers.h"
 #include "render/renderer.h"
 
 /* The kernels of the eye's half. */
@@ -20,6 +21,7 @@ typedef struct rt_photon_eye {
     rt_renderer *renderer;
     const rt_render_options *options;
     rt_eye_kernels kernels;
+    rt_layers *layers;
     rt_u32 rows;     /* of caustic points a path can have: diffuse bounces of the final gather */
     size_t capacity; /* paths a batch */
     cl_mem points;   /* rt_gather_point [capacity] */
@@ -41,7 +43,8 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels);
 
 /* Makes memory for batches and the film on the device; options are complete. rt_photon_eye_release undoes it. */
 rt_status rt_photon_eye_create(rt_photon_eye *out, rt_renderer *renderer, const rt_render_options *options,
-                               const rt_eye_kernels *kernels, const rt_film *film, rt_error *error);
+                               const rt_eye_kernels *kernels, rt_layers *layers, const rt_film *film,
+                               rt_error *error);
 void rt_photon_eye_release(rt_photon_eye *eye);
 
 /*

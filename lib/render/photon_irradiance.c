@@ -1,8 +1,7 @@
 /*
  * photon_irradiance.c - irradiance from a photon map, by the gathering that renders use.
  *
- * Radiance reflected by a material of kd = pi is irradiance: fr = kd/pi = 1. So the points are gather
- * points on such a material, which no scene could hold, in a scene of nothing else.
+ * What a surface of kd = pi would reflect is irradiance: fr = kd/pi = 1. So the points are gather points of weight pi.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -13,12 +12,7 @@
 #include "photon/photon_map.h"
 #include "render/renderer.h"
 
-/* The scene of the one material. */
-typedef struct white_scene {
-    rt_scene_header header;
-    rt_material_data material;
-    char rest[RT_SCENE_ROW - sizeof(rt_material_data) % RT_SCENE_ROW];
-} white_scene;
+static const float pi = 3.14159265358979323846f;
 
 /* Irradiance being asked for. */
 typedef struct asking {
@@ -26,23 +20,11 @@ typedef struct asking {
     rt_render_options options; /* complete */
     int on_device; /* the search for photons */
     cl_kernel kernel;
-    cl_mem scene;
     rt_gatherer *gatherers[RT_PHOTON_KINDS];
     size_t capacity;         /* points a batch */
     cl_mem points;           /* rt_gather_point [capacity] */
     rt_gather_point *host;   /* the same on the host */
 } asking;
-
-static rt_status make_scene(asking *a, rt_error *error)
-{
-    white_scene white;
-    memset(&white, 0, sizeof white);
-    white.header.materials = sizeof white.header / RT_SCENE_ROW;
-    white.header.material_count = 1;
-    for (int c = 0; c < 3; c++)
-        white.material.kd[c] = 3.14159265358979323846f;
-    return rt_buffer_create(a->device, &a->scene, CL_MEM_READ_ONLY, sizeof white, &white, "a white surface", error);
-}
 
 static rt_status make_gatherer(asking *a, const rt_photon_map *map, rt_photon_kind kind, rt_error *error)
 {
@@ -56,7 +38,7 @@ static rt_status make_gatherer(asking *a, const rt_photon_map *map, rt_photon_ki
     if (how.k == RT_K_ALL)
         how.k = 0;
     rt_status status =
-        rt_gatherer_create(a->gatherers + kind, a->device, a->kernel, a->scene, map->lists + kind, &how, error);
+        rt_gatherer_create(a->gatherers + kind, a->device, a->kernel, map->lists + kind, &how, error);
     if (status == RT_OK && rt_gatherer_capacity(a->gatherers[kind]) < a->capacity)
         a->capacity = rt_gatherer_capacity(a->gatherers[kind]);
     return status;
@@ -67,8 +49,6 @@ static rt_status prepare(asking *a, const rt_photon_map *map, size_t count, rt_e
     a->capacity = count < RT_GATHER_POINTS_MAX ? count : RT_GATHER_POINTS_MAX;
     const char *name = a->on_device ? "photon_walk" : "photon_gather";
     rt_status status = rt_device_kernel(a->device, &a->kernel, name, name, a->options.hooks, error);
-    if (status == RT_OK)
-        status = make_scene(a, error);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
         if (map->lists[kind].count > 0)
             status = make_gatherer(a, map, (rt_photon_kind)kind, error);
@@ -90,7 +70,7 @@ static rt_status ask_batch(asking *a, float *rgb, const float *positions, const 
         memcpy(p->position, positions + 3 * i, sizeof p->position);
         memcpy(p->normal, normals + 3 * i, sizeof p->normal);
         for (int c = 0; c < 3; c++)
-            p->weight[c] = 1;
+            p->weight[c] = pi;
     }
     rt_status status = rt_buffer_write(a->device, a->points, 0, count * sizeof *a->host, a->host, error);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
@@ -147,7 +127,6 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         rt_gatherer_destroy(a.gatherers[kind]);
     rt_buffer_release(a.points);
-    rt_buffer_release(a.scene);
     rt_kernel_release(a.kernel);
     free(a.host);
     return status;

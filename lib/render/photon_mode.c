@@ -14,6 +14,7 @@
 #include "error.h"
 #include "photon/emit.h"
 #include "photon/photon_map.h"
+#include "render/layers.h"
 #include "render/photon_eye.h"
 #include "render/renderer.h"
 
@@ -32,6 +33,7 @@ typedef struct photon_render {
     rt_photon_map map;           /* what is emitted */
     const rt_photon_map *in_use; /* that, or the one of the options */
     rt_photon_list caustics;     /* copies out of the global list, for the final gather, unless there is a caustic list */
+    rt_layers layers;
     rt_photon_eye eye;
     rt_gather_options how[WAYS]; /* of this pass */
     double first_radius[WAYS];   /* of the passes, 0 while unknown */
@@ -78,6 +80,8 @@ static rt_status compile(photon_render *r, rt_error *error)
                                    error);
     if (status == RT_OK)
         status = rt_eye_kernels_prepare(&r->eye_kernels, device, any, r->on_device, &progress, error);
+    if (status == RT_OK && rt_layers_wanted(r->options))
+        status = rt_layers_begin(&r->layers, r->renderer, r->film, &progress, error);
     return status == RT_OK ? rt_stage_end(&progress, &r->film->stats.compile_seconds) : status;
 }
 
@@ -94,7 +98,7 @@ static rt_status prepare(photon_render *r, rt_error *error)
         if (how->k == RT_K_ALL)
             how->k = 0;
     }
-    rt_status status = rt_photon_eye_create(&r->eye, r->renderer, o, &r->eye_kernels, r->film, error);
+    rt_status status = rt_photon_eye_create(&r->eye, r->renderer, o, &r->eye_kernels, &r->layers, r->film, error);
     if (status == RT_OK && !o->photon_map)
         status = rt_emitter_create(&r->emitter, r->renderer->device, r->emit, r->renderer->scene, NULL, 0, error);
     return status;
@@ -176,7 +180,7 @@ static const rt_photon_list *list_of_way(const photon_render *r, int way)
 
 static rt_status create_gatherer(photon_render *r, int way)
 {
-    return rt_gatherer_create(r->gatherers + way, r->renderer->device, r->eye_kernels.gather, r->renderer->scene,
+    return rt_gatherer_create(r->gatherers + way, r->renderer->device, r->eye_kernels.gather,
                               list_of_way(r, way), r->how + way, &r->error);
 }
 
@@ -396,6 +400,8 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
         rt_photon_map_warn_starved(r.in_use, &film->ledger, options->k, options->caustic_k, options->hooks);
     if (status == RT_OK || (status == RT_CANCELLED && r.eye.pixels)) {
         rt_status read = rt_photon_eye_read(&r.eye, film, error);
+        if (read == RT_OK)
+            read = rt_layers_read(&r.layers, renderer, film, error);
         status = read == RT_OK ? status : read;
     }
     destroy_gatherers(&r);
@@ -404,6 +410,7 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
     rt_photon_list_clear(&r.caustics);
     rt_photon_map_free(&r.map);
     rt_eye_kernels_release(&r.eye_kernels);
+    rt_layers_free(&r.layers);
     rt_kernel_release(r.emit);
     return status;
 }

@@ -9,6 +9,8 @@
 #include "scene/scene.h"
 #include "scene/vec.h"
 
+static const double pi = 3.14159265358979323846;
+
 enum { spp_unlimited = 1 << 24 };
 
 void rt_options_complete(rt_render_options *o)
@@ -45,13 +47,21 @@ static void scale(float out[3], const double v[3], double factor)
         out[i] = (float)(v[i] * factor);
 }
 
+/* Half the width of what is seen at the focal distance. */
+static double half_width_of(const rt_camera *camera)
+{
+    if (camera->kind == RT_CAMERA_ORTHOGRAPHIC)
+        return 0.5 * camera->width;
+    return camera->focal_distance * tan(0.5 * camera->fov * pi / 180);
+}
+
 /* The camera's rays for a film of these proportions; pixels are square. */
-static void aim(rt_camera_data *out, const rt_camera *camera, uint32_t width, uint32_t height)
+static void aim(rt_camera_data *out, const rt_camera *camera, const rt_render_options *options)
 {
     static const float origin[3];
     double axis[3], right[3], up[3], corner[3];
-    double half_width = camera->focal_distance * tan(0.5 * camera->fov * 3.14159265358979323846 / 180);
-    double half_height = half_width * height / width;
+    double half_width = half_width_of(camera), half_height = half_width * options->height / options->width;
+    double depth = camera->kind == RT_CAMERA_ORTHOGRAPHIC ? 0 : camera->focal_distance;
 
     rt_vec_sub(axis, camera->look_at, camera->eye);
     rt_vec_sub(up, camera->up, origin);
@@ -64,16 +74,28 @@ static void aim(rt_camera_data *out, const rt_camera *camera, uint32_t width, ui
         right[i] /= length;
     rt_vec_cross(up, right, axis);
     for (int i = 0; i < 3; i++)
-        corner[i] = camera->focal_distance * axis[i] - half_width * right[i] + half_height * up[i];
+        corner[i] = depth * axis[i] - half_width * right[i] + half_height * up[i];
 
     memset(out, 0, sizeof *out);
     memcpy(out->eye, camera->eye, sizeof out->eye);
     out->aperture = camera->aperture;
+    out->kind = camera->kind;
+    out->blades = camera->blades;
+    out->blade_rotation = (float)(fmod(camera->blade_rotation, 360) * pi / 180);
+    out->focal_distance = camera->focal_distance;
+    out->filter = options->filter;
     scale(out->corner, corner, 1);
     scale(out->across, right, 2 * half_width);
     scale(out->down, up, -2 * half_height);
     scale(out->lens_u, right, 1);
     scale(out->lens_v, up, 1);
+    scale(out->axis, axis, 1);
+}
+
+const char *rt_mode_name(rt_mode mode)
+{
+    static const char *const names[] = {"path", "photon", "direct", "normals", "albedo", "depth"};
+    return (unsigned)mode < sizeof names / sizeof *names ? names[mode] : "unknown";
 }
 
 rt_params rt_params_make(const rt_render_options *options)
@@ -87,6 +109,7 @@ rt_params rt_params_make(const rt_render_options *options)
     p.max_depth = options->max_depth;
     p.final_gather = options->final_gather;
     p.direct = options->direct;
+    p.estimator = options->estimator;
     return p;
 }
 
@@ -154,7 +177,7 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     if (!renderer->has_camera)
         return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
     rt_options_complete(&complete);
-    aim(&camera, &renderer->camera, complete.width, complete.height);
+    aim(&camera, &renderer->camera, &complete);
     status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,
                              &camera, error);
     if (status == RT_OK)
@@ -165,7 +188,7 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     film->stats.build_seconds = renderer->build_seconds;
     film->stats.light_power = renderer->image.light_power;
     status = complete.mode == RT_MODE_PHOTON ? rt_render_photon(renderer, &complete, film, error)
-                                             : rt_render_path(renderer, &complete, film, error);
+                                             : rt_render_samples(renderer, &complete, film, error);
     if (status == RT_OK || status == RT_CANCELLED)
         rt_film_resolve(film);
     int keep = status == RT_OK || (status == RT_CANCELLED && film->stats.spp > 0);

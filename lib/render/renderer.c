@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "error.h"
+#include "light/lights.h"
 #include "scene/pack.h"
 
 rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device *device,
@@ -36,6 +37,8 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
     }
     if (status == RT_OK && !device->info.is_cpu)
         rt_scene_image_free(&renderer->image);
+    if (status == RT_OK)
+        status = rt_renderer_enclose(renderer, scene, rt_lights_count(scene), &progress, error);
     if (status == RT_OK)
         status = rt_stage_end(&progress, &renderer->build_seconds);
     if (status == RT_OK)

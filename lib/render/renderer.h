@@ -38,10 +38,17 @@ rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *progr
                             const rt_arg *args, cl_uint count, rt_stage_progress *progress, rt_error *error);
 
 /*
- * The modes. Each fills film->pixels and the film's stats; options are complete. On RT_CANCELLED the film
- * holds the samples so far.
+ * Finds the solids that the camera and the lights lie in and notes them in the scene on the device; nothing where no
+ * material lets light in. Runs as part of a stage.
  */
-rt_status rt_render_path(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error);
+rt_status rt_renderer_enclose(rt_renderer *renderer, const rt_scene *scene, size_t light_count,
+                              rt_stage_progress *progress, rt_error *error);
+
+/*
+ * Photon mapping, and the modes that take samples of pixels one by one: all others. Each fills film->pixels,
+ * the layers asked for and the film's stats; options are complete. On RT_CANCELLED the film holds the samples so far.
+ */
+rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error);
 rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error);
 
 #endif

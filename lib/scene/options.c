@@ -63,10 +63,14 @@ static rt_status check_photons(const rt_render_options *o, rt_error *error)
 
 static rt_status check_enums(const rt_render_options *o, rt_error *error)
 {
-    if ((unsigned)o->mode > RT_MODE_PHOTON)
+    if ((unsigned)o->mode > RT_MODE_DEPTH)
         return rt_fail_field(error, RT_ERROR_USAGE, "mode", "there is no mode %d", (int)o->mode);
     if ((unsigned)o->sampler > RT_SAMPLER_INDEPENDENT)
         return rt_fail_field(error, RT_ERROR_USAGE, "sampler", "there is no sampler %d", (int)o->sampler);
+    if ((unsigned)o->filter > RT_FILTER_MITCHELL)
+        return rt_fail_field(error, RT_ERROR_USAGE, "filter", "there is no filter %d", (int)o->filter);
+    if ((unsigned)o->estimator > RT_ESTIMATOR_BSDF)
+        return rt_fail_field(error, RT_ERROR_USAGE, "estimator", "there is no estimator %d", (int)o->estimator);
     if ((unsigned)o->kernel > RT_DENSITY_GAUSSIAN_JENSEN)
         return rt_fail_field(error, RT_ERROR_USAGE, "kernel", "there is no density kernel %d", (int)o->kernel);
     if ((unsigned)o->caustic_kernel > RT_DENSITY_GAUSSIAN_JENSEN)

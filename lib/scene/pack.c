@@ -1,159 +1,84 @@
-/* pack.c - lays a scene out in one buffer: hierarchy, shapes, materials, lights, sample tables. */
+/* pack.c - lays a scene out in one buffer: hierarchy, shapes, materials, lights, textures, sample tables. */
 #include "scene/pack.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/bvh.h"
 #include "error.h"
 #include "light/lights.h"
 #include "render/sobol.h"
-#include "scene/check.h"
-#include "scene/hierarchy.h"
+#include "scene/packing.h"
 
 enum { buffer_alignment = 4096, sobol_entries = 4 * 256 };
 
-/* What packing works on; first_* have one entry a shape. */
-typedef struct packing {
-    const rt_scene *scene;
-    rt_u32 *first_prim, *first_light, *first_normal;
-    size_t prim_count, light_count, normal_count, plane_count;
-    rt_hierarchy_shapes shapes; /* the hierarchy refers to them until it is written */
-    rt_bvh *bvh;
-    rt_bvh_counts counts;
-    rt_scene_header header;
-} packing;
-
-/* Numbers primitives, planes and normals, shape by shape. */
-static rt_status number_primitives(packing *p, rt_error *error)
+void *rt_packing_table(const rt_packing *packing, rt_u32 offset)
 {
-    size_t shapes = p->scene->shape_count;
-    p->first_prim = malloc((shapes + 1) * sizeof *p->first_prim);
-    p->first_light = malloc((shapes + 1) * sizeof *p->first_light);
-    p->first_normal = malloc((shapes + 1) * sizeof *p->first_normal);
-    if (!p->first_prim || !p->first_light || !p->first_normal)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu shapes", shapes);
-    for (size_t i = 0; i < shapes; i++) {
-        const rt_scene_shape *shape = p->scene->shapes + i;
-        p->first_prim[i] = (rt_u32)p->prim_count;
-        p->first_normal[i] = (rt_u32)p->normal_count;
-        p->prim_count += rt_scene_shape_primitives(shape);
-        p->plane_count += shape->kind == RT_SHAPE_PLANE;
-        p->normal_count += shape->normals ? 3 * shape->triangle_count : 0;
-        if (p->prim_count > RT_BLOCK_PRIM - 1)
-            return rt_fail(error, RT_ERROR_INPUT, "the scene has more than %u primitives", RT_BLOCK_PRIM - 1);
-    }
-    p->light_count = rt_lights_count(p->scene);
-    return RT_OK;
+    return (char *)packing->image.data + (size_t)offset * RT_SCENE_ROW;
 }
 
 /* Gives a table its place after those before it. */
 static void place(size_t *rows, rt_u32 *offset, rt_u32 *count, size_t elements, size_t element_size)
 {
     *offset = (rt_u32)*rows;
-    *count = (rt_u32)elements;
+    if (count)
+        *count = (rt_u32)elements;
     *rows += (elements * element_size + RT_SCENE_ROW - 1) / RT_SCENE_ROW;
 }
 
-static size_t place_tables(packing *p)
+static void place_environment(rt_packing *p, size_t *rows)
 {
+    const rt_scene_environment *from = &p->scene->environment;
+    rt_environment_data *e = &p->header.environment;
+    size_t width = from->width, height = from->height;
+    e->width = from->width;
+    e->height = from->height;
+    e->light = from->light;
+    e->turn = from->turn;
+    place(rows, &e->texels, NULL, width * height, 4 * sizeof(float));
+    place(rows, &e->conditional, NULL, width ? height * (width + 1) : 0, sizeof(float));
+    place(rows, &e->marginal, NULL, width ? height + 1 : 0, sizeof(float));
+}
+
+/* Returns the number of rows of the buffer. */
+static size_t place_tables(rt_packing *p)
+{
+    const rt_scene *scene = p->scene;
+    const rt_bvh_counts *trees = &p->hierarchy.counts;
     rt_scene_header *h = &p->header;
+    rt_u32 blocks;
     size_t rows = sizeof *h / RT_SCENE_ROW;
-    place(&rows, &h->nodes, &h->node_count, p->counts.nodes, sizeof(rt_bvh_node));
-    place(&rows, &h->blocks, &h->block_count, p->counts.blocks, sizeof(rt_tri_block));
-    place(&rows, &h->analytic, &h->analytic_count, p->counts.analytic, sizeof(rt_u32));
+    place(&rows, &h->nodes, &h->node_count, trees->nodes, sizeof(rt_bvh_node));
+    place(&rows, &h->blocks, &blocks, trees->blocks, sizeof(rt_tri_block));
+    h->block_count = p->hierarchy.top_counts.blocks;
+    place(&rows, &h->analytic, &h->analytic_count, trees->analytic, sizeof(rt_u32));
     place(&rows, &h->planes, &h->plane_count, p->plane_count, sizeof(rt_u32));
-    place(&rows, &h->shapes, &h->shape_count, p->scene->shape_count, sizeof(rt_shape));
+    place(&rows, &h->shapes, &h->shape_count, scene->shape_count, sizeof(rt_shape));
     place(&rows, &h->prim_shape, &h->prim_count, p->prim_count, sizeof(rt_u32));
-    place(&rows, &h->materials, &h->material_count, p->scene->material_count, sizeof(rt_material_data));
+    place(&rows, &h->materials, &h->material_count, scene->material_count, sizeof(rt_material_data));
     place(&rows, &h->lights, &h->light_count, p->light_count, sizeof(rt_light_data));
+    place(&rows, &h->transforms, &h->transform_count, p->transform_count, sizeof(rt_transform_data));
+    place(&rows, &h->indices, &h->index_count, p->index_count, sizeof(rt_u32));
     place(&rows, &h->normals, &h->normal_count, p->normal_count, 4 * sizeof(float));
+    place(&rows, &h->uvs, &h->uv_count, p->uv_count, 2 * sizeof(float));
+    place(&rows, &h->colours, &h->colour_count, p->colour_count, 4 * sizeof(float));
+    place(&rows, &h->textures, &h->texture_count, scene->texture_count, sizeof(rt_texture_data));
+    place(&rows, &h->texels, NULL, scene->texels.size, 1);
+    h->texel_rows = (rt_u32)rows - h->texels;
+    place_environment(p, &rows);
     place(&rows, &h->sobol, &h->sobol_count, sobol_entries, 4 * sizeof(rt_u32));
-    return rows * RT_SCENE_ROW;
+    return rows;
 }
 
-static void *table(const rt_scene_image *image, rt_u32 offset)
-{
-    return (char *)image->data + (size_t)offset * RT_SCENE_ROW;
-}
-
-static void pack_shapes(const packing *p, const rt_scene_image *image)
-{
-    rt_shape *out = table(image, p->header.shapes);
-    rt_u32 *prim_shape = table(image, p->header.prim_shape), *plane = table(image, p->header.planes);
-
-    for (size_t i = 0; i < p->scene->shape_count; i++) {
-        const rt_scene_shape *shape = p->scene->shapes + i;
-        size_t prims = rt_scene_shape_primitives(shape);
-        out[i].kind = shape->kind;
-        out[i].flags = shape->normals ? RT_SHAPE_SMOOTH : 0;
-        out[i].material = shape->surface.material;
-        out[i].first_prim = p->first_prim[i];
-        out[i].prim_count = (rt_u32)prims;
-        out[i].first_light = p->first_light[i];
-        out[i].first_normal = p->first_normal[i];
-        memcpy(out[i].p, shape->p, sizeof out[i].p);
-        for (size_t k = 0; k < prims; k++)
-            prim_shape[p->first_prim[i] + k] = (rt_u32)i;
-        if (shape->kind == RT_SHAPE_PLANE)
-            *plane++ = (rt_u32)i;
-    }
-}
-
-static void pack_materials(const packing *p, const rt_scene_image *image)
-{
-    rt_material_data *out = table(image, p->header.materials);
-    for (size_t i = 0; i < p->scene->material_count; i++) {
-        const rt_material *m = p->scene->materials + i;
-        memcpy(out[i].kd, m->kd, sizeof out[i].kd);
-        memcpy(out[i].ks, m->ks, sizeof out[i].ks);
-        memcpy(out[i].kt, m->kt, sizeof out[i].kt);
-        out[i].ior = m->ior;
-        out[i].priority = (rt_u32)m->priority;
-        out[i].flags = (m->fresnel ? RT_MATERIAL_FRESNEL : 0) | (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0);
-    }
-}
-
-/* One normal a corner, of unit length; a zero one becomes the face's. */
-static void pack_corner_normal(float out[4], const rt_scene_shape *shape, const uint32_t corner[3], int c)
-{
-    static const float zero[3];
-    double n[3], a[3], b[3];
-    const float *v0 = shape->positions + 3 * (size_t)corner[0];
-    rt_vec_sub(n, shape->normals + 3 * (size_t)corner[c], zero);
-    double length = rt_vec_length(n);
-    if (!(length > 0)) {
-        rt_vec_sub(a, shape->positions + 3 * (size_t)corner[1], v0);
-        rt_vec_sub(b, shape->positions + 3 * (size_t)corner[2], v0);
-        rt_vec_cross(n, a, b);
-        length = rt_vec_length(n);
-    }
-    for (int i = 0; i < 3; i++)
-        out[i] = length > 0 ? (float)(n[i] / length) : 0;
-}
-
-static void pack_normals(const packing *p, const rt_scene_image *image)
-{
-    float(*out)[4] = table(image, p->header.normals);
-    for (size_t i = 0; i < p->scene->shape_count; i++) {
-        const rt_scene_shape *shape = p->scene->shapes + i;
-        for (size_t k = 0; shape->normals && k < 3 * shape->triangle_count; k++)
-            pack_corner_normal(out[p->first_normal[i] + k], shape, shape->indices + 3 * (k / 3), (int)(k % 3));
-    }
-}
-
-/* Builds the hierarchy and notes its extent. */
-static rt_status build(packing *p, uint32_t threads, rt_stage_progress *progress, rt_error *error)
+/* Builds the hierarchies and notes their extent. */
+static rt_status build(rt_packing *p, uint32_t threads, rt_stage_progress *progress, rt_error *error)
 {
     double diagonal = 0;
-    rt_status status = rt_hierarchy_list(&p->shapes, p->scene, p->first_prim, error);
-    if (status == RT_OK)
-        status = rt_bvh_build(&p->bvh, &p->shapes.input, threads, progress, error);
+    rt_status status = rt_hierarchy_build(&p->hierarchy, p->scene, p->first_prim, threads, progress, error);
     if (status != RT_OK)
         return status;
-    rt_bvh_get_counts(p->bvh, &p->counts);
-    rt_bvh_get_bounds(p->bvh, p->header.bounds_lo, p->header.bounds_hi);
+    memcpy(p->header.bounds_lo, p->hierarchy.lo, sizeof p->header.bounds_lo);
+    memcpy(p->header.bounds_hi, p->hierarchy.hi, sizeof p->header.bounds_hi);
     for (int i = 0; i < 3; i++)
         diagonal = hypot(diagonal, (double)p->header.bounds_hi[i] - p->header.bounds_lo[i]);
     p->header.radius = (float)(0.5 * diagonal);
@@ -161,46 +86,50 @@ static rt_status build(packing *p, uint32_t threads, rt_stage_progress *progress
 }
 
 /* Allocates the buffer and fills its tables. */
-static rt_status fill(packing *p, rt_scene_image *image, rt_error *error)
+static rt_status fill(rt_packing *p, rt_error *error)
 {
-    image->bytes = place_tables(p);
-    if (posix_memalign(&image->data, buffer_alignment, image->bytes)) {
-        image->data = NULL;
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes", image->bytes);
+    size_t rows = place_tables(p);
+    if (rows > UINT32_MAX)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu rows of %u bytes", rows, RT_SCENE_ROW);
+    p->image.bytes = rows * RT_SCENE_ROW;
+    if (posix_memalign(&p->image.data, buffer_alignment, p->image.bytes)) {
+        p->image.data = NULL;
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes", p->image.bytes);
     }
-    memset(image->data, 0, image->bytes);
-    rt_bvh_write(p->bvh, table(image, p->header.nodes), table(image, p->header.blocks),
-                 table(image, p->header.analytic));
-    image->light_power = rt_lights_fill(p->scene, p->first_prim, table(image, p->header.lights), p->first_light);
-    pack_shapes(p, image);
-    pack_materials(p, image);
-    pack_normals(p, image);
-    rt_sobol_table(table(image, p->header.sobol));
-    memcpy(image->data, &p->header, sizeof p->header);
+    memset(p->image.data, 0, p->image.bytes);
+    rt_hierarchy_write(&p->hierarchy, rt_packing_table(p, p->header.nodes), rt_packing_table(p, p->header.blocks),
+                       rt_packing_table(p, p->header.analytic));
+    p->image.light_power = rt_lights_fill(p->scene, p->first_prim, p->header.radius,
+                                          rt_packing_table(p, p->header.lights), p->first_light);
+    rt_pack_shapes(p);
+    rt_pack_vertices(p);
+    rt_pack_materials(p);
+    rt_pack_textures(p);
+    rt_pack_environment(p);
+    rt_sobol_table(rt_packing_table(p, p->header.sobol));
+    memcpy(p->image.data, &p->header, sizeof p->header);
     return RT_OK;
 }
 
 rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel, uint32_t threads,
                         rt_stage_progress *progress, rt_error *error)
 {
-    packing p;
-    rt_scene_image image = {NULL, 0, 0};
-
+    rt_packing p;
     memset(&p, 0, sizeof p);
     p.scene = scene;
     p.header.accel = accel;
-    rt_status status = number_primitives(&p, error);
+    rt_status status = rt_pack_number(&p, error);
     if (status == RT_OK)
         status = build(&p, threads, progress, error);
     if (status == RT_OK)
-        status = fill(&p, &image, error);
+        status = fill(&p, error);
     if (status == RT_OK)
-        *out = image;
-    rt_bvh_destroy(p.bvh);
-    rt_hierarchy_free(&p.shapes);
+        *out = p.image;
+    rt_hierarchy_free(&p.hierarchy);
     free(p.first_prim);
     free(p.first_light);
-    free(p.first_normal);
+    free(p.shapes);
+    free(p.meshes);
     return status;
 }
 

@@ -1,19 +1,17 @@
-/* scene.c - a scene built by calls: materials, point lights, camera, options. Shapes are in shape.c. */
+/* scene.c - a scene's life, options and contents. What it is filled with is in the files beside. */
 #include "scene/scene.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "error.h"
-#include "scene/check.h"
-
-static const float pi = 3.14159265358979f;
 
 rt_status rt_scene_create(rt_scene **out, rt_error *error)
 {
     rt_scene *scene = calloc(1, sizeof *scene);
     if (!scene)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene");
+    scene->environment.light = RT_NONE;
     *out = scene;
     return RT_OK;
 }
@@ -22,127 +20,16 @@ void rt_scene_destroy(rt_scene *scene)
 {
     if (!scene)
         return;
-    for (size_t i = 0; i < scene->shape_count; i++) {
-        free(scene->shapes[i].positions);
-        free(scene->shapes[i].normals);
-        free(scene->shapes[i].indices);
-    }
-    free(scene->shapes);
+    for (size_t i = 0; i < scene->mesh_count; i++)
+        rt_scene_mesh_free(scene->meshes + i);
+    rt_bytes_free(&scene->texels);
+    free(scene->environment.texels);
+    free(scene->textures);
     free(scene->materials);
-    free(scene->point_lights);
+    free(scene->meshes);
+    free(scene->shapes);
+    free(scene->lights);
     free(scene);
-}
-
-/* kd + ks + kt <= 1, but for the rounding of decimal fractions. */
-static rt_status check_albedo(const rt_material *m, const char *who, rt_error *error)
-{
-    static const char *const channel[] = {"red", "green", "blue"};
-    for (int c = 0; c < 3; c++) {
-        double sum = (double)m->kd[c] + m->ks[c] + m->kt[c];
-        if (sum > 1.0 + 1e-6)
-            return rt_fail_field(error, RT_ERROR_INPUT, m->kd[c] > 0 ? "kd" : m->ks[c] > 0 ? "ks" : "kt",
-                                 "%s: kd + ks + kt is %g in %s; it must not exceed 1", who, sum, channel[c]);
-    }
-    return RT_OK;
-}
-
-rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name, const rt_material *material,
-                                rt_error *error)
-{
-    char who[128] = "material";
-    rt_material m = *material;
-    rt_status status;
-
-    if (name)
-        snprintf(who, sizeof who, "material '%.100s'", name);
-    if ((status = rt_check_colour(m.kd, who, "kd", error)) != RT_OK ||
-        (status = rt_check_colour(m.ks, who, "ks", error)) != RT_OK ||
-        (status = rt_check_colour(m.kt, who, "kt", error)) != RT_OK ||
-        (status = rt_check_colour(m.emission, who, "emission", error)) != RT_OK ||
-        (status = check_albedo(&m, who, error)) != RT_OK)
-        return status;
-    if (m.ior == 0)
-        m.ior = 1.5f;
-    if (!(m.ior >= 0.1f && m.ior <= 10))
-        return rt_fail_field(error, RT_ERROR_INPUT, "ior", "%s: ior is %g; it must lie between 0.1 and 10", who, m.ior);
-    if (m.priority < 0)
-        return rt_fail_field(error, RT_ERROR_INPUT, "priority", "%s: priority is %d; it must not be negative", who,
-                             m.priority);
-    status = rt_grow((void **)&scene->materials, &scene->material_room, scene->material_count, sizeof m, error);
-    if (status != RT_OK)
-        return status;
-    if (out)
-        *out = (uint32_t)scene->material_count;
-    scene->materials[scene->material_count++] = m;
-    return RT_OK;
-}
-
-rt_status rt_scene_add_point_light(rt_scene *scene, const rt_point_light *light, rt_error *error)
-{
-    rt_point_light l = *light;
-    rt_status status;
-
-    if ((status = rt_check_point(l.position, "point light", "position", error)) != RT_OK ||
-        (status = rt_check_colour(l.intensity, "point light", "intensity", error)) != RT_OK ||
-        (status = rt_check_colour(l.power, "point light", "power", error)) != RT_OK)
-        return status;
-    int has_power = !rt_is_black(l.power);
-    if (has_power && !rt_is_black(l.intensity))
-        return rt_fail_field(error, RT_ERROR_INPUT, "power", "point light: give intensity or power, not both");
-    for (int c = 0; c < 3 && has_power; c++)
-        l.intensity[c] = l.power[c] / (4 * pi);
-    status = rt_grow((void **)&scene->point_lights, &scene->point_light_room, scene->point_light_count, sizeof l,
-                     error);
-    if (status != RT_OK)
-        return status;
-    scene->point_lights[scene->point_light_count++] = l;
-    return RT_OK;
-}
-
-/* Fills in the camera's defaults and refuses one that sees nothing. */
-static rt_status complete_camera(rt_camera *c, rt_error *error)
-{
-    double axis[3], up[3], side[3];
-    static const float origin[3];
-
-    if (rt_is_black(c->up))
-        c->up[1] = 1;
-    if (c->fov == 0)
-        c->fov = 45;
-    if (!(c->fov > 0 && c->fov < 180))
-        return rt_fail_field(error, RT_ERROR_INPUT, "fov", "camera: fov is %g degrees; it must lie between 0 and 180",
-                             c->fov);
-    if (!(c->aperture >= 0 && c->aperture <= 3e38f))
-        return rt_fail_field(error, RT_ERROR_INPUT, "aperture", "camera: aperture is %g m; it must not be negative",
-                             c->aperture);
-    rt_vec_sub(axis, c->look_at, c->eye);
-    rt_vec_sub(up, c->up, origin);
-    if (!(rt_vec_length(axis) > 0))
-        return rt_fail_field(error, RT_ERROR_INPUT, "look_at", "camera: eye and look_at are the same point");
-    rt_vec_cross(side, axis, up);
-    if (!(rt_vec_length(side) > 1e-6 * rt_vec_length(axis) * rt_vec_length(up)))
-        return rt_fail_field(error, RT_ERROR_INPUT, "up", "camera: up is parallel to the direction of view");
-    if (c->focal_distance == 0)
-        c->focal_distance = (float)rt_vec_length(axis);
-    if (!(c->focal_distance > 0 && c->focal_distance <= 3e38f))
-        return rt_fail_field(error, RT_ERROR_INPUT, "focal_distance",
-                             "camera: focal_distance is %g m; it must be positive", c->focal_distance);
-    return RT_OK;
-}
-
-rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error)
-{
-    rt_camera c = *camera;
-    rt_status status;
-
-    if ((status = rt_check_point(c.eye, "camera", "eye", error)) != RT_OK ||
-        (status = rt_check_point(c.look_at, "camera", "look_at", error)) != RT_OK ||
-        (status = rt_check_point(c.up, "camera", "up", error)) != RT_OK ||
-        (status = complete_camera(&c, error)) != RT_OK)
-        return status;
-    scene->camera = c;
-    scene->has_camera = 1;
-    return RT_OK;
 }
 
 rt_status rt_scene_set_options(rt_scene *scene, const rt_render_options *options, rt_error *error)
@@ -166,13 +53,13 @@ void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out)
     memset(out, 0, sizeof *out);
     out->shapes = scene->shape_count;
     out->materials = scene->material_count;
-    out->lights = scene->point_light_count;
+    out->lights = scene->light_count;
     out->has_camera = scene->has_camera;
     for (size_t i = 0; i < scene->shape_count; i++) {
-        float radiance[3];
-        rt_scene_shape_radiance(scene, scene->shapes + i, radiance);
-        out->primitives += rt_scene_shape_primitives(scene->shapes + i);
-        out->triangles += scene->shapes[i].triangle_count;
-        out->lights += !rt_is_black(radiance);
+        const rt_scene_shape *shape = scene->shapes + i;
+        int is_mesh = shape->kind == RT_SHAPE_TRIANGLES;
+        out->triangles += is_mesh ? scene->meshes[shape->mesh].triangle_count : 0;
+        out->primitives += is_mesh ? scene->meshes[shape->mesh].triangle_count : 1;
+        out->lights += shape->emits;
     }
 }

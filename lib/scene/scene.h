@@ -2,41 +2,124 @@
 #ifndef RT_LIB_SCENE_SCENE_H
 #define RT_LIB_SCENE_SCENE_H
 
+#include "image/bytes.h"
 #include "rt.h"
+#include "scene/transform.h"
 #include "types.h"
 
-/* One shape as it was added; all in world space. */
-typedef struct rt_scene_shape {
-    rt_u32 kind; /* RT_SHAPE_* */
-    rt_surface surface;
-    float p[9]; /* sphere: centre, radius; plane: point, unit normal; quad: corner, edge1, edge2 */
-    /* Triangles; owned by the scene. */
-    float *positions;   /* [vertex_count][3] */
-    float *normals;     /* [vertex_count][3], or NULL */
-    uint32_t *indices;  /* [triangle_count][3] */
+/* A texture, and the bounds of its colours that energy is checked with. */
+typedef struct rt_scene_texture {
+    rt_texture_data data;
+    float mean[3], largest[3];
+} rt_scene_texture;
+
+/* A mesh in a space of its own; owns its arrays. */
+typedef struct rt_scene_mesh {
+    float *positions; /* [vertex_count][3] */
+    float *normals;   /* [vertex_count][3], or NULL */
+    float *uv;        /* [vertex_count][2], or NULL */
+    float *colours;   /* [vertex_count][3], or NULL */
+    uint32_t *indices; /* [triangle_count][3] */
     size_t vertex_count, triangle_count;
+    double area;
+    float lo[3], hi[3];
+    size_t placed; /* shapes that place it and do not emit */
+} rt_scene_mesh;
+
+/* One shape as it was added. */
+typedef struct rt_scene_shape {
+    rt_u32 kind; /* RT_SHAPE_*; a placed mesh is RT_SHAPE_TRIANGLES, instance or not */
+    rt_u32 mesh; /* triangles: which */
+    rt_surface surface;
+    int caps;
+    int emits;
+    double area; /* of all, world space, m^2; infinite for a plane; of a placed mesh only where its power is given */
+    float p[9];  /* as rt_shape.p; quad: corner, edge1, edge2, in world space */
+    int has_transform;
+    rt_affine to_world; /* of the shape's own space, or of the mesh's */
+    float lo[3], hi[3]; /* bounds, world space; not of a plane */
 } rt_scene_shape;
 
+/* A light that is no shape. */
+typedef struct rt_scene_light {
+    rt_u32 kind; /* RT_LIGHT_* */
+    float position[3], direction[3]; /* as rt_light_data.a and b */
+    float inner, outer; /* spot: cosines */
+    float emission[3];
+} rt_scene_light;
+
+/* The environment's image. */
+typedef struct rt_scene_environment {
+    rt_u32 width, height; /* 0: constant */
+    float *texels;        /* [height][width][4], top row first, w = 0 */
+    float turn;           /* rotation about y, turns */
+    float mean[3];        /* radiance over the sphere; constant: 1 */
+    rt_u32 light;         /* index in lights; RT_NONE: there is no environment */
+} rt_scene_environment;
+
 struct rt_scene {
-    rt_material *materials;
+    rt_scene_texture *textures;
+    size_t texture_count, texture_room;
+    rt_bytes texels; /* of all image textures */
+    rt_material *materials; /* complete: defaults filled in, texture handles checked */
     size_t material_count, material_room;
+    rt_scene_mesh *meshes;
+    size_t mesh_count, mesh_room;
     rt_scene_shape *shapes;
     size_t shape_count, shape_room;
-    rt_point_light *point_lights; /* intensity set, power converted */
-    size_t point_light_count, point_light_room;
+    rt_scene_light *lights;
+    size_t light_count, light_room;
+    rt_scene_environment environment;
     rt_camera camera; /* defaults filled in */
     int has_camera;
     rt_render_options options; /* hooks NULL */
 };
 
-/* Primitives of a shape: triangles count one by one, every other shape is one. */
-size_t rt_scene_shape_primitives(const rt_scene_shape *shape);
+/* Whether a placed mesh has a tree of its own: when it is placed more than once, and does not emit. */
+int rt_scene_is_instance(const rt_scene *scene, const rt_scene_shape *shape);
 
-/* Radiance that a shape emits, W/(m^2 sr), from its own radiance or power or its material's emission. */
+/* Primitives of a shape on the device: triangles count one by one, every other shape is one, an instance too. */
+size_t rt_scene_shape_primitives(const rt_scene *scene, const rt_scene_shape *shape);
+
+/* Radiance that a shape emits, W/(m^2 sr), from its own radiance or power or its material's emission; before texture. */
 void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape, float radiance[3]);
 
+/* Whether a surface brings radiance or power of its own; its texture then multiplies that, and not kd. */
+int rt_surface_has_light(const rt_surface *surface);
+
+/* The handle of the texture that multiplies that radiance, or 0. */
+uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *shape);
+
+/* A vertex of a placed mesh in world space, rounded as the hierarchy has it. */
+void rt_scene_vertex(const rt_scene *scene, const rt_scene_shape *shape, size_t vertex, float out[3]);
+
 /* Area of one primitive of a finite shape, m^2. */
-double rt_scene_primitive_area(const rt_scene_shape *shape, size_t primitive);
+double rt_scene_primitive_area(const rt_scene *scene, const rt_scene_shape *shape, size_t primitive);
+
+/* Whether placing the shape turns its inside out, so that a product of its edges points inwards. */
+int rt_scene_is_mirrored(const rt_scene_shape *shape);
+
+/*
+ * Checks what all shapes share and appends. The shape's kind, p, to_world, area and bounds are set.
+ */
+rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who, rt_error *error);
+
+/*
+ * Whether kd + ks + kt <= 1 wherever textures are brightest, a shape's own included; its handle may be 0. The
+ * error names `field`, or, when that is NULL, the coefficient.
+ */
+rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *material, uint32_t shape_texture,
+                                   const char *who, const char *field, rt_error *error);
+
+/* The transform of a surface; fails with field "transform" when it cannot be inverted. */
+rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who, rt_error *error);
+
+/* Appends a mesh, taking its arrays over; checked already. */
+rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh, rt_error *error);
+void rt_scene_mesh_free(rt_scene_mesh *mesh);
+
+/* Sets a mesh's area and bounds from its arrays. */
+void rt_scene_mesh_survey(rt_scene_mesh *mesh);
 
 /* Checks options for values out of their range; used for the scene's own and for rt_render's. */
 rt_status rt_options_check(const rt_render_options *options, rt_error *error);

@@ -109,28 +109,11 @@ static double median(double times[runs])
     return times[runs / 2];
 }
 
-/* A scene buffer of one white material. */
-static cl_mem make_scene(rt_device *device)
-{
-    struct {
-        rt_scene_header header;
-        rt_material_data white;
-    } scene;
-    cl_mem buffer = NULL;
-    rt_error error;
-    memset(&scene, 0, sizeof scene);
-    scene.header.materials = sizeof scene.header / RT_SCENE_ROW;
-    scene.header.material_count = 1;
-    scene.white.kd[0] = 1;
-    must(rt_buffer_create(device, &buffer, CL_MEM_READ_ONLY, sizeof scene, &scene, "the scene", &error), &error);
-    return buffer;
-}
-
 /* The gather on the device, with all that it needs. */
 typedef struct device_side {
     rt_device *device;
     cl_kernel kernel;
-    cl_mem scene, points;
+    cl_mem points;
     rt_device_gather gather;
 } device_side;
 
@@ -140,7 +123,6 @@ static void open_device(device_side *d, const problem *p)
     rt_error error;
     must(rt_device_open(&d->device, NULL, &error), &error);
     must(rt_device_kernel(d->device, &d->kernel, "photon_walk", "photon_walk", NULL, &error), &error);
-    d->scene = make_scene(d->device);
     must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE, p->queries * sizeof *p->points, p->points, "points",
                           &error),
          &error);
@@ -152,7 +134,6 @@ static void open_device(device_side *d, const problem *p)
 static void close_device(device_side *d)
 {
     rt_device_gather_release(&d->gather);
-    rt_buffer_release(d->scene);
     rt_buffer_release(d->points);
     rt_kernel_release(d->kernel);
     rt_device_close(d->device);
@@ -161,7 +142,7 @@ static void close_device(device_side *d)
 static void gather_on_device(device_side *d, const problem *p)
 {
     rt_error error;
-    must(rt_device_gather_launch(&d->gather, d->device, d->kernel, d->scene, d->points, 0, p->queries, &error), &error);
+    must(rt_device_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error), &error);
     must(rt_device_finish(d->device, &error), &error);
 }
 

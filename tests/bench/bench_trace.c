@@ -165,7 +165,7 @@ static double our_build(const contest *c)
     rt_tri_block *blocks = malloc(counts.blocks * sizeof *blocks);
     if (nodes == NULL || blocks == NULL)
         must(RT_ERROR_MEMORY, &(rt_error){.message = "out of memory"});
-    rt_bvh_write(bvh, nodes, blocks, NULL);
+    rt_bvh_write(bvh, nodes, blocks, NULL, 0, 0);
     const double seconds = rt_clock() - begin;
     rt_bvh_destroy(bvh);
     free(nodes);

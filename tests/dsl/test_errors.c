@@ -34,15 +34,15 @@ static const bad_text bad_texts[] = {
     {"# \xff\n" BALL, 1, 3, 1, "byte 0xff is not UTF-8", "save the file as UTF-8"},
     {"\xc0\xaf" BALL, 1, 1, 2, "byte 0xc0 is not UTF-8", "UTF-8"},
     {"\xe2\x82\xac" BALL, 1, 1, 3, "unexpected '\xe2\x82\xac'", ""},
-    {"// no comment\n" BALL, 1, 1, 1, "expected a block, 'let' or 'include', found '/'", "'#'"},
+    {"// no comment\n" BALL, 1, 1, 1, "expected a block, 'let', 'include' or 'repeat', found '/'", "'#'"},
 
     /* Statements. */
     {"spere { centre 0 0 0 radius 1 }", 1, 1, 5, "unknown block 'spere'", "did you mean 'sphere'?"},
     {"Camera { eye 0 0 0 }", 1, 1, 6, "unknown block 'Camera'", "did you mean 'camera'?"},
-    {"teapot { size 3 }", 1, 1, 6, "unknown block 'teapot'", "begins with one of: let include camera film"},
+    {"teapot { size 3 }", 1, 1, 6, "unknown block 'teapot'", "begins with one of: let include repeat camera film"},
     {BALL "}\n", 3, 1, 1, "'}' closes nothing", ""},
-    {BALL "42\n", 3, 1, 2, "expected a block, 'let' or 'include', found '42'", ""},
-    {"{ centre 0 0 0 }\n" BALL, 1, 1, 1, "expected a block, 'let' or 'include', found '{'", ""},
+    {BALL "42\n", 3, 1, 2, "expected a block, 'let', 'include' or 'repeat', found '42'", ""},
+    {"{ centre 0 0 0 }\n" BALL, 1, 1, 1, "expected a block, 'let', 'include' or 'repeat', found '{'", ""},
     {"light { position 0 0 0 }", 1, 1, 5, "expected a kind of light, found '{'", "light point { ... }"},
     {"light pont { position 0 0 0 }", 1, 7, 4, "expected a kind of light, found 'pont'", "did you mean 'point'?"},
     {"material { kd 1 }", 1, 1, 8, "material needs a name, found '{'", "material white { ... }"},
@@ -95,10 +95,10 @@ static const bad_text bad_texts[] = {
     {"film { width: 4; }", 1, 13, 1, "unexpected ':' in 'width'", "without a sign"},
 
     /* Words. */
-    {"render { mode phton }", 1, 15, 5, "'mode' takes path or photon, found 'phton'", "did you mean 'photon'?"},
-    {"render { mode 3 }", 1, 15, 1, "'mode' takes path or photon, found '3'", ""},
+    {"render { mode phton }", 1, 15, 5, "'mode' takes path, photon, direct, normals, albedo or depth, found 'phton'", "did you mean 'photon'?"},
+    {"render { mode 3 }", 1, 15, 1, "'mode' takes path, photon, direct, normals, albedo or depth, found '3'", ""},
     {"render { kernel gaussian-jensen }", 1, 17, 15, "'gaussian-jensen' is not a name", "'_'"},
-    {"material g { fresnel yes }", 1, 22, 3, "'fresnel' takes true or false, found 'yes'", ""},
+    {"material g { fresnel yes }", 1, 22, 3, "'fresnel' takes off, dielectric or conductor, found 'yes'", ""},
     {WHITE "sphere { centre 0 0 0 radius 1 material whit }", 2, 41, 4, "unknown material 'whit'",
      "did you mean 'white'?"},
     {"sphere { centre 0 0 0 radius 1 material late }\nmaterial late { }", 1, 41, 4, "unknown material 'late'",
@@ -158,6 +158,56 @@ static const bad_text bad_texts[] = {
     {"film { width +3 }", 1, 8, 5, "'width' takes a whole number, found '+'", ""},
     {"let radius = 1\n" WHITE "sphere { centre 0 0 0 radius radius material white }", 3, 23, 6,
      "'radius' takes a number, found 'radius'", "in parentheses"},
+
+    /* Functions. */
+    {"let a = sine(3)\n" BALL, 1, 9, 4, "unknown function 'sine'", "did you mean 'sin'?"},
+    {"let a = 1\nlet b = a(3)\n" BALL, 2, 9, 1, "unknown function 'a'", "a space separates"},
+    {"let a = min(3)\n" BALL, 1, 9, 3, "'min' takes two values, separated by a comma, found 1", ""},
+    {"let a = sin(1, 2)\n" BALL, 1, 9, 3, "'sin' takes one value, found 2", ""},
+    {"let a = sqrt(-1)\n" BALL, 1, 9, 4, "'sqrt' has no finite value here", ""},
+    {"let a = sin(1\n" BALL, 1, 14, 1, "expected ')', found 'material'", "closes the '('"},
+
+    /* repeat. */
+    {"repeat { }\n" BALL, 1, 1, 6, "expected a name after 'repeat', found '{'", "repeat i from 1 to 10"},
+    {"repeat i to 3 { }\n" BALL, 1, 10, 2, "expected 'from', found 'to'", "repeat i from 1 to 10"},
+    {"repeat i from 1 3 { }\n" BALL, 1, 17, 1, "expected 'to', found '3'", "repeat i from 1 to 10"},
+    {"repeat i from 1 to 2 - 1 { }\n" BALL, 1, 22, 1, "expected '{' after repeat, found '-'", "in parentheses"},
+    {"repeat i from 1 to [1 2 3] { }\n" BALL, 1, 20, 7, "expected a number, found a vector", ""},
+    {"repeat i from 0 to 1e9 { }\n" BALL, 1, 1, 6, "the repeats of a scene have more than 10000000 turns", ""},
+    {BALL "repeat i from 1 to 3 {\n", 3, 8, 1, "this repeat is not closed", ""},
+    {BALL "repeat i from 1 to 3 { film { width 0 } }\n", 3, 37, 1, "'width' is 0; it must be from 1 to 65536", ""},
+    {"let i = 1\n" BALL "repeat i from 1 to 3 { }\n", 4, 8, 1, "constant 'i' is defined twice", "first at text:1"},
+    {"repeat i from 1 to 2 { material m { } sphere { centre i 0 0 radius 1 material m } }\n"
+     "sphere { centre 0 0 0 radius 1 material m }", 2, 41, 1,
+     "unknown material 'm'", "above their use"},
+
+    /* Transforms. */
+    {WHITE "sphere { centre 0 0 0 radius 1 material white scale 0 }", 2, 53, 1, "'scale' is 0; it must be not zero", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white rotate 0 0 0 9 }", 2, 54, 7,
+     "the axis of 'rotate' must not be zero", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white rotate 0 1 0 }", 2, 47, 12,
+     "'rotate' takes four numbers, found three", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white matrix 1 0 0 0  0 1 0 0  0 0 0 1 }", 2, 54, 25,
+     "the transform cannot be inverted", ""},
+
+    /* Textures, meshes, files. */
+    {"material m { kd_texture wood }\n", 1, 25, 4, "unknown texture 'wood'", "textures are defined by 'texture NAME"},
+    {"texture wood { file \"none.png\" }\n", 1, 22, 8, "none.png", ""},
+    {"texture wood { }\n", 1, 1, 7, "an image needs a file", ""},
+    {"texture wood { file \"\" }\n", 1, 22, 0 + 1, "the name of the file is empty", ""},
+    {"texture wood { file wood }\n", 1, 21, 4, "'file' takes a file name in quotes, found 'wood'", ""},
+    {"texture t { pattern checker a 1 }\nmaterial m { kd_texture t  ks 0.1 }", 2, 25, 1,
+     "kd + ks + kt is 1.1 in red where the textures are brightest", ""},
+    {"mesh m { file \"none.ply\" }\n", 1, 16, 8, "none.ply", ""},
+    {"mesh m { file \"scenes/README.md\" }\n", 1, 16, 16, "unknown mesh format", ""},
+    {WHITE "instance bunny { material white }\n", 2, 10, 5, "unknown mesh 'bunny'", "meshes are defined by 'mesh NAME"},
+    {WHITE "instance { material white }\n", 2, 1, 8, "instance needs a name, found '{'", "instance bunny"},
+    {WHITE "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 0 material white }\n", 2, 1, 8,
+     "triangle needs all of 'uva', 'uvb' and 'uvc', or none", ""},
+    {"material m { ks 1 fresnel conductor }", 1, 1, 8, "eta has the component 0", ""},
+    {"light environment { radiance 1 }\nlight environment { radiance 1 }", 2, 1, 17, "a scene has only one light environment",
+     "the first is at text:1"},
+    {WHITE "cone { base 0 0 0 apex 0 1 0 radius 1 apex_radius 2 material white }\n", 2, 51, 1, "apex_radius is 2 m", ""},
 
     /* include and strings. */
     {"include box\n" BALL, 1, 1, 7, "expected a file name in quotes after 'include', found 'box'", "materials.rts"},
@@ -269,7 +319,7 @@ static void deep_and_long_texts_are_refused(void **state)
         {"let a = 1", "+1", "the expression is too long"},
         {"film { width ", "{", "'width' takes a whole number, found '{'"},
         {"foo ", "{", "unknown block 'foo'"},
-        {"", "{", "expected a block, 'let' or 'include', found '{'"},
+        {"", "{", "expected a block, 'let', 'include' or 'repeat', found '{'"},
     };
     static collected c;
     const size_t count = 1000000;

@@ -29,7 +29,7 @@ static void every_field_reaches_the_scene(void **state)
         "render { mode photon spp 7 max_depth 9 seed 4294967295 sampler independent time 2.5 photons 4000000000\n"
         "  k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons final_gather 2\n"
         "  caustic_photons 3000000000 caustic_k 40 caustic_radius 0.125 caustic_kernel silverman }\n"
-        "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel true  two_sided true\n"
+        "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel dielectric  two_sided true\n"
         "  priority 3 }\n"
         "material plain { kd 0.7 }\n"
         "plane { point 0 0 0  normal 0 2 0  material plain }\n"
@@ -72,14 +72,15 @@ static void every_field_reaches_the_scene(void **state)
     assert_true(s[1].kind == RT_SHAPE_SPHERE && s[1].surface.material == 0 && s[1].p[3] == 0.5f);
     assert_vector(s[1].p, 1, 2, 3);
     assert_vector(s[1].surface.radiance, 4, 5, 6);
-    assert_true(s[2].kind == RT_SHAPE_TRIANGLES && s[2].triangle_count == 1 && s[2].normals);
-    assert_vector(s[2].positions + 3, 1, 0, 0);
-    assert_vector(s[2].normals + 6, 1, 0, 1);
+    const rt_scene_mesh *triangle = &c.scene->meshes[s[2].mesh];
+    assert_true(s[2].kind == RT_SHAPE_TRIANGLES && triangle->triangle_count == 1 && triangle->normals);
+    assert_vector(triangle->positions + 3, 1, 0, 0);
+    assert_vector(triangle->normals + 6, 1, 0, 1);
     assert_true(s[3].kind == RT_SHAPE_QUAD);
     assert_vector(s[3].p + 3, 2, 0, 0);
     assert_vector(s[3].p + 6, 0, 0, 2);
     assert_vector(s[3].surface.power, 8, 8, 8);
-    assert_vector(c.scene->point_lights[0].intensity, 4, 4, 4);
+    assert_vector(c.scene->lights[0].emission, 4, 4, 4);
     collected_free(&c);
 }
 
@@ -116,7 +117,7 @@ static void expect_position(const char *expression, float x, float y, float z)
              "light point { position e  power used }", expression);
     collect_text(&c, text);
     expect_clean(&c, text);
-    assert_vector(c.scene->point_lights[0].position, x, y, z);
+    assert_vector(c.scene->lights[0].position, x, y, z);
     collected_free(&c);
 }
 
@@ -139,6 +140,133 @@ static void arithmetic_follows_its_rules(void **state)
     expect_position("v\n* 2 # over\n # lines\n + 1", 3, 5, 7);
     expect_position("[.5 5. 1e2]", 0.5f, 5, 100);
     expect_position("[1E+2 1e-2 0.1e1]", 100, 0.01f, 1);
+}
+
+static void functions_have_their_values(void **state)
+{
+    (void)state;
+    expect_position("[sin(30) cos(60) tan(45)]", 0.5f, 0.5f, 1);
+    expect_position("[sin(180) cos(90) sin(-90)]", 0, 0, -1);
+    expect_position("[asin(1) acos(-1) atan(1)]", 90, 180, 45);
+    expect_position("[atan2(1, -1) sqrt(9) pow(2, 10)]", 135, 3, 1024);
+    expect_position("[abs(-2) min(1, 2) max(1, 2)]", 2, 1, 2);
+    expect_position("[floor(-1.5) ceil(-1.5) round(2.5)]", -2, -1, 3);
+    expect_position("[mod(7, 3) mod(-1, 3) sign(-4)]", 1, 2, -1);
+    expect_position("[exp(0) log(exp(2)) (pi / pi)]", 1, 2, 1);
+    expect_position("sqrt(v * v)", 1, 2, 3);
+    expect_position("max(v, 2)", 2, 2, 3);
+    expect_position("[(random(a) - random(3)) 0 (min(random(a), 1) - random(a))]", 0, 0, 0);
+    expect_position("2 * sin(a * 10) * v", 1, 2, 3);
+}
+
+/* The map of a shape, applied to a point. */
+static void expect_mapped(const rt_scene_shape *shape, double x, double y, double z, float u, float v, float w)
+{
+    double p[3] = {x, y, z}, q[3];
+    rt_affine map = rt_affine_from(&shape->surface.transform);
+    rt_affine_point(q, &map, p);
+    const float found[3] = {(float)q[0], (float)q[1], (float)q[2]};
+    assert_vector(found, u, v, w);
+}
+
+static void transforms_apply_in_the_order_written(void **state)
+{
+    static const char text[] =
+        "let up = [0 1 0]\n"
+        "material m { }\n"
+        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  rotate 0 0 1 90  translate 5 0 0 }\n"
+        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  translate 5 0 0  rotate 0 0 1 90 }\n"
+        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  scale 1 2 3  scale 2  rotate up (-90) }\n"
+        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  matrix 1 2 0 4  0 1 0 5  0 0 -1 6 }\n";
+    static collected c;
+    (void)state;
+    collect_text(&c, text);
+    expect_clean(&c, text);
+    const rt_scene_shape *s = c.scene->shapes;
+    expect_mapped(s, 1, 0, 0, 5, 1, 0);
+    expect_mapped(s + 1, 1, 0, 0, 0, 6, 0);
+    expect_mapped(s + 2, 1, 1, 1, -6, 4, 2);
+    expect_mapped(s + 3, 1, 1, 1, 7, 6, 5);
+    collected_free(&c);
+}
+
+static void repeats_count_and_scope_their_names(void **state)
+{
+    static const char text[] =
+        "let n = 3\n"
+        "repeat i from 1 to n {\n"
+        "    let x = 10 * i\n"
+        "    material paint { kd (i / 10) }\n"
+        "    repeat j from i to (i + 1.5) { sphere { centre x j 0 radius 1 material paint } }\n"
+        "}\n"
+        "repeat i from 2 to 1 { this is not even read }\n"
+        "let x = 7\n"
+        "material paint { }\n"
+        "sphere { centre x 0 0 radius 1 material paint }\n";
+    static collected c;
+    (void)state;
+    collect_text(&c, text);
+    expect_clean(&c, text);
+    assert_int_equal(c.scene->material_count, 4);
+    assert_int_equal(c.scene->shape_count, 7);
+    for (int i = 0; i < 6; i++) {
+        const rt_scene_shape *s = &c.scene->shapes[i];
+        assert_vector(s->p, 10.0f * (float)(i / 2 + 1), (float)(i / 2 + 1 + i % 2), 0);
+        assert_float_equal(c.scene->materials[s->surface.material].kd[0], (float)(i / 2 + 1) / 10, 1e-6);
+    }
+    assert_vector(c.scene->shapes[6].p, 7, 0, 0);
+    collected_free(&c);
+}
+
+/* A mesh is read once; its instances share it, and what is not named otherwise is the default. */
+static void meshes_textures_and_lights_reach_the_scene(void **state)
+{
+    static const char text[] =
+        "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 blades 6 blade_rotation 30 }\n"
+        "film { filter mitchell }\n"
+        "render { mode depth aov true estimator bsdf }\n"
+        "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 linear true }\n"
+        "texture squares { pattern checker a 1 b 0 0.5 0 }\n"
+        "material gold { ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture letter bump_scale 0.1 }\n"
+        "material water { kt 1 fresnel dielectric absorption 0.1 0.2 0.3 kt_texture squares }\n"
+        "mesh knot { file \"scenes/meshes/knot.ply\" }\n"
+        "repeat i from 1 to 3 { instance knot { material gold texture squares translate i 0 0 } }\n"
+        "model { file \"scenes/meshes/knot.ply\" shading flat material water }\n"
+        "cylinder { a 0 0 0 b 0 1 0 radius 1 material gold }\n"
+        "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material gold }\n"
+        "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 1 uvb 0 0 uvc 1 0 material gold }\n"
+        "light spot { position 1 2 3 target 1 0 3 intensity 5 outer 60 inner 60 }\n"
+        "light directional { direction 0 0 -2 irradiance 3 }\n"
+        "light environment { file \"scenes/textures/letter.png\" rotation 90 }\n";
+    static collected c;
+    (void)state;
+    collect_text(&c, text);
+    expect_clean(&c, text);
+    const rt_scene *s = c.scene;
+    assert_true(s->camera.kind == RT_CAMERA_ORTHOGRAPHIC && s->camera.width == 3 && s->camera.blades == 6);
+    assert_true(s->options.filter == RT_FILTER_MITCHELL && s->options.mode == RT_MODE_DEPTH && s->options.aov);
+    assert_true(s->options.estimator == RT_ESTIMATOR_BSDF);
+    const rt_texture_data *letter = &s->textures[0].data;
+    assert_true(letter->kind == RT_TEXTURE_IMAGE && letter->width == 128 && letter->wrap == RT_WRAP_MIRROR);
+    assert_true(letter->scale[0] == 4 && letter->scale[1] == 2 && letter->offset[1] == -1);
+    assert_true(s->textures[1].data.kind == RT_TEXTURE_CHECKER && s->textures[1].data.b[1] == 0.5f);
+    assert_true(s->materials[0].fresnel == RT_FRESNEL_CONDUCTOR && s->materials[0].eta[2] == 0.2f);
+    assert_true(s->materials[0].bump_texture == 1 && s->materials[1].kt_texture == 2);
+    assert_true(s->materials[1].absorption[2] == 0.3f && s->materials[1].fresnel == RT_FRESNEL_DIELECTRIC);
+
+    assert_true(s->shape_count == 7 && s->mesh_count == 3 && s->meshes[0].placed == 3);
+    assert_true(s->meshes[0].normals && s->meshes[0].uv && s->meshes[0].triangle_count == 2400);
+    assert_true(!s->meshes[1].normals && s->shapes[2].surface.texture == 2 && s->shapes[3].surface.texture == 0);
+    assert_true(s->shapes[4].caps && !s->shapes[5].caps && s->meshes[2].uv[1] == 1 && s->meshes[2].uv[4] == 1);
+
+    assert_true(s->light_count == 3 && s->environment.light == 2 && s->environment.width == 128);
+    assert_vector(s->lights[0].direction, 0, -1, 0);
+    assert_float_equal(s->lights[0].outer, 0.5f, 1e-6);
+    assert_true(s->lights[0].inner > s->lights[0].outer);
+    assert_vector(s->lights[1].direction, 0, 0, -1);
+    assert_vector(s->lights[2].emission, 1, 1, 1);
+    assert_float_equal(s->environment.turn, 0.25f, 1e-6);
+    collected_free(&c);
 }
 
 static void spaces_lines_and_marks_do_not_matter(void **state)
@@ -308,6 +436,10 @@ int main(void)
         cmocka_unit_test(every_field_reaches_the_scene),
         cmocka_unit_test(choices_match_their_enums),
         cmocka_unit_test(arithmetic_follows_its_rules),
+        cmocka_unit_test(functions_have_their_values),
+        cmocka_unit_test(transforms_apply_in_the_order_written),
+        cmocka_unit_test(repeats_count_and_scope_their_names),
+        cmocka_unit_test(meshes_textures_and_lights_reach_the_scene),
         cmocka_unit_test(spaces_lines_and_marks_do_not_matter),
         cmocka_unit_test_setup_teardown(includes_are_relative_to_the_file_that_names_them, make_scratch,
                                         remove_scratch),

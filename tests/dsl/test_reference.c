@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "dsl/function.h"
 #include "dsl/schema.h"
 #include "tests/dsl/collect.h"
 
@@ -68,6 +69,21 @@ static void every_kernel_is_described(void **state)
     free(page);
 }
 
+/* Every function stands in the page's table, with its arguments. */
+static void every_function_is_described(void **state)
+{
+    char *page = read_text(REFERENCE);
+    (void)state;
+    for (int i = 0; i < RT_FUNCTION_COUNT; i++) {
+        char call[32];
+        snprintf(call, sizeof call, "`%s(", rt_functions[i].name);
+        const char *found = strstr(page, call);
+        assert_non_null(found);
+        assert_int_equal(strcspn(found, ",") < strcspn(found, ")"), rt_functions[i].arguments == 2);
+    }
+    free(page);
+}
+
 static void every_example_is_a_good_scene(void **state)
 {
     static collected c;
@@ -91,6 +107,29 @@ static void every_example_is_a_good_scene(void **state)
     free(page);
 }
 
+static int has_its_size(const rt_field *field)
+{
+    switch (field->type) {
+    case RT_FIELD_PAIR:
+        return field->size == 2 * sizeof(float);
+    case RT_FIELD_VECTOR:
+    case RT_FIELD_COLOUR:
+        return field->size == 3 * sizeof(float);
+    case RT_FIELD_FILE:
+        return field->size == sizeof(char *);
+    case RT_FIELD_TRANSLATE:
+    case RT_FIELD_ROTATE:
+    case RT_FIELD_SCALE:
+    case RT_FIELD_MATRIX:
+        return field->size == sizeof(rt_transform);
+    case RT_FIELD_NUMBER:
+    case RT_FIELD_INTEGER:
+        return field->size == 4 || field->size == 8;
+    default:
+        return field->size == 4;
+    }
+}
+
 static void the_tables_are_sound(void **state)
 {
     (void)state;
@@ -100,10 +139,8 @@ static void the_tables_are_sound(void **state)
         assert_true(block->field_count <= RT_BLOCK_FIELDS_MAX);
         for (size_t j = 0; j < block->field_count; j++) {
             const rt_field *field = &block->fields[j];
-            size_t vector = 3 * sizeof(float);
-            int is_vector = field->type == RT_FIELD_VECTOR || field->type == RT_FIELD_COLOUR;
             assert_true(field->offset + field->size <= sizeof(rt_block_fields));
-            assert_true(is_vector ? field->size == vector : field->size == 4 || field->size == 8);
+            assert_true(has_its_size(field));
             assert_true((field->type == RT_FIELD_CHOICE) == (field->choices != NULL));
             assert_true((field->need == RT_NEED_REQUIRED) == (field->fallback[0] == '\0'));
         }
@@ -115,6 +152,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_block_and_field_is_described),
         cmocka_unit_test(every_kernel_is_described),
+        cmocka_unit_test(every_function_is_described),
         cmocka_unit_test(every_example_is_a_good_scene),
         cmocka_unit_test(the_tables_are_sound),
     };

@@ -1,5 +1,5 @@
 /* light.cl - samples of lights and starts of light paths, for their test. */
-#include "light.h"
+#include "light_emit.h"
 #include "rng.h"
 
 static float4 numbers(uint seed, uint i)
@@ -22,8 +22,10 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
     float again = 0.0f;
     if (!sample_light(&scene, from.xyz, u, &made))
         made.radiance = (float3)(0.0f);
+    else if (made.distant && !made.delta)
+        again = sky_light_pdf_w(&scene, made.wi);
     else if (!made.delta)
-        again = light_pdf_w(scene.lights + choose_light(&scene, u.z), from.xyz, &made.at);
+        again = light_pdf_w(&scene, scene.lights + choose_light(&scene, u.z), from.xyz, &made.at);
     out[4u * i] = (float4)(made.at.position, made.spread);
     out[4u * i + 1u] = (float4)(made.wi, made.delta ? 1.0f : 0.0f);
     out[4u * i + 2u] = (float4)(made.radiance, again);

@@ -1,4 +1,4 @@
-/* test_bsdf.c - Fresnel against double precision, energy, Snell's law, and what radiance and flux keep. */
+/* test_bsdf.c - mixtures of events: energy, choice, Snell's law, what radiance and flux keep, shading normals. */
 #include "support.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 enum { n = 1 << 16 };
 enum { carry_radiance, carry_flux };                  /* enum transport */
-enum { absorbed, diffuse, reflected, refracted };     /* enum event */
+enum { absorbed, diffuse, reflected, refracted, rough, event_count }; /* enum event */
 
 typedef struct situation {
     float normal[4], shading[4];
@@ -40,11 +40,24 @@ static situation flat(float eta)
     return s;
 }
 
+/* A scene of one shape and one material. */
+typedef struct little_scene {
+    rt_scene_header header;
+    rt_shape shape;
+    char to_row[RT_SCENE_ROW - sizeof(rt_shape) % RT_SCENE_ROW];
+    rt_material_data material;
+} little_scene;
+
 static void scatter(const rt_material_data *material, const situation *at, uint32_t transport)
 {
     uint32_t count = n;
+    little_scene scene;
+    memset(&scene, 0, sizeof scene);
+    scene.header.shapes = offsetof(little_scene, shape) / RT_SCENE_ROW;
+    scene.header.materials = offsetof(little_scene, material) / RT_SCENE_ROW;
+    scene.material = *material;
     cl_kernel kernel = test_kernel("bsdf", "scatter");
-    cl_mem m = test_buffer(sizeof *material, material), s = test_buffer(sizeof *at, at);
+    cl_mem m = test_buffer(sizeof scene, &scene), s = test_buffer(sizeof *at, at);
     cl_mem out = test_buffer(sizeof results, NULL);
     rt_arg args[] = {RT_ARG(count), RT_ARG(m), RT_ARG(s), RT_ARG(transport), RT_ARG(out)};
     test_run(kernel, args, 5, n);
@@ -133,7 +146,7 @@ static void events_come_as_often_as_the_coefficients_say(void **state)
     double r = fresnel(0.64278761, 1 / 1.5), sum = 2.4;
     (void)state;
     for (int with_fresnel = 0; with_fresnel < 2; with_fresnel++) {
-        uint32_t counts[4] = {0};
+        uint32_t counts[event_count] = {0};
         double delta = 1.8, expected[4] = {0, 0.6 * n / sum, 0.6 * n / sum, 1.2 * n / sum};
         if (with_fresnel) {
             material.flags = RT_MATERIAL_FRESNEL;
@@ -178,7 +191,7 @@ static void delta_directions_obey_the_laws_of_reflection_and_refraction(void **s
     for (int e = 0; e < 2; e++)
         for (int below = 0; below < 2; below++) {
             situation at = flat(etas[e]);
-            int seen[4] = {0};
+            int seen[event_count] = {0};
             double side = below ? -1 : 1;
             at.wo[2] *= (float)side;
             scatter(&mixture, &at, carry_radiance);
@@ -233,6 +246,67 @@ static void shading_normals_leak_no_light(void **state)
     assert_true(lost > 0 && lost < n);
 }
 
+/* What a rough event carries is its lobe's light over its density, in a mixture as alone; below alpha 1e-3 none is rough. */
+static void rough_events_carry_their_lobe(void **state)
+{
+    rt_material_data material = mixture;
+    int through = 0, counted = 0;
+    situation at = flat(1 / 1.5f);
+    (void)state;
+    at.beta[0] = 0.3f;
+    for (int with_fresnel = 0; with_fresnel < 2; with_fresnel++) {
+        material.flags = with_fresnel ? RT_MATERIAL_FRESNEL : 0;
+        material.roughness = 0.4f;
+        scatter(&material, &at, carry_radiance);
+        for (int i = 0; i < n; i++) {
+            const result *r = results + i;
+            assert_true(r->event != reflected && r->event != refracted);
+            if (r->event != rough || r->pdf_w < 1e-3)
+                continue;
+            counted++;
+            through += r->wi[2] < 0;
+            assert_float_equal(r->pdf_w, r->eval_pdf_w, 1e-2 * r->pdf_w);
+            for (int c = 0; c < 3; c++)
+                assert_float_equal(r->weight[c] * r->pdf_w * r->squeeze, r->eval[c], 1e-2 * r->eval[c]);
+            assert_float_equal(r->squeeze, r->wi[2] < 0 ? 1 / 2.25 : 1, 1e-6);
+        }
+        material.roughness = 9e-4f;
+        scatter(&material, &at, carry_radiance);
+        for (int i = 0; i < n; i++)
+            assert_true(results[i].event != rough);
+    }
+    assert_true(through > n / 10 && counted - through > n / 20);
+}
+
+/* Veach 1997, section 5.3.2: with shading normals, the same event carries flux other than radiance. */
+static void flux_is_corrected_for_shading_normals(void **state)
+{
+    static float radiance[n][3];
+    rt_material_data material = mixture;
+    (void)state;
+    for (int is_rough = 0; is_rough < 2; is_rough++) {
+        situation at = flat(1 / 1.5f);
+        int seen[event_count] = {0};
+        at.shading[0] = 0.28f;
+        at.shading[2] = 0.96f;
+        material.roughness = is_rough ? 0.3f : 0;
+        scatter(&material, &at, carry_radiance);
+        for (int i = 0; i < n; i++)
+            memcpy(radiance[i], results[i].weight, sizeof radiance[i]);
+        scatter(&material, &at, carry_flux);
+        for (int i = 0; i < n; i++) {
+            const result *r = results + i;
+            double wo_s = at.wo[0] * 0.28 + at.wo[2] * 0.96, wi_s = r->wi[0] * 0.28 + r->wi[2] * 0.96;
+            double factor = fabs(wo_s * r->wi[2] / (at.wo[2] * wi_s));
+            if (r->event == absorbed || radiance[i][0] == 0)
+                continue;
+            seen[(int)r->event]++;
+            assert_float_equal(r->weight[0], radiance[i][0] * factor, 1e-4 * (1 + factor) * radiance[i][0]);
+        }
+        assert_true(seen[diffuse] && (is_rough ? seen[rough] : seen[reflected] && seen[refracted]));
+    }
+}
+
 static void black_absorbs(void **state)
 {
     const rt_material_data black = {.ior = 1};
@@ -241,82 +315,6 @@ static void black_absorbs(void **state)
     scatter(&black, &at, carry_radiance);
     for (int i = 0; i < n; i++)
         assert_true(results[i].event == absorbed);
-}
-
-/* Boundaries crossed in turn, by materials of index 1.1 + material / 10 and priority 0, 0, 1, 2, 0, 0. */
-static void cross(const uint32_t (*steps)[2], uint32_t count, float (*out)[4])
-{
-    static const rt_u32 priorities[6] = {0, 0, 1, 2, 0, 0};
-    struct {
-        rt_scene_header header;
-        rt_material_data materials[6];
-    } scene;
-    memset(&scene, 0, sizeof scene);
-    scene.header.materials = sizeof scene.header / RT_SCENE_ROW;
-    for (int i = 0; i < 6; i++) {
-        scene.materials[i].ior = 1.1f + (float)i / 10;
-        scene.materials[i].priority = priorities[i];
-    }
-    cl_kernel kernel = test_kernel("bsdf", "cross_boundaries");
-    cl_mem s = test_buffer(sizeof scene, &scene), in = test_buffer(count * sizeof *steps, steps);
-    cl_mem made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(s), RT_ARG(count), RT_ARG(in), RT_ARG(made)};
-    test_run(kernel, args, 4, 1);
-    test_read(made, count * sizeof *out, out);
-    rt_buffer_release(s);
-    rt_buffer_release(in);
-    rt_buffer_release(made);
-    rt_kernel_release(kernel);
-}
-
-static void expect_crossing(const float made[4], double eta, int exists, int medium)
-{
-    assert_float_equal(made[0], eta, 1e-6);
-    assert_int_equal((int)made[1], exists);
-    assert_int_equal((int)made[2], medium);
-}
-
-static void solids_nest_and_overlap_by_priority(void **state)
-{
-    /* Into 2, into 0 which it hides, out of 2 into 0, out of 0. */
-    static const uint32_t overlap[4][2] = {{2, 1}, {0, 1}, {2, 0}, {0, 0}};
-    /* Into 0, a bubble of 1 in it, out of both. */
-    static const uint32_t bubble[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    float made[4][4];
-    (void)state;
-    cross(overlap, 4, made);
-    expect_crossing(made[0], 1 / 1.3, 1, 2);
-    expect_crossing(made[1], 1, 0, 2);
-    expect_crossing(made[2], 1.3 / 1.1, 1, 0);
-    expect_crossing(made[3], 1.1, 1, -1);
-    cross(bubble, 4, made);
-    expect_crossing(made[0], 1 / 1.1, 1, 0);
-    expect_crossing(made[1], 1.1 / 1.2, 1, 1);
-    expect_crossing(made[2], 1.2 / 1.1, 1, 0);
-    expect_crossing(made[3], 1.1, 1, -1);
-}
-
-static void a_path_that_starts_inside_leaves_as_from_that_solid(void **state)
-{
-    static const uint32_t steps[2][2] = {{3, 0}, {3, 1}};
-    float made[2][4];
-    (void)state;
-    cross(steps, 2, made);
-    expect_crossing(made[0], 1.4, 1, -1);
-    expect_crossing(made[1], 1 / 1.4, 1, 3);
-}
-
-static void the_fifth_solid_makes_the_last_forgotten(void **state)
-{
-    static const uint32_t steps[8][2] = {{0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}, {3, 0}, {2, 0}, {4, 0}};
-    float made[8][4];
-    (void)state;
-    cross(steps, 8, made);
-    expect_crossing(made[3], 1.3 / 1.4, 1, 3);
-    expect_crossing(made[4], 1, 0, 3);
-    expect_crossing(made[5], 1.4 / 1.3, 1, 2);
-    expect_crossing(made[6], 1.3 / 1.5, 1, 4);
-    expect_crossing(made[7], 1.5 / 1.2, 1, 1);
 }
 
 int main(void)
@@ -329,10 +327,9 @@ int main(void)
         cmocka_unit_test(delta_directions_obey_the_laws_of_reflection_and_refraction),
         cmocka_unit_test(radiance_is_squeezed_by_refraction_and_flux_is_not),
         cmocka_unit_test(shading_normals_leak_no_light),
+        cmocka_unit_test(rough_events_carry_their_lobe),
+        cmocka_unit_test(flux_is_corrected_for_shading_normals),
         cmocka_unit_test(black_absorbs),
-        cmocka_unit_test(solids_nest_and_overlap_by_priority),
-        cmocka_unit_test(a_path_that_starts_inside_leaves_as_from_that_solid),
-        cmocka_unit_test(the_fifth_solid_makes_the_last_forgotten),
     };
     return cmocka_run_group_tests_name("kernels/bsdf", tests, NULL, NULL);
 }

@@ -120,7 +120,7 @@ static truth solve_sphere(const shape *shape, const rt_ray *ray)
     for (int i = 0; i < 3; i++)
         result.normal[i] = (o[i] + result.t * d[i] - c[i]) / r;
     result.u_is_known = result.clearance > 1e-2 && fabs(result.normal[1]) < 0.99;
-    result.u = atan2(result.normal[2], result.normal[0]) / (2.0 * acos(-1.0));
+    result.u = atan2(-result.normal[2], result.normal[0]) / (2.0 * acos(-1.0));
     result.u -= floor(result.u);
     result.v = 0.5 + asin(fmax(-1.0, fmin(1.0, result.normal[1]))) / acos(-1.0);
     return result;

@@ -5,90 +5,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "photon/sources.h"
-#include "render/renderer.h"
+#include "light_draw.h"
 #include "statistics.h"
 
 #define PI 3.14159265358979323846
 
-enum { n = 1 << 16 };
+enum { n = light_draws };
 
-typedef struct sample {
-    float position[3], spread; /* sr, 1 / pdf_w */
-    float wi[3], delta;
-    float radiance[3], again_pdf_w;
-    float normal[3], lift;
-} sample;
-
-typedef struct emission {
-    float position[3], unused0;
-    float direction[3], unused1;
-    float flux[3], light;
-    float normal[3], error;
-} emission;
-
-static sample samples[n];
-static emission emissions[n];
+static light_draw samples[n];
+static emission_draw emissions[n];
 
 static const rt_surface lamp = {.radiance = {3, 2, 1}};
-
-static rt_scene *new_scene(void)
-{
-    rt_scene *scene = NULL;
-    rt_material black = {0};
-    rt_error error;
-    uint32_t index;
-    expect_ok(rt_scene_create(&scene, &error), &error);
-    expect_ok(rt_scene_add_material(scene, &index, NULL, &black, &error), &error);
-    return scene;
-}
-
-static rt_renderer *ready(rt_scene *scene)
-{
-    rt_renderer *renderer = NULL;
-    rt_error error;
-    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    rt_scene_destroy(scene);
-    return renderer;
-}
-
-static void draw(rt_renderer *renderer, uint32_t seed, float x, float y, float z)
-{
-    float from[4] = {x, y, z, 0};
-    uint32_t count = n;
-    cl_kernel kernel = test_kernel("light", "sample");
-    cl_mem out = test_buffer(sizeof samples, NULL);
-    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(from), RT_ARG(out)};
-    test_run(kernel, args, 5, n);
-    test_read(out, sizeof samples, samples);
-    rt_buffer_release(out);
-    rt_kernel_release(kernel);
-}
-
-static void draw_emissions(rt_renderer *renderer)
-{
-    uint32_t count = n, seed = 1;
-    cl_kernel kernel = test_kernel("light", "emit");
-    rt_light_sources lights;
-    rt_error error;
-    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
-    cl_mem out = test_buffer(sizeof emissions, NULL);
-    cl_mem shares = test_buffer(lights.light_count * sizeof *lights.shares, lights.shares);
-    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(shares), RT_ARG(out)};
-    test_run(kernel, args, 5, n);
-    test_read(out, sizeof emissions, emissions);
-    rt_light_sources_free(&lights);
-    rt_buffer_release(shares);
-    rt_buffer_release(out);
-    rt_kernel_release(kernel);
-}
 
 /* The mean of 1 / pdf_w over samples that bring light is the solid angle from which light comes. */
 static void expect_solid_angle(double truth, const char *what)
 {
     static double values[n];
     for (int i = 0; i < n; i++) {
-        const sample *s = samples + i;
+        const light_draw *s = samples + i;
         values[i] = s->radiance[0] > 0 ? s->spread : 0;
         if (s->radiance[0] > 0)
             assert_float_equal(s->again_pdf_w * s->spread, 1, 1e-4);
@@ -137,15 +71,15 @@ static void quads_fill_their_solid_angle(void **state)
     (void)state;
     for (int skewed = 0; skewed < 2; skewed++) {
         const float *e2 = skewed ? skew : right;
-        rt_scene *scene = new_scene();
+        rt_scene *scene = light_scene();
         rt_error error;
         expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &lamp, &error), &error);
-        rt_renderer *renderer = ready(scene);
+        rt_renderer *renderer = light_renderer(scene);
         for (size_t i = 0; i < sizeof from / sizeof *from; i++) {
-            draw(renderer, (uint32_t)i, from[i][0], from[i][1], from[i][2]);
+            draw_lights(renderer, (uint32_t)i, from[i], samples);
             expect_solid_angle(quad_angle(corner, e1, e2, from[i]), skewed ? "skewed quad" : "rectangle");
         }
-        draw(renderer, 1, 2, 2.5f, 3);
+        draw_lights(renderer, 1, (const float[3]){2, 2.5f, 3}, samples);
         for (int i = 0; i < n; i++)
             assert_true(samples[i].radiance[0] == 0);
         rt_renderer_destroy(renderer);
@@ -155,16 +89,16 @@ static void quads_fill_their_solid_angle(void **state)
 static void spheres_fill_their_solid_angle(void **state)
 {
     static const float centre[3] = {1, 2, 3}, distances[] = {1.0005f, 1.01f, 1.5f, 10, 1000};
-    rt_scene *scene = new_scene();
+    rt_scene *scene = light_scene();
     rt_error error;
     (void)state;
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &lamp, &error), &error);
-    rt_renderer *renderer = ready(scene);
+    rt_renderer *renderer = light_renderer(scene);
     for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
         /* As rounded to float32, where the viewer's distance counts. */
         float z = 3 + 0.5f * distances[i];
         double d = z - 3.0, sine2 = 0.25 / (d * d);
-        draw(renderer, (uint32_t)i, 1, 2, z);
+        draw_lights(renderer, (uint32_t)i, (const float[3]){1, 2, z}, samples);
         expect_solid_angle(2 * PI * sine2 / (1 + sqrt(1 - sine2)), "sphere");
     }
     rt_renderer_destroy(renderer);
@@ -175,25 +109,25 @@ static void triangles_fill_their_solid_angle(void **state)
     static const float positions[9] = {0, 2, 0, 0, 2, 2, 1, 2, 0};
     static const uint32_t indices[3] = {0, 2, 1};
     const double a[3] = {-0.5, 2, -0.25}, b[3] = {-0.5, 2, 1.75}, c[3] = {0.5, 2, -0.25};
-    rt_scene *scene = new_scene();
+    rt_scene *scene = light_scene();
     rt_error error;
     (void)state;
     expect_ok(rt_scene_add_triangles(scene, NULL, positions, 3, indices, 1, NULL, &lamp, &error), &error);
-    rt_renderer *renderer = ready(scene);
-    draw(renderer, 4, 0.5f, 0, 0.25f);
+    rt_renderer *renderer = light_renderer(scene);
+    draw_lights(renderer, 4, (const float[3]){0.5f, 0, 0.25f}, samples);
     expect_solid_angle(triangle_angle(a, b, c), "triangle");
     rt_renderer_destroy(renderer);
 }
 
 static void point_lights_fall_off_with_the_square_of_distance(void **state)
 {
-    rt_scene *scene = new_scene();
+    rt_scene *scene = light_scene();
     rt_point_light light = {.position = {1, 2, 3}, .intensity = {5, 6, 7}};
     rt_error error;
     (void)state;
     expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
-    rt_renderer *renderer = ready(scene);
-    draw(renderer, 1, 1, 2, 0);
+    rt_renderer *renderer = light_renderer(scene);
+    draw_lights(renderer, 1, (const float[3]){1, 2, 0}, samples);
     for (int i = 0; i < n; i++) {
         assert_true(samples[i].delta == 1 && samples[i].spread == 1 && samples[i].wi[2] == 1);
         assert_float_equal(samples[i].radiance[1], 6.0 / 9, 1e-6);
@@ -205,14 +139,14 @@ static void point_lights_fall_off_with_the_square_of_distance(void **state)
 static rt_renderer *mixed_lights(void)
 {
     static const float corner[3] = {0, 2, 0}, e1[3] = {1, 0, 0}, e2[3] = {0, 0, 1}, centre[3] = {5, 0, 0};
-    rt_scene *scene = new_scene();
+    rt_scene *scene = light_scene();
     rt_surface quad = {.power = {1, 1, 1}}, sphere = {.power = {2, 2, 2}};
     rt_point_light point = {.position = {0, -5, 0}, .power = {1, 1, 1}};
     rt_error error;
     expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
     expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &quad, &error), &error);
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 1, &sphere, &error), &error);
-    return ready(scene);
+    return light_renderer(scene);
 }
 
 static void light_paths_carry_the_power_of_all_lights(void **state)
@@ -223,7 +157,7 @@ static void light_paths_carry_the_power_of_all_lights(void **state)
     double expected[3];
     rt_renderer *renderer = mixed_lights();
     (void)state;
-    draw_emissions(renderer);
+    draw_emissions(renderer, 1, emissions);
     for (int i = 0; i < n; i++) {
         values[i] = emissions[i].flux[0];
         counts[(int)emissions[i].light]++;
@@ -241,9 +175,9 @@ static void area_lights_emit_by_the_cosine_and_points_evenly(void **state)
     size_t area_count = 0, point_count = 0;
     rt_renderer *renderer = mixed_lights();
     (void)state;
-    draw_emissions(renderer);
+    draw_emissions(renderer, 1, emissions);
     for (int i = 0; i < n; i++) {
-        const emission *e = emissions + i;
+        const emission_draw *e = emissions + i;
         double cosine = e->direction[0] * e->normal[0] + e->direction[1] * e->normal[1] + e->direction[2] * e->normal[2];
         assert_float_equal(e->direction[0] * e->direction[0] + e->direction[1] * e->direction[1] +
                            e->direction[2] * e->direction[2], 1, 1e-6);
@@ -264,19 +198,19 @@ static void two_sided_lights_shine_to_both_sides(void **state)
     static const float corner[3] = {0, 2, 0}, e1[3] = {1, 0, 0}, e2[3] = {0, 0, 1};
     rt_material material = {.emission = {1, 1, 1}, .two_sided = 1};
     rt_surface surface = {0};
-    rt_scene *scene = new_scene();
+    rt_scene *scene = light_scene();
     rt_error error;
     int up = 0;
     (void)state;
     expect_ok(rt_scene_add_material(scene, &surface.material, NULL, &material, &error), &error);
     expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &surface, &error), &error);
-    rt_renderer *renderer = ready(scene);
+    rt_renderer *renderer = light_renderer(scene);
     for (int side = -1; side < 2; side += 2) {
         const float from[3] = {0.25f, 2 + (float)side, 0.5f};
-        draw(renderer, 1, from[0], from[1], from[2]);
+        draw_lights(renderer, 1, from, samples);
         expect_solid_angle(quad_angle(corner, e1, e2, from), "two-sided rectangle");
     }
-    draw_emissions(renderer);
+    draw_emissions(renderer, 1, emissions);
     for (int i = 0; i < n; i++) {
         up += emissions[i].direction[1] > 0;
         assert_float_equal(emissions[i].flux[0], 2 * PI, 1e-5);

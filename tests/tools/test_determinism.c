@@ -16,7 +16,7 @@ static const char scene[] = "camera { eye 0 1.5 -5  look_at 0 0.8 0  fov 45  ape
                             "film { width 37  height 29 }\n"
                             "material white { kd 0.7 }\n"
                             "material mirror { ks 0.9 }\n"
-                            "material glass { kt 1  ior 1.5  fresnel true }\n"
+                            "material glass { kt 1  ior 1.5  fresnel dielectric }\n"
                             "plane { point 0 0 0  normal 0 1 0  material white }\n"
                             "sphere { centre -1.2 1 0  radius 1  material mirror }\n"
                             "sphere { centre 1 1 0  radius 0.9  material glass }\n"

@@ -17,7 +17,7 @@
     "camera { eye 0 0 0.9  look_at 0 0 0  fov 80 }\n"                                                                  \
     "film { width 16  height 16 }\n"                                                                                   \
     "material wall { kd 0.6 }\n"                                                                                       \
-    "material glass { kt 1  ior 1.5  fresnel true }\n"                                                                 \
+    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                                                 \
     "sphere { centre 0 0 0  radius 1  material wall }\n"                                                               \
     "sphere { centre 0 -0.3 0  radius 0.3  material glass }\n"                                                         \
     "quad { corner -0.2 0.7 -0.2  edge1 0.4 0 0  edge2 0 0 0.4  material wall  power 5 }\n"

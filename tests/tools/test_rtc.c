@@ -61,6 +61,12 @@ static const struct {
     const char *option, *a, *b;
 } pairs[] = {
     {"mode", "--spp 2", "--spp 2 --mode photon --photons 1000"},
+    {"mode", "--spp 2", "--spp 2 --mode direct"},
+    {"mode", "--spp 2 --mode normals", "--spp 2 --mode albedo"},
+    {"mode", "--spp 2 --mode normals", "--spp 2 --mode depth"},
+    {"filter", "--spp 2", "--spp 2 --filter mitchell"},
+    {"estimator", "--spp 2", "--spp 2 --estimator light"},
+    {"estimator", "--spp 2", "--spp 2 --estimator bsdf"},
     {"spp", "--spp 2", "--spp 3"},
     {"max-depth", "--spp 2", "--spp 2 --max-depth 2"},
     {"seed", "--spp 2", "--spp 2 --seed 7"},
@@ -255,6 +261,22 @@ static void exr_tells_where_it_came_from(void **state)
     run_free(&run);
 }
 
+static void aov_adds_layers_to_exr(void **state)
+{
+    static const char *const names[] = {"R", "albedo.G", "normal.X", "depth.Z"};
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    for (int aov = 0; aov < 2; aov++) {
+        run run = run_rtc("a.rts --quiet --spp 1 %s --out a.exr", aov ? "--aov" : "");
+        expect_status(&run, 0);
+        run_free(&run);
+        rt_image *image = read_image("a.exr");
+        for (int i = 0; i < 4; i++)
+            assert_int_equal(rt_image_channel(image, names[i]) != RT_IMAGE_NO_CHANNEL, i == 0 || aov);
+        rt_image_destroy(image);
+    }
+}
+
 static void output_that_cannot_be_written_is_status_4_before_rendering(void **state)
 {
     (void)state;
@@ -310,6 +332,7 @@ int main(void)
         TEST(out_may_be_repeated_in_every_format),
         TEST(exposure_and_tonemap_change_8_bit_files_only),
         TEST(exr_tells_where_it_came_from),
+        TEST(aov_adds_layers_to_exr),
         TEST(output_that_cannot_be_written_is_status_4_before_rendering),
         TEST(full_disk_is_status_4),
         TEST(scene_comes_from_stdin_too),

@@ -26,7 +26,7 @@ static written build(const rt_bvh_input *input, uint32_t threads)
     out.nodes = calloc(out.counts.nodes, sizeof *out.nodes);
     out.blocks = calloc(out.counts.blocks + 1, sizeof *out.blocks);
     out.analytic = calloc(out.counts.analytic + 1, sizeof *out.analytic);
-    rt_bvh_write(bvh, out.nodes, out.blocks, out.analytic);
+    rt_bvh_write(bvh, out.nodes, out.blocks, out.analytic, 0, 0);
     rt_bvh_destroy(bvh);
     return out;
 }

@@ -34,7 +34,7 @@ static uint32_t add_material(rt_scene *scene, const rt_material *material)
 static void add_side(rt_scene *scene, int axis, int end, uint32_t material)
 {
     float corner[3] = {-1, -1, -1}, edge1[3] = {0}, edge2[3] = {0};
-    rt_surface surface = {material, {0}, {0}};
+    rt_surface surface = {.material = material};
     rt_error error;
     corner[axis] = end ? 1 : -1;
     edge1[(axis + 1) % 3] = 2;
@@ -45,9 +45,9 @@ static void add_side(rt_scene *scene, int axis, int end, uint32_t material)
 /* A closed room [-1,1]^3 with walls of this albedo and a point light. */
 static rt_renderer *make_room_on(rt_device *device, const float kd[3], ceiling above, lamp how)
 {
-    rt_material wall = {{kd[0], kd[1], kd[2]}, {0}, {0}, {0}, 0, 0, 0, 0};
-    rt_material mirror = {{0}, {1, 1, 1}, {0}, {0}, 0, 0, 0, 0};
-    rt_material glass = {{0}, {0}, {1, 1, 1}, {0}, 1.5f, 1, 0, 0};
+    rt_material wall = {.kd = {kd[0], kd[1], kd[2]}};
+    rt_material mirror = {.ks = {1, 1, 1}};
+    rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = RT_FRESNEL_DIELECTRIC};
     rt_point_light light = {{0.1f, 0.2f, -0.1f}, {0}, {2, 3, 5}};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
@@ -60,7 +60,7 @@ static rt_renderer *make_room_on(rt_device *device, const float kd[3], ceiling a
         for (int end = 0; end < 2; end++)
             add_side(scene, axis, end, 2 * axis + end == top_side ? top : walls);
     if (how == LAMP_IN_GLASS) {
-        rt_surface surface = {add_material(scene, &glass), {0}, {0}};
+        rt_surface surface = {.material = add_material(scene, &glass)};
         const float centre[3] = {0, 0.2f, 0};
         expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.4f, &surface, &error), &error);
     }

@@ -12,23 +12,6 @@
 
 enum { photon_count = 2000, point_count = 300, emitted = 4 };
 
-static const float kd[2][3] = {{0.9f, 0.5f, 0.1f}, {0.2f, 0.4f, 0.6f}};
-
-/* A scene buffer of two diffuse materials. */
-static cl_mem make_scene(void)
-{
-    struct {
-        rt_scene_header header;
-        rt_material_data materials[2];
-    } scene;
-    memset(&scene, 0, sizeof scene);
-    scene.header.materials = sizeof scene.header / RT_SCENE_ROW;
-    scene.header.material_count = 2;
-    for (int i = 0; i < 2; i++)
-        memcpy(scene.materials[i].kd, kd[i], sizeof kd[i]);
-    return test_buffer(sizeof scene, &scene);
-}
-
 static rt_photon_list make_map(void)
 {
     rt_photon_list map = {calloc(photon_count, sizeof *map.photons), photon_count, photon_count, emitted, 0};
@@ -55,7 +38,7 @@ static void make_points(rt_gather_point points[point_count])
         points[i].position[2] = points_uniform(&stream);
         points[i].normal[1] = 1;
         points[i].pixel = (rt_u32)(point_count - 1 - i);
-        points[i].material = i % 2;
+        points[i].film_weight = 1;
         for (int c = 0; c < 3; c++) {
             points[i].weight[c] = i % 7 ? points_uniform(&stream) : 0;
             points[i].radiance[c] = points_uniform(&stream);
@@ -74,7 +57,7 @@ static void expected_radiance(double out[3], const rt_photon_list *map, const rt
             sum[c] += map->photons[i].flux[c] * map->photons[i].shading * 2 * (1 - t2) / (PI * r * r);
     }
     for (int c = 0; c < 3; c++)
-        out[c] = point->radiance[c] + point->weight[c] * kd[point->material][c] / PI * sum[c] / emitted;
+        out[c] = point->radiance[c] + point->weight[c] / PI * sum[c] / emitted;
 }
 
 /* The two ways to gather. */
@@ -88,17 +71,16 @@ static void gather(const rt_photon_list *map, rt_gather_options options, size_t 
     const char *program = programs[options.on_device];
     rt_gatherer *gatherer = NULL;
     cl_kernel kernel = NULL;
-    cl_mem scene = make_scene(), buffer = test_buffer(bytes, points);
+    cl_mem buffer = test_buffer(bytes, points);
     rt_error error;
 
     expect_ok(rt_device_kernel(test_device(), &kernel, program, program, NULL, &error), &error);
-    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, scene, map, &options, &error), &error);
+    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, map, &options, &error), &error);
     assert_true(rt_gatherer_capacity(gatherer) >= point_count);
     for (int time = 0; time < 2; time++)
         expect_ok(rt_gatherer_add(gatherer, buffer, before, point_count, discs, &error), &error);
     test_read(buffer, bytes, points);
     rt_gatherer_destroy(gatherer);
-    rt_buffer_release(scene);
     rt_buffer_release(buffer);
     rt_kernel_release(kernel);
 }

@@ -12,7 +12,7 @@
 #include "photon/map_file.h"
 
 static const char scene_text[] = "material wall { kd 0.5 }\n"
-                                 "material glass { kt 1  ior 1.5  fresnel true }\n"
+                                 "material glass { kt 1  ior 1.5  fresnel dielectric }\n"
                                  "sphere { centre 0 0 0  radius 1  material wall }\n"
                                  "sphere { centre 0.3 0 0  radius 0.3  material glass }\n"
                                  "sphere { centre -0.5 0 0  radius 0.1  material wall  radiance 1 2 3 }\n"

@@ -70,21 +70,6 @@ static rt_gather_point *make_points(void)
     return points;
 }
 
-/* A scene buffer of one material with kd = 1, so that fr = 1/pi. */
-static cl_mem make_scene(void)
-{
-    struct {
-        rt_scene_header header;
-        rt_material_data white;
-    } scene;
-    memset(&scene, 0, sizeof scene);
-    scene.header.materials = sizeof scene.header / RT_SCENE_ROW;
-    scene.header.material_count = 1;
-    for (int c = 0; c < 3; c++)
-        scene.white.kd[c] = 1;
-    return test_buffer(sizeof scene, &scene);
-}
-
 /* The mean of the fields' estimated densities, and its standard error. */
 static void estimate(const rt_photon_list *map, const rt_gather_options *options, double *mean, double *error_of_mean)
 {
@@ -94,13 +79,13 @@ static void estimate(const rt_photon_list *map, const rt_gather_options *options
     rt_gather_disc *discs = calloc(estimates, sizeof *discs);
     rt_gatherer *gatherer = NULL;
     cl_kernel kernel = NULL;
-    cl_mem scene = make_scene(), buffer = test_buffer(estimates * sizeof *points, points);
+    cl_mem buffer = test_buffer(estimates * sizeof *points, points);
     rt_error error;
     double sum = 0, squares = 0;
 
     assert_non_null(discs);
     expect_ok(rt_device_kernel(test_device(), &kernel, program, program, NULL, &error), &error);
-    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, scene, map, options, &error), &error);
+    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, map, options, &error), &error);
     size_t batch = rt_gatherer_capacity(gatherer);
     for (size_t first = 0; first < estimates; first += batch) {
         size_t count = estimates - first < batch ? estimates - first : batch;
@@ -120,7 +105,6 @@ static void estimate(const rt_photon_list *map, const rt_gather_options *options
     *error_of_mean = sqrt((squares / fields - *mean * *mean) / (fields - 1));
     rt_gatherer_destroy(gatherer);
     rt_kernel_release(kernel);
-    rt_buffer_release(scene);
     rt_buffer_release(buffer);
     free(points);
     free(discs);

@@ -17,7 +17,8 @@ static const double tolerance = 0.01;
 
 static uint32_t add(rt_scene *scene, float kd, float ks, float kt)
 {
-    rt_material material = {{kd, kd, kd}, {ks, ks, ks}, {kt, kt, kt}, {0}, 1.5f, kt > 0, 0, 0};
+    rt_material material = {.kd = {kd, kd, kd}, .ks = {ks, ks, ks}, .kt = {kt, kt, kt}, .ior = 1.5f,
+                            .fresnel = kt > 0 ? RT_FRESNEL_DIELECTRIC : RT_FRESNEL_OFF};
     uint32_t index = 0;
     rt_error error;
     expect_ok(rt_scene_add_material(scene, &index, NULL, &material, &error), &error);
@@ -27,7 +28,7 @@ static uint32_t add(rt_scene *scene, float kd, float ks, float kt)
 static void add_quad(rt_scene *scene, uint32_t material, float radiance, const float c[3], const float a[3],
                      const float b[3])
 {
-    rt_surface surface = {material, {radiance, radiance, radiance}, {0}};
+    rt_surface surface = {.material = material, .radiance = {radiance, radiance, radiance}};
     rt_error error;
     expect_ok(rt_scene_add_quad(scene, NULL, c, a, b, &surface, &error), &error);
 }
@@ -39,14 +40,14 @@ static rt_renderer *make_renderer(rt_device *device)
                 back[3] = {-1, -1, 1}, right[3] = {1, -1, -1}, lamp[3] = {-0.5f, 0.99f, -0.5f},
                 lamp_x[3] = {1, 0, 0}, lamp_z[3] = {0, 0, 1}, mirror[3] = {-0.5f, -0.6f, 0.3f},
                 glass[3] = {0.5f, -0.6f, 0};
-    rt_camera camera = {{0, 0, -4}, {0, 0, 0}, {0}, 40, 0, 0};
+    rt_camera camera = {.eye = {0, 0, -4}, .fov = 40};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
     rt_error error;
 
     expect_ok(rt_scene_create(&scene, &error), &error);
     uint32_t walls = add(scene, 0.5f, 0, 0), black = add(scene, 0, 0, 0);
-    rt_surface silver = {add(scene, 0, 0.9f, 0), {0}, {0}}, clear = {add(scene, 0, 0, 1), {0}, {0}};
+    rt_surface silver = {.material = add(scene, 0, 0.9f, 0)}, clear = {.material = add(scene, 0, 0, 1)};
     add_quad(scene, walls, 0, low, x, z);
     add_quad(scene, walls, 0, high, x, z);
     add_quad(scene, walls, 0, back, x, y);
@@ -165,13 +166,13 @@ static rt_renderer *make_point_caustic(void)
 {
     const float corner[3] = {-1, 0, -1}, x[3] = {2, 0, 0}, z[3] = {0, 0, 2}, ball[3] = {0, 0.5f, 0};
     rt_point_light light = {{0.5f, 1.6f, 0}, {1, 1, 1}, {0}};
-    rt_camera camera = {{0, 3, -0.01f}, {0, 0, 0}, {0, 0, 1}, 36, 0, 0};
+    rt_camera camera = {.eye = {0, 3, -0.01f}, .up = {0, 0, 1}, .fov = 36};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
     rt_error error;
 
     expect_ok(rt_scene_create(&scene, &error), &error);
-    rt_surface clear = {add(scene, 0, 0, 1), {0}, {0}};
+    rt_surface clear = {.material = add(scene, 0, 0, 1)};
     add_quad(scene, add(scene, 0.6f, 0, 0), 0, corner, z, x);
     expect_ok(rt_scene_add_sphere(scene, NULL, ball, 0.3f, &clear, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
@@ -215,14 +216,14 @@ static rt_renderer *make_ball_in_glass(const float eye[3], float fov)
 {
     const float x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 2}, low[3] = {-1, -1, -1}, high[3] = {-1, 1, -1},
                 back[3] = {-1, -1, 1}, right[3] = {1, -1, -1}, centre[3] = {0};
-    rt_camera camera = {{eye[0], eye[1], eye[2]}, {0, 0, 0}, {0}, fov, 0, 0};
+    rt_camera camera = {.eye = {eye[0], eye[1], eye[2]}, .fov = fov};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
     rt_error error;
 
     expect_ok(rt_scene_create(&scene, &error), &error);
     uint32_t walls = add(scene, 0.5f, 0, 0), black = add(scene, 0, 0, 0);
-    rt_surface clear = {add(scene, 0, 0, 1), {0}, {0}}, white = {add(scene, 0.5f, 0, 0), {0}, {0}};
+    rt_surface clear = {.material = add(scene, 0, 0, 1)}, white = {.material = add(scene, 0.5f, 0, 0)};
     add_quad(scene, walls, 0, low, z, x);
     add_quad(scene, black, 1, high, x, z);
     add_quad(scene, walls, 0, back, y, x);
@@ -272,8 +273,8 @@ static void every_eye_path_through_glass_comes_to_the_map(void **state)
 {
     const float pane[3] = {-2, -2, 0}, behind[3] = {-2, -2, 0.2f}, wall[3] = {-2, -2, 1}, x[3] = {4, 0, 0}, y[3] = {0, 4, 0};
     rt_point_light light = {{0, 0, 0.5f}, {1, 1, 1}, {0}};
-    rt_camera camera = {{0, 0, -2}, {0, 0, 0}, {0}, 40, 0, 0};
-    rt_material glass = {{0}, {0}, {1, 1, 1}, {0}, 1.5f, 0, 0, 0};
+    rt_camera camera = {.eye = {0, 0, -2}, .fov = 40};
+    rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f};
     rt_render_options options = photon_options();
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
@@ -305,13 +306,13 @@ static rt_renderer *make_smooth_floor(void)
     const float normals[12] = {-0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, -0.6f, 0.8f, 0};
     const uint32_t indices[6] = {0, 2, 1, 0, 3, 2};
     rt_point_light light = {{-0.3f, 0.8f, 0.2f}, {1, 1, 1}, {0}};
-    rt_camera camera = {{0, 3, -0.01f}, {0, 0, 0}, {0, 0, 1}, 30, 0, 0};
+    rt_camera camera = {.eye = {0, 3, -0.01f}, .up = {0, 0, 1}, .fov = 30};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
     rt_error error;
 
     expect_ok(rt_scene_create(&scene, &error), &error);
-    rt_surface surface = {add(scene, 0.8f, 0, 0), {0}, {0}};
+    rt_surface surface = {.material = add(scene, 0.8f, 0, 0)};
     expect_ok(rt_scene_add_triangles(scene, NULL, positions, 4, indices, 2, normals, &surface, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);

@@ -4,29 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "lib/scene/scenes.h"
 #include "light/lights.h"
 #include "scene/scene.h"
 
 static const float origin[3], up[3] = {0, 1, 0};
-
-/* A fresh scene with one white material, index 0. */
-static rt_scene *new_scene(void)
-{
-    rt_material white = {.kd = {0.5f, 0.5f, 0.5f}};
-    rt_scene *scene = NULL;
-    rt_error error;
-    expect_ok(rt_scene_create(&scene, &error), &error);
-    expect_ok(rt_scene_add_material(scene, NULL, "white", &white, &error), &error);
-    return scene;
-}
-
-static void expect_refused(rt_status status, const rt_error *error, const char *field)
-{
-    assert_int_equal(status, RT_ERROR_INPUT);
-    assert_int_equal(error->status, RT_ERROR_INPUT);
-    assert_string_equal(error->field, field);
-    assert_true(error->message[0] != '\0' && !strchr(error->message, '\n'));
-}
 
 static void materials_that_gain_energy_are_refused(void **state)
 {
@@ -49,6 +31,76 @@ static void materials_that_gain_energy_are_refused(void **state)
     rt_scene_destroy(scene);
 }
 
+static void materials_out_of_range_are_refused(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    const struct {
+        rt_material material;
+        const char *field;
+    } cases[] = {
+        {{.roughness = 1.5f}, "roughness"},
+        {{.absorption = {0, -1, 0}}, "absorption"},
+        {{.fresnel = (rt_fresnel)7}, "fresnel"},
+        {{.fresnel = RT_FRESNEL_CONDUCTOR, .ks = {1, 1, 1}}, "eta"},
+        {{.fresnel = RT_FRESNEL_CONDUCTOR, .eta = {1, 1, 1}, .k = {-1, 0, 0}}, "k"},
+        {{.fresnel = RT_FRESNEL_CONDUCTOR, .eta = {1, 1, 1}, .kt = {0.5f, 0, 0}}, "kt"},
+        {{.kd_texture = 1}, "kd_texture"},
+        {{.bump_texture = 1}, "bump_texture"},
+        {{.bump_scale = NAN}, "bump_scale"},
+        {{.priority = -1}, "priority"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        expect_refused(rt_scene_add_material(scene, NULL, NULL, &cases[i].material, &error), &error, cases[i].field);
+    rt_scene_destroy(scene);
+}
+
+static void textures_count_in_the_balance_of_energy(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    uint32_t half, full;
+    rt_texture halves = {.kind = RT_TEXTURE_CHECKER, .a = {0.5f, 0.5f, 0.5f}}, whole = halves, negative = halves;
+    rt_surface surface = {0};
+    (void)state;
+    whole.a[1] = 1;
+    negative.b[2] = -1;
+    expect_refused(rt_scene_add_texture(scene, NULL, &negative, &error), &error, "b");
+    expect_ok(rt_scene_add_texture(scene, &half, &halves, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &full, &whole, &error), &error);
+    assert_true(half == 1 && full == 2);
+
+    /* A texture alone stands for kd; 0.5 + 0.6 is too much, and so is what a shape's own texture makes. */
+    rt_material m = {.kd_texture = half, .ks = {0.6f, 0, 0}};
+    expect_refused(rt_scene_add_material(scene, NULL, NULL, &m, &error), &error, "kd_texture");
+    m.ks[0] = 0.4f;
+    expect_ok(rt_scene_add_material(scene, &surface.material, NULL, &m, &error), &error);
+    assert_true(scene->materials[surface.material].kd[2] == 1);
+    surface.texture = 3;
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error, "texture");
+    surface.texture = full;
+    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error);
+    rt_scene_destroy(scene);
+}
+
+static void missing_files_are_refused(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    uint32_t out;
+    rt_texture texture = {.path = "tests/no_such.png"}, nameless = {0};
+    rt_environment sky = {.path = "tests/no_such.exr"};
+    (void)state;
+    expect_refused(rt_scene_add_texture(scene, &out, &texture, &error), &error, "path");
+    expect_refused(rt_scene_add_texture(scene, &out, &nameless, &error), &error, "path");
+    expect_refused(rt_scene_set_environment(scene, &sky, &error), &error, "path");
+    expect_refused(rt_scene_load_mesh(scene, &out, "tests/no_such.ply", RT_SHADING_FILE, NULL, &error), &error, "path");
+    expect_refused(rt_scene_load_mesh(scene, &out, "x", (rt_shading)9, NULL, &error), &error, "shading");
+    assert_int_equal(scene->light_count, 0);
+    rt_scene_destroy(scene);
+}
+
 static void shapes_without_extent_are_refused(void **state)
 {
     rt_scene *scene = new_scene();
@@ -67,6 +119,16 @@ static void shapes_without_extent_are_refused(void **state)
     expect_refused(rt_scene_add_triangles(scene, NULL, line, 3, corners, 1, NULL, &surface, &error), &error,
                    "positions");
     expect_refused(rt_scene_add_triangles(scene, NULL, line, 3, beyond, 1, NULL, &surface, &error), &error, "indices");
+    expect_refused(rt_scene_add_disc(scene, NULL, origin, origin, 1, 0, &surface, &error), &error, "normal");
+    expect_refused(rt_scene_add_disc(scene, NULL, origin, up, 1, 1, &surface, &error), &error, "inner_radius");
+    expect_refused(rt_scene_add_cylinder(scene, NULL, up, up, 1, 1, &surface, &error), &error, "b");
+    expect_refused(rt_scene_add_cylinder(scene, NULL, origin, up, 0, 1, &surface, &error), &error, "radius");
+    expect_refused(rt_scene_add_cone(scene, NULL, up, up, 1, 0, 1, &surface, &error), &error, "apex");
+    expect_refused(rt_scene_add_cone(scene, NULL, origin, up, 1, 2, 1, &surface, &error), &error, "apex_radius");
+    expect_refused(rt_scene_add_ellipsoid(scene, NULL, origin, up, &surface, &error), &error, "radii");
+    expect_refused(rt_scene_add_torus(scene, NULL, origin, up, 1, 1, &surface, &error), &error, "minor_radius");
+    expect_refused(rt_scene_add_torus(scene, NULL, origin, origin, 1, 0.1f, &surface, &error), &error, "axis");
+    expect_refused(rt_scene_add_instance(scene, NULL, 0, &surface, &error), &error, "mesh");
     surface.material = 1;
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error, "material");
     rt_scene_destroy(scene);
@@ -102,6 +164,37 @@ static void cameras_that_see_nothing_are_refused(void **state)
     c.aperture = 0;
     c.focal_distance = -1;
     expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "focal_distance");
+    c.focal_distance = 0;
+    c.blades = 2;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "blades");
+    c.blades = 5;
+    c.kind = (rt_camera_kind)3;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "kind");
+    c.kind = RT_CAMERA_ORTHOGRAPHIC;
+    c.width = -1;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "width");
+    rt_scene_destroy(scene);
+}
+
+static void lights_without_direction_or_cone_are_refused(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_error error;
+    rt_spot_light spot = {.intensity = {1, 1, 1}};
+    rt_directional_light sun = {.irradiance = {1, 1, 1}};
+    rt_environment sky = {.radiance = {1, 1, 1}};
+    (void)state;
+
+    expect_refused(rt_scene_add_spot_light(scene, &spot, &error), &error, "target");
+    spot.target[1] = -1;
+    spot.outer = 181;
+    expect_refused(rt_scene_add_spot_light(scene, &spot, &error), &error, "outer");
+    spot.outer = 20;
+    spot.inner = 21;
+    expect_refused(rt_scene_add_spot_light(scene, &spot, &error), &error, "inner");
+    expect_refused(rt_scene_add_directional_light(scene, &sun, &error), &error, "direction");
+    expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
+    expect_refused(rt_scene_set_environment(scene, &sky, &error), &error, "");
     rt_scene_destroy(scene);
 }
 
@@ -111,7 +204,7 @@ static float power_of_only_light(rt_scene *scene)
     rt_light_data light;
     rt_u32 first_prim[1] = {0}, first_light[1];
     assert_int_equal(rt_lights_count(scene), 1);
-    rt_lights_fill(scene, first_prim, &light, first_light);
+    rt_lights_fill(scene, first_prim, 3, &light, first_light);
     assert_true(light.pmf == 1 && light.cdf == 1);
     rt_scene_destroy(scene);
     return light.power;
@@ -150,6 +243,26 @@ static void power_of_an_area_light_is_pi_radiance_area(void **state)
     assert_float_equal(power_of_only_light(scene), 7, 1e-5f);
 }
 
+static void power_of_distant_lights_is_what_meets_the_scene(void **state)
+{
+    const double pi = 3.14159265358979, disc = pi * 9;
+    rt_error error;
+    rt_spot_light spot = {.target = {0, -1, 0}, .intensity = {2, 2, 2}, .inner = 60, .outer = 60};
+    rt_directional_light sun = {.direction = {0, -1, 0}, .irradiance = {1, 2, 3}};
+    rt_environment sky = {.radiance = {0.5f, 0.5f, 0.5f}};
+    (void)state;
+
+    rt_scene *scene = new_scene();
+    expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
+    assert_float_equal(power_of_only_light(scene), 2 * pi * (1 - 0.5) * 2, 1e-3);
+    scene = new_scene();
+    expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
+    assert_float_equal(power_of_only_light(scene), 2 * disc, 1e-4);
+    scene = new_scene();
+    expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
+    assert_float_equal(power_of_only_light(scene), 0.5 * 4 * pi * disc, 1e-3);
+}
+
 static void lights_are_chosen_in_proportion_to_power(void **state)
 {
     static const rt_u32 first_prim[1] = {0};
@@ -163,7 +276,7 @@ static void lights_are_chosen_in_proportion_to_power(void **state)
     expect_ok(rt_scene_add_point_light(scene, &dim, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &bright, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &off, &error), &error);
-    rt_lights_fill(scene, first_prim, lights, first_light);
+    rt_lights_fill(scene, first_prim, 1, lights, first_light);
     assert_float_equal(lights[0].pmf, 0.25f, 1e-6f);
     assert_float_equal(lights[1].pmf, 0.75f, 1e-6f);
     assert_true(lights[1].cdf == 1 && lights[2].pmf == 0);
@@ -186,6 +299,7 @@ static void options_out_of_range_are_refused(void **state)
         {{.time = NAN}, "time"},
         {{.photons = UINT64_C(1) << 40}, "photons"},
         {{.mode = (rt_mode)99}, "mode"},
+        {{.filter = (rt_filter)99}, "filter"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -199,6 +313,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_that_gain_energy_are_refused),
+        cmocka_unit_test(materials_out_of_range_are_refused),
+        cmocka_unit_test(textures_count_in_the_balance_of_energy),
+        cmocka_unit_test(missing_files_are_refused),
+        cmocka_unit_test(lights_without_direction_or_cone_are_refused),
+        cmocka_unit_test(power_of_distant_lights_is_what_meets_the_scene),
         cmocka_unit_test(shapes_without_extent_are_refused),
         cmocka_unit_test(infinite_planes_cannot_emit),
         cmocka_unit_test(cameras_that_see_nothing_are_refused),

@@ -1,0 +1,27 @@
+/* scope.h - all names that are known at a place of a scene text. */
+#ifndef RT_DSL_SCOPE_H
+#define RT_DSL_SCOPE_H
+
+#include "dsl/report.h"
+
+/* Each kind of name by itself. All zero is none. */
+typedef struct rt_scope {
+    rt_names constants, materials, textures, meshes;
+} rt_scope;
+
+/* How many names there are of each kind. */
+typedef struct rt_scope_counts {
+    size_t constants, materials, textures, meshes;
+} rt_scope_counts;
+
+rt_scope_counts rt_scope_count(const rt_scope *scope);
+
+/* Takes the names away that were defined since they were counted. */
+void rt_scope_forget(rt_scope *scope, const rt_scope_counts *counts);
+
+/* Warns of names defined since that nothing uses: in the first text only, for included ones may be libraries. */
+void rt_scope_warn(const rt_scope *scope, const rt_scope_counts *counts, rt_reports *reports);
+
+void rt_scope_free(rt_scope *scope);
+
+#endif

@@ -1,0 +1,25 @@
+/*
+ * direct.cl - emission and direct light alone: each work-item takes the samples of one pixel, in order.
+ */
+#include "camera.h"
+#include "film.h"
+#include "integrate.h"
+
+kernel void direct(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= params.item_count)
+        return;
+    const struct scene scene = scene_open(header);
+    const uint2 at = pixel_of_item(&params, params.first_item + item);
+    const uint index = at.y * params.width + at.x;
+    rt_film_pixel pixel = film[index];
+
+    for (uint i = 0; i < params.sample_count; i++) {
+        const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample + i);
+        float weight;
+        const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
+        film_add(&pixel, follow_path(&scene, &params, &sampler, ray, FOLLOW_DIRECT, 0), weight);
+    }
+    film[index] = pixel;
+}

@@ -1,0 +1,76 @@
+/*
+ * enclose.cl - which solids paths start in: those around the camera and around each light.
+ *
+ * A ray is followed from the point to infinity. A solid that it leaves without having entered it is around the
+ * point. The solids are nested in the order in which the ray leaves them, the innermost first; what is opaque is
+ * passed through.
+ */
+#include "light_emit.h"
+#include "medium.h"
+#include "traverse.h"
+
+#define RT_WALK_LENGTH 1024 /* surfaces that a ray is followed through */
+
+/* The media list of a path that starts here. */
+static uint4 media_around(const struct scene *scene, float3 from)
+{
+    /* Any direction serves; one along no axis and no diagonal meets few edges. */
+    struct ray ray = make_ray(from, unit((float3)(0.3017f, 0.8731f, 0.3829f)), 0.0f, INFINITY);
+    uint4 entered = RT_VACUUM;
+    uint left[4]; /* solids around the point */
+    int count = 0;
+    struct hit hit;
+    for (int i = 0; i < RT_WALK_LENGTH && closest_hit(scene, &ray, &hit); i++) {
+        const struct surface surface = surface_at(scene, &ray, &hit);
+        const uint material = scene->shapes[surface.shape].material;
+        ray.origin = leave_surface(&surface, ray.direction);
+        if (!is_transparent(scene->materials + material))
+            continue;
+        if (dot(ray.direction, surface.normal) < 0.0f)
+            entered = media_enter(scene, entered, material);
+        else if (any(entered == material))
+            entered = media_leave(entered, material);
+        else if (count < 4)
+            left[count++] = material;
+    }
+
+    /* Enter them as a path from outside would: the outermost first. */
+    uint4 media = RT_VACUUM;
+    while (count > 0)
+        media = media_enter(scene, media, left[--count]);
+    return media;
+}
+
+static uint4 media_around_light(const struct scene *scene, global const rt_light_data *light)
+{
+    switch (light->kind) {
+    case RT_LIGHT_DIRECTIONAL:
+    case RT_LIGHT_ENVIRONMENT:
+        return RT_VACUUM;
+    case RT_LIGHT_POINT:
+    case RT_LIGHT_SPOT:
+        return media_around(scene, row3(light->a));
+    default: {
+        /* One point speaks for all of an area light. */
+        struct emission emission;
+        emit_area(scene, &emission, light, (float2)(0.3f, 0.4f), (float2)(0.5f), 0.75f);
+        return media_around(scene, leave_surface(&emission.at, emission.at.normal));
+    }
+    }
+}
+
+/* Item 0: the camera at `eye`; item i: light i - 1. Only scenes with solids that light enters need it. */
+kernel void enclose(const rt_params params, global rt_scene_header *header, const float4 eye)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= params.item_count)
+        return;
+    const struct scene scene = scene_open(header);
+    if (item == 0u) {
+        vstore4(media_around(&scene, eye.xyz) + 1u, 0, header->eye_media);
+        return;
+    }
+    global rt_light_data *light = (global rt_light_data *)((global uchar *)header + (size_t)header->lights * RT_SCENE_ROW);
+    light += item - 1u;
+    vstore3(media_around_light(&scene, light).xyz + 1u, 0, light->media);
+}

@@ -1,0 +1,79 @@
+/*
+ * round.h - rays against cylinders and cones, in their own space.
+ *
+ * With w = 1 - (1 - top) z the radius at z, the side is x^2 + y^2 = w^2. The solid is where the inside of that
+ * double cone meets the slab 0 <= z <= 1; both are intervals of the ray, so that no ray passes between side and cap.
+ */
+#ifndef RT_ROUND_H
+#define RT_ROUND_H
+
+#include "canonical.h"
+#include "line.h"
+
+/* Where the line is inside the slab; false when nowhere. */
+static inline bool cross_slab(const struct line *line, float2 *inside)
+{
+    const float z = line->origin.z, dz = line->direction.z;
+    *inside = (float2)(-INFINITY, INFINITY);
+    if (dz == 0.0f)
+        return z >= 0.0f && z <= 1.0f;
+    const float to_base = -z / dz, to_top = (1.0f - z) / dz;
+    *inside = dz > 0.0f ? (float2)(to_base, to_top) : (float2)(to_top, to_base);
+    return true;
+}
+
+/*
+ * Where the line meets the double cone, in rising order, and *inside, where it is in the part of it that the slab
+ * holds; false when it misses. The discriminant b^2 - a c of a s^2 + 2 b s + c is
+ * |(x, y) dw - w (dx, dy)|^2 - (x dy - y dx)^2, by Lagrange's identity for one negative square.
+ */
+static inline bool cross_side(const struct line *line, float top, float2 *roots, float2 *inside)
+{
+    const float2 o = line->origin.xy, d = line->direction.xy;
+    const float w = 1.0f - (1.0f - top) * line->origin.z, dw = (top - 1.0f) * line->direction.z;
+    const float from_axis = length(o);
+    const float a = dot(d, d) - dw * dw, b = dot(o, d) - w * dw, c = (from_axis - w) * (from_axis + w);
+    const float outer = length(o * dw - w * d), inner = fabs(o.x * d.y - o.y * d.x);
+    const float discriminant = (outer - inner) * (outer + inner);
+    if (discriminant < 0.0f && a >= 0.0f)
+        return false;
+    const float q = -(b + copysign(sqrt(fmax(discriminant, 0.0f)), b));
+    if (q == 0.0f) {
+        /* Along the axis of a cylinder: inside for good or never. */
+        *roots = *inside = (float2)(-INFINITY, INFINITY);
+        return a == 0.0f && c <= 0.0f;
+    }
+    const float s = c / q, t = q / a;
+    *roots = (float2)(fmin(s, t), fmax(s, t));
+    if (a >= 0.0f)
+        *inside = *roots;
+    else /* one root on each half of the double cone: the slab lies where w grows from 0 */
+        *inside = dw > 0.0f ? (float2)(roots->y, INFINITY) : (float2)(-INFINITY, roots->x);
+    return true;
+}
+
+/* The nearest meeting of the line with a cylinder or cone, or infinity; *part is the part that is met. */
+static inline float intersect_round(global const rt_shape *shape, const struct line *line, uint *part)
+{
+    float2 slab, side, roots;
+    if (!cross_slab(line, &slab) || !cross_side(line, round_top(shape), &roots, &side))
+        return INFINITY;
+    if (!(shape->flags & RT_SHAPE_CAPS)) {
+        *part = ROUND_SIDE;
+        if (roots.x >= slab.x && roots.x <= slab.y && line_has(line, roots.x))
+            return roots.x;
+        return roots.y >= slab.x && roots.y <= slab.y && line_has(line, roots.y) ? roots.y : INFINITY;
+    }
+    const bool upwards = line->direction.z > 0.0f;
+    const float enter = fmax(slab.x, side.x), leave = fmin(slab.y, side.y);
+    if (!(enter <= leave))
+        return INFINITY;
+    if (line_has(line, enter)) {
+        *part = side.x >= slab.x ? ROUND_SIDE : upwards ? ROUND_BASE : ROUND_TOP;
+        return enter;
+    }
+    *part = side.y <= slab.y ? ROUND_SIDE : upwards ? ROUND_TOP : ROUND_BASE;
+    return line_has(line, leave) ? leave : INFINITY;
+}
+
+#endif

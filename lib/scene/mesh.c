@@ -1,0 +1,186 @@
+/* mesh.c - meshes: adding them from memory, and placing them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "scene/check.h"
+#include "scene/scene.h"
+
+/* Primitives are numbered with 31 bits on the device. */
+enum { triangles_max = 0x3fffffff };
+
+void rt_scene_mesh_free(rt_scene_mesh *mesh)
+{
+    free(mesh->positions);
+    free(mesh->normals);
+    free(mesh->uv);
+    free(mesh->colours);
+    free(mesh->indices);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+void rt_scene_mesh_survey(rt_scene_mesh *mesh)
+{
+    mesh->area = 0;
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t *corner = mesh->indices + 3 * i;
+        const float *v0 = mesh->positions + 3 * (size_t)corner[0];
+        double a[3], b[3], n[3];
+        rt_vec_sub(a, mesh->positions + 3 * (size_t)corner[1], v0);
+        rt_vec_sub(b, mesh->positions + 3 * (size_t)corner[2], v0);
+        rt_vec_cross(n, a, b);
+        mesh->area += 0.5 * rt_vec_length(n);
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++) {
+                float x = mesh->positions[3 * (size_t)corner[c] + (size_t)k];
+                mesh->lo[k] = (i == 0 && c == 0) || x < mesh->lo[k] ? x : mesh->lo[k];
+                mesh->hi[k] = (i == 0 && c == 0) || x > mesh->hi[k] ? x : mesh->hi[k];
+            }
+    }
+}
+
+rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh, rt_error *error)
+{
+    rt_status status = rt_grow((void **)&scene->meshes, &scene->mesh_room, scene->mesh_count, sizeof *mesh, error);
+    if (status != RT_OK)
+        return status;
+    scene->meshes[scene->mesh_count] = *mesh;
+    *out = (uint32_t)scene->mesh_count++;
+    return RT_OK;
+}
+
+/* ---- From memory ----------------------------------------------------------- */
+
+static rt_status check_vertices(const rt_mesh_data *mesh, rt_error *error)
+{
+    rt_status status = RT_OK;
+    for (size_t i = 0; i < mesh->vertex_count && status == RT_OK; i++) {
+        status = rt_check_point(mesh->positions + 3 * i, "triangles", "positions", error);
+        if (status == RT_OK && mesh->normals)
+            status = rt_check_point(mesh->normals + 3 * i, "triangles", "normals", error);
+        if (status == RT_OK && mesh->colours)
+            status = rt_check_colour(mesh->colours + 3 * i, "triangles", "colours", error);
+        if (status == RT_OK && mesh->uv && !(isfinite(mesh->uv[2 * i]) && isfinite(mesh->uv[2 * i + 1])))
+            status = rt_fail_field(error, RT_ERROR_INPUT, "uv", "triangles: uv %zu is not finite", i);
+    }
+    return status;
+}
+
+static rt_status check_data(const rt_mesh_data *mesh, rt_error *error)
+{
+    if (mesh->triangle_count == 0 || mesh->triangle_count > triangles_max)
+        return rt_fail_field(error, RT_ERROR_INPUT, "triangle_count",
+                             "triangles: %zu triangles; there must be 1 to %d", mesh->triangle_count, triangles_max);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
+        if (mesh->indices[i] >= mesh->vertex_count)
+            return rt_fail_field(error, RT_ERROR_INPUT, "indices", "triangles: triangle %zu names vertex %u of %zu",
+                                 i / 3, mesh->indices[i], mesh->vertex_count);
+    return check_vertices(mesh, error);
+}
+
+/* Copies count * size bytes, or nothing; clears *good when there is no memory. */
+static void *copy(const void *from, size_t count, size_t size, int *good)
+{
+    void *to = from && count <= SIZE_MAX / size ? malloc(count * size) : NULL;
+    if (to)
+        memcpy(to, from, count * size);
+    else if (from)
+        *good = 0;
+    return to;
+}
+
+rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh, rt_error *error)
+{
+    rt_scene_mesh made;
+    int good = 1;
+    rt_status status = check_data(mesh, error);
+    if (status != RT_OK)
+        return status;
+
+    memset(&made, 0, sizeof made);
+    made.vertex_count = mesh->vertex_count;
+    made.triangle_count = mesh->triangle_count;
+    made.positions = copy(mesh->positions, mesh->vertex_count, 3 * sizeof(float), &good);
+    made.normals = copy(mesh->normals, mesh->vertex_count, 3 * sizeof(float), &good);
+    made.uv = copy(mesh->uv, mesh->vertex_count, 2 * sizeof(float), &good);
+    made.colours = copy(mesh->colours, mesh->vertex_count, 3 * sizeof(float), &good);
+    made.indices = copy(mesh->indices, mesh->triangle_count, 3 * sizeof(uint32_t), &good);
+    if (!good)
+        status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu triangles", mesh->triangle_count);
+    else
+        rt_scene_mesh_survey(&made);
+    if (status == RT_OK && !(made.area > 0))
+        status = rt_fail_field(error, RT_ERROR_INPUT, "positions",
+                               mesh->triangle_count == 1 ? "triangle: its area is zero"
+                                                         : "triangles: all have zero area");
+    if (status == RT_OK)
+        status = rt_scene_take_mesh(scene, out, &made, error);
+    if (status != RT_OK)
+        rt_scene_mesh_free(&made);
+    return status;
+}
+
+/* ---- Placing --------------------------------------------------------------- */
+
+/* The area of a mesh in world space; a map that is no similarity stretches each triangle by its own factor. */
+static double placed_area(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
+    double scale = rt_affine_similarity(&shape->to_world), area = 0;
+    if (scale > 0)
+        return mesh->area * scale * scale;
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        area += rt_scene_primitive_area(scene, shape, i);
+    return area;
+}
+
+/* The bounds of the mesh's box as it is placed, rounded outwards. */
+static void place_bounds(rt_scene_shape *shape, const rt_scene_mesh *mesh)
+{
+    for (int i = 0; i < 3; i++) {
+        const double *a = shape->to_world.m[i];
+        double lo = a[3], hi = a[3], reach = fabs(a[3]);
+        for (int j = 0; j < 3; j++) {
+            double x = a[j] * mesh->lo[j], y = a[j] * mesh->hi[j];
+            lo += fmin(x, y);
+            hi += fmax(x, y);
+            reach += fmax(fabs(x), fabs(y));
+        }
+        shape->lo[i] = nextafterf((float)(lo - 0x1p-21 * reach), -INFINITY);
+        shape->hi[i] = nextafterf((float)(hi + 0x1p-21 * reach), INFINITY);
+    }
+}
+
+rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh, const rt_surface *surface,
+                                rt_error *error)
+{
+    rt_scene_shape shape = {.kind = RT_SHAPE_TRIANGLES, .mesh = mesh, .surface = *surface};
+    if (mesh >= scene->mesh_count)
+        return rt_fail_field(error, RT_ERROR_INPUT, "mesh", "instance: there is no mesh %u among %zu", mesh,
+                             scene->mesh_count);
+    rt_status status = rt_surface_transform(&shape.to_world, surface, "instance", error);
+    if (status != RT_OK)
+        return status;
+    shape.has_transform = !rt_affine_is_identity(&shape.to_world);
+    if (!rt_is_black(surface->power))
+        shape.area = placed_area(scene, &shape);
+    place_bounds(&shape, scene->meshes + mesh);
+    return rt_scene_add_shape(scene, out, &shape, "instance", error);
+}
+
+rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions, size_t vertex_count,
+                                 const uint32_t *indices, size_t triangle_count, const float *normals,
+                                 const rt_surface *surface, rt_error *error)
+{
+    rt_mesh_data data = {.positions = positions, .normals = normals, .indices = indices,
+                         .vertex_count = vertex_count, .triangle_count = triangle_count};
+    uint32_t mesh;
+    rt_status status = rt_scene_add_mesh(scene, &mesh, &data, error);
+    if (status != RT_OK)
+        return status;
+    status = rt_scene_add_instance(scene, out, mesh, surface, error);
+    if (status != RT_OK)
+        rt_scene_mesh_free(scene->meshes + --scene->mesh_count);
+    return status;
+}

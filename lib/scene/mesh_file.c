@@ -1,0 +1,85 @@
+/* mesh_file.c - adding meshes from files to a scene. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "mesh/mesh.h"
+#include "scene/check.h"
+#include "scene/scene.h"
+
+/* The texture that the file names, looked up beside it. */
+static rt_status add_texture(rt_scene *scene, uint32_t *out, const char *path, const char *name, rt_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    size_t directory = slash && name[0] != '/' ? (size_t)(slash - path) + 1 : 0;
+    char *beside = malloc(directory + strlen(name) + 1);
+    if (!beside)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the name of a texture");
+    memcpy(beside, path, directory);
+    strcpy(beside + directory, name);
+    rt_texture texture = {.path = beside};
+    rt_status status = rt_scene_add_texture(scene, out, &texture, error);
+    free(beside);
+    return status;
+}
+
+/* Moves the arrays of a mesh that was read to the scene's. */
+static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, const char *path, rt_error *error)
+{
+    rt_scene_mesh made;
+    memset(&made, 0, sizeof made);
+    made.vertex_count = mesh->vertex_count;
+    made.triangle_count = mesh->triangle_count;
+    made.positions = mesh->positions;
+    made.normals = mesh->normals;
+    made.uv = mesh->uv;
+    made.colours = mesh->colours;
+    made.indices = mesh->indices;
+    rt_scene_mesh_survey(&made);
+    if (!(made.area > 0))
+        return rt_fail(error, RT_ERROR_INPUT, "%.400s holds no triangle with an area", path);
+    for (int i = 0; i < 3; i++)
+        if (!(made.lo[i] >= -RT_COORDINATE_MAX && made.hi[i] <= RT_COORDINATE_MAX))
+            return rt_fail(error, RT_ERROR_INPUT, "%.400s reaches beyond coordinates of %g", path, RT_COORDINATE_MAX);
+    rt_status status = rt_scene_take_mesh(scene, out, &made, error);
+    if (status == RT_OK) {
+        mesh->positions = mesh->normals = mesh->uv = mesh->colours = NULL;
+        mesh->indices = NULL;
+    }
+    return status;
+}
+
+rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, rt_shading shading, rt_mesh_info *info,
+                             rt_error *error)
+{
+    rt_mesh *mesh = NULL;
+    uint32_t texture = 0;
+
+    if ((unsigned)shading > RT_SHADING_SMOOTH)
+        return rt_fail_field(error, RT_ERROR_INPUT, "shading", "mesh: there is no shading %d", (int)shading);
+    rt_status status = rt_mesh_load(&mesh, path, NULL, error);
+    if (status == RT_OK && shading == RT_SHADING_SMOOTH)
+        status = rt_mesh_smooth(mesh, error);
+    if (status == RT_OK && shading == RT_SHADING_FLAT) {
+        free(mesh->normals);
+        mesh->normals = NULL;
+    }
+    if (status == RT_OK && mesh->texture)
+        status = add_texture(scene, &texture, path, mesh->texture, error);
+    if (status == RT_OK)
+        status = take_loaded(scene, out, mesh, path, error);
+    if (status != RT_OK && error && !error->field[0])
+        snprintf(error->field, sizeof error->field, "path");
+    if (status == RT_OK && info) {
+        const rt_scene_mesh *made = scene->meshes + *out;
+        memset(info, 0, sizeof *info);
+        info->vertex_count = made->vertex_count;
+        info->triangle_count = made->triangle_count;
+        info->degenerate = (size_t)mesh->zero_area;
+        info->texture = texture;
+        memcpy(info->lo, made->lo, sizeof info->lo);
+        memcpy(info->hi, made->hi, sizeof info->hi);
+    }
+    rt_mesh_destroy(mesh);
+    return status;
+}

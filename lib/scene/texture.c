@@ -1,0 +1,103 @@
+/* texture.c - adding textures to a scene. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "image/image_file.h"
+#include "image/srgb.h"
+#include "scene/check.h"
+#include "scene/scene.h"
+#include "texture/texture.h"
+
+/* Mean and largest linear value of each channel; the channels are there, for the image was packed. */
+static void survey(rt_scene_texture *texture, const rt_image *image, int is_linear)
+{
+    uint32_t channels[3];
+    size_t count = (size_t)image->width * image->height;
+    int is_srgb = image->is_srgb && !is_linear;
+    if (rt_image_rgb_channels(channels, image, NULL) != RT_OK)
+        channels[0] = channels[1] = channels[2] =
+            image->channel_count == 1 ? 0 : rt_image_channel(image, "Y");
+    for (int c = 0; c < 3; c++) {
+        const float *value = image->data + channels[c];
+        double sum = 0;
+        float largest = *value;
+        for (size_t i = 0; i < count; i++, value += image->channel_count) {
+            sum += is_srgb ? rt_srgb_decode(*value) : *value;
+            largest = *value > largest ? *value : largest;
+        }
+        texture->mean[c] = (float)(sum / (double)count);
+        texture->largest[c] = is_srgb ? (float)rt_srgb_decode(largest) : largest;
+    }
+}
+
+static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt_texture *from, rt_error *error)
+{
+    rt_image *image = NULL;
+    if (!from->path)
+        return rt_fail_field(error, RT_ERROR_INPUT, "path", "texture: an image needs a file");
+    rt_status status = rt_image_read(&image, from->path, error);
+    if (status == RT_OK)
+        status = rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->path, error);
+    if (status == RT_OK)
+        survey(texture, image, from->linear);
+    else if (error)
+        snprintf(error->field, sizeof error->field, "path");
+    rt_image_destroy(image);
+    return status;
+}
+
+static rt_status make_pattern(rt_scene_texture *texture, const rt_texture *from, rt_error *error)
+{
+    rt_status status = rt_check_colour(from->a, "texture", "a", error);
+    if (status == RT_OK)
+        status = rt_check_colour(from->b, "texture", "b", error);
+    texture->data.kind = from->kind;
+    texture->data.axis = 1;
+    for (int c = 0; c < 3; c++) {
+        texture->data.a[c] = from->a[c];
+        texture->data.b[c] = from->b[c];
+        texture->mean[c] = 0.5f * (from->a[c] + from->b[c]);
+        texture->largest[c] = from->a[c] > from->b[c] ? from->a[c] : from->b[c];
+    }
+    return status;
+}
+
+/* Where on the texture a point of the surface is. */
+static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *error)
+{
+    for (int i = 0; i < 2; i++) {
+        if (!(fabsf(from->scale[i]) <= 1e9f))
+            return rt_fail_field(error, RT_ERROR_INPUT, "scale", "texture: scale is %g; it must lie within 1e9",
+                                 from->scale[i]);
+        if (!(fabsf(from->offset[i]) <= 1e9f))
+            return rt_fail_field(error, RT_ERROR_INPUT, "offset", "texture: offset is %g; it must lie within 1e9",
+                                 from->offset[i]);
+        out->scale[i] = from->scale[i] == 0 ? 1 : from->scale[i];
+        out->offset[i] = from->offset[i];
+    }
+    out->wrap = from->wrap;
+    return RT_OK;
+}
+
+rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture, rt_error *error)
+{
+    rt_scene_texture made;
+    memset(&made, 0, sizeof made);
+    if ((unsigned)texture->kind > RT_TEXTURE_GRADIENT)
+        return rt_fail_field(error, RT_ERROR_INPUT, "kind", "texture: there is no kind %d", (int)texture->kind);
+    if ((unsigned)texture->wrap > RT_WRAP_CLAMP)
+        return rt_fail_field(error, RT_ERROR_INPUT, "wrap", "texture: there is no wrap mode %d", (int)texture->wrap);
+    rt_status status = rt_grow((void **)&scene->textures, &scene->texture_room, scene->texture_count, sizeof made, error);
+    if (status == RT_OK)
+        status = texture->kind == RT_TEXTURE_IMAGE ? read_image(scene, &made, texture, error)
+                                                   : make_pattern(&made, texture, error);
+    if (status == RT_OK)
+        status = place(&made.data, texture, error);
+    if (status != RT_OK)
+        return status;
+    scene->textures[scene->texture_count++] = made;
+    if (out)
+        *out = (uint32_t)scene->texture_count;
+    return RT_OK;
+}

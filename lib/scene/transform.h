@@ -1,0 +1,42 @@
+/* transform.h - affine maps in double precision: composing, inverting and what they do to points and normals. */
+#ifndef RT_LIB_SCENE_TRANSFORM_H
+#define RT_LIB_SCENE_TRANSFORM_H
+
+#include "rt.h"
+
+/* The upper three rows of the matrix, for column vectors. */
+typedef struct rt_affine {
+    double m[3][4];
+} rt_affine;
+
+/* The map that a transform of the public interface stands for; all zero is the identity. */
+rt_affine rt_affine_from(const rt_transform *transform);
+
+/* First b, then a. */
+rt_affine rt_affine_product(const rt_affine *a, const rt_affine *b);
+
+/* The map that takes x, y, z to these vectors and 0 to the origin. */
+rt_affine rt_affine_frame(const double x[3], const double y[3], const double z[3], const double origin[3]);
+
+double rt_affine_determinant(const rt_affine *a);
+int rt_affine_is_identity(const rt_affine *a);
+
+/* The factor of a map that scales all lengths alike, to the precision of float32; 0 when it does not. */
+double rt_affine_similarity(const rt_affine *a);
+
+/* The cofactors of the linear part: what it does to area vectors, such as the product of two edges. */
+void rt_affine_cofactors(double out[3][3], const rt_affine *a);
+
+/* The inverse. Returns 0 when there is none that single precision can hold. */
+int rt_affine_inverse(rt_affine *out, const rt_affine *a);
+
+void rt_affine_point(double out[3], const rt_affine *a, const double p[3]);
+void rt_affine_vector(double out[3], const rt_affine *a, const double v[3]);
+
+/* Maps a normal so that it stays on its side of the surface; not of unit length. */
+void rt_affine_normal(double out[3], const rt_affine *inverse, const double n[3]);
+
+/* A right-handed frame x, y, n about a unit vector; y points up where n is not vertical, as kernels/surface.h has it. */
+void rt_frame_about(const double n[3], double x[3], double y[3]);
+
+#endif

@@ -1,0 +1,58 @@
+#include "light_draw.h"
+
+#include <string.h>
+
+#include "photon/sources.h"
+
+rt_scene *light_scene(void)
+{
+    rt_scene *scene = NULL;
+    rt_material black;
+    rt_error error;
+    uint32_t index;
+    memset(&black, 0, sizeof black);
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_material(scene, &index, NULL, &black, &error), &error);
+    return scene;
+}
+
+rt_renderer *light_renderer(rt_scene *scene)
+{
+    rt_renderer *renderer = NULL;
+    rt_error error;
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out)
+{
+    float point[4] = {from[0], from[1], from[2], 0};
+    uint32_t count = light_draws;
+    cl_kernel kernel = test_kernel("light", "sample");
+    cl_mem made = test_buffer(light_draws * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(point), RT_ARG(made)};
+    test_run(kernel, args, 5, light_draws);
+    test_read(made, light_draws * sizeof *out, out);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out)
+{
+    uint32_t count = light_draws;
+    cl_kernel kernel = test_kernel("light", "emit");
+    rt_light_sources lights;
+    rt_error error;
+    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
+    cl_mem shares = test_buffer(lights.light_count * sizeof *lights.shares, lights.shares);
+    memset(out, 0, light_draws * sizeof *out);
+    cl_mem made = test_buffer(light_draws * sizeof *out, out);
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(shares), RT_ARG(made)};
+    test_run(kernel, args, 5, light_draws);
+    test_read(made, light_draws * sizeof *out, out);
+    rt_light_sources_free(&lights);
+    rt_buffer_release(shares);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}

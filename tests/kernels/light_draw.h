@@ -1,0 +1,37 @@
+/* light_draw.h - samples of a scene's lights and starts of its light paths, for the tests of lights. */
+#ifndef RT_TESTS_KERNELS_LIGHT_DRAW_H
+#define RT_TESTS_KERNELS_LIGHT_DRAW_H
+
+#include "support.h"
+
+#include "render/renderer.h"
+
+enum { light_draws = 1 << 16 };
+
+typedef struct light_draw {
+    float position[3], spread; /* sr, 1 / pdf_w */
+    float wi[3], delta;
+    float radiance[3], again_pdf_w; /* of the same direction, asked for afterwards */
+    float normal[3], lift;
+} light_draw;
+
+typedef struct emission_draw {
+    float position[3], unused0;
+    float direction[3], unused1;
+    float flux[3], light;
+    float normal[3], error;
+} emission_draw;
+
+/* A scene whose material 0 is black. */
+rt_scene *light_scene(void);
+
+/* Makes it ready on the test device, and destroys it. */
+rt_renderer *light_renderer(rt_scene *scene);
+
+/* Fills out[light_draws] with samples of the lights seen from a point. */
+void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out);
+
+/* Fills out[light_draws] with starts of light paths. */
+void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out);
+
+#endif

@@ -1,0 +1,69 @@
+/* rough.cl - the lobes of one rough boundary and the reflectance of metals, for their tests. */
+#include "rng.h"
+#include "rough.h"
+
+/* A boundary: ks, kt, alpha and eta. */
+static struct specular boundary_of(global const rt_material_data *material, float4 numbers)
+{
+    struct specular specular;
+    specular.ks = (float3)(numbers.x);
+    specular.kt = (float3)(numbers.y);
+    specular.alpha = numbers.z;
+    specular.eta = numbers.w;
+    specular.material = material;
+    return specular;
+}
+
+/* Three rows an item: wi and the density sampled, weight, light and density by evaluation at wi. */
+kernel void sample_rough(uint count, global const rt_material_data *material, const float4 numbers, const float4 wo,
+                         global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct specular specular = boundary_of(material, numbers);
+    const float4 u = convert_float4(pcg4d((uint4)(i, 5u, 7u, 2u)) >> 8) * 0x1p-24f;
+    float3 wi;
+    float pdf_w;
+    const float3 weight = rough_sample(&specular, wo.xyz, u.xyz, &wi, &pdf_w);
+    const struct lobe lobe = rough_eval(&specular, wo.xyz, wi);
+    out[3u * i] = (float4)(wi, pdf_w);
+    out[3u * i + 1u] = (float4)(weight, 0.0f);
+    out[3u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
+}
+
+/* A row an item: light from directions[i] to wo, with its density. */
+kernel void evaluate_rough(uint count, global const rt_material_data *material, const float4 numbers, const float4 wo,
+                           global const float4 *directions, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct specular specular = boundary_of(material, numbers);
+    const struct lobe lobe = rough_eval(&specular, wo.xyz, directions[i].xyz);
+    out[i] = (float4)(lobe.value, lobe.pdf_w);
+}
+
+/* The same with the directions exchanged, seen from the side of what was wi. */
+kernel void evaluate_back(uint count, global const rt_material_data *material, const float4 numbers, const float4 wo,
+                          global const float4 *directions, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const float3 wi = directions[i].xyz;
+    const float side = wi.z < 0.0f ? -1.0f : 1.0f;
+    struct specular specular = boundary_of(material, numbers);
+    if (side < 0.0f)
+        specular.eta = 1.0f / specular.eta;
+    const struct lobe lobe = rough_eval(&specular, side * wi, side * wo.xyz);
+    out[i] = (float4)(lobe.value, lobe.pdf_w);
+}
+
+/* Reflectance of a metal at each cosine. */
+kernel void reflect_metal(uint count, const float4 eta, const float4 k, global const float *cosine, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i < count)
+        out[i] = (float4)(fresnel_conductor(cosine[i], eta.xyz, k.xyz), 0.0f);
+}

@@ -1,0 +1,115 @@
+/* test_filter.c - samples of reconstruction filters follow them in place and sign. */
+#include "support.h"
+
+#include <math.h>
+
+#include "statistics.h"
+
+enum { n = 1 << 18, cells = 24 }; /* cells a side, of the square [-2, 2] x [-2, 2] about the pixel's centre */
+
+static float samples[n][4];
+static double values[n];
+
+static void draw(uint32_t filter, uint32_t seed)
+{
+    uint32_t count = n;
+    cl_kernel kernel = test_kernel("filter", "sample");
+    cl_mem out = test_buffer(sizeof samples, NULL);
+    rt_arg args[] = {RT_ARG(filter), RT_ARG(seed), RT_ARG(count), RT_ARG(out)};
+    test_run(kernel, args, 4, n);
+    test_read(out, sizeof samples, samples);
+    rt_buffer_release(out);
+    rt_kernel_release(kernel);
+}
+
+/* Mitchell and Netravali 1988, equation 8, B = C = 1/3. */
+static double mitchell(double x)
+{
+    x = fabs(x);
+    if (x < 1)
+        return (7 * x * x * x - 12 * x * x + 16.0 / 3) / 6;
+    return x < 2 ? (-7.0 / 3 * x * x * x + 12 * x * x - 20 * x + 32.0 / 3) / 6 : 0;
+}
+
+static double value(rt_filter filter, double x, double y)
+{
+    switch (filter) {
+    case RT_FILTER_BOX:
+        return fabs(x) < 0.5 && fabs(y) < 0.5;
+    case RT_FILTER_TENT:
+        return fmax(0, 1 - fabs(x)) * fmax(0, 1 - fabs(y));
+    case RT_FILTER_GAUSSIAN:
+        return x * x + y * y < 2.25 ? exp(-(x * x + y * y) / 0.5) : 0;
+    default:
+        return mitchell(x) * mitchell(y);
+    }
+}
+
+/* Integrals over each cell of the magnitude, and over all of it. */
+static double integrate(rt_filter filter, double out[cells * cells])
+{
+    enum { steps = 48 };
+    double sum = 0, h = 4.0 / (cells * steps);
+    for (int i = 0; i < cells * cells; i++) {
+        out[i] = 0;
+        for (int k = 0; k < steps * steps; k++) {
+            double x = (i % cells * steps + k % steps + 0.5) * h - 2, y = (i / cells * steps + k / steps + 0.5) * h - 2;
+            out[i] += fabs(value(filter, x, y)) * h * h;
+        }
+        sum += out[i];
+    }
+    return sum;
+}
+
+static void samples_follow_the_magnitude_of_the_filter(void **state)
+{
+    static double expected[cells * cells];
+    static uint32_t counts[cells * cells];
+    (void)state;
+    for (int filter = RT_FILTER_BOX; filter <= RT_FILTER_MITCHELL; filter++) {
+        double size = integrate((rt_filter)filter, expected);
+        draw((uint32_t)filter, 1 + (uint32_t)filter);
+        for (int i = 0; i < cells * cells; i++) {
+            expected[i] *= n / size;
+            counts[i] = 0;
+        }
+        for (int i = 0; i < n; i++) {
+            double x = samples[i][0] + 1.5, y = samples[i][1] + 1.5;
+            assert_true(x >= 0 && x < 4.0001 && y >= 0 && y < 4.0001);
+            counts[(int)fmin(y * cells / 4, cells - 1) * cells + (int)fmin(x * cells / 4, cells - 1)]++;
+        }
+        expect_counts(counts, expected, cells * cells, "points of the filter");
+    }
+}
+
+/* With the signs, samples have the moments of the filter itself. */
+static void weights_have_the_sign_of_the_filter(void **state)
+{
+    static double unused[cells * cells];
+    (void)state;
+    for (int filter = RT_FILTER_BOX; filter <= RT_FILTER_MITCHELL; filter++) {
+        double magnitude = filter == RT_FILTER_MITCHELL ? integrate((rt_filter)filter, unused) : 1;
+        draw((uint32_t)filter, 9);
+        for (int i = 0; i < n; i++) {
+            double f = value((rt_filter)filter, samples[i][0] - 0.5, samples[i][1] - 0.5), w = samples[i][2];
+            assert_true(filter == RT_FILTER_MITCHELL ? fabs(w) == 1 && (fabs(f) < 1e-4 || (f > 0) == (w > 0)) : w == 1);
+            values[i] = magnitude * w;
+        }
+        expect_mean(values, n, 1, 1e-5, "integral");
+        for (int i = 0; i < n; i++)
+            values[i] = magnitude * samples[i][2] * (samples[i][0] - 0.5) * (samples[i][0] - 0.5);
+        /* Second moments of each coordinate; of a Gaussian cut at three deviations r^2/2 is the mean. */
+        static const double moments[] = {1.0 / 12, 1.0 / 6, 0, 1.0 / 9};
+        double cut = exp(-4.5), gaussian = 0.25 * (1 - 4.5 * cut / (1 - cut));
+        expect_mean(values, n, filter == RT_FILTER_GAUSSIAN ? gaussian : moments[filter], 1e-5, "second moment");
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(samples_follow_the_magnitude_of_the_filter),
+        cmocka_unit_test(weights_have_the_sign_of_the_filter),
+    };
+    return cmocka_run_group_tests_name("kernels/filter", tests, NULL, NULL);
+}

@@ -1,0 +1,264 @@
+/* test_light_sky.c - the environment: its directions, its density, and the light paths that it starts. */
+#include "light_draw.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "image/image_file.h"
+#include "lib/image/scratch.h"
+#include "statistics.h"
+
+#define PI 3.14159265358979323846
+
+enum { n = light_draws, width = 16, height = 8, cells = width * height };
+
+static light_draw samples[n];
+static emission_draw emissions[n];
+static double values[n];
+
+static const float origin[3] = {0, 0, 0};
+
+/* Dim noise, a bright pixel, one beside the seam, and a dark row. */
+static double texel(int x, int y)
+{
+    if (y == 5)
+        return 0;
+    if ((x == 6 && y == 2) || (x == 15 && y == 6))
+        return 40;
+    return 0.2 + (x * 7 + y * 13) % 11 / 10.0;
+}
+
+static const char file[] = "sky.pfm";
+
+/* The picture as a file. */
+static void write_sky(void)
+{
+    static const char *const names[] = {"R", "G", "B"};
+    rt_image *image = NULL;
+    rt_error error;
+    expect_ok(rt_image_create(&image, width, height, names, 3, &error), &error);
+    for (int i = 0; i < 3 * cells; i++)
+        image->data[i] = (float)texel(i / 3 % width, i / 3 / width);
+    expect_ok(rt_image_write(image, file, NULL, &error), &error);
+    rt_image_destroy(image);
+}
+
+/* A small sphere, which gives the scene its radius, in the sky. */
+static rt_renderer *sky(int has_image, float rotation)
+{
+    static const float centre[3] = {1, 2, 3};
+    rt_scene *scene = light_scene();
+    rt_environment environment = {.radiance = {2, 2, 2}, .rotation = rotation};
+    rt_surface surface;
+    rt_error error;
+    memset(&surface, 0, sizeof surface);
+    if (has_image) {
+        write_sky();
+        environment.path = file;
+    }
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
+    expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
+    return light_renderer(scene);
+}
+
+/* The point of the picture in direction w: the centre towards -z, growing towards +x, from the top down. */
+static void place(const float w[3], double rotation, double *u, double *v)
+{
+    *u = 0.5 + atan2(w[0], -w[2]) / (2 * PI) + rotation / 360;
+    *u -= floor(*u);
+    *v = acos(fmax(-1, fmin(1, w[1]))) / PI;
+}
+
+static int wrapped(int i, int size)
+{
+    return (i + size) % size;
+}
+
+static int clamped(int i, int size)
+{
+    return i < 0 ? 0 : i >= size ? size - 1 : i;
+}
+
+/* The picture between its pixels. */
+static double radiance(double u, double v)
+{
+    double x = u * width - 0.5, y = v * height - 0.5;
+    int i = (int)floor(x), j = (int)floor(y);
+    double a = x - i, b = y - j;
+    int left = wrapped(i, width), right = wrapped(i + 1, width), top = clamped(j, height), low = clamped(j + 1, height);
+    return 2 * ((1 - b) * ((1 - a) * texel(left, top) + a * texel(right, top)) +
+                b * ((1 - a) * texel(left, low) + a * texel(right, low)));
+}
+
+/* Its integral over all directions. */
+static double whole_sky(void)
+{
+    enum { steps = 40 };
+    double sum = 0;
+    for (int i = 0; i < width * steps; i++)
+        for (int j = 0; j < height * steps; j++) {
+            double u = (i + 0.5) / (width * steps), v = (j + 0.5) / (height * steps);
+            sum += radiance(u, v) * sin(PI * v);
+        }
+    return sum * 2 * PI * PI / (width * steps) / (height * steps);
+}
+
+/* A tent leaves 3/4 in its pixel and 1/8 in each neighbour. */
+static void expected_counts(double expected[cells])
+{
+    static const double part[3] = {0.125, 0.75, 0.125};
+    double total = 0;
+    memset(expected, 0, cells * sizeof *expected);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double weight = texel(x, y) * sin(PI * (y + 0.5) / height);
+            total += weight;
+            for (int dy = -1; dy < 2; dy++)
+                for (int dx = -1; dx < 2; dx++)
+                    expected[clamped(y + dy, height) * width + wrapped(x + dx, width)] +=
+                        n * weight * part[dx + 1] * part[dy + 1];
+        }
+    for (int i = 0; i < cells; i++)
+        expected[i] /= total;
+}
+
+static void directions_follow_the_density(void **state)
+{
+    static const float rotations[] = {0, 100, -30};
+    double expected[cells];
+    (void)state;
+    expected_counts(expected);
+    for (uint32_t r = 0; r < 3; r++) {
+        uint32_t counts[cells] = {0};
+        rt_renderer *renderer = sky(1, rotations[r]);
+        draw_lights(renderer, r, origin, samples);
+        for (int i = 0; i < n; i++) {
+            double u, v;
+            place(samples[i].wi, rotations[r], &u, &v);
+            counts[clamped((int)(v * height), height) * width + clamped((int)(u * width), width)]++;
+        }
+        expect_counts(counts, expected, cells, "directions of the sky");
+        rt_renderer_destroy(renderer);
+    }
+}
+
+static void samples_bring_the_radiance_of_their_direction(void **state)
+{
+    rt_renderer *renderer = sky(1, 100);
+    (void)state;
+    draw_lights(renderer, 7, origin, samples);
+    for (int i = 0; i < n; i++) {
+        const light_draw *s = samples + i;
+        double u, v;
+        place(s->wi, 100, &u, &v);
+        assert_float_equal(s->radiance[1], radiance(u, v), 2e-3);
+        assert_float_equal(s->again_pdf_w * s->spread, 1, 2e-3);
+        assert_true(s->delta == 0);
+        values[i] = s->radiance[0] * s->spread;
+    }
+    expect_mean(values, n, whole_sky(), 1e-4 * whole_sky(), "light of the whole sky");
+    rt_renderer_destroy(renderer);
+}
+
+static void an_even_sky_is_sampled_evenly(void **state)
+{
+    rt_renderer *renderer = sky(0, 0);
+    (void)state;
+    draw_lights(renderer, 1, origin, samples);
+    for (int i = 0; i < n; i++) {
+        assert_float_equal(samples[i].spread, 4 * PI, 1e-4);
+        assert_float_equal(samples[i].again_pdf_w * samples[i].spread, 1, 1e-6);
+        values[i] = samples[i].wi[1] > 0;
+    }
+    expect_mean(values, n, 0.5, 0, "upper half of the sky");
+    rt_renderer_destroy(renderer);
+}
+
+/* Flux through a disc of radius 0.1 in the middle of the scene whose normal is y, from above. */
+static void expect_flux(double truth, const char *what)
+{
+    for (int i = 0; i < n; i++) {
+        const emission_draw *e = emissions + i;
+        double t = (2 - e->position[1]) / e->direction[1];
+        double x = e->position[0] + t * e->direction[0] - 1, z = e->position[2] + t * e->direction[2] - 3;
+        values[i] = t > 0 && e->direction[1] < 0 && x * x + z * z < 0.01 ? e->flux[0] : 0;
+    }
+    expect_mean(values, n, truth * PI * 0.01, 1e-5, what);
+}
+
+static void light_paths_of_the_sky_carry_its_irradiance(void **state)
+{
+    rt_renderer *renderer = sky(0, 0);
+    (void)state;
+    draw_emissions(renderer, 3, emissions);
+    expect_flux(PI * 2, "even sky");
+    rt_renderer_destroy(renderer);
+
+    /* The upper half of the picture, by the cosine. */
+    enum { steps = 40 };
+    double truth = 0;
+    for (int i = 0; i < width * steps; i++)
+        for (int j = 0; j < height * steps / 2; j++) {
+            double v = (j + 0.5) / (height * steps);
+            truth += radiance((i + 0.5) / (width * steps), v) * sin(PI * v) * cos(PI * v);
+        }
+    renderer = sky(1, 0);
+    draw_emissions(renderer, 3, emissions);
+    expect_flux(truth * 2 * PI * PI / (width * steps) / (height * steps), "sky of a picture");
+    rt_renderer_destroy(renderer);
+}
+
+static void light_paths_of_a_directional_light_carry_its_irradiance(void **state)
+{
+    static const float centre[3] = {1, 2, 3};
+    rt_directional_light sun = {.direction = {1, -2, 1}, .irradiance = {5, 5, 5}};
+    rt_surface surface;
+    rt_scene *scene = light_scene();
+    rt_error error;
+    (void)state;
+    memset(&surface, 0, sizeof surface);
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
+    expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
+    rt_renderer *renderer = light_renderer(scene);
+    draw_emissions(renderer, 5, emissions);
+    expect_flux(5 * 2 / sqrt(6), "directional light");
+    draw_lights(renderer, 1, origin, samples);
+    for (int i = 0; i < n; i++)
+        assert_true(samples[i].delta == 1 && samples[i].spread == 1 && samples[i].radiance[0] == 5 &&
+                    fabs(samples[i].wi[1] - 2 / sqrt(6)) < 1e-6);
+    rt_renderer_destroy(renderer);
+}
+
+static void a_plane_keeps_what_comes_from_below(void **state)
+{
+    static const float centre[3] = {1, 2, 3}, below[3] = {0, 2.5f, 0}, up[3] = {0, 1, 0};
+    rt_environment environment = {.radiance = {2, 2, 2}};
+    rt_surface surface;
+    rt_scene *scene = light_scene();
+    rt_error error;
+    (void)state;
+    memset(&surface, 0, sizeof surface);
+    /* The plane lies above the sphere: what comes from above starts over it or not at all. */
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
+    expect_ok(rt_scene_add_plane(scene, NULL, below, up, &surface, &error), &error);
+    expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
+    rt_renderer *renderer = light_renderer(scene);
+    draw_emissions(renderer, 3, emissions);
+    for (int i = 0; i < n; i++)
+        assert_true(emissions[i].flux[0] == 0 ||
+                    (emissions[i].direction[1] < 0) == (emissions[i].position[1] > 2.5f));
+    rt_renderer_destroy(renderer);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(directions_follow_the_density),
+        cmocka_unit_test(samples_bring_the_radiance_of_their_direction),
+        cmocka_unit_test(an_even_sky_is_sampled_evenly),
+        cmocka_unit_test(light_paths_of_the_sky_carry_its_irradiance),
+        cmocka_unit_test(light_paths_of_a_directional_light_carry_its_irradiance),
+        cmocka_unit_test(a_plane_keeps_what_comes_from_below),
+    };
+    return cmocka_run_group_tests_name("kernels/light_sky", tests, scratch_enter, scratch_leave);
+}

@@ -1,0 +1,222 @@
+/*
+ * test_estimators.c - light sampling, material sampling and their combination bring the same mean for every kind of
+ * lamp, and the combination less noise.
+ */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "image/image_file.h"
+#include "kernels/statistics.h"
+#include "lib/image/scratch.h"
+
+enum { side = 32, pixels = side * side, spp = 32 };
+
+static double values[pixels];
+
+static rt_scene *scene;
+static rt_error error;
+
+static uint32_t material(const rt_material *m)
+{
+    uint32_t index = 0;
+    expect_ok(rt_scene_add_material(scene, &index, NULL, m, &error), &error);
+    return index;
+}
+
+/* A floor, seen from above, beside a wall that hides a part of what lights it. */
+static void begin(float roughness)
+{
+    static const float corner[3] = {-2, 0, 2}, x[3] = {4, 0, 0}, z[3] = {0, 0, -4}, wall[3] = {-2, 0, -1}, up[3] = {0, 1, 0};
+    rt_material floor_material = {.kd = {0.6f, 0.5f, 0.4f}};
+    rt_camera camera = {.eye = {0, 5, 4}, .look_at = {0, 0, 0}, .fov = 30};
+    rt_surface surface;
+    if (roughness > 0) {
+        floor_material = (rt_material){.kd = {0.3f, 0.3f, 0.3f}, .ks = {0.6f, 0.6f, 0.6f}, .roughness = roughness};
+    }
+    memset(&surface, 0, sizeof surface);
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
+    surface.material = material(&floor_material);
+    expect_ok(rt_scene_add_quad(scene, NULL, corner, x, z, &surface, &error), &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, wall, x, up, &surface, &error), &error);
+}
+
+static rt_surface lamp(void)
+{
+    static const rt_material black;
+    rt_surface surface;
+    memset(&surface, 0, sizeof surface);
+    surface.material = material(&black);
+    surface.radiance[0] = surface.radiance[1] = surface.radiance[2] = 5;
+    surface.transform = (rt_transform){{{1, 0.2f, 0, 0}, {-0.2f, 1, 0.3f, 0.2f}, {0, 0, 1.2f, 0}}};
+    return surface;
+}
+
+static rt_renderer *ready(void)
+{
+    rt_renderer *renderer = NULL;
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+static rt_film *render(rt_renderer *renderer, rt_estimator estimator, uint32_t seed)
+{
+    rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = 3, .seed = seed,
+                                 .sampler = RT_SAMPLER_INDEPENDENT, .estimator = estimator};
+    rt_film *film = NULL;
+    rt_film_stats stats;
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    rt_film_get_stats(film, &stats);
+    assert_int_equal(stats.rejected, 0);
+    return film;
+}
+
+/* Half the mean square of the difference of two renders: the variance of a pixel's mean. */
+static double variance(const rt_film *a, const rt_film *b)
+{
+    double sum = 0;
+    for (int i = 0; i < pixels; i++) {
+        double d = (double)rt_film_rgb(a)[3 * i + 1] - rt_film_rgb(b)[3 * i + 1];
+        sum += 0.5 * d * d;
+    }
+    return sum / pixels;
+}
+
+/*
+ * All three have the same mean, to 4.5 standard errors of the difference over the film. Returns by how much the
+ * combination lowers the variance of material sampling.
+ */
+static double expect_same_mean(const char *what)
+{
+    rt_renderer *renderer = ready();
+    rt_film *films[3][2];
+    for (int e = 0; e < 3; e++)
+        for (uint32_t k = 0; k < 2; k++)
+            films[e][k] = render(renderer, (rt_estimator)e, 2 * (uint32_t)e + k);
+    for (int e = 1; e < 3; e++) {
+        for (int i = 0; i < pixels; i++)
+            values[i] = ((double)rt_film_rgb(films[e][0])[3 * i] + rt_film_rgb(films[e][1])[3 * i] -
+                         rt_film_rgb(films[0][0])[3 * i] - rt_film_rgb(films[0][1])[3 * i]) / 2;
+        expect_mean(values, pixels, 0, 1e-5, what);
+    }
+    double mis = variance(films[0][0], films[0][1]), light = variance(films[1][0], films[1][1]),
+           bsdf = variance(films[2][0], films[2][1]);
+    print_message("%s: variance %.3g; light sampling alone %.2g times, material sampling alone %.2g times\n", what, mis,
+                  light / mis, bsdf / mis);
+    assert_true(mis < 1.3 * light && mis < 1.3 * bsdf);
+    for (int e = 0; e < 3; e++)
+        for (int k = 0; k < 2; k++)
+            rt_film_destroy(films[e][k]);
+    rt_renderer_destroy(renderer);
+    return bsdf / mis;
+}
+
+static void lamps_of_every_shape(void **state)
+{
+    static const float at[3] = {0.5f, 1.5f, 0}, to[3] = {0.8f, 2.1f, -0.2f}, edge1[3] = {0, 0, 0.8f},
+                       edge2[3] = {0.7f, -0.2f, 0}, radii[3] = {0.5f, 0.2f, 0.3f};
+    static const char *const names[] = {"quad", "sphere", "ellipsoid", "disc", "cylinder", "cone", "torus"};
+    (void)state;
+    for (int kind = 0; kind < 7; kind++) {
+        begin(0);
+        rt_surface s = lamp();
+        rt_status status = kind == 0   ? rt_scene_add_quad(scene, NULL, at, edge2, edge1, &s, &error)
+                           : kind == 1 ? rt_scene_add_sphere(scene, NULL, at, 0.4f, (s.transform = (rt_transform){{{0}}}, &s), &error)
+                           : kind == 2 ? rt_scene_add_ellipsoid(scene, NULL, at, radii, &s, &error)
+                           : kind == 3 ? rt_scene_add_disc(scene, NULL, at, (const float[3]){0, -1, 0}, 0.5f, 0.2f, &s, &error)
+                           : kind == 4 ? rt_scene_add_cylinder(scene, NULL, at, to, 0.3f, 1, &s, &error)
+                           : kind == 5 ? rt_scene_add_cone(scene, NULL, at, to, 0.4f, 0.1f, 1, &s, &error)
+                                       : rt_scene_add_torus(scene, NULL, at, to, 0.4f, 0.15f, &s, &error);
+        expect_ok(status, &error);
+        expect_same_mean(names[kind]);
+    }
+}
+
+/* A tent of two triangles, placed twice by transforms, one of them with a texture on its coordinates. */
+static void lamps_of_meshes(void **state)
+{
+    static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 0.3f, 1, 1, 0, 1}, uv[] = {0, 0, 1, 0, 0, 1, 1, 1};
+    static const uint32_t indices[] = {0, 1, 2, 1, 3, 2};
+    rt_mesh_data mesh = {.positions = positions, .uv = uv, .indices = indices, .vertex_count = 4, .triangle_count = 2};
+    rt_texture checker = {.kind = RT_TEXTURE_CHECKER, .a = {2, 2, 2}, .b = {0.1f, 0.1f, 0.1f}, .scale = {4, 4}};
+    uint32_t handle, texture;
+    (void)state;
+    begin(0);
+    rt_surface s = lamp();
+    expect_ok(rt_scene_add_texture(scene, &texture, &checker, &error), &error);
+    expect_ok(rt_scene_add_mesh(scene, &handle, &mesh, &error), &error);
+    s.transform = (rt_transform){{{1, 0, 0, -1}, {0, 1, 0, 1.5f}, {0, 0, 1, 0}}};
+    expect_ok(rt_scene_add_instance(scene, NULL, handle, &s, &error), &error);
+    s.transform = (rt_transform){{{0.6f, 0, 0.3f, 0.5f}, {0, -1, 0, 1.8f}, {0, 0.2f, 0.8f, 0.1f}}};
+    s.texture = texture;
+    expect_ok(rt_scene_add_instance(scene, NULL, handle, &s, &error), &error);
+    expect_same_mean("mesh");
+}
+
+/* Dim, with a sun of one pixel. */
+static void write_sky(const char *path)
+{
+    static const char *const names[] = {"R", "G", "B"};
+    rt_image *image = NULL;
+    expect_ok(rt_image_create(&image, 64, 32, names, 3, &error), &error);
+    for (uint32_t i = 0; i < 3 * 64 * 32; i++)
+        image->data[i] = 0.3f + 0.2f * (float)(i / 3 % 7) / 7;
+    for (uint32_t c = 0; c < 3; c++)
+        image->data[3 * (10 * 64 + 20) + c] = 500;
+    expect_ok(rt_image_write(image, path, NULL, &error), &error);
+    rt_image_destroy(image);
+}
+
+static void environments(void **state)
+{
+    rt_environment even = {.radiance = {1, 1, 1}}, picture = {.path = "sky.exr"};
+    (void)state;
+    begin(0);
+    expect_ok(rt_scene_set_environment(scene, &even, &error), &error);
+    expect_same_mean("even environment");
+    write_sky(picture.path);
+    begin(0);
+    expect_ok(rt_scene_set_environment(scene, &picture, &error), &error);
+    double factor = expect_same_mean("environment with a sun");
+    assert_true(factor > 20);
+}
+
+/* On a rough floor each technique is the better one somewhere. */
+static void rough_floors(void **state)
+{
+    static const float at[3] = {0, 1.5f, -0.8f};
+    (void)state;
+    begin(0.15f);
+    rt_surface s = lamp();
+    s.transform = (rt_transform){{{0}}};
+    expect_ok(rt_scene_add_sphere(scene, NULL, at, 0.2f, &s, &error), &error);
+    expect_same_mean("rough floor");
+}
+
+/* Points, spots and suns are sampled whatever the estimator is. */
+static void delta_lights_are_always_sampled(void **state)
+{
+    rt_point_light point = {.position = {0, 2, 0}, .intensity = {3, 3, 3}};
+    rt_spot_light spot = {.position = {1, 2, 1}, .target = {0, 0, 0}, .intensity = {4, 4, 4}};
+    rt_directional_light sun = {.direction = {1, -2, -0.5f}, .irradiance = {1, 1, 1}};
+    (void)state;
+    begin(0);
+    expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
+    expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
+    expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
+    expect_same_mean("lights without size");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lamps_of_every_shape), cmocka_unit_test(lamps_of_meshes),
+        cmocka_unit_test(environments),         cmocka_unit_test(rough_floors),
+        cmocka_unit_test(delta_lights_are_always_sampled),
+    };
+    return cmocka_run_group_tests_name("lib/render/estimators", tests, scratch_enter, scratch_leave);
+}
