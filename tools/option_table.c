@@ -1,7 +1,6 @@
 /* option_table.c - every option of rtc. */
 #include "options.h"
 
-#include <float.h>
 
 #include "rt.h"
 
@@ -41,36 +40,37 @@ const char *const option_group_titles[GROUP_COUNT] = {
 const option option_table[OPTION_COUNT] = {
     [OPTION_MODE] = {"mode", "MODE", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, modes, 1, "path",
                      "path tracing or photon mapping"},
-    [OPTION_SPP] = {"spp", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1,
+    [OPTION_SPP] = {"spp", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 16777216, NULL, 1,
                     "64 in path mode, 16 in photon mode", "samples a pixel"},
-    [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1, "16",
+    [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 4096, NULL, 1, "16",
                           "longest path in segments, from the eye or from a light"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
-                     "stop after so many seconds; without --spp, go on until then"},
+                     "stop after so many seconds, once every pixel has a sample; without --spp, go on "
+                     "until then"},
     [OPTION_SEED] = {"seed", "S", KIND_WHOLE, GROUP_RENDER, RENDER, 0, UINT32_MAX, NULL, 1, "0",
                      "the same seed gives the same image, bit for bit"},
     [OPTION_SAMPLER] = {"sampler", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, samplers, 1, "sobol",
                         "Owen-scrambled Sobol or independent samples"},
     [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, accels, 1, "bvh",
                       "a bounding volume hierarchy, or none: every primitive is tested"},
-    [OPTION_WIDTH] = {"width", "W", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1, "512", "width in pixels"},
-    [OPTION_HEIGHT] = {"height", "H", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1, "512",
+    [OPTION_WIDTH] = {"width", "W", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 65536, NULL, 1, "512", "width in pixels"},
+    [OPTION_HEIGHT] = {"height", "H", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 65536, NULL, 1, "512",
                        "height in pixels"},
 
-    [OPTION_PHOTONS] = {"photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, NULL, 1, "1e6",
+    [OPTION_PHOTONS] = {"photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, 4e9, NULL, 1, "1e6",
                         "photon paths emitted"},
-    [OPTION_K] = {"k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, UINT32_MAX, NULL, 1, "50",
+    [OPTION_K] = {"k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 2, 65536, NULL, 1, "50",
                   "nearest photons; the k-th gives the radius and is not summed"},
-    [OPTION_RADIUS] = {"radius", "R", KIND_REAL, GROUP_PHOTON, RENDER, 0, FLT_MAX, NULL, 1, "0, no limit",
+    [OPTION_RADIUS] = {"radius", "R", KIND_REAL, GROUP_PHOTON, RENDER, 0, 1e15, NULL, 1, "0, no limit",
                        "largest gather radius in metres"},
     [OPTION_KERNEL] = {"kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1, "epanechnikov",
                        "density kernel; gaussian-jensen, for comparison only, keeps the often printed constant "
                        "that loses 47 % of the light"},
-    [OPTION_CONE_K] = {"cone-k", "C", KIND_REAL, GROUP_PHOTON, RENDER, 1, FLT_MAX, NULL, 1, "1.1",
+    [OPTION_CONE_K] = {"cone-k", "C", KIND_REAL, GROUP_PHOTON, RENDER, 1, 1e6, NULL, 1, "1.1",
                        "constant of the cone kernel, at least 1"},
     [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, directs, 1, "nee",
                        "direct light by shadow rays (nee) or from the photon map"},
-    [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, UINT32_MAX, NULL, 1, "0",
+    [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, 4096, NULL, 1, "0",
                              "gather after N diffuse bounces instead of at the first hit"},
 
     [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0,

@@ -9,8 +9,6 @@
 #include "scene/scene.h"
 #include "scene/vec.h"
 
-enum { spp_unlimited = 1 << 24 };
-
 /* Replaces zeros by the defaults that the public header states. */
 static void complete_options(rt_render_options *o)
 {
@@ -19,7 +17,7 @@ static void complete_options(rt_render_options *o)
     if (o->height == 0)
         o->height = 512;
     if (o->spp == 0)
-        o->spp = o->time > 0 ? spp_unlimited : o->mode == RT_MODE_PHOTON ? 16 : 64;
+        o->spp = o->time > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
     if (o->photons == 0)
