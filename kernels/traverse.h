@@ -23,7 +23,8 @@
  */
 INLINE_ALWAYS bool can_follow(const struct ray *ray)
 {
-    return dot(ray->origin, ray->origin) + dot(ray->direction, ray->direction) <= 0x1p107f;
+    const float3 size = fabs(ray->origin) + fabs(ray->direction);
+    return size.x + size.y + size.z <= 0x1p53f;
 }
 
 /* The ray's constants for boxes: the distance to a plane is plane * rate + shift. */
