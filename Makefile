@@ -181,7 +181,7 @@ TESTS_CORPUS := tests/corpus/test_img.c tests/corpus/test_ply.c
 check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
 	tests/run.sh $(call TEST_BIN,$(TESTS_CORPUS))
 
-# Everything again with the address and undefined-behaviour sanitizers.
+# The quick tests again, with the address and undefined-behaviour sanitizers.
 SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
 check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
@@ -245,9 +245,12 @@ uninstall:
 help:
 	@echo 'make                 builds $(B)/rtc, $(B)/librt.a and $(B)/$(SONAME)'
 	@echo 'make demo            installs what is missing, builds, renders scenes/cornell.rts to cornell.png'
-	@echo 'make check           installs what is missing, builds, runs every test'
+	@echo 'make check           installs what is missing, builds, runs the tests'
 	@echo 'make check-quick     only the tests that take seconds'
 	@echo 'make check-sanitize  the quick tests under the address and undefined-behaviour sanitizers'
+	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE, by another program'
+	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
+	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'

@@ -9,11 +9,12 @@
 /* ---- Ranges, choices ----------------------------------------------------- */
 
 #define ANY {RT_RANGE_ANY, 0, 0}
-#define POSITIVE {RT_RANGE_ABOVE, 0, 0}
-#define NOT_NEGATIVE {RT_RANGE_FROM, 0, 0}
+#define ABOVE_TO(low, high) {RT_RANGE_ABOVE, low, high}
 #define FROM_TO(low, high) {RT_RANGE_CLOSED, low, high}
 #define BETWEEN(low, high) {RT_RANGE_BETWEEN, low, high}
 #define UNIT FROM_TO(0, 1)
+#define LENGTH FROM_TO(1e-15, 1e15)
+#define LIGHT FROM_TO(0, 1e28)
 #define DIRECTION {RT_RANGE_DIRECTION, 0, 0}
 
 #define UINT32_LAST 4294967295.0
@@ -43,17 +44,17 @@ static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian",
 /* What every shape has, and what every finite shape has besides. */
 #define SURFACE(type) {"material", RT_FIELD_MATERIAL, REQUIRED, ANY, "", "", NULL, AT(type, surface.material)}
 #define LAMP(type)                                                                                                     \
-    {"radiance", COLOUR, AT_MOST_ONE, NOT_NEGATIVE, "W/(m^2 sr)", "that of the material", NULL,                        \
+    {"radiance", COLOUR, AT_MOST_ONE, LIGHT, "W/(m^2 sr)", "that of the material", NULL,                        \
      AT(type, surface.radiance)},                                                                                      \
-    {"power", COLOUR, AT_MOST_ONE, NOT_NEGATIVE, "W", "none", NULL, AT(type, surface.power)}
+    {"power", COLOUR, AT_MOST_ONE, LIGHT, "W", "none", NULL, AT(type, surface.power)}
 
 static const rt_field camera_fields[] = {
     {"eye", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, eye)},
     {"look_at", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, look_at)},
     {"up", VECTOR, OPTIONAL, DIRECTION, "", "0 1 0", NULL, AT(rt_camera, up)},
     {"fov", NUMBER, OPTIONAL, BETWEEN(0, 180), "degrees", "45", NULL, AT(rt_camera, fov)},
-    {"aperture", NUMBER, OPTIONAL, NOT_NEGATIVE, "m", "0", NULL, AT(rt_camera, aperture)},
-    {"focal_distance", NUMBER, OPTIONAL, POSITIVE, "m", "that of look_at", NULL, AT(rt_camera, focal_distance)},
+    {"aperture", NUMBER, OPTIONAL, FROM_TO(0, 1e15), "m", "0", NULL, AT(rt_camera, aperture)},
+    {"focal_distance", NUMBER, OPTIONAL, LENGTH, "m", "that of look_at", NULL, AT(rt_camera, focal_distance)},
 };
 
 static const rt_field film_fields[] = {
@@ -69,11 +70,11 @@ static const rt_field render_fields[] = {
      AT(rt_render_options, max_depth)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
-    {"time", NUMBER, OPTIONAL, POSITIVE, "s", "no limit", NULL, AT(rt_render_options, time)},
+    {"time", NUMBER, OPTIONAL, ABOVE_TO(0, 1e9), "s", "no limit", NULL, AT(rt_render_options, time)},
     {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000", NULL,
      AT(rt_render_options, photons)},
     {"k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
-    {"radius", NUMBER, OPTIONAL, POSITIVE, "m", "no limit", NULL, AT(rt_render_options, radius)},
+    {"radius", NUMBER, OPTIONAL, LENGTH, "m", "no limit", NULL, AT(rt_render_options, radius)},
     {"kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, kernel)},
     {"cone_k", NUMBER, OPTIONAL, FROM_TO(1, 1e6), "", "1.1", NULL, AT(rt_render_options, cone_k)},
     {"direct", CHOICE, OPTIONAL, ANY, "", "nee", directs, AT(rt_render_options, direct)},
@@ -81,7 +82,7 @@ static const rt_field render_fields[] = {
      AT(rt_render_options, final_gather)},
     {"caustic_photons", INTEGER, OPTIONAL, FROM_TO(0, 4e9), "", "0", NULL, AT(rt_render_options, caustic_photons)},
     {"caustic_k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "that of k", NULL, AT(rt_render_options, caustic_k)},
-    {"caustic_radius", NUMBER, OPTIONAL, POSITIVE, "m", "that of radius", NULL, AT(rt_render_options, caustic_radius)},
+    {"caustic_radius", NUMBER, OPTIONAL, LENGTH, "m", "that of radius", NULL, AT(rt_render_options, caustic_radius)},
     {"caustic_kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, caustic_kernel)},
 };
 
@@ -89,7 +90,7 @@ static const rt_field material_fields[] = {
     {"kd", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kd)},
     {"ks", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, ks)},
     {"kt", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kt)},
-    {"emission", COLOUR, OPTIONAL, NOT_NEGATIVE, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission)},
+    {"emission", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission)},
     {"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL, AT(rt_material, ior)},
     {"fresnel", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, fresnel)},
     {"two_sided", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, two_sided)},
@@ -98,9 +99,9 @@ static const rt_field material_fields[] = {
 
 static const rt_field point_light_fields[] = {
     {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_point_light, position)},
-    {"intensity", COLOUR, ONE_OF, NOT_NEGATIVE, "W/sr", "this or power is required", NULL,
+    {"intensity", COLOUR, ONE_OF, LIGHT, "W/sr", "this or power is required", NULL,
      AT(rt_point_light, intensity)},
-    {"power", COLOUR, ONE_OF, NOT_NEGATIVE, "W", "this or intensity is required", NULL,
+    {"power", COLOUR, ONE_OF, LIGHT, "W", "this or intensity is required", NULL,
      AT(rt_point_light, power)},
 };
 
@@ -112,7 +113,7 @@ static const rt_field plane_fields[] = {
 
 static const rt_field sphere_fields[] = {
     {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_sphere_fields, centre)},
-    {"radius", NUMBER, REQUIRED, POSITIVE, "m", "", NULL, AT(rt_sphere_fields, radius)},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_sphere_fields, radius)},
     SURFACE(rt_sphere_fields),
     LAMP(rt_sphere_fields),
 };
@@ -230,10 +231,7 @@ const char *rt_range_phrase(char out[RT_PHRASE_SIZE], rt_range range)
         out[0] = '\0';
         break;
     case RT_RANGE_ABOVE:
-        snprintf(out, RT_PHRASE_SIZE, "greater than %.10g", range.low);
-        break;
-    case RT_RANGE_FROM:
-        snprintf(out, RT_PHRASE_SIZE, "at least %.10g", range.low);
+        snprintf(out, RT_PHRASE_SIZE, "greater than %.10g, at most %.10g", range.low, range.high);
         break;
     case RT_RANGE_CLOSED:
         snprintf(out, RT_PHRASE_SIZE, "from %.10g to %.10g", range.low, range.high);
@@ -252,9 +250,7 @@ int rt_range_holds(rt_range range, double value)
 {
     switch (range.kind) {
     case RT_RANGE_ABOVE:
-        return value > range.low;
-    case RT_RANGE_FROM:
-        return value >= range.low;
+        return value > range.low && value <= range.high;
     case RT_RANGE_CLOSED:
         return value >= range.low && value <= range.high;
     case RT_RANGE_BETWEEN:

@@ -7,7 +7,7 @@
 
 #define RT_NONE 0xffffffffu /* "no such element", wherever an index is asked */
 
-/* A ray: origin + t direction, t in [t_min, t_max]; the direction need not be of unit length. */
+/* A ray: origin + t direction, t in [t_min, t_max]; the direction need not be of unit length, see rt_trace. */
 typedef struct rt_ray {
     float origin[3]; /* metres */
     float t_min;

@@ -65,9 +65,13 @@
  * Option structs: set what you need, leave the rest zero; zero always means the default
  * that the member's comment states. Passing NULL for an option struct means all defaults.
  *
- * There is no global state. Different objects may be used from different threads at
- * once; one object from one thread at a time. The library does not print, exit, install
- * signal handlers or change the environment.
+ * There is no global state, but for one setting of FLANN, its type of distance: it belongs to the
+ * process, and the calls that search photons set it behind a lock of the library's own. Different
+ * objects may be used from different threads at once; one object from one thread at a time. The
+ * library does not print, exit, install signal handlers or change the environment.
+ *
+ * Coordinates lie within 1e15 metres, and the components of a colour, of whatever unit, between 0
+ * and 1e28; what lies outside is refused.
  */
 #ifndef RT_RT_H
 #define RT_RT_H
@@ -101,7 +105,7 @@ typedef enum rt_status {
     RT_ERROR_INPUT,  /* the scene or a file it names is wrong */
     RT_ERROR_USAGE,  /* an argument or an option is out of its range */
     RT_ERROR_DEVICE, /* no OpenCL platform or device, a kernel does not build, a launch fails */
-    RT_ERROR_OUTPUT, /* an image could not be written */
+    RT_ERROR_OUTPUT, /* a file could not be written */
     RT_ERROR_MEMORY, /* host or device memory is exhausted */
     RT_CANCELLED     /* a progress callback asked to stop */
 } rt_status;
@@ -177,8 +181,8 @@ typedef struct rt_load_options {
 RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options, rt_error *error);
 
 /*
- * The same from a string; `name` stands for the file in messages, and files that the text
- * names are looked up relative to the current directory.
+ * The same from a string, which must not be NULL; `name` stands for the file in messages, NULL means
+ * "text". Files that the text names are looked up relative to the current directory.
  */
 RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
                                 rt_error *error);
@@ -221,7 +225,8 @@ typedef struct rt_surface {
 /*
  * Shapes. Each call adds one and, if out is not NULL, writes its index, the one that
  * rt_hit.shape gives back. All fail with RT_ERROR_INPUT, error->field naming the parameter,
- * when a value is not finite or the shape has no extent; finite shapes can emit.
+ * when a value is not finite, out of range, or the shape has no extent: a radius below 1e-15 m or an
+ * area below 1e-30 m^2. Finite shapes can emit.
  */
 
 /* The infinite plane through `point`; normal need not be of unit length. u, v: metres along the plane. */
@@ -236,7 +241,8 @@ RT_API rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float c
 /*
  * Triangles: positions [vertex_count][3] in metres, indices [triangle_count][3], counter-clockwise
  * seen from the side of the normal; normals [vertex_count][3], one a vertex, or NULL for flat
- * shading. u, v: barycentric coordinates of the second and third vertex. The arrays are copied.
+ * shading; a normal that is zero is replaced by that of the triangle. u, v: barycentric coordinates of the
+ * second and third vertex. The arrays are copied.
  */
 RT_API rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions, size_t vertex_count,
                                         const uint32_t *indices, size_t triangle_count, const float *normals,
@@ -256,8 +262,9 @@ typedef struct rt_camera {
     float look_at[3];
     float up[3];          /* all zero means (0, 1, 0) */
     float fov;            /* full horizontal angle, degrees, below 180; 0 means 45 */
-    float aperture;       /* lens radius, metres; 0 is a pinhole */
-    float focal_distance; /* metres along the view axis to the plane in focus; 0 means that of look_at */
+    float aperture;       /* lens radius, metres, at most 1e15; 0 is a pinhole */
+    float focal_distance; /* metres along the view axis to the plane in focus, from 1e-15 to 1e15; 0 means that
+                             of look_at, which has the same range */
 } rt_camera;
 RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error);
 
@@ -288,12 +295,13 @@ typedef struct rt_render_options {
     uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
     uint32_t seed;          /* the same seed gives the same bits */
     rt_sampler sampler;
-    double time;            /* stop after so many seconds of rendering; 0: no limit */
+    double time;            /* stop after so many seconds of rendering, but only between passes that give every
+                               pixel a sample: the first one is always finished; 0: no limit */
     uint64_t photons;       /* photon paths emitted; 0 means 1 000 000. In passes, those of each pass; 0 means
                                one a pixel */
     uint32_t k;             /* nearest photons; 0 means 50. The k-th gives the radius and is not summed. RT_K_ALL: all
                                photons within `radius`, which must be given */
-    float radius;           /* largest gather radius, metres; 0: no limit */
+    float radius;           /* largest gather radius, metres, at least 1e-15; 0: no limit */
     rt_gather gather;
     uint32_t passes;        /* progressive photon mapping in so many passes, each with fresh photons and eye paths (spp
                                samples, 0 means 1), that gather all photons within a radius shrinking from pass to
@@ -375,8 +383,9 @@ typedef enum rt_trace_kind {
 } rt_trace_kind;
 
 /*
- * Follows count rays on the device and writes count hits. Rays must be finite, with a non-zero
- * direction and t_min <= t_max; t_max may be infinite.
+ * Follows count rays on the device and writes count hits. Rays must be finite, with an origin whose
+ * coordinates lie within 1e15, a direction of a length from 1e-15 to 1e15, and t_min <= t_max; t_max may be
+ * infinite. Fails with RT_ERROR_USAGE, naming the first ray that is not so.
  */
 RT_API rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays, size_t count, rt_hit *hits,
                           rt_error *error);
@@ -538,6 +547,15 @@ typedef struct rt_image_options {
  * Fails with RT_ERROR_USAGE for another extension and RT_ERROR_OUTPUT when it cannot be written.
  */
 RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error);
+
+/* ---- Files -------------------------------------------------------------- */
+
+/*
+ * Makes path hold exactly these bytes, or leaves it as it was, as rt_film_write does: by a temporary file
+ * in the same directory. A replaced file keeps its permissions; a symbolic link stays and its target is
+ * written; what is no regular file (a device, a pipe) is written in place. Fails with RT_ERROR_OUTPUT.
+ */
+RT_API rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,5 @@
 /* path_mode.c - drives the path tracing kernel over the film. */
+#include <math.h>
 #include <string.h>
 
 #include "error.h"
@@ -53,7 +54,10 @@ static rt_status launch_part(rt_renderer *renderer, cl_kernel kernel, rt_params 
     return status;
 }
 
-/* The whole film, pass by pass; a pass gives every pixel the same number of samples. */
+/*
+ * The whole film, pass by pass; a pass gives every pixel the same number of samples. A pass that has begun is
+ * finished, also when the time is over: all pixels have samples, and equally many.
+ */
 static rt_status render_passes(rt_renderer *renderer, cl_kernel kernel, const rt_render_options *options,
                                rt_stage_progress *progress, rt_error *error)
 {
@@ -69,7 +73,7 @@ static rt_status render_passes(rt_renderer *renderer, cl_kernel kernel, const rt
             double launched = rt_clock();
             status = launch_part(renderer, kernel, &params, &s, samples, error);
             double now = rt_clock(), by_samples = (s.sample + (double)samples * s.pixel / s.pixels) / s.spp;
-            double by_time = options->time > 0 ? (now - began) / options->time : 0;
+            double by_time = options->time > 0 ? fmin((now - began) / options->time, 1) : 0;
             adapt(&s, now - launched);
             if (status == RT_OK)
                 status = rt_stage_update(progress, by_samples > by_time ? by_samples : by_time);

@@ -112,9 +112,9 @@ static rt_status complete_camera(rt_camera *c, rt_error *error)
     if (!(c->fov > 0 && c->fov < 180))
         return rt_fail_field(error, RT_ERROR_INPUT, "fov", "camera: fov is %g degrees; it must lie between 0 and 180",
                              c->fov);
-    if (!(c->aperture >= 0 && c->aperture <= 3e38f))
-        return rt_fail_field(error, RT_ERROR_INPUT, "aperture", "camera: aperture is %g m; it must not be negative",
-                             c->aperture);
+    if (!(c->aperture >= 0 && c->aperture <= RT_COORDINATE_MAX))
+        return rt_fail_field(error, RT_ERROR_INPUT, "aperture",
+                             "camera: aperture is %g m; it must lie between 0 and %g", c->aperture, RT_COORDINATE_MAX);
     rt_vec_sub(axis, c->look_at, c->eye);
     rt_vec_sub(up, c->up, origin);
     if (!(rt_vec_length(axis) > 0))
@@ -122,11 +122,14 @@ static rt_status complete_camera(rt_camera *c, rt_error *error)
     rt_vec_cross(side, axis, up);
     if (!(rt_vec_length(side) > 1e-6 * rt_vec_length(axis) * rt_vec_length(up)))
         return rt_fail_field(error, RT_ERROR_INPUT, "up", "camera: up is parallel to the direction of view");
-    if (c->focal_distance == 0)
+    int is_given = c->focal_distance != 0;
+    if (!is_given)
         c->focal_distance = (float)rt_vec_length(axis);
-    if (!(c->focal_distance > 0 && c->focal_distance <= 3e38f))
-        return rt_fail_field(error, RT_ERROR_INPUT, "focal_distance",
-                             "camera: focal_distance is %g m; it must be positive", c->focal_distance);
+    if (!(c->focal_distance >= RT_LENGTH_MIN && c->focal_distance <= RT_COORDINATE_MAX))
+        return rt_fail_field(error, RT_ERROR_INPUT, is_given ? "focal_distance" : "look_at",
+                             "camera: %s is %g m; it must lie between %g and %g",
+                             is_given ? "focal_distance" : "the distance from eye to look_at", c->focal_distance,
+                             RT_LENGTH_MIN, RT_COORDINATE_MAX);
     return RT_OK;
 }
 
@@ -147,6 +150,9 @@ rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error
 
 rt_status rt_scene_set_options(rt_scene *scene, const rt_render_options *options, rt_error *error)
 {
+    static const rt_render_options defaults;
+    if (!options)
+        options = &defaults;
     rt_status status = rt_options_check(options, error);
     if (status != RT_OK)
         return status;

@@ -38,6 +38,9 @@ void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape,
 /* Area of one primitive of a finite shape, m^2. */
 double rt_scene_primitive_area(const rt_scene_shape *shape, size_t primitive);
 
+/* Most samples that a pixel can have. */
+enum { RT_SPP_MAX = 1 << 24 };
+
 /* Checks options for values out of their range; used for the scene's own and for rt_render's. */
 rt_status rt_options_check(const rt_render_options *options, rt_error *error);
 

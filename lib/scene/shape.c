@@ -69,6 +69,21 @@ void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape,
     }
 }
 
+/* A power may be too much for the shape's area. */
+static rt_status check_lamp(const rt_scene *scene, const rt_scene_shape *shape, const char *who, rt_error *error)
+{
+    float radiance[3];
+    if (rt_is_black(shape->surface.power))
+        return RT_OK;
+    rt_scene_shape_radiance(scene, shape, radiance);
+    for (int i = 0; i < 3; i++)
+        if (!(radiance[i] <= RT_COLOUR_MAX))
+            return rt_fail_field(error, RT_ERROR_INPUT, "power",
+                                 "%s: power is %g W on %g m^2; the radiance must not exceed %g W/(m^2 sr)", who,
+                                 shape->surface.power[i], shape_area(shape), RT_COLOUR_MAX);
+    return RT_OK;
+}
+
 /* Checks what all shapes share and appends; on success the scene owns the shape's arrays. */
 static rt_status add_shape(rt_scene *scene, uint32_t *out, const rt_scene_shape *shape, const char *who,
                            rt_error *error)
@@ -90,6 +105,8 @@ static rt_status add_shape(rt_scene *scene, uint32_t *out, const rt_scene_shape 
         if (!rt_is_black(radiance) || !rt_is_black(scene->materials[s->material].emission))
             return rt_fail_field(error, RT_ERROR_INPUT, field, "plane: an infinite plane cannot emit");
     }
+    if ((status = check_lamp(scene, shape, who, error)) != RT_OK)
+        return status;
     if (scene->shape_count >= shapes_max)
         return rt_fail(error, RT_ERROR_INPUT, "more than %d shapes", shapes_max);
     status = rt_grow((void **)&scene->shapes, &scene->shape_room, scene->shape_count, sizeof *shape, error);
@@ -130,8 +147,9 @@ rt_status rt_scene_add_sphere(rt_scene *scene, uint32_t *out, const float centre
     rt_status status = rt_check_point(centre, "sphere", "centre", error);
     if (status != RT_OK)
         return status;
-    if (!(radius > 0 && radius <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, "radius", "sphere: radius is %g m; it must be positive", radius);
+    if (!(radius >= RT_LENGTH_MIN && radius <= RT_COORDINATE_MAX))
+        return rt_fail_field(error, RT_ERROR_INPUT, "radius", "sphere: radius is %g m; it must lie between %g and %g",
+                             radius, RT_LENGTH_MIN, RT_COORDINATE_MAX);
     memcpy(shape.p, centre, 3 * sizeof *centre);
     shape.p[3] = radius;
     return add_shape(scene, out, &shape, "sphere", error);
@@ -150,8 +168,12 @@ rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3
     memcpy(shape.p, corner, 3 * sizeof *corner);
     memcpy(shape.p + 3, edge1, 3 * sizeof *edge1);
     memcpy(shape.p + 6, edge2, 3 * sizeof *edge2);
-    if (!(rt_scene_primitive_area(&shape, 0) > 0))
+    double area = rt_scene_primitive_area(&shape, 0);
+    if (!(area > 0))
         return rt_fail_field(error, RT_ERROR_INPUT, "edge2", "quad: its area is zero; edge1 and edge2 must not be parallel");
+    if (area < RT_AREA_MIN)
+        return rt_fail_field(error, RT_ERROR_INPUT, "edge2", "quad: its area is %g m^2; it must be at least %g", area,
+                             RT_AREA_MIN);
     return add_shape(scene, out, &shape, "quad", error);
 }
 
@@ -183,6 +205,19 @@ static rt_status check_triangles(const float *positions, size_t vertex_count, co
     return status;
 }
 
+static rt_status check_area(const rt_scene_shape *triangles, rt_error *error)
+{
+    double area = shape_area(triangles);
+    int is_one = triangles->triangle_count == 1;
+    if (!(area > 0))
+        return rt_fail_field(error, RT_ERROR_INPUT, "positions",
+                             is_one ? "triangle: its area is zero" : "triangles: all have zero area");
+    if (area < RT_AREA_MIN)
+        return rt_fail_field(error, RT_ERROR_INPUT, "positions", "%s: area %g m^2; it must be at least %g",
+                             is_one ? "triangle" : "triangles, together", area, RT_AREA_MIN);
+    return RT_OK;
+}
+
 rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions, size_t vertex_count,
                                  const uint32_t *indices, size_t triangle_count, const float *normals,
                                  const rt_surface *surface, rt_error *error)
@@ -199,10 +234,7 @@ rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *po
     shape.normals = normals ? copy(normals, vertex_count, 3 * sizeof *normals) : NULL;
     if (!shape.positions || !shape.indices || (normals && !shape.normals))
         status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu triangles", triangle_count);
-    else if (!(shape_area(&shape) > 0))
-        status = rt_fail_field(error, RT_ERROR_INPUT, "positions",
-                               triangle_count == 1 ? "triangle: its area is zero" : "triangles: all have zero area");
-    else
+    else if ((status = check_area(&shape, error)) == RT_OK)
         status = add_shape(scene, out, &shape, "triangles", error);
     if (status != RT_OK) {
         free(shape.positions);
