@@ -27,6 +27,7 @@ typedef enum option_id {
     OPTION_GATHER,
     OPTION_PASSES,
     OPTION_ALPHA,
+    OPTION_PHOTON_LAYERS,
     OPTION_KERNEL,
     OPTION_CONE_K,
     OPTION_DIRECT,
