@@ -23,6 +23,7 @@
 static const char *const modes[] = {"path", "photon", NULL};
 static const char *const samplers[] = {"sobol", "independent", NULL};
 static const char *const gathers[] = {"auto", "flann", "device", NULL};
+static const char *const areas[] = {"disc", "hull", NULL};
 static const char *const directs[] = {"nee", "photons", NULL};
 static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian", "silverman", "gaussian_jensen", NULL};
 
@@ -80,6 +81,7 @@ static const rt_field render_fields[] = {
     {"alpha", NUMBER, OPTIONAL, BETWEEN(0, 1), "", "2/3", NULL, AT(rt_render_options, alpha)},
     {"kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, kernel)},
     {"cone_k", NUMBER, OPTIONAL, FROM_TO(1, 1e6), "", "1.1", NULL, AT(rt_render_options, cone_k)},
+    {"area", CHOICE, OPTIONAL, ANY, "", "disc", areas, AT(rt_render_options, area)},
     {"direct", CHOICE, OPTIONAL, ANY, "", "nee", directs, AT(rt_render_options, direct)},
     {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL,
      AT(rt_render_options, final_gather)},

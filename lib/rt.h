@@ -303,6 +303,8 @@ typedef struct rt_render_options {
     float alpha;            /* between 0 and 1, the larger the slower the radius shrinks; 0 means 2/3 */
     int photon_layers;      /* 1: also the layers photon.count and the like, see rt_film_layer */
     rt_density kernel;      /* density kernel, see common.h */
+    rt_area area;           /* what the flux is divided by; RT_AREA_HULL leaves the density kernel out, and is for
+                               the k nearest by FLANN */
     float cone_k;           /* constant of the cone kernel; 0 means 1.1 */
     rt_direct direct;
     uint32_t final_gather;  /* gather after so many diffuse bounces instead of at the first hit */
