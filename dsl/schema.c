@@ -23,6 +23,8 @@
 /* The order of each list is that of its enum in rt.h or common.h. */
 static const char *const modes[] = {"path", "photon", NULL};
 static const char *const samplers[] = {"sobol", "independent", NULL};
+static const char *const gathers[] = {"auto", "flann", "device", NULL};
+static const char *const areas[] = {"disc", "hull", NULL};
 static const char *const directs[] = {"nee", "photons", NULL};
 static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian", "silverman", "gaussian_jensen", NULL};
 
@@ -64,19 +66,23 @@ static const rt_field film_fields[] = {
 
 static const rt_field render_fields[] = {
     {"mode", CHOICE, OPTIONAL, ANY, "", "path", modes, AT(rt_render_options, mode)},
-    {"spp", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "64, in mode photon 16", NULL,
+    {"spp", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "64, in mode photon 16, in passes 1", NULL,
      AT(rt_render_options, spp)},
     {"max_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "16", NULL,
      AT(rt_render_options, max_depth)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
     {"time", NUMBER, OPTIONAL, ABOVE_TO(0, 1e9), "s", "no limit", NULL, AT(rt_render_options, time)},
-    {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000", NULL,
+    {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000, in passes one a pixel", NULL,
      AT(rt_render_options, photons)},
     {"k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
     {"radius", NUMBER, OPTIONAL, LENGTH, "m", "no limit", NULL, AT(rt_render_options, radius)},
+    {"gather", CHOICE, OPTIONAL, ANY, "", "auto", gathers, AT(rt_render_options, gather)},
+    {"passes", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "1", NULL, AT(rt_render_options, passes)},
+    {"alpha", NUMBER, OPTIONAL, BETWEEN(0, 1), "", "2/3", NULL, AT(rt_render_options, alpha)},
     {"kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, kernel)},
     {"cone_k", NUMBER, OPTIONAL, FROM_TO(1, 1e6), "", "1.1", NULL, AT(rt_render_options, cone_k)},
+    {"area", CHOICE, OPTIONAL, ANY, "", "disc", areas, AT(rt_render_options, area)},
     {"direct", CHOICE, OPTIONAL, ANY, "", "nee", directs, AT(rt_render_options, direct)},
     {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL,
      AT(rt_render_options, final_gather)},

@@ -74,4 +74,11 @@ typedef enum rt_direct {
     RT_DIRECT_PHOTONS  /* all light at a diffuse surface comes from the map */
 } rt_direct;
 
+/* The area that photons are taken to be spread over. */
+typedef enum rt_area {
+    RT_AREA_DISC = 0, /* the disc that they lie in, photons weighted by the density kernel */
+    RT_AREA_HULL      /* their convex hull in the tangent plane, those at its corners left out: true at the edges of
+                         surfaces as well, a little noisier elsewhere */
+} rt_area;
+
 #endif

@@ -308,8 +308,11 @@ typedef struct rt_render_options {
                                pass: r_{i+1}^2 = r_i^2 (i + alpha)/(i + 1) (Knaus and Zwicker 2011). The film is the mean
                                of the passes. r_1 is `radius`, or if that is 0 the mean distance of the k-th photon
                                in the first pass. 0 and 1: no passes */
-    float alpha;            /* how fast the radius shrinks, between 0 and 1; 0 means 2/3 */
+    float alpha;            /* between 0 and 1, the larger the slower the radius shrinks; 0 means 2/3 */
+    int photon_layers;      /* 1: also the layers photon.count and the like, see rt_film_layer */
     rt_density kernel;      /* density kernel, see common.h */
+    rt_area area;           /* what the flux is divided by; RT_AREA_HULL leaves the density kernel out, and is for
+                               the k nearest by FLANN */
     float cone_k;           /* constant of the cone kernel; 0 means 1.1 */
     rt_direct direct;
     uint32_t final_gather;  /* gather after so many diffuse bounces instead of at the first hit */
@@ -518,6 +521,17 @@ RT_API void rt_film_destroy(rt_film *film);
 RT_API const float *rt_film_rgb(const rt_film *film);
 RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height);
 
+/*
+ * A layer of the film, [height][width][*channels], top row first; owned by the film. NULL when there is none of
+ * that name. channels may be NULL. With rt_render_options.photon_layers, of one channel each:
+ *   photon.count     mean number of photons that count at the end of an eye path
+ *   photon.radius    mean radius of the disc that they lie in, m
+ *   photon.density   mean of their number over the disc's area, 1/m^2
+ *   photon.variance  variance of the pixel, the mean of its three channels, estimated from its samples. In passes
+ *                    these are independent; in one pass they share their photons, whose part it leaves out
+ */
+RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
+
 typedef struct rt_film_stats {
     uint32_t spp;              /* samples that every pixel has */
     uint64_t rejected;         /* samples left out because they were not finite */
@@ -543,7 +557,7 @@ typedef struct rt_image_options {
 
 /*
  * Writes the film in the format of the file's extension: .exr (linear float, with the seed, samples and
- * version as attributes), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
+ * version as attributes, and the layers), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
  * Fails with RT_ERROR_USAGE for another extension and RT_ERROR_OUTPUT when it cannot be written.
  */
 RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error);

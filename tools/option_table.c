@@ -17,6 +17,7 @@ static const option_choice accels[] = {{"bvh", RT_ACCEL_BVH}, {"none", RT_ACCEL_
 static const option_choice directs[] = {{"nee", RT_DIRECT_NEE}, {"photons", RT_DIRECT_PHOTONS}, {NULL, 0}};
 static const option_choice gathers[] = {
     {"auto", RT_GATHER_AUTO}, {"flann", RT_GATHER_FLANN}, {"device", RT_GATHER_DEVICE}, {NULL, 0}};
+static const option_choice areas[] = {{"disc", RT_AREA_DISC}, {"hull", RT_AREA_HULL}, {NULL, 0}};
 static const option_choice all_photons[] = {{"all", (int)RT_K_ALL}, {NULL, 0}};
 static const option_choice kernels[] = {
     {"box", RT_DENSITY_BOX},
@@ -76,11 +77,16 @@ const option option_table[OPTION_COUNT] = {
                        "photon"},
     [OPTION_ALPHA] = {"alpha", "A", KIND_REAL, GROUP_PHOTON, RENDER, 0, 1, NULL, 1, "2/3",
                       "how slowly the radius of --passes shrinks, between 0 and 1"},
+    [OPTION_PHOTON_LAYERS] = {"photon-layers", NULL, KIND_FLAG, GROUP_PHOTON, RENDER, 0, 0, NULL, 0, NULL,
+                              "add layers to an .exr: photon.count, photon.radius, photon.density, photon.variance"},
     [OPTION_KERNEL] = {"kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1, "epanechnikov",
                        "density kernel; gaussian-jensen, for comparison only, keeps the often printed constant "
                        "that loses 47 % of the light"},
     [OPTION_CONE_K] = {"cone-k", "C", KIND_REAL, GROUP_PHOTON, RENDER, 1, 1e6, NULL, 1, "1.1",
                        "constant of the cone kernel, at least 1"},
+    [OPTION_AREA] = {"area", "WHAT", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, areas, 1, "disc",
+                     "area that photons are spread over: the disc around them, or their convex hull, which is true at the "
+                     "edges of surfaces too, and leaves the density kernel out"},
     [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, directs, 1, "nee",
                        "direct light by shadow rays (nee) or from the photon map"},
     [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, 4096, NULL, 1, "0",

@@ -33,6 +33,7 @@ void rt_film_destroy(rt_film *film)
     rt_ledger_free(&film->ledger);
     free(film->pixels);
     free(film->rgb);
+    free(film->photon_layers);
     free(film);
 }
 
@@ -62,6 +63,18 @@ void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height)
 {
     *width = film->options.width;
     *height = film->options.height;
+}
+
+const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels)
+{
+    size_t pixels = (size_t)film->options.width * film->options.height;
+    for (size_t i = 0; i < RT_PHOTON_LAYERS && film->photon_layers; i++)
+        if (strcmp(name, rt_photon_layer_names[i]) == 0) {
+            if (channels)
+                *channels = 1;
+            return film->photon_layers + i * pixels;
+        }
+    return NULL;
 }
 
 void rt_film_get_stats(const rt_film *film, rt_film_stats *out)

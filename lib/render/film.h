@@ -12,7 +12,12 @@ struct rt_film {
     rt_ledger ledger; /* of all photon paths */
     rt_film_pixel *pixels; /* [height][width], the sums */
     float *rgb;            /* [height][width][3], the means */
+    float *photon_layers;  /* [RT_PHOTON_LAYERS][height][width], or NULL */
 };
+
+/* Layers for the study of photon mapping, and their names. */
+enum { RT_PHOTON_LAYERS = 4 };
+extern const char *const rt_photon_layer_names[RT_PHOTON_LAYERS];
 
 /* A black film for complete options; the caller owns *out. */
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error);

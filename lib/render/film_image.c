@@ -35,14 +35,23 @@ static rt_status describe(rt_image *image, const rt_film *film, const rt_image_o
 
 rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error)
 {
-    static const char *const names[] = {"R", "G", "B"};
+    const char *names[3 + RT_PHOTON_LAYERS] = {"R", "G", "B"};
     const rt_render_options *o = &film->options;
     rt_image *image = NULL;
+    size_t pixels = (size_t)o->width * o->height;
+    uint32_t layers = film->photon_layers ? RT_PHOTON_LAYERS : 0;
 
-    rt_status status = rt_image_create(&image, o->width, o->height, names, 3, error);
+    for (uint32_t i = 0; i < layers; i++)
+        names[3 + i] = rt_photon_layer_names[i];
+    rt_status status = rt_image_create(&image, o->width, o->height, names, 3 + layers, error);
     if (status != RT_OK)
         return status;
-    memcpy(image->data, film->rgb, (size_t)o->width * o->height * 3 * sizeof *film->rgb);
+    for (size_t i = 0; i < pixels; i++) {
+        float *pixel = image->data + i * (3 + layers);
+        memcpy(pixel, film->rgb + 3 * i, 3 * sizeof *pixel);
+        for (uint32_t layer = 0; layer < layers; layer++)
+            pixel[3 + layer] = film->photon_layers[layer * pixels + i];
+    }
     status = describe(image, film, options, error);
     if (status == RT_OK)
         status = rt_image_write(image, path, options, error);

@@ -6,6 +6,7 @@
 #define RT_LIB_RENDER_PHOTON_EYE_H
 
 #include "photon/gather.h"
+#include "render/photon_layers.h"
 #include "render/renderer.h"
 
 /* The kernels of the eye's half. */
@@ -26,6 +27,9 @@ typedef struct rt_photon_eye {
     cl_mem caustics; /* rt_gather_point [rows][capacity] */
     cl_mem pixels;   /* rt_film_pixel, the film on the device */
     rt_gather_disc *discs; /* [capacity], what was found at the points */
+    rt_gather_disc *way_discs; /* [capacity], and at the caustic points */
+    rt_photon_layer_sum *layers;  /* a pixel, or NULL when there are none */
+    rt_gather_point *host_points; /* for them: [1 + rows][capacity] points and caustics */
 } rt_photon_eye;
 
 /* What the eye asks: lists of photons made ready; each may be NULL. */
@@ -58,7 +62,7 @@ rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint
 rt_status rt_photon_eye_mean_radius(rt_photon_eye *eye, rt_gatherer *gatherer, uint32_t sample, double *out,
                                     rt_stage_progress *progress, rt_error *error);
 
-/* Reads the film. */
+/* Reads the film, and makes its layers. */
 rt_status rt_photon_eye_read(const rt_photon_eye *eye, rt_film *film, rt_error *error);
 
 #endif

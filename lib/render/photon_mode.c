@@ -50,6 +50,9 @@ static rt_status check(const rt_render_options *o, rt_error *error)
         return rt_fail_field(error, RT_ERROR_USAGE, "gather",
                              "FLANN finds the k nearest photons only; %s, gather on the device",
                              in_passes ? "in passes" : "for all within a radius");
+    if (o->area == RT_AREA_HULL && (all || in_passes || o->gather == RT_GATHER_DEVICE))
+        return rt_fail_field(error, RT_ERROR_USAGE, "area",
+                             "the hull is for the k nearest photons by FLANN, not for passes or the device");
     if (!in_passes && ((o->k == RT_K_ALL && o->radius == 0) || (o->caustic_k == RT_K_ALL && o->caustic_radius == 0)))
         return rt_fail_field(error, RT_ERROR_USAGE, "radius", "to gather all photons within a radius, give the radius");
     if ((uint64_t)o->passes * o->spp > UINT32_MAX)
@@ -85,8 +88,9 @@ static rt_status prepare(photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->options;
     r->map.settings = (rt_photon_settings){0, o->max_depth, o->sampler, o->direct, o->caustic_photons > 0};
-    r->how[WAY_GLOBAL] = (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, r->on_device};
-    r->how[WAY_CAUSTIC] = (rt_gather_options){o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, r->on_device};
+    r->how[WAY_GLOBAL] = (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->on_device};
+    r->how[WAY_CAUSTIC] = (rt_gather_options){o->caustic_k,    o->caustic_radius, o->caustic_kernel,
+                                            o->cone_k, o->area, r->on_device};
     r->how[WAY_ON_THE_WAY] = r->how[r->in_use->settings.split ? WAY_CAUSTIC : WAY_GLOBAL];
     for (int way = 0; way < WAYS; way++) {
         rt_gather_options *how = r->how + way;

@@ -78,6 +78,8 @@ static rt_status check_enums(const rt_render_options *o, rt_error *error)
     if ((unsigned)o->caustic_kernel > RT_DENSITY_GAUSSIAN_JENSEN)
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_kernel", "there is no density kernel %d",
                              (int)o->caustic_kernel);
+    if ((unsigned)o->area > RT_AREA_HULL)
+        return rt_fail_field(error, RT_ERROR_USAGE, "area", "there is no area %d", (int)o->area);
     if ((unsigned)o->gather > RT_GATHER_DEVICE)
         return rt_fail_field(error, RT_ERROR_USAGE, "gather", "there is no way %d to gather", (int)o->gather);
     if ((unsigned)o->direct > RT_DIRECT_PHOTONS)

@@ -78,7 +78,7 @@ static const struct {
     {"devices a.rts", "takes no argument"},
     {"doctor a.rts", "takes no argument but options"},
     {"check --help=yes", "--help takes no value"},
-    {"a.rts --caustic-k 1", "--caustic-k: "},
+    {"a.rts --caustic-k 1", "--caustic-k takes a whole number from 2 to 65536"},
     {"a.rts --caustic-kernel q", "--caustic-kernel takes one of"},
     {"a.rts --part 1/2", "takes no option --part"},
     {"photons", "usage: rtc photons"},
