@@ -47,7 +47,7 @@ LIB_SRC := \
 	lib/photon/photon_map.c lib/photon/fingerprint.c lib/photon/ledger.c lib/photon/sources.c \
 	lib/photon/crc32.c lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
 	lib/render/photon_irradiance.c lib/render/photon_maps.c \
-	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/layers.c lib/render/photon_eye.c lib/render/photon_mode.c \
+	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c lib/render/aov.c lib/render/photon_eye.c lib/render/photon_layers.c lib/render/photon_mode.c \
 	lib/render/render.c lib/render/renderer.c lib/render/sample_mode.c lib/render/sobol.c lib/render/trace.c \
 	lib/texture/half.c lib/texture/texture.c
 
@@ -191,7 +191,7 @@ TESTS_CORPUS := tests/corpus/test_img.c tests/corpus/test_ply.c
 check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
 	tests/run.sh $(call TEST_BIN,$(TESTS_CORPUS))
 
-# Everything again with the address and undefined-behaviour sanitizers.
+# The quick tests again, with the address and undefined-behaviour sanitizers.
 SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
 check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
@@ -255,9 +255,12 @@ uninstall:
 help:
 	@echo 'make                 builds $(B)/rtc, $(B)/librt.a and $(B)/$(SONAME)'
 	@echo 'make demo            installs what is missing, builds, renders scenes/cornell.rts to cornell.png'
-	@echo 'make check           installs what is missing, builds, runs every test'
+	@echo 'make check           installs what is missing, builds, runs the tests'
 	@echo 'make check-quick     only the tests that take seconds'
 	@echo 'make check-sanitize  the quick tests under the address and undefined-behaviour sanitizers'
+	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE, by another program'
+	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
+	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'

@@ -18,6 +18,16 @@
 #include "surface_at.h"
 #include "types.h"
 
+/*
+ * Whether the ray can be followed: its numbers are finite and small enough for what make_ray_slabs does with
+ * them. A comparison with NaN fails, so without this the boxes of unused lanes would be met.
+ */
+INLINE_ALWAYS bool can_follow(const struct ray *ray)
+{
+    const float3 size = fabs(ray->origin) + fabs(ray->direction);
+    return size.x + size.y + size.z <= 0x1p53f;
+}
+
 /* The ray's constants for boxes: the distance to a plane is plane * rate + shift. */
 struct ray_slabs {
     float3 near_rate, near_shift; /* never above the true distance */
@@ -30,12 +40,12 @@ struct ray_slabs {
  * With e = 2^-24, the distance (plane - origin) rate is off by at most 4 e of itself and 4 e |origin rate|; both
  * are allowed for twice. Making rates smaller and larger widens what lies ahead of the origin; what lies behind,
  * where t_min allows it, is widened by as much through the slack. A direction component near 0 is taken as
- * 2^-80: then distances are finite, and far beyond any other, wherever the plane is not within rounding of the
- * origin.
+ * 2^-74: then, for rays that can be followed, rates and shifts are finite, and distances far beyond any other
+ * wherever the plane is not within rounding of the origin.
  */
 INLINE_ALWAYS struct ray_slabs make_ray_slabs(const struct ray *ray)
 {
-    const float least = 0x1p-80f, relative = 0x1p-21f, absolute = 0x1p-60f;
+    const float least = 0x1p-74f, relative = 0x1p-21f, absolute = 0x1p-60f;
     const float3 direction = copysign(fmax(fabs(ray->direction), (float3)(least)), ray->direction);
     const float3 rate = 1.0f / direction;
     const float behind = fmax(-ray->t_min, 0.0f) * (2.0f * relative);
@@ -288,6 +298,8 @@ INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, 
 {
     hit->t = ray->t_max;
     hit->prim = RT_NONE;
+    if (!can_follow(ray))
+        return false;
     for (uint i = 0; i < scene->header->plane_count; i++)
         test_shape(scene, ray, scene->planes[i], hit);
     if (scene->header->accel == RT_ACCEL_BVH)
@@ -404,6 +416,8 @@ static inline bool all_occlude(const struct scene *scene, const struct ray *ray)
 /* Whether the ray meets anything in [t_min, t_max]; stops at the first. */
 INLINE_NEVER bool occluded(const struct scene *scene, const struct ray *ray)
 {
+    if (!can_follow(ray))
+        return false;
     for (uint i = 0; i < scene->header->plane_count; i++)
         if (shape_occludes(scene, ray, scene->planes[i]))
             return true;

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "kernels/rays.h"
+#include "render/renderer.h"
 #include "support.h"
 
 /* Traces through the tree and through everything, expects equal results, and returns the number of hits. */
@@ -269,6 +270,51 @@ static void closed_meshes_do_not_leak(void **state)
     }
 }
 
+/* Launches a kernel of trace.cl itself: rt_trace would refuse these rays. */
+static void launch(rt_renderer *renderer, const char *name, const rt_ray *rays, rt_u32 count, rt_hit *hits)
+{
+    cl_kernel kernel = NULL;
+    rt_error error;
+    expect_ok(rt_device_kernel(test_device(), &kernel, "trace", name, NULL, &error), &error);
+    cl_mem in = test_buffer(count * sizeof *rays, rays), out = test_buffer(count * sizeof *hits, NULL);
+    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(count), RT_ARG(out)};
+    test_run(kernel, args, 4, count);
+    test_read(out, count * sizeof *hits, hits);
+    rt_buffer_release(in);
+    rt_buffer_release(out);
+    rt_kernel_release(kernel);
+}
+
+static void rays_that_cannot_be_followed_miss(void **state)
+{
+    (void)state;
+    const rt_ray rays[] = {
+        {{0, 0, -3}, 0, {NAN, NAN, NAN}, INFINITY},           {{0, 0, -3}, 0, {0, 0, NAN}, INFINITY},
+        {{NAN, NAN, NAN}, 0, {0, 0, 1}, INFINITY},            {{0, NAN, -3}, 0, {0, 0, 1}, INFINITY},
+        {{0, 0, -3}, 0, {INFINITY, 0, 0}, INFINITY},          {{INFINITY, INFINITY, 0}, 0, {0, 0, 1}, INFINITY},
+        {{-INFINITY, INFINITY, 0}, 0, {NAN, 0, 1}, INFINITY}, {{1e30f, 1e30f, -3}, 0, {0, 0, 1}, INFINITY},
+        {{0, 0, -3}, 0, {0, 0, 0}, INFINITY},                 {{1e15f, 1e15f, -3}, 0, {0, 0, 1}, INFINITY},
+    };
+    enum { count = sizeof rays / sizeof *rays };
+    rays_stream stream = {10};
+    rt_hit hits[count];
+    rt_scene *scene = rays_scene(), *empty = rays_scene();
+    add_soup(scene, &stream, 1000, 0.2f, 1.0f, nowhere);
+    rays_add_sphere(scene, nowhere, 0.5f);
+    rt_renderer *renderers[] = {rays_renderer(scene, RT_ACCEL_BVH), rays_renderer(empty, RT_ACCEL_BVH)};
+    for (int i = 0; i < 2; i++) {
+        launch(renderers[i], "trace_closest", rays, count, hits);
+        for (int k = 0; k < count; k++)
+            assert_int_equal(hits[k].shape, RT_NONE);
+        launch(renderers[i], "trace_any", rays, count, hits);
+        for (int k = 0; k < count; k++)
+            assert_int_equal(hits[k].shape, RT_NONE);
+        rt_renderer_destroy(renderers[i]);
+    }
+    rt_scene_destroy(scene);
+    rt_scene_destroy(empty);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -278,6 +324,7 @@ int main(void)
         cmocka_unit_test(an_empty_scene_is_missed),
         cmocka_unit_test(the_range_includes_its_ends),
         cmocka_unit_test(closed_meshes_do_not_leak),
+        cmocka_unit_test(rays_that_cannot_be_followed_miss),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
