@@ -3,7 +3,8 @@
  *
  * A path starts with the flux of all lights divided by the number of paths, in the colour of the
  * light that was chosen, and leaves a photon at each surface that reflects diffusely; specular events, perfect or
- * rough, are followed, here and from the eye, and are no part of what a photon stands for. Its photons go to slots of its own, so that the map does not depend on the order in which paths are followed.
+ * rough, are followed, here and from the eye, and are no part of what a photon stands for. Its photons go to slots
+ * of its own, so that the map does not depend on the order in which paths are followed.
  *
  * A path has at most max_depth - 1 segments: with the one segment from the eye to the place
  * where the map is asked, that is the longest path of path tracing.
