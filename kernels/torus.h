@@ -100,20 +100,20 @@ static inline float torus_root(const struct line *line, float minor, float sign,
     struct torus_point at = out; /* from here Newton's method comes nearer without passing the root */
     for (int i = 0; i < 40; i++) {
         const float lo = fmin(out.s, in.s), hi = fmax(out.s, in.s);
-        float s = at.s - at.h / at.slope;
+        const float step = at.h / at.slope;
+        float s = at.s - step;
+        if (fabs(step) <= 0x1p-24f + 0x1p-23f * fabs(s))
+            return clamp(s, lo, hi);
         if (!(s > lo && s < hi)) {
             s = 0.5f * (lo + hi);
             if (!(s > lo && s < hi))
                 break;
         }
-        const float step = s - at.s;
         at = torus_at(line, minor, sign, s);
         if (at.h < 0.0f)
             in = at;
         else
             out = at;
-        if (fabs(step) <= 0x1p-24f * fabs(s))
-            break;
     }
     return at.s;
 }
