@@ -255,7 +255,7 @@ INLINE_ALWAYS void test_leaf(const struct scene *scene, const struct ray *ray, c
                              uint child, struct hit *hit)
 {
     const uint index = child & RT_CHILD_INDEX;
-    if (child & RT_CHILD_ANALYTIC)
+    if (SELDOM(child & RT_CHILD_ANALYTIC))
         test_shape(scene, ray, scene->analytic[index], hit);
     else
         test_block(scene, ray, frame, index, hit);
@@ -372,8 +372,9 @@ INLINE_ALWAYS bool leaf_occludes(const struct scene *scene, const struct ray *ra
                                  uint leaf)
 {
     const uint index = leaf & RT_CHILD_INDEX;
-    return leaf & RT_CHILD_ANALYTIC ? shape_occludes(scene, ray, scene->analytic[index])
-                                    : block_occludes(scene, ray, frame, index);
+    if (SELDOM(leaf & RT_CHILD_ANALYTIC))
+        return shape_occludes(scene, ray, scene->analytic[index]);
+    return block_occludes(scene, ray, frame, index);
 }
 
 INLINE_ALWAYS bool traverse_any(const struct scene *scene, const struct ray *ray)
