@@ -84,10 +84,11 @@ static inline float intersect_round(global const rt_shape *shape, const struct l
     if (!cross_slab(line, &slab) || !cross_side(line, round_top(shape), &roots, &side))
         return INFINITY;
     if (!(shape->flags & RT_SHAPE_CAPS)) {
-        *part = ROUND_SIDE;
-        if (roots.x >= slab.x && roots.x <= slab.y && line_has(line, roots.x))
-            return roots.x;
-        return roots.y >= slab.x && roots.y <= slab.y && line_has(line, roots.y) ? roots.y : INFINITY;
+        float root = roots.x;
+        if (!(root >= slab.x && root <= slab.y && line_has(line, root)))
+            root = roots.y;
+        *part = ROUND_SIDE | (root > side.x ? PART_LEAVES : 0u);
+        return root >= slab.x && root <= slab.y && line_has(line, root) ? root : INFINITY;
     }
     const bool upwards = line->direction.z > 0.0f;
     const float enter = fmax(slab.x, side.x), leave = fmin(slab.y, side.y);
@@ -97,7 +98,7 @@ static inline float intersect_round(global const rt_shape *shape, const struct l
         *part = side.x >= slab.x ? ROUND_SIDE : upwards ? ROUND_BASE : ROUND_TOP;
         return enter;
     }
-    *part = side.y <= slab.y ? ROUND_SIDE : upwards ? ROUND_TOP : ROUND_BASE;
+    *part = (side.y <= slab.y ? ROUND_SIDE : upwards ? ROUND_TOP : ROUND_BASE) | PART_LEAVES;
     return line_has(line, leave) ? leave : INFINITY;
 }
 

@@ -10,6 +10,7 @@
 #ifndef RT_TORUS_H
 #define RT_TORUS_H
 
+#include "canonical.h"
 #include "line.h"
 
 #define TORUS_ROOM 1.01f /* the line is cut to the torus' bounds, enlarged by this, where h is well above 0 */
@@ -133,8 +134,8 @@ static inline float torus_first(const struct line *line, float minor, float sign
     return torus_root(line, minor, sign, a, in);
 }
 
-/* The nearest meeting of the line with the torus, or infinity. */
-static inline float intersect_torus(float minor, const struct line *line)
+/* The nearest meeting of the line with the torus, or infinity; *part tells in from out. */
+static inline float intersect_torus(float minor, const struct line *line, uint *part)
 {
     float lo, hi;
     if (!torus_bounds(line, minor, &lo, &hi))
@@ -147,8 +148,10 @@ static inline float intersect_torus(float minor, const struct line *line)
             continue;
         const struct torus_point b = torus_at(line, minor, 1.0f, end);
         const float s = torus_first(line, minor, span == 1 ? -1.0f : 1.0f, a, b);
-        if (s < INFINITY)
+        if (s < INFINITY) {
+            *part = a.h < 0.0f ? PART_LEAVES : 0u;
             return s;
+        }
         a = b;
     }
     return INFINITY;
