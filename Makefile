@@ -85,6 +85,7 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c \
 	tests/lib/mesh/test_text.c \
 	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
+	tests/kernels/test_shapes.c tests/kernels/test_shape_sample.c \
 	tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c tests/lib/scene/test_shapes.c \
 	tests/lib/light/test_environment.c tests/kernels/test_types.c tests/render/test_compare.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
@@ -97,6 +98,7 @@ TESTS_QUICK := \
 	tests/lib/photon/test_photon_list.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
 	tests/lib/render/test_photon_maps.c
 TESTS_FULL  := \
+	tests/kernels/test_shapes_many.c \
 	tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
 	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c
@@ -105,10 +107,11 @@ TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c 
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
 	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/light_draw.c tests/kernels/rays.c \
+	tests/kernels/shape_check.c tests/kernels/shape_truth.c \
 	tests/kernels/statistics.c tests/studies/study.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
 	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
-	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
+	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
 
 # ---- Build ------------------------------------------------------------------
 

@@ -93,7 +93,7 @@ static const struct {
     {"photons a.rts --out m.rtp --light-shares 1,-2", "--light-shares takes"},
     {"photons a.rts --out m.rtp --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
     {"photons a.rts --out m.rtp --k 5", "`rtc photons` takes no option --k"},
-    {"photons a.rts --out m.rtp --max-depth 1e6", "--max-depth: "},
+    {"photons a.rts --out m.rtp --max-depth 1e6", "--max-depth takes a whole number from 1 to 4096"},
     {"photons info", "usage: rtc photons info"},
     {"photons info m.rtp --seed 3", "`rtc photons info` takes no option --seed"},
     {"photons info m.rtp --out a", "`rtc photons info` takes no option --out"},
