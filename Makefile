@@ -180,10 +180,17 @@ run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
 run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 	tests/run.sh $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL)) $(TESTS_SHELL)
 
-# What the choices of photon mapping cost and bring, and how fast progressive passes come to the truth: numbers.
-study: all $(B)/tests/studies/study_consistency $(B)/tests/studies/study_photons
-	$(B)/tests/studies/study_consistency
-	$(B)/tests/studies/study_photons
+# What the choices of photon mapping cost and bring, how fast progressive passes come to the truth, and a caustic by path
+# tracing and by photons in equal time: numbers, and pictures in build/study. Each alone: study-k and its like.
+STUDIES := study-k study-paths study-direct study-kernels study-ways study-consistency study-caustic
+.PHONY: $(STUDIES)
+study: $(STUDIES)
+study-k study-paths study-direct study-kernels study-ways: study-%: all $(B)/tests/studies/study_photons
+	@mkdir -p build/study
+	$(B)/tests/studies/study_photons $*
+study-consistency study-caustic: study-%: all $(B)/tests/studies/study_consistency $(B)/tests/studies/study_caustic
+	@mkdir -p build/study
+	$(B)/tests/studies/study_$*
 
 # The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see tests/render/test_reference.c.
 check-reference: all $(B)/tests/render/test_reference
