@@ -8,10 +8,11 @@
  * programs do not count. Pictures go to build/study.
  *
  * The region is the floor within 0.3 m of where the line from the lamp's centre through the sphere's meets it, as far as
- * the camera sees it beside the sphere. The truth is path traced, twice, with REFERENCE samples a pixel (1024)
- * of different seeds; FILE is a picture of the same size that takes the place of the first. As their noises are
- * independent, the mean product of a picture's differences from the one and from the other is its squared error,
- * without theirs.
+ * the camera sees it beside the sphere. There are two truths: one is path traced with REFERENCE samples a pixel (1024),
+ * or is the picture FILE, of the same size; the other is of photons, of another seed, in four times as many passes with
+ * half the radius around caustics. As their noises are independent, the mean product of a picture's
+ * differences from the one and from the other is its squared error, without theirs. Where the error is bias, which goes
+ * with the squared radius, the second truth has a quarter of it, and the product is 3/4 of the square.
  */
 #include <math.h>
 #include <stdio.h>
@@ -89,16 +90,17 @@ static rt_film *trace_paths(const study *s, uint32_t spp, uint32_t seed, double 
     return render(s, &options, seconds);
 }
 
-static rt_film *map_photons(const study *s, uint32_t passes, double *seconds)
+static rt_film *map_photons(const study *s, uint32_t passes, float radius, uint32_t seed, double *seconds)
 {
     rt_render_options options = s->options;
     options.mode = RT_MODE_PHOTON;
     options.passes = passes;
+    options.seed = seed;
     options.spp = 4;
     options.photons = 20000; /* few: what comes by diffuse bounces is smooth */
     options.radius = 0.1f;
     options.caustic_photons = 800000;
-    options.caustic_radius = 0.008f;
+    options.caustic_radius = radius;
     return render(s, &options, seconds);
 }
 
@@ -124,21 +126,24 @@ static float *read_reference(const char *path)
 int main(int argc, char **argv)
 {
     uint32_t passes = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 32;
+    const float radius = 0.008f; /* metres, of the first pass around caustics */
     uint32_t spp = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 1024;
-    double photon_seconds, path_seconds, reference_seconds;
+    double photon_seconds, path_seconds, other_seconds;
     study s;
     study_open(&s, "study_caustic", "scenes/box_caustic.rts", side);
-    rt_film_destroy(map_photons(&s, 2, &photon_seconds)); /* compiles */
-    rt_film_destroy(trace_paths(&s, 1, 1, &path_seconds));
+    rt_film_destroy(map_photons(&s, 2, radius, 1, &other_seconds)); /* compiles */
+    rt_film_destroy(trace_paths(&s, 1, 1, &other_seconds));
 
-    rt_film *second = trace_paths(&s, spp, 1001, &reference_seconds), *own = NULL;
     float *read = argc > 3 ? read_reference(argv[3]) : NULL;
-    if (!read)
-        own = trace_paths(&s, spp, 1000, &reference_seconds);
+    rt_film *own = read ? NULL : trace_paths(&s, spp, 1000, &other_seconds);
+    rt_film *second = map_photons(&s, 4 * passes, radius / 2, 1001, &other_seconds);
     const float *truth[2] = {read ? read : rt_film_rgb(own), rt_film_rgb(second)};
 
-    rt_film *photon = map_photons(&s, passes, &photon_seconds);
-    uint32_t equal = (uint32_t)fmax(1, photon_seconds / reference_seconds * spp + 0.5);
+    /* Photons, then paths for as long as a few samples say. */
+    enum { few = 16 };
+    rt_film *photon = map_photons(&s, passes, radius, 1, &photon_seconds);
+    rt_film_destroy(trace_paths(&s, few, 2, &other_seconds));
+    uint32_t equal = (uint32_t)fmax(1, photon_seconds / other_seconds * few + 0.5);
     rt_film *path = trace_paths(&s, equal, 1, &path_seconds);
     double photon_rmse = region_rmse(rt_film_rgb(photon), truth[0], truth[1]);
     double path_rmse = region_rmse(rt_film_rgb(path), truth[0], truth[1]), mean = region_mean(truth[1]);
