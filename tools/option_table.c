@@ -59,6 +59,9 @@ const option option_table[OPTION_COUNT] = {
                     "64, in photon mode 16, in each of its passes 1", "samples a pixel"},
     [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 1, UINT32_MAX, NULL, 1, "16",
                           "longest path in segments, from the eye or from a light"},
+    [OPTION_ROULETTE_DEPTH] = {"roulette-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, UINT32_MAX, NULL, 1, "2",
+                               "segments from the eye after which Russian roulette may end a path; from --max-depth "
+                               "on it ends none"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
                      "stop after so many seconds; without --spp, go on until then"},
     [OPTION_SEED] = {"seed", "S", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 0, UINT32_MAX, NULL, 1, "0",

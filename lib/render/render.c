@@ -11,7 +11,11 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { spp_unlimited = 1 << 24 };
+/*
+ * roulette: variance times time is flat from 2 to 4 (measured in closed rooms of albedo 0.7); the earliest gives the
+ * most samples a second.
+ */
+enum { spp_unlimited = 1 << 24, roulette_depth_default = 2 };
 
 void rt_options_complete(rt_render_options *o)
 {
@@ -29,6 +33,8 @@ void rt_options_complete(rt_render_options *o)
         o->spp = o->time > 0 ? spp_unlimited : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
+    if (o->roulette_depth == 0)
+        o->roulette_depth = roulette_depth_default;
     if (o->photons == 0)
         o->photons = o->passes > 1 ? (uint64_t)o->width * o->height : 1000000;
     if (o->k == 0)
@@ -110,6 +116,7 @@ rt_params rt_params_make(const rt_render_options *options)
     p.final_gather = options->final_gather;
     p.direct = options->direct;
     p.estimator = options->estimator;
+    p.roulette_depth = options->roulette_depth;
     return p;
 }
 

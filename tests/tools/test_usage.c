@@ -66,6 +66,7 @@ static const struct {
     {"a.rts --mode photon --k 1", "--k: "},
     {"a.rts --width 100000", "--width: "},
     {"a.rts --max-depth 1e6", "--max-depth: "},
+    {"a.rts --roulette-depth 5000", "--roulette-depth: "},
     {"a.rts --work-group 1e6", "--work-group: "},
     {"check", "which scene?"},
     {"check a.rts --spp 3", "`rtc check` takes no option --spp"},
