@@ -19,6 +19,9 @@ static int row_count;
 void page_add(page_row row)
 {
     assert_true(row_count < rows_max);
+    assert_null(strpbrk(row.scene, "|\n"));
+    assert_null(strpbrk(row.by, "|\n"));
+    assert_null(strpbrk(row.truth, "|\n"));
     char *stated = rows[row_count].stated, *measured = rows[row_count].measured;
     int length = snprintf(stated, cells_size, "| %s | %s | %s |", row.scene, row.by, row.truth);
     if (row.is_measured) {
