@@ -1,16 +1,20 @@
-/* page.h - the rows of tests/proof/README.md; see proof_page. */
+/*
+ * page.h - tests/proof/README.md, the table of what was compared, with a section for each program.
+ *
+ * Where RT_PROOF_ROWS names a file, as `make proof` does, a program adds its section to that file. Otherwise it fails
+ * unless the page's section holds the same rows, but for what was measured: the page says what is tested, no more and
+ * no less.
+ */
 #ifndef RT_TESTS_PROOF_PAGE_H
 #define RT_TESTS_PROOF_PAGE_H
 
-/* One check. The texts may be gone later. */
-typedef struct page_row {
-    const char *scene, *by, *truth;
-    double expected, ours, error, off; /* off: in standard errors */
-    int is_measured;                   /* `expected` was rendered too, and pixels were compared: */
-    double worst_off;                  /* the farthest of so many numbers of the film */
-    int count;
-} page_row;
+/*
+ * A row of the section: the cells that every machine must agree on, and those that were measured, each with bars
+ * between and none at the ends.
+ */
+void page_row(const char *stated, const char *measured);
 
-void page_add(page_row row);
+/* The section, of that title and these columns, has all rows. */
+void page_section(const char *title, const char *columns);
 
 #endif

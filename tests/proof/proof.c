@@ -123,7 +123,8 @@ static int is_wrong(double off, double checks)
 void proof_check(proof_row row, double expected, const proof_values *values)
 {
     estimate e = estimate_of(values, expected, expected);
-    page_add((page_row){row.scene, row.by, row.truth, expected, e.mean, e.error, e.off, 0, 0, 0});
+    page_row(proof_text("%s | %s | %s | %.6g", row.scene, row.by, row.truth, expected),
+             proof_text("%.6g | %.1e | %+.2f", e.mean, e.error, e.off));
     if (is_wrong(e.off, 1))
         fail_msg("%s by %s, %s: %.8g, should be %.8g; %+.1f standard errors of %.2g", row.scene, row.by, row.truth,
                  e.mean, expected, e.off, e.error);
@@ -174,11 +175,18 @@ void proof_same(proof_row row, const proof_films *a, const proof_films *peer)
     /* Compare the means. */
     proof_values x = proof_mean(a, 1), y = proof_mean(peer, 1), d = difference(&x, &y);
     estimate ours = estimate_of(&x, 0, 0), theirs = estimate_of(&y, 0, 0), e = estimate_of(&d, 0, ours.mean);
-    page_add((page_row){row.scene, row.by, row.truth, theirs.mean, ours.mean, e.error, e.off, 1, worst_off, (int)count});
+    page_row(proof_text("%s | %s | %s", row.scene, row.by, row.truth),
+             proof_text("%.6g | %.6g | %.1e | %+.2f, worst of %d %+.2f", theirs.mean, ours.mean, e.error, e.off, (int)count,
+                   worst_off));
     if (is_wrong(e.off, 1))
         fail_msg("%s by %s and by %s: mean %.8g and %.8g, %+.1f standard errors", row.scene, row.by, row.truth,
                  ours.mean, theirs.mean, e.off);
     if (is_wrong(worst_off, (double)count))
         fail_msg("%s by %s and by %s: channel %d of pixel %d, %d differs by %+.1f standard errors", row.scene, row.by,
                  row.truth, (int)(worst % 3), (int)(worst / 3 % a->width), (int)(worst / 3 / a->width), worst_off);
+}
+
+void proof_page(const char *title)
+{
+    page_section(title, "scene | by | closed form or peer | expected | ours | standard error | off by standard errors");
 }

@@ -4,9 +4,9 @@
  * A scene is rendered `proof_renders` times, each time with another seed. A measure of each render, such as the mean of
  * its film, gives that many independent values, whose spread is the standard error of their mean: nothing is assumed of
  * pixels or samples. The difference to what is expected, in standard errors, has Student's t distribution, and a check
- * fails where chance would bring it in less than one of 10^7 runs.
+ * fails where chance would bring it in less than one of 10^7 runs: beyond 6.9 standard errors.
  *
- * Every check is a row of tests/proof/README.md; proof_page says how that page is made and kept.
+ * Every check is a row of tests/proof/README.md, which `make proof` writes; see page.h.
  */
 #ifndef RT_TESTS_PROOF_H
 #define RT_TESTS_PROOF_H
@@ -15,7 +15,7 @@
 
 enum { proof_renders = 32 };
 
-/* Of one check, or of all pixels of one comparison. There are some 200: 2 false alarms in 10^5 runs of them all. */
+/* Of one check, or of all pixels of one comparison. There are some 300: 3 false alarms in 10^5 runs of them all. */
 #define PROOF_FALSE_ALARM 1e-7
 
 /* What single precision may do to a value, as a part of it; counted as a standard error. */
@@ -60,10 +60,7 @@ void proof_radiance(proof_row row, double expected, const char *text, const rt_r
 /* Fails unless two ways to render have the same mean in every pixel and channel, and over the film. */
 void proof_same(proof_row row, const proof_films *a, const proof_films *peer);
 
-/*
- * The last test of each program. Where RT_PROOF_ROWS names a file, as `make proof` does, adds a section of that title
- * and all rows so far to it. Else fails unless that section of the page holds these rows, but for what was measured.
- */
+/* The last test of each program, which ends its section of the page. */
 void proof_page(const char *title);
 
 #endif

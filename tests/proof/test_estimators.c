@@ -9,9 +9,10 @@
 #include "proof/proof.h"
 #include "proof/room.h"
 
-enum { side = 12, depth = 8 };
+/* Eye paths and photon paths are cut off each by themselves: far beyond what light is left. */
+enum { side = 12, depth = 24 };
 
-static const rt_render_options path = {.width = side, .height = side, .spp = 32, .max_depth = depth};
+static const rt_render_options path = {.width = side, .height = side, .spp = 64, .max_depth = depth};
 static const rt_render_options map = {.width = side, .height = side, .spp = 32, .max_depth = depth, .seed = 1000,
                                       .mode = RT_MODE_PHOTON, .photons = 40000, .k = RT_K_ALL, .radius = 0.005f};
 

@@ -1,6 +1,8 @@
 /*
  * test_specular.c - mirrors and glass: endless images, slabs, total reflection, and light in a denser medium.
  *
+ * Light is unpolarised wherever it meets a boundary, also where the one before has polarised it, as in the renderer.
+ *
  * A slab whose faces reflect R and whose inside passes e reflects R + R e^2 (1-R)^2 / (1 - R^2 e^2) and passes
  * e (1-R)^2 / (1 - R^2 e^2), summed over all ways to and fro. Radiance grows by the square of the index where light
  * enters a denser medium, and the part of diffuse light that such a boundary lets out is 1/n^2 of what it lets in.
