@@ -20,8 +20,8 @@ static double lambda(double alpha, double cos_w)
 }
 
 /*
- * The integral over facet normals h of F D(h) G2 (wo.h) / cos_o, with the correlated G2 = 1 / (1 + Lambda_o + Lambda_i).
- * In u = tan^2 / (alpha^2 + tan^2), D(h) (h.n) dh is du dphi / 2 pi.
+ * The integral over facet normals h of F D(h) G2 (wo.h) / cos_o, with the correlated G2 = 1 / (1 + Lambda_o +
+ * Lambda_i). In u = tan^2 / (alpha^2 + tan^2), D(h) (h.n) dh is du dphi / 2 pi.
  */
 double optics_rough(double cos_o, double alpha, double complex index)
 {
@@ -32,7 +32,8 @@ double optics_rough(double cos_o, double alpha, double complex index)
         for (int j = 0; j < phis; j++) {
             double o_h = cos_o * c + sin_o * s * cos(pi * (j + 0.5) / phis), cos_i = 2 * o_h * c - cos_o;
             if (o_h > 0 && cos_i > 0)
-                sum += optics_fresnel(o_h, index) / (1 + lambda(alpha, cos_o) + lambda(alpha, cos_i)) * o_h / (cos_o * c);
+                sum +=
+                    optics_fresnel(o_h, index) / (1 + lambda(alpha, cos_o) + lambda(alpha, cos_i)) * o_h / (cos_o * c);
         }
     }
     return sum / (us * phis);

@@ -4,7 +4,8 @@
 
 #include <complex.h>
 
-/* Unpolarised reflectance of a smooth boundary; index: eta + i k of what lies beyond over that of the side of the light. */
+/* Unpolarised reflectance of a smooth boundary; index: eta + i k of what lies beyond over that of the side of the
+ * light. */
 double optics_fresnel(double cos_i, double complex index);
 
 /* Reflectance of a boundary of GGX facets, each reflecting once, to a direction of that cosine. */

@@ -75,8 +75,8 @@ static void expect_section(const char *title)
     }
     free(section);
     if (missing || lines != row_count + 1)
-        fail_msg(PAGE ", '%s': %d rows for %d checks, %d missing; make proof writes it anew", title, lines - 1, row_count,
-                 missing);
+        fail_msg(PAGE ", '%s': %d rows for %d checks, %d missing; make proof writes it anew", title, lines - 1,
+                 row_count, missing);
 }
 
 void page_section(const char *title, const char *columns)

@@ -176,8 +176,8 @@ void proof_same(proof_row row, const proof_films *a, const proof_films *peer)
     proof_values x = proof_mean(a, 1), y = proof_mean(peer, 1), d = difference(&x, &y);
     estimate ours = estimate_of(&x, 0, 0), theirs = estimate_of(&y, 0, 0), e = estimate_of(&d, 0, ours.mean);
     page_row(proof_text("%s | %s | %s", row.scene, row.by, row.truth),
-             proof_text("%.6g | %.6g | %.1e | %+.2f, worst of %d %+.2f", theirs.mean, ours.mean, e.error, e.off, (int)count,
-                   worst_off));
+             proof_text("%.6g | %.6g | %.1e | %+.2f, worst of %d %+.2f", theirs.mean, ours.mean, e.error, e.off,
+                        (int)count, worst_off));
     if (is_wrong(e.off, 1))
         fail_msg("%s by %s and by %s: mean %.8g and %.8g, %+.1f standard errors", row.scene, row.by, row.truth,
                  ours.mean, theirs.mean, e.off);

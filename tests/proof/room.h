@@ -1,4 +1,4 @@
-/* room.h - a closed room for comparisons: coloured walls, a lamp in the ceiling, a diffuse, a glossy and a mirror ball. */
+/* room.h - a closed room: coloured walls, a lamp in the ceiling, a diffuse, a glossy and a mirror ball. */
 #ifndef RT_TESTS_PROOF_ROOM_H
 #define RT_TESTS_PROOF_ROOM_H
 

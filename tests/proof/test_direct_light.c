@@ -13,7 +13,8 @@
 
 #include "proof/proof.h"
 
-static const double pi = 3.14159265358979323846;
+#define PI 3.14159265358979323846
+static const double pi = PI;
 
 /* Irradiance at the point (x, 0, z) of the floor. */
 typedef double irradiance(double x, double z);
@@ -22,22 +23,23 @@ static const double side = 1;      /* of the square that the camera sees, m */
 static const double radius = 0.15; /* of the gather discs, m */
 
 /* Wide enough for gather discs at the edge of the square. Lamps are above the camera or beside its view. */
-#define FLOOR \
-    "camera { projection orthographic  eye 0 0.4 0  look_at 0 0 0  up 0 0 -1  width 1 }\n" \
-    "material white { kd 1 }\nmaterial black { }\n" \
+#define FLOOR                                                                                                          \
+    "camera { projection orthographic  eye 0 0.4 0  look_at 0 0 0  up 0 0 -1  width 1 }\n"                             \
+    "material white { kd 1 }\nmaterial black { }\n"                                                                    \
     "quad { corner -1 0 1  edge1 2 0 0  edge2 0 0 -2  material white }\n"
 
 static const rt_render_options path = {.width = 16, .height = 16, .spp = 16};
 static const rt_render_options direct = {.width = 16, .height = 16, .spp = 16, .mode = RT_MODE_DIRECT};
 static const rt_render_options map = {.width = 16, .height = 16, .spp = 4, .mode = RT_MODE_PHOTON,
-                                      .direct = RT_DIRECT_PHOTONS, .photons = 50000, .k = RT_K_ALL, .radius = 0.15f,
-                                      .max_depth = 3};
+                                      .direct = RT_DIRECT_PHOTONS, .photons = 50000, .k = RT_K_ALL,
+                                      .radius = 0.15f, .max_depth = 3};
 
 /* By Gauss's rule of three points in each cell of a grid. */
 static double mean_of_square(irradiance *e)
 {
     enum { cells = 8 };
-    static const double at[3] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[3] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
+    static const double at[3] = {0.1127016653792583, 0.5, 0.8872983346207417},
+                        weight[3] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
     double sum = 0;
     for (int i = 0; i < 3 * cells; i++)
         for (int j = 0; j < 3 * cells; j++)
@@ -72,7 +74,8 @@ static void expect_irradiance(const char *scene, const char *truth, irradiance *
 {
     expect_by_paths(scene, truth, e, lamp);
     sharp = e;
-    proof_radiance((proof_row){scene, "photons", truth}, mean_of_square(smoothed) / pi, proof_text(FLOOR "%s", lamp), &map);
+    proof_radiance((proof_row){scene, "photons", truth}, mean_of_square(smoothed) / pi, proof_text(FLOOR "%s", lamp),
+                   &map);
 }
 
 /* ---- Lights without size ---------------------------------------------------------- */
@@ -140,7 +143,8 @@ static void spots_suns_and_skies(void **state)
     (void)state;
     expect_irradiance("spot light", "I cos smooth(cos) / (pi d^2)", of_spot,
                       "light spot { position 0 0.7 0  target 0 0 0  intensity 3  inner 40  outer 60 }");
-    expect_irradiance("directional light", "E cos / pi", of_sun, "light directional { direction 1 -2 1  irradiance 3 }");
+    expect_irradiance("directional light", "E cos / pi", of_sun,
+                      "light directional { direction 1 -2 1  irradiance 3 }");
     expect_irradiance("even environment", "L", of_sky, "light environment { radiance 2 }");
 }
 
@@ -209,12 +213,14 @@ static void polygons(void **state)
 /* Radiance 5 of a ball; Snyder's factor where the horizon cuts it. */
 static double of_ball(double cx, double cy, double r, double x, double z)
 {
-    double d = sqrt((x - cx) * (x - cx) + cy * cy + z * z), h = d / r, c = cy / d, s = sqrt(1 - c * c), k = sqrt(h * h - 1);
+    double d = sqrt((x - cx) * (x - cx) + cy * cy + z * z), h = d / r, c = cy / d, s = sqrt(1 - c * c),
+           k = sqrt(h * h - 1);
     if (c * h >= 1)
         return 5 * pi * c / (h * h);
     if (c * h <= -1)
         return 0;
-    return 5 * pi * (0.5 - asin(k / (h * s)) / pi + (c * acos(-k * c / s) - k * sqrt(1 - h * h * c * c)) / (pi * h * h));
+    return 5 * pi *
+           (0.5 - asin(k / (h * s)) / pi + (c * acos(-k * c / s) - k * sqrt(1 - h * h * c * c)) / (pi * h * h));
 }
 
 static double of_sphere(double x, double z)
@@ -247,13 +253,15 @@ static double of_ring(double x, double z)
 static void round_lamps(void **state)
 {
     (void)state;
-    expect_irradiance("sphere", "L cos (r/d)^2", of_sphere, "sphere { centre 0.2 0.8 0  radius 0.3  material black  radiance 5 }");
+    expect_irradiance("sphere", "L cos (r/d)^2", of_sphere,
+                      "sphere { centre 0.2 0.8 0  radius 0.3  material black  radiance 5 }");
     expect_irradiance("sphere cut by the horizon", "form factor (Snyder)", of_sunken_sphere,
                       "sphere { centre 0.95 0.1 0  radius 0.28  material black  radiance 5 }");
     expect_irradiance("disc above", "form factor (Howell)", of_disc,
                       "disc { centre 0.2 0.7 0  normal 0 -1 0  radius 0.4  material black  radiance 5 }");
-    expect_irradiance("ring above", "form factor (Howell)", of_ring,
-                      "disc { centre 0.2 0.7 0  normal 0 -1 0  radius 0.4  inner_radius 0.25  material black  radiance 5 }");
+    expect_irradiance(
+        "ring above", "form factor (Howell)", of_ring,
+        "disc { centre 0.2 0.7 0  normal 0 -1 0  radius 0.4  inner_radius 0.25  material black  radiance 5 }");
 }
 
 /* ---- More than one, and their power -------------------------------------------------- */
@@ -278,30 +286,29 @@ static void power_is_pi_times_area_times_radiance(void **state)
 {
     static const struct {
         const char *name, *law, *shape;
-        double area;
+        double area_by_pi;
     } lamps[] = {
-        {"parallelogram", "P / (pi area)", "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 1", 4},
-        {"triangle", "P / (pi area)", "triangle { a -1 0 -1  b 0 0 2  c 2 0 -1", 4.5},
-        {"ring", "P / (pi^2 (R^2 - r^2))", "disc { centre 0.5 0 0  normal 0 1 0  radius 1  inner_radius 0.4", 0.84 * 3.14159265358979},
-        {"sphere", "P / (2 pi r)^2", "sphere { centre 0 0 0  radius 0.6", 4 * 0.36 * 3.14159265358979},
-        {"spheroid by transform", "P / (pi A)", "sphere { centre 0 0 0  radius 1  scale 0.5 1 0.5", 0},
-        {"cylinder with caps", "P / (2 pi^2 r (r + h))", "cylinder { a 0 -1 0  b 0 0.5 0  radius 0.5", 2 * 0.5 * 2 * 3.14159265358979},
-        {"cone without caps", "P / (pi^2 r s)", "cone { base 0 -1 0  apex 0 0.5 0  radius 0.5  caps false", 0},
-        {"torus", "P / (4 pi^3 R r)", "torus { centre -0.6 0 0  axis 0 1 0  major_radius 0.6  minor_radius 0.2", 0},
+        {"parallelogram", "P / (pi area)", "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 1", 4 / PI},
+        {"triangle", "P / (pi area)", "triangle { a -1 0 -1  b 0 0 2  c 2 0 -1", 4.5 / PI},
+        {"ring", "P / (pi^2 (R^2 - r^2))", "disc { centre 0.5 0 0  normal 0 1 0  radius 1  inner_radius 0.4", 0.84},
+        {"sphere", "P / (2 pi r)^2", "sphere { centre 0 0 0  radius 0.6", 4 * 0.36},
+        /* a = 1/2, c = 1, e^2 = 1 - a^2/c^2 = 3/4, asin e = pi/3 */
+        {"long spheroid by transform", "P / (2 pi^2 a^2 (1 + c/(a e) asin e))",
+         "sphere { centre 0 0 0  radius 1  scale 0.5 1 0.5", 0.5 * (1 + 4 * PI / (3 * 1.73205080756887729))},
+        {"cylinder with caps", "P / (2 pi^2 r (r + h))", "cylinder { a 0 -1 0  b 0 0.5 0  radius 0.5", 2 * 0.5 * 2},
+        {"cone without caps", "P / (pi^2 r s)", "cone { base 0 -1 0  apex 0 0.5 0  radius 0.5  caps false",
+         0.5 * 1.58113883008418967},
+        {"torus", "P / (4 pi^3 R r)", "torus { centre -0.6 0 0  axis 0 1 0  major_radius 0.6  minor_radius 0.2",
+         4 * PI * 0.6 * 0.2},
     };
     (void)state;
     for (size_t i = 0; i < sizeof lamps / sizeof *lamps; i++) {
-        double area = lamps[i].area, e = sqrt(0.75);
-        if (i == 4) /* prolate: 2 pi a^2 (1 + c/(a e) asin e), a = 1/2, c = 1, e^2 = 1 - a^2/c^2 */
-            area = 0.5 * pi * (1 + 2 / e * asin(e));
-        else if (i == 6)
-            area = pi * 0.5 * sqrt(2.5);
-        else if (i == 7)
-            area = 4 * pi * pi * 0.6 * 0.2;
-        proof_radiance((proof_row){proof_text("%s of a power", lamps[i].name), "path", lamps[i].law}, 7 / (pi * area),
-                       proof_text("camera { projection orthographic  eye 0 3 0  look_at 0 0 0  up 0 0 -1  width 0.1 }\n"
-                                  "material black { }\n%s  material black  power 7 }", lamps[i].shape),
-                       &path);
+        const char *text =
+            proof_text("camera { projection orthographic  eye 0 3 0  look_at 0 0 0  up 0 0 -1  width 0.1 }\n"
+                       "material black { }\n%s  material black  power 7 }",
+                       lamps[i].shape);
+        proof_radiance((proof_row){proof_text("%s of a power", lamps[i].name), "path", lamps[i].law},
+                       7 / (pi * pi * lamps[i].area_by_pi), text, &path);
     }
 }
 
@@ -314,9 +321,14 @@ static void the_page_has_the_rows(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(point_lights), cmocka_unit_test(shadows),     cmocka_unit_test(spots_suns_and_skies),
-        cmocka_unit_test(polygons),     cmocka_unit_test(round_lamps), cmocka_unit_test(lamps_add_up),
-        cmocka_unit_test(power_is_pi_times_area_times_radiance),       cmocka_unit_test(the_page_has_the_rows),
+        cmocka_unit_test(point_lights),
+        cmocka_unit_test(shadows),
+        cmocka_unit_test(spots_suns_and_skies),
+        cmocka_unit_test(polygons),
+        cmocka_unit_test(round_lamps),
+        cmocka_unit_test(lamps_add_up),
+        cmocka_unit_test(power_is_pi_times_area_times_radiance),
+        cmocka_unit_test(the_page_has_the_rows),
     };
     return cmocka_run_group_tests_name("proof/direct_light", tests, NULL, NULL);
 }

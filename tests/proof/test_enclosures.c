@@ -2,8 +2,9 @@
  * test_enclosures.c - light that is reflected without end: in closed spheres and boxes, and of bodies in even light.
  *
  * In a sphere of radius r and albedo a, every point gets the same light from every other: a lamp of power P that shines
- * evenly on the wall gives the irradiance P / (4 pi r^2) (1 + a + a^2 + ...) (Ulbricht's integrating sphere). Where walls
- * both shine with L and reflect a, the radiance is L / (1 - a) everywhere, whatever the shape (the white furnace).
+ * evenly on the wall gives the irradiance P / (4 pi r^2) (1 + a + a^2 + ...) (Ulbricht's integrating sphere). Where
+ * walls both shine with L and reflect a, the radiance is L / (1 - a) everywhere, whatever the shape (the white
+ * furnace).
  */
 #include <math.h>
 
@@ -66,15 +67,17 @@ static void depth_by_depth(void **state)
     }
 }
 
-/* Light that was reflected is even, wherever the lamp is; a small part of the wall, at right angles to the offset, is seen. */
+/* Light that was reflected is even, wherever the lamp is. A small part of the wall is seen. */
 static void off_centre(void **state)
 {
-    static const char text[] = ULBRICHT "light point { position 0.4 0 0  power 7 }\n"
-                               "camera { projection orthographic  eye 0 0 0  look_at 0 1 0  up 0 0 1  width 0.01 }\n";
+    static const char text[] =
+        ULBRICHT "light point { position 0.4 0 0  power 7 }\n"
+                 "camera { projection orthographic  eye 0 0 0  look_at 0 1 0  up 0 0 1  width 0.01 }\n";
     double d2 = 1 + 0.4 * 0.4, straight = 7 / (4 * pi) / (d2 * sqrt(d2)) * 0.5 / pi;
     (void)state;
-    proof_radiance((proof_row){"integrating sphere, lamp off centre", "path", "direct light + a^2/(1 - a) P/(2 pi r)^2/pi"},
-                   straight + 0.5 * reflected(0.5, 62), text, &path);
+    proof_radiance(
+        (proof_row){"integrating sphere, lamp off centre", "path", "direct light + a^2/(1 - a) P/(2 pi r)^2/pi"},
+        straight + 0.5 * reflected(0.5, 62), text, &path);
     proof_radiance((proof_row){"integrating sphere, lamp off centre", "photons and shadow rays",
                                "direct light + a^2/(1 - a) P/(2 pi r)^2/pi"},
                    straight + 0.5 * reflected(0.5, 62), text,
@@ -99,11 +102,13 @@ static void closed_furnaces(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
         const char *text = proof_text(INSIDE "material wall { emission 0.6  two_sided true  %s }\n"
-                                      "sphere { centre 0 0 0  radius 1  material wall }\n", walls[i].material);
+                                             "sphere { centre 0 0 0  radius 1  material wall }\n",
+                                      walls[i].material);
         for (int e = 0; e < 3; e++) {
             rt_render_options options = path;
             options.estimator = (rt_estimator)e;
-            proof_radiance((proof_row){walls[i].name, estimators[e], "L / (1 - a)"}, 0.6 / (1 - walls[i].a), text, &options);
+            proof_radiance((proof_row){walls[i].name, estimators[e], "L / (1 - a)"}, 0.6 / (1 - walls[i].a), text,
+                           &options);
         }
         if (i != 1)
             proof_radiance((proof_row){walls[i].name, "photons", "L / (1 - a)"}, 0.6 / (1 - walls[i].a), text, &map);
@@ -115,10 +120,9 @@ static void closed_furnaces(void **state)
 /* Estimates at edges would lose photons: paths alone. */
 static void box_furnace(void **state)
 {
-    static const char text[] =
-        INSIDE "material wall { emission 0.6  kd 0.7 }\n"
-        WALL("-1 -1 -1", "0 0 3", "2 0 0") WALL("-1 1 -1", "2 0 0", "0 0 3") WALL("-1 -1 -1", "0 2 0", "0 0 3")
-        WALL("1 -1 -1", "0 0 3", "0 2 0") WALL("-1 -1 -1", "2 0 0", "0 2 0") WALL("-1 -1 2", "0 2 0", "2 0 0");
+    static const char text[] = INSIDE "material wall { emission 0.6  kd 0.7 }\n" WALL("-1 -1 -1", "0 0 3", "2 0 0")
+        WALL("-1 1 -1", "2 0 0", "0 0 3") WALL("-1 -1 -1", "0 2 0", "0 0 3") WALL("1 -1 -1", "0 0 3", "0 2 0")
+            WALL("-1 -1 -1", "2 0 0", "0 2 0") WALL("-1 -1 2", "0 2 0", "2 0 0");
     (void)state;
     for (int e = 0; e < 3; e++) {
         rt_render_options options = path;
@@ -135,7 +139,8 @@ static void metal_furnace(void **state)
                    0.6 / (1 - optics_fresnel(1, 0.42 + 2.35 * I)),
                    "camera { eye 0 0 0  look_at 0.2 0.1 1  fov 90 }\n"
                    "material wall { emission 0.6  two_sided true  ks 1  fresnel conductor  eta 0.42  k 2.35 }\n"
-                   "sphere { centre 0 0 0  radius 1  material wall }\n", &path);
+                   "sphere { centre 0 0 0  radius 1  material wall }\n",
+                   &path);
 }
 
 /* ---- Bodies in even light ------------------------------------------------------------- */
@@ -159,7 +164,8 @@ static void balls_in_even_light(void **state)
     (void)state;
     options.max_depth = 1000;
     for (size_t i = 0; i < sizeof balls / sizeof *balls; i++)
-        proof_radiance((proof_row){proof_text("%s in even light", balls[i].name), "path", balls[i].truth}, balls[i].expected,
+        proof_radiance((proof_row){proof_text("%s in even light", balls[i].name), "path", balls[i].truth},
+                       balls[i].expected,
                        proof_text("camera { eye 0 0 -2  look_at 0 0 0  fov 40 }\nlight environment { radiance 1 }\n"
                                   "material stuff { %s }\nsphere { centre 0 0 0  radius 1  material stuff }\n",
                                   balls[i].material),
@@ -187,15 +193,16 @@ static void plates_in_even_light(void **state)
             double complex index = plates[i].eta + plates[i].k * I;
             double expected = plates[i].alpha > 0 ? optics_rough(cos(angle), plates[i].alpha, index)
                                                   : optics_fresnel(cos(angle), index);
-            proof_radiance((proof_row){proof_text("plate of %s in even light, from %d degrees", plates[i].name, degrees[a]),
-                                       "path", plates[i].alpha > 0 ? "integral of the GGX lobe" : "R L"},
-                           expected,
-                           proof_text("camera { projection orthographic  width 0.1  eye %.9g 0 %.9g  look_at 0 0 0 }\n"
-                                      "light environment { radiance 1 }\nmaterial black { }\nmaterial stuff { %s }\n"
-                                      "plane { point 0 0 0  normal 0 0 1  material stuff }\n"
-                                      "plane { point 0 0 -1  normal 0 0 1  material black }\n",
-                                      sin(angle), cos(angle), plates[i].material),
-                           &path);
+            proof_radiance(
+                (proof_row){proof_text("plate of %s in even light, from %d degrees", plates[i].name, degrees[a]),
+                            "path", plates[i].alpha > 0 ? "integral of the GGX lobe" : "R L"},
+                expected,
+                proof_text("camera { projection orthographic  width 0.1  eye %.9g 0 %.9g  look_at 0 0 0 }\n"
+                           "light environment { radiance 1 }\nmaterial black { }\nmaterial stuff { %s }\n"
+                           "plane { point 0 0 0  normal 0 0 1  material stuff }\n"
+                           "plane { point 0 0 -1  normal 0 0 1  material black }\n",
+                           sin(angle), cos(angle), plates[i].material),
+                &path);
         }
 }
 
@@ -208,9 +215,15 @@ static void the_page_has_the_rows(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(integrating_spheres), cmocka_unit_test(depth_by_depth),      cmocka_unit_test(off_centre),
-        cmocka_unit_test(closed_furnaces),     cmocka_unit_test(box_furnace),         cmocka_unit_test(metal_furnace),
-        cmocka_unit_test(balls_in_even_light), cmocka_unit_test(plates_in_even_light), cmocka_unit_test(the_page_has_the_rows),
+        cmocka_unit_test(integrating_spheres),
+        cmocka_unit_test(depth_by_depth),
+        cmocka_unit_test(off_centre),
+        cmocka_unit_test(closed_furnaces),
+        cmocka_unit_test(box_furnace),
+        cmocka_unit_test(metal_furnace),
+        cmocka_unit_test(balls_in_even_light),
+        cmocka_unit_test(plates_in_even_light),
+        cmocka_unit_test(the_page_has_the_rows),
     };
     return cmocka_run_group_tests_name("proof/enclosures", tests, NULL, NULL);
 }
