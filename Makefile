@@ -41,7 +41,7 @@ LIB_SRC := \
 	lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c lib/mesh/ply_reader.c \
 	lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/image/bytes.c lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
-	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
+	lib/image/file.c lib/image/flip.c lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c lib/image/ssim.c \
 	lib/photon/emit.c lib/photon/device_gather.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_list.c lib/photon/photon_order.c lib/photon/search.c lib/photon/tree.c \
 	lib/photon/photon_map.c lib/photon/fingerprint.c lib/photon/ledger.c lib/photon/sources.c \
@@ -86,7 +86,7 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_text.c \
 	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
 	tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c tests/lib/scene/test_shapes.c \
-	tests/lib/light/test_environment.c tests/kernels/test_types.c tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
+	tests/lib/light/test_environment.c tests/kernels/test_types.c tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c tests/lib/image/test_flip.c tests/lib/image/test_ssim.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_path.c \

@@ -742,7 +742,7 @@ typedef struct rt_compare_options {
     const char *layer; /* what is compared, such as "albedo"; NULL: the picture itself */
     uint32_t block;    /* side of a block in pixels; 0 means 16 */
     double tolerance;  /* how far the mean of a block may be off, relative; 0 means 0.01 */
-    double exposure;   /* stops by which SSIM sees the pictures brightened */
+    double exposure;   /* stops by which SSIM and FLIP see the pictures brightened */
 } rt_compare_options;
 
 /*
@@ -768,7 +768,7 @@ typedef struct rt_image_block {
 typedef struct rt_comparison_info {
     uint32_t width, height;
     uint64_t not_finite[2]; /* pixels of a and of b with a channel that is infinite or not a number: left out of the
-                               means that follow, seen as SSIM's display shows them, and off in their blocks */
+                               means that follow, black or white to SSIM and FLIP, and off in their blocks */
     double mse, rmse;       /* mean of (a - b)^2, and its square root */
     double relmse;          /* mean of (a - b)^2 / (b^2 + 0.01) */
     double ratio;           /* mean of a by mean of b; not a number where that of b is 0 */
@@ -776,6 +776,8 @@ typedef struct rt_comparison_info {
     double ratio_rgb[3];    /* by channel */
     double ssim;            /* mean structural similarity of the luminance as an sRGB display shows it, Gaussian window of
                                11x11 pixels (Wang et al. 2004); not a number when a picture is smaller than that */
+    double flip;            /* mean LDR-FLIP (Andersson et al. 2020), 0 to 1: what a person sees alternate on a display
+                               of 67 pixels a degree */
     double typical;         /* difference that 95 % of the pixels do not exceed in the channel that differs most, to
                                1 %; where that is 0, the largest */
     size_t blocks, off;     /* blocks, and how many of them are off in at least one channel */

@@ -13,7 +13,8 @@
 
 const compare_limit compare_limits[COMPARE_LIMITS] = {
     {OPTION_MAX_MSE, "mse", 0},   {OPTION_MAX_RMSE, "rmse", 0}, {OPTION_MAX_RELMSE, "relmse", 0},
-    {OPTION_MAX_BIAS, "bias", 0}, {OPTION_MIN_SSIM, "ssim", 1}, {OPTION_MAX_OFF, "blocks off", 0},
+    {OPTION_MAX_BIAS, "bias", 0}, {OPTION_MIN_SSIM, "ssim", 1}, {OPTION_MAX_FLIP, "flip", 0},
+    {OPTION_MAX_OFF, "blocks off", 0},
 };
 
 double compare_measured(const compare_limit *limit, const rt_comparison_info *info)
@@ -29,6 +30,8 @@ double compare_measured(const compare_limit *limit, const rt_comparison_info *in
         return fabs(info->ratio - 1.0);
     case OPTION_MIN_SSIM:
         return info->ssim;
+    case OPTION_MAX_FLIP:
+        return info->flip;
     default:
         return (double)info->off;
     }

@@ -12,7 +12,7 @@ typedef struct compare_limit {
     int is_least;        /* the measure must not be less; else not more */
 } compare_limit;
 
-enum { COMPARE_LIMITS = 6 };
+enum { COMPARE_LIMITS = 7 };
 extern const compare_limit compare_limits[COMPARE_LIMITS];
 
 /* The value that a limit is set on. */

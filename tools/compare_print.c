@@ -49,7 +49,7 @@ void compare_print_text(const rt_comparison *comparison, const command_line *arg
     printf("mse: %.6g\nrmse: %.6g\nrelmse: %.6g\n", info.mse, info.rmse, info.relmse);
     printf("ratio: %.6g +- %.2g\nratio by channel: %.6g %.6g %.6g\n", info.ratio, info.ratio_error, info.ratio_rgb[0],
            info.ratio_rgb[1], info.ratio_rgb[2]);
-    printf("ssim: %.6g\ntypical difference: %.4g\n", info.ssim, info.typical);
+    printf("ssim: %.6g\nflip: %.6g\ntypical difference: %.4g\n", info.ssim, info.flip, info.typical);
     printf("not finite: %llu and %llu\n", (unsigned long long)info.not_finite[0],
            (unsigned long long)info.not_finite[1]);
     printf("blocks: %zu\nblocks off: %zu\n", info.blocks, info.off);
@@ -162,6 +162,7 @@ void compare_print_json(const rt_comparison *comparison, const command_line *arg
     put_member("ratio_error", info.ratio_error);
     put_triple("ratio_rgb", info.ratio_rgb);
     put_member("ssim", info.ssim);
+    put_member("flip", info.flip);
     put_member("typical", info.typical);
     printf(",\"blocks\":%zu,\"off\":%zu,\"worst_channel\":\"%s\",\"worst\":", info.blocks, info.off,
            channel_names[info.worst_channel]);

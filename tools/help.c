@@ -57,6 +57,7 @@ static const char *const usages[COMMAND_COUNT] = {
                         "  relmse     mean of (a - b)^2 / (b^2 + 0.01)\n"
                         "  ratio      mean of a by mean of b, with its standard error\n"
                         "  ssim       structural similarity of the luminance as a display shows it\n"
+                        "  flip       what a person sees of the difference, 0 to 1\n"
                         "  typical    difference that 95 % of the pixels do not exceed\n"
                         "  blocks     the same ratio block by block, and how many are off beyond noise\n"
                         "Several A are independent renders, of different seeds: their mean is compared,\n"

@@ -144,7 +144,7 @@ const option option_table[OPTION_COUNT] = {
                           "it, four standard errors of the difference"},
     /* The same name as a render's. */
     [OPTION_COMPARE_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_COMPARE, COMPARE, -126, 126, NULL, 0, "0",
-                                 "brighten by 2^EV before ssim looks at the pictures as a display shows them"},
+                                 "brighten by 2^EV before ssim and flip look at the pictures"},
     [OPTION_SCALE] = {"scale", "V", KIND_REAL, GROUP_COMPARE, COMPARE, 0, FLT_MAX, NULL, 0, "the typical one",
                       "the difference that --out shows in full colour"},
     [OPTION_BLOCKS] = {"blocks", NULL, KIND_FLAG, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, NULL,
@@ -163,6 +163,8 @@ const option option_table[OPTION_COUNT] = {
                          "largest distance of the mean ratio from 1"},
     [OPTION_MIN_SSIM] = {"min-ssim", "V", KIND_REAL, GROUP_LIMIT, COMPARE, -1, 1, NULL, 0, NULL,
                          "least structural similarity; equal pictures have 1"},
+    [OPTION_MAX_FLIP] = {"max-flip", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1, NULL, 0, NULL,
+                         "largest mean FLIP; equal pictures have 0"},
     [OPTION_MAX_OFF] = {"max-off", "N", KIND_WHOLE, GROUP_LIMIT, COMPARE, 0, UINT32_MAX, NULL, 0, NULL,
                         "most blocks whose mean is off by more than tolerance and noise allow"},
 

@@ -67,6 +67,7 @@ typedef enum option_id {
     OPTION_MAX_RELMSE,
     OPTION_MAX_BIAS,
     OPTION_MIN_SSIM,
+    OPTION_MAX_FLIP,
     OPTION_MAX_OFF,
     OPTION_DEVICE,
     OPTION_THREADS,

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "image/flip.h"
 #include "image/image.h"
 #include "image/ssim.h"
 
@@ -231,6 +232,8 @@ static rt_status measure(rt_comparison **out, const rt_pictures *p, const rt_com
         status = rt_typical_difference(&c->info.typical, c->difference, (size_t)p->width * p->height, error);
     if (status == RT_OK)
         status = rt_ssim(&c->info.ssim, p->mean, p->reference, p->width, p->height, options->exposure, error);
+    if (status == RT_OK)
+        status = rt_flip(&c->info.flip, p->mean, p->reference, p->width, p->height, options->exposure, error);
     if (status == RT_OK) {
         judge_blocks(c);
         c->info.ratio_error = ratio_error(c);

@@ -150,6 +150,8 @@ static void limits_decide_the_status(void **state)
         {"--max-bias 0.49", 1, "bias 0.5 is over --max-bias 0.49\n"},
         {"--min-ssim 0.5", 0, ""},
         {"--min-ssim 0.99", 1, " is not at least --min-ssim 0.99\n"},
+        {"--max-flip 0.36", 0, ""},
+        {"--max-flip 0.35", 1, "flip 0.352532 is over --max-flip 0.35\n"},
         {"--max-off 1", 0, ""},
         {"--max-off 0", 1, "blocks off 1 is over --max-off 0\n"},
         {"--max-off 0 --tolerance 0.51", 0, ""},
