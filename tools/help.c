@@ -18,16 +18,16 @@ static const char *const usages[COMMAND_COUNT] = {
                        "       rtc --version               the version\n"
                        "\n"
                        "Renders a scene of the .rts language by path tracing or photon mapping. The\n"
-                       "name - stands for stdin. An option is written --name value or --name=value; of\n"
-                       "one given twice the last counts.\n",
+                       "name - stands for stdin, whose images are stdin.png and stdin.exr. An option is\n"
+                       "written --name value or --name=value; of one given twice the last counts.\n",
     [COMMAND_CHECK] = "usage: rtc check SCENE.rts...\n"
                       "\n"
                       "Reads scenes without rendering them and says all that is wrong, each with its\n"
                       "place. SCENE - reads from stdin.\n",
     [COMMAND_MESH] = "usage: rtc mesh KIND [OPTION]...\n"
                      "\n"
-                     "Writes a mesh made from a formula, with normals and texture coordinates, for\n"
-                     "scenes of any size. KIND is one of:\n"
+                     "Writes a mesh made from a formula, with normals and texture coordinates.\n"
+                     "KIND is one of:\n"
                      "  sphere   radius 1\n"
                      "  torus    around the y axis, radii 0.7 and 0.3\n"
                      "  knot     a tube along the trefoil\n"

@@ -44,10 +44,12 @@ static uint32_t find_in_layer(const rt_image *image, const char *layer, const ch
     return RT_IMAGE_NO_CHANNEL;
 }
 
-/* The grey channel Y of a layer, or the only one that it has, or RT_IMAGE_NO_CHANNEL. */
+/* The channel called as the layer, or its grey channel Y, or the only one that it has, or RT_IMAGE_NO_CHANNEL. */
 static uint32_t find_single(const rt_image *image, const char *layer)
 {
-    uint32_t found = find_in_layer(image, layer, "Y");
+    uint32_t found = layer ? rt_image_channel(image, layer) : RT_IMAGE_NO_CHANNEL;
+    if (found == RT_IMAGE_NO_CHANNEL)
+        found = find_in_layer(image, layer, "Y");
     if (found != RT_IMAGE_NO_CHANNEL)
         return found;
     for (uint32_t i = 0; i < image->channel_count; i++) {

@@ -253,6 +253,8 @@ static void layers_are_found_by_name(void **state)
     assert_true(rgb[0] == 7 && rgb[1] == 7 && rgb[2] == 7);
     expect_ok(rt_image_get_rgb(rgb, image, "a.b", &error), &error);
     assert_true(rgb[0] == 8);
+    expect_ok(rt_image_get_rgb(rgb, image, "n.Y", &error), &error);
+    assert_true(rgb[0] == 5 && rgb[2] == 5);
     assert_int_equal(rt_image_get_rgb(rgb, image, "a", &error), RT_ERROR_INPUT);
     assert_int_equal(rt_image_get_rgb(rgb, image, "albedo", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "albedo"));
