@@ -792,7 +792,8 @@ typedef struct rt_image_block {
     uint32_t x, y, width, height; /* pixels; at the right and lower border blocks may be smaller */
     double mean[3], reference[3]; /* of the renders and of the reference, by channel */
     double error[3];              /* standard error of their difference */
-    double excess[3];             /* their difference by what it may be: off above 1; infinite where a value is not finite */
+    double excess[3];             /* their difference by what it may be: off above 1; infinite where a value is not
+                                     finite */
 } rt_image_block;
 
 /* Measures over all pixels and channels; a is the mean of the renders, b the reference. */
@@ -803,10 +804,11 @@ typedef struct rt_comparison_info {
     double mse, rmse;       /* mean of (a - b)^2, and its square root */
     double relmse;          /* mean of (a - b)^2 / (b^2 + 0.01) */
     double ratio;           /* mean of a by mean of b; not a number where that of b is 0 */
-    double ratio_error;     /* its standard error, from those of the blocks that are finite; noise is taken as common to the channels */
+    double ratio_error;     /* its standard error, from those of the blocks that are finite; noise is taken as common
+                               to the channels */
     double ratio_rgb[3];    /* by channel */
-    double ssim;            /* mean structural similarity of the luminance as an sRGB display shows it, Gaussian window of
-                               11x11 pixels (Wang et al. 2004); not a number when a picture is smaller than that */
+    double ssim;            /* mean structural similarity of the luminance as an sRGB display shows it, Gaussian window
+                               of 11x11 pixels (Wang et al. 2004); not a number when a picture is smaller */
     double flip;            /* mean LDR-FLIP (Andersson et al. 2020), 0 to 1: what a person sees alternate on a display
                                of 67 pixels a degree */
     double typical;         /* difference that 95 % of the pixels do not exceed in the channel that differs most, to

@@ -1,4 +1,4 @@
-/* compare_blocks.c - whether pictures agree block by block within their noise; rt_image_block in rt.h states the rule. */
+/* compare_blocks.c - whether pictures agree block by block within their noise, by the rule of rt_image_block. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -126,7 +126,8 @@ static void judge(rt_image_block *b, const rt_pictures *p, uint32_t channel, dou
     b->excess[channel] = excess;
 }
 
-rt_status rt_compare_blocks(rt_image_block *blocks, const rt_pictures *p, uint32_t side, double tolerance, rt_error *error)
+rt_status rt_compare_blocks(rt_image_block *blocks, const rt_pictures *p, uint32_t side, double tolerance,
+                            rt_error *error)
 {
     size_t count = rt_block_count(p, side);
     uint32_t columns = rt_block_columns(p, side), rows = (uint32_t)(count / columns);
@@ -139,9 +140,10 @@ rt_status rt_compare_blocks(rt_image_block *blocks, const rt_pictures *p, uint32
             scatter[i][c] = scatter_of_block(p, &blocks[i], c);
     }
     for (size_t i = 0; i < count; i++)
-        for (uint32_t c = 0; c < 3; c++)
-            judge(&blocks[i], p, c,
-                  scatter_around(scatter, columns, rows, (uint32_t)(i % columns), (uint32_t)(i / columns), c), tolerance);
+        for (uint32_t c = 0; c < 3; c++) {
+            uint32_t column = (uint32_t)(i % columns), row = (uint32_t)(i / columns);
+            judge(&blocks[i], p, c, scatter_around(scatter, columns, rows, column, row, c), tolerance);
+        }
     free(scatter);
     return RT_OK;
 }

@@ -152,6 +152,7 @@ static void limits_decide_the_status(void **state)
         {"--min-ssim 0.99", 1, " is not at least --min-ssim 0.99\n"},
         {"--max-flip 0.36", 0, ""},
         {"--max-flip 0.35", 1, "flip 0.352532 is over --max-flip 0.35\n"},
+        {"--max-flip 0 --min-ssim 1 --exposure 1", 0, ""},
         {"--max-off 1", 0, ""},
         {"--max-off 0", 1, "blocks off 1 is over --max-off 0\n"},
         {"--max-off 0 --tolerance 0.51", 0, ""},
