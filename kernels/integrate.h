@@ -160,6 +160,8 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
     bool scattered = false; /* by an event other than a delta one */
     bool rough = false;     /* by a rough event since the last diffuse one */
 
+    if (!can_follow(&ray))
+        return radiance;
     for (uint depth = 1u; depth <= params->max_depth;) {
         /* Draw the numbers of the next vertex: they hang on nothing, so a processor makes them while it waits below. */
         const uint vertex = depth - 1u;

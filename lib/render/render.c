@@ -12,11 +12,12 @@
 static const double pi = 3.14159265358979323846;
 
 /*
- * roulette: variance times time is flat from 2 to 4 (measured in closed rooms of albedo 0.7); the earliest gives the
- * most samples a second.
+ * Measured variance times time in closed rooms of albedo 0.7: under an area lamp 2 and 3 are equal and 4 is a tenth
+ * worse, under a point light 3 and 4 are 15 to 25 % better. 2 gives the most samples a second.
  */
-enum { spp_unlimited = 1 << 24, roulette_depth_default = 2 };
+enum { roulette_depth_default = 2 };
 
+/* Replaces zeros by the defaults that the public header states. */
 void rt_options_complete(rt_render_options *o)
 {
     if (o->width == 0)
@@ -30,7 +31,7 @@ void rt_options_complete(rt_render_options *o)
     if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
         o->spp = 1;
     if (o->spp == 0)
-        o->spp = o->time > 0 ? spp_unlimited : o->mode == RT_MODE_PHOTON ? 16 : 64;
+        o->spp = o->time > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
     if (o->roulette_depth == 0)
