@@ -7,7 +7,9 @@
 #define COLLECTED_MAX 64
 
 typedef struct collected_diagnostic {
-    int is_warning, line, column, length;
+    rt_severity severity;
+    rt_finding_kind finding;
+    int line, column, length;
     char file[256], message[512], hint[512], source_line[256];
 } collected_diagnostic;
 

@@ -286,7 +286,7 @@ static void what_nothing_uses_is_warned_of(void **state)
     collect_text(&c, "let a = 1\nlet b = a\nmaterial m { }\nfilm { width 4 }\n");
     assert_int_equal(c.status, RT_OK);
     assert_int_equal(c.count, 2);
-    assert_true(c.items[0].is_warning && c.items[1].is_warning);
+    assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[1].severity == RT_SEVERITY_WARNING);
     assert_string_equal(c.items[0].message, "constant 'b' is never used");
     assert_string_equal(c.items[1].message, "material 'm' is never used");
     collected_free(&c);
