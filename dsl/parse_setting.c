@@ -57,6 +57,7 @@ static int numbers_of(rt_field_type type)
     switch (type) {
     case RT_FIELD_NUMBER:
     case RT_FIELD_INTEGER:
+    case RT_FIELD_COUNT:
         return 1;
     case RT_FIELD_PAIR:
         return 2;
@@ -215,6 +216,8 @@ static int is_known_word(const rt_parser *parser, const rt_field *field, rt_text
         return rt_names_find(names, word) != RT_NAME_NONE;
     if (field->type == RT_FIELD_BOOLEAN)
         return rt_text_equal(word, "true") || rt_text_equal(word, "false");
+    if (field->type == RT_FIELD_COUNT)
+        return rt_text_equal(word, "all");
     for (size_t i = 0; field->choices[i]; i++)
         if (rt_text_equal(word, field->choices[i]))
             return 1;
@@ -245,6 +248,17 @@ static void parse_word(rt_parser *parser, rt_context *context)
                         setting->field->name, context->phrase, rt_parser_found(found, token));
     setting->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
+}
+
+/* A number, or the word `all` in its place. */
+static void parse_count(rt_parser *parser, rt_context *context)
+{
+    skip_separators(parser, context);
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (token->kind == RT_TOKEN_WORD && is_known_word(parser, context->setting->field, rt_place_text(&token->place)))
+        parse_word(parser, context);
+    else
+        parse_numbers(parser, context);
 }
 
 static void parse_string(rt_parser *parser, rt_context *context)
@@ -290,6 +304,9 @@ void rt_parse_setting(rt_parser *parser, const rt_block *block, rt_setting *sett
     case RT_FIELD_MATERIAL:
     case RT_FIELD_TEXTURE:
         parse_word(parser, &context);
+        break;
+    case RT_FIELD_COUNT:
+        parse_count(parser, &context);
         break;
     case RT_FIELD_FILE:
         parse_string(parser, &context);

@@ -36,6 +36,13 @@ void collect_text(collected *out, const char *text)
     out->status = rt_scene_parse(&out->scene, text, "text", &options, &out->error);
 }
 
+void check_text(collected *out, const char *text)
+{
+    rt_load_options options = {keep, out, 1};
+    memset(out, 0, sizeof *out);
+    out->status = rt_scene_parse(&out->scene, text, "text", &options, &out->error);
+}
+
 void collect_file(collected *out, const char *path)
 {
     rt_load_options options = {keep, out, 0};

@@ -22,8 +22,9 @@ typedef struct collected {
     collected_diagnostic items[COLLECTED_MAX];
 } collected;
 
-/* Both write all of *out. */
+/* Each writes all of *out. check_text: with what rt_scene_check finds. */
 void collect_text(collected *out, const char *text);
+void check_text(collected *out, const char *text);
 void collect_file(collected *out, const char *path);
 void collected_free(collected *c);
 

@@ -292,6 +292,39 @@ static void what_nothing_uses_is_warned_of(void **state)
     collected_free(&c);
 }
 
+/* With `check`, at the block that it is about; what no block is about, at the text as a whole. */
+static void what_a_check_finds_stands_at_its_place(void **state)
+{
+    static collected c;
+    (void)state;
+    check_text(&c, "material m { kd 0.5 }\nsphere { centre 0 0 0 radius 1 material m }\n"
+                   "camera { eye 0 0 -4 look_at 0 0 -9 }\nlight point { position 9 9 9 intensity 1 }\n"
+                   "repeat i from 1 to 3 {\n light point { position 0 0 0.1 intensity 1 }\n}\n");
+    assert_int_equal(c.status, RT_OK);
+    assert_int_equal(c.count, 2);
+    assert_int_equal(c.items[0].finding, RT_FINDING_NOTHING_IN_VIEW);
+    assert_true(c.items[0].line == 3 && c.items[0].column == 1 && c.items[0].severity == RT_SEVERITY_WARNING);
+    assert_int_equal(c.items[1].finding, RT_FINDING_LIGHT_SHUT_IN);
+    assert_true(c.items[1].line == 6 && c.items[1].column == 2);
+    assert_string_equal(c.items[1].hint, "the sphere is at text:2");
+    collected_free(&c);
+
+    check_text(&c, "material m { kt 1 }\nsphere { centre 0 0 0 radius 1 material m }\n"
+                   "camera { eye 0 0 0 look_at 0 0 9 }\n");
+    assert_int_equal(c.count, 2);
+    assert_true(c.items[0].finding == RT_FINDING_NO_LIGHT && c.items[0].line == 0);
+    assert_true(c.items[1].finding == RT_FINDING_EYE_IN_MEDIUM && c.items[1].line == 3);
+    assert_int_equal(c.items[1].severity, RT_SEVERITY_NOTE);
+    collected_free(&c);
+
+    /* Not where the text has errors; and not unless asked for. */
+    check_text(&c, "film { width 0 }\n");
+    assert_int_equal(c.count, 1);
+    collect_text(&c, "film { width 4 }\n");
+    assert_int_equal(c.count, 0);
+    collected_free(&c);
+}
+
 static void reading_stops_after_a_thousand_errors(void **state)
 {
     static collected c;
@@ -349,6 +382,7 @@ int main(void)
         cmocka_unit_test(five_errors_give_five_reports_in_order),
         cmocka_unit_test(the_source_line_is_quoted_whole),
         cmocka_unit_test(what_nothing_uses_is_warned_of),
+        cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
         cmocka_unit_test(deep_and_long_texts_are_refused),
     };
