@@ -28,6 +28,11 @@ static int is_field(const rt_block *block, const rt_token *token)
     return token->kind == RT_TOKEN_WORD && rt_schema_field(block, rt_place_text(&token->place));
 }
 
+static int is_operator(const rt_token *token)
+{
+    return token->kind == '+' || token->kind == '*' || token->kind == '/' || token->kind == '-';
+}
+
 static int is_constant(const rt_parser *parser, const rt_token *token)
 {
     return token->kind == RT_TOKEN_WORD && rt_parser_is_constant(parser, rt_place_text(&token->place));
@@ -163,14 +168,13 @@ static void check_values(rt_parser *parser, const rt_context *context)
     }
 }
 
-/* What may not follow a complete value: one more value, or an operator outside parentheses. */
+/* What may not follow a value: one more than the field takes, or an operator outside parentheses. */
 static void check_end(rt_parser *parser, const rt_context *context)
 {
     rt_setting *setting = context->setting;
     const rt_token *token = rt_parser_peek(parser, 0);
     char found[RT_FOUND_SIZE];
-    int is_operator = token->kind == '+' || token->kind == '*' || token->kind == '/' || token->kind == '-';
-    if (is_operator) {
+    if (is_operator(token)) {
         rt_report_error(parser->reports, token->place, "unexpected '%c' after the value of '%s'", token->kind,
                         setting->field->name);
         rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
@@ -200,7 +204,9 @@ static void parse_numbers(rt_parser *parser, rt_context *context)
             return;
         }
     }
-    if (!setting->is_broken)
+    /* `1 h/2 0` is no missing value, but arithmetic without parentheses. */
+    int is_cut_short = setting->value_count > 0 && is_operator(rt_parser_peek(parser, 0));
+    if (!setting->is_broken && !is_cut_short)
         check_values(parser, context);
     if (!setting->is_broken)
         check_end(parser, context);

@@ -155,6 +155,9 @@ static const bad_text bad_texts[] = {
     {"camera { eye 0 1 - 4 look_at 0 0 1 }", 1, 18, 1, "this '-' is neither a sign nor inside parentheses", "(a - b)"},
     {"camera { eye 0 1-4 look_at 0 0 1 }", 1, 17, 1, "this '-' is neither a sign nor inside parentheses", "(a - b)"},
     {"film { width 2 * 3 }", 1, 16, 1, "unexpected '*' after the value of 'width'", "(2 * 3)"},
+    {"camera { eye 0 3/2 1 look_at 0 0 1 }", 1, 17, 1, "unexpected '/' after the value of 'eye'", "(2 * 3)"},
+    {WHITE "let n = 2\nrepeat i from 0 to n + 1 {\n let z = i\n"
+           " sphere { centre z 0 0 radius 1 material white }\n}\n", 3, 22, 1, "expected '{' after repeat, found '+'", "(n - 1)"},
     {"film { width 5 -3 }", 1, 16, 1, "unexpected '-' after the value of 'width'", "in parentheses"},
     {"film { width +3 }", 1, 8, 5, "'width' takes a whole number, found '+'", ""},
     {"let radius = 1\n" WHITE "sphere { centre 0 0 0 radius radius material white }", 3, 23, 6,
