@@ -31,9 +31,9 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/error.c lib/progress.c lib/version.c \
 	lib/device/device.c lib/device/buffer.c lib/device/program.c \
-	lib/scene/area.c lib/scene/camera.c lib/scene/hierarchy.c lib/scene/light.c lib/scene/material.c \
+	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c lib/scene/light.c lib/scene/material.c \
 	lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/scene.c \
-	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c \
+	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
 	lib/light/environment.c lib/light/lights.c \
@@ -54,7 +54,7 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c \
+	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c dsl/origin.c \
 	dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c \
 	dsl/scope.c dsl/source.c dsl/suggest.c dsl/transform.c
 
@@ -86,14 +86,15 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_text.c \
 	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
 	tests/kernels/test_shapes.c tests/kernels/test_shape_sample.c \
-	tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c tests/lib/scene/test_shapes.c \
-	tests/lib/light/test_environment.c tests/kernels/test_types.c tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c tests/lib/image/test_flip.c tests/lib/image/test_ssim.c \
+	tests/lib/scene/test_findings.c tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c \
+	tests/lib/scene/test_shapes.c tests/lib/light/test_environment.c tests/kernels/test_types.c \
+	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c tests/lib/image/test_flip.c tests/lib/image/test_ssim.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_path.c \
 	tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
 	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c \
-	tests/lib/render/test_modes.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
+	tests/lib/render/test_modes.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
 	tests/lib/photon/test_photon_list.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
 	tests/lib/render/test_photon_maps.c

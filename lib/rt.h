@@ -156,9 +156,28 @@ RT_API const char *rt_stage_name(rt_stage stage);
 
 typedef struct rt_scene rt_scene;
 
-/* One error or warning in a scene text. The strings live until the callback returns. */
+/* What a scene may be in spite of which it can be rendered; see rt_scene_check. */
+typedef enum rt_finding_kind {
+    RT_FINDING_NONE = 0,
+    RT_FINDING_NO_CAMERA,
+    RT_FINDING_NO_SHAPE,
+    RT_FINDING_NO_LIGHT,        /* and the scene's mode shows light */
+    RT_FINDING_NOTHING_IN_VIEW, /* the camera looks past all shapes */
+    RT_FINDING_EYE_IN_THE_DARK, /* the camera is inside an opaque solid, where there is no light */
+    RT_FINDING_EYE_IN_MEDIUM,   /* the camera is inside a transparent solid: no more than a note */
+    RT_FINDING_LIGHT_SHUT_IN    /* a light is inside an opaque solid, and the camera is not */
+} rt_finding_kind;
+
+typedef enum rt_severity {
+    RT_SEVERITY_ERROR = 0,
+    RT_SEVERITY_WARNING, /* allowed, but hardly meant */
+    RT_SEVERITY_NOTE     /* good to know */
+} rt_severity;
+
+/* What is to be said of a scene text. The strings live until the callback returns. */
 typedef struct rt_diagnostic {
-    int is_warning;
+    rt_severity severity;
+    rt_finding_kind finding; /* what rt_scene_check found; else RT_FINDING_NONE */
     const char *file;
     int line, column;        /* from 1; column counts bytes; 0 when the file cannot be read at all */
     int length;              /* bytes underlined, at least 1 */
@@ -170,6 +189,7 @@ typedef struct rt_diagnostic {
 typedef struct rt_load_options {
     void (*diagnostic)(void *user, const rt_diagnostic *diagnostic); /* told of every error and warning */
     void *user;
+    int check; /* 1: the scene is to be rendered as it is; tell also what rt_scene_check finds, at its place */
 } rt_load_options;
 
 /*
@@ -491,6 +511,27 @@ typedef struct rt_scene_info {
     int has_camera;
 } rt_scene_info;
 RT_API void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out);
+
+/* ---- Checking ----------------------------------------------------------- */
+
+/* One thing found. The message lives until the callback returns. */
+typedef struct rt_finding {
+    rt_finding_kind kind;
+    rt_severity severity;
+    uint32_t shape; /* the solid that it is about, or RT_NONE */
+    uint32_t lamp;  /* the shape that shines in it, or RT_NONE, or ... */
+    uint32_t light; /* ... the light that is no shape, counted from 0 in the order in which they were added */
+    const char *message; /* one line */
+} rt_finding;
+
+/*
+ * Tells a callback what makes the picture of a complete scene, with its own options, black or empty, and returns how
+ * many warnings there were. There are no false alarms: solids are spheres, ellipsoids, tori, cylinders and cones with
+ * caps, and closed meshes; what is inside of them is decided in double precision, and a light only counts as shut in
+ * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights the first 256 are
+ * looked at.
+ */
+RT_API size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding), void *user);
 
 /* ---- Device ------------------------------------------------------------- */
 
