@@ -96,7 +96,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c \
 	tests/lib/render/test_modes.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
-	tests/lib/photon/test_photon_list.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
+	tests/lib/photon/test_photon_list.c tests/lib/photon/test_photon_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
 	tests/lib/render/test_photon_maps.c
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
