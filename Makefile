@@ -97,19 +97,23 @@ TESTS_QUICK := \
 	tests/lib/render/test_modes.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
 	tests/lib/photon/test_photon_list.c tests/lib/photon/test_photon_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
-	tests/lib/render/test_photon_maps.c
+	tests/lib/render/test_photon_maps.c tests/proof/test_proof.c
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/tools/test_compare.c tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
 	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c
+TESTS_PROOF := \
+	tests/proof/test_direct_light.c tests/proof/test_enclosures.c tests/proof/test_specular.c \
+	tests/proof/test_camera.c tests/proof/test_estimators.c tests/proof/test_convergence.c
+TESTS_FULL  += $(TESTS_PROOF)
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
 	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/light_draw.c tests/kernels/rays.c \
 	tests/kernels/shape_check.c tests/kernels/shape_truth.c \
-	tests/kernels/statistics.c tests/studies/study.c
+	tests/kernels/statistics.c tests/studies/study.c tests/proof/optics.c tests/proof/page.c tests/proof/proof.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
 	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
 	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
@@ -120,7 +124,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all study demo deps need-deps check check-corpus check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
+.PHONY: all proof study demo deps need-deps check check-corpus check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -180,6 +184,10 @@ run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
 
 run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 	tests/run.sh $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL)) $(TESTS_SHELL)
+
+# The page of what was compared with what: tests/proof/README.md.
+proof: all $(call TEST_BIN,$(TESTS_PROOF))
+	tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
 
 # What the choices of photon mapping cost and bring, and how fast progressive passes come to the truth: numbers.
 study: all $(B)/tests/studies/study_consistency $(B)/tests/studies/study_photons
@@ -265,6 +273,7 @@ help:
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE, by another program'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
+	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'

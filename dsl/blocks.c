@@ -94,6 +94,8 @@ static const rt_field render_fields[] = {
      AT(rt_render_options, spp)},
     {"max_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "16", NULL,
      AT(rt_render_options, max_depth)},
+    {"roulette_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "2", NULL,
+     AT(rt_render_options, roulette_depth)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
     {"estimator", CHOICE, OPTIONAL, ANY, "", "mis", estimators, AT(rt_render_options, estimator)},

@@ -466,6 +466,8 @@ typedef struct rt_render_options {
     rt_mode mode;
     uint32_t spp;           /* samples a pixel; 0 means 64, in photon mode 16, 1 in each of its passes */
     uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
+    uint32_t roulette_depth; /* segments from the eye after which Russian roulette may end a path; 0 means 2. From
+                                max_depth on, it ends none: the mean is the same, the time is not */
     uint32_t seed;          /* the same seed gives the same bits */
     rt_sampler sampler;
     rt_filter filter;

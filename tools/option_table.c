@@ -62,6 +62,9 @@ const option option_table[OPTION_COUNT] = {
                     "64 in path mode, 16 in photon mode, 1 in each of its passes", "samples a pixel"},
     [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 1, 4096, NULL, 1, "16",
                           "longest path in segments, from the eye or from a light"},
+    [OPTION_ROULETTE_DEPTH] = {"roulette-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 4096, NULL, 1, "2",
+                               "segments from the eye after which Russian roulette may end a path; from --max-depth "
+                               "on it ends none"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
                      "stop after so many seconds, once every pixel has a sample; without --spp, go on "
                      "until then"},

@@ -25,6 +25,7 @@ typedef enum option_id {
     OPTION_SPP,
     OPTION_MAX_DEPTH,
     OPTION_TIME,
+    OPTION_ROULETTE_DEPTH,
     OPTION_SEED,
     OPTION_SAMPLER,
     OPTION_FILTER,

@@ -7,6 +7,13 @@
 #include "render/renderer.h"
 #include "scene/view.h"
 
+/*
+ * The first depth at which roulette may end a path. Measured variance times time in closed rooms of albedo 0.7: under an
+ * area lamp 2 and 3 are equal and 4 is a tenth worse, under a point light 3 and 4 are 15 to 25 % better. 2 gives the
+ * most samples a second.
+ */
+enum { roulette_depth_default = 2 };
+
 /* Replaces zeros by the defaults that the public header states. */
 void rt_options_complete(rt_render_options *o)
 {
@@ -24,6 +31,8 @@ void rt_options_complete(rt_render_options *o)
         o->spp = o->time > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
+    if (o->roulette_depth == 0)
+        o->roulette_depth = roulette_depth_default;
     if (o->photons == 0)
         o->photons = o->passes > 1 ? (uint64_t)o->width * o->height : 1000000;
     if (o->k == 0)
@@ -54,6 +63,7 @@ rt_params rt_params_make(const rt_render_options *options)
     p.final_gather = options->final_gather;
     p.direct = options->direct;
     p.estimator = options->estimator;
+    p.roulette_depth = options->roulette_depth;
     return p;
 }
 
