@@ -95,17 +95,21 @@ TESTS_QUICK := \
 	tests/lib/render/test_modes.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
 	tests/lib/photon/test_photon_list.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
-	tests/lib/render/test_photon_maps.c
+	tests/lib/render/test_photon_maps.c tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
 	tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
-	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c
+	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
+	tests/statistics/test_chi_square.c
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/light_draw.c tests/kernels/rays.c \
-	tests/kernels/statistics.c tests/studies/study.c
+	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
+	tests/kernels/statistics.c tests/studies/study.c \
+	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c tests/statistics/facets.c \
+	tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c tests/statistics/quadrature.c \
+	tests/statistics/scatter.c tests/statistics/sky.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
 	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
 	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl

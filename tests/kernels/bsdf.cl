@@ -33,15 +33,15 @@ kernel void reflectance(uint count, global const float2 *in, global float2 *out)
  * Four rows an item: wi and event, weight over survival and squeeze, light and density of the event's lobe at wi, and
  * albedo with the density that was sampled.
  */
-kernel void scatter(uint count, global const rt_scene_header *header, global const struct situation *situation,
-                    uint transport, global float4 *out)
+kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
+                    global const struct situation *situation, uint transport, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
         return;
     const struct situation at = *situation;
     const struct bsdf bsdf = situated(header, &at);
-    const float4 u = convert_float4(pcg4d((uint4)(i, 3u, 1u, 4u)) >> 8) * 0x1p-24f;
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 4u)) >> 8) * 0x1p-24f;
     const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
     struct scatter made;
     made.wi = bsdf.normal;
@@ -56,4 +56,76 @@ kernel void scatter(uint count, global const rt_scene_header *header, global con
     const struct lobe lobe = event == EVENT_ROUGH ? bsdf_rough(&bsdf, made.wi) : bsdf_diffuse(&bsdf, made.wi);
     out[4u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
     out[4u * i + 3u] = (float4)(bsdf_albedo(&bsdf), made.pdf_w);
+}
+
+/* Two rows an item: wi and its density, the event. */
+kernel void events(uint seed, uint count, global const rt_scene_header *header,
+                   global const struct situation *situation, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct situation at = *situation;
+    const struct bsdf bsdf = situated(header, &at);
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 5u)) >> 8) * 0x1p-24f;
+    const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
+    struct scatter made;
+    made.wi = bsdf.normal;
+    made.pdf_w = 0.0f;
+    if (event != EVENT_ABSORBED)
+        made = bsdf_scatter(&bsdf, event, u.xyw, CARRY_RADIANCE);
+    out[2u * i] = (float4)(made.wi, made.pdf_w);
+    out[2u * i + 1u] = (float4)((float)event, 0.0f, 0.0f, 0.0f);
+}
+
+/* Two rows an item: light and density of diffuse, and of rough events, in situations[i] at wi[i]. */
+kernel void evaluate(uint count, global const rt_scene_header *header, global const struct situation *situations,
+                     global const float4 *wi, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct situation at = situations[i];
+    const struct bsdf bsdf = situated(header, &at);
+    const struct lobe smooth = bsdf_diffuse(&bsdf, wi[i].xyz);
+    struct lobe rough;
+    rough.value = (float3)(0.0f);
+    rough.pdf_w = 0.0f;
+    if (bsdf_is_rough(&bsdf))
+        rough = bsdf_rough(&bsdf, wi[i].xyz);
+    out[2u * i] = (float4)(smooth.value, smooth.pdf_w);
+    out[2u * i + 1u] = (float4)(rough.value, rough.pdf_w);
+}
+
+/*
+ * An item a situation: the mean of what its events keep of the light, and the largest that one keeps, over side^2
+ * stratified samples of the direction, each with `side` of the choices.
+ */
+kernel void albedo(uint count, global const rt_scene_header *header, global const struct situation *situations,
+                   uint side, global float2 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct situation at = situations[i];
+    const struct bsdf bsdf = situated(header, &at);
+    float sum = 0.0f, most = 0.0f;
+    for (uint k = 0u; k < side * side; k++) {
+        float row = 0.0f;
+        for (uint j = 0u; j < side; j++) {
+            const float4 shift = convert_float4(pcg4d((uint4)(i, k, j, 6u)) >> 8) * 0x1p-24f;
+            const float4 u = ((float4)(k % side, k / side, j, j) + shift) / (float)side;
+            /* One event by z of its own stratum; the side of a rough one by w, in another order. */
+            const uint event = bsdf_choose(&bsdf, 1.0f, u.z);
+            if (event == EVENT_ABSORBED)
+                continue;
+            const float side_choice = ((float)((j * 7u + k) % side) + shift.w) / (float)side;
+            const float3 weight =
+                bsdf_scatter(&bsdf, event, (float3)(u.xy, side_choice), CARRY_FLUX).weight;
+            row += largest3(weight);
+            most = max(most, largest3(weight));
+        }
+        sum += row / (float)side;
+    }
+    out[i] = (float2)(sum / (float)(side * side), most);
 }

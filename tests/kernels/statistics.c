@@ -15,29 +15,44 @@ static double deviate(double chi_square, double freedom)
     return (cbrt(chi_square / freedom) - (1 - variance)) / sqrt(variance);
 }
 
-void expect_counts(const uint32_t *counts, const double *expected, size_t cells, const char *what)
+double chance_of_counts(const uint32_t *counts, const double *expected, size_t cells)
 {
-    double sum = 0, pooled = 0, pooled_expected = 0;
+    double sum = 0, pooled = 0, pooled_expected = 0, least = INFINITY, least_count = 0;
     size_t used = 0;
 
     for (size_t i = 0; i < cells; i++) {
         if (expected[i] < smallest_cell) {
             pooled += counts[i];
             pooled_expected += expected[i];
-            if (expected[i] <= 0 && counts[i] > 0)
-                fail_msg("%s: %u samples in cell %zu, where none can be", what, counts[i], i);
-        } else {
-            sum += (counts[i] - expected[i]) * (counts[i] - expected[i]) / expected[i];
-            used++;
+            continue;
         }
-    }
-    if (pooled_expected >= smallest_cell) {
-        sum += (pooled - pooled_expected) * (pooled - pooled_expected) / pooled_expected;
+        if (expected[i] < least) {
+            least = expected[i];
+            least_count = counts[i];
+        }
+        sum += (counts[i] - expected[i]) * (counts[i] - expected[i]) / expected[i];
         used++;
     }
-    assert_true(used >= 2);
-    if (deviate(sum, (double)used - 1) > limit)
-        fail_msg("%s: chi-square %g with %zu cells", what, sum, used);
+    /* A pool that is too small itself goes to the smallest of the other cells. */
+    if (used > 0 && pooled_expected < smallest_cell) {
+        sum -= (least_count - least) * (least_count - least) / least;
+        pooled += least_count;
+        pooled_expected += least;
+        used--;
+    }
+    sum += (pooled - pooled_expected) * (pooled - pooled_expected) / pooled_expected;
+    assert_true(used >= 1);
+    return 0.5 * erfc(deviate(sum, (double)used) / sqrt(2));
+}
+
+void expect_counts(const uint32_t *counts, const double *expected, size_t cells, const char *what)
+{
+    for (size_t i = 0; i < cells; i++)
+        if (expected[i] <= 0 && counts[i] > 0)
+            fail_msg("%s: %u samples in cell %zu, where none can be", what, counts[i], i);
+    const double chance = chance_of_counts(counts, expected, cells);
+    if (chance < 0.5 * erfc(limit / sqrt(2)))
+        fail_msg("%s: such counts have a chance of %g", what, chance);
 }
 
 void expect_mean(const double *values, size_t n, double truth, double rounding, const char *what)
