@@ -98,34 +98,29 @@ kernel void evaluate(uint count, global const rt_scene_header *header, global co
 }
 
 /*
- * An item a situation: the mean of what its events keep of the light, and the largest that one keeps, over side^2
- * stratified samples of the direction, each with `side` of the choices.
+ * Two rows an item, for situations[i]: mean and mean square of the part of the light that a sample keeps, with the
+ * largest part of all samples.
  */
 kernel void albedo(uint count, global const rt_scene_header *header, global const struct situation *situations,
-                   uint side, global float2 *out)
+                   uint samples, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
         return;
     const struct situation at = situations[i];
     const struct bsdf bsdf = situated(header, &at);
-    float sum = 0.0f, most = 0.0f;
-    for (uint k = 0u; k < side * side; k++) {
-        float row = 0.0f;
-        for (uint j = 0u; j < side; j++) {
-            const float4 shift = convert_float4(pcg4d((uint4)(i, k, j, 6u)) >> 8) * 0x1p-24f;
-            const float4 u = ((float4)(k % side, k / side, j, j) + shift) / (float)side;
-            /* One event by z of its own stratum; the side of a rough one by w, in another order. */
-            const uint event = bsdf_choose(&bsdf, 1.0f, u.z);
-            if (event == EVENT_ABSORBED)
-                continue;
-            const float side_choice = ((float)((j * 7u + k) % side) + shift.w) / (float)side;
-            const float3 weight =
-                bsdf_scatter(&bsdf, event, (float3)(u.xy, side_choice), CARRY_FLUX).weight;
-            row += largest3(weight);
-            most = max(most, largest3(weight));
-        }
-        sum += row / (float)side;
+    float3 sum = (float3)(0.0f), squares = (float3)(0.0f);
+    float most = 0.0f;
+    for (uint k = 0u; k < samples; k++) {
+        const float4 u = convert_float4(pcg4d((uint4)(i, k, 8u, 6u)) >> 8) * 0x1p-24f;
+        const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
+        if (event == EVENT_ABSORBED)
+            continue;
+        const float3 kept = bsdf_scatter(&bsdf, event, u.xyw, CARRY_FLUX).weight;
+        sum += kept;
+        squares += kept * kept;
+        most = max(most, largest3(kept));
     }
-    out[i] = (float2)(sum / (float)(side * side), most);
+    out[2u * i] = (float4)(sum / (float)samples, most);
+    out[2u * i + 1u] = (float4)(squares / (float)samples, 0.0f);
 }

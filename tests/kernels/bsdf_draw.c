@@ -67,3 +67,18 @@ void evaluate_scatter(const rt_material_data *material, const situation *at, con
     rt_buffer_release(made);
     rt_kernel_release(kernel);
 }
+
+void measure_albedo(const rt_material_data *material, const situation *at, uint32_t samples, uint32_t count,
+                    bsdf_albedo *out)
+{
+    cl_kernel kernel = test_kernel("bsdf", "albedo");
+    cl_mem scene = scene_of(material), s = test_buffer(count * sizeof *at, at);
+    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(samples), RT_ARG(made)};
+    test_run(kernel, args, 5, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(scene);
+    rt_buffer_release(s);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}

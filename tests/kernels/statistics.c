@@ -6,7 +6,7 @@
 
 enum { smallest_cell = 10 };
 
-static const double limit = 4.5; /* standard deviations */
+static const double limit = 4.5, limit_of_many = 5.5; /* standard deviations */
 
 /* The chi-square value as a standard normal deviate: Wilson and Hilferty, PNAS 17(12), 1931. */
 static double deviate(double chi_square, double freedom)
@@ -55,15 +55,33 @@ void expect_counts(const uint32_t *counts, const double *expected, size_t cells,
         fail_msg("%s: such counts have a chance of %g", what, chance);
 }
 
-void expect_mean(const double *values, size_t n, double truth, double rounding, const char *what)
+/* Mean and standard error of n values. */
+static void measure(const double *values, size_t n, double *mean, double *error)
 {
     double sum = 0, squares = 0;
     for (size_t i = 0; i < n; i++)
         sum += values[i];
-    double mean = sum / (double)n;
+    *mean = sum / (double)n;
     for (size_t i = 0; i < n; i++)
-        squares += (values[i] - mean) * (values[i] - mean);
-    double error = sqrt(squares / ((double)n * (double)(n - 1)));
-    if (!(fabs(mean - truth) <= limit * error + rounding))
+        squares += (values[i] - *mean) * (values[i] - *mean);
+    *error = sqrt(squares / ((double)n * (double)(n - 1)));
+}
+
+static void expect_within(const double *values, size_t n, double truth, double deviates, double rounding,
+                          const char *what)
+{
+    double mean, error;
+    measure(values, n, &mean, &error);
+    if (!(fabs(mean - truth) <= deviates * error + rounding))
         fail_msg("%s: mean %.9g, should be %.9g, standard error %.3g", what, mean, truth, error);
+}
+
+void expect_mean(const double *values, size_t n, double truth, double rounding, const char *what)
+{
+    expect_within(values, n, truth, limit, rounding, what);
+}
+
+void expect_mean_of_many(const double *values, size_t n, double truth, double rounding, const char *what)
+{
+    expect_within(values, n, truth, limit_of_many, rounding, what);
 }

@@ -17,4 +17,7 @@ void expect_counts(const uint32_t *counts, const double *expected, size_t cells,
 /* Fails when the mean of n values is more than 4.5 standard errors, and `rounding`, from the truth: 7 in a million. */
 void expect_mean(const double *values, size_t n, double truth, double rounding, const char *what);
 
+/* The same for one mean of hundreds: more than 5.5 standard errors, 4 in a hundred million. */
+void expect_mean_of_many(const double *values, size_t n, double truth, double rounding, const char *what);
+
 #endif
