@@ -7,11 +7,13 @@
 /* ---- Ranges, choices ----------------------------------------------------- */
 
 #define ANY {RT_RANGE_ANY, 0, 0}
-#define POSITIVE {RT_RANGE_ABOVE, 0, 0}
-#define NOT_NEGATIVE {RT_RANGE_FROM, 0, 0}
+#define ABOVE_TO(low, high) {RT_RANGE_ABOVE, low, high}
 #define FROM_TO(low, high) {RT_RANGE_CLOSED, low, high}
 #define BETWEEN(low, high) {RT_RANGE_BETWEEN, low, high}
 #define UNIT FROM_TO(0, 1)
+#define LENGTH FROM_TO(1e-15, 1e15)
+#define LENGTH_OR_ZERO FROM_TO(0, 1e15)
+#define LIGHT FROM_TO(0, 1e28)
 #define HALF_TURN {RT_RANGE_CLOSED, 1e-3, 180}
 #define DIRECTION {RT_RANGE_DIRECTION, 0, 0}
 #define NOT_ZERO {RT_RANGE_NOT_ZERO, 0, 0}
@@ -29,6 +31,8 @@ static const char *const fresnels[] = {"off", "dielectric", "conductor", NULL};
 static const char *const shadings[] = {"file", "flat", "smooth", NULL};
 static const char *const samplers[] = {"sobol", "independent", NULL};
 static const char *const estimators[] = {"mis", "light", "bsdf", NULL};
+static const char *const gathers[] = {"auto", "flann", "device", NULL};
+static const char *const areas[] = {"disc", "hull", NULL};
 static const char *const directs[] = {"nee", "photons", NULL};
 static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian", "silverman", "gaussian_jensen", NULL};
 
@@ -60,9 +64,9 @@ static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian",
     {"scale", RT_FIELD_SCALE, OPTIONAL, NOT_ZERO, "", "none", NULL, AT(type, surface.transform)},                      \
     {"matrix", RT_FIELD_MATRIX, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.transform)}
 #define LAMP(type)                                                                                                     \
-    {"radiance", COLOUR, AT_MOST_ONE, NOT_NEGATIVE, "W/(m^2 sr)", "that of the material", NULL,                        \
+    {"radiance", COLOUR, AT_MOST_ONE, LIGHT, "W/(m^2 sr)", "that of the material", NULL,                        \
      AT(type, surface.radiance)},                                                                                      \
-    {"power", COLOUR, AT_MOST_ONE, NOT_NEGATIVE, "W", "none", NULL, AT(type, surface.power)}
+    {"power", COLOUR, AT_MOST_ONE, LIGHT, "W", "none", NULL, AT(type, surface.power)}
 
 static const rt_field camera_fields[] = {
     {"projection", CHOICE, OPTIONAL, ANY, "", "perspective", projections, AT(rt_camera, kind)},
@@ -70,9 +74,9 @@ static const rt_field camera_fields[] = {
     {"look_at", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, look_at)},
     {"up", VECTOR, OPTIONAL, DIRECTION, "", "0 1 0", NULL, AT(rt_camera, up)},
     {"fov", NUMBER, OPTIONAL, BETWEEN(0, 180), "degrees", "45", NULL, AT(rt_camera, fov)},
-    {"width", NUMBER, OPTIONAL, POSITIVE, "m", "2", NULL, AT(rt_camera, width)},
-    {"aperture", NUMBER, OPTIONAL, NOT_NEGATIVE, "m", "0", NULL, AT(rt_camera, aperture)},
-    {"focal_distance", NUMBER, OPTIONAL, POSITIVE, "m", "that of look_at", NULL, AT(rt_camera, focal_distance)},
+    {"width", NUMBER, OPTIONAL, LENGTH, "m", "2", NULL, AT(rt_camera, width)},
+    {"aperture", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_camera, aperture)},
+    {"focal_distance", NUMBER, OPTIONAL, LENGTH, "m", "that of look_at", NULL, AT(rt_camera, focal_distance)},
     {"blades", INTEGER, OPTIONAL, FROM_TO(3, 64), "", "round", NULL, AT(rt_camera, blades)},
     {"blade_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_camera, blade_rotation)},
 };
@@ -85,26 +89,30 @@ static const rt_field film_fields[] = {
 
 static const rt_field render_fields[] = {
     {"mode", CHOICE, OPTIONAL, ANY, "", "path", modes, AT(rt_render_options, mode)},
-    {"spp", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "64, in mode photon 16", NULL,
+    {"spp", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "64, in mode photon 16, in passes 1", NULL,
      AT(rt_render_options, spp)},
     {"max_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "16", NULL,
      AT(rt_render_options, max_depth)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
     {"estimator", CHOICE, OPTIONAL, ANY, "", "mis", estimators, AT(rt_render_options, estimator)},
-    {"time", NUMBER, OPTIONAL, POSITIVE, "s", "no limit", NULL, AT(rt_render_options, time)},
-    {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000", NULL,
+    {"time", NUMBER, OPTIONAL, ABOVE_TO(0, 1e9), "s", "no limit", NULL, AT(rt_render_options, time)},
+    {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000, in passes one a pixel", NULL,
      AT(rt_render_options, photons)},
     {"k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
-    {"radius", NUMBER, OPTIONAL, POSITIVE, "m", "no limit", NULL, AT(rt_render_options, radius)},
+    {"radius", NUMBER, OPTIONAL, LENGTH, "m", "no limit", NULL, AT(rt_render_options, radius)},
+    {"gather", CHOICE, OPTIONAL, ANY, "", "auto", gathers, AT(rt_render_options, gather)},
+    {"passes", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "1", NULL, AT(rt_render_options, passes)},
+    {"alpha", NUMBER, OPTIONAL, BETWEEN(0, 1), "", "2/3", NULL, AT(rt_render_options, alpha)},
     {"kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, kernel)},
     {"cone_k", NUMBER, OPTIONAL, FROM_TO(1, 1e6), "", "1.1", NULL, AT(rt_render_options, cone_k)},
+    {"area", CHOICE, OPTIONAL, ANY, "", "disc", areas, AT(rt_render_options, area)},
     {"direct", CHOICE, OPTIONAL, ANY, "", "nee", directs, AT(rt_render_options, direct)},
     {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL,
      AT(rt_render_options, final_gather)},
     {"caustic_photons", INTEGER, OPTIONAL, FROM_TO(0, 4e9), "", "0", NULL, AT(rt_render_options, caustic_photons)},
     {"caustic_k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "that of k", NULL, AT(rt_render_options, caustic_k)},
-    {"caustic_radius", NUMBER, OPTIONAL, POSITIVE, "m", "that of radius", NULL, AT(rt_render_options, caustic_radius)},
+    {"caustic_radius", NUMBER, OPTIONAL, LENGTH, "m", "that of radius", NULL, AT(rt_render_options, caustic_radius)},
     {"caustic_kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, caustic_kernel)},
     {"aov", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, aov)},
 };
@@ -113,8 +121,8 @@ static const rt_field texture_fields[] = {
     {"pattern", CHOICE, OPTIONAL, ANY, "", "image", patterns, AT(rt_texture, kind)},
     {"file", FILE_NAME, OPTIONAL, ANY, "", "required of an image", NULL, AT(rt_texture, path)},
     {"linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_texture, linear)},
-    {"a", COLOUR, OPTIONAL, NOT_NEGATIVE, "", "0", NULL, AT(rt_texture, a)},
-    {"b", COLOUR, OPTIONAL, NOT_NEGATIVE, "", "0", NULL, AT(rt_texture, b)},
+    {"a", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, a)},
+    {"b", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, b)},
     {"wrap", CHOICE, OPTIONAL, ANY, "", "repeat", wraps, AT(rt_texture, wrap)},
     {"scale", PAIR, OPTIONAL, NOT_ZERO, "", "1 1", NULL, AT(rt_texture, scale)},
     {"offset", PAIR, OPTIONAL, ANY, "", "0 0", NULL, AT(rt_texture, offset)},
@@ -124,13 +132,13 @@ static const rt_field material_fields[] = {
     {"kd", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kd)},
     {"ks", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, ks)},
     {"kt", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kt)},
-    {"emission", COLOUR, OPTIONAL, NOT_NEGATIVE, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission)},
+    {"emission", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission)},
     {"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL, AT(rt_material, ior)},
     {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel)},
     {"eta", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "required of a conductor", NULL, AT(rt_material, eta)},
     {"k", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "0", NULL, AT(rt_material, k)},
     {"roughness", NUMBER, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, roughness)},
-    {"absorption", COLOUR, OPTIONAL, NOT_NEGATIVE, "1/m", "0", NULL, AT(rt_material, absorption)},
+    {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption)},
     {"two_sided", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, two_sided)},
     {"priority", INTEGER, OPTIONAL, FROM_TO(0, INTEGER_LAST), "", "0", NULL, AT(rt_material, priority)},
     {"kd_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kd_texture)},
@@ -143,27 +151,27 @@ static const rt_field material_fields[] = {
 
 static const rt_field point_light_fields[] = {
     {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_point_light, position)},
-    {"intensity", COLOUR, ONE_OF, NOT_NEGATIVE, "W/sr", "this or power is required", NULL,
+    {"intensity", COLOUR, ONE_OF, LIGHT, "W/sr", "this or power is required", NULL,
      AT(rt_point_light, intensity)},
-    {"power", COLOUR, ONE_OF, NOT_NEGATIVE, "W", "this or intensity is required", NULL,
+    {"power", COLOUR, ONE_OF, LIGHT, "W", "this or intensity is required", NULL,
      AT(rt_point_light, power)},
 };
 
 static const rt_field spot_light_fields[] = {
     {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, position)},
     {"target", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, target)},
-    {"intensity", COLOUR, REQUIRED, NOT_NEGATIVE, "W/sr", "", NULL, AT(rt_spot_light, intensity)},
+    {"intensity", COLOUR, REQUIRED, LIGHT, "W/sr", "", NULL, AT(rt_spot_light, intensity)},
     {"outer", NUMBER, OPTIONAL, HALF_TURN, "degrees", "30", NULL, AT(rt_spot_light, outer)},
     {"inner", NUMBER, OPTIONAL, FROM_TO(0, 180), "degrees", "0", NULL, AT(rt_spot_light, inner)},
 };
 
 static const rt_field directional_light_fields[] = {
     {"direction", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_directional_light, direction)},
-    {"irradiance", COLOUR, REQUIRED, NOT_NEGATIVE, "W/m^2", "", NULL, AT(rt_directional_light, irradiance)},
+    {"irradiance", COLOUR, REQUIRED, LIGHT, "W/m^2", "", NULL, AT(rt_directional_light, irradiance)},
 };
 
 static const rt_field environment_light_fields[] = {
-    {"radiance", COLOUR, OPTIONAL, NOT_NEGATIVE, "W/(m^2 sr)", "1 with an image, else 0", NULL,
+    {"radiance", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "1 with an image, else 0", NULL,
      AT(rt_environment, radiance)},
     {"file", FILE_NAME, OPTIONAL, ANY, "", "none", NULL, AT(rt_environment, path)},
     {"rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_environment, rotation)},
@@ -177,7 +185,7 @@ static const rt_field plane_fields[] = {
 
 static const rt_field sphere_fields[] = {
     {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_sphere_fields, centre)},
-    {"radius", NUMBER, REQUIRED, POSITIVE, "m", "", NULL, AT(rt_sphere_fields, radius)},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_sphere_fields, radius)},
     SURFACE(rt_sphere_fields),
     LAMP(rt_sphere_fields),
 };
@@ -207,8 +215,8 @@ static const rt_field quad_fields[] = {
 static const rt_field disc_fields[] = {
     {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_disc_fields, centre)},
     {"normal", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_disc_fields, normal)},
-    {"radius", NUMBER, REQUIRED, POSITIVE, "m", "", NULL, AT(rt_disc_fields, radius)},
-    {"inner_radius", NUMBER, OPTIONAL, NOT_NEGATIVE, "m", "0", NULL, AT(rt_disc_fields, inner_radius)},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_disc_fields, radius)},
+    {"inner_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_disc_fields, inner_radius)},
     SURFACE(rt_disc_fields),
     LAMP(rt_disc_fields),
 };
@@ -216,7 +224,7 @@ static const rt_field disc_fields[] = {
 static const rt_field cylinder_fields[] = {
     {"a", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cylinder_fields, a)},
     {"b", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cylinder_fields, b)},
-    {"radius", NUMBER, REQUIRED, POSITIVE, "m", "", NULL, AT(rt_cylinder_fields, radius)},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_cylinder_fields, radius)},
     {"caps", BOOLEAN, OPTIONAL, ANY, "", "true", NULL, AT(rt_cylinder_fields, caps)},
     SURFACE(rt_cylinder_fields),
     LAMP(rt_cylinder_fields),
@@ -225,8 +233,8 @@ static const rt_field cylinder_fields[] = {
 static const rt_field cone_fields[] = {
     {"base", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cone_fields, base)},
     {"apex", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cone_fields, apex)},
-    {"radius", NUMBER, REQUIRED, POSITIVE, "m", "", NULL, AT(rt_cone_fields, radius)},
-    {"apex_radius", NUMBER, OPTIONAL, NOT_NEGATIVE, "m", "0", NULL, AT(rt_cone_fields, apex_radius)},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_cone_fields, radius)},
+    {"apex_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_cone_fields, apex_radius)},
     {"caps", BOOLEAN, OPTIONAL, ANY, "", "true", NULL, AT(rt_cone_fields, caps)},
     SURFACE(rt_cone_fields),
     LAMP(rt_cone_fields),
@@ -234,7 +242,7 @@ static const rt_field cone_fields[] = {
 
 static const rt_field ellipsoid_fields[] = {
     {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_ellipsoid_fields, centre)},
-    {"radii", VECTOR, REQUIRED, POSITIVE, "m", "", NULL, AT(rt_ellipsoid_fields, radii)},
+    {"radii", VECTOR, REQUIRED, LENGTH, "m", "", NULL, AT(rt_ellipsoid_fields, radii)},
     SURFACE(rt_ellipsoid_fields),
     LAMP(rt_ellipsoid_fields),
 };
@@ -242,8 +250,8 @@ static const rt_field ellipsoid_fields[] = {
 static const rt_field torus_fields[] = {
     {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_torus_fields, centre)},
     {"axis", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_torus_fields, axis)},
-    {"major_radius", NUMBER, REQUIRED, POSITIVE, "m", "", NULL, AT(rt_torus_fields, major_radius)},
-    {"minor_radius", NUMBER, REQUIRED, POSITIVE, "m", "", NULL, AT(rt_torus_fields, minor_radius)},
+    {"major_radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_torus_fields, major_radius)},
+    {"minor_radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_torus_fields, minor_radius)},
     SURFACE(rt_torus_fields),
     LAMP(rt_torus_fields),
 };

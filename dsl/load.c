@@ -60,6 +60,6 @@ rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options 
 rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
                          rt_error *error)
 {
-    assert(out && text && name);
-    return read_into(out, text, name, options, error);
+    assert(out && text);
+    return read_into(out, text, name ? name : "text", options, error);
 }

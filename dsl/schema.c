@@ -91,10 +91,7 @@ const char *rt_range_phrase(char out[RT_PHRASE_SIZE], rt_range range)
         out[0] = '\0';
         break;
     case RT_RANGE_ABOVE:
-        snprintf(out, RT_PHRASE_SIZE, "greater than %.10g", range.low);
-        break;
-    case RT_RANGE_FROM:
-        snprintf(out, RT_PHRASE_SIZE, "at least %.10g", range.low);
+        snprintf(out, RT_PHRASE_SIZE, "greater than %.10g, at most %.10g", range.low, range.high);
         break;
     case RT_RANGE_CLOSED:
         snprintf(out, RT_PHRASE_SIZE, "from %.10g to %.10g", range.low, range.high);
@@ -114,9 +111,7 @@ int rt_range_holds(rt_range range, double value)
 {
     switch (range.kind) {
     case RT_RANGE_ABOVE:
-        return value > range.low;
-    case RT_RANGE_FROM:
-        return value >= range.low;
+        return value > range.low && value <= range.high;
     case RT_RANGE_CLOSED:
         return value >= range.low && value <= range.high;
     case RT_RANGE_BETWEEN:

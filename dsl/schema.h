@@ -44,8 +44,7 @@ typedef enum rt_field_need {
 /* Which numbers a field takes; of a vector or colour, each component. */
 typedef enum rt_range_kind {
     RT_RANGE_ANY,
-    RT_RANGE_ABOVE,    /* greater than low */
-    RT_RANGE_FROM,     /* at least low */
+    RT_RANGE_ABOVE,    /* greater than low, at most high */
     RT_RANGE_CLOSED,   /* low to high, both included */
     RT_RANGE_BETWEEN,  /* low to high, both excluded */
     RT_RANGE_DIRECTION, /* any vector but zero; of a rotation, the axis */
@@ -209,7 +208,7 @@ const char *rt_block_title(char out[RT_BLOCK_TITLE_SIZE], const rt_block *block)
 #define RT_PHRASE_SIZE 160
 const char *rt_field_phrase(char out[RT_PHRASE_SIZE], const rt_field *field);
 
-/* "greater than 0", ...; "" for any. Whether a number lies in a range. */
+/* "from 0 to 1", ...; "" for any. Whether a number lies in a range. */
 const char *rt_range_phrase(char out[RT_PHRASE_SIZE], rt_range range);
 int rt_range_holds(rt_range range, double value);
 

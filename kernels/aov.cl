@@ -35,7 +35,7 @@ kernel void aov(const rt_params params, global const rt_scene_header *header, gl
         float weight;
         const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
         struct hit hit;
-        if (closest_hit(&scene, &ray, &hit)) {
+        if (can_follow(&ray) && closest_hit(&scene, &ray, &hit)) {
             const struct surface surface = surface_at(&scene, &ray, &hit);
             global const rt_material_data *material = scene.materials + scene.shapes[surface.shape].material;
             const float3 wo = -ray.direction;

@@ -28,7 +28,7 @@
 #include "surface.h"
 #include "types.h"
 
-/* What a path carries: radiance from the eye, or flux from a light. They differ where the scattering is not symmetric. */
+/* What a path carries: radiance from the eye, or flux from a light; these differ where scattering is not symmetric. */
 enum transport { CARRY_RADIANCE, CARRY_FLUX };
 
 /* A rough surface chooses between reflection and refraction late, at the facet. */
@@ -37,7 +37,7 @@ enum event { EVENT_ABSORBED, EVENT_DIFFUSE, EVENT_REFLECTED, EVENT_REFRACTED, EV
 /* A surface's scattering as seen from wo. */
 struct bsdf {
     float3 kd;
-    float3 reflected, refracted; /* specular parts about the shading normal; refracted without the radiance's (eta_i/eta_t)^2 */
+    float3 reflected, refracted; /* specular parts about the shading normal, without the radiance's (eta_i/eta_t)^2 */
     float3 normal;               /* geometric, on the side of wo */
     float3 shading;              /* on the side of wo as well */
     float3 wo;
@@ -134,7 +134,7 @@ static inline bool bsdf_is_rough(const struct bsdf *bsdf)
     return bsdf->specular.alpha > 0.0f;
 }
 
-/* Diffuse light from wi, and its density by diffuse events, their choice included, survival left out; 0 below the surface. */
+/* Diffuse light from wi, and its density by diffuse events, their choice included; 0 below the surface. */
 static inline struct lobe bsdf_diffuse(const struct bsdf *bsdf, float3 wi)
 {
     const float pdf_w = dot(wi, bsdf->normal) > 0.0f ? cosine_pdf_w(dot(wi, bsdf->shading)) : 0.0f;

@@ -22,11 +22,27 @@ struct canonical {
 #define ROUND_SIDE 0u
 #define ROUND_BASE 1u /* the cap at z = 0 */
 #define ROUND_TOP 2u  /* the cap at z = 1 */
+#define ROUND_PART 3u /* mask */
+
+/* Flag beside the part, of every curved shape: the ray goes out. */
+#define PART_LEAVES 4u
 
 /* The radius of a cylinder or cone at z = 1. */
 static inline float round_top(global const rt_shape *shape)
 {
     return shape->kind == RT_SHAPE_CONE ? shape->p[0] : 1.0f;
+}
+
+/*
+ * The normal where a ray in this direction goes out or in. Where it grazes, rounding may put the hit on the turned side
+ * of a curved surface; the normal is then bent to be just at a right angle to the ray, so that in stays in.
+ */
+static inline float3 facing_normal(float3 normal, float3 direction, bool leaves)
+{
+    const float side = leaves ? 1.0f : -1.0f;
+    const float3 ahead = unit(direction);
+    const float along = dot(normal, ahead);
+    return side * along > 0.0f ? normal : unit(normal + (side * 2e-6f - along) * ahead);
 }
 
 /* Longitude from +x towards -z and latitude from the south pole of a unit vector, both in [0,1]. */

@@ -7,7 +7,7 @@
 
 #define RT_NONE 0xffffffffu /* "no such element", wherever an index is asked */
 
-/* A ray: origin + t direction, t in [t_min, t_max]; the direction need not be of unit length. */
+/* A ray: origin + t direction, t in [t_min, t_max]; the direction need not be of unit length, see rt_trace. */
 typedef struct rt_ray {
     float origin[3]; /* metres */
     float t_min;
@@ -101,5 +101,12 @@ typedef enum rt_direct {
     RT_DIRECT_NEE = 0, /* direct light by shadow rays; photons straight from a light are not stored */
     RT_DIRECT_PHOTONS  /* all light at a diffuse surface comes from the map */
 } rt_direct;
+
+/* The area that photons are taken to be spread over. */
+typedef enum rt_area {
+    RT_AREA_DISC = 0, /* the disc that they lie in, photons weighted by the density kernel */
+    RT_AREA_HULL      /* their convex hull in the tangent plane, those at its corners left out: true at the edges of
+                         surfaces as well, a little noisier elsewhere */
+} rt_area;
 
 #endif

@@ -70,7 +70,7 @@ kernel void enclose(const rt_params params, global rt_scene_header *header, cons
         vstore4(media_around(&scene, eye.xyz) + 1u, 0, header->eye_media);
         return;
     }
-    global rt_light_data *light = (global rt_light_data *)((global uchar *)header + (size_t)header->lights * RT_SCENE_ROW);
-    light += item - 1u;
+    global uchar *lights = (global uchar *)header + (size_t)header->lights * RT_SCENE_ROW;
+    global rt_light_data *light = (global rt_light_data *)lights + (item - 1u);
     vstore3(media_around_light(&scene, light).xyz + 1u, 0, light->media);
 }

@@ -84,9 +84,11 @@ static inline uint lane_last(uint mask)
 #if defined(__clang__)
 #define INLINE_ALWAYS static inline __attribute__((always_inline))
 #define INLINE_NEVER static __attribute__((noinline))
+#define SELDOM(truth) __builtin_expect(!!(truth), 0) /* registers go to the other way first */
 #else
 #define INLINE_ALWAYS static inline
 #define INLINE_NEVER static
+#define SELDOM(truth) (truth)
 #endif
 
 #endif

@@ -2,7 +2,8 @@
  * photon_emit.cl - photon tracing: each work-item follows one path from a light.
  *
  * A path starts with the flux of all lights, in the colour of the light that was chosen, and leaves
- * a photon at each surface that reflects diffusely. The division by the number of paths is left to
+ * a photon at each surface that reflects diffusely; specular events, perfect or rough, are followed,
+ * here and from the eye, and are no part of what a photon stands for. The division by the number of paths is left to
  * those who use the photons, so that maps can be joined. Its photons go to slots of its own, so that
  * the map does not depend on the order in which paths are followed.
  *
@@ -149,7 +150,7 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
     struct light_path path;
     uint count = 0u, rejected = 0u, end = RT_END_CUT_OFF;
 
-    bool alive = start_path(&path, &scene, shares, &sampler, &account);
+    bool alive = start_path(&path, &scene, shares, &sampler, &account) && can_follow(&path.ray);
     while (alive && path.depth < params.max_depth) {
         /* Find the nearest surface. */
         struct hit hit;

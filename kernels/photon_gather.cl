@@ -3,7 +3,21 @@
  * gather point's radiance what the point makes of the photons around it.
  */
 #include "density.h"
+#include "hull.h"
 #include "reflect.h"
+
+static inline float3 disc_density(const rt_density_params *estimate, float3 position, global const rt_photon *photons,
+                                  global const uint *list, rt_gather_disc disc)
+{
+    float3 flux_density = (float3)(0.0f);
+    for (uint i = 0; i < disc.count; i++) {
+        global const rt_photon *photon = photons + list[i];
+        const float3 away = row3(photon->position) - position;
+        const float k = density_kernel(estimate->density, estimate->cone_k, dot(away, away), disc.squared_radius);
+        flux_density += (k * photon->shading) * row3(photon->flux);
+    }
+    return flux_density;
+}
 
 /*
  * points: those from params.first_item on; lists: rows of estimate.stride photon
@@ -19,13 +33,11 @@ kernel void photon_gather(const rt_params params, const rt_density_params estima
     const rt_gather_disc disc = discs[item];
     points += params.first_item + item;
     const float3 position = row3(points->position);
-    float3 flux_density = (float3)(0.0f);
+    float3 flux_density;
 
-    for (uint i = 0; i < disc.count; i++) {
-        global const rt_photon *photon = photons + list[i];
-        const float3 away = row3(photon->position) - position;
-        const float k = density_kernel(estimate.density, estimate.cone_k, dot(away, away), disc.squared_radius);
-        flux_density += (k * photon->shading) * row3(photon->flux);
-    }
+    if (estimate.area == RT_AREA_HULL)
+        flux_density = hull_density(points, photons, list, disc.count);
+    else
+        flux_density = disc_density(&estimate, position, photons, list, disc);
     add_reflected(points, estimate.scale * flux_density);
 }

@@ -17,7 +17,7 @@ struct ray {
 /* What a traversal keeps of the nearest hit; surface_at makes a surface of it. */
 struct hit {
     float t;
-    float u, v; /* triangle: weights of v1 and v2; parallelogram: along the edges; cylinder, cone: u is the part; else 0 */
+    float u, v; /* triangle: weights of v1 and v2; parallelogram: along the edges; shapes: u is the part */
     uint prim;  /* primitive of the scene: of an instance, the instance */
     uint slot;  /* see RT_SLOT_ANALYTIC */
 };

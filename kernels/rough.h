@@ -90,7 +90,7 @@ static inline bool is_matched(const struct specular *specular)
     return fabs(1.0f - specular->eta) < RT_MATCHED_INDEX;
 }
 
-/* The share of light from a facet to wi that is not shadowed, given that wo sees the facet: G2 / G1, correlated heights. */
+/* The share of light from a facet that wo sees to wi that is not shadowed: G2 / G1, for correlated heights. */
 static inline float unshadowed(const struct specular *specular, float3 wo, float3 wi)
 {
     const float seen = 1.0f + ggx_lambda(specular->alpha, wo);

@@ -14,11 +14,12 @@
 #include "types.h"
 
 /*
- * The nearest t in [t_min, t_max] at which the ray meets the sphere about `centre`, or infinity. The discriminant
+ * The nearest t in [t_min, t_max] at which the ray meets the sphere about `centre`, or infinity; *part tells in from
+ * out. The discriminant
  * and the smaller root are computed without cancellation: Haines, Gunther and Akenine-Moeller,
  * "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7.
  */
-static inline float intersect_sphere(float3 centre, float radius, const struct ray *ray)
+static inline float intersect_sphere(float3 centre, float radius, const struct ray *ray, uint *part)
 {
     const float3 f = ray->origin - centre;
     const float3 d = ray->direction;
@@ -35,6 +36,7 @@ static inline float intersect_sphere(float3 centre, float radius, const struct r
     const float near = t0 < t1 ? t0 : t1, far = t0 < t1 ? t1 : t0;
     if (near >= ray->t_min && near <= ray->t_max)
         return near;
+    *part = PART_LEAVES;
     return far >= ray->t_min && far <= ray->t_max ? far : INFINITY;
 }
 
@@ -60,25 +62,25 @@ INLINE_NEVER float intersect_placed(const struct scene *scene, global const rt_s
 {
     const struct ray own = ray_to_object(scene->transforms + shape->transform, ray);
     if (shape->kind == RT_SHAPE_ELLIPSOID)
-        return intersect_sphere((float3)(0.0f), 1.0f, &own);
+        return intersect_sphere((float3)(0.0f), 1.0f, &own, part);
     if (shape->kind == RT_SHAPE_DISC)
         return intersect_disc(shape->p[0], &own);
     const struct line line = make_line(&own);
     const float s =
-        shape->kind == RT_SHAPE_TORUS ? intersect_torus(shape->p[0], &line) : intersect_round(shape, &line, part);
+        shape->kind == RT_SHAPE_TORUS ? intersect_torus(shape->p[0], &line, part) : intersect_round(shape, &line, part);
     return s < INFINITY ? line_t(&line, ray, s) : INFINITY;
 }
 
 /*
  * The nearest t in [t_min, t_max] at which the ray meets a shape that is not kept in blocks, or infinity; *part is
- * the part of a cylinder or cone that it meets.
+ * the part of a cylinder or cone that it meets, with PART_LEAVES where it goes out of a curved shape.
  */
 INLINE_NEVER float intersect_shape(const struct scene *scene, global const rt_shape *shape, const struct ray *ray,
                                    uint *part)
 {
     *part = 0u;
     if (shape->kind == RT_SHAPE_SPHERE)
-        return intersect_sphere(vload3(0, shape->p), shape->p[3], ray);
+        return intersect_sphere(vload3(0, shape->p), shape->p[3], ray, part);
     if (shape->kind == RT_SHAPE_PLANE)
         return intersect_plane(shape, ray);
     return intersect_placed(scene, shape, ray, part);

@@ -14,13 +14,13 @@
 
 /* Position moved onto the sphere; a transform turns the normal to that of u and v. */
 static inline void sphere_surface(struct surface *surface, const struct scene *scene, global const rt_shape *shape,
-                                  const struct ray *ray, float t)
+                                  const struct ray *ray, const struct hit *hit)
 {
     const float3 centre = vload3(0, shape->p);
     const float radius = shape->p[3];
-    const float3 n = unit(ray->origin + t * ray->direction - centre);
-    surface->normal = n;
-    surface->shading = n;
+    const float3 n = unit(ray->origin + hit->t * ray->direction - centre);
+    surface->normal = facing_normal(n, ray->direction, (uint)hit->u & PART_LEAVES);
+    surface->shading = surface->normal;
     surface->position = centre + radius * n;
     surface->error = gamma_bound(6.0f) * radius + gamma_bound(3.0f) * dot(fabs(centre), fabs(n));
     const float3 turned =
@@ -67,7 +67,7 @@ static inline void placed_surface(struct surface *surface, const struct scene *s
         break;
     case RT_SHAPE_CYLINDER:
     case RT_SHAPE_CONE:
-        point = canonical_round(shape, placement, p, (uint)hit->u);
+        point = canonical_round(shape, placement, p, (uint)hit->u & ROUND_PART);
         break;
     case RT_SHAPE_TORUS:
         point = canonical_torus(shape, p);
@@ -75,6 +75,8 @@ static inline void placed_surface(struct surface *surface, const struct scene *s
     default:
         point = canonical_ellipsoid(p);
     }
+    if (shape->kind != RT_SHAPE_DISC)
+        point.normal = facing_normal(point.normal, own.direction, (uint)hit->u & PART_LEAVES);
     place_canonical(surface, placement, &point);
 }
 
@@ -93,7 +95,7 @@ static inline struct surface surface_at(const struct scene *scene, const struct 
     else if (shape->kind == RT_SHAPE_PLANE)
         plane_surface(&surface, scene, shape, ray, hit->t);
     else if (shape->kind == RT_SHAPE_SPHERE)
-        sphere_surface(&surface, scene, shape, ray, hit->t);
+        sphere_surface(&surface, scene, shape, ray, hit);
     else
         placed_surface(&surface, scene, shape, ray, hit);
     return surface;

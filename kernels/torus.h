@@ -10,6 +10,7 @@
 #ifndef RT_TORUS_H
 #define RT_TORUS_H
 
+#include "canonical.h"
 #include "line.h"
 
 #define TORUS_ROOM 1.01f /* the line is cut to the torus' bounds, enlarged by this, where h is well above 0 */
@@ -100,20 +101,20 @@ static inline float torus_root(const struct line *line, float minor, float sign,
     struct torus_point at = out; /* from here Newton's method comes nearer without passing the root */
     for (int i = 0; i < 40; i++) {
         const float lo = fmin(out.s, in.s), hi = fmax(out.s, in.s);
-        float s = at.s - at.h / at.slope;
+        const float step = at.h / at.slope;
+        float s = at.s - step;
+        if (fabs(step) <= 0x1p-24f + 0x1p-23f * fabs(s))
+            return clamp(s, lo, hi);
         if (!(s > lo && s < hi)) {
             s = 0.5f * (lo + hi);
             if (!(s > lo && s < hi))
                 break;
         }
-        const float step = s - at.s;
         at = torus_at(line, minor, sign, s);
         if (at.h < 0.0f)
             in = at;
         else
             out = at;
-        if (fabs(step) <= 0x1p-24f * fabs(s))
-            break;
     }
     return at.s;
 }
@@ -133,8 +134,8 @@ static inline float torus_first(const struct line *line, float minor, float sign
     return torus_root(line, minor, sign, a, in);
 }
 
-/* The nearest meeting of the line with the torus, or infinity. */
-static inline float intersect_torus(float minor, const struct line *line)
+/* The nearest meeting of the line with the torus, or infinity; *part tells in from out. */
+static inline float intersect_torus(float minor, const struct line *line, uint *part)
 {
     float lo, hi;
     if (!torus_bounds(line, minor, &lo, &hi))
@@ -147,8 +148,10 @@ static inline float intersect_torus(float minor, const struct line *line)
             continue;
         const struct torus_point b = torus_at(line, minor, 1.0f, end);
         const float s = torus_first(line, minor, span == 1 ? -1.0f : 1.0f, a, b);
-        if (s < INFINITY)
+        if (s < INFINITY) {
+            *part = a.h < 0.0f ? PART_LEAVES : 0u;
             return s;
+        }
         a = b;
     }
     return INFINITY;

@@ -1,79 +1,19 @@
 /*
  * traverse.h - the nearest hit of a ray, and whether anything is hit.
  *
- * The tree is eight wide: a node's children are tested at once against the ray's slabs, the near and far plane
- * of each axis chosen by the sign of the direction. The distance to a plane is one multiply-add,
- * plane * rate + shift; the bounds on its rounding are in rate and shift, so that no box that the ray touches is
- * missed (after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, which has them in the far distance).
- *
- * Ties: of two hits with equal t, the lower primitive wins, whatever order they are met in.
+ * The tree is eight wide. A leaf is a block of triangles, an analytic shape, or an instance, which has a tree of its
+ * own. Ties: of two hits with equal t, the lower primitive wins, whatever order they are met in.
  */
 #ifndef RT_TRAVERSE_H
 #define RT_TRAVERSE_H
 
+#include "boxes.h"
 #include "intersect.h"
 #include "lanes.h"
 #include "scene.h"
 #include "shapes.h"
 #include "surface_at.h"
 #include "types.h"
-
-/* The ray's constants for boxes: the distance to a plane is plane * rate + shift. */
-struct ray_slabs {
-    float3 near_rate, near_shift; /* never above the true distance */
-    float3 far_rate, far_shift;   /* never below it */
-    uint near_x, near_y, near_z;  /* rows of rt_bvh_node.bounds */
-    uint far_x, far_y, far_z;
-};
-
-/*
- * With e = 2^-24, the distance (plane - origin) rate is off by at most 4 e of itself and 4 e |origin rate|; both
- * are allowed for twice. Making rates smaller and larger widens what lies ahead of the origin; what lies behind,
- * where t_min allows it, is widened by as much through the slack. A direction component near 0 is taken as
- * 2^-80: then distances are finite, and far beyond any other, wherever the plane is not within rounding of the
- * origin.
- */
-INLINE_ALWAYS struct ray_slabs make_ray_slabs(const struct ray *ray)
-{
-    const float least = 0x1p-80f, relative = 0x1p-21f, absolute = 0x1p-60f;
-    const float3 direction = copysign(fmax(fabs(ray->direction), (float3)(least)), ray->direction);
-    const float3 rate = 1.0f / direction;
-    const float behind = fmax(-ray->t_min, 0.0f) * (2.0f * relative);
-    const float3 slack = fabs(rate) * (fabs(ray->origin) * relative + absolute) + behind;
-    struct ray_slabs slabs;
-    slabs.near_rate = rate * (1.0f - relative);
-    slabs.far_rate = rate * (1.0f + relative);
-    slabs.near_shift = -(ray->origin * slabs.near_rate) - slack;
-    slabs.far_shift = -(ray->origin * slabs.far_rate) + slack;
-    slabs.near_x = rate.x < 0.0f ? 3u : 0u;
-    slabs.near_y = rate.y < 0.0f ? 4u : 1u;
-    slabs.near_z = rate.z < 0.0f ? 5u : 2u;
-    slabs.far_x = 3u - slabs.near_x;
-    slabs.far_y = 5u - slabs.near_y;
-    slabs.far_z = 7u - slabs.near_z;
-    return slabs;
-}
-
-INLINE_ALWAYS float8 plane_distance(global const rt_bvh_node *node, uint row, float rate, float shift)
-{
-    return lane_mad(vload8(0, node->bounds[row]), (float8)(rate), (float8)(shift));
-}
-
-/* Tests the node's children; returns a bit for each whose box is met in [t_min, t_max], and where. */
-INLINE_ALWAYS uint intersect_boxes(global const rt_bvh_node *node, const struct ray_slabs *slabs, float t_min,
-                                   float t_max, float8 *entry)
-{
-    const float8 near_x = plane_distance(node, slabs->near_x, slabs->near_rate.x, slabs->near_shift.x);
-    const float8 near_y = plane_distance(node, slabs->near_y, slabs->near_rate.y, slabs->near_shift.y);
-    const float8 near_z = plane_distance(node, slabs->near_z, slabs->near_rate.z, slabs->near_shift.z);
-    const float8 far_x = plane_distance(node, slabs->far_x, slabs->far_rate.x, slabs->far_shift.x);
-    const float8 far_y = plane_distance(node, slabs->far_y, slabs->far_rate.y, slabs->far_shift.y);
-    const float8 far_z = plane_distance(node, slabs->far_z, slabs->far_rate.z, slabs->far_shift.z);
-    const float8 near = lane_max(lane_max(near_x, near_y), lane_max(near_z, (float8)(t_min)));
-    const float8 far = lane_min(lane_min(far_x, far_y), lane_min(far_z, (float8)(t_max)));
-    *entry = near;
-    return lane_mask(near <= far);
-}
 
 /* Takes the nearest of the block's hits in `mask` into *hit when it is nearer still and not before t_min. */
 INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *found, uint mask, float t_min,
@@ -209,6 +149,8 @@ INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray
                                 struct hit *hit)
 {
     const struct ray own = ray_to_object(scene->transforms + shape->transform, ray);
+    if (!can_follow(&own))
+        return;
     const struct ray_frame frame = make_ray_frame(&own);
     /* Within the mesh prim is the triangle; a triangle as near as the hit so far wins if the instance comes first. */
     struct hit nearest = *hit;
@@ -255,7 +197,7 @@ INLINE_ALWAYS void test_leaf(const struct scene *scene, const struct ray *ray, c
                              uint child, struct hit *hit)
 {
     const uint index = child & RT_CHILD_INDEX;
-    if (child & RT_CHILD_ANALYTIC)
+    if (SELDOM(child & RT_CHILD_ANALYTIC))
         test_shape(scene, ray, scene->analytic[index], hit);
     else
         test_block(scene, ray, frame, index, hit);
@@ -283,7 +225,7 @@ static inline void test_all(const struct scene *scene, const struct ray *ray, st
         test_shape(scene, ray, scene->analytic[i], hit);
 }
 
-/* The nearest hit in [t_min, t_max]; false, and *hit without meaning, when there is none. */
+/* The nearest hit in [t_min, t_max] of a ray that can be followed; false, and *hit without meaning, when there is none. */
 INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
     hit->t = ray->t_max;
@@ -343,6 +285,8 @@ INLINE_ALWAYS bool block_occludes(const struct scene *scene, const struct ray *r
 INLINE_NEVER bool instance_occludes(const struct scene *scene, const struct ray *ray, global const rt_shape *shape)
 {
     const struct ray own = ray_to_object(scene->transforms + shape->transform, ray);
+    if (!can_follow(&own))
+        return false;
     const struct ray_frame frame = make_ray_frame(&own);
     if (scene->header->accel == RT_ACCEL_BVH) {
         const struct ray_slabs slabs = make_ray_slabs(&own);
@@ -372,8 +316,9 @@ INLINE_ALWAYS bool leaf_occludes(const struct scene *scene, const struct ray *ra
                                  uint leaf)
 {
     const uint index = leaf & RT_CHILD_INDEX;
-    return leaf & RT_CHILD_ANALYTIC ? shape_occludes(scene, ray, scene->analytic[index])
-                                    : block_occludes(scene, ray, frame, index);
+    if (SELDOM(leaf & RT_CHILD_ANALYTIC))
+        return shape_occludes(scene, ray, scene->analytic[index]);
+    return block_occludes(scene, ray, frame, index);
 }
 
 INLINE_ALWAYS bool traverse_any(const struct scene *scene, const struct ray *ray)
@@ -401,7 +346,7 @@ static inline bool all_occlude(const struct scene *scene, const struct ray *ray)
     return false;
 }
 
-/* Whether the ray meets anything in [t_min, t_max]; stops at the first. */
+/* Whether a ray that can be followed meets anything in [t_min, t_max]; stops at the first. */
 INLINE_NEVER bool occluded(const struct scene *scene, const struct ray *ray)
 {
     for (uint i = 0; i < scene->header->plane_count; i++)

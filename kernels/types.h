@@ -402,8 +402,10 @@ typedef struct rt_density_params {
     rt_u32 look;         /* device gather: photons looked at, accepted or not, at most */
     rt_u32 points_an_item; /* device gather: gather points that a work-item takes, one after the other */
     float scale;         /* of the photons' flux: 1 / emitted paths */
+    rt_u32 area;         /* rt_area; the device gather knows the disc only */
+    rt_u32 reserved[3];
 } rt_density_params;
-RT_SIZE(rt_density_params, 32);
+RT_SIZE(rt_density_params, 48);
 
 /*
  * The tree of photons that the device gathers from. Photons in the order of a space-filling curve are cut into

@@ -65,9 +65,13 @@
  * Option structs: set what you need, leave the rest zero; zero always means the default
  * that the member's comment states. Passing NULL for an option struct means all defaults.
  *
- * There is no global state. Different objects may be used from different threads at
- * once; one object from one thread at a time. The library does not print, exit, install
- * signal handlers or change the environment.
+ * There is no global state, but for one setting of FLANN, its type of distance: it belongs to the
+ * process, and the calls that search photons set it behind a lock of the library's own. Different
+ * objects may be used from different threads at once; one object from one thread at a time. The
+ * library does not print, exit, install signal handlers or change the environment.
+ *
+ * Coordinates lie within 1e15 metres, and the components of a colour, of whatever unit, between 0
+ * and 1e28; what lies outside is refused.
  */
 #ifndef RT_RT_H
 #define RT_RT_H
@@ -101,7 +105,7 @@ typedef enum rt_status {
     RT_ERROR_INPUT,  /* the scene or a file it names is wrong */
     RT_ERROR_USAGE,  /* an argument or an option is out of its range */
     RT_ERROR_DEVICE, /* no OpenCL platform or device, a kernel does not build, a launch fails */
-    RT_ERROR_OUTPUT, /* an image could not be written */
+    RT_ERROR_OUTPUT, /* a file could not be written */
     RT_ERROR_MEMORY, /* host or device memory is exhausted */
     RT_CANCELLED     /* a progress callback asked to stop */
 } rt_status;
@@ -177,8 +181,8 @@ typedef struct rt_load_options {
 RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options, rt_error *error);
 
 /*
- * The same from a string; `name` stands for the file in messages, and files that the text
- * names are looked up relative to the current directory.
+ * The same from a string, which must not be NULL; `name` stands for the file in messages, NULL means
+ * "text". Files that the text names are looked up relative to the current directory.
  */
 RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
                                 rt_error *error);
@@ -267,7 +271,7 @@ typedef struct rt_surface {
 /*
  * Each call adds one shape and, if out is not NULL, writes its index, the one that rt_hit.shape
  * gives back. All fail with RT_ERROR_INPUT, error->field naming the parameter, when a value is not
- * finite or the shape has no extent. Every finite shape can emit; every closed one can be glass.
+ * finite, out of range, or the shape has no extent: a radius below 1e-15 m or an area below 1e-30 m^2. Every finite shape can emit; every closed one can be glass.
  */
 
 /* The infinite plane through `point`; normal need not be of unit length. u, v: metres along the plane. */
@@ -340,7 +344,10 @@ RT_API rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *
 RT_API rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh, const rt_surface *surface,
                                        rt_error *error);
 
-/* A mesh placed once: rt_scene_add_mesh and rt_scene_add_instance in one call. normals may be NULL. */
+/*
+ * A mesh placed once: rt_scene_add_mesh and rt_scene_add_instance in one call. normals may be NULL; one that is zero is
+ * replaced by that of the triangle.
+ */
 RT_API rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions, size_t vertex_count,
                                         const uint32_t *indices, size_t triangle_count, const float *normals,
                                         const rt_surface *surface, rt_error *error);
@@ -400,8 +407,9 @@ typedef struct rt_camera {
     float up[3];          /* all zero means (0, 1, 0) */
     float fov;            /* full horizontal angle, degrees, below 180; 0 means 45 */
     float width;          /* orthographic: metres across; 0 means 2 */
-    float aperture;       /* lens radius, metres; 0 is a pinhole; an environment camera always is one */
-    float focal_distance; /* metres along the view axis to the plane in focus; 0 means that of look_at */
+    float aperture;       /* lens radius, metres, at most 1e15; 0 is a pinhole; an environment camera always is one */
+    float focal_distance; /* metres along the view axis to the plane in focus, from 1e-15 to 1e15; 0 means that
+                             of look_at, which has the same range */
     uint32_t blades;      /* edges of the aperture, 3 or more; 0: round */
     float blade_rotation; /* degrees */
 } rt_camera;
@@ -443,20 +451,24 @@ typedef struct rt_render_options {
     rt_filter filter;
     rt_estimator estimator; /* of direct light, see common.h; where the photon map is asked, always by light sampling */
     int aov;                /* 1: also the layers albedo, normal and depth, see rt_film_layer */
-    double time;            /* stop after so many seconds of rendering; 0: no limit */
+    double time;            /* stop after so many seconds of rendering, but only between passes that give every
+                               pixel a sample: the first one is always finished; 0: no limit */
     uint64_t photons;       /* photon paths emitted; 0 means 1 000 000. In passes, those of each pass; 0 means
                                one a pixel */
     uint32_t k;             /* nearest photons; 0 means 50. The k-th gives the radius and is not summed. RT_K_ALL: all
                                photons within `radius`, which must be given */
-    float radius;           /* largest gather radius, metres; 0: no limit */
+    float radius;           /* largest gather radius, metres, at least 1e-15; 0: no limit */
     rt_gather gather;
     uint32_t passes;        /* progressive photon mapping in so many passes, each with fresh photons and eye paths (spp
                                samples, 0 means 1), that gather all photons within a radius shrinking from pass to
                                pass: r_{i+1}^2 = r_i^2 (i + alpha)/(i + 1) (Knaus and Zwicker 2011). The film is the mean
                                of the passes. r_1 is `radius`, or if that is 0 the mean distance of the k-th photon
                                in the first pass. 0 and 1: no passes */
-    float alpha;            /* how fast the radius shrinks, between 0 and 1; 0 means 2/3 */
+    float alpha;            /* between 0 and 1, the larger the slower the radius shrinks; 0 means 2/3 */
+    int photon_layers;      /* 1: also the layers photon.count and the like, see rt_film_layer */
     rt_density kernel;      /* density kernel, see common.h */
+    rt_area area;           /* what the flux is divided by; RT_AREA_HULL leaves the density kernel out, and is for
+                               the k nearest by FLANN */
     float cone_k;           /* constant of the cone kernel; 0 means 1.1 */
     rt_direct direct;
     uint32_t final_gather;  /* gather after so many diffuse bounces instead of at the first hit */
@@ -530,8 +542,9 @@ typedef enum rt_trace_kind {
 } rt_trace_kind;
 
 /*
- * Follows count rays on the device and writes count hits. Rays must be finite, with a non-zero
- * direction and t_min <= t_max; t_max may be infinite.
+ * Follows count rays on the device and writes count hits. Rays must be finite, with an origin whose
+ * coordinates lie within 1e15, a direction of a length from 1e-15 to 1e15, and t_min <= t_max; t_max may be
+ * infinite. Fails with RT_ERROR_USAGE, naming the first ray that is not so.
  */
 RT_API rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays, size_t count, rt_hit *hits,
                           rt_error *error);
@@ -666,11 +679,18 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
 
 /*
  * A layer of the film, [height][width][*channels], top row first; owned by the film. NULL when there is none of
- * that name: layers are made where rt_render_options.aov asks for them, and by the modes that show one. All are means
- * over the samples that the picture has. channels may be NULL.
- *   "albedo"  3  kd + ks + kt of the first hit, 0 where nothing is hit
- *   "normal"  3  its shading normal in the world, as the shape has it, not turned to the camera; 0 likewise
- *   "depth"   1  metres along the view axis (from the eye, for an environment camera), mean of the samples that hit
+ * that name. channels may be NULL. With rt_render_options.aov, and by the modes that show one, as means over the
+ * samples that the picture has:
+ *   albedo           3  kd + ks + kt of the first hit, 0 where nothing is hit
+ *   normal           3  its shading normal in the world, as the shape has it, not turned to the camera; 0 likewise
+ *   depth            1  metres along the view axis (from the eye, for an environment camera), mean of the samples
+ *                       that hit
+ * With rt_render_options.photon_layers:
+ *   photon.count     1  mean number of photons that count at the end of an eye path
+ *   photon.radius    1  mean radius of the disc that they lie in, m
+ *   photon.density   1  mean of their number over the disc's area, 1/m^2
+ *   photon.variance  1  variance of the pixel, the mean of its three channels, estimated from its samples. In passes
+ *                       these are independent; in one pass they share their photons, whose part it leaves out
  */
 RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
 
@@ -699,10 +719,127 @@ typedef struct rt_image_options {
 
 /*
  * Writes the film in the format of the file's extension: .exr (linear float, with the seed, samples and
- * version as attributes, and the layers as albedo.R .G .B, normal.X .Y .Z and depth.Z), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
+ * version as attributes, and the layers: albedo.R .G .B, normal.X .Y .Z, depth.Z, and photon.count and the like by
+ * their names), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
  * Fails with RT_ERROR_USAGE for another extension and RT_ERROR_OUTPUT when it cannot be written.
  */
 RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error);
+
+/* ---- Files -------------------------------------------------------------- */
+
+/*
+ * Makes path hold exactly these bytes, or leaves it as it was, as rt_film_write does: by a temporary file
+ * in the same directory. A replaced file keeps its permissions; a symbolic link stays and its target is
+ * written; what is no regular file (a device, a pipe) is written in place. Fails with RT_ERROR_OUTPUT.
+ */
+RT_API rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error);
+
+/* ---- Images ---------------------------------------------------------------- */
+
+/* An image of any number of named channels: a picture, and layers beside it such as albedo.R .G .B. */
+typedef struct rt_image rt_image;
+
+/*
+ * Reads an EXR, PNG, PPM, PGM or PFM file, known by its first bytes and not by its name. Fails with
+ * RT_ERROR_INPUT, naming path and cause. The caller owns *out.
+ */
+RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
+
+/* The picture rgb [height][width][3], linear, top row first, as an image; it is copied. The caller owns *out. */
+RT_API rt_status rt_image_from_rgb(rt_image **out, const float *rgb, uint32_t width, uint32_t height,
+                                   rt_error *error);
+RT_API void rt_image_destroy(rt_image *image);
+RT_API void rt_image_get_size(const rt_image *image, uint32_t *width, uint32_t *height);
+
+/*
+ * Copies a layer to rgb [height][width][3], linear, top row first; NULL stands for the picture itself. The layer's
+ * channels are R, G, B, or X, Y, Z, whatever their order in the file, or a single one, copied to all three: that
+ * whose whole name it is (photon.count), grey Y, or the only one.
+ * 1, 8 and 16 bit samples are decoded from sRGB. Fails with RT_ERROR_INPUT when there is no such layer.
+ */
+RT_API rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer, rt_error *error);
+
+/*
+ * Writes an image as .exr (all channels), .png, .ppm or .pfm (its R, G and B); options NULL: their defaults. The file
+ * appears whole or not at all. Fails with RT_ERROR_USAGE for another extension, an option out of its range or a
+ * missing channel, and with RT_ERROR_OUTPUT when the file cannot be written.
+ */
+RT_API rt_status rt_image_write(const rt_image *image, const char *path, const rt_image_options *options,
+                                rt_error *error);
+
+/* ---- Comparison of images --------------------------------------------------- */
+
+typedef struct rt_compare_options {
+    const char *layer; /* what is compared, such as "albedo"; NULL: the picture itself */
+    uint32_t block;    /* side of a block in pixels; 0 means 16 */
+    double tolerance;  /* how far the mean of a block may be off, relative; 0 means 0.01 */
+    double exposure;   /* stops by which SSIM and FLIP see the pictures brightened */
+} rt_compare_options;
+
+/*
+ * A block of the pictures. In each channel its means agree when they differ by no more than the larger of the
+ * tolerance times the reference's mean, and four standard errors of that difference. The squared standard error of
+ * a block of n pixels is V / n + S:
+ *   V  where every image has a layer "variance" (the variance of each pixel's value): the mean of the sum of these.
+ *      Else the variance of the n pixel differences about the plane that fits them best (n - 3 degrees of freedom):
+ *      a pixel's true value cancels in the difference, edges and texture included, and the plane takes a smooth
+ *      error away, so that it holds the noise of both images, as far as the pixels are independent of each other.
+ *   S  is for renders whose pixels are not, such as those of a photon map, where neighbours share photons: with
+ *      several independent renders the squared standard error of their mean, from the scatter of the renders' block
+ *      means, averaged over the block and its neighbours. With one render it is zero.
+ */
+typedef struct rt_image_block {
+    uint32_t x, y, width, height; /* pixels; at the right and lower border blocks may be smaller */
+    double mean[3], reference[3]; /* of the renders and of the reference, by channel */
+    double error[3];              /* standard error of their difference */
+    double excess[3];             /* their difference by what it may be: off above 1; infinite where a value is not
+                                     finite */
+} rt_image_block;
+
+/* Measures over all pixels and channels; a is the mean of the renders, b the reference. */
+typedef struct rt_comparison_info {
+    uint32_t width, height;
+    uint64_t not_finite[2]; /* pixels of a and of b with a channel that is infinite or not a number: left out of the
+                               means that follow, black or white to SSIM and FLIP, and off in their blocks */
+    double mse, rmse;       /* mean of (a - b)^2, and its square root */
+    double relmse;          /* mean of (a - b)^2 / (b^2 + 0.01) */
+    double ratio;           /* mean of a by mean of b; not a number where that of b is 0 */
+    double ratio_error;     /* its standard error, from those of the blocks that are finite; noise is taken as common
+                               to the channels */
+    double ratio_rgb[3];    /* by channel */
+    double ssim;            /* mean structural similarity of the luminance as an sRGB display shows it, Gaussian window
+                               of 11x11 pixels (Wang et al. 2004); not a number when a picture is smaller */
+    double flip;            /* mean LDR-FLIP (Andersson et al. 2020), 0 to 1: what a person sees alternate on a display
+                               of 67 pixels a degree */
+    double typical;         /* difference that 95 % of the pixels do not exceed in the channel that differs most, to
+                               1 %; where that is 0, the largest */
+    size_t blocks, off;     /* blocks, and how many of them are off in at least one channel */
+    size_t worst;           /* the block, and in it the channel, of the largest excess */
+    uint32_t worst_channel;
+} rt_comparison_info;
+
+typedef struct rt_comparison rt_comparison;
+
+/*
+ * Compares the mean of count >= 1 independent renders with a reference; options NULL: their defaults. Fails with
+ * RT_ERROR_INPUT when the sizes differ or a layer is missing, and with RT_ERROR_USAGE when an option is out of its
+ * range. The caller owns *out; the images may be destroyed afterwards.
+ */
+RT_API rt_status rt_image_compare(rt_comparison **out, const rt_image *const *renders, size_t count,
+                                  const rt_image *reference, const rt_compare_options *options, rt_error *error);
+RT_API void rt_comparison_destroy(rt_comparison *comparison);
+RT_API void rt_comparison_get_info(const rt_comparison *comparison, rt_comparison_info *out);
+
+/* The blocks, row by row; owned by the comparison. */
+RT_API const rt_image_block *rt_comparison_blocks(const rt_comparison *comparison, size_t *count);
+
+/*
+ * Writes the signed difference a - b. To .exr and .pfm: as it is, by channel. To .png and .ppm: for the eye, white
+ * where the pictures are equal, red where a and blue where b is brighter, in the channel that differs most, full
+ * at a difference of `scale`; 0 means `typical`. What is not finite is black. Fails as rt_image_write.
+ */
+RT_API rt_status rt_comparison_write_difference(const rt_comparison *comparison, const char *path, double scale,
+                                                rt_error *error);
 
 #ifdef __cplusplus
 }

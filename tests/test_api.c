@@ -97,6 +97,15 @@ static void failure_fills_the_error_and_leaves_the_result(void **state)
     assert_null(strchr(error.message, '\n'));
 }
 
+static void a_text_without_a_name_is_called_text(void **state)
+{
+    (void)state;
+    rt_scene *scene;
+    rt_error error;
+    assert_int_equal(rt_scene_parse(&scene, "nonsense", NULL, NULL, &error), RT_ERROR_INPUT);
+    assert_string_equal(error.file, "text");
+}
+
 static void error_may_be_null(void **state)
 {
     (void)state;
@@ -286,11 +295,35 @@ static void ray_that_is_no_ray_is_refused(void **state)
         {{0, NAN, 0}, 0, {0, 0, 1}, 1},
         {{0, 0, 0}, 0, {0, 0, 0}, 1},
         {{0, 0, 0}, 2, {0, 0, 1}, 1},
+        {{0, 1, -4}, 0, {0, 0, 1e-16f}, INFINITY},
+        {{0, 1, -4}, 0, {0, 0, 1e16f}, INFINITY},
+        {{0, 1e16f, -4}, 0, {0, 0, 1}, INFINITY},
     };
     rt_hit hit;
     rt_error error;
-    for (int i = 0; i < 3; i++)
-        assert_int_equal(rt_trace(fixture->renderer, RT_TRACE_CLOSEST, rays + i, 1, &hit, &error), RT_ERROR_USAGE);
+    for (size_t i = 0; i < sizeof rays / sizeof *rays; i++) {
+        const rt_ray pair[] = {{{0, 1, -4}, 0, {0, 0, 1}, INFINITY}, rays[i]};
+        rt_hit hits[2];
+        assert_int_equal(rt_trace(fixture->renderer, RT_TRACE_CLOSEST, pair, 2, hits, &error), RT_ERROR_USAGE);
+        assert_non_null(strstr(error.message, "ray 1 "));
+    }
+    const rt_ray good = {{0, 1, -4}, 0, {0, 0, 1}, INFINITY};
+    assert_int_equal(rt_trace(fixture->renderer, (rt_trace_kind)2, &good, 1, &hit, &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "kind");
+}
+
+/* At both ends of the lengths that are allowed. */
+static void a_direction_may_be_short_or_long(void **state)
+{
+    fixture *fixture = *state;
+    const rt_ray rays[] = {{{0, 1, -4}, 0, {0, 0, 1e-15f}, INFINITY}, {{0, 1, -4}, 0, {0, 0, 9.9e14f}, INFINITY}};
+    rt_hit hits[2];
+    rt_error error;
+    expect_ok(rt_trace(fixture->renderer, RT_TRACE_CLOSEST, rays, 2, hits, &error), &error);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(hits[i].shape, 1);
+        assert_true(fabsf(hits[i].t * rays[i].direction[2] - 3.0f) < 1e-4f);
+    }
 }
 
 /* ---- Progress and cancelling ------------------------------------------------------------ */
@@ -312,6 +345,7 @@ static int watch_progress(void *user, const rt_progress *progress)
     } else {
         watch->disordered += progress->fraction < watch->fraction;
     }
+    watch->disordered += !(progress->fraction >= 0.0 && progress->fraction <= 1.0);
     watch->reports++;
     watch->ended += progress->fraction == 1.0;
     watch->stage = progress->stage;
@@ -334,6 +368,24 @@ static void progress_shows_each_stage_from_start_to_end(void **state)
     assert_true(watch.ended >= 3);
     assert_int_equal(watch.disordered, 0);
     assert_int_equal(watch.stage, RT_STAGE_GATHER);
+    rt_film_destroy(film);
+}
+
+/* The first pass is finished, long after the time. */
+static void progress_stays_within_1_when_time_is_over(void **state)
+{
+    fixture *fixture = *state;
+    rt_film *film;
+    rt_error error;
+    rt_film_stats stats;
+    watch watch = {0};
+    rt_hooks hooks = {.progress = watch_progress, .user = &watch};
+    rt_render_options options = {.width = 1024, .height = 1024, .time = 1e-3, .hooks = &hooks};
+    expect_ok(rt_render(&film, fixture->renderer, &options, &error), &error);
+    rt_film_get_stats(film, &stats);
+    assert_int_equal(stats.spp, 1);
+    assert_true(watch.reports > 4);
+    assert_int_equal(watch.disordered, 0);
     rt_film_destroy(film);
 }
 
@@ -428,6 +480,7 @@ int main(void)
         cmocka_unit_test(destroying_null_does_nothing),
         cmocka_unit_test(failure_fills_the_error_and_leaves_the_result),
         cmocka_unit_test(error_may_be_null),
+        cmocka_unit_test(a_text_without_a_name_is_called_text),
         cmocka_unit_test(every_error_of_a_text_is_reported),
         cmocka_unit_test(options_out_of_range_name_their_field),
         cmocka_unit_test(scene_by_calls_renders_like_its_text),
@@ -436,7 +489,9 @@ int main(void)
         cmocka_unit_test(device_is_found_by_number_and_by_name),
         cmocka_unit_test(rays_hit_and_miss),
         cmocka_unit_test(ray_that_is_no_ray_is_refused),
+        cmocka_unit_test(a_direction_may_be_short_or_long),
         cmocka_unit_test(progress_shows_each_stage_from_start_to_end),
+        cmocka_unit_test(progress_stays_within_1_when_time_is_over),
         cmocka_unit_test(cancelled_render_keeps_its_samples),
         cmocka_unit_test(cancelled_before_the_first_sample_gives_no_film),
         cmocka_unit_test(film_outlives_its_renderer),

@@ -1,15 +1,19 @@
-/* mesh.c - `rtc mesh`: writes meshes of any size, made from formulas, as PLY files. */
-#include <errno.h>
+/* mesh.c - `rtc mesh`: writes meshes made from formulas as PLY files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
+#include "interrupt.h"
 #include "mesh_shape.h"
 #include "message.h"
 #include "nearest.h"
 #include "rtc.h"
 
-enum { DEFAULT_TRIANGLES = 20000, NAME_SIZE = 4096 };
+enum { DEFAULT_TRIANGLES = 20000 };
+
+/* Bytes of a PLY file: room for the header, and what a vertex and a face take. */
+enum { HEADER_SIZE = 512, VERTEX_SIZE = 32, FACE_SIZE = 13 };
 
 static int find_kind(mesh_kind *out, const char *word)
 {
@@ -27,88 +31,100 @@ static int find_kind(mesh_kind *out, const char *word)
     return STATUS_USAGE;
 }
 
-static void put_u32(FILE *file, uint32_t value)
+/* The bytes of a file, in an array that is large enough. */
+typedef struct mesh_bytes {
+    unsigned char *data;
+    size_t size;
+} mesh_bytes;
+
+static void put_u32(mesh_bytes *out, uint32_t value)
 {
     for (int i = 0; i < 4; i++)
-        putc((int)(value >> 8 * i & 0xff), file);
+        out->data[out->size++] = (unsigned char)(value >> 8 * i & 0xff);
 }
 
-static void put_float(FILE *file, double value)
+static void put_float(mesh_bytes *out, double value)
 {
     float narrow = (float)value;
     uint32_t bits;
     memcpy(&bits, &narrow, sizeof bits);
-    put_u32(file, bits);
+    put_u32(out, bits);
 }
 
-static void put_header(FILE *file, const mesh_grid *grid)
+static void put_header(mesh_bytes *out, const mesh_grid *grid)
 {
-    static const char *const properties[] = {"x", "y", "z", "nx", "ny", "nz", "u", "v"};
-    fprintf(file, "ply\nformat binary_little_endian 1.0\ncomment %s made by rtc mesh\nelement vertex %llu\n",
-            mesh_kind_names[grid->kind], (unsigned long long)grid->vertices);
-    for (int i = 0; i < 8; i++)
-        fprintf(file, "property float %s\n", properties[i]);
-    fprintf(file, "element face %llu\nproperty list uchar int vertex_indices\nend_header\n",
-            (unsigned long long)grid->triangles);
+    int length = snprintf((char *)out->data, HEADER_SIZE,
+                          "ply\nformat binary_little_endian 1.0\ncomment %s made by rtc mesh\n"
+                          "element vertex %llu\nproperty float x\nproperty float y\nproperty float z\n"
+                          "property float nx\nproperty float ny\nproperty float nz\n"
+                          "property float u\nproperty float v\n"
+                          "element face %llu\nproperty list uchar int vertex_indices\nend_header\n",
+                          mesh_kind_names[grid->kind], (unsigned long long)grid->vertices,
+                          (unsigned long long)grid->triangles);
+    out->size = (size_t)length;
 }
 
-static void put_vertices(FILE *file, const mesh_grid *grid)
+static void put_vertices(mesh_bytes *out, const mesh_grid *grid, uint64_t row)
 {
-    for (uint64_t row = 0; row <= grid->rows; row++)
-        for (uint64_t column = 0; column <= grid->columns; column++) {
-            double u = (double)column / (double)grid->columns, v = (double)row / (double)grid->rows;
-            mesh_point point = mesh_shape_point(grid->kind, u, v);
-            for (int i = 0; i < 3; i++)
-                put_float(file, point.position[i]);
-            for (int i = 0; i < 3; i++)
-                put_float(file, point.normal[i]);
-            put_float(file, u);
-            put_float(file, v);
+    for (uint64_t column = 0; column <= grid->columns; column++) {
+        double u = (double)column / (double)grid->columns, v = (double)row / (double)grid->rows;
+        mesh_point point = mesh_shape_point(grid->kind, u, v);
+        for (int i = 0; i < 3; i++)
+            put_float(out, point.position[i]);
+        for (int i = 0; i < 3; i++)
+            put_float(out, point.normal[i]);
+        put_float(out, u);
+        put_float(out, v);
+    }
+}
+
+static void put_faces(mesh_bytes *out, const mesh_grid *grid, uint64_t row)
+{
+    for (uint64_t column = 0; column < grid->columns; column++) {
+        uint32_t triangles[2][3];
+        int count = mesh_grid_cell(grid, column, row, triangles);
+        for (int i = 0; i < count; i++) {
+            out->data[out->size++] = 3;
+            for (int corner = 0; corner < 3; corner++)
+                put_u32(out, triangles[i][corner]);
         }
+    }
 }
 
-static void put_faces(FILE *file, const mesh_grid *grid)
+/* Fills in the whole file; an interrupt stops it. */
+static int make_mesh(mesh_bytes *out, const mesh_grid *grid)
 {
-    for (uint64_t row = 0; row < grid->rows; row++)
-        for (uint64_t column = 0; column < grid->columns; column++) {
-            uint32_t triangles[2][3];
-            int count = mesh_grid_cell(grid, column, row, triangles);
-            for (int i = 0; i < count; i++) {
-                putc(3, file);
-                for (int corner = 0; corner < 3; corner++)
-                    put_u32(file, triangles[i][corner]);
-            }
-        }
+    out->data = malloc(HEADER_SIZE + VERTEX_SIZE * grid->vertices + FACE_SIZE * grid->triangles);
+    if (!out->data) {
+        message_error("out of memory for %llu triangles", (unsigned long long)grid->triangles);
+        return STATUS_DEVICE;
+    }
+    put_header(out, grid);
+    for (uint64_t row = 0; row <= grid->rows && !interrupt_pending(); row++)
+        put_vertices(out, grid, row);
+    for (uint64_t row = 0; row < grid->rows && !interrupt_pending(); row++)
+        put_faces(out, grid, row);
+    return interrupt_pending() ? STATUS_INTERRUPTED : STATUS_DONE;
 }
 
-static int fail_write(const char *path, int code)
-{
-    message_error("cannot write %s: %s", path, strerror(code));
-    return STATUS_OUTPUT;
-}
-
-/* Writes beside the file and renames, so that none is ever half there. */
 static int write_mesh(const char *path, const mesh_grid *grid)
 {
-    char temporary[NAME_SIZE];
-    int length = snprintf(temporary, sizeof temporary, "%s.tmp", path);
-    if (length < 0 || (size_t)length >= sizeof temporary)
-        return fail_write(path, ENAMETOOLONG);
-    FILE *file = fopen(temporary, "wb");
-    if (!file)
-        return fail_write(path, errno);
-    put_header(file, grid);
-    put_vertices(file, grid);
-    put_faces(file, grid);
-    int code = ferror(file) ? EIO : 0;
-    if (fclose(file) != 0 && !code)
-        code = errno;
-    if (!code && rename(temporary, path) != 0)
-        code = errno;
-    if (!code)
+    mesh_bytes bytes = {NULL, 0};
+    rt_error error;
+    int status = make_mesh(&bytes, grid);
+    if (status == STATUS_DONE && rt_file_write(path, bytes.data, bytes.size, &error) != RT_OK)
+        status = message_failure(&error);
+    free(bytes.data);
+    return status;
+}
+
+static int check_extension(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    if (dot && strcasecmp(dot, ".ply") == 0)
         return STATUS_DONE;
-    remove(temporary);
-    return fail_write(path, code);
+    message_error("--out %s: a mesh is written as .ply", path);
+    return STATUS_USAGE;
 }
 
 int command_mesh(const command_line *arguments)
@@ -126,6 +142,10 @@ int command_mesh(const command_line *arguments)
     mesh_grid grid = mesh_grid_plan(kind, triangles->given ? triangles->count : DEFAULT_TRIANGLES);
     snprintf(name, sizeof name, "%s.ply", mesh_kind_names[kind]);
     const char *path = file->given ? file->text : name;
+    status = check_extension(path);
+    if (status != STATUS_DONE)
+        return status;
+    interrupt_catch();
     status = write_mesh(path, &grid);
     if (status == STATUS_DONE)
         printf("%s: %llu vertices, %llu triangles\n", path, (unsigned long long)grid.vertices,

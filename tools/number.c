@@ -1,10 +1,17 @@
 #include "number.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define LARGEST_EXACT 9007199254740992.0 /* 2^53: every whole number up to it is a double */
+
+/* Whether the digits before the exponent say anything but 0. */
+static int has_digit_but_0(const char *text)
+{
+    return strcspn(text, "123456789") < strcspn(text, "eE");
+}
 
 int number_real(double *out, const char *text)
 {
@@ -13,6 +20,9 @@ int number_real(double *out, const char *text)
         return -1;
     char *end;
     double value = strtod(text, &end);
+    /* One that single precision takes for 0 would mean what 0 means: often, no limit. */
+    if (fabs(value) < FLT_MIN && has_digit_but_0(text))
+        return -1;
     if (*end != '\0' || !isfinite(value))
         return -1;
     *out = value;

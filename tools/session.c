@@ -68,6 +68,10 @@ void session_merge_options(const session *s, rt_render_options *options)
     set_u32(&options->final_gather, session_value(s, OPTION_FINAL_GATHER));
     set_u32(&options->caustic_k, session_value(s, OPTION_CAUSTIC_K));
     set_u32(&options->passes, session_value(s, OPTION_PASSES));
+    if (session_value(s, OPTION_AREA)->given)
+        options->area = (rt_area)session_value(s, OPTION_AREA)->choice;
+    if (session_value(s, OPTION_PHOTON_LAYERS)->given)
+        options->photon_layers = 1;
     if (session_value(s, OPTION_ALPHA)->given)
         options->alpha = (float)session_value(s, OPTION_ALPHA)->real;
     if (session_value(s, OPTION_GATHER)->given)

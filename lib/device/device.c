@@ -41,7 +41,8 @@ static rt_status list_devices(device_list *list, rt_error *error)
             list->platform[list->count++] = platforms[p];
     }
     if (list->count == 0)
-        return rt_fail(error, RT_ERROR_DEVICE, "no OpenCL device: %u platforms, none with a device", platform_count);
+        return rt_fail(error, RT_ERROR_DEVICE, "no OpenCL device on %u platform%s", platform_count,
+                       platform_count == 1 ? "" : "s");
     return RT_OK;
 }
 

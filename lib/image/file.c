@@ -156,12 +156,32 @@ static int replace(const char *target, const struct stat *old, const rt_bytes *b
     return code;
 }
 
+/* Makes the file that path, a link to nothing, points to. */
+static int make_target(const char *path, const rt_bytes *bytes)
+{
+    /* Its name is known once it is there. */
+    int fd = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return errno;
+    close_file(fd);
+    char *target = realpath(path, NULL);
+    if (!target)
+        return errno;
+    int code = replace(target, NULL, bytes);
+    if (code)
+        unlink(target);
+    free(target);
+    return code;
+}
+
 rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error)
 {
-    struct stat old;
+    struct stat old, link;
     int code;
     if (stat(path, &old) != 0) {
-        code = errno == ENOENT ? replace(path, NULL, bytes) : errno;
+        code = errno;
+        if (code == ENOENT)
+            code = lstat(path, &link) == 0 ? make_target(path, bytes) : replace(path, NULL, bytes);
     } else if (S_ISDIR(old.st_mode)) {
         code = EISDIR;
     } else if (!S_ISREG(old.st_mode)) {
@@ -173,4 +193,10 @@ rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *err
         free(target);
     }
     return code ? fail_errno(error, RT_ERROR_OUTPUT, "write", path, code) : RT_OK;
+}
+
+rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error)
+{
+    rt_bytes bytes = {(uint8_t *)data, size, size}; /* only read */
+    return rt_file_replace(path, &bytes, error);
 }

@@ -74,7 +74,7 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
 {
     float max_radius = options->max_radius > 0 ? options->max_radius : HUGE_VALF;
     rt_density_params estimate = {options->density, options->cone_k, 0, options->k, max_radius * max_radius, 0, 0,
-                                  list->emitted ? (float)(1.0 / (double)list->emitted) : 0};
+                                  list->emitted ? (float)(1.0 / (double)list->emitted) : 0, options->area, {0}};
     rt_gatherer *g = calloc(1, sizeof *g);
 
     if (!g)

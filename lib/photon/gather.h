@@ -22,6 +22,7 @@ typedef struct rt_gather_options {
     float max_radius; /* metres; 0: no limit, which k = 0 must have */
     rt_density density;
     float cone_k;  /* constant of the cone kernel, at least 1 */
+    rt_area area;  /* the hull is for the host only */
     int on_device; /* find the photons on the device, in a tree, instead of on the host by FLANN */
 } rt_gather_options;
 

@@ -2,10 +2,9 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "error.h"
-#include "render/layers.h"
+#include "render/aov.h"
 
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error)
 {
@@ -36,7 +35,7 @@ void rt_film_destroy(rt_film *film)
     free(film->pixels);
     free(film->rgb);
     free(film->layer_sums);
-    for (int i = 0; i < (int)RT_LAYER_COUNT; i++)
+    for (int i = 0; i < RT_FILM_LAYERS; i++)
         free(film->layers[i]);
     free(film);
 }
@@ -62,7 +61,7 @@ void rt_film_resolve(rt_film *film)
         film->stats.rejected += p->rejected;
     }
     film->stats.spp = fewest;
-    rt_layers_resolve(film);
+    rt_aov_resolve(film);
 }
 
 const float *rt_film_rgb(const rt_film *film)

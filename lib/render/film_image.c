@@ -43,25 +43,29 @@ static void fill(rt_image *image, uint32_t first, const float *from, uint32_t ch
 
 rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error)
 {
-    static const char *const names[] = {"R",        "G",        "B",        "albedo.R", "albedo.G",
-                                        "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
+    const char *names[3 + 3 * RT_FILM_LAYERS] = {"R", "G", "B"};
     const rt_render_options *o = &film->options;
+    uint32_t channels = 3;
     rt_image_format format;
     rt_image *image = NULL;
 
     rt_status status = rt_image_format_of(&format, path, error);
     if (status != RT_OK)
         return status;
-    int layers = film->layer_sums && format == RT_IMAGE_EXR;
-    status = rt_image_create(&image, o->width, o->height, names, layers ? 10 : 3, error);
+    int has_layers = format == RT_IMAGE_EXR;
+    for (int i = 0; i < RT_FILM_LAYERS && has_layers; i++)
+        for (uint32_t c = 0; c < rt_layer_kinds[i].channels && film->layers[i]; c++)
+            names[channels++] = rt_layer_kinds[i].channel[c];
+    status = rt_image_create(&image, o->width, o->height, names, channels, error);
     if (status != RT_OK)
         return status;
     fill(image, 0, film->rgb, 3);
-    if (layers) {
-        fill(image, 3, film->layers[RT_LAYER_ALBEDO], 3);
-        fill(image, 6, film->layers[RT_LAYER_NORMAL], 3);
-        fill(image, 9, film->layers[RT_LAYER_DEPTH], 1);
-    }
+    channels = 3;
+    for (int i = 0; i < RT_FILM_LAYERS && has_layers; i++)
+        if (film->layers[i]) {
+            fill(image, channels, film->layers[i], rt_layer_kinds[i].channels);
+            channels += rt_layer_kinds[i].channels;
+        }
     status = describe(image, film, options, error);
     if (status == RT_OK)
         status = rt_image_write(image, path, options, error);

@@ -42,8 +42,18 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels)
     memset(kernels, 0, sizeof *kernels);
 }
 
+static rt_status create_layers(rt_photon_eye *eye, size_t pixels, rt_error *error)
+{
+    if (!eye->options->photon_layers)
+        return RT_OK;
+    eye->host_points = malloc((1 + eye->rows) * eye->capacity * sizeof *eye->host_points);
+    if (!eye->host_points)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the layers of %zu points", eye->capacity);
+    return rt_photon_layers_create(&eye->layers, pixels, error);
+}
+
 rt_status rt_photon_eye_create(rt_photon_eye *eye, rt_renderer *renderer, const rt_render_options *options,
-                               const rt_eye_kernels *kernels, rt_layers *layers, const rt_film *film,
+                               const rt_eye_kernels *kernels, rt_aov *aov, const rt_film *film,
                                rt_error *error)
 {
     rt_device *device = renderer->device;
@@ -52,20 +62,23 @@ rt_status rt_photon_eye_create(rt_photon_eye *eye, rt_renderer *renderer, const 
     eye->renderer = renderer;
     eye->options = options;
     eye->kernels = *kernels;
-    eye->layers = layers;
+    eye->aov = aov;
     eye->rows = options->final_gather < options->max_depth ? options->final_gather : options->max_depth;
     eye->capacity = RT_GATHER_POINTS_MAX / (1 + eye->rows);
     if (pixels < eye->capacity)
         eye->capacity = pixels;
 
     size_t bytes = eye->capacity * sizeof(rt_gather_point);
-    eye->discs = malloc(eye->capacity * sizeof *eye->discs);
+    eye->discs = malloc(2 * eye->capacity * sizeof *eye->discs);
     if (!eye->discs)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points", eye->capacity);
+    eye->way_discs = eye->discs + eye->capacity;
     rt_status status = rt_buffer_create(device, &eye->points, CL_MEM_READ_WRITE, bytes, NULL, "gather points", error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &eye->caustics, CL_MEM_READ_WRITE, eye->rows * bytes, NULL,
                                   "gather points of caustics", error);
+    if (status == RT_OK)
+        status = create_layers(eye, pixels, error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &eye->pixels, CL_MEM_READ_WRITE, pixels * sizeof *film->pixels, film->pixels,
                                   "the film", error);
@@ -78,6 +91,8 @@ void rt_photon_eye_release(rt_photon_eye *eye)
     rt_buffer_release(eye->caustics);
     rt_buffer_release(eye->pixels);
     free(eye->discs);
+    free(eye->layers);
+    free(eye->host_points);
     memset(eye, 0, sizeof *eye);
 }
 
@@ -92,10 +107,27 @@ static rt_status follow_paths(rt_photon_eye *eye, rt_params *params, rt_error *e
     return status == RT_OK ? rt_launch(eye->renderer->device, eye->kernels.camera, params->item_count, error) : status;
 }
 
-static void count_asked(const rt_photon_eye *eye, size_t count, uint64_t *asked)
+/* Adds a batch that was gathered for to the layers. */
+static rt_status add_to_layers(rt_photon_eye *eye, const rt_eye_maps *maps, size_t count, rt_error *error)
+{
+    rt_gather_point *points = eye->host_points, *caustics = points + eye->capacity;
+    size_t row = eye->capacity * sizeof *points;
+    if (!eye->layers)
+        return RT_OK;
+    if (!maps->global)
+        memset(eye->discs, 0, count * sizeof *eye->discs);
+    rt_status status = rt_buffer_read(eye->renderer->device, eye->points, 0, count * sizeof *points, points, error);
+    if (status == RT_OK)
+        status = rt_buffer_read(eye->renderer->device, eye->caustics, 0, eye->rows * row, caustics, error);
+    if (status == RT_OK)
+        rt_photon_layers_add(eye->layers, points, eye->discs, count, caustics, eye->rows, eye->capacity);
+    return status;
+}
+
+static void count_asked(const rt_gather_disc *discs, size_t count, uint64_t *asked)
 {
     for (size_t i = 0; i < count; i++)
-        *asked += eye->discs[i].asked;
+        *asked += discs[i].asked;
 }
 
 /* Asks all maps for the photons of a batch. A point counts as asked once, however many lists there are. */
@@ -105,13 +137,13 @@ static rt_status ask(rt_photon_eye *eye, const rt_eye_maps *maps, size_t count, 
     if (maps->global)
         status = rt_gatherer_add(maps->global, eye->points, 0, count, eye->discs, error);
     if (status == RT_OK && maps->global)
-        count_asked(eye, count, asked);
+        count_asked(eye->discs, count, asked);
     if (status == RT_OK && maps->caustic)
         status = rt_gatherer_add(maps->caustic, eye->points, 0, count, NULL, error);
     for (rt_u32 row = 0; row < eye->rows && maps->on_the_way && status == RT_OK; row++) {
-        status = rt_gatherer_add(maps->on_the_way, eye->caustics, row * eye->capacity, count, eye->discs, error);
+        status = rt_gatherer_add(maps->on_the_way, eye->caustics, row * eye->capacity, count, eye->way_discs, error);
         if (status == RT_OK)
-            count_asked(eye, count, asked);
+            count_asked(eye->way_discs, count, asked);
     }
     return status;
 }
@@ -153,9 +185,11 @@ rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint
         if (status == RT_OK)
             status = ask(eye, maps, params.item_count, asked, error);
         if (status == RT_OK)
+            status = add_to_layers(eye, maps, params.item_count, error);
+        if (status == RT_OK)
             status = add_to_film(eye, &params, error);
         if (status == RT_OK)
-            status = rt_layers_add(eye->layers, eye->renderer, &params, error);
+            status = rt_aov_add(eye->aov, eye->renderer, &params, error);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
     }
@@ -196,5 +230,6 @@ rt_status rt_photon_eye_mean_radius(rt_photon_eye *eye, rt_gatherer *gatherer, u
 rt_status rt_photon_eye_read(const rt_photon_eye *eye, rt_film *film, rt_error *error)
 {
     size_t bytes = (size_t)eye->options->width * eye->options->height * sizeof *film->pixels;
-    return rt_buffer_read(eye->renderer->device, eye->pixels, 0, bytes, film->pixels, error);
+    rt_status status = rt_buffer_read(eye->renderer->device, eye->pixels, 0, bytes, film->pixels, error);
+    return status == RT_OK && eye->layers ? rt_photon_layers_resolve(film, eye->layers, error) : status;
 }

@@ -6,7 +6,8 @@
 #define RT_LIB_RENDER_PHOTON_EYE_H
 
 #include "photon/gather.h"
-#include "render/layers.h"
+#include "render/aov.h"
+#include "render/photon_layers.h"
 #include "render/renderer.h"
 
 /* The kernels of the eye's half. */
@@ -21,13 +22,16 @@ typedef struct rt_photon_eye {
     rt_renderer *renderer;
     const rt_render_options *options;
     rt_eye_kernels kernels;
-    rt_layers *layers;
+    rt_aov *aov;
     rt_u32 rows;     /* of caustic points a path can have: diffuse bounces of the final gather */
     size_t capacity; /* paths a batch */
     cl_mem points;   /* rt_gather_point [capacity] */
     cl_mem caustics; /* rt_gather_point [rows][capacity] */
     cl_mem pixels;   /* rt_film_pixel, the film on the device */
     rt_gather_disc *discs; /* [capacity], what was found at the points */
+    rt_gather_disc *way_discs; /* [capacity], and at the caustic points */
+    rt_photon_layer_sum *layers;  /* a pixel, or NULL when there are none */
+    rt_gather_point *host_points; /* for them: [1 + rows][capacity] points and caustics */
 } rt_photon_eye;
 
 /* What the eye asks: lists of photons made ready; each may be NULL. */
@@ -43,7 +47,7 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels);
 
 /* Makes memory for batches and the film on the device; options are complete. rt_photon_eye_release undoes it. */
 rt_status rt_photon_eye_create(rt_photon_eye *out, rt_renderer *renderer, const rt_render_options *options,
-                               const rt_eye_kernels *kernels, rt_layers *layers, const rt_film *film,
+                               const rt_eye_kernels *kernels, rt_aov *aov, const rt_film *film,
                                rt_error *error);
 void rt_photon_eye_release(rt_photon_eye *eye);
 
@@ -61,7 +65,7 @@ rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint
 rt_status rt_photon_eye_mean_radius(rt_photon_eye *eye, rt_gatherer *gatherer, uint32_t sample, double *out,
                                     rt_stage_progress *progress, rt_error *error);
 
-/* Reads the film. */
+/* Reads the film, and makes its layers. */
 rt_status rt_photon_eye_read(const rt_photon_eye *eye, rt_film *film, rt_error *error);
 
 #endif

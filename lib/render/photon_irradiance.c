@@ -29,7 +29,7 @@ typedef struct asking {
 static rt_status make_gatherer(asking *a, const rt_photon_map *map, rt_photon_kind kind, rt_error *error)
 {
     const rt_render_options *o = &a->options;
-    rt_gather_options how = {o->k, o->radius, o->kernel, o->cone_k, a->on_device};
+    rt_gather_options how = {o->k, o->radius, o->kernel, o->cone_k, o->area, a->on_device};
     if (kind == RT_PHOTONS_CAUSTIC) {
         how.k = o->caustic_k;
         how.max_radius = o->caustic_radius;

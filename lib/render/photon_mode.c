@@ -14,7 +14,7 @@
 #include "error.h"
 #include "photon/emit.h"
 #include "photon/photon_map.h"
-#include "render/layers.h"
+#include "render/aov.h"
 #include "render/photon_eye.h"
 #include "render/renderer.h"
 
@@ -33,7 +33,7 @@ typedef struct photon_render {
     rt_photon_map map;           /* what is emitted */
     const rt_photon_map *in_use; /* that, or the one of the options */
     rt_photon_list caustics;     /* copies out of the global list, for the final gather, unless there is a caustic list */
-    rt_layers layers;
+    rt_aov aov;
     rt_photon_eye eye;
     rt_gather_options how[WAYS]; /* of this pass */
     double first_radius[WAYS];   /* of the passes, 0 while unknown */
@@ -52,6 +52,9 @@ static rt_status check(const rt_render_options *o, rt_error *error)
         return rt_fail_field(error, RT_ERROR_USAGE, "gather",
                              "FLANN finds the k nearest photons only; %s, gather on the device",
                              in_passes ? "in passes" : "for all within a radius");
+    if (o->area == RT_AREA_HULL && (all || in_passes || o->gather == RT_GATHER_DEVICE))
+        return rt_fail_field(error, RT_ERROR_USAGE, "area",
+                             "the hull is for the k nearest photons by FLANN, not for passes or the device");
     if (!in_passes && ((o->k == RT_K_ALL && o->radius == 0) || (o->caustic_k == RT_K_ALL && o->caustic_radius == 0)))
         return rt_fail_field(error, RT_ERROR_USAGE, "radius", "to gather all photons within a radius, give the radius");
     if ((uint64_t)o->passes * o->spp > UINT32_MAX)
@@ -80,8 +83,8 @@ static rt_status compile(photon_render *r, rt_error *error)
                                    error);
     if (status == RT_OK)
         status = rt_eye_kernels_prepare(&r->eye_kernels, device, any, r->on_device, &progress, error);
-    if (status == RT_OK && rt_layers_wanted(r->options))
-        status = rt_layers_begin(&r->layers, r->renderer, r->film, &progress, error);
+    if (status == RT_OK && rt_aov_wanted(r->options))
+        status = rt_aov_begin(&r->aov, r->renderer, r->film, &progress, error);
     return status == RT_OK ? rt_stage_end(&progress, &r->film->stats.compile_seconds) : status;
 }
 
@@ -89,8 +92,9 @@ static rt_status prepare(photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->options;
     r->map.settings = (rt_photon_settings){0, o->max_depth, o->sampler, o->direct, o->caustic_photons > 0};
-    r->how[WAY_GLOBAL] = (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, r->on_device};
-    r->how[WAY_CAUSTIC] = (rt_gather_options){o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, r->on_device};
+    r->how[WAY_GLOBAL] = (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->on_device};
+    r->how[WAY_CAUSTIC] = (rt_gather_options){o->caustic_k,    o->caustic_radius, o->caustic_kernel,
+                                            o->cone_k, o->area, r->on_device};
     r->how[WAY_ON_THE_WAY] = r->how[r->in_use->settings.split ? WAY_CAUSTIC : WAY_GLOBAL];
     for (int way = 0; way < WAYS; way++) {
         rt_gather_options *how = r->how + way;
@@ -98,7 +102,7 @@ static rt_status prepare(photon_render *r, rt_error *error)
         if (how->k == RT_K_ALL)
             how->k = 0;
     }
-    rt_status status = rt_photon_eye_create(&r->eye, r->renderer, o, &r->eye_kernels, &r->layers, r->film, error);
+    rt_status status = rt_photon_eye_create(&r->eye, r->renderer, o, &r->eye_kernels, &r->aov, r->film, error);
     if (status == RT_OK && !o->photon_map)
         status = rt_emitter_create(&r->emitter, r->renderer->device, r->emit, r->renderer->scene, NULL, 0, error);
     return status;
@@ -401,7 +405,7 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
     if (status == RT_OK || (status == RT_CANCELLED && r.eye.pixels)) {
         rt_status read = rt_photon_eye_read(&r.eye, film, error);
         if (read == RT_OK)
-            read = rt_layers_read(&r.layers, renderer, film, error);
+            read = rt_aov_read(&r.aov, renderer, film, error);
         status = read == RT_OK ? status : read;
     }
     destroy_gatherers(&r);
@@ -410,7 +414,7 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
     rt_photon_list_clear(&r.caustics);
     rt_photon_map_free(&r.map);
     rt_eye_kernels_release(&r.eye_kernels);
-    rt_layers_free(&r.layers);
+    rt_aov_free(&r.aov);
     rt_kernel_release(r.emit);
     return status;
 }

@@ -11,8 +11,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { spp_unlimited = 1 << 24 };
-
+/* Replaces zeros by the defaults that the public header states. */
 void rt_options_complete(rt_render_options *o)
 {
     if (o->width == 0)
@@ -26,7 +25,7 @@ void rt_options_complete(rt_render_options *o)
     if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
         o->spp = 1;
     if (o->spp == 0)
-        o->spp = o->time > 0 ? spp_unlimited : o->mode == RT_MODE_PHOTON ? 16 : 64;
+        o->spp = o->time > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
     if (o->photons == 0)

@@ -1,8 +1,9 @@
 /* sample_mode.c - drives the kernels that take samples of pixels over the film: paths, direct light, layers. */
+#include <math.h>
 #include <string.h>
 
 #include "error.h"
-#include "render/layers.h"
+#include "render/aov.h"
 #include "render/renderer.h"
 
 /* A launch aims at this long: short enough for lively progress and a prompt cancel. */
@@ -25,7 +26,7 @@ typedef struct sample_render {
     rt_film *film;
     cl_kernel kernel; /* NULL in the modes that show a layer */
     cl_mem pixels;    /* rt_film_pixel, the film on the device */
-    rt_layers layers;
+    rt_aov aov;
 } sample_render;
 
 /* Adapts the size of launches to the time the last one took. */
@@ -61,7 +62,7 @@ static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, u
             status = rt_launch(r->renderer->device, r->kernel, params->item_count, error);
     }
     if (status == RT_OK)
-        status = rt_layers_add(&r->layers, r->renderer, params, error);
+        status = rt_aov_add(&r->aov, r->renderer, params, error);
     if (status == RT_OK)
         status = rt_device_finish(r->renderer->device, error);
     s->pixel += params->item_count;
@@ -84,7 +85,7 @@ static rt_status render_passes(sample_render *r, rt_stage_progress *progress, rt
             double launched = rt_clock();
             status = launch_part(r, &params, &s, samples, error);
             double now = rt_clock(), by_samples = (s.sample + (double)samples * s.pixel / s.pixels) / s.spp;
-            double by_time = options->time > 0 ? (now - began) / options->time : 0;
+            double by_time = options->time > 0 ? fmin((now - began) / options->time, 1) : 0;
             adapt(&s, now - launched);
             if (status == RT_OK)
                 status = rt_stage_update(progress, by_samples > by_time ? by_samples : by_time);
@@ -113,8 +114,8 @@ static rt_status compile(sample_render *r, rt_error *error)
     rt_status status = rt_stage_begin(&progress, r->options->hooks, RT_STAGE_COMPILE);
     if (status == RT_OK && name)
         status = rt_kernel_prepare(r->renderer->device, &r->kernel, name, name, args, 3, &progress, error);
-    if (status == RT_OK && rt_layers_wanted(r->options))
-        status = rt_layers_begin(&r->layers, r->renderer, r->film, &progress, error);
+    if (status == RT_OK && rt_aov_wanted(r->options))
+        status = rt_aov_begin(&r->aov, r->renderer, r->film, &progress, error);
     return status == RT_OK ? rt_stage_end(&progress, &r->film->stats.compile_seconds) : status;
 }
 
@@ -123,7 +124,7 @@ static rt_status read_film(sample_render *r, rt_error *error)
 {
     rt_film *film = r->film;
     size_t count = (size_t)r->options->width * r->options->height, bytes = count * sizeof *film->pixels;
-    rt_status status = rt_layers_read(&r->layers, r->renderer, film, error);
+    rt_status status = rt_aov_read(&r->aov, r->renderer, film, error);
     if (status == RT_OK && r->kernel)
         status = rt_buffer_read(r->renderer->device, r->pixels, 0, bytes, film->pixels, error);
     else if (status == RT_OK)
@@ -155,7 +156,7 @@ rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *opti
             status = read != RT_OK ? read : status != RT_OK ? status : end;
         }
     }
-    rt_layers_free(&r.layers);
+    rt_aov_free(&r.aov);
     rt_kernel_release(r.kernel);
     rt_buffer_release(r.pixels);
     return status;

@@ -6,6 +6,9 @@
 
 enum { rays_per_batch = 1 << 22 };
 
+/* Within these the squares of lengths, and distances along the ray, are numbers of float32. */
+static const double length_min = 1e-15, length_max = 1e15, coordinate_max = 1e15;
+
 static rt_status check_ray(const rt_ray *ray, size_t index, rt_error *error)
 {
     const float *o = ray->origin, *d = ray->direction;
@@ -15,6 +18,16 @@ static rt_status check_ray(const rt_ray *ray, size_t index, rt_error *error)
         return rt_fail_field(error, RT_ERROR_USAGE, "rays", "ray %zu is not finite", index);
     if (d[0] == 0 && d[1] == 0 && d[2] == 0)
         return rt_fail_field(error, RT_ERROR_USAGE, "rays", "ray %zu has no direction", index);
+    double length = sqrt((double)d[0] * d[0] + (double)d[1] * d[1] + (double)d[2] * d[2]);
+    if (!(length >= length_min && length <= length_max))
+        return rt_fail_field(error, RT_ERROR_USAGE, "rays",
+                             "ray %zu has a direction of length %g; it must lie between %g and %g", index, length,
+                             length_min, length_max);
+    for (int i = 0; i < 3; i++)
+        if (!(fabs(o[i]) <= coordinate_max))
+            return rt_fail_field(error, RT_ERROR_USAGE, "rays",
+                                 "ray %zu has the coordinate %g in its origin; it must lie within %g", index, o[i],
+                                 coordinate_max);
     if (!(ray->t_min <= ray->t_max))
         return rt_fail_field(error, RT_ERROR_USAGE, "rays", "ray %zu has t_min %g above t_max %g", index, ray->t_min,
                              ray->t_max);
@@ -51,6 +64,8 @@ rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays
     cl_kernel kernel = NULL;
     rt_status status = RT_OK;
 
+    if ((unsigned)kind > RT_TRACE_ANY)
+        return rt_fail_field(error, RT_ERROR_USAGE, "kind", "there is no kind of trace %d", (int)kind);
     for (size_t i = 0; i < count && status == RT_OK; i++)
         status = check_ray(rays + i, i, error);
     if (status == RT_OK)

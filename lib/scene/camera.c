@@ -15,11 +15,12 @@ static rt_status check_lens(rt_camera *c, rt_error *error)
                              c->fov);
     if (c->width == 0)
         c->width = 2;
-    if (!(c->width > 0 && c->width <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, "width", "camera: width is %g m; it must be positive", c->width);
+    if (!(c->width >= RT_LENGTH_MIN && c->width <= RT_COORDINATE_MAX))
+        return rt_fail_field(error, RT_ERROR_INPUT, "width", "camera: width is %g m; it must lie between %g and %g",
+                             c->width, RT_LENGTH_MIN, RT_COORDINATE_MAX);
     if (!(c->aperture >= 0 && c->aperture <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, "aperture", "camera: aperture is %g m; it must not be negative",
-                             c->aperture);
+        return rt_fail_field(error, RT_ERROR_INPUT, "aperture", "camera: aperture is %g m; it must lie between 0 and %g",
+                             c->aperture, RT_COORDINATE_MAX);
     if (c->blades == 1 || c->blades == 2 || c->blades > blades_max)
         return rt_fail_field(error, RT_ERROR_INPUT, "blades", "camera: %u blades; give 3 to %d, or 0 for a round lens",
                              c->blades, blades_max);
@@ -44,11 +45,14 @@ static rt_status check_view(rt_camera *c, rt_error *error)
     rt_vec_cross(side, axis, up);
     if (!(rt_vec_length(side) > 1e-6 * rt_vec_length(axis) * rt_vec_length(up)))
         return rt_fail_field(error, RT_ERROR_INPUT, "up", "camera: up is parallel to the direction of view");
-    if (c->focal_distance == 0)
+    int is_given = c->focal_distance != 0;
+    if (!is_given)
         c->focal_distance = (float)rt_vec_length(axis);
-    if (!(c->focal_distance > 0 && c->focal_distance <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, "focal_distance",
-                             "camera: focal_distance is %g m; it must be positive", c->focal_distance);
+    if (!(c->focal_distance >= RT_LENGTH_MIN && c->focal_distance <= RT_COORDINATE_MAX))
+        return rt_fail_field(error, RT_ERROR_INPUT, is_given ? "focal_distance" : "look_at",
+                             "camera: %s is %g m; it must lie between %g and %g",
+                             is_given ? "focal_distance" : "the distance from eye to look_at", c->focal_distance,
+                             RT_LENGTH_MIN, RT_COORDINATE_MAX);
     return RT_OK;
 }
 

@@ -12,6 +12,13 @@
 /* Coordinates beyond this lose the squares of their differences in float32. */
 #define RT_COORDINATE_MAX 1e15f
 
+/* Shorter lengths have squares, and areas have reciprocals, that float32 does not hold in full precision. */
+#define RT_LENGTH_MIN 1e-15f
+#define RT_AREA_MIN 1e-30
+
+/* Greatest component of a colour, of whatever unit. */
+#define RT_COLOUR_MAX 1e28f
+
 static inline int rt_is_black(const float c[3])
 {
     return c[0] == 0 && c[1] == 0 && c[2] == 0;
@@ -27,13 +34,14 @@ static inline rt_status rt_check_point(const float p[3], const char *who, const 
     return RT_OK;
 }
 
-/* Finite, not negative. */
+/* Not negative, not above RT_COLOUR_MAX. */
 static inline rt_status rt_check_colour(const float c[3], const char *who, const char *field, rt_error *error)
 {
     for (int i = 0; i < 3; i++)
-        if (!(c[i] >= 0 && c[i] <= 1e30f))
-            return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s has the component %g; it must not be negative",
-                                 who, field, c[i]);
+        if (!(c[i] >= 0 && c[i] <= RT_COLOUR_MAX))
+            return rt_fail_field(error, RT_ERROR_INPUT, field,
+                                 "%s: %s has the component %g; it must lie between 0 and %g", who, field, c[i],
+                                 RT_COLOUR_MAX);
     return RT_OK;
 }
 

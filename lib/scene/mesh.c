@@ -90,6 +90,18 @@ static void *copy(const void *from, size_t count, size_t size, int *good)
     return to;
 }
 
+static rt_status check_area(const rt_scene_mesh *mesh, rt_error *error)
+{
+    int is_one = mesh->triangle_count == 1;
+    if (!(mesh->area > 0))
+        return rt_fail_field(error, RT_ERROR_INPUT, "positions",
+                             is_one ? "triangle: its area is zero" : "triangles: all have zero area");
+    if (mesh->area < RT_AREA_MIN)
+        return rt_fail_field(error, RT_ERROR_INPUT, "positions", "%s: area %g m^2; it must be at least %g",
+                             is_one ? "triangle" : "triangles, together", mesh->area, RT_AREA_MIN);
+    return RT_OK;
+}
+
 rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh, rt_error *error)
 {
     rt_scene_mesh made;
@@ -110,10 +122,8 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
         status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu triangles", mesh->triangle_count);
     else
         rt_scene_mesh_survey(&made);
-    if (status == RT_OK && !(made.area > 0))
-        status = rt_fail_field(error, RT_ERROR_INPUT, "positions",
-                               mesh->triangle_count == 1 ? "triangle: its area is zero"
-                                                         : "triangles: all have zero area");
+    if (status == RT_OK)
+        status = check_area(&made, error);
     if (status == RT_OK)
         status = rt_scene_take_mesh(scene, out, &made, error);
     if (status != RT_OK)

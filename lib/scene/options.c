@@ -2,10 +2,12 @@
 #include <math.h>
 
 #include "error.h"
+#include "scene/check.h"
 #include "scene/scene.h"
 
-enum { film_side_max = 65536, film_pixels_max = 1 << 28, spp_max = 1 << 24, depth_max = 4096, k_max = 1 << 16, passes_max = 1 << 24 };
+enum { film_side_max = 65536, film_pixels_max = 1 << 28, depth_max = 4096, k_max = 1 << 16, passes_max = 1 << 24 };
 static const double photons_max = 4e9;
+static const float cone_k_max = 1e6f;
 
 static rt_status check_film(const rt_render_options *o, rt_error *error)
 {
@@ -18,8 +20,8 @@ static rt_status check_film(const rt_render_options *o, rt_error *error)
     if ((uint64_t)o->width * o->height > film_pixels_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "height", "a film of %u x %u pixels is over the limit of %d",
                              o->width, o->height, film_pixels_max);
-    if (o->spp > spp_max)
-        return rt_fail_field(error, RT_ERROR_USAGE, "spp", "spp is %u; it must not exceed %d", o->spp, spp_max);
+    if (o->spp > RT_SPP_MAX)
+        return rt_fail_field(error, RT_ERROR_USAGE, "spp", "spp is %u; it must not exceed %d", o->spp, RT_SPP_MAX);
     if (o->max_depth > depth_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "max_depth", "max_depth is %u; it must not exceed %d",
                              o->max_depth, depth_max);
@@ -37,24 +39,28 @@ static rt_status check_photons(const rt_render_options *o, rt_error *error)
         return rt_fail_field(error, RT_ERROR_USAGE, "k",
                              "k is %u; it must lie between 2 (the k-th gives the radius and is not summed) and %d", o->k,
                              k_max);
-    if (!(o->radius >= 0 && o->radius <= 1e15f))
-        return rt_fail_field(error, RT_ERROR_USAGE, "radius", "radius is %g m; it must not be negative", o->radius);
+    if (o->radius != 0 && !(o->radius >= RT_LENGTH_MIN && o->radius <= RT_COORDINATE_MAX))
+        return rt_fail_field(error, RT_ERROR_USAGE, "radius",
+                             "radius is %g m; it must lie between %g and %g, or be 0 for no limit", o->radius,
+                             RT_LENGTH_MIN, RT_COORDINATE_MAX);
     if (o->passes > passes_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "passes", "passes is %u; it must not exceed %d", o->passes,
                              passes_max);
     if (!(o->alpha >= 0 && o->alpha < 1))
         return rt_fail_field(error, RT_ERROR_USAGE, "alpha", "alpha is %g; it must lie between 0 and 1", o->alpha);
-    if (o->cone_k != 0 && !(o->cone_k >= 1 && o->cone_k <= 1e6f))
-        return rt_fail_field(error, RT_ERROR_USAGE, "cone_k", "cone_k is %g; it must be at least 1", o->cone_k);
+    if (o->cone_k != 0 && !(o->cone_k >= 1 && o->cone_k <= cone_k_max))
+        return rt_fail_field(error, RT_ERROR_USAGE, "cone_k", "cone_k is %g; it must lie between 1 and %g", o->cone_k,
+                             cone_k_max);
     if ((double)o->caustic_photons > photons_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_photons", "caustic_photons is %llu; it must not exceed %g",
                              (unsigned long long)o->caustic_photons, photons_max);
     if (o->caustic_k == 1 || (o->caustic_k > k_max && o->caustic_k != RT_K_ALL))
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_k", "caustic_k is %u; it must lie between 2 and %d",
                              o->caustic_k, k_max);
-    if (!(o->caustic_radius >= 0 && o->caustic_radius <= 1e15f))
+    if (o->caustic_radius != 0 && !(o->caustic_radius >= RT_LENGTH_MIN && o->caustic_radius <= RT_COORDINATE_MAX))
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_radius",
-                             "caustic_radius is %g m; it must not be negative", o->caustic_radius);
+                             "caustic_radius is %g m; it must lie between %g and %g, or be 0 for no limit", o->caustic_radius,
+                             RT_LENGTH_MIN, RT_COORDINATE_MAX);
     if (o->final_gather > depth_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "final_gather", "final_gather is %u; it must not exceed %d",
                              o->final_gather, depth_max);
@@ -76,6 +82,8 @@ static rt_status check_enums(const rt_render_options *o, rt_error *error)
     if ((unsigned)o->caustic_kernel > RT_DENSITY_GAUSSIAN_JENSEN)
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_kernel", "there is no density kernel %d",
                              (int)o->caustic_kernel);
+    if ((unsigned)o->area > RT_AREA_HULL)
+        return rt_fail_field(error, RT_ERROR_USAGE, "area", "there is no area %d", (int)o->area);
     if ((unsigned)o->gather > RT_GATHER_DEVICE)
         return rt_fail_field(error, RT_ERROR_USAGE, "gather", "there is no way %d to gather", (int)o->gather);
     if ((unsigned)o->direct > RT_DIRECT_PHOTONS)

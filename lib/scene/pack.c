@@ -136,5 +136,6 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
 void rt_scene_image_free(rt_scene_image *image)
 {
     free(image->data);
-    memset(image, 0, sizeof *image);
+    image->data = NULL;
+    image->bytes = 0;
 }

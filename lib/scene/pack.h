@@ -18,6 +18,8 @@ typedef struct rt_scene_image {
  */
 rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel, uint32_t threads,
                         rt_stage_progress *progress, rt_error *error);
+
+/* Frees the buffer; what is known of the lights stays. */
 void rt_scene_image_free(rt_scene_image *image);
 
 #endif

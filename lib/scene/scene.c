@@ -34,6 +34,9 @@ void rt_scene_destroy(rt_scene *scene)
 
 rt_status rt_scene_set_options(rt_scene *scene, const rt_render_options *options, rt_error *error)
 {
+    static const rt_render_options defaults;
+    if (!options)
+        options = &defaults;
     rt_status status = rt_options_check(options, error);
     if (status != RT_OK)
         return status;

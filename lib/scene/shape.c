@@ -131,6 +131,21 @@ static rt_status check_plane(const rt_scene *scene, const rt_surface *s, rt_erro
     return RT_OK;
 }
 
+/* A power may be too much for the shape's area. */
+static rt_status check_lamp(const rt_scene *scene, const rt_scene_shape *shape, const char *who, rt_error *error)
+{
+    float radiance[3];
+    if (rt_is_black(shape->surface.power))
+        return RT_OK;
+    rt_scene_shape_radiance(scene, shape, radiance);
+    for (int i = 0; i < 3; i++)
+        if (!(radiance[i] <= RT_COLOUR_MAX))
+            return rt_fail_field(error, RT_ERROR_INPUT, "power",
+                                 "%s: power is %g W on %g m^2; the radiance must not exceed %g W/(m^2 sr)", who,
+                                 shape->surface.power[i], shape->area, RT_COLOUR_MAX);
+    return RT_OK;
+}
+
 rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who, rt_error *error)
 {
     const rt_surface *s = &shape->surface;
@@ -139,6 +154,8 @@ rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *sha
         status = check_plane(scene, s, error);
     else if (status == RT_OK)
         status = check_extent(shape, who, error);
+    if (status == RT_OK)
+        status = check_lamp(scene, shape, who, error);
     if (status == RT_OK && scene->shape_count >= shapes_max)
         status = rt_fail(error, RT_ERROR_INPUT, "more than %d shapes", shapes_max);
     if (status == RT_OK)

@@ -75,8 +75,9 @@ static rt_status add_analytic(rt_scene *scene, uint32_t *out, rt_scene_shape *sh
 
 static rt_status check_radius(float radius, const char *who, const char *field, rt_error *error)
 {
-    if (!(radius > 0 && radius <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s is %g m; it must be positive", who, field, radius);
+    if (!(radius >= RT_LENGTH_MIN && radius <= RT_COORDINATE_MAX))
+        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s is %g m; it must lie between %g and %g", who, field,
+                             radius, RT_LENGTH_MIN, RT_COORDINATE_MAX);
     return RT_OK;
 }
 
@@ -169,6 +170,9 @@ rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3
     if (!(shape.area > 0))
         return rt_fail_field(error, RT_ERROR_INPUT, "edge2",
                              "quad: its area is zero; edge1 and edge2 must not be parallel");
+    if (shape.area < RT_AREA_MIN)
+        return rt_fail_field(error, RT_ERROR_INPUT, "edge2", "quad: its area is %g m^2; it must be at least %g",
+                             shape.area, RT_AREA_MIN);
     return rt_scene_add_shape(scene, out, &shape, "quad", error);
 }
 

@@ -209,7 +209,7 @@ static void shading_normals_leak_no_light(void **state)
     assert_true(lost > 0 && lost < n);
 }
 
-/* What a rough event carries is its lobe's light over its density, in a mixture as alone; below alpha 1e-3 none is rough. */
+/* A rough event carries its lobe's light over its density, in a mixture as alone; below alpha 1e-3 none is rough. */
 static void rough_events_carry_their_lobe(void **state)
 {
     rt_material_data material = mixture;

@@ -77,7 +77,8 @@ static int expect_step(const row *a, const row *b, const float bumped[3])
         turning += (double)a->along_u[c] * a->along_u[c];
     }
     /* Not over an edge, the seam, or next to a pole, where u turns fast; nor where the gradient starts again. */
-    if (same < 0.999 || fabs(du) > 0.02 || fabs(dv) > 0.02 || size > 1e-4 || turning < 0.6 || whole < 0.03 || whole > 0.97)
+    if (same < 0.999 || fabs(du) > 0.02 || fabs(dv) > 0.02 || size > 1e-4 || turning < 0.6 || whole < 0.03 ||
+        whole > 0.97)
         return 0;
     assert_true(sqrt(miss) < 0.05 * sqrt(size) + 1e-5);
     climb = dot(dp, a->normal) - dot(dp, bumped) / across;

@@ -13,7 +13,7 @@
 #include "render/renderer.h"
 #include "support.h"
 
-enum { rays_each = 100000 };
+enum { rays_each = 250000 };
 static const double band = 1e-4;
 
 /* What the closed form says of a ray. */

@@ -151,7 +151,8 @@ static void sampling_and_evaluation_agree(void **state)
                 double light = (double)r->weight[0] * r->pdf_w;
                 if (r->pdf_w == 0)
                     continue;
-                far += !(fabs(r->pdf_w - r->eval_pdf_w) <= near * r->pdf_w) || !(fabs(light - r->value[0]) <= near * light);
+                far += !(fabs(r->pdf_w - r->eval_pdf_w) <= near * r->pdf_w) ||
+                       !(fabs(light - r->value[0]) <= near * light);
             }
             /* At a tenth of alpha from the horizon all is steep. */
             if (far > n / 200)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "kernels/rays.h"
+#include "render/renderer.h"
 #include "support.h"
 
 /* Traces through the tree and through everything, expects equal results, and returns the number of hits. */
@@ -135,6 +136,137 @@ static void bvh_matches_brute_force_on_all_kinds(void **state)
     rt_scene_destroy(scene);
 }
 
+static const rt_surface plain;
+
+/* A bumpy open sheet of 2 x side x side triangles over the square of half width 0.5. */
+static void make_sheet(rt_mesh_data *mesh, int is_smooth)
+{
+    enum { side = 30, across = side + 1 };
+    static float positions[across * across][3], normals[across * across][3], uv[across * across][2];
+    static uint32_t indices[2 * side * side][3];
+    for (uint32_t i = 0; i < across * across; i++) {
+        const double x = (double)(i % across) / side - 0.5, y = (double)(i / across) / side - 0.5;
+        positions[i][0] = (float)x;
+        positions[i][1] = (float)y;
+        positions[i][2] = (float)(0.1 * sin(9 * x) * cos(7 * y));
+        normals[i][0] = (float)(-0.9 * cos(9 * x) * cos(7 * y));
+        normals[i][1] = (float)(0.7 * sin(9 * x) * sin(7 * y));
+        normals[i][2] = 1;
+        uv[i][0] = (float)(3 * x + y);
+        uv[i][1] = (float)(2 * y);
+    }
+    for (uint32_t i = 0; i < side * side; i++) {
+        const uint32_t a = i / side * across + i % side;
+        const uint32_t faces[2][3] = {{a, a + 1, a + across}, {a + 1, a + across + 1, a + across}};
+        memcpy(indices[2 * i], faces, sizeof faces);
+    }
+    *mesh = (rt_mesh_data){positions[0], is_smooth ? normals[0] : NULL, uv[0], NULL, indices[0],
+                           across * across, 2 * side * side};
+}
+
+/* A linear map of no special kind, mirrored at times, to somewhere in the cube of half width 1. */
+static rt_transform random_placement(rays_stream *stream)
+{
+    rt_transform t;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            t.m[i][j] = rays_between(stream, -0.5f, 0.5f) + (i == j ? 0.7f : 0.0f);
+        t.m[i][3] = rays_between(stream, -1.0f, 1.0f);
+    }
+    if (rays_uniform(stream) < 0.5f)
+        for (int i = 0; i < 3; i++)
+            t.m[i][0] = -t.m[i][0];
+    return t;
+}
+
+/* Places one mesh many times; or, baked, as many meshes once each. */
+static rt_scene *place_sheets(size_t count, int is_baked)
+{
+    rays_stream stream = {12};
+    rt_scene *scene = rays_scene();
+    rt_error error;
+    rt_mesh_data data;
+    uint32_t mesh = 0;
+    for (size_t i = 0; i < count; i++) {
+        make_sheet(&data, 1);
+        if (is_baked || i == 0)
+            expect_ok(rt_scene_add_mesh(scene, &mesh, &data, &error), &error);
+        const rt_surface surface = {.transform = random_placement(&stream)};
+        expect_ok(rt_scene_add_instance(scene, NULL, mesh, &surface, &error), &error);
+    }
+    return scene;
+}
+
+/* The instance and its baked copy are the same but for rounding, which only tells where two sheets all but meet. */
+static void instances_match_baked_copies(void **state)
+{
+    (void)state;
+    enum { count = 40000, placements = 12 };
+    rays_stream stream = {13};
+    rt_scene *placed = place_sheets(placements, 0), *baked = place_sheets(placements, 1);
+    rt_renderer *a = rays_renderer(placed, RT_ACCEL_BVH), *b = rays_renderer(baked, RT_ACCEL_BVH);
+    rt_ray *rays = make_rays(&stream, count, 1.0f, nowhere);
+    rt_hit *in_a = rays_trace(a, RT_TRACE_CLOSEST, rays, count), *in_b = rays_trace(b, RT_TRACE_CLOSEST, rays, count);
+    size_t hits = 0, unlike = 0;
+    for (size_t i = 0; i < count; i++) {
+        const rt_hit *p = &in_a[i], *q = &in_b[i];
+        if (p->shape != q->shape || p->prim != q->prim) {
+            unlike++;
+            continue;
+        }
+        if (p->shape == RT_NONE)
+            continue;
+        hits++;
+        const float along = fabsf(p->normal[0] * rays[i].direction[0] + p->normal[1] * rays[i].direction[1] +
+                                  p->normal[2] * rays[i].direction[2]);
+        assert_true(fabsf(p->t - q->t) <= 1e-5f * q->t + 3e-6f / along);
+        for (int k = 0; k < 3; k++)
+            assert_true(fabsf(p->normal[k] - q->normal[k]) <= 1e-4f);
+        if (along > 0.05f) {
+            assert_true(fabsf(p->u - q->u) <= 1e-3f);
+            assert_true(fabsf(p->v - q->v) <= 1e-3f);
+        }
+    }
+    assert_true(hits > count / 5);
+    assert_true(unlike < count / 1000);
+    free(in_a);
+    free(in_b);
+    rt_renderer_destroy(a);
+    rt_renderer_destroy(b);
+    expect_same(placed, rays, count / 4);
+    free(rays);
+    rt_scene_destroy(placed);
+    rt_scene_destroy(baked);
+}
+
+/* Shapes of all kinds that a transform places, and instances, among triangles. */
+static void bvh_matches_brute_force_on_placed_shapes(void **state)
+{
+    (void)state;
+    static const float zero[3] = {0, 0, 0}, up[3] = {0, 0, 0.3f}, radii[3] = {0.2f, 0.1f, 0.3f};
+    rays_stream stream = {14};
+    rt_scene *scene = place_sheets(5, 0);
+    rt_error error;
+    add_soup(scene, &stream, 300, 0.2f, 1.0f, nowhere);
+    for (int i = 0; i < 20; i++) {
+        rt_surface surface = plain;
+        surface.transform = random_placement(&stream);
+        expect_ok(rt_scene_add_ellipsoid(scene, NULL, zero, radii, &surface, &error), &error);
+        surface.transform = random_placement(&stream);
+        expect_ok(rt_scene_add_disc(scene, NULL, zero, up, 0.3f, 0.1f, &surface, &error), &error);
+        surface.transform = random_placement(&stream);
+        expect_ok(rt_scene_add_cylinder(scene, NULL, zero, up, 0.1f, i % 2, &surface, &error), &error);
+        surface.transform = random_placement(&stream);
+        expect_ok(rt_scene_add_cone(scene, NULL, zero, up, 0.2f, i % 3 ? 0.1f : 0.0f, i % 2, &surface, &error), &error);
+        surface.transform = random_placement(&stream);
+        expect_ok(rt_scene_add_torus(scene, NULL, zero, up, 0.3f, 0.05f, &surface, &error), &error);
+    }
+    rt_ray *rays = make_rays(&stream, 10000, 1.0f, nowhere);
+    assert_true(expect_same(scene, rays, 10000) > 2500);
+    free(rays);
+    rt_scene_destroy(scene);
+}
+
 static void duplicates_give_the_lowest_primitive(void **state)
 {
     (void)state;
@@ -242,8 +374,8 @@ static void closed_meshes_do_not_leak(void **state)
         rt_ray *rays = malloc(count * sizeof *rays);
         for (size_t i = 0; i < count; i++) {
             float from[3], direction[3];
-            const uint32_t *face = shell_faces[0][0][(size_t)(rays_uniform(&stream) * 2 * side * around)];
-            const float *a = shell[0][face[0]], *b = shell[0][face[i % 2]];
+            const uint32_t *face = &shell_faces[0][0][0][0] + 3 * (size_t)(rays_uniform(&stream) * 2 * side * around);
+            const float *a = &shell[0][0][0] + 3 * face[0], *b = &shell[0][0][0] + 3 * face[i % 2];
             rays_point(&stream, 0.4f * places[p].scale, from);
             for (int k = 0; k < 3; k++) {
                 from[k] += places[p].move[k];
@@ -269,15 +401,63 @@ static void closed_meshes_do_not_leak(void **state)
     }
 }
 
+/* Launches a kernel of trace.cl itself: rt_trace would refuse these rays. */
+static void launch(rt_renderer *renderer, const char *name, const rt_ray *rays, rt_u32 count, rt_hit *hits)
+{
+    cl_kernel kernel = NULL;
+    rt_error error;
+    expect_ok(rt_device_kernel(test_device(), &kernel, "trace", name, NULL, &error), &error);
+    cl_mem in = test_buffer(count * sizeof *rays, rays), out = test_buffer(count * sizeof *hits, NULL);
+    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(count), RT_ARG(out)};
+    test_run(kernel, args, 4, count);
+    test_read(out, count * sizeof *hits, hits);
+    rt_buffer_release(in);
+    rt_buffer_release(out);
+    rt_kernel_release(kernel);
+}
+
+static void rays_that_cannot_be_followed_miss(void **state)
+{
+    (void)state;
+    const rt_ray rays[] = {
+        {{0, 0, -3}, 0, {NAN, NAN, NAN}, INFINITY},           {{0, 0, -3}, 0, {0, 0, NAN}, INFINITY},
+        {{NAN, NAN, NAN}, 0, {0, 0, 1}, INFINITY},            {{0, NAN, -3}, 0, {0, 0, 1}, INFINITY},
+        {{0, 0, -3}, 0, {INFINITY, 0, 0}, INFINITY},          {{INFINITY, INFINITY, 0}, 0, {0, 0, 1}, INFINITY},
+        {{-INFINITY, INFINITY, 0}, 0, {NAN, 0, 1}, INFINITY}, {{1e30f, 1e30f, -3}, 0, {0, 0, 1}, INFINITY},
+        {{0, 0, -3}, 0, {0, 0, 0}, INFINITY},                 {{1e15f, 1e15f, -3}, 0, {0, 0, 1}, INFINITY},
+    };
+    enum { count = sizeof rays / sizeof *rays };
+    rays_stream stream = {10};
+    rt_hit hits[count];
+    rt_scene *scene = rays_scene(), *empty = rays_scene();
+    add_soup(scene, &stream, 1000, 0.2f, 1.0f, nowhere);
+    rays_add_sphere(scene, nowhere, 0.5f);
+    rt_renderer *renderers[] = {rays_renderer(scene, RT_ACCEL_BVH), rays_renderer(empty, RT_ACCEL_BVH)};
+    for (int i = 0; i < 2; i++) {
+        launch(renderers[i], "trace_closest", rays, count, hits);
+        for (int k = 0; k < count; k++)
+            assert_int_equal(hits[k].shape, RT_NONE);
+        launch(renderers[i], "trace_any", rays, count, hits);
+        for (int k = 0; k < count; k++)
+            assert_int_equal(hits[k].shape, RT_NONE);
+        rt_renderer_destroy(renderers[i]);
+    }
+    rt_scene_destroy(scene);
+    rt_scene_destroy(empty);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bvh_matches_brute_force_on_triangles),
         cmocka_unit_test(bvh_matches_brute_force_on_all_kinds),
+        cmocka_unit_test(instances_match_baked_copies),
+        cmocka_unit_test(bvh_matches_brute_force_on_placed_shapes),
         cmocka_unit_test(duplicates_give_the_lowest_primitive),
         cmocka_unit_test(an_empty_scene_is_missed),
         cmocka_unit_test(the_range_includes_its_ends),
         cmocka_unit_test(closed_meshes_do_not_leak),
+        cmocka_unit_test(rays_that_cannot_be_followed_miss),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

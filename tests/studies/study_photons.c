@@ -83,6 +83,13 @@ static void compare_ways(const comparison *c)
         options.kernel = (rt_density)i;
         row(c, kernels[i], &options);
     }
+    heading("area, k = 50");
+    options = photon_options(c);
+    options.spp = 64;
+    options.kernel = RT_DENSITY_BOX;
+    row(c, "disc, box", &options);
+    options.area = RT_AREA_HULL;
+    row(c, "hull", &options);
     heading("gather, k = 50");
     options = photon_options(c);
     options.gather = RT_GATHER_FLANN;

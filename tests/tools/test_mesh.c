@@ -1,11 +1,17 @@
 /* test_mesh.c - `rtc mesh`: the surfaces are closed, smooth, of the size asked for and the same in each run. */
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -180,7 +186,60 @@ static void mistakes_are_told(void **state)
     refuse(2, "takes no option --spp", "mesh sphere --spp 4");
     refuse(2, "takes no option --triangles", "check --triangles 4");
     refuse(4, "cannot write nowhere/a.ply", "mesh sphere --out nowhere/a.ply");
-    refuse(4, "cannot write .", "mesh sphere --out .");
+    refuse(2, "written as .ply", "mesh sphere --out sphere.obj");
+    refuse(2, "written as .ply", "mesh sphere --out a.ply/b");
+    assert_int_equal(mkdir("d.ply", 0700), 0);
+    refuse(4, strerror(EISDIR), "mesh sphere --out d.ply");
+}
+
+static void a_link_stays_and_its_target_is_written(void **state)
+{
+    (void)state;
+    struct stat status;
+    assert_int_equal(symlink("b.ply", "a.ply"), 0);
+    rt_mesh_destroy(make("sphere", 100));
+    expect_file("b.ply");
+    assert_int_equal(lstat("a.ply", &status), 0);
+    assert_true(S_ISLNK(status.st_mode));
+    assert_int_equal(scratch_count(), 2);
+}
+
+static void what_is_no_regular_file_is_written_in_place(void **state)
+{
+    (void)state;
+    struct stat status;
+    char bytes[64];
+    assert_int_equal(mkfifo("a.ply", 0600), 0);
+    int fd = open("a.ply", O_RDWR); /* holds what a small mesh has */
+    assert_true(fd >= 0);
+    run run = run_rtc("mesh sphere --triangles 100 --out a.ply");
+    expect_status(&run, 0);
+    run_free(&run);
+    assert_int_equal(read(fd, bytes, 4), 4);
+    assert_memory_equal(bytes, "ply\n", 4);
+    close(fd);
+    assert_int_equal(stat("a.ply", &status), 0);
+    assert_true(S_ISFIFO(status.st_mode));
+}
+
+static void a_neighbour_called_tmp_is_left_alone(void **state)
+{
+    (void)state;
+    scratch_write("a.ply.tmp", "another's");
+    rt_mesh_destroy(make("sphere", 100));
+    scratch_expect("a.ply.tmp", "another's");
+    assert_int_equal(scratch_count(), 2);
+}
+
+static void an_interrupt_leaves_nothing(void **state)
+{
+    (void)state;
+    char said[256];
+    running running = start_rtc("mesh knot --triangles 2e7");
+    nanosleep(&(struct timespec){0, 200000000}, NULL);
+    assert_int_equal(kill(running.pid, SIGINT), 0);
+    assert_int_equal(running_finish(&running, said, sizeof said), 130);
+    assert_int_equal(scratch_count(), 0);
 }
 
 int main(void)
@@ -194,6 +253,10 @@ int main(void)
         TEST(the_same_line_gives_the_same_bytes),
         TEST(the_file_is_named_after_the_kind),
         TEST(mistakes_are_told),
+        TEST(a_link_stays_and_its_target_is_written),
+        TEST(what_is_no_regular_file_is_written_in_place),
+        TEST(a_neighbour_called_tmp_is_left_alone),
+        TEST(an_interrupt_leaves_nothing),
     };
     if (spawn_find_rtc() != 0)
         return 1;

@@ -96,6 +96,19 @@ static void a_symbolic_link_stays(void **state)
     assert_true(S_ISLNK(status.st_mode));
 }
 
+static void a_symbolic_link_to_nothing_gets_its_target(void **state)
+{
+    (void)state;
+    struct stat status;
+    assert_int_equal(symlink("./target", "link"), 0);
+    assert_int_equal(symlink("missing/target", "lost"), 0);
+    assert_int_equal(rt_file_write("link", "new", 3, NULL), RT_OK);
+    scratch_expect("target", "new");
+    assert_int_equal(lstat("link", &status), 0);
+    assert_true(S_ISLNK(status.st_mode));
+    expect_failure("lost", ENOENT);
+}
+
 static void the_longest_name_works(void **state)
 {
     (void)state;
@@ -239,6 +252,7 @@ int main(void)
         IN_SCRATCH(a_new_file_follows_the_umask),
         IN_SCRATCH(a_replaced_file_keeps_its_permissions),
         IN_SCRATCH(a_symbolic_link_stays),
+        IN_SCRATCH(a_symbolic_link_to_nothing_gets_its_target),
         IN_SCRATCH(the_longest_name_works),
         IN_SCRATCH(a_stale_temporary_file_does_not_matter),
         IN_SCRATCH(impossible_places_are_named),

@@ -199,7 +199,7 @@ static void compete(const problem *p, size_t brute)
 {
     size_t stride = p->k ? p->k : p->list.count, part = ENTRIES / (stride ? stride : 1), ties = 0;
     float limit = p->limit < HUGE_VALF ? p->limit : HUGE_VALF;
-    rt_density_params estimate = {0, 1.1f, 0, p->k, limit * limit, 0, 0, 1};
+    rt_density_params estimate = {0, 1.1f, 0, p->k, limit * limit, 0, 0, 1, RT_AREA_DISC, {0}};
     rt_photon_search *search = NULL;
     rt_device_gather on;
     rt_error error;

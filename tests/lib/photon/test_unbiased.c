@@ -54,13 +54,23 @@ static void lay_down(rt_photon_list *map, int n, int facing)
         }
 }
 
-static rt_gather_point *make_points(void)
+/* Takes out the photons beyond x = 1. */
+static void cut_off(rt_photon_list *map)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < map->count; i++)
+        if (map->photons[i].position[0] <= 1)
+            map->photons[kept++] = map->photons[i];
+    map->count = kept;
+}
+
+static rt_gather_point *make_points(int at_edge)
 {
     points_stream stream = {99};
     rt_gather_point *points = calloc(estimates, sizeof *points);
     assert_non_null(points);
     for (int i = 0; i < estimates; i++) {
-        points[i].position[0] = points_uniform(&stream);
+        points[i].position[0] = at_edge ? 1 : points_uniform(&stream);
         points[i].position[1] = apart * (float)(i / points_a_field);
         points[i].position[2] = points_uniform(&stream);
         points[i].normal[1] = 1;
@@ -71,11 +81,12 @@ static rt_gather_point *make_points(void)
 }
 
 /* The mean of the fields' estimated densities, and its standard error. */
-static void estimate(const rt_photon_list *map, const rt_gather_options *options, double *mean, double *error_of_mean)
+static void estimate(const rt_photon_list *map, const rt_gather_options *options, int at_edge, double *mean,
+                     double *error_of_mean)
 {
     static const char *const programs[] = {"photon_gather", "photon_walk"};
     const char *program = programs[options->on_device];
-    rt_gather_point *points = make_points();
+    rt_gather_point *points = make_points(at_edge);
     rt_gather_disc *discs = calloc(estimates, sizeof *discs);
     rt_gatherer *gatherer = NULL;
     cl_kernel kernel = NULL;
@@ -115,9 +126,9 @@ static void check(const rt_photon_list *map, uint32_t k, float max_radius, int o
 {
     /* The kernels are evaluated by the same function in both ways, and the tree of FLANN is slow to build. */
     for (uint32_t density = 0; density < (on_device ? kernels : 2u); density++) {
-        rt_gather_options options = {k, max_radius, density, cone_k, on_device};
+        rt_gather_options options = {k, max_radius, density, cone_k, RT_AREA_DISC, on_device};
         double mean, sigma;
-        estimate(map, &options, &mean, &sigma);
+        estimate(map, &options, 0, &mean, &sigma);
         print_message("%s, k %u, radius %g, %s: %.3f of %.0f, %+.2f standard errors of %.4f %%\n",
                       on_device ? "device" : "FLANN", (unsigned)k, max_radius, kernel_names[density], mean, truth,
                       (mean - truth) / sigma, 100 * sigma / truth);
@@ -164,6 +175,30 @@ static void a_fixed_radius_gives_the_true_density(void **state)
     rt_photon_list_clear(&map);
 }
 
+/* Estimates by the hull, anywhere in the fields and at the edge that photons beyond x = 1 would have. */
+static void the_hull_gives_the_true_density_at_edges_too(void **state)
+{
+    enum { n = 4000, k = 50 };
+    static const rt_gather_options hull = {k, 0, RT_DENSITY_BOX, 1.1f, RT_AREA_HULL, 0};
+    rt_gather_options disc = hull;
+    double mean, sigma;
+    rt_photon_list map = {0};
+    (void)state;
+    lay_down(&map, n, 1);
+    estimate(&map, &hull, 0, &mean, &sigma);
+    print_message("hull inside: %.4f of the truth, sigma %.4f\n", mean / n, sigma / n);
+    assert_true(fabs(mean / n - 1) < 0.01);
+    cut_off(&map);
+    estimate(&map, &hull, 1, &mean, &sigma);
+    print_message("hull at the edge: %.4f of the truth, sigma %.4f\n", mean / n, sigma / n);
+    assert_true(fabs(mean / n - 1) < 0.02);
+    disc.area = RT_AREA_DISC;
+    estimate(&map, &disc, 1, &mean, &sigma);
+    print_message("disc at the edge: %.4f of the truth\n", mean / n);
+    assert_true(fabs(mean / n - 0.5) < 0.02);
+    rt_photon_list_clear(&map);
+}
+
 static void photons_that_face_elsewhere_leave_the_density_true(void **state)
 {
     enum { n = 4000, k = 10, facing = 25 };
@@ -182,6 +217,7 @@ int main(void)
         cmocka_unit_test(nearest_photons_give_the_true_density),
         cmocka_unit_test(a_limit_on_the_radius_gives_the_true_density),
         cmocka_unit_test(a_fixed_radius_gives_the_true_density),
+        cmocka_unit_test(the_hull_gives_the_true_density_at_edges_too),
         cmocka_unit_test(photons_that_face_elsewhere_leave_the_density_true),
     };
     return cmocka_run_group_tests_name("lib/photon/unbiased", tests, NULL, NULL);

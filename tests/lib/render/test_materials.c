@@ -1,4 +1,4 @@
-/* test_materials.c - absorption, nested solids, rough boundaries and textures, in whole renders against closed forms. */
+/* test_materials.c - absorption, nested solids, rough boundaries and textures: whole renders against closed forms. */
 #include "support.h"
 
 #include <math.h>

@@ -404,6 +404,72 @@ static void the_film_tells_what_was_done(void **state)
     rt_renderer_destroy(renderer);
 }
 
+static void layers_tell_what_was_gathered(void **state)
+{
+    const double pi = 3.14159265358979323846;
+    rt_render_options options = photon_options();
+    uint32_t channels = 0;
+    (void)state;
+    rt_renderer *renderer = make_renderer(test_device());
+    options.photon_layers = 1;
+    for (int on_device = 0; on_device < 2; on_device++) {
+        options.gather = on_device ? RT_GATHER_DEVICE : RT_GATHER_FLANN;
+        rt_film *film = render(renderer, &options);
+        const float *counts = rt_film_layer(film, "photon.count", &channels);
+        const float *radii = rt_film_layer(film, "photon.radius", NULL);
+        const float *densities = rt_film_layer(film, "photon.density", NULL);
+        const float *variances = rt_film_layer(film, "photon.variance", NULL);
+        assert_int_equal(channels, 1);
+        assert_null(rt_film_layer(film, "photon.flux", NULL));
+        int whole = 0;
+        for (int i = 0; i < side * side; i++) {
+            assert_true(counts[i] >= 0 && counts[i] <= 49 && radii[i] >= 0 && variances[i] >= 0);
+            if (counts[i] == 49) { /* the mean of 49 over the areas is at least that over the mean radius squared */
+                assert_true(densities[i] >= 0.999 * 49 / (pi * radii[i] * radii[i]));
+                whole++;
+            }
+        }
+        assert_true(whole > side * side / 2);
+        rt_film_destroy(film);
+    }
+    options.photon_layers = 0;
+    rt_film *film = render(renderer, &options);
+    assert_null(rt_film_layer(film, "photon.count", NULL));
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+}
+
+/* In passes, the variance layer foretells how far two renders of other seeds are apart. */
+static void the_variance_layer_is_that_of_other_seeds(void **state)
+{
+    rt_render_options options = photon_options();
+    double foretold = 0, seen = 0;
+    (void)state;
+    rt_renderer *renderer = make_renderer(test_device());
+    options.passes = 64;
+    options.spp = 1;
+    options.photons = 3000;
+    options.radius = 0.05f;
+    options.direct = RT_DIRECT_PHOTONS;
+    options.sampler = RT_SAMPLER_INDEPENDENT;
+    options.alpha = 0.999f; /* all passes nearly alike */
+    options.photon_layers = 1;
+    rt_film *a = render(renderer, &options);
+    options.seed = 77;
+    rt_film *b = render(renderer, &options);
+    for (int i = 0; i < side * side; i++) {
+        const float *x = rt_film_rgb(a) + 3 * i, *y = rt_film_rgb(b) + 3 * i;
+        double difference = (x[0] + x[1] + x[2] - (y[0] + y[1] + y[2])) / 3.0;
+        seen += difference * difference;
+        foretold += rt_film_layer(a, "photon.variance", NULL)[i] + rt_film_layer(b, "photon.variance", NULL)[i];
+    }
+    print_message("variance seen %g, foretold %g\n", seen, foretold);
+    assert_true(fabs(seen / foretold - 1) < 0.25);
+    rt_film_destroy(a);
+    rt_film_destroy(b);
+    rt_renderer_destroy(renderer);
+}
+
 static int cancel_in_stage(void *user, const rt_progress *progress)
 {
     return progress->stage == *(const rt_stage *)user && progress->fraction > 0;
@@ -447,6 +513,8 @@ int main(void)
         cmocka_unit_test(smooth_surfaces_agree_with_path_tracing),
         cmocka_unit_test(films_do_not_depend_on_threads_and_work_groups),
         cmocka_unit_test(the_film_tells_what_was_done),
+        cmocka_unit_test(layers_tell_what_was_gathered),
+        cmocka_unit_test(the_variance_layer_is_that_of_other_seeds),
         cmocka_unit_test(a_cancel_ends_the_render),
     };
     return cmocka_run_group_tests_name("lib/render/photon_mode", tests, NULL, NULL);

@@ -134,6 +134,33 @@ static void shapes_without_extent_are_refused(void **state)
     rt_scene_destroy(scene);
 }
 
+/* What would make squares or reciprocals that are no numbers of float32. */
+static void sizes_beyond_float_are_refused_with_the_true_range(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_surface surface = {0}, lamp = {.power = {1e10f, 0, 0}}, dazzling = {.radiance = {1e29f, 0, 0}};
+    rt_error error;
+    static const float x[3] = {1e-14f, 0, 0}, y[3] = {0, 1e-17f, 0};
+    static const float small[9] = {0, 0, 0, 1e-17f, 0, 0, 0, 1e-17f, 0};
+    static const uint32_t corners[3] = {0, 1, 2};
+    (void)state;
+
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1e-19f, &surface, &error), &error, "radius");
+    assert_non_null(strstr(error.message, "between 1e-15 and 1e+15"));
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 2e15f, &surface, &error), &error, "radius");
+    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1e-15f, &surface, &error), &error);
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1e-15f, &lamp, &error), &error, "power");
+    assert_non_null(strstr(error.message, "1e+28"));
+    expect_refused(rt_scene_add_quad(scene, NULL, origin, x, y, &surface, &error), &error, "edge2");
+    assert_non_null(strstr(error.message, "at least 1e-30"));
+    expect_refused(rt_scene_add_triangles(scene, NULL, small, 3, corners, 1, NULL, &surface, &error), &error,
+                   "positions");
+    assert_non_null(strstr(error.message, "at least 1e-30"));
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &dazzling, &error), &error, "radiance");
+    assert_non_null(strstr(error.message, "between 0 and 1e+28"));
+    rt_scene_destroy(scene);
+}
+
 static void infinite_planes_cannot_emit(void **state)
 {
     rt_scene *scene = new_scene();
@@ -161,9 +188,18 @@ static void cameras_that_see_nothing_are_refused(void **state)
     c.fov = 60;
     c.aperture = -1;
     expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "aperture");
+    c.aperture = 2e15f;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "aperture");
+    assert_non_null(strstr(error.message, "between 0 and 1e+15"));
     c.aperture = 0;
-    c.focal_distance = -1;
-    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "focal_distance");
+    static const float distances[] = {-1, 1e-38f, 5e-16f, 2e15f, NAN};
+    for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
+        c.focal_distance = distances[i];
+        expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "focal_distance");
+        assert_non_null(strstr(error.message, "between 1e-15 and 1e+15"));
+    }
+    c.focal_distance = 1e-15f;
+    expect_ok(rt_scene_set_camera(scene, &c, &error), &error);
     c.focal_distance = 0;
     c.blades = 2;
     expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "blades");
@@ -173,6 +209,10 @@ static void cameras_that_see_nothing_are_refused(void **state)
     c.kind = RT_CAMERA_ORTHOGRAPHIC;
     c.width = -1;
     expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "width");
+    c.width = 1;
+    c.eye[2] = 0;
+    c.look_at[2] = 1e-25f;
+    expect_refused(rt_scene_set_camera(scene, &c, &error), &error, "look_at");
     rt_scene_destroy(scene);
 }
 
@@ -293,7 +333,11 @@ static void options_out_of_range_are_refused(void **state)
     } cases[] = {
         {{.k = 1}, "k"},
         {{.cone_k = 0.5f}, "cone_k"},
+        {{.cone_k = 1e7f}, "cone_k"},
         {{.radius = -1}, "radius"},
+        {{.radius = 2e15f}, "radius"},
+        {{.radius = 1e-20f}, "radius"},
+        {{.spp = (1u << 24) + 1}, "spp"},
         {{.width = 100000}, "width"},
         {{.width = 65536, .height = 65536}, "height"},
         {{.time = NAN}, "time"},
@@ -309,6 +353,19 @@ static void options_out_of_range_are_refused(void **state)
     rt_scene_destroy(scene);
 }
 
+static void no_options_are_the_defaults(void **state)
+{
+    rt_scene *scene = new_scene();
+    rt_render_options options = {.width = 7, .spp = 3}, defaults = {0};
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_set_options(scene, &options, &error), &error);
+    expect_ok(rt_scene_set_options(scene, NULL, &error), &error);
+    rt_scene_get_options(scene, &options);
+    assert_memory_equal(&options, &defaults, sizeof options);
+    rt_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -319,12 +376,14 @@ int main(void)
         cmocka_unit_test(lights_without_direction_or_cone_are_refused),
         cmocka_unit_test(power_of_distant_lights_is_what_meets_the_scene),
         cmocka_unit_test(shapes_without_extent_are_refused),
+        cmocka_unit_test(sizes_beyond_float_are_refused_with_the_true_range),
         cmocka_unit_test(infinite_planes_cannot_emit),
         cmocka_unit_test(cameras_that_see_nothing_are_refused),
         cmocka_unit_test(power_of_a_point_light_is_four_pi_intensity),
         cmocka_unit_test(power_of_an_area_light_is_pi_radiance_area),
         cmocka_unit_test(lights_are_chosen_in_proportion_to_power),
         cmocka_unit_test(options_out_of_range_are_refused),
+        cmocka_unit_test(no_options_are_the_defaults),
     };
     return cmocka_run_group_tests_name("lib/scene", tests, NULL, NULL);
 }

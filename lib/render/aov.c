@@ -1,18 +1,9 @@
-#include "render/layers.h"
+#include "render/aov.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "error.h"
-
-static const struct {
-    const char *name;
-    uint32_t channels;
-} layer_kinds[RT_LAYER_COUNT] = {
-    [RT_LAYER_ALBEDO] = {"albedo", 3},
-    [RT_LAYER_NORMAL] = {"normal", 3},
-    [RT_LAYER_DEPTH] = {"depth", 1},
-};
 
 static size_t film_pixels(const rt_film *film)
 {
@@ -24,14 +15,14 @@ static int is_layer_mode(rt_mode mode)
     return mode == RT_MODE_NORMALS || mode == RT_MODE_ALBEDO || mode == RT_MODE_DEPTH;
 }
 
-int rt_layers_wanted(const rt_render_options *options)
+int rt_aov_wanted(const rt_render_options *options)
 {
     return options->aov || is_layer_mode(options->mode);
 }
 
 /* ---- On the device ---------------------------------------------------------- */
 
-rt_status rt_layers_begin(rt_layers *out, rt_renderer *renderer, rt_film *film, rt_stage_progress *progress,
+rt_status rt_aov_begin(rt_aov *out, rt_renderer *renderer, rt_film *film, rt_stage_progress *progress,
                           rt_error *error)
 {
     size_t count = film_pixels(film), bytes = RT_LAYER_COUNT * count * sizeof *film->layer_sums;
@@ -39,22 +30,19 @@ rt_status rt_layers_begin(rt_layers *out, rt_renderer *renderer, rt_film *film, 
     memset(&none, 0, sizeof none);
 
     film->layer_sums = calloc(RT_LAYER_COUNT * count, sizeof *film->layer_sums);
-    int complete = film->layer_sums != NULL;
-    for (int i = 0; i < (int)RT_LAYER_COUNT; i++) {
-        film->layers[i] = calloc(count, layer_kinds[i].channels * sizeof **film->layers);
-        complete = complete && film->layers[i];
-    }
-    if (!complete)
+    if (!film->layer_sums)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels", count);
-    rt_status status = rt_buffer_create(renderer->device, &out->films, CL_MEM_READ_WRITE, bytes, film->layer_sums,
-                                        "the layers of the film", error);
+    rt_status status = rt_film_add_layers(film, RT_FILM_ALBEDO, RT_FILM_DEPTH, error);
+    if (status == RT_OK)
+        status = rt_buffer_create(renderer->device, &out->films, CL_MEM_READ_WRITE, bytes, film->layer_sums,
+                                  "the layers of the film", error);
     rt_arg args[] = {RT_ARG(none), RT_ARG(renderer->scene), RT_ARG(out->films)};
     if (status == RT_OK)
         status = rt_kernel_prepare(renderer->device, &out->kernel, "aov", "aov", args, 3, progress, error);
     return status;
 }
 
-rt_status rt_layers_add(rt_layers *layers, rt_renderer *renderer, const rt_params *params, rt_error *error)
+rt_status rt_aov_add(rt_aov *layers, rt_renderer *renderer, const rt_params *params, rt_error *error)
 {
     rt_arg first = {sizeof *params, params};
     if (!layers->kernel)
@@ -63,13 +51,13 @@ rt_status rt_layers_add(rt_layers *layers, rt_renderer *renderer, const rt_param
     return status == RT_OK ? rt_launch(renderer->device, layers->kernel, params->item_count, error) : status;
 }
 
-rt_status rt_layers_read(const rt_layers *layers, rt_renderer *renderer, rt_film *film, rt_error *error)
+rt_status rt_aov_read(const rt_aov *layers, rt_renderer *renderer, rt_film *film, rt_error *error)
 {
     size_t bytes = RT_LAYER_COUNT * film_pixels(film) * sizeof *film->layer_sums;
     return layers->films ? rt_buffer_read(renderer->device, layers->films, 0, bytes, film->layer_sums, error) : RT_OK;
 }
 
-void rt_layers_free(rt_layers *layers)
+void rt_aov_free(rt_aov *layers)
 {
     rt_kernel_release(layers->kernel);
     rt_buffer_release(layers->films);
@@ -90,15 +78,15 @@ static void show(float rgb[3], const rt_film *film, size_t i)
     float covered = (float)(total(depth, 2) / rt_film_divisor(normal));
     for (int c = 0; c < 3; c++) {
         if (film->options.mode == RT_MODE_ALBEDO)
-            rgb[c] = film->layers[RT_LAYER_ALBEDO][3 * i + c];
+            rgb[c] = film->layers[RT_FILM_ALBEDO][3 * i + c];
         else if (film->options.mode == RT_MODE_NORMALS)
-            rgb[c] = 0.5f * (film->layers[RT_LAYER_NORMAL][3 * i + c] + covered);
+            rgb[c] = 0.5f * (film->layers[RT_FILM_NORMAL][3 * i + c] + covered);
         else
-            rgb[c] = film->layers[RT_LAYER_DEPTH][i];
+            rgb[c] = film->layers[RT_FILM_DEPTH][i];
     }
 }
 
-void rt_layers_resolve(rt_film *film)
+void rt_aov_resolve(rt_film *film)
 {
     size_t count = film_pixels(film);
     if (!film->layer_sums)
@@ -110,23 +98,12 @@ void rt_layers_resolve(rt_film *film)
         if (albedo[i].count == 0)
             continue;
         for (int c = 0; c < 3; c++) {
-            film->layers[RT_LAYER_ALBEDO][3 * i + c] = (float)(total(albedo + i, c) / rt_film_divisor(albedo + i));
-            film->layers[RT_LAYER_NORMAL][3 * i + c] = (float)(total(normal + i, c) / rt_film_divisor(normal + i));
+            film->layers[RT_FILM_ALBEDO][3 * i + c] = (float)(total(albedo + i, c) / rt_film_divisor(albedo + i));
+            film->layers[RT_FILM_NORMAL][3 * i + c] = (float)(total(normal + i, c) / rt_film_divisor(normal + i));
         }
         double hits = total(depth + i, 1);
-        film->layers[RT_LAYER_DEPTH][i] = hits > 0 ? (float)(total(depth + i, 0) / hits) : 0;
+        film->layers[RT_FILM_DEPTH][i] = hits > 0 ? (float)(total(depth + i, 0) / hits) : 0;
         if (is_layer_mode(film->options.mode))
             show(film->rgb + 3 * i, film, i);
     }
-}
-
-const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels)
-{
-    for (int i = 0; i < (int)RT_LAYER_COUNT; i++)
-        if (strcmp(name, layer_kinds[i].name) == 0 && film->layers[i]) {
-            if (channels)
-                *channels = layer_kinds[i].channels;
-            return film->layers[i];
-        }
-    return NULL;
 }

@@ -1,0 +1,289 @@
+#include "kernels/shape_check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support.h"
+
+static const double band = 1e-4;
+static const double pi = 3.14159265358979323846;
+
+const truth_shape shape_kinds[] = {
+    {.kind = RT_SHAPE_ELLIPSOID},
+    {.kind = RT_SHAPE_DISC},
+    {.kind = RT_SHAPE_DISC, .p = 0.6f},
+    {.kind = RT_SHAPE_CYLINDER},
+    {.kind = RT_SHAPE_CYLINDER, .caps = 1},
+    {.kind = RT_SHAPE_CONE},
+    {.kind = RT_SHAPE_CONE, .caps = 1},
+    {.kind = RT_SHAPE_CONE, .p = 0.4f, .caps = 1},
+    {.kind = RT_SHAPE_CONE, .p = 0.9f},
+    {.kind = RT_SHAPE_TORUS, .p = 0.25f},
+    {.kind = RT_SHAPE_TORUS, .p = 0.95f},
+    {.kind = RT_SHAPE_TORUS, .p = 0.01f},
+};
+const size_t shape_kind_count = sizeof shape_kinds / sizeof *shape_kinds;
+
+const shape_place shape_places[] = {{1.0f, 0.0f, 0},    {1e-3f, 0.0f, 1}, {1e3f, 0.0f, 1},
+                                    {1.0f, 100.0f, 0}, {1.0f, 3.0f, 1},  {1e-3f, 1000.0f, 1}};
+const size_t shape_place_count = sizeof shape_places / sizeof *shape_places;
+
+/* ---- Scenes ---------------------------------------------------------------- */
+
+/* a becomes a b. */
+static void multiply(double a[3][3], double b[3][3])
+{
+    double c[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+    memcpy(a, c, sizeof c);
+}
+
+/* a becomes a times rotations about x, y and z. */
+static void rotate(double a[3][3], rays_stream *stream)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const double angle = 2 * pi * rays_uniform(stream);
+        const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+        double r[3][3] = {{0}};
+        r[axis][axis] = 1;
+        r[i][i] = r[j][j] = cos(angle);
+        r[i][j] = -sin(angle);
+        r[j][i] = sin(angle);
+        multiply(a, r);
+    }
+}
+
+truth_shape shape_placed(rays_stream *stream, size_t kind, size_t place)
+{
+    const shape_place *where = shape_places + place;
+    double m[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, stretch[3][3] = {{0}};
+    truth_shape shape = shape_kinds[kind];
+    rt_transform transform;
+    float to[3];
+    rays_direction(stream, to);
+    for (int i = 0; i < 3; i++)
+        stretch[i][i] = where->is_skewed ? rays_between(stream, 0.25f, 1.0f) : 1.0;
+    if (rays_uniform(stream) < 0.5f)
+        stretch[0][0] = -stretch[0][0];
+    if (where->is_skewed) {
+        rotate(m, stream);
+        multiply(m, stretch);
+        rotate(m, stream);
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            transform.m[i][j] = where->size * (float)m[i][j];
+        transform.m[i][3] = where->size * where->offset * to[i];
+    }
+    truth_place(&shape, &transform);
+    return shape;
+}
+
+rt_scene *shape_scene(const truth_shape *shape)
+{
+    static const float zero[3] = {0, 0, 0}, one[3] = {1, 1, 1}, up[3] = {0, 0, 1};
+    const rt_surface surface = {.transform = shape->to_world};
+    const float p = (float)shape->p;
+    rt_scene *scene = rays_scene();
+    rt_status status;
+    rt_error error;
+    switch (shape->kind) {
+    case RT_SHAPE_DISC:
+        status = rt_scene_add_disc(scene, NULL, zero, up, 1, p, &surface, &error);
+        break;
+    case RT_SHAPE_CYLINDER:
+        status = rt_scene_add_cylinder(scene, NULL, zero, up, 1, shape->caps, &surface, &error);
+        break;
+    case RT_SHAPE_CONE:
+        status = rt_scene_add_cone(scene, NULL, zero, up, 1, p, shape->caps, &surface, &error);
+        break;
+    case RT_SHAPE_TORUS:
+        status = rt_scene_add_torus(scene, NULL, zero, up, 1, p, &surface, &error);
+        break;
+    default:
+        status = rt_scene_add_ellipsoid(scene, NULL, zero, one, &surface, &error);
+    }
+    expect_ok(status, &error);
+    return scene;
+}
+
+/* ---- Rays ------------------------------------------------------------------ */
+
+/* A point of the surface and its normal, in the shape's space. */
+static void surface_point(rays_stream *stream, const truth_shape *shape, double p[3], double n[3])
+{
+    const double turn = 2 * pi * rays_uniform(stream), v = rays_uniform(stream), c = cos(turn), s = sin(turn);
+    const double top = shape->kind == RT_SHAPE_CONE ? shape->p : 1, angle = 2 * pi * v;
+    double r = 1, z = 0, nr = 0, nz = 1;
+    switch (shape->kind) {
+    case RT_SHAPE_DISC:
+        r = shape->p + (1 - shape->p) * v;
+        break;
+    case RT_SHAPE_CYLINDER:
+    case RT_SHAPE_CONE:
+        r = 1 - (1 - top) * v;
+        z = v;
+        nr = 1 / hypot(1, 1 - top);
+        nz = (1 - top) * nr;
+        break;
+    case RT_SHAPE_TORUS:
+        nr = cos(angle);
+        nz = sin(angle);
+        r = 1 + shape->p * nr;
+        z = shape->p * nz;
+        break;
+    default:
+        nz = z = 2 * v - 1;
+        nr = r = sqrt(1 - z * z);
+    }
+    const double point[3] = {r * c, r * s, z}, normal[3] = {nr * c, nr * s, nz};
+    memcpy(p, point, sizeof point);
+    memcpy(n, normal, sizeof normal);
+}
+
+rt_ray shape_ray(rays_stream *stream, const truth_shape *shape)
+{
+    const float choice = rays_uniform(stream);
+    double from[3], to[3], n[3], o[3], d[3];
+    float f[3], g[3];
+    rt_ray ray = {.t_min = 0, .t_max = INFINITY};
+    surface_point(stream, shape, to, n);
+    rays_point(stream, choice < 0.2f ? 0.8f : choice < 0.6f ? 4.0f : 20.0f, f);
+    rays_point(stream, choice < 0.3f ? 1.2f : 0.0f, g);
+    for (int i = 0; i < 3; i++) {
+        from[i] = f[i];
+        to[i] += g[i];
+    }
+    if (choice > 0.6f) {
+        /* Towards the point, but along the surface there, and past it by up to a hundredth of the size. */
+        const double past = pow(10, rays_between(stream, -5, -2)) * (rays_uniform(stream) < 0.5f ? 1 : -1);
+        const double back = choice > 0.9f ? 1 : 0.03;
+        double lift = 0;
+        for (int i = 0; i < 3; i++)
+            lift += (from[i] - to[i]) * n[i];
+        for (int i = 0; i < 3; i++) {
+            from[i] = to[i] + back * (from[i] - to[i] - lift * n[i]) + past * n[i];
+            to[i] += past * n[i];
+        }
+    }
+    const float speed = rays_between(stream, 0.1f, 3.0f);
+    for (int i = 0; i < 3; i++) {
+        o[i] = shape->to_world.m[i][3];
+        d[i] = 0;
+        for (int j = 0; j < 3; j++) {
+            o[i] += shape->to_world.m[i][j] * from[j];
+            d[i] += shape->to_world.m[i][j] * (to[j] - from[j]);
+        }
+        ray.origin[i] = (float)o[i];
+        ray.direction[i] = (float)d[i] * speed;
+    }
+    return ray;
+}
+
+/* ---- Comparison ------------------------------------------------------------ */
+
+/* What may come of a ray when the shape is not sure to within the band. */
+typedef struct verdict {
+    truth_hit hit;
+    double normal[3];
+    int is_sure;       /* all agree on hit or miss, and roughly on t */
+    double speed;      /* length of the ray's direction in the shape's space */
+    double t, turning; /* by how much t and the normal vary */
+} verdict;
+
+static double gap(const double a[3], const double b[3])
+{
+    return fmax(fabs(a[0] - b[0]), fmax(fabs(a[1] - b[1]), fabs(a[2] - b[2])));
+}
+
+static verdict judge(const truth_shape *shape, const rt_ray *ray)
+{
+    double o[3], d[3];
+    const double speed = truth_ray(shape, ray, o, d);
+    verdict v = {.hit = truth_nearest(shape, 0, 0, ray), .speed = speed, .is_sure = 1};
+    const int is_hit = v.hit.t < INFINITY;
+    if (shape->kind == RT_SHAPE_DISC && fabs(d[2]) < band * speed && fabs(o[2]) < 10 * band)
+        v.is_sure = 0; /* in the disc's plane */
+    if (is_hit)
+        truth_normal(shape, v.hit.normal, v.normal);
+    for (int i = 0; i < 4; i++) {
+        const truth_hit other = truth_nearest(shape, i & 1 ? band : -band, i & 2 ? band : -band, ray);
+        if ((other.t < INFINITY) != is_hit)
+            v.is_sure = 0;
+        if (!is_hit || !v.is_sure)
+            continue;
+        double normal[3];
+        truth_normal(shape, other.normal, normal);
+        v.t = fmax(v.t, fabs(other.t - v.hit.t));
+        v.turning = fmax(v.turning, gap(v.normal, normal));
+    }
+    if (v.t * speed > 0.02 || v.turning > 0.3)
+        v.is_sure = 0;
+    if (shape->kind == RT_SHAPE_CONE && is_hit && hypot(v.hit.position[0], v.hit.position[1]) < 20 * band)
+        v.is_sure = 0; /* at the apex every normal is near */
+    return v;
+}
+
+/* Whether the ray hits a shape that differs by the band or less: it may run inside the band without crossing it. */
+static int runs_in_band(const truth_shape *shape, const rt_ray *ray)
+{
+    for (double by = band; by > 1e-4 * band; by *= 0.5)
+        if (truth_nearest(shape, by, 0, ray).t < INFINITY || truth_nearest(shape, -by, 0, ray).t < INFINITY)
+            return 1;
+    return 0;
+}
+
+static void expect_hit(const truth_shape *shape, const verdict *v, const rt_hit *hit)
+{
+    const double speed = v->speed;
+    const double normal[3] = {hit->normal[0], hit->normal[1], hit->normal[2]};
+    const double precision = 0.02 + 0.005 * v->hit.t * speed; /* of positions, in bands */
+    const double from_axis = hypot(v->hit.position[0], v->hit.position[1]);
+    const double bend = precision * band / (shape->kind == RT_SHAPE_TORUS ? shape->p : fmin(1, from_axis));
+    double uv[2];
+    assert_true(fabs(hit->t - v->hit.t) <= 1e-5 * v->hit.t + precision * v->t + 2e-6 / speed);
+    assert_true(gap(normal, v->normal) <= 1e-4 + bend + precision * v->turning);
+    if (v->t * speed < 10 * band && truth_parameters(shape, &v->hit, uv)) {
+        const double off = fabs(hit->u - uv[0]), off_v = fabs(hit->v - uv[1]);
+        assert_true(fmin(off, fabs(1 - off)) <= 2e-3);
+        assert_true(fmin(off_v, fabs(1 - off_v)) <= 2e-3);
+    }
+}
+
+void shape_expect_truth(const truth_shape *shape, size_t count, uint64_t seed)
+{
+    rays_stream stream = {seed};
+    rt_scene *scene = shape_scene(shape);
+    rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
+    rt_ray *rays = malloc(count * sizeof *rays);
+    size_t hits = 0, misses = 0, lost = 0, made_up = 0;
+    for (size_t i = 0; i < count; i++)
+        rays[i] = shape_ray(&stream, shape);
+    rt_hit *found = rays_trace(renderer, RT_TRACE_CLOSEST, rays, count);
+    rt_hit *any = rays_trace(renderer, RT_TRACE_ANY, rays, count);
+    for (size_t i = 0; i < count; i++) {
+        const verdict v = judge(shape, rays + i);
+        const int is_hit = v.hit.t < INFINITY;
+        assert_int_equal(any[i].shape != RT_NONE, found[i].shape != RT_NONE);
+        if (!v.is_sure)
+            continue;
+        lost += is_hit && found[i].shape == RT_NONE;
+        made_up += !is_hit && found[i].shape != RT_NONE && !runs_in_band(shape, rays + i);
+        hits += is_hit;
+        misses += !is_hit;
+        if (is_hit && found[i].shape != RT_NONE)
+            expect_hit(shape, &v, found + i);
+    }
+    assert_int_equal(lost, 0);
+    assert_int_equal(made_up, 0);
+    assert_true(hits > count / 20);
+    assert_true(misses > count / 20);
+    free(any);
+    free(found);
+    free(rays);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+}

@@ -1,0 +1,274 @@
+#include "kernels/shape_truth.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* ---- Placement ------------------------------------------------------------- */
+
+void truth_place(truth_shape *shape, const rt_transform *to_world)
+{
+    double c[3][3], det = 0;
+    shape->to_world = *to_world;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+            c[i][j] = (double)to_world->m[i1][j1] * to_world->m[i2][j2] - (double)to_world->m[i1][j2] * to_world->m[i2][j1];
+        }
+    for (int j = 0; j < 3; j++)
+        det += to_world->m[0][j] * c[0][j];
+    for (int i = 0; i < 3; i++) {
+        shape->to_object[i][3] = 0;
+        for (int j = 0; j < 3; j++) {
+            shape->to_object[i][j] = c[j][i] / det;
+            shape->to_object[i][3] -= c[j][i] / det * to_world->m[j][3];
+        }
+    }
+}
+
+double truth_ray(const truth_shape *shape, const rt_ray *ray, double o[3], double d[3])
+{
+    for (int i = 0; i < 3; i++) {
+        o[i] = shape->to_object[i][3];
+        d[i] = 0;
+        for (int j = 0; j < 3; j++) {
+            o[i] += shape->to_object[i][j] * ray->origin[j];
+            d[i] += shape->to_object[i][j] * ray->direction[j];
+        }
+    }
+    return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+}
+
+void truth_normal(const truth_shape *shape, const double normal[3], double out[3])
+{
+    double square = 0;
+    for (int j = 0; j < 3; j++) {
+        out[j] = 0;
+        for (int i = 0; i < 3; i++)
+            out[j] += shape->to_object[i][j] * normal[i];
+        square += out[j] * out[j];
+    }
+    for (int j = 0; j < 3; j++)
+        out[j] /= sqrt(square);
+}
+
+/* ---- Candidates ------------------------------------------------------------ */
+
+/* A ray in the shape's space, and the nearest hit so far. */
+typedef struct search {
+    const truth_shape *shape;
+    double wider, longer;
+    double o[3], d[3];
+    truth_hit best;
+} search;
+
+static void at(const search *s, double t, double p[3])
+{
+    for (int i = 0; i < 3; i++)
+        p[i] = s->o[i] + t * s->d[i];
+}
+
+static void take(search *s, double t, double x, double y, double z)
+{
+    if (!(t >= 0 && t < s->best.t))
+        return;
+    const double length = sqrt(x * x + y * y + z * z);
+    s->best.t = t;
+    at(s, t, s->best.position);
+    s->best.normal[0] = x / length;
+    s->best.normal[1] = y / length;
+    s->best.normal[2] = z / length;
+}
+
+/* Roots of a t^2 + 2 b t + c. */
+static int quadratic(double a, double b, double c, double roots[2])
+{
+    const double discriminant = b * b - a * c;
+    if (!(discriminant >= 0))
+        return 0;
+    const double q = -(b + copysign(sqrt(discriminant), b));
+    roots[0] = c / q;
+    roots[1] = q / a;
+    return 2;
+}
+
+static void meet_ball(search *s)
+{
+    double a = 0, b = 0, c = -(1 + s->wider) * (1 + s->wider), roots[2], p[3];
+    for (int i = 0; i < 3; i++) {
+        a += s->d[i] * s->d[i];
+        b += s->o[i] * s->d[i];
+        c += s->o[i] * s->o[i];
+    }
+    for (int k = quadratic(a, b, c, roots); k-- > 0;) {
+        at(s, roots[k], p);
+        take(s, roots[k], p[0], p[1], p[2]);
+    }
+}
+
+static void meet_disc(search *s, double z, double hole, double radius, double normal)
+{
+    const double t = (z - s->o[2]) / s->d[2];
+    double p[3];
+    at(s, t, p);
+    const double from_axis = hypot(p[0], p[1]);
+    if (from_axis <= radius && from_axis >= hole)
+        take(s, t, 0, 0, normal);
+}
+
+static void meet_round(search *s)
+{
+    const double top = s->shape->kind == RT_SHAPE_CONE ? s->shape->p : 1, slope = 1 - top, r = 1 + s->wider;
+    const double w = r - slope * s->o[2], dw = -slope * s->d[2];
+    const double lo = -s->longer, hi = 1 + s->longer;
+    double roots[2], p[3];
+    const double a = s->d[0] * s->d[0] + s->d[1] * s->d[1] - dw * dw;
+    const double b = s->o[0] * s->d[0] + s->o[1] * s->d[1] - w * dw;
+    const double c = s->o[0] * s->o[0] + s->o[1] * s->o[1] - w * w;
+    for (int k = quadratic(a, b, c, roots); k-- > 0;) {
+        at(s, roots[k], p);
+        if (p[2] >= lo && p[2] <= hi && r - slope * p[2] >= 0)
+            take(s, roots[k], p[0], p[1], slope * hypot(p[0], p[1]));
+    }
+    if (s->shape->caps) {
+        meet_disc(s, lo, 0, r - slope * lo, -1);
+        meet_disc(s, hi, 0, r - slope * hi, 1);
+    }
+}
+
+/* ---- The torus: real roots of its quartic, told apart by those of the derivatives ------ */
+
+typedef long double real;
+
+static real value(const real *c, int degree, real x)
+{
+    real sum = c[degree];
+    while (degree-- > 0)
+        sum = sum * x + c[degree];
+    return sum;
+}
+
+/* The root between lo and hi, by Newton's method, halving where that leads out. */
+static real root_between(const real *c, const real *slope, int degree, real lo, real hi)
+{
+    const int rises = value(c, degree, lo) < 0;
+    real x = 0.5L * (lo + hi), before = lo;
+    for (int i = 0; i < 100 && fabsl(x - before) > 1e-17L; i++) {
+        const real y = value(c, degree, x);
+        if ((y < 0) == rises)
+            lo = x;
+        else
+            hi = x;
+        before = x;
+        x -= y / value(slope, degree - 1, x);
+        if (!(x > lo && x < hi))
+            x = 0.5L * (lo + hi);
+    }
+    return x;
+}
+
+/* The roots in [lo, hi] at which the polynomial changes its sign, in rising order; returns their number. */
+static int real_roots(const real *c, int degree, real lo, real hi, real *roots)
+{
+    real slope[4], turns[6];
+    int turn_count = 0, count = 0;
+    for (int i = 1; i <= degree; i++)
+        slope[i - 1] = i * c[i];
+    turns[0] = lo;
+    if (degree > 1)
+        turn_count = real_roots(slope, degree - 1, lo, hi, turns + 1);
+    turns[turn_count + 1] = hi;
+    for (int i = 0; i <= turn_count; i++)
+        if ((value(c, degree, turns[i]) < 0) != (value(c, degree, turns[i + 1]) < 0))
+            roots[count++] = root_between(c, slope, degree, turns[i], turns[i + 1]);
+    return count;
+}
+
+/* (|p|^2 + 1 - m^2)^2 = 4 (x^2 + y^2) along the line, from its point nearest to the middle. */
+static void meet_torus(search *s)
+{
+    const real m = s->shape->p + s->wider, speed2 = (real)s->d[0] * s->d[0] + (real)s->d[1] * s->d[1] + (real)s->d[2] * s->d[2];
+    const real speed = sqrtl(speed2);
+    real along = 0, n[3], d[3], n2 = 0, flat[3] = {0}, roots[4];
+    for (int i = 0; i < 3; i++)
+        along -= (real)s->o[i] * s->d[i] / speed2;
+    for (int i = 0; i < 3; i++) {
+        n[i] = s->o[i] + along * s->d[i];
+        d[i] = s->d[i] / speed;
+        n2 += n[i] * n[i];
+    }
+    const real reach = 1.01L * (1 + m), half2 = reach * reach - n2;
+    if (half2 < 0)
+        return;
+    for (int i = 0; i < 2; i++) {
+        flat[0] += n[i] * n[i];
+        flat[1] += 2 * n[i] * d[i];
+        flat[2] += d[i] * d[i];
+    }
+    /* |p|^2 + 1 - m^2 = k + x^2, for the line's own length x has no part along the nearest point. */
+    const real k = n2 + 1 - m * m;
+    const real c[5] = {k * k - 4 * flat[0], -4 * flat[1], 2 * k - 4 * flat[2], 0, 1};
+    const int count = real_roots(c, 4, -sqrtl(half2), sqrtl(half2), roots);
+    for (int i = 0; i < count; i++) {
+        const double t = (double)(along + roots[i] / speed);
+        double p[3];
+        at(s, t, p);
+        const double from_axis = hypot(p[0], p[1]), x = 1 - 1 / from_axis;
+        take(s, t, p[0] * x, p[1] * x, p[2]);
+    }
+}
+
+/* ---- All ------------------------------------------------------------------- */
+
+truth_hit truth_nearest(const truth_shape *shape, double wider, double longer, const rt_ray *ray)
+{
+    search s = {shape, wider, longer, {0}, {0}, {INFINITY, {0}, {0}}};
+    truth_ray(shape, ray, s.o, s.d);
+    switch (shape->kind) {
+    case RT_SHAPE_DISC:
+        meet_disc(&s, wider, shape->p - longer, 1 + wider, 1);
+        break;
+    case RT_SHAPE_CYLINDER:
+    case RT_SHAPE_CONE:
+        meet_round(&s);
+        break;
+    case RT_SHAPE_TORUS:
+        meet_torus(&s);
+        break;
+    default:
+        meet_ball(&s);
+    }
+    return s.best;
+}
+
+static double turns(double y, double x)
+{
+    const double turn = atan2(y, x) / (2 * pi);
+    return turn < 0 ? turn + 1 : turn;
+}
+
+int truth_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+{
+    const double *p = hit->position, *n = hit->normal, from_axis = hypot(p[0], p[1]);
+    uv[0] = turns(p[1], p[0]);
+    switch (shape->kind) {
+    case RT_SHAPE_DISC:
+        uv[1] = (from_axis - shape->p) / (1 - shape->p);
+        break;
+    case RT_SHAPE_CYLINDER:
+        uv[1] = fabs(n[2]) > 0.9 ? from_axis : p[2];
+        break;
+    case RT_SHAPE_CONE:
+        uv[1] = n[2] > 0.9 ? from_axis / shape->p : n[2] < -0.9 ? from_axis : p[2];
+        break;
+    case RT_SHAPE_TORUS:
+        uv[1] = turns(p[2], from_axis - 1);
+        break;
+    default:
+        uv[0] = turns(-p[2], p[0]);
+        uv[1] = 0.5 + asin(fmax(-1, fmin(1, p[1]))) / pi;
+        return hypot(p[0], p[2]) > 0.05;
+    }
+    return from_axis > 0.05;
+}

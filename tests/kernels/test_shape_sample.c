@@ -1,0 +1,184 @@
+/*
+ * test_shape_sample.c - points chosen on shapes: they lie on the surface, and their densities give the areas of its
+ * parts back, bin by bin.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernels/shape_check.h"
+#include "render/renderer.h"
+#include "support.h"
+
+enum { bins = 8, fine = 24, samples = 40000 };
+static const double pi = 3.14159265358979323846;
+
+/* Parts of a shape, each with u and v of its own: its side, or all of it, and two caps. */
+enum { side, base, top, part_count };
+
+/* The point of a part at u, v, in the world. */
+static void world_point(const truth_shape *shape, int part, double u, double v, double out[3])
+{
+    const double end = shape->kind == RT_SHAPE_CONE ? shape->p : 1, turn = 2 * pi * u;
+    double r = v, z = part == top;
+    double p[3];
+    if (part == top)
+        r = v * end;
+    if (part == side && shape->kind == RT_SHAPE_DISC)
+        r = shape->p + (1 - shape->p) * v;
+    if (part == side && (shape->kind == RT_SHAPE_CYLINDER || shape->kind == RT_SHAPE_CONE)) {
+        r = 1 - (1 - end) * v;
+        z = v;
+    }
+    if (shape->kind == RT_SHAPE_TORUS) {
+        r = 1 + shape->p * cos(2 * pi * v);
+        z = shape->p * sin(2 * pi * v);
+    }
+    p[0] = r * cos(turn);
+    p[1] = r * sin(turn);
+    p[2] = z;
+    if (shape->kind == RT_SHAPE_ELLIPSOID) {
+        p[0] = sin(pi * v) * cos(turn);
+        p[1] = -cos(pi * v);
+        p[2] = -sin(pi * v) * sin(turn);
+    }
+    for (int i = 0; i < 3; i++)
+        out[i] = shape->to_world.m[i][0] * p[0] + shape->to_world.m[i][1] * p[1] + shape->to_world.m[i][2] * p[2];
+}
+
+/* The area of a bin, by central differences at the middles of a fine grid. */
+static double bin_area(const truth_shape *shape, int part, int bin_u, int bin_v)
+{
+    const double h = 1e-5, width = 1.0 / (bins * fine);
+    double area = 0;
+    for (int i = 0; i < fine; i++)
+        for (int j = 0; j < fine; j++) {
+            const double u = (bin_u * fine + i + 0.5) * width, v = (bin_v * fine + j + 0.5) * width;
+            double a[3], b[3], c[3], d[3], square = 0;
+            world_point(shape, part, u - h, v, a);
+            world_point(shape, part, u + h, v, b);
+            world_point(shape, part, u, v - h, c);
+            world_point(shape, part, u, v + h, d);
+            for (int k = 0; k < 3; k++) {
+                const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+                const double x = (b[k1] - a[k1]) * (d[k2] - c[k2]) - (b[k2] - a[k2]) * (d[k1] - c[k1]);
+                square += x * x;
+            }
+            area += sqrt(square) / (4 * h * h) * width * width;
+        }
+    return area;
+}
+
+static int part_of(const truth_shape *shape, const float normal[3])
+{
+    double n[3] = {0}, square = 0;
+    if (shape->kind != RT_SHAPE_CYLINDER && shape->kind != RT_SHAPE_CONE)
+        return side;
+    for (int j = 0; j < 3; j++) {
+        for (int i = 0; i < 3; i++)
+            n[j] += shape->to_world.m[i][j] * normal[i];
+        square += n[j] * n[j];
+    }
+    return n[2] < -0.9 * sqrt(square) ? base : n[2] > 0.9 * sqrt(square) ? top : side;
+}
+
+typedef struct points {
+    float positions[samples][4], normals[samples][4], parameters[samples][2];
+} points;
+
+/* Chooses points of the shape, one in each cell of a grid of u. */
+static points *choose(const truth_shape *shape, uint64_t seed)
+{
+    static float u[samples][2];
+    const int across = 200;
+    rays_stream stream = {seed};
+    points *out = malloc(sizeof *out);
+    rt_scene *scene = shape_scene(shape);
+    rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
+    for (int i = 0; i < samples; i++) {
+        u[i][0] = fminf(((float)(i % across) + rays_uniform(&stream)) / (float)across, 0x1.fffffep-1f);
+        u[i][1] = fminf(((float)(i / across) + rays_uniform(&stream)) / (float)(samples / across), 0x1.fffffep-1f);
+    }
+    cl_mem in = test_buffer(sizeof u, u), positions = test_buffer(sizeof out->positions, NULL);
+    cl_mem normals = test_buffer(sizeof out->normals, NULL), parameters = test_buffer(sizeof out->parameters, NULL);
+    cl_kernel kernel = test_kernel("shape_sample", "sample_points");
+    const cl_uint n = samples;
+    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in),      RT_ARG(n),
+                           RT_ARG(positions),       RT_ARG(normals), RT_ARG(parameters)};
+    test_run(kernel, args, 6, samples);
+    test_read(positions, sizeof out->positions, out->positions);
+    test_read(normals, sizeof out->normals, out->normals);
+    test_read(parameters, sizeof out->parameters, out->parameters);
+    rt_kernel_release(kernel);
+    rt_buffer_release(in);
+    rt_buffer_release(positions);
+    rt_buffer_release(normals);
+    rt_buffer_release(parameters);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+    return out;
+}
+
+/* Each point is met by a ray that falls on it along its normal, with the same normal. */
+static void expect_on_surface(const truth_shape *shape, const float position[4], const float normal[4])
+{
+    rt_ray ray = {.t_min = 0, .t_max = INFINITY};
+    const float back = 0.01f * shape_places[1].size;
+    double n[3];
+    for (int i = 0; i < 3; i++) {
+        ray.origin[i] = position[i] + back * normal[i];
+        ray.direction[i] = -normal[i];
+    }
+    const truth_hit hit = truth_nearest(shape, 1e-5, 1e-5, &ray);
+    assert_true(fabs(hit.t - back) <= 0.02 * back);
+    truth_normal(shape, hit.normal, n);
+    for (int i = 0; i < 3; i++)
+        assert_true(fabs(n[i] - normal[i]) <= 2e-3);
+}
+
+static void expect_areas(const truth_shape *shape, const points *chosen)
+{
+    static double sums[part_count][bins][bins], squares[part_count][bins][bins];
+    const int closed = shape->caps;
+    memset(sums, 0, sizeof sums);
+    memset(squares, 0, sizeof squares);
+    for (int i = 0; i < samples; i++) {
+        const int part = part_of(shape, chosen->normals[i]);
+        const int u = (int)fmin(bins - 1, chosen->parameters[i][0] * bins);
+        const int v = (int)fmin(bins - 1, chosen->parameters[i][1] * bins);
+        const double weight = 1.0 / (samples * (double)chosen->positions[i][3]);
+        assert_true(fabs(chosen->positions[i][3] / chosen->normals[i][3] - 1) < 1e-3);
+        sums[part][u][v] += weight;
+        squares[part][u][v] += weight * weight;
+    }
+    for (int part = 0; part < (closed ? part_count : 1); part++)
+        for (int u = 0; u < bins; u++)
+            for (int v = 0; v < bins; v++) {
+                const double area = bin_area(shape, part, u, v);
+                assert_true(fabs(sums[part][u][v] - area) <= 5 * sqrt(squares[part][u][v]) + 1e-3 * area);
+            }
+}
+
+/* Points are stratified, so that five standard deviations of independent ones are never met by chance. */
+static void points_have_their_density(void **state)
+{
+    (void)state;
+    rays_stream stream = {3};
+    for (size_t kind = 0; kind < shape_kind_count; kind++) {
+        const truth_shape shape = shape_placed(&stream, kind, 1);
+        points *chosen = choose(&shape, 70 + kind);
+        if (shape.p != 0.01f)
+            for (int i = 0; i < samples; i += 37)
+                expect_on_surface(&shape, chosen->positions[i], chosen->normals[i]);
+        expect_areas(&shape, chosen);
+        free(chosen);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_have_their_density),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
