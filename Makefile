@@ -97,12 +97,13 @@ TESTS_QUICK := \
 	tests/lib/render/test_modes.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
 	tests/lib/photon/test_photon_list.c tests/lib/photon/test_photon_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
-	tests/lib/render/test_photon_maps.c tests/proof/test_proof.c
+	tests/lib/render/test_photon_maps.c tests/proof/test_proof.c tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/tools/test_compare.c tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
-	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c
+	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
+	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c
 TESTS_PROOF := \
 	tests/proof/test_direct_light.c tests/proof/test_enclosures.c tests/proof/test_specular.c \
 	tests/proof/test_camera.c tests/proof/test_estimators.c tests/proof/test_convergence.c
@@ -111,9 +112,12 @@ TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/te
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/light_draw.c tests/kernels/rays.c \
+	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
 	tests/kernels/shape_check.c tests/kernels/shape_truth.c \
-	tests/kernels/statistics.c tests/studies/study.c tests/proof/optics.c tests/proof/page.c tests/proof/proof.c
+	tests/kernels/statistics.c tests/studies/study.c tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
+	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c tests/statistics/facets.c \
+	tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c tests/statistics/quadrature.c \
+	tests/statistics/scatter.c tests/statistics/sky.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
 	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
 	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
