@@ -8,8 +8,8 @@
 #include "render/replicates.h"
 #include "render/student.h"
 
-/* Length of the replicates at the first look. */
-enum { first_look = 4 };
+/* Length of the replicates at the first look that can end a render. */
+enum { fewest = 4 };
 
 /* Pixels of the film that are read at a time. */
 enum { pixels_a_read = 1 << 15 };
@@ -67,7 +67,7 @@ rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_error *error)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the variance of %zu pixels", pixels);
     }
     noise->count = pixels;
-    noise->next_look = first_look;
+    noise->next_look = 1;
     *out = noise;
     return RT_OK;
 }
@@ -107,7 +107,7 @@ rt_status rt_noise_read(rt_noise *noise, const rt_stretch *stretch, rt_device *d
     return status;
 }
 
-/* ---- What they tell ----------------------------------------------------------------- */
+/* ---- What they tell ------------------------------------------------------------------- */
 
 /* A channel of a pixel by the replicates: its mean, its variance, and the part that each has in that. */
 typedef struct noise_value {
@@ -164,12 +164,12 @@ int rt_noise_look(rt_noise *noise, uint32_t length, double target)
     noise->looked_at = length;
     noise->next_look = rt_replicate_grow(length);
     noise->error = relative_error(noise, &noise->bound);
-    return target > 0 && noise->bound <= target;
+    return target > 0 && noise->bound <= target && length >= fewest;
 }
 
 double rt_noise_last(const rt_noise *noise)
 {
-    return noise->looked_at ? noise->error : -1;
+    return noise->looked_at && isfinite(noise->error) ? noise->error : -1;
 }
 
 double rt_noise_progress(const rt_noise *noise, double length, double target)

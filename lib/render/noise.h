@@ -17,14 +17,16 @@
  *
  * The relative error of the picture is sqrt(mean of var Q) / mean of Q, means over all pixels and channels: what its
  * root mean squared error is to be, by its mean radiance. What that turns out to be lies, with 95 % confidence, below
- * a bound found from the replicates' squared deviations, as means over the picture,
+ * a bound found from the parts that the replicates have in it,
  *
- *   q_r = R/(R - 1) mean of (z_r / mean of W_r)^2.
+ *   q_r = mean of R/(R - 1) z_r^2 / (sum of W_r)^2,
  *
- * Their mean is R times the mean of var Q. Each is spread like R times the squared error of the picture itself, or
- * more, because the sum of all replicates is closer to normal than one. With their standard deviation s, the mean
- * squared error will be at most (mean of q + t s sqrt(1 + 1/R)) / R, t one-sided. Pixels that err together, as
- * those do that share photons, make s as much larger as they should.
+ * whose sum is the mean of var Q. R q_r is spread like the mean squared error of the picture itself, or more,
+ * because the sum of all replicates is closer to normal than one; and where pixels err together, as those do that
+ * share photons, both are spread more. So with s the standard deviation of q_r over their mean, and as if their
+ * logarithm were normal, the error is at most
+ *
+ *   relative error times exp(t s sqrt(1 + 1/R) / 2),    t one-sided.
  *
  * References:
  *   Owen: "Monte Carlo Variance of Scrambled Net Quadrature", SIAM Journal on Numerical Analysis 34(5), 1997.
@@ -56,9 +58,9 @@ rt_status rt_noise_read(rt_noise *noise, const rt_stretch *stretch, rt_device *d
                         rt_error *error);
 
 /*
- * Looks at the error when it is time to, all replicates having `length` samples or passes: seldom, so that the chance to
- * find it small by luck stays near that of a single look. Returns whether its bound is at most `target`, if that is
- * above 0.
+ * Looks at the error when it is time to, all replicates having `length` samples or passes: at the lengths that
+ * rt_replicate_grow gives, and so seldom that the chance to find it small by luck stays near that of a single look.
+ * Returns whether its bound is at most `target`, from a length of 4 on and if target is above 0.
  */
 int rt_noise_look(rt_noise *noise, uint32_t length, double target);
 

@@ -94,10 +94,13 @@ static rt_status end_stretch(const sample_render *r, schedule *s, rt_stage_progr
 static double part_done(const sample_render *r, const schedule *s, double samples, double seconds)
 {
     const rt_render_options *o = r->options;
+    const rt_noise *noise = r->film->noise;
     double by_samples = samples / s->spp, by_time = o->time > 0 ? fmin(seconds / o->time, 1) : 0;
-    double by_error =
-        r->film->noise ? rt_noise_progress(r->film->noise, samples / RT_REPLICATES, o->target_error) : 0;
-    return fmax(by_samples, fmax(by_time, by_error));
+    if (o->target_error == 0)
+        return fmax(by_samples, by_time);
+    /* Until the error is first looked at, there is no telling: samples may be without limit. */
+    double by_error = rt_noise_progress(noise, samples / RT_REPLICATES, o->target_error);
+    return fmax(by_time, by_error > 0 ? fmax(by_samples, by_error) : 0);
 }
 
 /* The whole film, pass by pass; a pass gives every pixel the same number of samples. */
