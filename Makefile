@@ -47,7 +47,7 @@ LIB_SRC := \
 	lib/photon/photon_map.c lib/photon/fingerprint.c lib/photon/ledger.c lib/photon/sources.c \
 	lib/photon/crc32.c lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
 	lib/render/photon_irradiance.c lib/render/photon_maps.c \
-	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c lib/render/aov.c lib/render/photon_eye.c lib/render/photon_layers.c lib/render/photon_mode.c \
+	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c lib/render/aov.c lib/render/noise.c lib/render/replicates.c lib/render/student.c lib/render/photon_eye.c lib/render/photon_layers.c lib/render/photon_mode.c \
 	lib/render/render.c lib/render/renderer.c lib/render/sample_mode.c lib/render/sobol.c lib/render/trace.c \
 	lib/texture/half.c lib/texture/texture.c
 

@@ -310,7 +310,7 @@ typedef struct rt_params {
     rt_u32 estimator;    /* rt_estimator */
     rt_u32 store;        /* photon emission: RT_STORE_* */
     rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
-    rt_u32 reserved;
+    rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
 } rt_params;
 RT_SIZE(rt_params, 64);
 

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "image/bytes.h"
+#include "render/noise.h"
 #include "render/renderer.h"
 #include "scene/view.h"
 
@@ -28,7 +29,7 @@ void rt_options_complete(rt_render_options *o)
     if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
         o->spp = 1;
     if (o->spp == 0)
-        o->spp = o->time > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
+        o->spp = o->time > 0 || o->target_error > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
     if (o->roulette_depth == 0)
@@ -131,14 +132,21 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     if (!renderer->has_camera)
         return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
     rt_options_complete(&complete);
+    status = rt_noise_check(&complete, error);
+    if (status != RT_OK)
+        return status;
     rt_view_aim(&camera, &renderer->camera, complete.width, complete.height);
     camera.filter = complete.filter;
     status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,
                              &camera, error);
     if (status == RT_OK)
         status = rt_film_create(&film, &complete, error);
-    if (status != RT_OK)
+    if (status == RT_OK && rt_noise_wanted(&complete))
+        status = rt_noise_create(&film->noise, (size_t)complete.width * complete.height, error);
+    if (status != RT_OK) {
+        rt_film_destroy(film);
         return status;
+    }
 
     if (!renderer->has_light && rt_mode_shows_light(complete.mode))
         rt_warn(complete.hooks, "the scene has no light: its picture is black");
@@ -146,8 +154,10 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     film->stats.light_power = renderer->image.light_power;
     status = complete.mode == RT_MODE_PHOTON ? rt_render_photon(renderer, &complete, film, error)
                                              : rt_render_samples(renderer, &complete, film, error);
-    if (status == RT_OK || status == RT_CANCELLED)
-        rt_film_resolve(film);
+    if (status == RT_OK || status == RT_CANCELLED) {
+        rt_status resolved = rt_film_resolve(film, error);
+        status = resolved == RT_OK ? status : resolved;
+    }
     int keep = status == RT_OK || (status == RT_CANCELLED && film->stats.spp > 0);
     if (keep)
         *out = film;
