@@ -81,6 +81,10 @@ void session_merge_options(const session *s, rt_render_options *options)
         options->photons = session_value(s, OPTION_PHOTONS)->count;
     if (session_value(s, OPTION_TIME)->given)
         options->time = session_value(s, OPTION_TIME)->real;
+    if (session_value(s, OPTION_TARGET_ERROR)->given)
+        options->target_error = session_value(s, OPTION_TARGET_ERROR)->real;
+    if (session_value(s, OPTION_VARIANCE)->given)
+        options->variance = 1;
     if (session_value(s, OPTION_RADIUS)->given)
         options->radius = (float)session_value(s, OPTION_RADIUS)->real;
     if (session_value(s, OPTION_CONE_K)->given)

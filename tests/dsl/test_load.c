@@ -421,6 +421,23 @@ static void a_file_that_cannot_be_read_is_an_error_without_place(void **state)
     }
 }
 
+static void all_stands_for_a_number_of_photons(void **state)
+{
+    static collected c;
+    rt_render_options o;
+    const char *text = "let all = 7\nrender { k all\n caustic_k (all) spp (all) radius 1 photon_layers true }";
+    (void)state;
+    collect_text(&c, text);
+    expect_clean(&c, text);
+    rt_scene_get_options(c.scene, &o);
+    assert_true(o.k == RT_K_ALL && o.caustic_k == 7 && o.spp == 7 && o.photon_layers == 1 && o.aov == 0);
+    collected_free(&c);
+    collect_text(&c, "render { spp all }");
+    assert_int_equal(c.errors, 1);
+    collect_text(&c, "render { k all 3 }");
+    assert_int_equal(c.errors, 1);
+}
+
 static void without_callback_or_error_it_still_works(void **state)
 {
     rt_scene *scene = NULL;
@@ -448,6 +465,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(cycles_and_explosions_of_includes_are_refused, make_scratch, remove_scratch),
         cmocka_unit_test_setup_teardown(what_is_no_text_is_one_error, make_scratch, remove_scratch),
         cmocka_unit_test(a_file_that_cannot_be_read_is_an_error_without_place),
+        cmocka_unit_test(all_stands_for_a_number_of_photons),
         cmocka_unit_test(without_callback_or_error_it_still_works),
     };
     return cmocka_run_group_tests_name("load", tests, NULL, NULL);
