@@ -85,7 +85,8 @@ static void warn_idle_options(const render_job *job)
 static int load(render_job *job)
 {
     rt_error error;
-    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet, NULL);
+    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER,
+                                 NULL);
     if (status != STATUS_DONE)
         return status;
     status = set_options(job);

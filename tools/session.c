@@ -63,6 +63,7 @@ void session_merge_options(const session *s, rt_render_options *options)
     set_u32(&options->height, session_value(s, OPTION_HEIGHT));
     set_u32(&options->spp, session_value(s, OPTION_SPP));
     set_u32(&options->max_depth, session_value(s, OPTION_MAX_DEPTH));
+    set_u32(&options->roulette_depth, session_value(s, OPTION_ROULETTE_DEPTH));
     set_u32(&options->seed, session_value(s, OPTION_SEED));
     set_u32(&options->k, session_value(s, OPTION_K));
     set_u32(&options->final_gather, session_value(s, OPTION_FINAL_GATHER));
