@@ -101,7 +101,7 @@ TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
-	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c
+	tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
