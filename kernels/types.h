@@ -276,7 +276,7 @@ typedef struct rt_scene_header {
     rt_u32 lights, light_count;         /* rt_light_data */
     rt_u32 transforms, transform_count; /* rt_transform_data */
     rt_u32 indices, index_count;        /* u32: vertices of the corners of meshes with attributes */
-    rt_u32 normals, normal_count;       /* float[4]: unit normals of vertices, w = 0 */
+    rt_u32 normals, normal_count;       /* float[4]: normals of vertices, at most of unit length, w = 0 */
     rt_u32 uvs, uv_count;               /* float[2]: texture coordinates of vertices */
     rt_u32 colours, colour_count;       /* float[4]: colours of vertices, w = 0 */
     rt_u32 textures, texture_count;     /* rt_texture_data */
@@ -309,7 +309,8 @@ typedef struct rt_params {
     rt_u32 direct;       /* photon mode: rt_direct */
     rt_u32 estimator;    /* rt_estimator */
     rt_u32 store;        /* photon emission: RT_STORE_* */
-    rt_u32 reserved[2];
+    rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
+    rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
 } rt_params;
 RT_SIZE(rt_params, 64);
 

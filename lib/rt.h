@@ -135,6 +135,7 @@ typedef struct rt_progress {
     double fraction;  /* of this stage, 0 to 1 */
     double elapsed;   /* seconds since this stage began */
     double remaining; /* estimated seconds to the end of this stage, negative while unknown */
+    double error;     /* relative error of the picture so far, see rt_film_stats; negative while unknown */
 } rt_progress;
 
 /*
@@ -156,9 +157,28 @@ RT_API const char *rt_stage_name(rt_stage stage);
 
 typedef struct rt_scene rt_scene;
 
-/* One error or warning in a scene text. The strings live until the callback returns. */
+/* What a scene may be in spite of which it can be rendered; see rt_scene_check. */
+typedef enum rt_finding_kind {
+    RT_FINDING_NONE = 0,
+    RT_FINDING_NO_CAMERA,
+    RT_FINDING_NO_SHAPE,
+    RT_FINDING_NO_LIGHT,        /* and the scene's mode shows light */
+    RT_FINDING_NOTHING_IN_VIEW, /* the camera looks past all shapes */
+    RT_FINDING_EYE_IN_THE_DARK, /* the camera is inside an opaque solid, where there is no light */
+    RT_FINDING_EYE_IN_MEDIUM,   /* the camera is inside a transparent solid: no more than a note */
+    RT_FINDING_LIGHT_SHUT_IN    /* a light is inside an opaque solid, and the camera is not */
+} rt_finding_kind;
+
+typedef enum rt_severity {
+    RT_SEVERITY_ERROR = 0,
+    RT_SEVERITY_WARNING, /* allowed, but hardly meant */
+    RT_SEVERITY_NOTE     /* good to know */
+} rt_severity;
+
+/* What is to be said of a scene text. The strings live until the callback returns. */
 typedef struct rt_diagnostic {
-    int is_warning;
+    rt_severity severity;
+    rt_finding_kind finding; /* what rt_scene_check found; else RT_FINDING_NONE */
     const char *file;
     int line, column;        /* from 1; column counts bytes; 0 when the file cannot be read at all */
     int length;              /* bytes underlined, at least 1 */
@@ -170,6 +190,7 @@ typedef struct rt_diagnostic {
 typedef struct rt_load_options {
     void (*diagnostic)(void *user, const rt_diagnostic *diagnostic); /* told of every error and warning */
     void *user;
+    int check; /* 1: the scene is to be rendered as it is; tell also what rt_scene_check finds, at its place */
 } rt_load_options;
 
 /*
@@ -444,8 +465,11 @@ typedef struct rt_photon_map rt_photon_map;
 typedef struct rt_render_options {
     uint32_t width, height; /* pixels; 0 means 512 */
     rt_mode mode;
-    uint32_t spp;           /* samples a pixel; 0 means 64, in photon mode 16, 1 in each of its passes */
+    uint32_t spp;           /* samples a pixel; 0 means 64, in photon mode 16, 1 in each of its passes; no limit with
+                               time or target_error */
     uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
+    uint32_t roulette_depth; /* segments from the eye after which Russian roulette may end a path; 0 means 2. From
+                                max_depth on, it ends none: the mean is the same, the time is not */
     uint32_t seed;          /* the same seed gives the same bits */
     rt_sampler sampler;
     rt_filter filter;
@@ -453,6 +477,13 @@ typedef struct rt_render_options {
     int aov;                /* 1: also the layers albedo, normal and depth, see rt_film_layer */
     double time;            /* stop after so many seconds of rendering, but only between passes that give every
                                pixel a sample: the first one is always finished; 0: no limit */
+    int variance;           /* 1: also the layer variance, and the error in rt_film_stats. Samples, or passes, are then
+                               shared by 8 sequences that are independent of each other, which tell the error but are
+                               noisier than one of the same length. Not for a single photon map, whose samples
+                               depend on each other, nor for modes that show no light */
+    double target_error;    /* stop when the relative error of the picture, see rt_film_stats, is below this with a
+                               confidence of 95 %, as seen at 32 samples, or passes, 48, 64, 96, 128 and so on; spp,
+                               passes and time are then limits. At most 1; 0: no such end */
     uint64_t photons;       /* photon paths emitted; 0 means 1 000 000. In passes, those of each pass; 0 means
                                one a pixel */
     uint32_t k;             /* nearest photons; 0 means 50. The k-th gives the radius and is not summed. RT_K_ALL: all
@@ -491,6 +522,27 @@ typedef struct rt_scene_info {
     int has_camera;
 } rt_scene_info;
 RT_API void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out);
+
+/* ---- Checking ----------------------------------------------------------- */
+
+/* One thing found. The message lives until the callback returns. */
+typedef struct rt_finding {
+    rt_finding_kind kind;
+    rt_severity severity;
+    uint32_t shape; /* the solid that it is about, or RT_NONE */
+    uint32_t lamp;  /* the shape that shines in it, or RT_NONE, or ... */
+    uint32_t light; /* ... the light that is no shape, counted from 0 in the order in which they were added */
+    const char *message; /* one line */
+} rt_finding;
+
+/*
+ * Tells a callback what makes the picture of a complete scene, with its own options, black or empty, and returns how
+ * many warnings there were. There are no false alarms: solids are spheres, ellipsoids, tori, cylinders and cones with
+ * caps, and closed meshes; what is inside of them is decided in double precision, and a light only counts as shut in
+ * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights the first 256 are
+ * looked at.
+ */
+RT_API size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding), void *user);
 
 /* ---- Device ------------------------------------------------------------- */
 
@@ -685,6 +737,10 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  *   normal           3  its shading normal in the world, as the shape has it, not turned to the camera; 0 likewise
  *   depth            1  metres along the view axis (from the eye, for an environment camera), mean of the samples
  *                       that hit
+ * With rt_render_options.variance or target_error:
+ *   variance         3  variance of the picture's radiance, estimated from independent sequences: what the pixel
+ *                       estimates is within rt_film_stats.interval_factor sqrt(variance) of it, with a confidence of
+ *                       95 %. In photon mode that is the noise; the bias that gathering has is not in it
  * With rt_render_options.photon_layers:
  *   photon.count     1  mean number of photons that count at the end of an eye path
  *   photon.radius    1  mean radius of the disc that they lie in, m
@@ -701,6 +757,14 @@ typedef struct rt_film_stats {
     uint64_t photons_stored;
     uint64_t gathers;          /* queries of the photon map */
     uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
+    uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */
+    double relative_error;     /* of the picture: root of the mean squared error over all pixels and channels, by the
+                                  mean radiance. Estimated from the layer variance, so that of photon mapping is
+                                  the noise alone */
+    double relative_error_bound; /* what it is below, with a confidence of 95 %; as long as samples are many
+                                  enough to show what light there is: what no path has met yet, none can tell of */
+    double interval_factor;    /* half of a pixel's 95 % interval by its standard deviation, the root of the layer
+                                  variance: Student's t, two-sided, replicates - 1 degrees of freedom */
     double light_power;        /* emitted power of all lights, W, mean of the three channels */
     double build_seconds, compile_seconds, emit_seconds, gather_seconds, render_seconds;
 } rt_film_stats;
@@ -719,8 +783,8 @@ typedef struct rt_image_options {
 
 /*
  * Writes the film in the format of the file's extension: .exr (linear float, with the seed, samples and
- * version as attributes, and the layers: albedo.R .G .B, normal.X .Y .Z, depth.Z, and photon.count and the like by
- * their names), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
+ * version as attributes, and the layers: albedo.R .G .B, normal.X .Y .Z, depth.Z, variance.R .G .B, and photon.count
+ * and the like by their names), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
  * Fails with RT_ERROR_USAGE for another extension and RT_ERROR_OUTPUT when it cannot be written.
  */
 RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error);

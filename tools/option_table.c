@@ -62,9 +62,16 @@ const option option_table[OPTION_COUNT] = {
                     "64 in path mode, 16 in photon mode, 1 in each of its passes", "samples a pixel"},
     [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 1, 4096, NULL, 1, "16",
                           "longest path in segments, from the eye or from a light"},
+    [OPTION_ROULETTE_DEPTH] = {"roulette-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 4096, NULL, 1, "2",
+                               "segments from the eye after which Russian roulette may end a path; from --max-depth "
+                               "on it ends none"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
                      "stop after so many seconds, once every pixel has a sample; without --spp, go on "
                      "until then"},
+    [OPTION_TARGET_ERROR] = {"target-error", "E", KIND_REAL, GROUP_RENDER, RENDER, 0, 1, NULL, 1, "0, no such end",
+                             "stop when the root mean square error over the mean radiance is below E with 95 % "
+                             "confidence; --spp, --passes and --time are then limits. In photon mode only with "
+                             "--passes, and of the noise alone, not of the bias of gathering"},
     [OPTION_SEED] = {"seed", "S", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 0, UINT32_MAX, NULL, 1, "0",
                      "the same seed gives the same image, bit for bit"},
     [OPTION_SAMPLER] = {"sampler", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, samplers, 1, "sobol",
@@ -130,6 +137,8 @@ const option option_table[OPTION_COUNT] = {
                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB); may be repeated"},
     [OPTION_AOV] = {"aov", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
                     "add the layers albedo, normal and depth to .exr"},
+    [OPTION_VARIANCE] = {"variance", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 1, NULL,
+                         "estimate the error, and add the layer variance to .exr; --target-error does so too"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER, -126, 126, NULL, 1, "0",
                          "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER, 0, 0, tonemaps, 1, "none",

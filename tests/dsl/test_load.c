@@ -27,7 +27,7 @@ static void every_field_reaches_the_scene(void **state)
         "camera { eye 0 1 -4  look_at 0 1 0  up 0 1 1  fov 40  aperture 0.02  focal_distance 3 }\n"
         "film { width 640  height 480 }\n"
         "render { mode photon spp 7 max_depth 9 seed 4294967295 sampler independent time 2.5 photons 4000000000\n"
-        "  k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons final_gather 2\n"
+        "  roulette_depth 5 k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons final_gather 2\n"
         "  caustic_photons 3000000000 caustic_k 40 caustic_radius 0.125 caustic_kernel silverman }\n"
         "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel dielectric  two_sided true\n"
         "  priority 3 }\n"
@@ -53,6 +53,7 @@ static void every_field_reaches_the_scene(void **state)
     rt_render_options o;
     rt_scene_get_options(c.scene, &o);
     assert_true(o.width == 640 && o.height == 480 && o.mode == RT_MODE_PHOTON && o.spp == 7 && o.max_depth == 9);
+    assert_int_equal(o.roulette_depth, 5);
     assert_true(o.seed == 4294967295u && o.sampler == RT_SAMPLER_INDEPENDENT && o.time == 2.5);
     assert_true(o.photons == 4000000000u && o.k == 60 && o.radius == 0.25f && o.cone_k == 1.5f);
     assert_true(o.kernel == RT_DENSITY_GAUSSIAN_JENSEN && o.direct == RT_DIRECT_PHOTONS && o.final_gather == 2);
@@ -420,6 +421,23 @@ static void a_file_that_cannot_be_read_is_an_error_without_place(void **state)
     }
 }
 
+static void all_stands_for_a_number_of_photons(void **state)
+{
+    static collected c;
+    rt_render_options o;
+    const char *text = "let all = 7\nrender { k all\n caustic_k (all) spp (all) radius 1 photon_layers true }";
+    (void)state;
+    collect_text(&c, text);
+    expect_clean(&c, text);
+    rt_scene_get_options(c.scene, &o);
+    assert_true(o.k == RT_K_ALL && o.caustic_k == 7 && o.spp == 7 && o.photon_layers == 1 && o.aov == 0);
+    collected_free(&c);
+    collect_text(&c, "render { spp all }");
+    assert_int_equal(c.errors, 1);
+    collect_text(&c, "render { k all 3 }");
+    assert_int_equal(c.errors, 1);
+}
+
 static void without_callback_or_error_it_still_works(void **state)
 {
     rt_scene *scene = NULL;
@@ -447,6 +465,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(cycles_and_explosions_of_includes_are_refused, make_scratch, remove_scratch),
         cmocka_unit_test_setup_teardown(what_is_no_text_is_one_error, make_scratch, remove_scratch),
         cmocka_unit_test(a_file_that_cannot_be_read_is_an_error_without_place),
+        cmocka_unit_test(all_stands_for_a_number_of_photons),
         cmocka_unit_test(without_callback_or_error_it_still_works),
     };
     return cmocka_run_group_tests_name("load", tests, NULL, NULL);
