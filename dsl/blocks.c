@@ -94,10 +94,13 @@ static const rt_field render_fields[] = {
      AT(rt_render_options, spp)},
     {"max_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "16", NULL,
      AT(rt_render_options, max_depth)},
+    {"roulette_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "2", NULL,
+     AT(rt_render_options, roulette_depth)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
     {"estimator", CHOICE, OPTIONAL, ANY, "", "mis", estimators, AT(rt_render_options, estimator)},
     {"time", NUMBER, OPTIONAL, ABOVE_TO(0, 1e9), "s", "no limit", NULL, AT(rt_render_options, time)},
+    {"target_error", NUMBER, OPTIONAL, ABOVE_TO(0, 1), "", "none", NULL, AT(rt_render_options, target_error)},
     {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000, in passes one a pixel", NULL,
      AT(rt_render_options, photons)},
     {"k", COUNT_OR_ALL, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
@@ -117,6 +120,7 @@ static const rt_field render_fields[] = {
     {"caustic_kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, caustic_kernel)},
     {"aov", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, aov)},
     {"photon_layers", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, photon_layers)},
+    {"variance", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, variance)},
 };
 
 static const rt_field texture_fields[] = {

@@ -324,7 +324,8 @@ typedef struct rt_params {
     rt_u32 direct;       /* photon mode: rt_direct */
     rt_u32 estimator;    /* rt_estimator */
     rt_u32 store;        /* photon emission: RT_STORE_* */
-    rt_u32 reserved[2];
+    rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
+    rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
 } rt_params;
 RT_SIZE(rt_params, 64);
 

@@ -4,8 +4,16 @@
 
 #include "error.h"
 #include "image/bytes.h"
+#include "render/noise.h"
 #include "render/renderer.h"
 #include "scene/view.h"
+
+/*
+ * The first depth at which roulette may end a path. Measured variance times time in closed rooms of albedo 0.7: under an
+ * area lamp 2 and 3 are equal and 4 is a tenth worse, under a point light 3 and 4 are 15 to 25 % better. 2 gives the
+ * most samples a second.
+ */
+enum { roulette_depth_default = 2 };
 
 /* Replaces zeros by the defaults that the public header states. */
 void rt_options_complete(rt_render_options *o)
@@ -21,9 +29,11 @@ void rt_options_complete(rt_render_options *o)
     if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
         o->spp = 1;
     if (o->spp == 0)
-        o->spp = o->time > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
+        o->spp = o->time > 0 || o->target_error > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
+    if (o->roulette_depth == 0)
+        o->roulette_depth = roulette_depth_default;
     if (o->photons == 0)
         o->photons = o->passes > 1 ? (uint64_t)o->width * o->height : 1000000;
     if (o->k == 0)
@@ -54,6 +64,7 @@ rt_params rt_params_make(const rt_render_options *options)
     p.final_gather = options->final_gather;
     p.direct = options->direct;
     p.estimator = options->estimator;
+    p.roulette_depth = options->roulette_depth;
     return p;
 }
 
@@ -121,14 +132,21 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     if (!renderer->has_camera)
         return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
     rt_options_complete(&complete);
+    status = rt_noise_check(&complete, error);
+    if (status != RT_OK)
+        return status;
     rt_view_aim(&camera, &renderer->camera, complete.width, complete.height);
     camera.filter = complete.filter;
     status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,
                              &camera, error);
     if (status == RT_OK)
         status = rt_film_create(&film, &complete, error);
-    if (status != RT_OK)
+    if (status == RT_OK && rt_noise_wanted(&complete))
+        status = rt_noise_create(&film->noise, (size_t)complete.width * complete.height, error);
+    if (status != RT_OK) {
+        rt_film_destroy(film);
         return status;
+    }
 
     if (!renderer->has_light && rt_mode_shows_light(complete.mode))
         rt_warn(complete.hooks, "the scene has no light: its picture is black");
@@ -136,8 +154,10 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     film->stats.light_power = renderer->image.light_power;
     status = complete.mode == RT_MODE_PHOTON ? rt_render_photon(renderer, &complete, film, error)
                                              : rt_render_samples(renderer, &complete, film, error);
-    if (status == RT_OK || status == RT_CANCELLED)
-        rt_film_resolve(film);
+    if (status == RT_OK || status == RT_CANCELLED) {
+        rt_status resolved = rt_film_resolve(film, error);
+        status = resolved == RT_OK ? status : resolved;
+    }
     int keep = status == RT_OK || (status == RT_CANCELLED && film->stats.spp > 0);
     if (keep)
         *out = film;

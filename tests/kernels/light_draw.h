@@ -28,6 +28,10 @@ rt_scene *light_scene(void);
 /* Makes it ready on the test device, and destroys it. */
 rt_renderer *light_renderer(rt_scene *scene);
 
+/* Fill out[count]. */
+void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count, light_draw *out);
+void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, emission_draw *out);
+
 /* Fills out[light_draws] with samples of the lights seen from a point. */
 void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out);
 

@@ -229,24 +229,27 @@ static void light_paths_of_a_directional_light_carry_its_irradiance(void **state
     rt_renderer_destroy(renderer);
 }
 
-static void a_plane_keeps_what_comes_from_below(void **state)
+static void distant_light_starts_beyond_all_planes(void **state)
 {
-    static const float centre[3] = {1, 2, 3}, below[3] = {0, 2.5f, 0}, up[3] = {0, 1, 0};
+    static const float centre[3] = {1, 2, 3}, low[3] = {0, 2.5f, 0}, high[3] = {0, 4, 0}, up[3] = {0, 1, 0};
     rt_environment environment = {.radiance = {2, 2, 2}};
     rt_surface surface;
     rt_scene *scene = light_scene();
     rt_error error;
     (void)state;
     memset(&surface, 0, sizeof surface);
-    /* The plane lies above the sphere: what comes from above starts over it or not at all. */
+    /* The planes lie above the sphere's centre: what comes from above meets both, what comes from below at most one. */
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
-    expect_ok(rt_scene_add_plane(scene, NULL, below, up, &surface, &error), &error);
+    expect_ok(rt_scene_add_plane(scene, NULL, low, up, &surface, &error), &error);
+    expect_ok(rt_scene_add_plane(scene, NULL, high, up, &surface, &error), &error);
     expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
     rt_renderer *renderer = light_renderer(scene);
     draw_emissions(renderer, 3, emissions);
-    for (int i = 0; i < n; i++)
-        assert_true(emissions[i].flux[0] == 0 ||
-                    (emissions[i].direction[1] < 0) == (emissions[i].position[1] > 2.5f));
+    for (int i = 0; i < n; i++) {
+        assert_float_equal(emissions[i].flux[0], emissions[0].flux[0], 1e-5 * emissions[0].flux[0]);
+        assert_true(emissions[i].direction[1] < 0 ? emissions[i].position[1] > 4 : emissions[i].position[1] < 2.5f);
+    }
+    assert_true(emissions[0].flux[0] > 0);
     rt_renderer_destroy(renderer);
 }
 
@@ -258,7 +261,7 @@ int main(void)
         cmocka_unit_test(an_even_sky_is_sampled_evenly),
         cmocka_unit_test(light_paths_of_the_sky_carry_its_irradiance),
         cmocka_unit_test(light_paths_of_a_directional_light_carry_its_irradiance),
-        cmocka_unit_test(a_plane_keeps_what_comes_from_below),
+        cmocka_unit_test(distant_light_starts_beyond_all_planes),
     };
     return cmocka_run_group_tests_name("kernels/light_sky", tests, scratch_enter, scratch_leave);
 }

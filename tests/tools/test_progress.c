@@ -111,11 +111,13 @@ static void json_progress_is_one_object_a_line(void **state)
     expect_status(&run, 0);
     int lines = 0;
     for (char *line = strtok(run.err, "\n"); line; line = strtok(NULL, "\n"), lines++) {
-        char stage[16], remaining[32];
+        char stage[16], remaining[32], relative[32];
         double fraction, elapsed;
-        assert_int_equal(sscanf(line, "{\"stage\":\"%15[a-z]\",\"fraction\":%lf,\"elapsed\":%lf,\"remaining\":%31[^}]}",
-                                stage, &fraction, &elapsed, remaining),
-                         4);
+        assert_int_equal(sscanf(line,
+                                "{\"stage\":\"%15[a-z]\",\"fraction\":%lf,\"elapsed\":%lf,\"remaining\":%31[^,],"
+                                "\"error\":%31[^}]}",
+                                stage, &fraction, &elapsed, remaining, relative),
+                         5);
         assert_true(fraction >= 0.0 && fraction <= 1.0 && elapsed >= 0.0);
         assert_int_equal(line[strlen(line) - 1], '}');
     }

@@ -72,6 +72,7 @@ static const struct {
     {"a.rts --width 65537", "--width takes a whole number from 1 to 65536"},
     {"a.rts --width 65536 --height 65536", "--height: a film of"},
     {"a.rts --max-depth 1e6", "--max-depth takes a whole number from 1 to 4096"},
+    {"a.rts --roulette-depth 5000", "--roulette-depth takes a whole number"},
     {"a.rts --work-group 1e6", "--work-group: "},
     {"check", "which scene?"},
     {"check a.rts --spp 3", "`rtc check` takes no option --spp"},
@@ -204,7 +205,7 @@ static void help_describes_every_option(void **state)
 static void each_command_has_its_help(void **state)
 {
     (void)state;
-    static const char *const commands[] = {"check", "mesh", "devices", "doctor", "photons"};
+    static const char *const commands[] = {"check", "mesh", "devices", "doctor", "photons", "compare"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         char usage[64];
         snprintf(usage, sizeof usage, "usage: rtc %s", commands[i]);
