@@ -155,7 +155,8 @@ static double of_surface(const void *setup, double x, double y)
 
 static const rt_material_data matte = {.kd = ALL(0.5f)}, mixture = {MIXED},
                               with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL},
-                              gilded = {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD},
+                              ore = {.kd = ALL(0.3f), .ks = ALL(0.7f), .eta = ALL(1.5f), .k = ALL(1),
+                                     .flags = RT_MATERIAL_CONDUCTOR},
                               gold1 = {.ks = ALL(1), GOLD, .roughness = 0.1f},
                               gold5 = {.ks = ALL(1), GOLD, .roughness = 0.5f},
                               gold10 = {.ks = ALL(1), GOLD, .roughness = 1},
@@ -185,7 +186,7 @@ static const routine routines[] = {
      &(const surface){&with_fresnel, 0.9, OUT_OF, EVENTS}},
     {"mixture with Fresnel, total reflection", event_count, 1, &by_surface,
      &(const surface){&with_fresnel, 0.3, OUT_OF, EVENTS}},
-    {"metal over matte, events", event_count, 1, &by_surface, &(const surface){&gilded, 0.3, 1, EVENTS}},
+    {"ore in water, events", event_count, 1, &by_surface, &(const surface){&ore, 0.9, 1.33, EVENTS}},
     {"rough metal, alpha 0.1", 32, 32, &by_surface, &(const surface){&gold1, 0.9, 1, ROUGH}},
     {"rough metal in water, alpha 0.1", 32, 32, &by_surface, &(const surface){&gold1, 0.4, 1.33, ROUGH}},
     {"rough metal, alpha 0.5", 32, 32, &by_surface, &(const surface){&gold5, 0.9, 1, ROUGH}},
