@@ -50,18 +50,6 @@ static rt_scene *a_field(int count, float scale, float move)
     return scene;
 }
 
-static void read_chances(rt_renderer *renderer, const float from[3], size_t count, float *out)
-{
-    float point[4] = {from[0], from[1], from[2], 0};
-    cl_kernel kernel = test_kernel("light", "chances");
-    cl_mem made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(point), RT_ARG(made)};
-    test_run(kernel, args, 3, count);
-    test_read(made, count * sizeof *out, out);
-    rt_buffer_release(made);
-    rt_kernel_release(kernel);
-}
-
 /* Each light is chosen by as many of evenly spaced numbers as its chance says, and that chance is told beside it. */
 static void expect_chances(rt_scene *scene, size_t lights, const float from[3])
 {
@@ -77,7 +65,7 @@ static void expect_chances(rt_scene *scene, size_t lights, const float from[3])
     assert_true(chances && chosen && times);
     test_run(kernel, args, 4, numbers);
     test_read(made, numbers * sizeof *chosen, chosen);
-    read_chances(renderer, from, lights, chances);
+    light_chances(renderer, from, lights, chances);
     for (size_t i = 0; i < numbers; i++) {
         const size_t light = (size_t)chosen[i][0];
         assert_true(light < lights);
@@ -135,7 +123,7 @@ static void lights_without_power_are_never_chosen(void **state)
     rt_scene *scene = a_field(2, 1, 0);
     expect_ok(rt_scene_add_point_light(scene, &black, &error), &error);
     rt_renderer *renderer = light_renderer(scene);
-    read_chances(renderer, from, 5, chances);
+    light_chances(renderer, from, 5, chances);
     assert_true(chances[4] == 0);
     rt_renderer_destroy(renderer);
 
@@ -158,7 +146,7 @@ static void near_lights_are_chosen_more_often(void **state)
     double near = 0, ideal = 0, all = 0;
     (void)state;
     rt_renderer *renderer = light_renderer(a_field(side, 1, 0));
-    read_chances(renderer, from, lights, chances);
+    light_chances(renderer, from, lights, chances);
     for (int i = 0; i < lights; i++) {
         double x = i % side - from[0], z = i / side - from[2], d2 = x * x + z * z + 1;
         double brought = (1 + i * 7 % 5) / d2;
