@@ -137,33 +137,28 @@ static double by_chance(const void *setup, double x, double y)
 
 /* ---- Table ----------------------------------------------------------------------- */
 
-static const viewed views[] = {
-    {EMIT_RECTANGLE, {2, 1.5f, 3.5f}, 1},     {EMIT_RECTANGLE, {-20, -30, 10}, 0}, {EMIT_PARALLELOGRAM, {2, 1, 3.5f}, 0},
-    {EMIT_MESH, {1e5f, -5e5f, 1e5f}, 0},      {EMIT_SPHERE, {2, 4, 1.5f}, 1},      {EMIT_SPHERE, {0.5f, 0.7f, 0.1f}, 1},
-    {EMIT_SPHERE, {0.3f, 0.3f, -0.1f}, 0},    {EMIT_ELLIPSOID, {2, 4, 1.5f}, 0},   {EMIT_DISC, {2, 4, 1.5f}, 0},
-    {EMIT_TORUS, {2, 4, 1.5f}, 0},            {EMIT_PIPE, {2, 4, 1.5f}, 0},        {EMIT_CYLINDER, {2, 4, 1.5f}, 0},
-    {EMIT_CONE, {2, 4, 1.5f}, 0},             {EMIT_FRUSTUM, {2, 4, 1.5f}, 0},
-};
-static const int even = 0, pictured = 1, choice;
+static const method by_lamp = {draw_lamp, place_lamp, of_lamp, 1};
+static const method by_sky = {draw_sky, place_sky, of_sky, 1};
+static const method by_choice = {draw_choice, place_choice, by_chance, 0};
 
 static const routine routines[] = {
-    {"light: rectangle", 16, 16, draw_lamp, place_lamp, of_lamp, views, 1, 0},
-    {"light: rectangle, far", 16, 16, draw_lamp, place_lamp, of_lamp, views + 1, 0, 0},
-    {"light: parallelogram", 16, 16, draw_lamp, place_lamp, of_lamp, views + 2, 0, 0},
-    {"light: mesh, far", 48, 8, draw_lamp, place_lamp, of_lamp, views + 3, 0, 0},
-    {"light: sphere", 16, 16, draw_lamp, place_lamp, of_lamp, views + 4, 1, 0},
-    {"light: sphere, near", 16, 16, draw_lamp, place_lamp, of_lamp, views + 5, 1, 0},
-    {"light: sphere, from inside", 16, 16, draw_lamp, place_lamp, of_lamp, views + 6, 0, 0},
-    {"light: ellipsoid", 16, 16, draw_lamp, place_lamp, of_lamp, views + 7, 0, 0},
-    {"light: disc with a hole", 16, 16, draw_lamp, place_lamp, of_lamp, views + 8, 0, 0},
-    {"light: torus", 16, 16, draw_lamp, place_lamp, of_lamp, views + 9, 0, 0},
-    {"light: pipe", 16, 16, draw_lamp, place_lamp, of_lamp, views + 10, 0, 0},
-    {"light: cylinder", 24, 12, draw_lamp, place_lamp, of_lamp, views + 11, 0, 0},
-    {"light: cone", 24, 12, draw_lamp, place_lamp, of_lamp, views + 12, 0, 0},
-    {"light: frustum", 24, 12, draw_lamp, place_lamp, of_lamp, views + 13, 0, 0},
-    {"light: even sky", 16, 16, draw_sky, place_sky, of_sky, &even, 0, 0},
-    {"light: sky of a picture", 32, 16, draw_sky, place_sky, of_sky, &pictured, 1, 0},
-    {"choice of light", lamps, 1, draw_choice, place_choice, by_chance, &choice, 0, 0},
+    {"light: rectangle", 16, 16, &by_lamp, &(const viewed){EMIT_RECTANGLE, {2, 1.5f, 3.5f}, 1}},
+    {"light: rectangle, far", 16, 16, &by_lamp, &(const viewed){EMIT_RECTANGLE, {-20, -30, 10}, 0}},
+    {"light: parallelogram", 16, 16, &by_lamp, &(const viewed){EMIT_PARALLELOGRAM, {2, 1, 3.5f}, 0}},
+    {"light: mesh, far", 48, 8, &by_lamp, &(const viewed){EMIT_MESH, {1e5f, -5e5f, 1e5f}, 0}},
+    {"light: sphere", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {2, 4, 1.5f}, 1}},
+    {"light: sphere, near", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {0.5f, 0.7f, 0.1f}, 1}},
+    {"light: sphere, from inside", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {0.3f, 0.3f, -0.1f}, 0}},
+    {"light: ellipsoid", 16, 16, &by_lamp, &(const viewed){EMIT_ELLIPSOID, {2, 4, 1.5f}, 0}},
+    {"light: disc with a hole", 16, 16, &by_lamp, &(const viewed){EMIT_DISC, {2, 4, 1.5f}, 0}},
+    {"light: torus", 16, 16, &by_lamp, &(const viewed){EMIT_TORUS, {2, 4, 1.5f}, 0}},
+    {"light: pipe", 16, 16, &by_lamp, &(const viewed){EMIT_PIPE, {2, 4, 1.5f}, 0}},
+    {"light: cylinder", 24, 12, &by_lamp, &(const viewed){EMIT_CYLINDER, {2, 4, 1.5f}, 0}},
+    {"light: cone", 24, 12, &by_lamp, &(const viewed){EMIT_CONE, {2, 4, 1.5f}, 0}},
+    {"light: frustum", 24, 12, &by_lamp, &(const viewed){EMIT_FRUSTUM, {2, 4, 1.5f}, 0}},
+    {"light: even sky", 16, 16, &by_sky, &(const int){0}},
+    {"light: sky of a picture", 32, 16, &by_sky, &(const int){1}},
+    {"choice of light", lamps, 1, &by_choice, NULL},
 };
 
 const routine_table light_routines = {routines, sizeof routines / sizeof *routines};
