@@ -29,13 +29,6 @@
 #include "rng.h"
 #include "traverse.h"
 
-/*
- * The first vertex of a path, counted from 0, at which roulette may end it. Measured variance times time in closed
- * rooms of albedo 0.7: under an area lamp 1 and 2 are equal and 3 is a tenth worse, under a point light 2 and 3 are
- * 15 to 25 % better. 1 gives the most samples a second.
- */
-#define RT_ROULETTE_VERTEX 1u
-
 /* Where an eye path asks photon maps. */
 struct gather {
     global rt_gather_point *point; /* where it ends: position, normal, weight and material are filled in */
@@ -79,12 +72,13 @@ static inline float3 emitted_light(const struct scene *scene, const rt_params *p
 }
 
 /* The same of the environment, for a ray in direction w that meets nothing. */
-INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params *params, float3 w, float pdf_w)
+INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params *params, float3 from, float3 w,
+                                      float pdf_w)
 {
     const float3 radiance = sky_radiance(scene, w);
     if (pdf_w == 0.0f || largest3(radiance) <= 0.0f)
         return radiance;
-    return radiance * mis_weight(params, RT_ESTIMATOR_BSDF, sky_light_pdf_w(scene, w) / pdf_w);
+    return radiance * mis_weight(params, RT_ESTIMATOR_BSDF, sky_light_pdf_w(scene, from, w) / pdf_w);
 }
 
 /* What counts of a lobe's light from a sampled point; `alone`: not weighted. */
@@ -122,10 +116,10 @@ static inline float3 direct_light(const struct scene *scene, const rt_params *pa
     return scattered * arrived * sample.radiance * sample.spread;
 }
 
-/* The chance to go on after a vertex, from the throughput that would be left. */
-static inline float survival_chance(uint vertex, float3 throughput)
+/* The chance to go on after `depth` segments, from the throughput that would be left. */
+static inline float survival_chance(const rt_params *params, uint depth, float3 throughput)
 {
-    return vertex < RT_ROULETTE_VERTEX ? 1.0f : min(1.0f, largest3(throughput));
+    return depth < params->roulette_depth ? 1.0f : min(1.0f, largest3(throughput));
 }
 
 /*
@@ -179,7 +173,7 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
         if (!closest_hit(scene, &ray, &hit)) {
             if (has_sky(scene) && !left_to_photons(purpose, diffuse_events, pdf_w, rough))
                 radiance += squeeze * beta * medium_transmittance(scene->materials, media.x, INFINITY) *
-                            environment_light(scene, params, ray.direction, pdf_w);
+                            environment_light(scene, params, from, ray.direction, pdf_w);
             break;
         }
         const struct surface surface = surface_at(scene, &ray, &hit);
@@ -220,7 +214,7 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
                         direct_light(scene, params, &surface, &bsdf, media.x, boundary.beyond.x, u.lo, last);
 
         /* Choose an event, or the end of the path by roulette, which spares nothing where the path ends anyway. */
-        const float survival = last ? 1.0f : survival_chance(vertex, beta * bsdf_albedo(&bsdf));
+        const float survival = last ? 1.0f : survival_chance(params, depth, beta * bsdf_albedo(&bsdf));
         const uint event = bsdf_choose(&bsdf, survival, u.hi.z);
         if (event == EVENT_ABSORBED)
             break;
