@@ -139,12 +139,13 @@ int main(int argc, char **argv)
     rt_film *second = map_photons(&s, 4 * passes, radius / 2, 1001, &other_seconds);
     const float *truth[2] = {read ? read : rt_film_rgb(own), rt_film_rgb(second)};
 
-    /* Photons, then paths for as long as a few samples say. */
-    enum { few = 16 };
+    /* Photons, then paths for as long as a first round says. */
     rt_film *photon = map_photons(&s, passes, radius, 1, &photon_seconds);
-    rt_film_destroy(trace_paths(&s, few, 2, &other_seconds));
-    uint32_t equal = (uint32_t)fmax(1, photon_seconds / other_seconds * few + 0.5);
+    uint32_t equal = 64;
     rt_film *path = trace_paths(&s, equal, 1, &path_seconds);
+    equal = (uint32_t)fmax(1, photon_seconds / path_seconds * equal + 0.5);
+    rt_film_destroy(path);
+    path = trace_paths(&s, equal, 1, &path_seconds);
     double photon_rmse = region_rmse(rt_film_rgb(photon), truth[0], truth[1]);
     double path_rmse = region_rmse(rt_film_rgb(path), truth[0], truth[1]), mean = region_mean(truth[1]);
     printf("%-28s %10s %12s %10s\n", "caustic under glass", "seconds", "RMSE", "mean");
