@@ -32,7 +32,7 @@ LIB_SRC := \
 	lib/error.c lib/progress.c lib/version.c \
 	lib/device/device.c lib/device/buffer.c lib/device/program.c \
 	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c lib/scene/light.c lib/scene/material.c \
-	lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/scene.c \
+	lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/pack_targets.c lib/scene/scene.c \
 	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
@@ -102,7 +102,7 @@ TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/tools/test_compare.c tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
-	tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c tests/lib/render/test_noise.c \
+	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c tests/lib/render/test_noise.c \
 	tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
 	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c
 TESTS_PROOF := \

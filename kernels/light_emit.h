@@ -37,18 +37,25 @@ static inline float falloff_inverse(float u)
     return x;
 }
 
+/* The solid angle that a spot would fill with its full intensity. */
+static inline float spot_spread(global const rt_light_data *light)
+{
+    const float inner = light->c[0], outer = light->c[1];
+    return 2.0f * RT_PI * ((1.0f - inner) + 0.5f * (inner - outer));
+}
+
 /* A direction in proportion to a spot's intensity. In the cosine, the edge has half the light of as wide a piece inside. */
 static inline void emit_spot(struct emission *emission, global const rt_light_data *light, float2 u)
 {
     const float inner = light->c[0], outer = light->c[1];
-    const float whole = (1.0f - inner) + 0.5f * (inner - outer);
+    const float whole = spot_spread(light) / (2.0f * RT_PI);
     const float v = u.x * whole;
     const float inside = 1.0f - inner;
     const float below = v < inside ? v : 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
     const float3 way = (float3)(sqrt(below * (2.0f - below)) * arc.yx, 1.0f - below);
     emit_from(emission, row3(light->a), frame_to_world(frame_about(row3(light->b)), way));
-    emission->flux = 2.0f * RT_PI * whole * row3(light->emission);
+    emission->flux = spot_spread(light) * row3(light->emission);
 }
 
 /* How far it is from a point in direction w to the last of the planes, which have no end; 0 when there is none. */
@@ -63,20 +70,37 @@ static inline float last_plane(const struct scene *scene, float3 from, float3 w)
     return last;
 }
 
-/*
- * Light from infinitely far in direction w comes through a disc that faces it and touches the sphere around all
- * finite shapes. It starts on the disc, or twice as far as the last plane that stands before it. What would pass
- * beside the sphere, to planes farther out, is not followed.
- */
-static inline void emit_distant(const struct scene *scene, struct emission *emission, float3 w, float2 u)
+/* The sphere around all finite shapes; that of no shapes is of unit size. */
+static inline float distant_radius(const struct scene *scene)
+{
+    return scene->header->radius > 0.0f ? scene->header->radius : 1.0f;
+}
+
+static inline float3 distant_centre(const struct scene *scene)
 {
     global const rt_scene_header *header = scene->header;
-    const float radius = header->radius > 0.0f ? header->radius : 1.0f;
-    const float3 centre = header->radius > 0.0f ? 0.5f * (row3(header->bounds_lo) + row3(header->bounds_hi)) : (float3)(0.0f);
+    return header->radius > 0.0f ? 0.5f * (row3(header->bounds_lo) + row3(header->bounds_hi)) : (float3)(0.0f);
+}
+
+/*
+ * Light from infinitely far in direction w comes through a disc that faces it and touches the sphere around all
+ * finite shapes. Where it starts to go through a point: on the plane of the disc, or twice as far as the last of the
+ * scene's planes that stands before it.
+ */
+static inline float3 distant_start(const struct scene *scene, float3 w, float3 through)
+{
+    const float up = dot(distant_centre(scene) - through, w) + distant_radius(scene);
+    const float3 disc = through + up * w;
+    return disc + 2.0f * last_plane(scene, disc, w) * w;
+}
+
+/* Starts on the disc. What would pass beside the sphere, to planes farther out, is not followed. */
+static inline void emit_distant(const struct scene *scene, struct emission *emission, float3 w, float2 u)
+{
+    const float radius = distant_radius(scene);
     const float2 p = radius * sample_disc(u);
     const struct frame frame = frame_about(w);
-    const float3 disc = centre + (p.x * frame.s + p.y * frame.t + radius * w);
-    emit_from(emission, disc + 2.0f * last_plane(scene, disc, w) * w, -w);
+    emit_from(emission, distant_start(scene, w, distant_centre(scene) + (p.x * frame.s + p.y * frame.t)), -w);
     emission->flux *= RT_PI * radius * radius;
 }
 

@@ -19,6 +19,7 @@
  *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, chapter 5
  *     (flux is not scaled at refraction, radiance is).
  */
+#include "aim.h"
 #include "bsdf.h"
 #include "light_emit.h"
 #include "medium.h"
@@ -37,16 +38,20 @@ struct light_path {
     bool scattered; /* by some event other than a delta one */
 };
 
-/* Starts a path and its account; false when there is no light. */
+/* Starts a path and its account, aimed when it is for caustics alone; false when there is no light. */
 static bool start_path(struct light_path *path, const struct scene *scene, global const rt_light_share *shares,
-                       const struct sampler *sampler, rt_path_account *account)
+                       const struct sampler *sampler, bool for_caustics, rt_path_account *account)
 {
     struct emission emission;
     const float8 u = sampler_pair(sampler, SET_START); /* and SET_EMISSION, the set after it */
-    const bool lit = light_emit(scene, shares, u.lo, u.hi, &emission);
+    bool lit = light_emit(scene, shares, u.lo, u.hi, &emission);
     path->flux = path->absorbed = path->roulette = (float3)(0.0f);
     path->media = RT_VACUUM;
     account->light = RT_NONE;
+    if (lit && for_caustics) {
+        aim_at_caustics(scene, u.lo, u.hi, &emission);
+        lit = largest3(emission.flux) > 0.0f;
+    }
     if (lit) {
         path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f, INFINITY);
         path->flux = emission.flux;
@@ -142,7 +147,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
     struct light_path path;
     uint count = 0u, rejected = 0u, end = RT_END_CUT_OFF;
 
-    bool alive = start_path(&path, scene, shares, sampler, account) && can_follow(&path.ray);
+    bool alive = start_path(&path, scene, shares, sampler, for_caustics, account) && can_follow(&path.ray);
     while (alive && path.depth < params->max_depth) {
         /* Draw the numbers of the next event: they hang on nothing, so a processor makes them while it waits below. */
         const float4 u = sampler_set(sampler, set_scatter(path.depth - 1u));

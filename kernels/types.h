@@ -130,6 +130,12 @@ typedef struct rt_transform_data {
 } rt_transform_data;
 RT_SIZE(rt_transform_data, 96);
 
+/*
+ * Below this roughness a surface is smooth. A lobe of it spreads light by a tenth of a degree, less than a pixel, so
+ * no seam shows.
+ */
+#define RT_SMOOTH_ALPHA 1e-3f
+
 #define RT_MATERIAL_FRESNEL 1u   /* flag: dielectric; ks + kt is split Fr : 1 - Fr */
 #define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
@@ -243,6 +249,13 @@ typedef struct rt_environment_data {
 } rt_environment_data;
 RT_SIZE(rt_environment_data, 32);
 
+/* A ball that holds a specular shape: paths aimed at caustics start towards it. Infinite around a plane. */
+typedef struct rt_target {
+    float centre[3];
+    float radius;
+} rt_target;
+RT_SIZE(rt_target, 16);
+
 /* ---- Camera ------------------------------------------------------------ */
 
 #define RT_CAMERA_KIND_PERSPECTIVE 0u
@@ -303,7 +316,8 @@ typedef struct rt_scene_header {
     rt_camera_data camera;
     rt_u32 eye_media[4]; /* the solids around the eye, as paths list them (medium.h): material + 1, 0: none */
     rt_u32 light_nodes, light_leaves; /* rt_light_node, twice as many as leaves, which are a power of two */
-    rt_u32 reserved[14];
+    rt_u32 targets, target_count; /* rt_target */
+    rt_u32 reserved[12];
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 384);
 

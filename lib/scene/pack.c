@@ -60,6 +60,7 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->lights, &h->light_count, p->light_count, sizeof(rt_light_data));
     h->light_leaves = (rt_u32)rt_light_tree_leaves(scene);
     place(&rows, &h->light_nodes, NULL, 2 * (size_t)h->light_leaves, sizeof(rt_light_node));
+    place(&rows, &h->targets, &h->target_count, rt_targets_count(scene), sizeof(rt_target));
     place(&rows, &h->transforms, &h->transform_count, p->transform_count, sizeof(rt_transform_data));
     place(&rows, &h->indices, &h->index_count, p->index_count, sizeof(rt_u32));
     place(&rows, &h->normals, &h->normal_count, p->normal_count, 4 * sizeof(float));
@@ -105,6 +106,7 @@ static rt_status fill(rt_packing *p, rt_error *error)
     p->image.light_power = rt_lights_fill(p->scene, p->first_prim, p->header.radius,
                                           rt_packing_table(p, p->header.lights), p->first_light);
     rt_pack_shapes(p);
+    rt_pack_targets(p);
     rt_pack_vertices(p);
     rt_pack_materials(p);
     rt_pack_textures(p);

@@ -38,6 +38,10 @@ rt_status rt_pack_number(rt_packing *packing, rt_error *error);
 void rt_pack_shapes(const rt_packing *packing);
 void rt_pack_vertices(const rt_packing *packing);
 
+/* Count and fill the balls around specular shapes; these are one ball when they are too many (pack_targets.c). */
+size_t rt_targets_count(const rt_scene *scene);
+void rt_pack_targets(const rt_packing *packing);
+
 /* Fill the tables of materials, textures, and of the environment (pack_materials.c). */
 void rt_pack_materials(const rt_packing *packing);
 void rt_pack_textures(const rt_packing *packing);
