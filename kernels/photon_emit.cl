@@ -7,6 +7,8 @@
  * those who use the photons, so that maps can be joined. Its photons go to slots of its own, so that
  * the map does not depend on the order in which paths are followed.
  *
+ * Paths for a caustic map alone start towards specular shapes (aim.h).
+ *
  * A path has at most max_depth - 1 segments: with the one segment from the eye to the place
  * where the map is asked, that is the longest path of path tracing.
  *

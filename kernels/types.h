@@ -367,7 +367,7 @@ RT_SIZE(rt_photon, 64);
 /* Which photons a path stores. */
 #define RT_STORE_ALL 0u     /* all: one map holds them */
 #define RT_STORE_GLOBAL 1u  /* all but those flagged RT_PHOTON_CAUSTIC, which another map holds */
-#define RT_STORE_CAUSTIC 2u /* only those; a path ends where it is first reflected diffusely */
+#define RT_STORE_CAUSTIC 2u /* only those; a path is aimed at specular shapes, and ends where it is first reflected diffusely */
 
 /* How a photon path ended. */
 #define RT_END_ABSORBED 0u /* by roulette or by a surface: no flux is left */

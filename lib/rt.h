@@ -503,8 +503,8 @@ typedef struct rt_render_options {
     float cone_k;           /* constant of the cone kernel; 0 means 1.1 */
     rt_direct direct;
     uint32_t final_gather;  /* gather after so many diffuse bounces instead of at the first hit */
-    uint64_t caustic_photons; /* keep caustic photons in a map of their own, filled by so many further paths;
-                                 0: one map for all */
+    uint64_t caustic_photons; /* keep caustic photons in a map of their own, filled by so many further paths,
+                                 aimed at specular shapes; 0: one map for all */
     uint32_t caustic_k;     /* nearest photons in the caustic map; 0 means k */
     float caustic_radius;   /* largest gather radius in the caustic map, metres; 0 means radius */
     rt_density caustic_kernel; /* density kernel of the caustic map */
@@ -607,7 +607,9 @@ RT_API rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ra
  * An rt_photon_map is the photons of a scene: rt_photon records in the order of the paths that left them,
  * in one list, or in two when caustic photons are kept apart. Path i of a seed is always the same path, so a
  * map is the same to the bit whatever the number of threads and the work-group size, and parts of it can be
- * made apart and merged. Photons that come straight from a light are stored only with RT_DIRECT_PHOTONS.
+ * made apart and merged. Photons that come straight from a light are stored only with RT_DIRECT_PHOTONS. The
+ * paths of caustic photons kept apart start towards specular shapes only, with as much less flux, so that the mean
+ * is that of all paths.
  */
 typedef enum rt_photon_kind {
     RT_PHOTONS_GLOBAL = 0, /* all photons, or all but the caustic ones when these are kept apart */

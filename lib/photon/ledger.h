@@ -3,6 +3,9 @@
  *
  * Sums are kept as whole numbers of a small unit, so that they are exact in whatever order and
  * in how many parts the paths are taken: the ledger of two joined maps is that of the whole, to the bit.
+ *
+ * Paths of the caustic list are in no ledger: aimed as they are, they carry a part of the lights' flux only. Those of
+ * the global list follow all of it, caustics included.
  */
 #ifndef RT_LIB_PHOTON_LEDGER_H
 #define RT_LIB_PHOTON_LEDGER_H

@@ -3,16 +3,18 @@
  *
  *     study_caustic [PASSES [REFERENCE [FILE]]]
  *
- * scenes/box_caustic.rts: the light that the glass sphere gathers on the floor. PASSES of photon mapping (32) are
+ * scenes/box_caustic.rts: the light that the glass sphere gathers on the floor. PASSES of photon mapping (16) are
  * timed, and path tracing gets as many samples a pixel as take as long. Time is that of processors, so that other
  * programs do not count. Pictures go to build/study.
  *
  * The region is the floor within 0.3 m of where the line from the lamp's centre through the sphere's meets it, as far as
- * the camera sees it beside the sphere. There are two truths: one is path traced with REFERENCE samples a pixel (1024),
- * or is the picture FILE, of the same size; the other is of photons, of another seed, in four times as many passes with
- * half the radius around caustics. As their noises are independent, the mean product of a picture's
- * differences from the one and from the other is its squared error, without theirs. Where the error is bias, which goes
- * with the squared radius, the second truth has a quarter of it, and the product is 3/4 of the square.
+ * the camera sees it beside the sphere. A picture's squared error is the mean product of its differences from two truths
+ * of independent noises, so that these leave no trace but in its standard error. It is told twice:
+ *   - by paths and photons: one truth is path traced with REFERENCE samples a pixel (1024), or is the picture FILE, of
+ *     the same size, and the other is of photons, of another seed, in twice as many passes with half the radius around
+ *     caustics. It owes nothing to photons being right, but paths that rarely meet the lamp make it uncertain;
+ *   - by photons and photons: both truths are of that kind, of seeds of their own. Of bias, which goes with the squared
+ *     radius, they have a quarter, and the product 9/16 of the square.
  */
 #include <math.h>
 #include <stdio.h>
@@ -48,15 +50,25 @@ static int in_region(uint32_t x, uint32_t y)
     return dx * dx + dz * dz < spot_radius * spot_radius;
 }
 
-static double region_rmse(const float *rgb, const float *first, const float *second)
+/* Root of the mean squared error over the region, and the standard error of that. */
+typedef struct region_error {
+    double rmse, deviation;
+} region_error;
+
+static region_error error_of(const float *rgb, const float *first, const float *second)
 {
-    double sum = 0;
-    size_t count = 0;
+    double sum = 0, squares = 0, count = 0;
     for (uint32_t y = 0; y < side; y++)
-        for (uint32_t x = 0; x < side; x++)
-            for (size_t i = 3 * ((size_t)y * side + x), c = 0; c < 3 && in_region(x, y); c++, count++)
-                sum += ((double)rgb[i + c] - first[i + c]) * ((double)rgb[i + c] - second[i + c]);
-    return sum > 0 ? sqrt(sum / (double)count) : 0;
+        for (uint32_t x = 0; x < side; x++) {
+            double product = 0;
+            for (size_t i = 3 * ((size_t)y * side + x), c = 0; c < 3 && in_region(x, y); c++)
+                product += ((double)rgb[i + c] - first[i + c]) * ((double)rgb[i + c] - second[i + c]) / 3;
+            sum += product;
+            squares += product * product;
+            count += in_region(x, y);
+        }
+    double mean = sum / count, rmse = sqrt(fmax(mean, 0));
+    return (region_error){rmse, sqrt((squares / count - mean * mean) / count) / (2 * rmse)};
 }
 
 static double region_mean(const float *rgb)
@@ -96,10 +108,10 @@ static rt_film *map_photons(const study *s, uint32_t passes, float radius, uint3
     options.mode = RT_MODE_PHOTON;
     options.passes = passes;
     options.seed = seed;
-    options.spp = 4;
-    options.photons = 20000; /* few: what comes by diffuse bounces is smooth */
+    options.spp = 16;
+    options.photons = 80000; /* few: what comes by diffuse bounces is smooth */
     options.radius = 0.1f;
-    options.caustic_photons = 800000;
+    options.caustic_photons = 400000;
     options.caustic_radius = radius;
     return render(s, &options, seconds);
 }
@@ -123,12 +135,30 @@ static float *read_reference(const char *path)
     return rgb;
 }
 
+static void print_row(const char *what, const rt_film *film, double seconds, const region_error errors[2], double mean)
+{
+    printf("%-28s %8.2f %11.5f +- %.5f %11.5f +- %.5f %9.5f\n", what, seconds, errors[0].rmse, errors[0].deviation,
+           errors[1].rmse, errors[1].deviation, region_mean(rt_film_rgb(film)) / mean);
+}
+
+/* Paths for as long as photons took: a first round of as many samples says how many more. */
+static rt_film *trace_as_long(const study *s, double photon_seconds, uint32_t *spp, double *seconds)
+{
+    *spp = 64;
+    for (int round = 0; round < 2; round++) {
+        rt_film_destroy(trace_paths(s, *spp, 1, seconds));
+        *spp = (uint32_t)fmax(1, photon_seconds / *seconds * *spp + 0.5);
+    }
+    return trace_paths(s, *spp, 1, seconds);
+}
+
 int main(int argc, char **argv)
 {
-    uint32_t passes = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 32;
-    const float radius = 0.008f; /* metres, of the first pass around caustics */
-    uint32_t spp = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 1024;
+    uint32_t passes = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 16;
+    const float radius = 0.006f; /* metres, of the first pass around caustics */
+    uint32_t spp = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 1024, equal;
     double photon_seconds, path_seconds, other_seconds;
+    char what[64];
     study s;
     study_open(&s, "study_caustic", "scenes/box_caustic.rts", side);
     rt_film_destroy(map_photons(&s, 2, radius, 1, &other_seconds)); /* compiles */
@@ -136,31 +166,33 @@ int main(int argc, char **argv)
 
     float *read = argc > 3 ? read_reference(argv[3]) : NULL;
     rt_film *own = read ? NULL : trace_paths(&s, spp, 1000, &other_seconds);
-    rt_film *second = map_photons(&s, 4 * passes, radius / 2, 1001, &other_seconds);
-    const float *truth[2] = {read ? read : rt_film_rgb(own), rt_film_rgb(second)};
+    rt_film *first = map_photons(&s, 2 * passes, radius / 2, 1001, &other_seconds);
+    rt_film *second = map_photons(&s, 2 * passes, radius / 2, 1002, &other_seconds);
+    const float *by_paths = read ? read : rt_film_rgb(own);
+    const float *by_photons[2] = {rt_film_rgb(first), rt_film_rgb(second)};
 
-    /* Photons, then paths for as long as a first round says. */
     rt_film *photon = map_photons(&s, passes, radius, 1, &photon_seconds);
-    uint32_t equal = 64;
-    rt_film *path = trace_paths(&s, equal, 1, &path_seconds);
-    equal = (uint32_t)fmax(1, photon_seconds / path_seconds * equal + 0.5);
-    rt_film_destroy(path);
-    path = trace_paths(&s, equal, 1, &path_seconds);
-    double photon_rmse = region_rmse(rt_film_rgb(photon), truth[0], truth[1]);
-    double path_rmse = region_rmse(rt_film_rgb(path), truth[0], truth[1]), mean = region_mean(truth[1]);
-    printf("%-28s %10s %12s %10s\n", "caustic under glass", "seconds", "RMSE", "mean");
-    printf("path, %4u samples a pixel   %10.2f %12.5f %10.5f\n", equal, path_seconds, path_rmse,
-           region_mean(rt_film_rgb(path)) / mean);
-    printf("photon, %4u passes          %10.2f %12.5f %10.5f\n", passes, photon_seconds, photon_rmse,
-           region_mean(rt_film_rgb(photon)) / mean);
-    printf("photons have 1/%.1f of the error, at a mean radiance of %.3f\n\n", path_rmse / photon_rmse, mean);
+    rt_film *path = trace_as_long(&s, photon_seconds, &equal, &path_seconds);
+    region_error errors[2][2];
+    for (int i = 0; i < 2; i++) {
+        const float *rgb = rt_film_rgb(i == 0 ? path : photon);
+        errors[i][0] = error_of(rgb, by_paths, by_photons[0]);
+        errors[i][1] = error_of(rgb, by_photons[0], by_photons[1]);
+    }
+    double mean = region_mean(by_photons[0]);
+    printf("%-28s %8s %22s %22s %9s\n", "caustic under glass", "seconds", "RMSE, path truth", "RMSE, photon truth", "mean");
+    snprintf(what, sizeof what, "path, %u samples a pixel", equal);
+    print_row(what, path, path_seconds, errors[0], mean);
+    snprintf(what, sizeof what, "photon, %u passes", passes);
+    print_row(what, photon, photon_seconds, errors[1], mean);
+    printf("photons have 1/%.1f of the error by the one truth, 1/%.1f by the other; the path truth has a mean of %.5f\n\n",
+           errors[0][0].rmse / errors[1][0].rmse, errors[0][1].rmse / errors[1][1].rmse, region_mean(by_paths) / mean);
     study_write(&s, (const rt_film *[]){path}, 1, "caustic-path");
     study_write(&s, (const rt_film *[]){photon}, 1, "caustic-photon");
 
-    rt_film_destroy(path);
-    rt_film_destroy(photon);
-    rt_film_destroy(own);
-    rt_film_destroy(second);
+    rt_film *films[] = {path, photon, own, first, second};
+    for (size_t i = 0; i < sizeof films / sizeof *films; i++)
+        rt_film_destroy(films[i]);
     free(read);
     study_close(&s);
     return 0;
