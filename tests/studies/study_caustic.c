@@ -3,12 +3,12 @@
  *
  *     study_caustic [PASSES [REFERENCE [FILE]]]
  *
- * scenes/box_caustic.rts: the light that the glass sphere gathers on the floor. PASSES of photon mapping (16) are
+ * scenes/box_caustic.rts: the light that the glass sphere gathers on the floor. PASSES of photon mapping (8) are
  * timed, and path tracing gets as many samples a pixel as take as long. Time is that of processors, so that other
  * programs do not count. Pictures go to build/study.
  *
  * The region is the floor within 0.3 m of where the line from the lamp's centre through the sphere's meets it, as far as
- * the camera sees it beside the sphere. A picture's squared error is the mean product of its differences from two truths
+ * whole pixels see it beside the sphere. A picture's squared error is the mean product of its differences from two truths
  * of independent noises, so that these leave no trace but in its standard error. It is told twice:
  *   - by paths and photons: one truth is path traced with REFERENCE samples a pixel (1024), or is the picture FILE, of
  *     the same size, and the other is of photons, of another seed, in twice as many passes with half the radius around
@@ -39,15 +39,22 @@ static int meets_glass(const double d[3])
     return b * b > dd * c;
 }
 
-static int in_region(uint32_t x, uint32_t y)
+/* Whether the floor is seen at a point of the film, in pixels, within the spot. */
+static int in_spot(double x, double y)
 {
     /* The camera looks along +z, and +x is on the left. */
     double scale = tan(half_fov), to_spot = (lamp_y - floor_y) / (lamp_y - glass[1]);
-    double d[3] = {-(2 * (x + 0.5) / side - 1) * scale, -(2 * (y + 0.5) / side - 1) * scale, 1};
+    double d[3] = {-(2 * x / side - 1) * scale, -(2 * y / side - 1) * scale, 1};
     if (d[1] >= 0 || meets_glass(d))
         return 0;
     double t = floor_y / d[1], dx = t * d[0] - to_spot * glass[0], dz = eye_z + t - to_spot * glass[2];
     return dx * dx + dz * dz < spot_radius * spot_radius;
+}
+
+/* Whether all of a pixel lies there. */
+static int in_region(uint32_t x, uint32_t y)
+{
+    return in_spot(x, y) && in_spot(x + 1, y) && in_spot(x, y + 1) && in_spot(x + 1, y + 1);
 }
 
 /* Root of the mean squared error over the region, and the standard error of that. */
@@ -108,10 +115,10 @@ static rt_film *map_photons(const study *s, uint32_t passes, float radius, uint3
     options.mode = RT_MODE_PHOTON;
     options.passes = passes;
     options.seed = seed;
-    options.spp = 16;
-    options.photons = 80000; /* few: what comes by diffuse bounces is smooth */
-    options.radius = 0.1f;
-    options.caustic_photons = 400000;
+    options.spp = 4;
+    options.photons = 160000;
+    options.radius = 0.1f; /* wide: what comes by diffuse bounces is smooth */
+    options.caustic_photons = 800000;
     options.caustic_radius = radius;
     return render(s, &options, seconds);
 }
@@ -154,7 +161,7 @@ static rt_film *trace_as_long(const study *s, double photon_seconds, uint32_t *s
 
 int main(int argc, char **argv)
 {
-    uint32_t passes = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 16;
+    uint32_t passes = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 8;
     const float radius = 0.006f; /* metres, of the first pass around caustics */
     uint32_t spp = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 1024, equal;
     double photon_seconds, path_seconds, other_seconds;
