@@ -102,7 +102,7 @@ TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/tools/test_compare.c tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
-	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
+	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
 	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c
 TESTS_PROOF := \
 	tests/proof/test_direct_light.c tests/proof/test_enclosures.c tests/proof/test_specular.c \
