@@ -108,7 +108,8 @@ TESTS_PROOF := \
 	tests/proof/test_direct_light.c tests/proof/test_enclosures.c tests/proof/test_specular.c \
 	tests/proof/test_camera.c tests/proof/test_estimators.c tests/proof/test_convergence.c
 TESTS_FULL  += $(TESTS_PROOF)
-TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
+TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh \
+	tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
@@ -128,7 +129,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all proof study demo deps need-deps check check-corpus check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
+.PHONY: all proof study demo deps need-deps check check-corpus check-quick check-mutation check-reference check-sanitize run-quick run-all bench install uninstall clean help
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -213,6 +214,10 @@ check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
 	 $(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
+# Physical errors planted one at a time in a copy of the sources: the tests must see them; see tests/mutation/run.sh.
+check-mutation: deps
+	tests/mutation/run.sh
+
 # ---- Benchmarks: ours beside a peer's, where it is installed ---------------------
 
 HAVE_EMBREE = $(shell echo 'int main(void) { return 0; }' | $(CC) -x c - -lembree3 -o /dev/null 2>/dev/null && echo yes)
@@ -276,6 +281,7 @@ help:
 	@echo 'make check-sanitize  the quick tests under the address and undefined-behaviour sanitizers'
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE, by another program'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
+	@echo 'make check-mutation  plants physical errors, one at a time, and counts those that the tests see'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'
 	@echo 'make deps            installs what is missing'
