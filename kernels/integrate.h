@@ -72,12 +72,13 @@ static inline float3 emitted_light(const struct scene *scene, const rt_params *p
 }
 
 /* The same of the environment, for a ray in direction w that meets nothing. */
-INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params *params, float3 w, float pdf_w)
+INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params *params, float3 from, float3 w,
+                                      float pdf_w)
 {
     const float3 radiance = sky_radiance(scene, w);
     if (pdf_w == 0.0f || largest3(radiance) <= 0.0f)
         return radiance;
-    return radiance * mis_weight(params, RT_ESTIMATOR_BSDF, sky_light_pdf_w(scene, w) / pdf_w);
+    return radiance * mis_weight(params, RT_ESTIMATOR_BSDF, sky_light_pdf_w(scene, from, w) / pdf_w);
 }
 
 /* What counts of a lobe's light from a sampled point; `alone`: not weighted. */
@@ -172,7 +173,7 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
         if (!closest_hit(scene, &ray, &hit)) {
             if (has_sky(scene) && !left_to_photons(purpose, diffuse_events, pdf_w, rough))
                 radiance += squeeze * beta * medium_transmittance(scene->materials, media.x, INFINITY) *
-                            environment_light(scene, params, ray.direction, pdf_w);
+                            environment_light(scene, params, from, ray.direction, pdf_w);
             break;
         }
         const struct surface surface = surface_at(scene, &ray, &hit);

@@ -626,7 +626,8 @@ typedef struct rt_emit_options {
 
 /*
  * Emits photons from the lights of a scene on the device and collects them; options NULL: the scene's own.
- * Warns of lights that no path came from and of a list that is empty. Fails with RT_ERROR_USAGE when an option
+ * Warns of lights that no path came from, of a list that is empty, and of planes under light from infinitely far,
+ * which is followed to them only within the sphere around all finite shapes. Fails with RT_ERROR_USAGE when an option
  * is out of its range, RT_CANCELLED when a progress callback asks for it. The caller owns *out.
  */
 RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const rt_emit_options *options,

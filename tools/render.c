@@ -145,8 +145,7 @@ static void say_how_good_it_is(const render_job *job)
     rt_film_stats stats;
     rt_film_get_stats(job->film, &stats);
     if (stats.rejected > 0)
-        message_warning("%llu sample%s not a finite number and left out", (unsigned long long)stats.rejected,
-                        stats.rejected == 1 ? " was" : "s were");
+        message_warning("samples left out because they were not finite: %llu", (unsigned long long)stats.rejected);
     if (stats.replicates > 0)
         message_note("relative error %.3g %%, below %.3g %% with 95 %% confidence (root mean square over mean "
                      "radiance%s)",

@@ -435,6 +435,8 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
         r.began = rt_clock();
         status = r.in_passes ? render_passes(&r, error) : render_once(&r, error);
     }
+    if (status == RT_OK && r.emitter)
+        rt_emitter_warn_reach(r.emitter, options->hooks);
     if (status == RT_OK)
         rt_photon_map_warn_starved(r.in_use, &film->ledger, options->k, options->caustic_k, options->hooks);
     if (status == RT_OK || (status == RT_CANCELLED && r.eye.pixels)) {

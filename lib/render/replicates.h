@@ -20,7 +20,7 @@ typedef struct rt_stretch {
 /* The first samples of so many in all, in replicates or in one sequence. */
 rt_stretch rt_stretch_first(uint32_t all, int replicated);
 
-/* Those of the next replicate; after the last one, of the first again. Lengths are 1, 2, 3, 4, 6, 8, 12, 16 and so on. */
+/* Those of the next replicate; after the last, of the first again. Lengths are 1, 2, 3, 4, 6, 8, 12, 16 and so on. */
 rt_stretch rt_stretch_next(rt_stretch stretch);
 
 /* What a replicate has after it has `length`. */

@@ -8,7 +8,7 @@
 
 /*
  * The quantile of Student's t with so many degrees of freedom, at least 1, at the probability at which the normal
- * distribution has the quantile z, between 0 and 2. Within 0.1 %.
+ * distribution has the quantile z, between 0 and 2. Within 0.2 %.
  */
 double rt_student_quantile(double z, double freedom);
 

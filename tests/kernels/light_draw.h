@@ -38,4 +38,7 @@ void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], ligh
 /* Fills out[light_draws] with starts of light paths. */
 void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out);
 
+/* The probabilities with which the scene's lights, `count` of them, are chosen for a point. */
+void light_chances(rt_renderer *renderer, const float from[3], size_t count, float *out);
+
 #endif

@@ -103,45 +103,6 @@ static double whole_sky(void)
     return sum * 2 * PI * PI / (width * steps) / (height * steps);
 }
 
-/* A tent leaves 3/4 in its pixel and 1/8 in each neighbour. */
-static void expected_counts(double expected[cells])
-{
-    static const double part[3] = {0.125, 0.75, 0.125};
-    double total = 0;
-    memset(expected, 0, cells * sizeof *expected);
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            double weight = texel(x, y) * sin(PI * (y + 0.5) / height);
-            total += weight;
-            for (int dy = -1; dy < 2; dy++)
-                for (int dx = -1; dx < 2; dx++)
-                    expected[clamped(y + dy, height) * width + wrapped(x + dx, width)] +=
-                        n * weight * part[dx + 1] * part[dy + 1];
-        }
-    for (int i = 0; i < cells; i++)
-        expected[i] /= total;
-}
-
-static void directions_follow_the_density(void **state)
-{
-    static const float rotations[] = {0, 100, -30};
-    double expected[cells];
-    (void)state;
-    expected_counts(expected);
-    for (uint32_t r = 0; r < 3; r++) {
-        uint32_t counts[cells] = {0};
-        rt_renderer *renderer = sky(1, rotations[r]);
-        draw_lights(renderer, r, origin, samples);
-        for (int i = 0; i < n; i++) {
-            double u, v;
-            place(samples[i].wi, rotations[r], &u, &v);
-            counts[clamped((int)(v * height), height) * width + clamped((int)(u * width), width)]++;
-        }
-        expect_counts(counts, expected, cells, "directions of the sky");
-        rt_renderer_destroy(renderer);
-    }
-}
-
 static void samples_bring_the_radiance_of_their_direction(void **state)
 {
     rt_renderer *renderer = sky(1, 100);
@@ -256,7 +217,6 @@ static void distant_light_starts_beyond_all_planes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(directions_follow_the_density),
         cmocka_unit_test(samples_bring_the_radiance_of_their_direction),
         cmocka_unit_test(an_even_sky_is_sampled_evenly),
         cmocka_unit_test(light_paths_of_the_sky_carry_its_irradiance),

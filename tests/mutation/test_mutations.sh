@@ -1,5 +1,5 @@
 #!/bin/sh
-# test_mutations.sh - every mutation fits the sources as they are: its text is there once, and its tests are in `make check`.
+# test_mutations.sh - every mutation fits the sources as they are: its text is there once, its tests are in the Makefile.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)

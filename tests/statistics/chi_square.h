@@ -28,15 +28,19 @@ typedef struct sampled {
     double pdf;  /* density over the square that the kernels tell; NAN: they tell none, or i >= told_samples */
 } sampled;
 
-typedef struct routine {
-    const char *name;
-    int across, down; /* cells of x and of y */
+/* How samples of a kind are made and what they should be; `setup` is a routine's own. */
+typedef struct method {
     void (*draw)(const void *setup, uint32_t seed, uint32_t count); /* makes samples and keeps them */
     sampled (*place)(const void *setup, uint32_t i);                /* sample i of those; called by several threads */
     double (*density)(const void *setup, double x, double y); /* over the square; what lacks to 1 is not sampled */
-    const void *setup;                                        /* handed to all three */
     int is_proportional; /* the density is known but for a factor, which makes its integral 1 */
-    double near;         /* relative error of the told density that rounding excuses; 0: 2e-3 */
+} method;
+
+typedef struct routine {
+    const char *name;
+    int across, down; /* cells of x and of y */
+    const method *method;
+    const void *setup;
 } routine;
 
 /* The tables of all routines. */

@@ -285,37 +285,34 @@ static double by_power(const void *setup, double x, double y)
 
 /* ---- Table ----------------------------------------------------------------------- */
 
-static const emission starts[] = {
-    {EMIT_RECTANGLE, START}, {EMIT_TWO_SIDED, START}, {EMIT_MESH, START}, {EMIT_SPHERE, START}, {EMIT_FRUSTUM, START},
-};
-static const emission ways[] = {
-    {EMIT_RECTANGLE, WAY}, {EMIT_TWO_SIDED, WAY}, {EMIT_SPHERE, WAY}, {EMIT_FRUSTUM, WAY}, {EMIT_TWO_SIDED, BOTH},
-    {EMIT_TORUS, BOTH},
-};
-static const heaven heavens[] = {{0, WAY}, {0, START}, {0, BOTH}, {1, WAY}, {1, START}};
-static const int point, spot, sun, choice;
+static const method by_lamp = {draw_lamp, place_lamp, of_lamp, 0};
+static const method by_point = {draw_point, place_point, even, 0};
+static const method by_spot = {draw_spot, place_spot, of_spot, 1};
+static const method by_sun = {draw_sun, place_sun, on_disc, 0};
+static const method by_heaven = {draw_heaven, place_heaven, of_heaven, 1};
+static const method by_choice = {draw_choice, place_choice, by_power, 0};
 
 static const routine routines[] = {
-    {"emission: rectangle", 16, 16, draw_lamp, place_lamp, of_lamp, starts, 0, 0},
-    {"emission: two-sided rectangle", 16, 16, draw_lamp, place_lamp, of_lamp, starts + 1, 0, 0},
-    {"emission: mesh", 48, 8, draw_lamp, place_lamp, of_lamp, starts + 2, 0, 0},
-    {"emission: sphere", 16, 16, draw_lamp, place_lamp, of_lamp, starts + 3, 0, 0},
-    {"emission: frustum", 24, 12, draw_lamp, place_lamp, of_lamp, starts + 4, 0, 0},
-    {"emission: direction from a rectangle", 16, 16, draw_lamp, place_lamp, of_lamp, ways, 0, 0},
-    {"emission: direction from both sides", 16, 16, draw_lamp, place_lamp, of_lamp, ways + 1, 0, 0},
-    {"emission: direction from a sphere", 16, 16, draw_lamp, place_lamp, of_lamp, ways + 2, 0, 0},
-    {"emission: direction from a frustum", 16, 16, draw_lamp, place_lamp, of_lamp, ways + 3, 0, 0},
-    {"emission: point and direction of both sides", 16, 16, draw_lamp, place_lamp, of_lamp, ways + 4, 0, 0},
-    {"emission: point and direction of a torus", 16, 16, draw_lamp, place_lamp, of_lamp, ways + 5, 0, 0},
-    {"emission: point light", 16, 16, draw_point, place_point, even, &point, 0, 0},
-    {"emission: spot", 32, 8, draw_spot, place_spot, of_spot, &spot, 1, 0},
-    {"emission: directional light", 16, 16, draw_sun, place_sun, on_disc, &sun, 0, 0},
-    {"emission: direction from an even sky", 16, 16, draw_heaven, place_heaven, of_heaven, heavens, 0, 0},
-    {"emission: start of an even sky", 16, 16, draw_heaven, place_heaven, of_heaven, heavens + 1, 0, 0},
-    {"emission: start and direction of an even sky", 16, 16, draw_heaven, place_heaven, of_heaven, heavens + 2, 0, 0},
-    {"emission: direction from a sky of a picture", 32, 16, draw_heaven, place_heaven, of_heaven, heavens + 3, 1, 0},
-    {"emission: start of a sky of a picture", 16, 16, draw_heaven, place_heaven, of_heaven, heavens + 4, 0, 0},
-    {"emission: choice of light", lamps, 1, draw_choice, place_choice, by_power, &choice, 0, 0},
+    {"emission: rectangle", 16, 16, &by_lamp, &(const emission){EMIT_RECTANGLE, START}},
+    {"emission: two-sided rectangle", 16, 16, &by_lamp, &(const emission){EMIT_TWO_SIDED, START}},
+    {"emission: mesh", 48, 8, &by_lamp, &(const emission){EMIT_MESH, START}},
+    {"emission: sphere", 16, 16, &by_lamp, &(const emission){EMIT_SPHERE, START}},
+    {"emission: frustum", 24, 12, &by_lamp, &(const emission){EMIT_FRUSTUM, START}},
+    {"emission: direction from a rectangle", 16, 16, &by_lamp, &(const emission){EMIT_RECTANGLE, WAY}},
+    {"emission: direction from both sides", 16, 16, &by_lamp, &(const emission){EMIT_TWO_SIDED, WAY}},
+    {"emission: direction from a sphere", 16, 16, &by_lamp, &(const emission){EMIT_SPHERE, WAY}},
+    {"emission: direction from a frustum", 16, 16, &by_lamp, &(const emission){EMIT_FRUSTUM, WAY}},
+    {"emission: point and direction of both sides", 16, 16, &by_lamp, &(const emission){EMIT_TWO_SIDED, BOTH}},
+    {"emission: point and direction of a torus", 16, 16, &by_lamp, &(const emission){EMIT_TORUS, BOTH}},
+    {"emission: point light", 16, 16, &by_point, NULL},
+    {"emission: spot", 32, 8, &by_spot, NULL},
+    {"emission: directional light", 16, 16, &by_sun, NULL},
+    {"emission: direction from an even sky", 16, 16, &by_heaven, &(const heaven){0, WAY}},
+    {"emission: start of an even sky", 16, 16, &by_heaven, &(const heaven){0, START}},
+    {"emission: start and direction of an even sky", 16, 16, &by_heaven, &(const heaven){0, BOTH}},
+    {"emission: direction from a sky of a picture", 32, 16, &by_heaven, &(const heaven){1, WAY}},
+    {"emission: start of a sky of a picture", 16, 16, &by_heaven, &(const heaven){1, START}},
+    {"emission: choice of light", lamps, 1, &by_choice, NULL},
 };
 
 const routine_table emission_routines = {routines, sizeof routines / sizeof *routines};

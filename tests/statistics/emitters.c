@@ -340,6 +340,7 @@ double emitter_density(emitter kind, double x, double y)
 
 static rt_renderer *kept;
 static const void *kept_for;
+static rt_scene *(*kept_by)(const void *key);
 
 static void drop(void)
 {
@@ -349,12 +350,13 @@ static void drop(void)
 rt_renderer *kept_renderer(const void *key, rt_scene *(*build)(const void *key))
 {
     static int is_dropped_at_exit;
-    if (key == kept_for)
+    if (kept && key == kept_for && build == kept_by)
         return kept;
     rt_renderer *made = light_renderer(build(key));
     rt_renderer_destroy(kept);
     kept = made;
     kept_for = key;
+    kept_by = build;
     /* After the device is opened, so that it is still there. */
     if (!is_dropped_at_exit)
         is_dropped_at_exit = atexit(drop) == 0;

@@ -27,16 +27,15 @@ void boundary_split(const rt_material_data *material, int channel, double cosine
                     double *refracted)
 {
     const double ks = material->ks[channel], kt = material->kt[channel];
-    const double share = dielectric_reflectance(cosine, eta);
-    *reflected = share >= 1 ? ks + kt : ks;
-    *refracted = share >= 1 ? 0 : kt;
     if (material->flags & RT_MATERIAL_CONDUCTOR) {
         *reflected = ks * metal_reflectance(cosine, material->eta[channel] / eta, material->k[channel] / eta);
         *refracted = 0;
-    } else if (material->flags & RT_MATERIAL_FRESNEL) {
-        *reflected = share * (ks + kt);
-        *refracted = (1 - share) * (ks + kt);
+        return;
     }
+    const double share = dielectric_reflectance(cosine, eta);
+    const int is_split = (material->flags & RT_MATERIAL_FRESNEL) || share >= 1;
+    *reflected = is_split ? share * (ks + kt) : ks;
+    *refracted = is_split ? (1 - share) * (ks + kt) : kt;
 }
 
 double facet_distribution(double alpha, const double h[3])
@@ -61,6 +60,8 @@ double visible_density(double alpha, const double wo[3], const double h[3])
 static double reflection_chance(const rt_material_data *material, double cosine, double eta)
 {
     double r = 0, t = 0, reflected, refracted;
+    if (material->flags & RT_MATERIAL_CONDUCTOR)
+        return 1;
     for (int c = 0; c < 3; c++) {
         boundary_split(material, c, cosine, eta, &reflected, &refracted);
         r += reflected;

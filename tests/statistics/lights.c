@@ -45,7 +45,7 @@ static sampled place_lamp(const void *setup, uint32_t i)
     return s;
 }
 
-/* Evenly by area, or by the solid angle of what faces the point. */
+/* Evenly by area, or by the solid angle of what faces the point. Of a mesh only from far, where no triangle is nearer. */
 static double of_lamp(const void *setup, double x, double y)
 {
     const viewed *v = setup;
@@ -92,6 +92,7 @@ static double of_sky(const void *setup, double u, double v)
 /* ---- Choice ---------------------------------------------------------------------- */
 
 enum { lamps = 37 };
+static const float beside_lamps[3] = {11.3f, 9, 4};
 
 static double power_of(int i)
 {
@@ -116,8 +117,7 @@ static rt_scene *many_lamps(const void *setup)
 
 static void draw_choice(const void *setup, uint32_t seed, uint32_t count)
 {
-    static const float from[3] = {0, 1, 0};
-    draw_many_lights(kept_renderer(setup, many_lamps), seed, from, count, draws);
+    draw_many_lights(kept_renderer(setup, many_lamps), seed, beside_lamps, count, draws);
 }
 
 static sampled place_choice(const void *setup, uint32_t i)
@@ -126,44 +126,39 @@ static sampled place_choice(const void *setup, uint32_t i)
     return (sampled){(draws[i].position[0] + 0.5) / lamps, 0.5, lamps / draws[i].spread};
 }
 
-static double by_power(const void *setup, double x, double y)
+static double by_chance(const void *setup, double x, double y)
 {
-    double sum = 0;
-    (void)setup, (void)y;
-    for (int i = 0; i < lamps; i++)
-        sum += power_of(i);
-    return lamps * power_of((int)floor(x * lamps)) / sum;
+    static float chances[lamps];
+    (void)y;
+    if (chances[0] == 0)
+        light_chances(kept_renderer(setup, many_lamps), beside_lamps, lamps, chances);
+    return lamps * (double)chances[(int)floor(x * lamps)];
 }
 
 /* ---- Table ----------------------------------------------------------------------- */
 
-static const viewed views[] = {
-    {EMIT_RECTANGLE, {2, 1.5f, 3.5f}, 1},     {EMIT_RECTANGLE, {-20, -30, 10}, 0}, {EMIT_PARALLELOGRAM, {2, 1, 3.5f}, 0},
-    {EMIT_MESH, {5, 1, 1}, 0},                {EMIT_SPHERE, {2, 4, 1.5f}, 1},      {EMIT_SPHERE, {0.5f, 0.7f, 0.1f}, 1},
-    {EMIT_SPHERE, {0.3f, 0.3f, -0.1f}, 0},    {EMIT_ELLIPSOID, {2, 4, 1.5f}, 0},   {EMIT_DISC, {2, 4, 1.5f}, 0},
-    {EMIT_TORUS, {2, 4, 1.5f}, 0},            {EMIT_PIPE, {2, 4, 1.5f}, 0},        {EMIT_CYLINDER, {2, 4, 1.5f}, 0},
-    {EMIT_CONE, {2, 4, 1.5f}, 0},             {EMIT_FRUSTUM, {2, 4, 1.5f}, 0},
-};
-static const int even = 0, pictured = 1, choice;
+static const method by_lamp = {draw_lamp, place_lamp, of_lamp, 1};
+static const method by_sky = {draw_sky, place_sky, of_sky, 1};
+static const method by_choice = {draw_choice, place_choice, by_chance, 0};
 
 static const routine routines[] = {
-    {"light: rectangle", 16, 16, draw_lamp, place_lamp, of_lamp, views, 1, 0},
-    {"light: rectangle, far", 16, 16, draw_lamp, place_lamp, of_lamp, views + 1, 0, 0},
-    {"light: parallelogram", 16, 16, draw_lamp, place_lamp, of_lamp, views + 2, 0, 0},
-    {"light: mesh", 48, 8, draw_lamp, place_lamp, of_lamp, views + 3, 0, 0},
-    {"light: sphere", 16, 16, draw_lamp, place_lamp, of_lamp, views + 4, 1, 0},
-    {"light: sphere, near", 16, 16, draw_lamp, place_lamp, of_lamp, views + 5, 1, 0},
-    {"light: sphere, from inside", 16, 16, draw_lamp, place_lamp, of_lamp, views + 6, 0, 0},
-    {"light: ellipsoid", 16, 16, draw_lamp, place_lamp, of_lamp, views + 7, 0, 0},
-    {"light: disc with a hole", 16, 16, draw_lamp, place_lamp, of_lamp, views + 8, 0, 0},
-    {"light: torus", 16, 16, draw_lamp, place_lamp, of_lamp, views + 9, 0, 0},
-    {"light: pipe", 16, 16, draw_lamp, place_lamp, of_lamp, views + 10, 0, 0},
-    {"light: cylinder", 24, 12, draw_lamp, place_lamp, of_lamp, views + 11, 0, 0},
-    {"light: cone", 24, 12, draw_lamp, place_lamp, of_lamp, views + 12, 0, 0},
-    {"light: frustum", 24, 12, draw_lamp, place_lamp, of_lamp, views + 13, 0, 0},
-    {"light: even sky", 16, 16, draw_sky, place_sky, of_sky, &even, 0, 0},
-    {"light: sky of a picture", 32, 16, draw_sky, place_sky, of_sky, &pictured, 1, 0},
-    {"choice of light", lamps, 1, draw_choice, place_choice, by_power, &choice, 0, 0},
+    {"light: rectangle", 16, 16, &by_lamp, &(const viewed){EMIT_RECTANGLE, {2, 1.5f, 3.5f}, 1}},
+    {"light: rectangle, far", 16, 16, &by_lamp, &(const viewed){EMIT_RECTANGLE, {-20, -30, 10}, 0}},
+    {"light: parallelogram", 16, 16, &by_lamp, &(const viewed){EMIT_PARALLELOGRAM, {2, 1, 3.5f}, 0}},
+    {"light: mesh, far", 48, 8, &by_lamp, &(const viewed){EMIT_MESH, {1e5f, -5e5f, 1e5f}, 0}},
+    {"light: sphere", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {2, 4, 1.5f}, 1}},
+    {"light: sphere, near", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {0.5f, 0.7f, 0.1f}, 1}},
+    {"light: sphere, from inside", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {0.3f, 0.3f, -0.1f}, 0}},
+    {"light: ellipsoid", 16, 16, &by_lamp, &(const viewed){EMIT_ELLIPSOID, {2, 4, 1.5f}, 0}},
+    {"light: disc with a hole", 16, 16, &by_lamp, &(const viewed){EMIT_DISC, {2, 4, 1.5f}, 0}},
+    {"light: torus", 16, 16, &by_lamp, &(const viewed){EMIT_TORUS, {2, 4, 1.5f}, 0}},
+    {"light: pipe", 16, 16, &by_lamp, &(const viewed){EMIT_PIPE, {2, 4, 1.5f}, 0}},
+    {"light: cylinder", 24, 12, &by_lamp, &(const viewed){EMIT_CYLINDER, {2, 4, 1.5f}, 0}},
+    {"light: cone", 24, 12, &by_lamp, &(const viewed){EMIT_CONE, {2, 4, 1.5f}, 0}},
+    {"light: frustum", 24, 12, &by_lamp, &(const viewed){EMIT_FRUSTUM, {2, 4, 1.5f}, 0}},
+    {"light: even sky", 16, 16, &by_sky, &(const int){0}},
+    {"light: sky of a picture", 32, 16, &by_sky, &(const int){1}},
+    {"choice of light", lamps, 1, &by_choice, NULL},
 };
 
 const routine_table light_routines = {routines, sizeof routines / sizeof *routines};

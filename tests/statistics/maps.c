@@ -143,7 +143,7 @@ static double cone_height(double distance)
     return sine2 / (1 + sqrt(1 - sine2));
 }
 
-/* From the viewer at that height over the sphere's centre: 1 - cos of the angle to the axis, and the angle around it. */
+/* As the viewer above the sphere's centre sees it: 1 - cos of the angle to the axis, and the angle around it. */
 static void draw_cap(const void *setup, uint32_t seed, uint32_t count)
 {
     const float distance = *(const float *)setup, radius = 1, d2 = distance * distance;
@@ -242,37 +242,36 @@ static double filter_magnitude(const void *setup, double x, double y)
 
 /* ---- Tables -------------------------------------------------------------------- */
 
-/* In front, close, beside, close over a corner, small, high. */
-static const rectangle rectangles[] = {
-    {{-0.5f, -0.5f, 1, 1}, 1},  {{-0.5f, -0.5f, 1, 1}, 0.05f},    {{0.7f, -0.2f, 1, 1}, 0.3f},
-    {{0.1f, 0.1f, 1, 1}, 0.1f}, {{1e-3f, 2e-3f, 1e-3f, 1e-3f}, 2e-3f}, {{0.25f, -4, 0.5f, 8}, 0.2f},
-};
-static const float distances[] = {1.001f, 1.1f, 2, 50};
-static const polygon triangular = {3, 0.1f}, pentagonal = {5, 0};
-static const uint32_t box = RT_FILTER_BOX, tent = RT_FILTER_TENT, gaussian = RT_FILTER_GAUSSIAN,
-                      mitchells = RT_FILTER_MITCHELL;
+static const method by_disc = {draw_disc, place_disc, disc, 0};
+static const method by_cosine = {draw_cosine, place_cosine, cosine, 0};
+static const method by_sphere = {draw_sphere, place_sphere, even, 0};
+static const method by_triangle = {draw_triangle, place_triangle, triangle, 0};
+static const method by_rectangle = {draw_rectangle, place_rectangle, by_solid_angle, 1};
+static const method by_cap = {draw_cap, place_cap, even, 0};
+static const method by_polygon = {draw_polygon, place_polygon, in_polygon, 0};
+static const method by_filter = {draw_filter, place_filter, filter_magnitude, 1};
 
 static const routine routines[] = {
-    {"disc", 16, 16, draw_disc, place_disc, disc, NULL, 0, 0},
-    {"cosine hemisphere", 16, 16, draw_cosine, place_cosine, cosine, NULL, 0, 0},
-    {"sphere", 16, 16, draw_sphere, place_sphere, even, NULL, 0, 0},
-    {"triangle", 16, 16, draw_triangle, place_triangle, triangle, NULL, 0, 0},
-    {"rectangle by solid angle", 16, 16, draw_rectangle, place_rectangle, by_solid_angle, rectangles, 1, 0},
-    {"rectangle, close", 16, 16, draw_rectangle, place_rectangle, by_solid_angle, rectangles + 1, 1, 0},
-    {"rectangle, from beside", 16, 16, draw_rectangle, place_rectangle, by_solid_angle, rectangles + 2, 1, 0},
-    {"rectangle, over a corner", 16, 16, draw_rectangle, place_rectangle, by_solid_angle, rectangles + 3, 1, 0},
-    {"rectangle, small", 16, 16, draw_rectangle, place_rectangle, by_solid_angle, rectangles + 4, 1, 0},
-    {"rectangle, high", 16, 16, draw_rectangle, place_rectangle, by_solid_angle, rectangles + 5, 1, 0},
-    {"cap of a sphere, close", 16, 16, draw_cap, place_cap, even, distances, 0, 0},
-    {"cap of a sphere, near", 16, 16, draw_cap, place_cap, even, distances + 1, 0, 0},
-    {"cap of a sphere", 16, 16, draw_cap, place_cap, even, distances + 2, 0, 0},
-    {"cap of a sphere, far", 16, 16, draw_cap, place_cap, even, distances + 3, 0, 0},
-    {"lens of 3 blades", 12, 24, draw_polygon, place_polygon, in_polygon, &triangular, 0, 0},
-    {"lens of 5 blades", 12, 20, draw_polygon, place_polygon, in_polygon, &pentagonal, 0, 0},
-    {"box filter", 32, 32, draw_filter, place_filter, filter_magnitude, &box, 1, 0},
-    {"tent filter", 24, 24, draw_filter, place_filter, filter_magnitude, &tent, 1, 0},
-    {"Gaussian filter", 16, 16, draw_filter, place_filter, filter_magnitude, &gaussian, 1, 0},
-    {"Mitchell filter", 24, 24, draw_filter, place_filter, filter_magnitude, &mitchells, 1, 0},
+    {"disc", 16, 16, &by_disc, NULL},
+    {"cosine hemisphere", 16, 16, &by_cosine, NULL},
+    {"sphere", 16, 16, &by_sphere, NULL},
+    {"triangle", 16, 16, &by_triangle, NULL},
+    {"rectangle by solid angle", 16, 16, &by_rectangle, &(const rectangle){{-0.5f, -0.5f, 1, 1}, 1}},
+    {"rectangle, close", 16, 16, &by_rectangle, &(const rectangle){{-0.5f, -0.5f, 1, 1}, 0.05f}},
+    {"rectangle, from beside", 16, 16, &by_rectangle, &(const rectangle){{0.7f, -0.2f, 1, 1}, 0.3f}},
+    {"rectangle, over a corner", 16, 16, &by_rectangle, &(const rectangle){{0.1f, 0.1f, 1, 1}, 0.1f}},
+    {"rectangle, small", 16, 16, &by_rectangle, &(const rectangle){{1e-3f, 2e-3f, 1e-3f, 1e-3f}, 2e-3f}},
+    {"rectangle, high", 16, 16, &by_rectangle, &(const rectangle){{0.25f, -4, 0.5f, 8}, 0.2f}},
+    {"cap of a sphere, close", 16, 16, &by_cap, &(const float){1.001f}},
+    {"cap of a sphere, near", 16, 16, &by_cap, &(const float){1.1f}},
+    {"cap of a sphere", 16, 16, &by_cap, &(const float){2}},
+    {"cap of a sphere, far", 16, 16, &by_cap, &(const float){50}},
+    {"lens of 3 blades", 12, 24, &by_polygon, &(const polygon){3, 0.1f}},
+    {"lens of 5 blades", 12, 20, &by_polygon, &(const polygon){5, 0}},
+    {"box filter", 32, 32, &by_filter, &(const uint32_t){RT_FILTER_BOX}},
+    {"tent filter", 24, 24, &by_filter, &(const uint32_t){RT_FILTER_TENT}},
+    {"Gaussian filter", 16, 16, &by_filter, &(const uint32_t){RT_FILTER_GAUSSIAN}},
+    {"Mitchell filter", 24, 24, &by_filter, &(const uint32_t){RT_FILTER_MITCHELL}},
 };
 
 const routine_table map_routines = {routines, sizeof routines / sizeof *routines};

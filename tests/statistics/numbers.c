@@ -57,24 +57,21 @@ static double even(const void *setup, double x, double y)
 
 enum { S = RT_SAMPLER_SOBOL, I = RT_SAMPLER_INDEPENDENT };
 
-static const choice choices[] = {
-    {S, 1, 0, 0, 1}, {S, 1, 3, 2, 3}, {S, 1, 2, 0, 4}, {S, 0, 0, 0, 1}, {S, 0, 3, 2, 3}, {S, 0, 2, 0, 4},
-    {I, 1, 0, 0, 1}, {I, 1, 3, 2, 3}, {I, 1, 2, 0, 4}, {I, 0, 0, 0, 1}, {I, 0, 3, 2, 3}, {I, 0, 2, 0, 4},
-};
+static const method by_numbers = {draw_numbers, place_numbers, even, 0};
 
 static const routine routines[] = {
-    {"Sobol, x and y", 32, 32, draw_numbers, place_numbers, even, choices, 0, 0},
-    {"Sobol, z and w", 32, 32, draw_numbers, place_numbers, even, choices + 1, 0, 0},
-    {"Sobol, x of two sets", 32, 32, draw_numbers, place_numbers, even, choices + 2, 0, 0},
-    {"Sobol over streams, x and y", 32, 32, draw_numbers, place_numbers, even, choices + 3, 0, 0},
-    {"Sobol over streams, z and w", 32, 32, draw_numbers, place_numbers, even, choices + 4, 0, 0},
-    {"Sobol over streams, x of two sets", 32, 32, draw_numbers, place_numbers, even, choices + 5, 0, 0},
-    {"independent, x and y", 32, 32, draw_numbers, place_numbers, even, choices + 6, 0, 0},
-    {"independent, z and w", 32, 32, draw_numbers, place_numbers, even, choices + 7, 0, 0},
-    {"independent, x of two sets", 32, 32, draw_numbers, place_numbers, even, choices + 8, 0, 0},
-    {"independent over streams, x and y", 32, 32, draw_numbers, place_numbers, even, choices + 9, 0, 0},
-    {"independent over streams, z and w", 32, 32, draw_numbers, place_numbers, even, choices + 10, 0, 0},
-    {"independent over streams, x of two sets", 32, 32, draw_numbers, place_numbers, even, choices + 11, 0, 0},
+    {"Sobol, x and y", 32, 32, &by_numbers, &(const choice){S, 1, 0, 0, 1}},
+    {"Sobol, z and w", 32, 32, &by_numbers, &(const choice){S, 1, 3, 2, 3}},
+    {"Sobol, x of two sets", 32, 32, &by_numbers, &(const choice){S, 1, 2, 0, 4}},
+    {"Sobol over streams, x and y", 32, 32, &by_numbers, &(const choice){S, 0, 0, 0, 1}},
+    {"Sobol over streams, z and w", 32, 32, &by_numbers, &(const choice){S, 0, 3, 2, 3}},
+    {"Sobol over streams, x of two sets", 32, 32, &by_numbers, &(const choice){S, 0, 2, 0, 4}},
+    {"independent, x and y", 32, 32, &by_numbers, &(const choice){I, 1, 0, 0, 1}},
+    {"independent, z and w", 32, 32, &by_numbers, &(const choice){I, 1, 3, 2, 3}},
+    {"independent, x of two sets", 32, 32, &by_numbers, &(const choice){I, 1, 2, 0, 4}},
+    {"independent over streams, x and y", 32, 32, &by_numbers, &(const choice){I, 0, 0, 0, 1}},
+    {"independent over streams, z and w", 32, 32, &by_numbers, &(const choice){I, 0, 3, 2, 3}},
+    {"independent over streams, x of two sets", 32, 32, &by_numbers, &(const choice){I, 0, 2, 0, 4}},
 };
 
 const routine_table number_routines = {routines, sizeof routines / sizeof *routines};

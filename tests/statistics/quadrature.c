@@ -4,8 +4,6 @@
 
 enum { deepest = 9, always = 2 }; /* halvings: at most, and at least, so that no corner is overlooked */
 
-static const double near = 1e-8;
-
 /* Three points each way. */
 static double gauss(integrand f, const void *of, double x0, double y0, double x1, double y1)
 {
@@ -20,18 +18,20 @@ static double gauss(integrand f, const void *of, double x0, double y0, double x1
 }
 
 /* Refines an estimate until its quarters agree with it. */
-static double refined(integrand f, const void *of, double x0, double y0, double x1, double y1, double whole, int depth)
+static double refined(integrand f, const void *of, double x0, double y0, double x1, double y1, double whole, int depth,
+                      double near)
 {
     const double x = 0.5 * (x0 + x1), y = 0.5 * (y0 + y1);
     const double a = gauss(f, of, x0, y0, x, y), b = gauss(f, of, x, y0, x1, y);
     const double c = gauss(f, of, x0, y, x, y1), d = gauss(f, of, x, y, x1, y1);
     if (depth == 0 || (depth <= deepest - always && fabs(a + b + c + d - whole) < near))
         return a + b + c + d;
-    return refined(f, of, x0, y0, x, y, a, depth - 1) + refined(f, of, x, y0, x1, y, b, depth - 1) +
-           refined(f, of, x0, y, x, y1, c, depth - 1) + refined(f, of, x, y, x1, y1, d, depth - 1);
+    depth--;
+    return refined(f, of, x0, y0, x, y, a, depth, near) + refined(f, of, x, y0, x1, y, b, depth, near) +
+           refined(f, of, x0, y, x, y1, c, depth, near) + refined(f, of, x, y, x1, y1, d, depth, near);
 }
 
-double integral(integrand f, const void *of, double x0, double y0, double x1, double y1)
+double integral(integrand f, const void *of, double x0, double y0, double x1, double y1, double near)
 {
-    return refined(f, of, x0, y0, x1, y1, gauss(f, of, x0, y0, x1, y1), deepest);
+    return refined(f, of, x0, y0, x1, y1, gauss(f, of, x0, y0, x1, y1), deepest, near);
 }

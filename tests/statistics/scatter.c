@@ -148,8 +148,6 @@ static double of_surface(const void *setup, double x, double y)
 
 /* ---- Table ------------------------------------------------------------------------------ */
 
-static const facets normals[] = {{1e-3f, 0.9}, {0.05f, 0.1}, {0.3f, 0.6}, {0.3f, 0.05}, {1, 0.2}};
-
 #define ALL(v) {v, v, v}
 #define MIXED .kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f}
 #define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
@@ -157,7 +155,8 @@ static const facets normals[] = {{1e-3f, 0.9}, {0.05f, 0.1}, {0.3f, 0.6}, {0.3f,
 
 static const rt_material_data matte = {.kd = ALL(0.5f)}, mixture = {MIXED},
                               with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL},
-                              gilded = {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD},
+                              ore = {.kd = ALL(0.3f), .ks = ALL(0.7f), .eta = ALL(1.5f), .k = ALL(1),
+                                     .flags = RT_MATERIAL_CONDUCTOR},
                               gold1 = {.ks = ALL(1), GOLD, .roughness = 0.1f},
                               gold5 = {.ks = ALL(1), GOLD, .roughness = 0.5f},
                               gold10 = {.ks = ALL(1), GOLD, .roughness = 1},
@@ -170,46 +169,41 @@ static const rt_material_data matte = {.kd = ALL(0.5f)}, mixture = {MIXED},
 #define INTO (1 / 1.5)
 #define OUT_OF 1.5
 
-static const surface surfaces[] = {
-    {&matte, 0.6, 1, DIFFUSE},            {&mixture, 0.6, INTO, EVENTS},        {&mixture, 0.6, INTO, DIFFUSE},
-    {&with_fresnel, 0.3, INTO, EVENTS},   {&with_fresnel, 0.9, OUT_OF, EVENTS}, {&with_fresnel, 0.3, OUT_OF, EVENTS},
-    {&gilded, 0.3, 1, EVENTS},            {&gold1, 0.9, 1, ROUGH},              {&gold1, 0.4, 1.33, ROUGH},
-    {&gold5, 0.9, 1, ROUGH},              {&gold5, 0.2, 1, ROUGH},              {&gold10, 0.7, 1, ROUGH},
-    {&glass1, 0.9, INTO, ROUGH},          {&glass1, 0.6, OUT_OF, ROUGH},        {&glass4, 0.8, INTO, ROUGH},
-    {&glass4, 0.3, OUT_OF, ROUGH},        {&glass10, 0.7, INTO, ROUGH},         {&glass10, 0.7, OUT_OF, ROUGH},
-    {&rough_mixture, 0.7, INTO, DIFFUSE}, {&rough_mixture, 0.7, INTO, ROUGH},   {&rough_with_fresnel, 0.4, OUT_OF, ROUGH},
-    {&rough_gilded, 0.5, 1, DIFFUSE},     {&rough_gilded, 0.5, 1, ROUGH},
-};
+static const method by_normals = {draw_normals, place_normals, of_normals, 0};
+static const method by_surface = {draw_surface, place_surface, of_surface, 0};
 
 static const routine routines[] = {
-    {"facets that are seen, alpha 0.001", 16, 16, draw_normals, place_normals, of_normals, normals, 0, 0},
-    {"facets that are seen, alpha 0.05, grazing", 16, 16, draw_normals, place_normals, of_normals, normals + 1, 0, 0},
-    {"facets that are seen, alpha 0.3", 16, 16, draw_normals, place_normals, of_normals, normals + 2, 0, 0},
-    {"facets that are seen, alpha 0.3, grazing", 16, 16, draw_normals, place_normals, of_normals, normals + 3, 0, 0},
-    {"facets that are seen, alpha 1, grazing", 16, 16, draw_normals, place_normals, of_normals, normals + 4, 0, 0},
-    {"matte", 16, 16, draw_surface, place_surface, of_surface, surfaces, 0, 0},
-    {"mixture, events", event_count, 1, draw_surface, place_surface, of_surface, surfaces + 1, 0, 0},
-    {"mixture, diffuse", 16, 16, draw_surface, place_surface, of_surface, surfaces + 2, 0, 0},
-    {"mixture with Fresnel, events", event_count, 1, draw_surface, place_surface, of_surface, surfaces + 3, 0, 0},
-    {"mixture with Fresnel, events inside", event_count, 1, draw_surface, place_surface, of_surface, surfaces + 4, 0, 0},
-    {"mixture with Fresnel, total reflection", event_count, 1, draw_surface, place_surface, of_surface, surfaces + 5, 0, 0},
-    {"metal over matte, events", event_count, 1, draw_surface, place_surface, of_surface, surfaces + 6, 0, 0},
-    {"rough metal, alpha 0.1", 32, 32, draw_surface, place_surface, of_surface, surfaces + 7, 0, 5e-3},
-    {"rough metal in water, alpha 0.1", 32, 32, draw_surface, place_surface, of_surface, surfaces + 8, 0, 5e-3},
-    {"rough metal, alpha 0.5", 32, 32, draw_surface, place_surface, of_surface, surfaces + 9, 0, 0},
-    {"rough metal, alpha 0.5, grazing", 32, 32, draw_surface, place_surface, of_surface, surfaces + 10, 0, 0},
-    {"rough metal, alpha 1", 32, 32, draw_surface, place_surface, of_surface, surfaces + 11, 0, 0},
-    {"rough glass, alpha 0.1", 32, 32, draw_surface, place_surface, of_surface, surfaces + 12, 0, 5e-3},
-    {"rough glass from inside, alpha 0.1", 32, 32, draw_surface, place_surface, of_surface, surfaces + 13, 0, 5e-3},
-    {"rough glass, alpha 0.4", 32, 32, draw_surface, place_surface, of_surface, surfaces + 14, 0, 0},
-    {"rough glass from inside, alpha 0.4", 32, 32, draw_surface, place_surface, of_surface, surfaces + 15, 0, 0},
-    {"rough glass, alpha 1", 32, 32, draw_surface, place_surface, of_surface, surfaces + 16, 0, 0},
-    {"rough glass from inside, alpha 1", 32, 32, draw_surface, place_surface, of_surface, surfaces + 17, 0, 0},
-    {"rough mixture, diffuse", 16, 16, draw_surface, place_surface, of_surface, surfaces + 18, 0, 0},
-    {"rough mixture, rough", 32, 32, draw_surface, place_surface, of_surface, surfaces + 19, 0, 0},
-    {"rough mixture with Fresnel, rough", 32, 32, draw_surface, place_surface, of_surface, surfaces + 20, 0, 0},
-    {"rough metal over matte, diffuse", 16, 16, draw_surface, place_surface, of_surface, surfaces + 21, 0, 0},
-    {"rough metal over matte, rough", 32, 32, draw_surface, place_surface, of_surface, surfaces + 22, 0, 0},
+    {"facets that are seen, alpha 0.001", 16, 16, &by_normals, &(const facets){1e-3f, 0.9}},
+    {"facets that are seen, alpha 0.05, grazing", 16, 16, &by_normals, &(const facets){0.05f, 0.1}},
+    {"facets that are seen, alpha 0.3", 16, 16, &by_normals, &(const facets){0.3f, 0.6}},
+    {"facets that are seen, alpha 0.3, grazing", 16, 16, &by_normals, &(const facets){0.3f, 0.05}},
+    {"facets that are seen, alpha 1, grazing", 16, 16, &by_normals, &(const facets){1, 0.2}},
+    {"matte", 16, 16, &by_surface, &(const surface){&matte, 0.6, 1, DIFFUSE}},
+    {"mixture, events", event_count, 1, &by_surface, &(const surface){&mixture, 0.6, INTO, EVENTS}},
+    {"mixture, diffuse", 16, 16, &by_surface, &(const surface){&mixture, 0.6, INTO, DIFFUSE}},
+    {"mixture with Fresnel, events", event_count, 1, &by_surface, &(const surface){&with_fresnel, 0.3, INTO, EVENTS}},
+    {"mixture with Fresnel, events inside", event_count, 1, &by_surface,
+     &(const surface){&with_fresnel, 0.9, OUT_OF, EVENTS}},
+    {"mixture with Fresnel, total reflection", event_count, 1, &by_surface,
+     &(const surface){&with_fresnel, 0.3, OUT_OF, EVENTS}},
+    {"ore in water, events", event_count, 1, &by_surface, &(const surface){&ore, 0.9, 1.33, EVENTS}},
+    {"rough metal, alpha 0.1", 32, 32, &by_surface, &(const surface){&gold1, 0.9, 1, ROUGH}},
+    {"rough metal in water, alpha 0.1", 32, 32, &by_surface, &(const surface){&gold1, 0.4, 1.33, ROUGH}},
+    {"rough metal, alpha 0.5", 32, 32, &by_surface, &(const surface){&gold5, 0.9, 1, ROUGH}},
+    {"rough metal, alpha 0.5, grazing", 32, 32, &by_surface, &(const surface){&gold5, 0.2, 1, ROUGH}},
+    {"rough metal, alpha 1", 32, 32, &by_surface, &(const surface){&gold10, 0.7, 1, ROUGH}},
+    {"rough glass, alpha 0.1", 32, 32, &by_surface, &(const surface){&glass1, 0.9, INTO, ROUGH}},
+    {"rough glass from inside, alpha 0.1", 32, 32, &by_surface, &(const surface){&glass1, 0.6, OUT_OF, ROUGH}},
+    {"rough glass, alpha 0.4", 32, 32, &by_surface, &(const surface){&glass4, 0.8, INTO, ROUGH}},
+    {"rough glass from inside, alpha 0.4", 32, 32, &by_surface, &(const surface){&glass4, 0.3, OUT_OF, ROUGH}},
+    {"rough glass, alpha 1", 32, 32, &by_surface, &(const surface){&glass10, 0.7, INTO, ROUGH}},
+    {"rough glass from inside, alpha 1", 32, 32, &by_surface, &(const surface){&glass10, 0.7, OUT_OF, ROUGH}},
+    {"rough mixture, diffuse", 16, 16, &by_surface, &(const surface){&rough_mixture, 0.7, INTO, DIFFUSE}},
+    {"rough mixture, rough", 32, 32, &by_surface, &(const surface){&rough_mixture, 0.7, INTO, ROUGH}},
+    {"rough mixture with Fresnel, rough", 32, 32, &by_surface,
+     &(const surface){&rough_with_fresnel, 0.4, OUT_OF, ROUGH}},
+    {"rough metal over matte, diffuse", 16, 16, &by_surface, &(const surface){&rough_gilded, 0.5, 1, DIFFUSE}},
+    {"rough metal over matte, rough", 32, 32, &by_surface, &(const surface){&rough_gilded, 0.5, 1, ROUGH}},
 };
 
 const routine_table scatter_routines = {routines, sizeof routines / sizeof *routines};

@@ -156,7 +156,7 @@ static void densities_are_of_what_happens(void **state)
 
 /* ---- Reciprocity ------------------------------------------------------------------------- */
 
-/* fr(wo, wi) = fr(wi, wo), and across the boundary fr(wo, wi) / n_o^2 = fr(wi, wo) / n_i^2 (Veach 1997, section 5.2). */
+/* fr(wo, wi) = fr(wi, wo), and through a boundary fr(wo, wi) / n_o^2 = fr(wi, wo) / n_i^2 (Veach 1997, section 5.2). */
 static void light_goes_both_ways_alike(void **state)
 {
     enum { pairs = 1 << 14 };

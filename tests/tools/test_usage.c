@@ -310,13 +310,13 @@ static void options_and_fields_are_the_same(void **state)
     expect_out(&run, "\n  --accel ");
     expect_out(&run, "\n  --photon-map ");
 
-    /* What is behind is about the output, --aov among it. */
+    /* What is behind is about the output, --aov and --variance among it. */
     char *end = strstr(run.out, "\nOutput:\n");
-    assert_true(end && strstr(end, "\n  --aov"));
+    assert_true(end && strstr(end, "\n  --aov") && strstr(end, "\n  --variance"));
     *end = '\0';
     for (const char *at = run.out; (at = strstr(at, "\n  --")) != NULL; at++)
         options++;
-    assert_int_equal(options, film->field_count + render->field_count - 1 + 2);
+    assert_int_equal(options, film->field_count + render->field_count - 2 + 2);
     run_free(&run);
 }
 

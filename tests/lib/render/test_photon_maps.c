@@ -368,6 +368,32 @@ static void starved_lights_and_maps_are_told(void **state)
     rt_renderer_destroy(renderer);
 }
 
+static void light_that_does_not_reach_planes_is_told(void **state)
+{
+    static const char sun[] = "light directional { direction 0 -1 0  irradiance 1 }\n",
+                      floor[] = "plane { point 0 -2 0  normal 0 1 0  material wall }\n",
+                      bulb[] = "light point { position 0 0 0.5  power 1 }\n", *const rooms[] = {floor, "", floor},
+                      *const lights[] = {sun, sun, bulb};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char text[2000], warnings[2000] = "";
+        rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+        rt_render_options render = {.photons = 2000, .mode = RT_MODE_PHOTON, .width = 4, .height = 4, .hooks = &hooks};
+        rt_emit_options options = {.render = &render};
+        rt_film *film = NULL;
+        rt_error error;
+        snprintf(text, sizeof text, "%s%s%scamera { eye 0 0 -0.9  look_at 0 0 0 }\n", ROOM, rooms[i], lights[i]);
+        rt_renderer *renderer = open_text(text);
+        rt_photon_map_destroy(emit(renderer, &options));
+        assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
+        warnings[0] = '\0';
+        expect_ok(rt_render(&film, renderer, &render, &error), &error);
+        assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
+        rt_film_destroy(film);
+        rt_renderer_destroy(renderer);
+    }
+}
+
 /* ---- Scenes -------------------------------------------------------------------------- */
 
 static uint64_t fingerprint(const char *text, rt_accel accel)
@@ -580,6 +606,7 @@ int main(void)
         cmocka_unit_test(shares_move_paths_but_not_flux),
         cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(starved_lights_and_maps_are_told),
+        cmocka_unit_test(light_that_does_not_reach_planes_is_told),
         cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter, scratch_leave),
         cmocka_unit_test(stored_flux_is_what_path_tracing_says),
         cmocka_unit_test(irradiance_is_flux_over_area),
