@@ -16,6 +16,7 @@ set -u
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 work=${RT_MUTATION_DIR:-$root/build/mutation}
+mkdir -p "$work" && work=$(cd "$work" && pwd) || exit 2
 tree=$work/tree
 log=$work/log
 table=$here/mutations.txt
