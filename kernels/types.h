@@ -294,6 +294,8 @@ RT_SIZE(rt_scene_header, 384);
 
 /* ---- Rendering ---------------------------------------------------------- */
 
+#define RT_PATH_BATCH 8u /* pixels that a work-item of path tracing takes, whose paths it follows together */
+
 /* The parameters of a launch, for every kernel that makes paths. */
 typedef struct rt_params {
     rt_u32 width, height; /* film, pixels */
