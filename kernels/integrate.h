@@ -26,15 +26,10 @@
 #include "bsdf.h"
 #include "light.h"
 #include "medium.h"
+#include "path_state.h"
+#include "plain.h"
 #include "rng.h"
 #include "traverse.h"
-
-/*
- * The first vertex of a path, counted from 0, at which roulette may end it. Measured variance times time in closed
- * rooms of albedo 0.7: under an area lamp 1 and 2 are equal and 3 is a tenth worse, under a point light 2 and 3 are
- * 15 to 25 % better. 1 gives the most samples a second.
- */
-#define RT_ROULETTE_VERTEX 1u
 
 /* Where an eye path asks photon maps. */
 struct gather {
@@ -94,29 +89,6 @@ static inline float3 counted(const rt_params *params, const struct light_sample 
         return lobe.value;
     return lobe.value * mis_weight(params, RT_ESTIMATOR_LIGHT, lobe.pdf_w * sample->spread);
 }
-
-/* A path under way: what it carries from one vertex to the next. */
-struct path {
-    struct sampler sampler;
-    struct ray ray;   /* of unit direction */
-    float3 from;      /* the vertex before: where the ray began */
-    float3 radiance;  /* gathered so far */
-    float3 beta;      /* throughput, without the change of radiance at refraction */
-    float squeeze;    /* which is kept here, and means nothing to roulette */
-    float pdf_w;      /* density of the ray's direction, 0 for the camera and delta events */
-    uint4 media;      /* the solids it is inside of */
-    uint depth;       /* segments, the one under way included; 0: the path has ended */
-    uint hidden;      /* boundaries crossed that a stronger medium hides */
-    uint diffuse_events;
-    bool scattered;   /* by an event other than a delta one */
-    bool rough;       /* by a rough event since the last diffuse one */
-};
-
-/* A vertex joined with a sampled point of a light, before it is known whether anything is in between. */
-struct connection {
-    struct ray ray;
-    float3 radiance; /* that the light adds to the path's; 0: there is nothing to ask */
-};
 
 /*
  * Joins a vertex with one sampled point of a light, whose light goes by way of the surface to wo. Diffuse light stands
@@ -311,12 +283,20 @@ static inline void follow_paths(const struct scene *scene, const rt_params *para
         if (paths[i].depth)
             numbers[i] = sampler_pair(&paths[i].sampler, set_light(paths[i].depth - 1u));
 
-    /* Scatter. */
+    /* Scatter, plain vertices together and the others one by one. */
+    struct plain plain;
+    uint are_plain = 0u;
     for (uint i = 0u; i < count; i++) {
         connections[i].radiance = (float3)(0.0f);
-        if (paths[i].depth)
+        if (!paths[i].depth)
+            continue;
+        if (purpose == FOLLOW_ALL && plain_take(&plain, i, scene, params, &paths[i], &hits[i], numbers[i].s2))
+            are_plain |= 1u << i;
+        else
             path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], purpose, gather);
     }
+    if (are_plain)
+        plain_vertices(&plain, are_plain, paths, hits, numbers, connections);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < count; i++)

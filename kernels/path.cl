@@ -1,64 +1,71 @@
 /*
- * path.cl - path tracing: each work-item takes the samples of RT_PATH_BATCH pixels, those of a pixel in order.
+ * path.cl - path tracing: each work-item takes the samples of RT_PATH_PIXELS pixels, RT_PATH_BATCH at a time, those of
+ * a pixel in order.
  */
 #include "camera.h"
 #include "film.h"
 #include "integrate.h"
 
-/* A pixel of the work-item, and the path of its sample under way. */
-struct pixel {
-    uint2 at;
-    uint index; /* in the film */
-    uint sample;
+/* The sample that a path is of. */
+struct sample {
+    uint2 at;     /* pixel */
+    uint index;   /* of the pixel in the film */
+    uint number;
     float weight;
 };
 
-static inline void begin_sample(const struct scene *scene, const rt_params *params, struct pixel *pixel,
-                                struct path *path)
+/*
+ * Begins the next sample of the pixel, or the first of the next item in line; false when there is none.
+ */
+static inline bool next_sample(const struct scene *scene, const rt_params *params, uint *item, uint end,
+                               struct sample *sample, struct path *path)
 {
-    const struct sampler sampler = sampler_start(scene, params, pixel->index, pixel->sample);
-    const struct ray ray = pixel_ray(&scene->header->camera, params, &sampler, pixel->at, &pixel->weight);
+    if (++sample->number - params->first_sample >= params->sample_count) {
+        if (*item == end)
+            return false;
+        sample->at = pixel_of_item(params, params->first_item + (*item)++);
+        sample->index = sample->at.y * params->width + sample->at.x;
+        sample->number = params->first_sample;
+    }
+    const struct sampler sampler = sampler_start(scene, params, sample->index, sample->number);
+    const struct ray ray = pixel_ray(&scene->header->camera, params, &sampler, sample->at, &sample->weight);
     path_begin(path, scene, &sampler, ray);
+    return true;
 }
 
-/* Adds the samples of a launch to `count` pixels, one for each path. */
-INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *params, struct pixel *pixels, uint count,
+/* Adds a launch's samples to the pixels of the items from `item` to before `end`. */
+INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *params, uint item, uint end,
                                 global rt_film_pixel *film)
 {
+    struct sample samples[RT_PATH_BATCH];
     struct path paths[RT_PATH_BATCH];
-    const uint end = params->first_sample + params->sample_count;
+    uint going = 0u; /* a bit for each path under way */
 
-    for (uint i = 0u; i < count; i++)
-        begin_sample(scene, params, &pixels[i], &paths[i]);
-    for (uint going = count; going;) {
-        follow_paths(scene, params, paths, count, FOLLOW_ALL, 0);
-        for (uint i = 0u; i < count; i++) {
-            if (paths[i].depth || pixels[i].sample == end)
+    for (uint i = 0u; i < RT_PATH_BATCH; i++) {
+        samples[i].number = params->first_sample + params->sample_count - 1u;
+        paths[i].depth = 0u;
+        if (next_sample(scene, params, &item, end, &samples[i], &paths[i]))
+            going |= 1u << i;
+    }
+    while (going) {
+        follow_paths(scene, params, paths, RT_PATH_BATCH, FOLLOW_ALL, 0);
+        for (uint i = 0u; i < RT_PATH_BATCH; i++) {
+            if (paths[i].depth || !(going >> i & 1u))
                 continue;
-            rt_film_pixel sum = film[pixels[i].index];
-            film_add(&sum, paths[i].radiance, pixels[i].weight);
-            film[pixels[i].index] = sum;
-            if (++pixels[i].sample < end)
-                begin_sample(scene, params, &pixels[i], &paths[i]);
-            else
-                going--;
+            rt_film_pixel pixel = film[samples[i].index];
+            film_add(&pixel, paths[i].radiance, samples[i].weight);
+            film[samples[i].index] = pixel;
+            if (!next_sample(scene, params, &item, end, &samples[i], &paths[i]))
+                going ^= 1u << i;
         }
     }
 }
 
 kernel void path(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
 {
-    const uint item = (uint)get_global_id(0) * RT_PATH_BATCH;
+    const uint item = (uint)get_global_id(0) * RT_PATH_PIXELS;
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);
-    struct pixel pixels[RT_PATH_BATCH];
-    const uint count = min(RT_PATH_BATCH, params.item_count - item);
-
-    for (uint i = 0u; i < count; i++) {
-        pixels[i].at = pixel_of_item(&params, params.first_item + item + i);
-        pixels[i].index = pixels[i].at.y * params.width + pixels[i].at.x;
-        pixels[i].sample = params.first_sample;
-    }
-    sample_pixels(&scene, &params, pixels, count, film);
+    sample_pixels(&scene, &params, item, min(item + RT_PATH_PIXELS, params.item_count), film);
 }

@@ -143,7 +143,7 @@ rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *opti
     r.renderer = renderer;
     r.options = options;
     r.film = film;
-    r.batch = options->mode == RT_MODE_PATH ? RT_PATH_BATCH : 1;
+    r.batch = options->mode == RT_MODE_PATH ? RT_PATH_PIXELS : 1;
     rt_status status =
         rt_buffer_create(renderer->device, &r.pixels, CL_MEM_READ_WRITE, bytes, film->pixels, "the film", error);
     if (status == RT_OK)
