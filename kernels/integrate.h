@@ -25,9 +25,9 @@
 
 #include "bsdf.h"
 #include "light.h"
+#include "matte.h"
 #include "medium.h"
 #include "path_state.h"
-#include "plain.h"
 #include "rng.h"
 #include "traverse.h"
 
@@ -270,6 +270,7 @@ static inline void follow_paths(const struct scene *scene, const rt_params *para
     struct hit hits[RT_PATH_BATCH];
     float8 numbers[RT_PATH_BATCH];
     struct connection connections[RT_PATH_BATCH];
+    const bool together = purpose == FOLLOW_ALL && params->estimator == RT_ESTIMATOR_MIS;
 
     /* Find the nearest surfaces. */
     for (uint i = 0u; i < count; i++) {
@@ -283,20 +284,18 @@ static inline void follow_paths(const struct scene *scene, const rt_params *para
         if (paths[i].depth)
             numbers[i] = sampler_pair(&paths[i].sampler, set_light(paths[i].depth - 1u));
 
-    /* Scatter, plain vertices together and the others one by one. */
-    struct plain plain;
-    uint are_plain = 0u;
+    /* Scatter, on matte surfaces all together, on others one by one. */
+    struct matte matte;
+    matte_begin(&matte);
     for (uint i = 0u; i < count; i++) {
         connections[i].radiance = (float3)(0.0f);
         if (!paths[i].depth)
             continue;
-        if (purpose == FOLLOW_ALL && plain_take(&plain, i, scene, params, &paths[i], &hits[i], numbers[i].s2))
-            are_plain |= 1u << i;
-        else
+        if (!together || !matte_take(&matte, i, scene, params, &paths[i], &hits[i], numbers[i].s2))
             path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], purpose, gather);
     }
-    if (are_plain)
-        plain_vertices(&plain, are_plain, paths, hits, numbers, connections);
+    if (matte.taken)
+        matte_vertices(scene, &matte, paths, hits, numbers, connections);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < count; i++)

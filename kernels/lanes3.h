@@ -66,6 +66,13 @@ static inline float8 length8(struct lanes3 a)
     return sqrt(dot8(a, a));
 }
 
+/* b in the lanes where `first` is false. */
+static inline struct lanes3 select8(int8 first, struct lanes3 a, struct lanes3 b)
+{
+    const struct lanes3 chosen = {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+    return chosen;
+}
+
 static inline float8 largest8(struct lanes3 a)
 {
     return lane_max(lane_max(a.x, a.y), a.z);

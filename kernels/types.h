@@ -100,8 +100,9 @@ RT_SIZE(rt_hit, 32);
 #define RT_SHAPE_COLOUR 4u    /* flag: its vertices have colours */
 #define RT_SHAPE_CAPS 8u      /* flag: cylinder and cone are closed */
 #define RT_SHAPE_MIRRORED 16u /* flag of triangles and quads: in world space the normal is (v2 - v0) x (v1 - v0) */
-#define RT_SHAPE_PLAIN 64u   /* flag: flat triangles or quads in world space that are evenly diffuse and do not shine */
 #define RT_SHAPE_VARIED 32u   /* flag: textures, vertex colours or bumps make the material differ from point to point */
+#define RT_SHAPE_MATTE 64u    /* flag: only diffuse, and does not shine */
+#define RT_SHAPE_FLAT 128u    /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 
 typedef struct rt_shape {
     rt_u32 kind;       /* RT_SHAPE_* */
@@ -194,7 +195,7 @@ RT_SIZE(rt_texture_data, 80);
 
 #define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
-#define RT_LIGHT_PLAIN 4u     /* flag: a quad or triangle without a texture, sampled by area from everywhere */
+#define RT_LIGHT_BY_AREA 4u   /* flag: a triangle or skewed quad without a texture: sampled by area from everywhere */
 
 typedef struct rt_light_data {
     float a[3];
