@@ -272,17 +272,14 @@ static inline void follow_paths(const struct scene *scene, const rt_params *para
     struct connection connections[RT_PATH_BATCH];
     const bool together = purpose == FOLLOW_ALL && params->estimator == RT_ESTIMATOR_MIS;
 
-    /* Find the nearest surfaces. */
+    /* Find the nearest surfaces, and draw the numbers of the vertices there: that fills the time of waiting. */
     for (uint i = 0u; i < count; i++) {
-        hits[i].prim = RT_NONE;
-        if (paths[i].depth && !closest_hit(scene, &paths[i].ray, &hits[i]))
+        if (!paths[i].depth)
+            continue;
+        numbers[i] = sampler_pair(&paths[i].sampler, set_light(paths[i].depth - 1u));
+        if (!closest_hit(scene, &paths[i].ray, &hits[i]))
             path_escape(scene, params, &paths[i], purpose);
     }
-
-    /* Draw the numbers of the vertices there. */
-    for (uint i = 0u; i < count; i++)
-        if (paths[i].depth)
-            numbers[i] = sampler_pair(&paths[i].sampler, set_light(paths[i].depth - 1u));
 
     /* Scatter, on matte surfaces all together, on others one by one. */
     struct matte matte;
