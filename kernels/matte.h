@@ -182,7 +182,7 @@ static inline void sample_lights(const struct scene *scene, uint wanted, struct 
     }
 }
 
-/* Takes those lanes from samples; `counted` is 0 where no other technique can find the light. */
+/* Takes those lanes from samples. */
 static inline void take_samples(struct matte_light *light, const struct light_sample *samples, uint taken)
 {
     const uint stride = sizeof(struct light_sample) / 4u;
@@ -242,7 +242,9 @@ static inline struct lanes3 sample_cosine8(float8 u, float8 v)
     const float8 angle = 0.25f * RT_PI * (wide ? y : x) / (r == 0.0f ? (float8)(1.0f) : r);
     const float8 a2 = angle * angle;
     const float8 s = angle + angle * a2 * (-1.6666654611e-1f + a2 * (8.3321608736e-3f + a2 * -1.9515295891e-4f));
-    const float8 c = 1.0f - 0.5f * a2 + a2 * a2 * (4.166664568298827e-2f + a2 * (-1.388731625493765e-3f + a2 * 2.443315711809948e-5f));
+    const float8 c =
+        1.0f - 0.5f * a2 +
+        a2 * a2 * (4.166664568298827e-2f + a2 * (-1.388731625493765e-3f + a2 * 2.443315711809948e-5f));
     struct lanes3 way;
     way.x = r * (wide ? c : s);
     way.y = r * (wide ? s : c);
