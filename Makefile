@@ -31,35 +31,35 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/error.c lib/progress.c lib/version.c \
 	lib/device/device.c lib/device/buffer.c lib/device/program.c \
-	lib/scene/area.c lib/scene/camera.c lib/scene/hierarchy.c lib/scene/light.c lib/scene/material.c \
+	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c lib/scene/light.c lib/scene/material.c \
 	lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/scene.c \
-	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c \
+	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
-	lib/light/environment.c lib/light/lights.c \
+	lib/light/environment.c lib/light/lights.c lib/light/tree.c \
 	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/mesh.c lib/mesh/normals.c lib/mesh/obj.c lib/mesh/off.c \
 	lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c lib/mesh/ply_reader.c \
 	lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
-	lib/image/bytes.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
-	lib/image/file.c lib/image/image.c lib/image/image_file.c lib/image/pfm.c \
-	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \
+	lib/image/bytes.c lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
+	lib/image/file.c lib/image/flip.c lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
+	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c lib/image/ssim.c \
 	lib/photon/emit.c lib/photon/device_gather.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_list.c lib/photon/photon_order.c lib/photon/search.c lib/photon/tree.c \
 	lib/photon/photon_map.c lib/photon/fingerprint.c lib/photon/ledger.c lib/photon/sources.c \
 	lib/photon/crc32.c lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
 	lib/render/photon_irradiance.c lib/render/photon_maps.c \
-	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c lib/render/aov.c lib/render/photon_eye.c lib/render/photon_layers.c lib/render/photon_mode.c \
+	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c lib/render/aov.c lib/render/noise.c lib/render/replicates.c lib/render/student.c lib/render/photon_eye.c lib/render/photon_layers.c lib/render/photon_mode.c \
 	lib/render/render.c lib/render/renderer.c lib/render/sample_mode.c lib/render/sobol.c lib/render/trace.c \
 	lib/texture/half.c lib/texture/texture.c
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c \
+	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c dsl/origin.c \
 	dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c \
 	dsl/scope.c dsl/source.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
-	tools/check.c tools/devices.c tools/doctor.c tools/help.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \
+	tools/check.c tools/compare.c tools/compare_print.c tools/devices.c tools/doctor.c tools/help.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \
 	tools/message.c tools/nearest.c \
 	tools/number.c tools/option_table.c tools/options.c tools/outputs.c tools/progress.c tools/render.c \
 	tools/ledger.c tools/photons.c tools/photons_emit.c tools/photons_info.c tools/session.c \
@@ -86,30 +86,39 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_text.c \
 	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
 	tests/kernels/test_shapes.c tests/kernels/test_shape_sample.c \
-	tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c tests/lib/scene/test_shapes.c \
-	tests/lib/light/test_environment.c tests/kernels/test_types.c tests/render/test_compare.c \
+	tests/lib/scene/test_findings.c tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c \
+	tests/lib/scene/test_shapes.c tests/lib/light/test_environment.c tests/kernels/test_types.c \
+	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c tests/lib/image/test_flip.c tests/lib/image/test_ssim.c \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c \
-	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_path.c \
-	tests/kernels/test_matte.c tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c \
-	tests/kernels/test_sample.c \
+	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_light_tree.c tests/kernels/test_path.c \
+	tests/kernels/test_matte.c tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
 	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c \
-	tests/lib/render/test_modes.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
+	tests/lib/render/test_modes.c tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
-	tests/lib/photon/test_photon_list.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
-	tests/lib/render/test_photon_maps.c
+	tests/lib/photon/test_photon_list.c tests/lib/photon/test_photon_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
+	tests/lib/render/test_photon_maps.c tests/proof/test_proof.c tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
-	tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
+	tests/tools/test_compare.c tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
-	tests/lib/photon/test_unbiased.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c
+	tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c tests/lib/render/test_noise.c \
+	tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
+	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c
+TESTS_PROOF := \
+	tests/proof/test_direct_light.c tests/proof/test_enclosures.c tests/proof/test_specular.c \
+	tests/proof/test_camera.c tests/proof/test_estimators.c tests/proof/test_convergence.c
+TESTS_FULL  += $(TESTS_PROOF)
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
-	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c tests/render/compare.c \
+	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/light_draw.c tests/kernels/rays.c \
+	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
 	tests/kernels/shape_check.c tests/kernels/shape_truth.c \
-	tests/kernels/statistics.c tests/studies/study.c
+	tests/kernels/statistics.c tests/studies/study.c tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
+	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c tests/statistics/facets.c \
+	tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c tests/statistics/quadrature.c \
+	tests/statistics/scatter.c tests/statistics/sky.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
 	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/matte.cl \
 	tests/kernels/medium.cl tests/kernels/rng.cl \
@@ -121,7 +130,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all study demo deps need-deps check check-corpus check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
+.PHONY: all proof study demo deps need-deps check check-corpus check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -181,6 +190,10 @@ run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
 
 run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 	tests/run.sh $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL)) $(TESTS_SHELL)
+
+# The page of what was compared with what: tests/proof/README.md.
+proof: all $(call TEST_BIN,$(TESTS_PROOF))
+	tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
 
 # What the choices of photon mapping cost and bring, and how fast progressive passes come to the truth: numbers.
 study: all $(B)/tests/studies/study_consistency $(B)/tests/studies/study_photons
@@ -266,6 +279,7 @@ help:
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE, by another program'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
+	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'

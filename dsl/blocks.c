@@ -41,6 +41,7 @@ static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian",
 /* Shorthands for the rows: type and need. */
 #define NUMBER RT_FIELD_NUMBER
 #define INTEGER RT_FIELD_INTEGER
+#define COUNT_OR_ALL RT_FIELD_COUNT
 #define PAIR RT_FIELD_PAIR
 #define VECTOR RT_FIELD_VECTOR
 #define COLOUR RT_FIELD_COLOUR
@@ -93,13 +94,16 @@ static const rt_field render_fields[] = {
      AT(rt_render_options, spp)},
     {"max_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "16", NULL,
      AT(rt_render_options, max_depth)},
+    {"roulette_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "2", NULL,
+     AT(rt_render_options, roulette_depth)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
     {"estimator", CHOICE, OPTIONAL, ANY, "", "mis", estimators, AT(rt_render_options, estimator)},
     {"time", NUMBER, OPTIONAL, ABOVE_TO(0, 1e9), "s", "no limit", NULL, AT(rt_render_options, time)},
+    {"target_error", NUMBER, OPTIONAL, ABOVE_TO(0, 1), "", "none", NULL, AT(rt_render_options, target_error)},
     {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000, in passes one a pixel", NULL,
      AT(rt_render_options, photons)},
-    {"k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
+    {"k", COUNT_OR_ALL, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
     {"radius", NUMBER, OPTIONAL, LENGTH, "m", "no limit", NULL, AT(rt_render_options, radius)},
     {"gather", CHOICE, OPTIONAL, ANY, "", "auto", gathers, AT(rt_render_options, gather)},
     {"passes", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "1", NULL, AT(rt_render_options, passes)},
@@ -111,10 +115,12 @@ static const rt_field render_fields[] = {
     {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL,
      AT(rt_render_options, final_gather)},
     {"caustic_photons", INTEGER, OPTIONAL, FROM_TO(0, 4e9), "", "0", NULL, AT(rt_render_options, caustic_photons)},
-    {"caustic_k", INTEGER, OPTIONAL, FROM_TO(2, 65536), "", "that of k", NULL, AT(rt_render_options, caustic_k)},
+    {"caustic_k", COUNT_OR_ALL, OPTIONAL, FROM_TO(2, 65536), "", "that of k", NULL, AT(rt_render_options, caustic_k)},
     {"caustic_radius", NUMBER, OPTIONAL, LENGTH, "m", "that of radius", NULL, AT(rt_render_options, caustic_radius)},
     {"caustic_kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, caustic_kernel)},
     {"aov", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, aov)},
+    {"photon_layers", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, photon_layers)},
+    {"variance", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, variance)},
 };
 
 static const rt_field texture_fields[] = {

@@ -31,13 +31,18 @@ static int evaluate(const rt_checker *checker, const rt_setting *setting, double
     return 1;
 }
 
+static int is_integer(const rt_field *field)
+{
+    return field->type == RT_FIELD_INTEGER || field->type == RT_FIELD_COUNT;
+}
+
 /* A number as it will be stored: single precision, unless the member is a double. */
 static int check_number(const rt_checker *checker, const rt_setting *setting, rt_place place, double *number)
 {
     const rt_field *field = setting->field;
     const double written = *number;
     char phrase[RT_PHRASE_SIZE];
-    if (field->type == RT_FIELD_INTEGER) {
+    if (is_integer(field)) {
         if (floor(*number) != *number) {
             rt_report_error(checker->reports, place, "'%s' is %g; it must be a whole number", field->name, *number);
             return 0;
@@ -61,10 +66,10 @@ static int check_number(const rt_checker *checker, const rt_setting *setting, rt
 
 static void store_scalar(const rt_field *field, double number, unsigned char *member)
 {
-    if (field->type == RT_FIELD_INTEGER && field->size == sizeof(uint64_t)) {
+    if (is_integer(field) && field->size == sizeof(uint64_t)) {
         uint64_t integer = (uint64_t)number;
         memcpy(member, &integer, sizeof integer);
-    } else if (field->type == RT_FIELD_INTEGER) {
+    } else if (is_integer(field)) {
         uint32_t integer = (uint32_t)number;
         memcpy(member, &integer, sizeof integer);
     } else if (field->size == sizeof(double)) {
@@ -78,7 +83,7 @@ static void store_scalar(const rt_field *field, double number, unsigned char *me
 static int check_numbers(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
 {
     const rt_field *field = setting->field;
-    int is_scalar = field->type == RT_FIELD_NUMBER || field->type == RT_FIELD_INTEGER;
+    int is_scalar = field->type == RT_FIELD_NUMBER || is_integer(field);
     int count = is_scalar ? 1 : field->type == RT_FIELD_PAIR ? 2 : 3;
     double numbers[RT_FIELD_VALUES_MAX];
     float stored[3];
@@ -210,6 +215,16 @@ static int check_file(const rt_checker *checker, const rt_setting *setting, unsi
     return 1;
 }
 
+/* A number, or the word `all` in its place. */
+static int check_count(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+{
+    static const uint32_t all = RT_K_ALL;
+    if (setting->value_count > 0)
+        return check_numbers(checker, setting, member);
+    memcpy(member, &all, sizeof all);
+    return 1;
+}
+
 static int check_setting(const rt_checker *checker, const rt_setting *setting, rt_block_fields *fields)
 {
     unsigned char *member = (unsigned char *)fields + setting->field->offset;
@@ -222,6 +237,8 @@ static int check_setting(const rt_checker *checker, const rt_setting *setting, r
     case RT_FIELD_MATERIAL:
     case RT_FIELD_TEXTURE:
         return check_name(checker, setting, member);
+    case RT_FIELD_COUNT:
+        return check_count(checker, setting, member);
     case RT_FIELD_FILE:
         return check_file(checker, setting, member);
     default:

@@ -28,7 +28,7 @@ static rt_status read_into(rt_scene **out, const char *text, const char *name, c
     char cause[128] = "";
     const char *why = cause;
     rt_reader reader;
-    rt_status status = rt_reader_begin(&reader, error);
+    rt_status status = rt_reader_begin(&reader, options && options->check, error);
     if (status != RT_OK)
         return status;
 
@@ -40,6 +40,7 @@ static rt_status read_into(rt_scene **out, const char *text, const char *name, c
     else
         status = rt_source_read(&reader.sources, source, cause, sizeof cause);
 
+    reader.origins.text = source;
     if (status == RT_OK)
         read_scene(&reader, source);
     else if (status == RT_ERROR_INPUT)

@@ -28,6 +28,11 @@ static int is_field(const rt_block *block, const rt_token *token)
     return token->kind == RT_TOKEN_WORD && rt_schema_field(block, rt_place_text(&token->place));
 }
 
+static int is_operator(const rt_token *token)
+{
+    return token->kind == '+' || token->kind == '*' || token->kind == '/' || token->kind == '-';
+}
+
 static int is_constant(const rt_parser *parser, const rt_token *token)
 {
     return token->kind == RT_TOKEN_WORD && rt_parser_is_constant(parser, rt_place_text(&token->place));
@@ -57,6 +62,7 @@ static int numbers_of(rt_field_type type)
     switch (type) {
     case RT_FIELD_NUMBER:
     case RT_FIELD_INTEGER:
+    case RT_FIELD_COUNT:
         return 1;
     case RT_FIELD_PAIR:
         return 2;
@@ -162,14 +168,13 @@ static void check_values(rt_parser *parser, const rt_context *context)
     }
 }
 
-/* What may not follow a complete value: one more value, or an operator outside parentheses. */
+/* What may not follow a value: one more than the field takes, or an operator outside parentheses. */
 static void check_end(rt_parser *parser, const rt_context *context)
 {
     rt_setting *setting = context->setting;
     const rt_token *token = rt_parser_peek(parser, 0);
     char found[RT_FOUND_SIZE];
-    int is_operator = token->kind == '+' || token->kind == '*' || token->kind == '/' || token->kind == '-';
-    if (is_operator) {
+    if (is_operator(token)) {
         rt_report_error(parser->reports, token->place, "unexpected '%c' after the value of '%s'", token->kind,
                         setting->field->name);
         rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
@@ -199,7 +204,9 @@ static void parse_numbers(rt_parser *parser, rt_context *context)
             return;
         }
     }
-    if (!setting->is_broken)
+    /* `1 h/2 0` is no missing value, but arithmetic without parentheses. */
+    int is_cut_short = setting->value_count > 0 && is_operator(rt_parser_peek(parser, 0));
+    if (!setting->is_broken && !is_cut_short)
         check_values(parser, context);
     if (!setting->is_broken)
         check_end(parser, context);
@@ -215,6 +222,8 @@ static int is_known_word(const rt_parser *parser, const rt_field *field, rt_text
         return rt_names_find(names, word) != RT_NAME_NONE;
     if (field->type == RT_FIELD_BOOLEAN)
         return rt_text_equal(word, "true") || rt_text_equal(word, "false");
+    if (field->type == RT_FIELD_COUNT)
+        return rt_text_equal(word, "all");
     for (size_t i = 0; field->choices[i]; i++)
         if (rt_text_equal(word, field->choices[i]))
             return 1;
@@ -245,6 +254,17 @@ static void parse_word(rt_parser *parser, rt_context *context)
                         setting->field->name, context->phrase, rt_parser_found(found, token));
     setting->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
+}
+
+/* A number, or the word `all` in its place. */
+static void parse_count(rt_parser *parser, rt_context *context)
+{
+    skip_separators(parser, context);
+    const rt_token *token = rt_parser_peek(parser, 0);
+    if (token->kind == RT_TOKEN_WORD && is_known_word(parser, context->setting->field, rt_place_text(&token->place)))
+        parse_word(parser, context);
+    else
+        parse_numbers(parser, context);
 }
 
 static void parse_string(rt_parser *parser, rt_context *context)
@@ -290,6 +310,9 @@ void rt_parse_setting(rt_parser *parser, const rt_block *block, rt_setting *sett
     case RT_FIELD_MATERIAL:
     case RT_FIELD_TEXTURE:
         parse_word(parser, &context);
+        break;
+    case RT_FIELD_COUNT:
+        parse_count(parser, &context);
         break;
     case RT_FIELD_FILE:
         parse_string(parser, &context);

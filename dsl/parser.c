@@ -262,6 +262,14 @@ static int parse_bound(rt_parser *parser, const char *word, rt_expression *value
     return 0;
 }
 
+/* What is left of a line before its '{'. */
+static void skip_to_brace(rt_parser *parser)
+{
+    while (rt_parser_peek(parser, 0)->kind != '{' && !rt_parser_peek(parser, 0)->first_on_line &&
+           rt_parser_peek(parser, 0)->kind != RT_TOKEN_END)
+        rt_parser_take(parser);
+}
+
 /* "repeat" NAME "from" value "to" value "{". Returns 0 when its body cannot be read as one. */
 static int parse_repeat(rt_parser *parser, rt_statement *statement)
 {
@@ -279,9 +287,7 @@ static int parse_repeat(rt_parser *parser, rt_statement *statement)
     statement->name = rt_parser_take_word(parser, &statement->is_broken);
     if (!parse_bound(parser, "from", &statement->value) || !parse_bound(parser, "to", &statement->last)) {
         statement->is_broken = 1;
-        while (rt_parser_peek(parser, 0)->kind != '{' && !rt_parser_peek(parser, 0)->first_on_line &&
-               rt_parser_peek(parser, 0)->kind != RT_TOKEN_END)
-            rt_parser_take(parser);
+        skip_to_brace(parser);
     }
     token = rt_parser_peek(parser, 0);
     if (token->kind != '{') {
@@ -289,6 +295,10 @@ static int parse_repeat(rt_parser *parser, rt_statement *statement)
                         rt_parser_found(found, token));
         if (token->kind == '+' || token->kind == '-' || token->kind == '*' || token->kind == '/')
             rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (n - 1)");
+        statement->is_broken = 1;
+        skip_to_brace(parser);
+    }
+    if (rt_parser_peek(parser, 0)->kind != '{') {
         rt_parser_skip_statement(parser);
         return 0;
     }

@@ -8,15 +8,17 @@
 #include "dsl/check.h"
 #include "dsl/parser.h"
 
-rt_status rt_reader_begin(rt_reader *reader, rt_error *error)
+rt_status rt_reader_begin(rt_reader *reader, int checks, rt_error *error)
 {
     memset(reader, 0, sizeof *reader);
+    reader->checks = checks;
     return rt_scene_create(&reader->scene, error);
 }
 
 void rt_reader_free(rt_reader *reader)
 {
     rt_scene_destroy(reader->scene);
+    rt_origins_free(&reader->origins);
     rt_scope_free(&reader->scope);
     rt_reports_free(&reader->reports);
     rt_sources_free(&reader->sources);
@@ -182,6 +184,8 @@ static void read_block(rt_reader *reader, const rt_statement *statement, const r
     is_good &= rt_check_block(&checker, statement, &fields);
     if (is_good)
         is_good = build(reader, statement, &fields, &as);
+    if (is_good && reader->checks && !rt_origins_add(&reader->origins, block, statement->place))
+        reader->reports.out_of_memory = 1;
     free(path);
 
     /* A material is known by its name even if it is wrong, so that its uses are no errors too; so are the others. */
@@ -360,6 +364,8 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_opti
     static const rt_scope_counts all = {0, 0, 0, 0};
     if (reader->reports.errors == 0)
         rt_scope_warn(&reader->scope, &all, &reader->reports);
+    if (reader->reports.errors == 0 && reader->checks)
+        rt_origins_report(&reader->origins, reader->scene, &reader->reports);
     rt_status status = rt_reports_finish(&reader->reports, options, error);
     if (status == RT_OK) {
         *out = reader->scene;

@@ -7,6 +7,7 @@
 #define RT_DSL_READER_H
 
 #include "dsl/expression.h"
+#include "dsl/origin.h"
 #include "dsl/schema.h"
 #include "dsl/scope.h"
 
@@ -16,6 +17,8 @@ typedef struct rt_reader {
     rt_reports reports;
     rt_scope scope;
     rt_place once[RT_BLOCK_COUNT]; /* the first block of each kind that may stand only once; length 0: none yet */
+    rt_origins origins;            /* of what is in the scene, when it is to be checked */
+    int checks;
     uint64_t order;                /* tokens so far */
     size_t blocks;                 /* blocks so far */
     size_t turns;                  /* of all repeats so far */
@@ -23,8 +26,8 @@ typedef struct rt_reader {
     rt_error fatal;                /* a failure that is no fault of the text; status RT_OK while there is none */
 } rt_reader;
 
-/* Starts with an empty scene. Whatever it returns, free the reader with rt_reader_free. */
-rt_status rt_reader_begin(rt_reader *reader, rt_error *error);
+/* Starts with an empty scene; checks: look at the whole when it is read. Whatever it returns, free the reader. */
+rt_status rt_reader_begin(rt_reader *reader, int checks, rt_error *error);
 void rt_reader_free(rt_reader *reader);
 
 /* Reads one text and all that it includes. Errors are collected. */

@@ -41,11 +41,21 @@ void rt_report_warning(rt_reports *reports, rt_place place, const char *format, 
     rt_report *report = add_report(reports, place);
     if (!report)
         return;
-    report->is_warning = 1;
+    report->severity = RT_SEVERITY_WARNING;
     va_list args;
     va_start(args, format);
     vsnprintf(report->message, sizeof report->message, format, args);
     va_end(args);
+}
+
+void rt_report_finding(rt_reports *reports, rt_place place, const rt_finding *finding)
+{
+    rt_report *report = add_report(reports, place);
+    if (!report)
+        return;
+    report->severity = finding->severity;
+    report->finding = finding->kind;
+    snprintf(report->message, sizeof report->message, "%s", finding->message);
 }
 
 void rt_report_hint(rt_reports *reports, const char *format, ...)
@@ -113,7 +123,8 @@ static void hand_on(const rt_report *report, const rt_load_options *options)
     char *end, kept;
     rt_diagnostic diagnostic;
     memset(&diagnostic, 0, sizeof diagnostic);
-    diagnostic.is_warning = report->is_warning;
+    diagnostic.severity = report->severity;
+    diagnostic.finding = report->finding;
     diagnostic.file = report->place.source->path;
     diagnostic.line = report->place.line;
     diagnostic.column = report->place.column;
@@ -157,7 +168,7 @@ rt_status rt_reports_finish(rt_reports *reports, const rt_load_options *options,
     for (size_t i = 0; i < reports->count; i++) {
         rt_report *report = &reports->items[i];
         hint_at_later_definition(report);
-        if (!first && !report->is_warning)
+        if (!first && report->severity == RT_SEVERITY_ERROR)
             first = report;
         if (options && options->diagnostic)
             hand_on(report, options);

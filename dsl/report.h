@@ -12,9 +12,10 @@
 #define RT_REPORT_PRINTF(string, first)
 #endif
 
-/* One error or warning. */
+/* One thing to say. */
 typedef struct rt_report {
-    int is_warning;
+    rt_severity severity;
+    rt_finding_kind finding;
     rt_place place;
     size_t sequence; /* orders reports of one place */
     char message[320];
@@ -33,6 +34,9 @@ typedef struct rt_reports {
 /* Adds an error, or a warning, at a place. */
 void rt_report_error(rt_reports *reports, rt_place place, const char *format, ...) RT_REPORT_PRINTF(3, 4);
 void rt_report_warning(rt_reports *reports, rt_place place, const char *format, ...) RT_REPORT_PRINTF(3, 4);
+
+/* Adds what rt_scene_check found. */
+void rt_report_finding(rt_reports *reports, rt_place place, const rt_finding *finding);
 
 /* Gives the latest report a hint: the nearest known name, or a way out. */
 void rt_report_hint(rt_reports *reports, const char *format, ...) RT_REPORT_PRINTF(2, 3);

@@ -64,6 +64,7 @@ const char *rt_field_phrase(char out[RT_PHRASE_SIZE], const rt_field *field)
     static const char *const phrases[] = {
         [RT_FIELD_NUMBER] = "a number",
         [RT_FIELD_INTEGER] = "a whole number",
+        [RT_FIELD_COUNT] = "a whole number or all",
         [RT_FIELD_PAIR] = "two numbers",
         [RT_FIELD_VECTOR] = "three numbers",
         [RT_FIELD_COLOUR] = "one or three numbers",

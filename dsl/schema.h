@@ -14,6 +14,7 @@
 typedef enum rt_field_type {
     RT_FIELD_NUMBER,   /* float, or double by the member's size */
     RT_FIELD_INTEGER,  /* uint32_t, or uint64_t by the member's size */
+    RT_FIELD_COUNT,    /* uint32_t, or RT_K_ALL for the word `all` */
     RT_FIELD_PAIR,     /* float[2] */
     RT_FIELD_VECTOR,   /* float[3] */
     RT_FIELD_COLOUR,   /* float[3]; one number is a grey */

@@ -74,12 +74,13 @@ static inline float3 emitted_light(const struct scene *scene, const rt_params *p
 }
 
 /* The same of the environment, for a ray in direction w that meets nothing. */
-INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params *params, float3 w, float pdf_w)
+INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params *params, float3 from, float3 w,
+                                      float pdf_w)
 {
     const float3 radiance = sky_radiance(scene, w);
     if (pdf_w == 0.0f || largest3(radiance) <= 0.0f)
         return radiance;
-    return radiance * mis_weight(params, RT_ESTIMATOR_BSDF, sky_light_pdf_w(scene, w) / pdf_w);
+    return radiance * mis_weight(params, RT_ESTIMATOR_BSDF, sky_light_pdf_w(scene, from, w) / pdf_w);
 }
 
 /* What counts of a lobe's light from a sampled point; `alone`: not weighted. */
@@ -114,10 +115,10 @@ static inline void connect_light(struct connection *connection, const struct sce
     connection->radiance = path->squeeze * path->beta * (scattered * arrived * sample.radiance * sample.spread);
 }
 
-/* The chance to go on after a vertex, from the throughput that would be left. */
-static inline float survival_chance(uint vertex, float3 throughput)
+/* The chance to go on after `depth` segments, from the throughput that would be left. */
+static inline float survival_chance(const rt_params *params, uint depth, float3 throughput)
 {
-    return vertex < RT_ROULETTE_VERTEX ? 1.0f : min(1.0f, largest3(throughput));
+    return depth < params->roulette_depth ? 1.0f : min(1.0f, largest3(throughput));
 }
 
 /*
@@ -167,7 +168,7 @@ static inline void path_escape(const struct scene *scene, const rt_params *param
     if (!has_sky(scene) || left_to_photons(purpose, path->diffuse_events, path->pdf_w, path->rough))
         return;
     path->radiance += path->squeeze * path->beta * medium_transmittance(scene->materials, path->media.x, INFINITY) *
-                      environment_light(scene, params, path->ray.direction, path->pdf_w);
+                      environment_light(scene, params, path->from, path->ray.direction, path->pdf_w);
 }
 
 /* Goes on from a surface by the chosen event, by u in [0,1)^3. */
@@ -236,7 +237,7 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, u.lo, last);
 
     /* Choose an event, or the end of the path by roulette, which spares nothing where the path ends anyway. */
-    const float survival = last ? 1.0f : survival_chance(path->depth - 1u, path->beta * bsdf_albedo(&bsdf));
+    const float survival = last ? 1.0f : survival_chance(params, path->depth, path->beta * bsdf_albedo(&bsdf));
     const uint event = bsdf_choose(&bsdf, survival, u.hi.z);
     if (event == EVENT_ABSORBED) {
         path->depth = 0u;
@@ -283,16 +284,16 @@ static inline void follow_paths(const struct scene *scene, const rt_params *para
 
     /* Scatter, on matte surfaces all together, on others one by one. */
     struct matte matte;
-    matte_begin(&matte);
+    matte.taken = matte.curved = 0u;
     for (uint i = 0u; i < count; i++) {
         connections[i].radiance = (float3)(0.0f);
         if (!paths[i].depth)
             continue;
-        if (!together || !matte_take(&matte, i, scene, params, &paths[i], &hits[i], numbers[i].s2))
+        if (!together || !matte_take(&matte, i, scene, params, &paths[i], &hits[i]))
             path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], purpose, gather);
     }
     if (matte.taken)
-        matte_vertices(scene, &matte, paths, hits, numbers, connections);
+        matte_vertices(scene, params, &matte, paths, hits, numbers, connections);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < count; i++)

@@ -51,30 +51,33 @@ static inline void emit_spot(struct emission *emission, global const rt_light_da
     emission->flux = 2.0f * RT_PI * whole * row3(light->emission);
 }
 
-/* Whether a plane, which has no end, stands between a point and all that is infinitely far in direction w. */
-static inline bool behind_plane(const struct scene *scene, float3 from, float3 w)
+/* How far it is from a point in direction w to the last of the planes, which have no end; 0 when there is none. */
+static inline float last_plane(const struct scene *scene, float3 from, float3 w)
 {
     const struct ray ray = make_ray(from, w, 0.0f, INFINITY);
-    for (uint i = 0; i < scene->header->plane_count; i++)
-        if (intersect_plane(scene->shapes + scene->planes[i], &ray) < INFINITY)
-            return true;
-    return false;
+    float last = 0.0f;
+    for (uint i = 0; i < scene->header->plane_count; i++) {
+        const float t = intersect_plane(scene->shapes + scene->planes[i], &ray);
+        last = t < INFINITY ? max(last, t) : last;
+    }
+    return last;
 }
 
 /*
- * Light from infinitely far in direction w starts on a disc that faces it and touches the sphere around all finite
- * shapes. What would pass beside the sphere, to planes farther out, is not followed.
+ * Light from infinitely far in direction w comes through a disc that faces it and touches the sphere around all
+ * finite shapes. It starts on the disc, or twice as far as the last plane that stands before it. What would pass
+ * beside the sphere, to planes farther out, is not followed.
  */
-static inline bool emit_distant(const struct scene *scene, struct emission *emission, float3 w, float2 u)
+static inline void emit_distant(const struct scene *scene, struct emission *emission, float3 w, float2 u)
 {
     global const rt_scene_header *header = scene->header;
     const float radius = header->radius > 0.0f ? header->radius : 1.0f;
     const float3 centre = header->radius > 0.0f ? 0.5f * (row3(header->bounds_lo) + row3(header->bounds_hi)) : (float3)(0.0f);
     const float2 p = radius * sample_disc(u);
     const struct frame frame = frame_about(w);
-    emit_from(emission, centre + (p.x * frame.s + p.y * frame.t + radius * w), -w);
+    const float3 disc = centre + (p.x * frame.s + p.y * frame.t + radius * w);
+    emit_from(emission, disc + 2.0f * last_plane(scene, disc, w) * w, -w);
     emission->flux *= RT_PI * radius * radius;
-    return !behind_plane(scene, emission->at.position, w);
 }
 
 /* From a surface by the cosine; `side` in [0,1) chooses that of a two-sided light. */
@@ -97,8 +100,8 @@ static inline void emit_area(const struct scene *scene, struct emission *emissio
         emission->flux *= light_texture(scene, light, &emission->at);
 }
 
-/* Starts at a light that is chosen; false when what it emits does not arrive. The flux leaves out the choice. */
-static inline bool emit_chosen(const struct scene *scene, global const rt_light_data *light, float4 start, float4 way,
+/* Starts at a light that is chosen. The flux leaves out the choice. */
+static inline void emit_chosen(const struct scene *scene, global const rt_light_data *light, float4 start, float4 way,
                                struct emission *emission)
 {
     float3 w, radiance;
@@ -106,20 +109,21 @@ static inline bool emit_chosen(const struct scene *scene, global const rt_light_
     case RT_LIGHT_POINT:
         emit_from(emission, row3(light->a), sample_sphere(way.xy));
         emission->flux = 4.0f * RT_PI * row3(light->emission);
-        return true;
+        return;
     case RT_LIGHT_SPOT:
         emit_spot(emission, light, way.xy);
-        return true;
+        return;
     case RT_LIGHT_DIRECTIONAL:
         emission->flux = row3(light->emission);
-        return emit_distant(scene, emission, -row3(light->b), start.xy);
+        emit_distant(scene, emission, -row3(light->b), start.xy);
+        return;
     case RT_LIGHT_ENVIRONMENT:
         emission->flux = sample_sky(scene, way.xy, &w, &radiance);
         emission->flux *= radiance;
-        return emit_distant(scene, emission, w, start.xy);
+        emit_distant(scene, emission, w, start.xy);
+        return;
     default:
         emit_area(scene, emission, light, start.xy, way.xy, way.z);
-        return true;
     }
 }
 
@@ -139,7 +143,7 @@ static inline uint choose_emitter(global const rt_light_share *shares, uint coun
 
 /*
  * Starts a light path: start.z chooses the light, start.xy and way.xy the point and the direction, way.z the side.
- * False when there is no light, or what was chosen does not arrive.
+ * False when no light shines.
  */
 static inline bool light_emit(const struct scene *scene, global const rt_light_share *shares, float4 start, float4 way,
                               struct emission *emission)
@@ -148,8 +152,9 @@ static inline bool light_emit(const struct scene *scene, global const rt_light_s
         return false;
     emission->light = choose_emitter(shares, scene->header->light_count, start.z);
     const float pmf = shares[emission->light].pmf;
-    if (pmf == 0.0f || !emit_chosen(scene, scene->lights + emission->light, start, way, emission))
+    if (pmf == 0.0f)
         return false;
+    emit_chosen(scene, scene->lights + emission->light, start, way, emission);
     emission->flux /= pmf;
     return true;
 }

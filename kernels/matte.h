@@ -15,17 +15,37 @@
 #include "path_state.h"
 #include "surface_at.h"
 
+/* Where the members of rt_light_data are, in floats. */
+enum light_member {
+    LIGHT_A = 0,
+    LIGHT_KIND = 3,
+    LIGHT_B = 4,
+    LIGHT_WIDTH = 7,
+    LIGHT_C = 8,
+    LIGHT_HEIGHT = 11,
+    LIGHT_NORMAL = 12,
+    LIGHT_AREA = 15,
+    LIGHT_EMISSION = 16,
+    LIGHT_FLAGS = 23,
+};
+
 /* What is noted of matte vertices before they are taken on together. */
 struct matte {
     float3 kd[8];
     global const float *corner[8]; /* flat surface: the first vertex in its block */
-    global const float *light[8];  /* rt_light_data, chosen for the vertex */
-    float quad[8];                 /* 1 where that is a parallelogram, 0 where it is a triangle */
-    float two_sided[8];            /* 1 where it shines to both sides, else 0 */
     struct surface surfaces[8];    /* the others */
     uint taken;                    /* a bit for each path whose vertex is noted, */
-    uint curved;                   /* those that have their surface in `surfaces`, */
-    uint lit_otherwise;            /* those whose light is not sampled here */
+    uint curved;                   /* those that have their surface in `surfaces` */
+};
+
+/* The lights that are chosen for the vertices. */
+struct matte_lights {
+    global const float *light[8];   /* rt_light_data of those that are sampled in lanes */
+    float pmf[8];                   /* of the choice */
+    struct light_sample samples[8]; /* the others */
+    uint flat;                      /* a bit for each lane whose light is sampled in lanes, */
+    uint single;                    /* those that have a sample */
+    uint alone;                     /* those whose light no ray meets by chance */
 };
 
 /* Where the lanes' vertices are; the normals are on the side that the path comes from. */
@@ -41,27 +61,9 @@ struct matte_light {
     float8 spread;        /* as in light_sample; 0 where nothing can arrive */
 };
 
-static inline void matte_begin(struct matte *matte)
-{
-    matte->taken = matte->curved = matte->lit_otherwise = 0u;
-}
-
-/* Notes the light that is chosen for the vertex, if it is one that lanes can sample. */
-static inline void matte_choose_light(struct matte *matte, uint lane, const struct scene *scene, float u)
-{
-    global const rt_light_data *light = scene->lights + choose_light(scene, u);
-    if (scene->header->light_count == 0u || !(light->flags & RT_LIGHT_BY_AREA)) {
-        matte->lit_otherwise |= 1u << lane;
-        return;
-    }
-    matte->light[lane] = light->a;
-    matte->quad[lane] = light->kind == RT_LIGHT_QUAD ? 1.0f : 0.0f;
-    matte->two_sided[lane] = light->flags & RT_LIGHT_TWO_SIDED ? 1.0f : 0.0f;
-}
-
-/* Notes a path's vertex if it is matte; u is the choice of the light. */
+/* Notes a path's vertex if it is matte. */
 static inline bool matte_take(struct matte *matte, uint lane, const struct scene *scene, const rt_params *params,
-                              const struct path *path, const struct hit *hit, float u)
+                              const struct path *path, const struct hit *hit)
 {
     global const rt_shape *shape = scene->shapes + scene->prim_shape[hit->prim];
     if (!(shape->flags & RT_SHAPE_MATTE) || path->media.x != RT_NONE || path->depth == params->max_depth)
@@ -78,7 +80,6 @@ static inline bool matte_take(struct matte *matte, uint lane, const struct scene
         matte->kd[lane] = paint.kd;
         matte->curved |= 1u << lane;
     }
-    matte_choose_light(matte, lane, scene, u);
     matte->taken |= 1u << lane;
     return true;
 }
@@ -141,82 +142,88 @@ static inline struct matte_surface matte_surfaces(struct matte *matte, const str
     return surface;
 }
 
-/* As sample_light, for flat lights by area. */
-static inline struct matte_light flat_lights(const struct matte *matte, struct lanes3 from, const float8 *numbers)
+/* Chooses a light for each vertex, and samples those that lanes do not. */
+static inline void choose_lights(struct matte_lights *lights, const struct scene *scene, uint wanted,
+                                 struct lanes3 from, const float8 *numbers)
 {
-    const struct lanes3 a = lanes3_gather(matte->light, 0u, 1u);
-    const struct lanes3 b = lanes3_gather(matte->light, 4u, 1u), c = lanes3_gather(matte->light, 8u, 1u);
-    const struct lanes3 normal = lanes3_gather(matte->light, 12u, 1u);
-    const float8 width = lanes_gather(matte->light, 7u), height = lanes_gather(matte->light, 11u);
-    const float8 area = lanes_gather(matte->light, 15u), pmf = lanes_gather(matte->light, 19u);
+    float3 positions[8];
+    lanes3_rows(from, positions);
+    lights->flat = lights->single = lights->alone = 0u;
+    if (scene->light_nodes[1].power == 0.0f)
+        return;
+    for (; wanted; wanted &= wanted - 1u) {
+        const uint i = lane_first(wanted), bit = 1u << i;
+        const uint chosen = choose_light(scene, positions[i], numbers[i].s2, &lights->pmf[i]);
+        global const rt_light_data *light = scene->lights + chosen;
+        if (light->flags & RT_LIGHT_BY_AREA) {
+            lights->light[i] = light->a;
+            lights->flat |= bit;
+        } else if (sample_chosen(scene, light, positions[i], numbers[i].s01, &lights->samples[i])) {
+            lights->single |= bit;
+            lights->alone |= lights->samples[i].delta ? bit : 0u;
+        }
+    }
+}
+
+/* As sample_chosen, for flat lights by area. */
+static inline struct matte_light flat_lights(global const float *const data[8], struct lanes3 from,
+                                             const float8 *numbers)
+{
+    const struct lanes3 a = lanes3_gather(data, LIGHT_A, 1u);
+    const struct lanes3 b = lanes3_gather(data, LIGHT_B, 1u), c = lanes3_gather(data, LIGHT_C, 1u);
+    const struct lanes3 normal = lanes3_gather(data, LIGHT_NORMAL, 1u);
+    const int8 kind = as_int8(lanes_gather(data, LIGHT_KIND)), flags = as_int8(lanes_gather(data, LIGHT_FLAGS));
+    const float8 width = lanes_gather(data, LIGHT_WIDTH), height = lanes_gather(data, LIGHT_HEIGHT);
     const float8 u = lanes_load((const float *)numbers, 8u), v = lanes_load((const float *)numbers + 1, 8u);
-    const float8 fold = vload8(0, matte->quad) > 0.0f ? (float8)(0.0f) : 0.5f * lane_min(u, v);
+    const float8 fold = kind == (int)RT_LIGHT_QUAD ? (float8)(0.0f) : 0.5f * lane_min(u, v);
     const struct lanes3 point = along8(along8(a, (u - fold) * width, b), (v - fold) * height, c);
     const float8 above = dot8(sub8(from, a), normal);
     const float8 size = fabs(a.x) + fabs(a.y) + fabs(a.z) + 2.0f * (width + height);
 
     const struct lanes3 towards = sub8(point, from);
     const float8 d2 = dot8(towards, towards), distance = sqrt(d2);
-    const float8 spread = fabs(dot8(towards, normal)) * area / (d2 * distance * pmf);
+    const int8 two_sided = (flags & (int)RT_LIGHT_TWO_SIDED) != 0;
     struct matte_light light;
     light.wi = scale8(1.0f / distance, towards);
-    light.radiance = lanes3_gather(matte->light, 16u, 1u);
+    light.radiance = lanes3_gather(data, LIGHT_EMISSION, 1u);
     light.target = along8(point, copysign(gamma_bound(8.0f) * size, above), normal);
-    light.spread = above > 0.0f || vload8(0, matte->two_sided) > 0.0f ? spread : (float8)(0.0f);
+    light.spread = fabs(dot8(towards, normal)) * lanes_gather(data, LIGHT_AREA) / (d2 * distance);
+    light.spread = above > 0.0f || two_sided ? light.spread : (float8)(0.0f);
     return light;
 }
 
-/* Samples the other lights one by one. */
-static inline void sample_lights(const struct scene *scene, uint wanted, struct lanes3 from, const float8 *numbers,
-                                 struct light_sample *samples)
-{
-    float3 positions[8];
-    lanes3_rows(from, positions);
-    for (; wanted; wanted &= wanted - 1u) {
-        const uint i = lane_first(wanted);
-        if (sample_light(scene, positions[i], numbers[i].lo, &samples[i]))
-            continue;
-        samples[i].wi = samples[i].radiance = (float3)(0.0f);
-        samples[i].spread = 0.0f;
-        samples[i].delta = samples[i].distant = false;
-    }
-}
-
 /* Takes those lanes from samples. */
-static inline void take_samples(struct matte_light *light, const struct light_sample *samples, uint taken)
+static inline void take_samples(struct matte_light *light, const struct matte_lights *lights)
 {
     const uint stride = sizeof(struct light_sample) / 4u;
-    const int8 lanes = lanes_of(taken);
-    light->wi = select8(lanes, lanes3_load((const float *)&samples->wi, stride), light->wi);
-    light->radiance = select8(lanes, lanes3_load((const float *)&samples->radiance, stride), light->radiance);
-    light->spread = lanes ? lanes_load(&samples->spread, stride) : light->spread;
+    const struct light_sample *from = lights->samples;
+    const int8 single = lanes_of(lights->single);
+    light->wi = select8(single, lanes3_load((const float *)&from->wi, stride), light->wi);
+    light->radiance = select8(single, lanes3_load((const float *)&from->radiance, stride), light->radiance);
+    light->spread = single ? lanes_load(&from->spread, stride) : light->spread;
 }
 
 /* As connect_light; `weight` is that of the path. */
-static inline void matte_connect(const struct scene *scene, struct matte *matte, const struct matte_surface *surface,
+static inline void matte_connect(const struct scene *scene, const struct matte_surface *surface, uint taken,
                                  struct lanes3 weight, struct lanes3 kd, const float8 *numbers,
                                  struct connection *connections)
 {
-    struct light_sample samples[8];
+    struct matte_lights lights;
     struct matte_light light;
-    const uint others = matte->lit_otherwise & matte->taken, flat = matte->taken & ~others;
-    uint alone = 0u; /* lanes whose light no ray meets by chance */
-    if (flat) {
-        fill_lanes(matte->light, flat);
-        light = flat_lights(matte, surface->position, numbers);
+    choose_lights(&lights, scene, taken, surface->position, numbers);
+    if (lights.flat) {
+        fill_lanes(lights.light, lights.flat);
+        light = flat_lights(lights.light, surface->position, numbers);
     }
-    if (others) {
-        sample_lights(scene, others, surface->position, numbers, samples);
-        take_samples(&light, samples, others);
-        for (uint i = 0u; i < 8u; i++)
-            alone |= (others >> i & 1u) && samples[i].delta ? 1u << i : 0u;
-    }
+    if (lights.single)
+        take_samples(&light, &lights);
 
     /* Weigh it by the power heuristic. */
+    const float8 spread = light.spread / vload8(0, lights.pmf);
     const float8 cosine = dot8(light.wi, surface->normal) > 0.0f ? dot8(light.wi, surface->shading) : (float8)(0.0f);
     const float8 pdf_w = lane_max(cosine, (float8)(0.0f)) * (1.0f / RT_PI);
-    const float8 ratio = lanes_of(alone) ? (float8)(0.0f) : pdf_w * light.spread;
-    const float8 share = pdf_w * light.spread / (1.0f + ratio * ratio);
+    const float8 ratio = lanes_of(lights.alone) ? (float8)(0.0f) : pdf_w * spread;
+    const float8 share = pdf_w * spread / (1.0f + ratio * ratio);
     const struct lanes3 radiance = mul8(scale8(share, weight), mul8(kd, light.radiance));
 
     /* Ask for what is in between. */
@@ -226,9 +233,9 @@ static inline void matte_connect(const struct scene *scene, struct matte *matte,
     lanes3_rows(sub8(light.target, origin), directions);
     lanes3_rows(radiance, radiances);
     for (uint i = 0u; i < 8u; i++)
-        if (matte->taken >> i & 1u) {
-            connections[i].ray = others >> i & 1u ? shadow_ray(origins[i], &samples[i])
-                                                  : make_ray(origins[i], directions[i], 0.0f, 0.9999f);
+        if ((lights.flat | lights.single) >> i & 1u) {
+            connections[i].ray = lights.single >> i & 1u ? shadow_ray(origins[i], &lights.samples[i])
+                                                         : make_ray(origins[i], directions[i], 0.0f, 0.9999f);
             connections[i].radiance = radiances[i];
         }
 }
@@ -264,14 +271,14 @@ static inline struct lanes3 frame_to_world8(struct lanes3 n, struct lanes3 v)
 }
 
 /* Roulette, and a diffuse event: as path_scatter. */
-static inline void matte_scatter(const struct matte_surface *surface, struct lanes3 beta, struct lanes3 kd,
-                                 const float8 *numbers, uint taken, struct path *paths)
+static inline void matte_scatter(const rt_params *params, const struct matte_surface *surface, struct lanes3 beta,
+                                 struct lanes3 kd, const float8 *numbers, uint taken, struct path *paths)
 {
     const float *first = (const float *)numbers;
     struct lanes3 kept = mul8(beta, kd);
     const float8 depth = lanes_load((const float *)&paths[0].depth, sizeof(struct path) / 4u);
     const float8 chance = lane_min(largest8(kept), (float8)(1.0f));
-    const float8 survival = as_int8(depth) <= (int)RT_ROULETTE_VERTEX ? (float8)(1.0f) : chance;
+    const float8 survival = as_int8(depth) < (int)params->roulette_depth ? (float8)(1.0f) : chance;
     kept = scale8(1.0f / survival, kept);
     const struct lanes3 way = sample_cosine8(lanes_load(first + 4, 8u), lanes_load(first + 5, 8u));
     const struct lanes3 wi = frame_to_world8(surface->shading, way);
@@ -299,16 +306,17 @@ static inline void matte_scatter(const struct matte_surface *surface, struct lan
 }
 
 /* Takes the paths that were noted through their vertices. */
-INLINE_NEVER void matte_vertices(const struct scene *scene, struct matte *matte, struct path *paths,
-                                 const struct hit *hits, const float8 *numbers, struct connection *connections)
+INLINE_NEVER void matte_vertices(const struct scene *scene, const rt_params *params, struct matte *matte,
+                                 struct path *paths, const struct hit *hits, const float8 *numbers,
+                                 struct connection *connections)
 {
     const uint stride = sizeof(struct path) / 4u;
     const struct matte_surface surface = matte_surfaces(matte, paths, hits);
     const struct lanes3 beta = lanes3_load((const float *)&paths[0].beta, stride);
     const struct lanes3 weight = scale8(lanes_load(&paths[0].squeeze, stride), beta);
     const struct lanes3 kd = lanes3_load((const float *)matte->kd, sizeof(float3) / 4u);
-    matte_connect(scene, matte, &surface, weight, kd, numbers, connections);
-    matte_scatter(&surface, beta, kd, numbers, matte->taken, paths);
+    matte_connect(scene, &surface, matte->taken, weight, kd, numbers, connections);
+    matte_scatter(params, &surface, beta, kd, numbers, matte->taken, paths);
 }
 
 #endif

@@ -2,7 +2,7 @@
  * rng.h - the random numbers of a path: counter-based, so that any sample can be made alone.
  *
  * A sampler serves one sample of one stream (a pixel, or all photon paths together) in sets
- * of four numbers. A set is a pure function of (seed, stream, sample, set): no state moves,
+ * of four numbers. A set is a pure function of (seed, replicate, stream, sample, set): no state moves,
  * and a decision that is not taken costs nothing. Who reads what:
  *
  *   set                  .x .y                    .z                  .w
@@ -122,7 +122,7 @@ static inline struct sampler sampler_start(const struct scene *scene, const rt_p
     const bool independent = params->sampler == RT_SAMPLER_INDEPENDENT;
     struct sampler sampler;
     sampler.sobol = independent ? 0 : scene->sobol;
-    sampler.key = pcg4d((uint4)(stream, params->seed, 0u, 0u));
+    sampler.key = pcg4d((uint4)(stream, params->seed, params->replicate, 0u));
     sampler.index = independent ? sample : reverse_bits(sample);
     return sampler;
 }

@@ -20,6 +20,7 @@ struct scene {
     global const uint *prim_shape; /* shape of each primitive */
     global const rt_material_data *materials;
     global const rt_light_data *lights;
+    global const rt_light_node *light_nodes;
     global const rt_transform_data *transforms;
     global const uint *indices;
     global const float4 *normals;
@@ -43,6 +44,7 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     scene.prim_shape = (global const uint *)(base + (size_t)header->prim_shape * RT_SCENE_ROW);
     scene.materials = (global const rt_material_data *)(base + (size_t)header->materials * RT_SCENE_ROW);
     scene.lights = (global const rt_light_data *)(base + (size_t)header->lights * RT_SCENE_ROW);
+    scene.light_nodes = (global const rt_light_node *)(base + (size_t)header->light_nodes * RT_SCENE_ROW);
     scene.transforms = (global const rt_transform_data *)(base + (size_t)header->transforms * RT_SCENE_ROW);
     scene.indices = (global const uint *)(base + (size_t)header->indices * RT_SCENE_ROW);
     scene.normals = (global const float4 *)(base + (size_t)header->normals * RT_SCENE_ROW);

@@ -30,7 +30,10 @@ static inline void sphere_surface(struct surface *surface, const struct scene *s
     surface->v = uv.y;
 }
 
-/* Position moved onto the plane; u, v: metres from its point along plane_axes, or as its transform says. */
+/*
+ * Position moved onto the plane; u, v: metres from its point along plane_axes, or as its transform says. A plane
+ * through the origin of an axis is met without any error: a ray that leaves it must still begin beside it.
+ */
 static inline void plane_surface(struct surface *surface, const struct scene *scene, global const rt_shape *shape,
                                  const struct ray *ray, float t)
 {
@@ -40,7 +43,7 @@ static inline void plane_surface(struct surface *surface, const struct scene *sc
     surface->normal = n;
     surface->shading = n;
     surface->position = p - dot(p - point, n) * n;
-    surface->error = gamma_bound(8.0f) * dot(fabs(p) + fabs(point), fabs(n));
+    surface->error = fmax(gamma_bound(8.0f) * dot(fabs(p) + fabs(point), fabs(n)), 0x1p-100f);
     if (shape->transform != RT_NONE) {
         const float3 own = point_to_object(scene->transforms + shape->transform, surface->position);
         surface->u = own.x;

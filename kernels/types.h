@@ -207,7 +207,7 @@ typedef struct rt_light_data {
     float normal[3]; /* quad and triangle: unit, on the side that shines */
     float area;      /* m^2, one side; 0 for lights without */
     float emission[3];
-    float pmf;      /* probability of choosing this light, in proportion to its power */
+    float pmf;      /* its part of all power, by which photon paths choose */
     float cdf;      /* sum of pmf up to and including this light */
     float power;    /* total emitted flux, mean of the three channels, W */
     rt_u32 prim;    /* primitive that emits, RT_NONE for lights without */
@@ -216,6 +216,20 @@ typedef struct rt_light_data {
     rt_u32 media[3]; /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */
 } rt_light_data;
 RT_SIZE(rt_light_data, 112);
+
+/*
+ * The tree by which lights are chosen: node 1 is the root, the children of node i are 2 i and 2 i + 1, and the
+ * leaves are the last `light_leaves` nodes, those without a light of no power.
+ */
+typedef struct rt_light_node {
+    float centre[3];      /* of the bounds of its lights, or of the scene for those from infinitely far */
+    float power;          /* of its lights, as a part of all */
+    float falloff;        /* factor of the squared distance: 1; 0 for lights from infinitely far */
+    float spread;         /* added to it for the extent of the bounds, m^2, above 0 */
+    rt_u32 light;         /* of a leaf: index in lights */
+    rt_u32 leaf;          /* of the light whose index is this node's: the node that is its leaf */
+} rt_light_node;
+RT_SIZE(rt_light_node, 32);
 
 /*
  * The environment: an image of latitude and longitude and the distribution that samples it, in proportion to
@@ -279,7 +293,7 @@ typedef struct rt_scene_header {
     rt_u32 lights, light_count;         /* rt_light_data */
     rt_u32 transforms, transform_count; /* rt_transform_data */
     rt_u32 indices, index_count;        /* u32: vertices of the corners of meshes with attributes */
-    rt_u32 normals, normal_count;       /* float[4]: unit normals of vertices, w = 0 */
+    rt_u32 normals, normal_count;       /* float[4]: normals of vertices, at most of unit length, w = 0 */
     rt_u32 uvs, uv_count;               /* float[2]: texture coordinates of vertices */
     rt_u32 colours, colour_count;       /* float[4]: colours of vertices, w = 0 */
     rt_u32 textures, texture_count;     /* rt_texture_data */
@@ -291,7 +305,8 @@ typedef struct rt_scene_header {
     rt_environment_data environment;
     rt_camera_data camera;
     rt_u32 eye_media[4]; /* the solids around the eye, as paths list them (medium.h): material + 1, 0: none */
-    rt_u32 reserved[16];
+    rt_u32 light_nodes, light_leaves; /* rt_light_node, twice as many as leaves, which are a power of two */
+    rt_u32 reserved[14];
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 384);
 
@@ -315,7 +330,8 @@ typedef struct rt_params {
     rt_u32 direct;       /* photon mode: rt_direct */
     rt_u32 estimator;    /* rt_estimator */
     rt_u32 store;        /* photon emission: RT_STORE_* */
-    rt_u32 reserved[2];
+    rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
+    rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
 } rt_params;
 RT_SIZE(rt_params, 64);
 

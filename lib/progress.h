@@ -10,6 +10,8 @@ typedef struct rt_stage_progress {
     rt_stage stage;
     double began, last; /* seconds, rt_clock() */
     double from, to;    /* the part of the stage that fractions are of, 0 to 1 */
+    double error;       /* relative error of the picture so far, negative while unknown */
+    double furthest;    /* fraction reported so far; none is below it */
     int cancelled;
 } rt_stage_progress;
 

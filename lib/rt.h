@@ -135,6 +135,7 @@ typedef struct rt_progress {
     double fraction;  /* of this stage, 0 to 1 */
     double elapsed;   /* seconds since this stage began */
     double remaining; /* estimated seconds to the end of this stage, negative while unknown */
+    double error;     /* relative error of the picture so far, see rt_film_stats; negative while unknown */
 } rt_progress;
 
 /*
@@ -156,9 +157,28 @@ RT_API const char *rt_stage_name(rt_stage stage);
 
 typedef struct rt_scene rt_scene;
 
-/* One error or warning in a scene text. The strings live until the callback returns. */
+/* What a scene may be in spite of which it can be rendered; see rt_scene_check. */
+typedef enum rt_finding_kind {
+    RT_FINDING_NONE = 0,
+    RT_FINDING_NO_CAMERA,
+    RT_FINDING_NO_SHAPE,
+    RT_FINDING_NO_LIGHT,        /* and the scene's mode shows light */
+    RT_FINDING_NOTHING_IN_VIEW, /* the camera looks past all shapes */
+    RT_FINDING_EYE_IN_THE_DARK, /* the camera is inside an opaque solid, where there is no light */
+    RT_FINDING_EYE_IN_MEDIUM,   /* the camera is inside a transparent solid: no more than a note */
+    RT_FINDING_LIGHT_SHUT_IN    /* a light is inside an opaque solid, and the camera is not */
+} rt_finding_kind;
+
+typedef enum rt_severity {
+    RT_SEVERITY_ERROR = 0,
+    RT_SEVERITY_WARNING, /* allowed, but hardly meant */
+    RT_SEVERITY_NOTE     /* good to know */
+} rt_severity;
+
+/* What is to be said of a scene text. The strings live until the callback returns. */
 typedef struct rt_diagnostic {
-    int is_warning;
+    rt_severity severity;
+    rt_finding_kind finding; /* what rt_scene_check found; else RT_FINDING_NONE */
     const char *file;
     int line, column;        /* from 1; column counts bytes; 0 when the file cannot be read at all */
     int length;              /* bytes underlined, at least 1 */
@@ -170,6 +190,7 @@ typedef struct rt_diagnostic {
 typedef struct rt_load_options {
     void (*diagnostic)(void *user, const rt_diagnostic *diagnostic); /* told of every error and warning */
     void *user;
+    int check; /* 1: the scene is to be rendered as it is; tell also what rt_scene_check finds, at its place */
 } rt_load_options;
 
 /*
@@ -444,8 +465,11 @@ typedef struct rt_photon_map rt_photon_map;
 typedef struct rt_render_options {
     uint32_t width, height; /* pixels; 0 means 512 */
     rt_mode mode;
-    uint32_t spp;           /* samples a pixel; 0 means 64, in photon mode 16, 1 in each of its passes */
+    uint32_t spp;           /* samples a pixel; 0 means 64, in photon mode 16, 1 in each of its passes; no limit with
+                               time or target_error */
     uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
+    uint32_t roulette_depth; /* segments from the eye after which Russian roulette may end a path; 0 means 2. From
+                                max_depth on, it ends none: the mean is the same, the time is not */
     uint32_t seed;          /* the same seed gives the same bits */
     rt_sampler sampler;
     rt_filter filter;
@@ -453,6 +477,13 @@ typedef struct rt_render_options {
     int aov;                /* 1: also the layers albedo, normal and depth, see rt_film_layer */
     double time;            /* stop after so many seconds of rendering, but only between passes that give every
                                pixel a sample: the first one is always finished; 0: no limit */
+    int variance;           /* 1: also the layer variance, and the error in rt_film_stats. Samples, or passes, are then
+                               shared by 8 sequences that are independent of each other, which tell the error but are
+                               noisier than one of the same length. Not for a single photon map, whose samples
+                               depend on each other, nor for modes that show no light */
+    double target_error;    /* stop when the relative error of the picture, see rt_film_stats, is below this with a
+                               confidence of 95 %, as seen at 32 samples, or passes, 48, 64, 96, 128 and so on; spp,
+                               passes and time are then limits. At most 1; 0: no such end */
     uint64_t photons;       /* photon paths emitted; 0 means 1 000 000. In passes, those of each pass; 0 means
                                one a pixel */
     uint32_t k;             /* nearest photons; 0 means 50. The k-th gives the radius and is not summed. RT_K_ALL: all
@@ -491,6 +522,27 @@ typedef struct rt_scene_info {
     int has_camera;
 } rt_scene_info;
 RT_API void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out);
+
+/* ---- Checking ----------------------------------------------------------- */
+
+/* One thing found. The message lives until the callback returns. */
+typedef struct rt_finding {
+    rt_finding_kind kind;
+    rt_severity severity;
+    uint32_t shape; /* the solid that it is about, or RT_NONE */
+    uint32_t lamp;  /* the shape that shines in it, or RT_NONE, or ... */
+    uint32_t light; /* ... the light that is no shape, counted from 0 in the order in which they were added */
+    const char *message; /* one line */
+} rt_finding;
+
+/*
+ * Tells a callback what makes the picture of a complete scene, with its own options, black or empty, and returns how
+ * many warnings there were. There are no false alarms: solids are spheres, ellipsoids, tori, cylinders and cones with
+ * caps, and closed meshes; what is inside of them is decided in double precision, and a light only counts as shut in
+ * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights the first 256 are
+ * looked at.
+ */
+RT_API size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding), void *user);
 
 /* ---- Device ------------------------------------------------------------- */
 
@@ -574,7 +626,8 @@ typedef struct rt_emit_options {
 
 /*
  * Emits photons from the lights of a scene on the device and collects them; options NULL: the scene's own.
- * Warns of lights that no path came from and of a list that is empty. Fails with RT_ERROR_USAGE when an option
+ * Warns of lights that no path came from, of a list that is empty, and of planes under light from infinitely far,
+ * which is followed to them only within the sphere around all finite shapes. Fails with RT_ERROR_USAGE when an option
  * is out of its range, RT_CANCELLED when a progress callback asks for it. The caller owns *out.
  */
 RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const rt_emit_options *options,
@@ -685,6 +738,10 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  *   normal           3  its shading normal in the world, as the shape has it, not turned to the camera; 0 likewise
  *   depth            1  metres along the view axis (from the eye, for an environment camera), mean of the samples
  *                       that hit
+ * With rt_render_options.variance or target_error:
+ *   variance         3  variance of the picture's radiance, estimated from independent sequences: what the pixel
+ *                       estimates is within rt_film_stats.interval_factor sqrt(variance) of it, with a confidence of
+ *                       95 %. In photon mode that is the noise; the bias that gathering has is not in it
  * With rt_render_options.photon_layers:
  *   photon.count     1  mean number of photons that count at the end of an eye path
  *   photon.radius    1  mean radius of the disc that they lie in, m
@@ -701,6 +758,14 @@ typedef struct rt_film_stats {
     uint64_t photons_stored;
     uint64_t gathers;          /* queries of the photon map */
     uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
+    uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */
+    double relative_error;     /* of the picture: root of the mean squared error over all pixels and channels, by the
+                                  mean radiance. Estimated from the layer variance, so that of photon mapping is
+                                  the noise alone */
+    double relative_error_bound; /* what it is below, with a confidence of 95 %; as long as samples are many
+                                  enough to show what light there is: what no path has met yet, none can tell of */
+    double interval_factor;    /* half of a pixel's 95 % interval by its standard deviation, the root of the layer
+                                  variance: Student's t, two-sided, replicates - 1 degrees of freedom */
     double light_power;        /* emitted power of all lights, W, mean of the three channels */
     double build_seconds, compile_seconds, emit_seconds, gather_seconds, render_seconds;
 } rt_film_stats;
@@ -719,8 +784,8 @@ typedef struct rt_image_options {
 
 /*
  * Writes the film in the format of the file's extension: .exr (linear float, with the seed, samples and
- * version as attributes, and the layers: albedo.R .G .B, normal.X .Y .Z, depth.Z, and photon.count and the like by
- * their names), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
+ * version as attributes, and the layers: albedo.R .G .B, normal.X .Y .Z, depth.Z, variance.R .G .B, and photon.count
+ * and the like by their names), .png and .ppm (sRGB), .pfm (linear float). The file appears whole or not at all.
  * Fails with RT_ERROR_USAGE for another extension and RT_ERROR_OUTPUT when it cannot be written.
  */
 RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error);
@@ -733,6 +798,113 @@ RT_API rt_status rt_film_write(const rt_film *film, const char *path, const rt_i
  * written; what is no regular file (a device, a pipe) is written in place. Fails with RT_ERROR_OUTPUT.
  */
 RT_API rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error);
+
+/* ---- Images ---------------------------------------------------------------- */
+
+/* An image of any number of named channels: a picture, and layers beside it such as albedo.R .G .B. */
+typedef struct rt_image rt_image;
+
+/*
+ * Reads an EXR, PNG, PPM, PGM or PFM file, known by its first bytes and not by its name. Fails with
+ * RT_ERROR_INPUT, naming path and cause. The caller owns *out.
+ */
+RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
+
+/* The picture rgb [height][width][3], linear, top row first, as an image; it is copied. The caller owns *out. */
+RT_API rt_status rt_image_from_rgb(rt_image **out, const float *rgb, uint32_t width, uint32_t height,
+                                   rt_error *error);
+RT_API void rt_image_destroy(rt_image *image);
+RT_API void rt_image_get_size(const rt_image *image, uint32_t *width, uint32_t *height);
+
+/*
+ * Copies a layer to rgb [height][width][3], linear, top row first; NULL stands for the picture itself. The layer's
+ * channels are R, G, B, or X, Y, Z, whatever their order in the file, or a single one, copied to all three: that
+ * whose whole name it is (photon.count), grey Y, or the only one.
+ * 1, 8 and 16 bit samples are decoded from sRGB. Fails with RT_ERROR_INPUT when there is no such layer.
+ */
+RT_API rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer, rt_error *error);
+
+/*
+ * Writes an image as .exr (all channels), .png, .ppm or .pfm (its R, G and B); options NULL: their defaults. The file
+ * appears whole or not at all. Fails with RT_ERROR_USAGE for another extension, an option out of its range or a
+ * missing channel, and with RT_ERROR_OUTPUT when the file cannot be written.
+ */
+RT_API rt_status rt_image_write(const rt_image *image, const char *path, const rt_image_options *options,
+                                rt_error *error);
+
+/* ---- Comparison of images --------------------------------------------------- */
+
+typedef struct rt_compare_options {
+    const char *layer; /* what is compared, such as "albedo"; NULL: the picture itself */
+    uint32_t block;    /* side of a block in pixels; 0 means 16 */
+    double tolerance;  /* how far the mean of a block may be off, relative; 0 means 0.01 */
+    double exposure;   /* stops by which SSIM and FLIP see the pictures brightened */
+} rt_compare_options;
+
+/*
+ * A block of the pictures. In each channel its means agree when they differ by no more than the larger of the
+ * tolerance times the reference's mean, and four standard errors of that difference. The squared standard error of
+ * a block of n pixels is V / n + S:
+ *   V  where every image has a layer "variance" (the variance of each pixel's value): the mean of the sum of these.
+ *      Else the variance of the n pixel differences about the plane that fits them best (n - 3 degrees of freedom):
+ *      a pixel's true value cancels in the difference, edges and texture included, and the plane takes a smooth
+ *      error away, so that it holds the noise of both images, as far as the pixels are independent of each other.
+ *   S  is for renders whose pixels are not, such as those of a photon map, where neighbours share photons: with
+ *      several independent renders the squared standard error of their mean, from the scatter of the renders' block
+ *      means, averaged over the block and its neighbours. With one render it is zero.
+ */
+typedef struct rt_image_block {
+    uint32_t x, y, width, height; /* pixels; at the right and lower border blocks may be smaller */
+    double mean[3], reference[3]; /* of the renders and of the reference, by channel */
+    double error[3];              /* standard error of their difference */
+    double excess[3];             /* their difference by what it may be: off above 1; infinite where a value is not
+                                     finite */
+} rt_image_block;
+
+/* Measures over all pixels and channels; a is the mean of the renders, b the reference. */
+typedef struct rt_comparison_info {
+    uint32_t width, height;
+    uint64_t not_finite[2]; /* pixels of a and of b with a channel that is infinite or not a number: left out of the
+                               means that follow, black or white to SSIM and FLIP, and off in their blocks */
+    double mse, rmse;       /* mean of (a - b)^2, and its square root */
+    double relmse;          /* mean of (a - b)^2 / (b^2 + 0.01) */
+    double ratio;           /* mean of a by mean of b; not a number where that of b is 0 */
+    double ratio_error;     /* its standard error, from those of the blocks that are finite; noise is taken as common
+                               to the channels */
+    double ratio_rgb[3];    /* by channel */
+    double ssim;            /* mean structural similarity of the luminance as an sRGB display shows it, Gaussian window
+                               of 11x11 pixels (Wang et al. 2004); not a number when a picture is smaller */
+    double flip;            /* mean LDR-FLIP (Andersson et al. 2020), 0 to 1: what a person sees alternate on a display
+                               of 67 pixels a degree */
+    double typical;         /* difference that 95 % of the pixels do not exceed in the channel that differs most, to
+                               1 %; where that is 0, the largest */
+    size_t blocks, off;     /* blocks, and how many of them are off in at least one channel */
+    size_t worst;           /* the block, and in it the channel, of the largest excess */
+    uint32_t worst_channel;
+} rt_comparison_info;
+
+typedef struct rt_comparison rt_comparison;
+
+/*
+ * Compares the mean of count >= 1 independent renders with a reference; options NULL: their defaults. Fails with
+ * RT_ERROR_INPUT when the sizes differ or a layer is missing, and with RT_ERROR_USAGE when an option is out of its
+ * range. The caller owns *out; the images may be destroyed afterwards.
+ */
+RT_API rt_status rt_image_compare(rt_comparison **out, const rt_image *const *renders, size_t count,
+                                  const rt_image *reference, const rt_compare_options *options, rt_error *error);
+RT_API void rt_comparison_destroy(rt_comparison *comparison);
+RT_API void rt_comparison_get_info(const rt_comparison *comparison, rt_comparison_info *out);
+
+/* The blocks, row by row; owned by the comparison. */
+RT_API const rt_image_block *rt_comparison_blocks(const rt_comparison *comparison, size_t *count);
+
+/*
+ * Writes the signed difference a - b. To .exr and .pfm: as it is, by channel. To .png and .ppm: for the eye, white
+ * where the pictures are equal, red where a and blue where b is brighter, in the channel that differs most, full
+ * at a difference of `scale`; 0 means `typical`. What is not finite is black. Fails as rt_image_write.
+ */
+RT_API rt_status rt_comparison_write_difference(const rt_comparison *comparison, const char *path, double scale,
+                                                rt_error *error);
 
 #ifdef __cplusplus
 }

@@ -123,7 +123,7 @@ static void count_diagnostic(void *user, const rt_diagnostic *diagnostic)
     assert_true(diagnostic->line >= 1 && diagnostic->column >= 1 && diagnostic->length >= 1);
     assert_string_equal(diagnostic->file, "name");
     assert_non_null(diagnostic->source_line);
-    *count += !diagnostic->is_warning;
+    *count += diagnostic->severity == RT_SEVERITY_ERROR;
 }
 
 static void every_error_of_a_text_is_reported(void **state)
@@ -132,7 +132,7 @@ static void every_error_of_a_text_is_reported(void **state)
     int count = 0;
     rt_scene *scene;
     rt_error error;
-    rt_load_options options = {count_diagnostic, &count};
+    rt_load_options options = {count_diagnostic, &count, 0};
     static const char bad[] = "a { }\nb { }\nfilm { c 1 }\nfilm { width -1 }\n";
     assert_int_equal(rt_scene_parse(&scene, bad, "name", &options, &error), RT_ERROR_INPUT);
     assert_true(count >= 4);

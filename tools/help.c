@@ -13,6 +13,7 @@ static const char *const usages[COMMAND_COUNT] = {
                        "       rtc devices                 list the OpenCL devices\n"
                        "       rtc doctor [OPTION]...      check that everything works here\n"
                        "       rtc photons ...             make, join, look at and export photon maps\n"
+                       "       rtc compare A B [OPTION]... measure how an image differs from another\n"
                        "       rtc COMMAND --help          the options of one command\n"
                        "       rtc --version               the version\n"
                        "\n"
@@ -49,6 +50,23 @@ static const char *const usages[COMMAND_COUNT] = {
                         "maps of different seeds, merge in any order into the map that would have been\n"
                         "made at once, to the bit. `diff` exits with 0 for equal maps and 1 for others.\n"
                         "A scene called like one of these words is written ./info.\n",
+    [COMMAND_COMPARE] = "usage: rtc compare A... B [OPTION]...\n"
+                        "\n"
+                        "Measures on stdout how image A differs from the reference B, of the same size:\n"
+                        "  mse, rmse  mean of (a - b)^2 over pixels and channels, linear; its square root\n"
+                        "  relmse     mean of (a - b)^2 / (b^2 + 0.01)\n"
+                        "  ratio      mean of a by mean of b, with its standard error\n"
+                        "  ssim       structural similarity of the luminance as a display shows it\n"
+                        "  flip       what a person sees of the difference, 0 to 1\n"
+                        "  typical    difference that 95 % of the pixels do not exceed\n"
+                        "  blocks     the same ratio block by block, and how many are off beyond noise\n"
+                        "Several A are independent renders, of different seeds: their mean is compared,\n"
+                        "and their scatter is part of the noise. Images are EXR, PNG, PFM, PPM or PGM;\n"
+                        "8 and 16 bit ones are decoded from sRGB.\n"
+                        "\n"
+                        "Exit status: 0 when every limit given is kept, 1 when one is not, with the\n"
+                        "results on stdout all the same; 1 with an error and no results when an image\n"
+                        "cannot be read or the sizes differ. Pixels that are not finite keep no limit.\n",
 };
 
 static const char footer[] = "\n"
@@ -87,6 +105,9 @@ static const char *help_of(const option *option, command_id command)
 {
     if (command == COMMAND_PHOTONS && option == &option_table[OPTION_OUT])
         return "where the map, or the file of points, goes";
+    if (command == COMMAND_COMPARE && option == &option_table[OPTION_OUT])
+        return "where the signed difference goes; .png .ppm: white where equal, red where A is brighter, blue where B "
+               "is; .exr .pfm: A - B as it is; may be repeated";
     if (command == COMMAND_PHOTONS && option == &option_table[OPTION_STATS])
         return "print what the map holds on stdout, as `rtc photons info` does";
     return option->help;

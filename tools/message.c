@@ -143,12 +143,13 @@ static void put_excerpt(const char *line, size_t at, size_t marked)
 
 void message_diagnostic(const rt_diagnostic *diagnostic)
 {
-    const char *label = diagnostic->is_warning ? "warning: " : "error: ";
+    static const char *const labels[] = {"error: ", "warning: ", "note: "}, *const colours[] = {RED, YELLOW, CYAN};
     fputs(colour(BOLD), stderr);
     put_safe(diagnostic->file, strlen(diagnostic->file));
     if (diagnostic->line > 0)
         fprintf(stderr, ":%d:%d", diagnostic->line, diagnostic->column);
-    fprintf(stderr, ": %s%s%s%s", colour(PLAIN), colour(diagnostic->is_warning ? YELLOW : RED), label, colour(PLAIN));
+    fprintf(stderr, ": %s%s%s%s", colour(PLAIN), colour(colours[diagnostic->severity]), labels[diagnostic->severity],
+            colour(PLAIN));
     put_safe(diagnostic->message, strlen(diagnostic->message));
     fputc('\n', stderr);
     if (diagnostic->line > 0 && diagnostic->source_line)

@@ -8,6 +8,7 @@
 #define MESH (1u << COMMAND_MESH)
 #define DOCTOR (1u << COMMAND_DOCTOR)
 #define PHOTONS (1u << COMMAND_PHOTONS)
+#define COMPARE (1u << COMMAND_COMPARE)
 #define ALL ((1u << COMMAND_COUNT) - 1u)
 
 static const option_choice modes[] = {
@@ -48,6 +49,8 @@ const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_PHOTON] = "Photon mode (each overrides the scene's own setting)",
     [GROUP_OUTPUT] = "Output",
     [GROUP_MESH] = "The mesh",
+    [GROUP_COMPARE] = "The comparison",
+    [GROUP_LIMIT] = "Limits (the exit status is 1 when one is not kept)",
     [GROUP_DEVICE] = "Device",
     [GROUP_TALK] = "What it says",
 };
@@ -59,9 +62,16 @@ const option option_table[OPTION_COUNT] = {
                     "64 in path mode, 16 in photon mode, 1 in each of its passes", "samples a pixel"},
     [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 1, 4096, NULL, 1, "16",
                           "longest path in segments, from the eye or from a light"},
+    [OPTION_ROULETTE_DEPTH] = {"roulette-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 4096, NULL, 1, "2",
+                               "segments from the eye after which Russian roulette may end a path; from --max-depth "
+                               "on it ends none"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
                      "stop after so many seconds, once every pixel has a sample; without --spp, go on "
                      "until then"},
+    [OPTION_TARGET_ERROR] = {"target-error", "E", KIND_REAL, GROUP_RENDER, RENDER, 0, 1, NULL, 1, "0, no such end",
+                             "stop when the root mean square error over the mean radiance is below E with 95 % "
+                             "confidence; --spp, --passes and --time are then limits. In photon mode only with "
+                             "--passes, and of the noise alone, not of the bias of gathering"},
     [OPTION_SEED] = {"seed", "S", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 0, UINT32_MAX, NULL, 1, "0",
                      "the same seed gives the same image, bit for bit"},
     [OPTION_SAMPLER] = {"sampler", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, samplers, 1, "sobol",
@@ -122,11 +132,13 @@ const option option_table[OPTION_COUNT] = {
                              "in proportion to power",
                              "what part of the paths each light gets, in proportion, in the order of `rtc photons info`"},
 
-    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS, 0, 0, NULL, 0,
+    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS | COMPARE, 0, 0, NULL, 0,
                     "NAME.png and NAME.exr in the current directory for NAME.rts",
                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB); may be repeated"},
     [OPTION_AOV] = {"aov", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
                     "add the layers albedo, normal and depth to .exr"},
+    [OPTION_VARIANCE] = {"variance", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 1, NULL,
+                         "estimate the error, and add the layer variance to .exr; --target-error does so too"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER, -126, 126, NULL, 1, "0",
                          "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER, 0, 0, tonemaps, 1, "none",
@@ -137,6 +149,39 @@ const option option_table[OPTION_COUNT] = {
     /* The same name as the image's; each command takes its own. */
     [OPTION_MESH_OUT] = {"out", "FILE", KIND_TEXT, GROUP_MESH, MESH, 0, 0, NULL, 0, "KIND.ply in the current directory",
                          "where the mesh goes, a binary PLY file"},
+
+    [OPTION_LAYER] = {"layer", "NAME", KIND_TEXT, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, "the picture itself",
+                      "compare a layer of .exr files, such as albedo, normal, depth or photon.count"},
+    [OPTION_BLOCK] = {"block", "N", KIND_WHOLE, GROUP_COMPARE, COMPARE, 1, UINT32_MAX, NULL, 0, "16",
+                      "side of the blocks in pixels"},
+    [OPTION_TOLERANCE] = {"tolerance", "T", KIND_REAL, GROUP_COMPARE, COMPARE, 1e-9, 1, NULL, 0, "0.01",
+                          "how far a block's mean may be off, as a part of the reference's; noise is allowed beside "
+                          "it, four standard errors of the difference"},
+    /* The same name as a render's. */
+    [OPTION_COMPARE_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_COMPARE, COMPARE, -126, 126, NULL, 0, "0",
+                                 "brighten by 2^EV before ssim and flip look at the pictures"},
+    [OPTION_SCALE] = {"scale", "V", KIND_REAL, GROUP_COMPARE, COMPARE, 0, 1e15, NULL, 0, "the typical one",
+                      "the difference that --out shows in full colour"},
+    [OPTION_BLOCKS] = {"blocks", NULL, KIND_FLAG, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, NULL,
+                       "print of every block the ratio, its standard error, and the difference as a part of what "
+                       "is allowed"},
+    [OPTION_JSON] = {"json", NULL, KIND_FLAG, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, NULL,
+                     "print the results as one JSON object; null stands for what is not a finite number"},
+
+    [OPTION_MAX_MSE] = {"max-mse", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1e15, NULL, 0, NULL,
+                        "largest mean squared error"},
+    [OPTION_MAX_RMSE] = {"max-rmse", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1e15, NULL, 0, NULL,
+                         "largest root mean squared error"},
+    [OPTION_MAX_RELMSE] = {"max-relmse", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1e15, NULL, 0, NULL,
+                           "largest mean of (a - b)^2 / (b^2 + 0.01)"},
+    [OPTION_MAX_BIAS] = {"max-bias", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1e15, NULL, 0, NULL,
+                         "largest distance of the mean ratio from 1"},
+    [OPTION_MIN_SSIM] = {"min-ssim", "V", KIND_REAL, GROUP_LIMIT, COMPARE, -1, 1, NULL, 0, NULL,
+                         "least structural similarity; equal pictures have 1"},
+    [OPTION_MAX_FLIP] = {"max-flip", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1, NULL, 0, NULL,
+                         "largest mean FLIP; equal pictures have 0"},
+    [OPTION_MAX_OFF] = {"max-off", "N", KIND_WHOLE, GROUP_LIMIT, COMPARE, 0, UINT32_MAX, NULL, 0, NULL,
+                        "most blocks whose mean is off by more than tolerance and noise allow"},
 
     [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 0, 0, NULL, 0, "0",
                        "a number of `rtc devices`, or part of a device's or platform's name"},

@@ -14,7 +14,7 @@ typedef struct output_list {
 } output_list;
 
 /*
- * The files of --out, or NAME.png and NAME.exr in the current directory for the scene NAME.rts.
+ * The files of --out, or NAME.png and NAME.exr in the current directory for the scene NAME.rts; none for NULL.
  * Fails, before any time is spent on rendering, when an extension is unknown, a name is given twice
  * or a file cannot be written. Returns an exit status. Free *out with outputs_free in either case.
  */

@@ -90,7 +90,8 @@ static int read_options(emit_job *job, const command_line *arguments)
 static int load(emit_job *job)
 {
     rt_error error;
-    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet, NULL);
+    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet ? SCENE_QUIETLY : SCENE_TO_EMIT,
+                                 NULL);
     if (status != STATUS_DONE)
         return status;
     rt_scene_get_options(job->scene, &job->render);

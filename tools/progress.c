@@ -50,6 +50,8 @@ static void show_text(progress_display *progress, const rt_progress *report)
             (int)(report->fraction * 100.0), elapsed);
     if (report->fraction < 1.0)
         fprintf(stderr, "  remaining %s", remaining);
+    if (report->error >= 0.0)
+        fprintf(stderr, "  error %.3g %%", 100.0 * report->error);
     /* A build that the driver has cached is over before this is reached. */
     if (compiling && report->elapsed >= notable_compile)
         fputs("  compiling kernels (first run)", stderr);
@@ -63,9 +65,13 @@ static void show_json(const rt_progress *report)
     fprintf(stderr, "{\"stage\":\"%s\",\"fraction\":%.4f,\"elapsed\":%.3f,\"remaining\":", rt_stage_name(report->stage),
             report->fraction, report->elapsed);
     if (report->remaining >= 0.0)
-        fprintf(stderr, "%.3f}\n", report->remaining);
+        fprintf(stderr, "%.3f", report->remaining);
     else
-        fputs("null}\n", stderr);
+        fputs("null", stderr);
+    if (report->error >= 0.0)
+        fprintf(stderr, ",\"error\":%.6g}\n", report->error);
+    else
+        fputs(",\"error\":null}\n", stderr);
 }
 
 /* Whether a report is to be shown: the end of a stage, its start, or enough time since the last one. */

@@ -85,7 +85,8 @@ static void warn_idle_options(const render_job *job)
 static int load(render_job *job)
 {
     rt_error error;
-    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet, NULL);
+    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER,
+                                 NULL);
     if (status != STATUS_DONE)
         return status;
     status = set_options(job);
@@ -137,21 +138,44 @@ static void say_what_was_written(const render_job *job, int interrupted)
                  (unsigned)width, (unsigned)height, (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
 }
 
+/* What is known of the picture's error, and whether it is what was asked for. */
+static void say_how_good_it_is(const render_job *job)
+{
+    double target = job->options.target_error;
+    rt_film_stats stats;
+    rt_film_get_stats(job->film, &stats);
+    if (stats.rejected > 0)
+        message_warning("samples left out because they were not finite: %llu", (unsigned long long)stats.rejected);
+    if (stats.replicates > 0)
+        message_note("relative error %.3g %%, below %.3g %% with 95 %% confidence (root mean square over mean "
+                     "radiance%s)",
+                     100.0 * stats.relative_error, 100.0 * stats.relative_error_bound,
+                     job->options.mode == RT_MODE_PHOTON ? "; of the noise alone, not of the bias of gathering" : "");
+    if (target > 0.0 && !(stats.replicates > 0 && stats.relative_error_bound <= target))
+        message_warning("the target error of %.3g %% was not reached", 100.0 * target);
+}
+
+/* The value of an option as written; empty for a flag. */
+static const char *text_of(const render_job *job, option_id id)
+{
+    return option_table[id].kind == KIND_FLAG ? "" : value(job, id)->text;
+}
+
 /* The command line as far as it decides the pixels, so that two equal images are equal files. */
 static char *recorded_command(const render_job *job)
 {
     size_t size = strlen(job->scene_path) + 8;
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].decides_pixels && value(job, (option_id)i)->given)
-            size += strlen(option_table[i].name) + strlen(value(job, (option_id)i)->text) + 4;
+            size += strlen(option_table[i].name) + strlen(text_of(job, (option_id)i)) + 4;
     char *line = malloc(size);
     if (!line)
         return NULL;
     size_t used = (size_t)snprintf(line, size, "rtc %s", job->scene_path);
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].decides_pixels && value(job, (option_id)i)->given)
-            used += (size_t)snprintf(line + used, size - used, " --%s %s", option_table[i].name,
-                                     value(job, (option_id)i)->text);
+            used += (size_t)snprintf(line + used, size - used, " --%s%s%s", option_table[i].name,
+                                     option_table[i].kind == KIND_FLAG ? "" : " ", text_of(job, (option_id)i));
     return line;
 }
 
@@ -175,6 +199,8 @@ static int write_images(const render_job *job, int status)
         return written;
     if (!job->session.quiet || status == STATUS_INTERRUPTED)
         say_what_was_written(job, status == STATUS_INTERRUPTED);
+    if (!job->session.quiet)
+        say_how_good_it_is(job);
     if (value(job, OPTION_STATS)->given)
         stats_print(job->scene, job->device, &job->options, job->film);
     return status;

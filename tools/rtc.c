@@ -10,6 +10,7 @@
 static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,   [COMMAND_MESH] = command_mesh,
     [COMMAND_DEVICES] = command_devices, [COMMAND_DOCTOR] = command_doctor, [COMMAND_PHOTONS] = command_photons,
+    [COMMAND_COMPARE] = command_compare,
 };
 
 static int run(const command_line *arguments)

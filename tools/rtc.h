@@ -21,5 +21,6 @@ int command_mesh(const command_line *arguments);
 int command_devices(const command_line *arguments);
 int command_doctor(const command_line *arguments);
 int command_photons(const command_line *arguments);
+int command_compare(const command_line *arguments);
 
 #endif

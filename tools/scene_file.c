@@ -13,17 +13,23 @@
 
 typedef struct scene_reading {
     scene_findings findings;
-    int hush_warnings;
+    scene_purpose purpose;
 } scene_reading;
+
+static int is_wanted(const rt_diagnostic *diagnostic, scene_purpose purpose)
+{
+    if (diagnostic->severity == RT_SEVERITY_ERROR || purpose == SCENE_TO_CHECK)
+        return 1;
+    return purpose != SCENE_QUIETLY && diagnostic->severity == RT_SEVERITY_WARNING &&
+           diagnostic->finding != RT_FINDING_NO_LIGHT;
+}
 
 static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
 {
     scene_reading *reading = user;
-    if (diagnostic->is_warning)
-        reading->findings.warnings++;
-    else
-        reading->findings.errors++;
-    if (!diagnostic->is_warning || !reading->hush_warnings)
+    reading->findings.errors += diagnostic->severity == RT_SEVERITY_ERROR;
+    reading->findings.warnings += diagnostic->severity == RT_SEVERITY_WARNING;
+    if (is_wanted(diagnostic, reading->purpose))
         message_diagnostic(diagnostic);
 }
 
@@ -64,10 +70,10 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     return STATUS_DONE;
 }
 
-int scene_file_load(rt_scene **out, const char *path, int hush_warnings, scene_findings *findings)
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings)
 {
-    scene_reading reading = {{0, 0}, hush_warnings};
-    rt_load_options options = {on_diagnostic, &reading};
+    scene_reading reading = {{0, 0}, purpose};
+    rt_load_options options = {on_diagnostic, &reading, purpose == SCENE_TO_CHECK || purpose == SCENE_TO_RENDER};
     rt_error error;
     rt_status result = RT_OK;
     int status = STATUS_DONE;

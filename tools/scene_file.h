@@ -9,10 +9,18 @@ typedef struct scene_findings {
     unsigned errors, warnings;
 } scene_findings;
 
+/* What a scene is read for decides what is said of it beside its errors. */
+typedef enum scene_purpose {
+    SCENE_TO_CHECK,  /* everything */
+    SCENE_TO_RENDER, /* warnings, but for what the render itself will warn of */
+    SCENE_TO_EMIT,   /* warnings of the text: photons need no camera */
+    SCENE_QUIETLY    /* nothing */
+} scene_purpose;
+
 /*
- * Reads the scene at path, "-" for stdin, and prints every error, and every warning unless hushed.
+ * Reads the scene at path, "-" for stdin, and prints every error and what else its purpose asks for.
  * Returns an exit status; the caller owns *out, written only on STATUS_DONE. findings may be NULL.
  */
-int scene_file_load(rt_scene **out, const char *path, int hush_warnings, scene_findings *findings);
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings);
 
 #endif

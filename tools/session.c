@@ -63,6 +63,7 @@ void session_merge_options(const session *s, rt_render_options *options)
     set_u32(&options->height, session_value(s, OPTION_HEIGHT));
     set_u32(&options->spp, session_value(s, OPTION_SPP));
     set_u32(&options->max_depth, session_value(s, OPTION_MAX_DEPTH));
+    set_u32(&options->roulette_depth, session_value(s, OPTION_ROULETTE_DEPTH));
     set_u32(&options->seed, session_value(s, OPTION_SEED));
     set_u32(&options->k, session_value(s, OPTION_K));
     set_u32(&options->final_gather, session_value(s, OPTION_FINAL_GATHER));
@@ -80,6 +81,10 @@ void session_merge_options(const session *s, rt_render_options *options)
         options->photons = session_value(s, OPTION_PHOTONS)->count;
     if (session_value(s, OPTION_TIME)->given)
         options->time = session_value(s, OPTION_TIME)->real;
+    if (session_value(s, OPTION_TARGET_ERROR)->given)
+        options->target_error = session_value(s, OPTION_TARGET_ERROR)->real;
+    if (session_value(s, OPTION_VARIANCE)->given)
+        options->variance = 1;
     if (session_value(s, OPTION_RADIUS)->given)
         options->radius = (float)session_value(s, OPTION_RADIUS)->real;
     if (session_value(s, OPTION_CONE_K)->given)

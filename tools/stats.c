@@ -53,6 +53,16 @@ static void print_ledger(const rt_film *film)
     free(rows);
 }
 
+static void print_error(const rt_film_stats *stats)
+{
+    if (stats->replicates == 0)
+        return;
+    printf("relative error: %.6g\n", stats->relative_error);
+    printf("relative error, 95 %% bound: %.6g\n", stats->relative_error_bound);
+    printf("independent sequences: %u\n", (unsigned)stats->replicates);
+    printf("95 %% interval of a pixel: +- %.4g sqrt(variance)\n", stats->interval_factor);
+}
+
 void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options, const rt_film *film)
 {
     rt_device_info info;
@@ -69,6 +79,7 @@ void stats_print(const rt_scene *scene, const rt_device *device, const rt_render
     printf("size: %u x %u pixels\n", (unsigned)width, (unsigned)height);
     print_count("samples a pixel", stats.spp);
     print_count("samples rejected", stats.rejected);
+    print_error(&stats);
     print_seconds("build time", stats.build_seconds);
     print_seconds("compile time", stats.compile_seconds);
     if (options->mode == RT_MODE_PHOTON) {

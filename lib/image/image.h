@@ -1,5 +1,5 @@
 /*
- * image.h - an image in memory: named float channels and text attributes.
+ * image.h - the inside of an rt_image: named float channels and text attributes.
  *
  * Colour channels are named R, G, B and hold linear sRGB, or codes of the sRGB transfer function where
  * is_srgb says so; grey alone is named Y. A channel of a further layer is named LAYER.CHANNEL, such as
@@ -24,14 +24,14 @@ typedef struct rt_image_attribute {
     char *value;
 } rt_image_attribute;
 
-typedef struct rt_image {
+struct rt_image {
     uint32_t width, height, channel_count;
     char (*names)[RT_IMAGE_NAME_SIZE]; /* [channel_count], all different, in the order of the data */
     int is_srgb;                       /* values are sRGB codes from 0 to 1, as 8- and 16-bit files hold */
     float *data;                       /* [height][width][channel_count], top row first */
     rt_image_attribute *attributes;    /* [attribute_count], in the order in which they were set */
     size_t attribute_count;
-} rt_image;
+};
 
 /*
  * A black image of these channels. Fails with RT_ERROR_USAGE when a side or the number of channels
@@ -39,13 +39,15 @@ typedef struct rt_image {
  */
 rt_status rt_image_create(rt_image **out, uint32_t width, uint32_t height, const char *const *names,
                           uint32_t channel_count, rt_error *error);
-void rt_image_destroy(rt_image *image);
 
 /* The index of the channel of that name, or RT_IMAGE_NO_CHANNEL. */
 uint32_t rt_image_channel(const rt_image *image, const char *name);
 
 /* The indices of R, G and B; fails with RT_ERROR_USAGE when one is missing. */
 rt_status rt_image_rgb_channels(uint32_t rgb[3], const rt_image *image, rt_error *error);
+
+/* Whether rt_image_get_rgb finds that layer. */
+int rt_image_has_layer(const rt_image *image, const char *layer);
 
 /* Sets a text attribute, replacing one of that name; value is copied. */
 rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *value, rt_error *error);

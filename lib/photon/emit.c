@@ -58,6 +58,15 @@ void rt_emitter_destroy(rt_emitter *e)
     free(e);
 }
 
+void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
+{
+    if (e->lights.reach > 0)
+        rt_warn(hooks, "photons of the sky and of directional lights fall on planes only within %.3g m of the middle of "
+                       "the other shapes: what planes reflect from farther out is missing; a final gather lessens the "
+                       "loss, quads in their place end it",
+                e->lights.reach);
+}
+
 /* Makes memory for batches of at most `count` paths, unless there is enough. */
 static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_error *error)
 {

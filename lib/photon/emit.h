@@ -22,6 +22,9 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
                             size_t share_count, rt_error *error);
 void rt_emitter_destroy(rt_emitter *emitter);
 
+/* Warns of light that photon paths leave out: that of the sky and of directional lights on far parts of planes. */
+void rt_emitter_warn_reach(const rt_emitter *emitter, const rt_hooks *hooks);
+
 /*
  * Emits paths first .. first + count - 1 of a seed into one list of the map, behind what it holds, in batches of
  * bounded memory. The map's settings say how (`scene` apart); its ledger is made for the lights when it has none.

@@ -1,6 +1,9 @@
 /*
  * photon_order.c - Hilbert keys and a parallel radix sort.
  *
+ * On a plane without end, some photons lie so far out that the rest would share a cell. Cells are therefore cubes of
+ * one size where most of the photons are, and grow outside of that.
+ *
  * References:
  *   Hamilton: "Compact Hilbert Indices", Technical Report CS-2006-07, Dalhousie University, 2006.
  */
@@ -17,6 +20,7 @@ enum { CURVE_BITS = 12 };   /* an axis */
 enum { INDEX_BITS = 28 };   /* beside a key in an item */
 enum { DIGIT_BITS = 12, DIGITS = 3 * CURVE_BITS / DIGIT_BITS, BINS = 1 << DIGIT_BITS };
 enum { SHARES = 16 };       /* of the photons, each one job */
+enum { SAMPLE = 2048, FAR_OUT = 20 }; /* photons that show where most are: all but one in so many at either end */
 
 /* ---- The curve ----------------------------------------------------------------- */
 
@@ -81,7 +85,8 @@ typedef struct sorting {
     uint64_t *from, *to;
     int shift; /* of the digit */
     float low[SHARES][3], high[SHARES][3];
-    double origin[3], scale[3]; /* to cells of the curve */
+    double middle[3], reach;  /* where most photons are: so far from there, along each axis */
+    double origin[3], scale;  /* of squeezed positions, to cells of the curve */
     curve curve;
     size_t (*bins)[BINS];       /* [SHARES], counts, then where each share's items of a bin go */
 } sorting;
@@ -105,6 +110,37 @@ static void bound_share(void *user, uint32_t share)
     memcpy(s->high[share], high, sizeof high);
 }
 
+static int by_value(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Finds where most of the photons are, from some of them; the reach leaves them half as much room again. */
+static void find_most(sorting *s)
+{
+    float sample[SAMPLE];
+    size_t count = s->count < SAMPLE ? s->count : SAMPLE, aside = count / FAR_OUT;
+    s->reach = 0;
+    for (int axis = 0; axis < 3 && count > 0; axis++) {
+        for (size_t i = 0; i < count; i++)
+            sample[i] = s->list->photons[i * s->count / count].position[axis];
+        qsort(sample, count, sizeof *sample, by_value);
+        double low = sample[aside], high = sample[count - 1 - aside];
+        s->middle[axis] = 0.5 * (low + high);
+        s->reach = fmax(s->reach, 0.75 * (high - low));
+    }
+    if (!(s->reach > 0))
+        s->reach = 1;
+}
+
+/* Along an axis: in units of the reach from the middle, and within [-2, 2] however far out. */
+static double squeeze(const sorting *s, float x, int axis)
+{
+    double from = (x - s->middle[axis]) / s->reach, far = fabs(from);
+    return far <= 1 ? from : copysign(2 - 1 / far, from);
+}
+
 /* Maps the box around all photons to the cells; one scale for all axes keeps the cells cubes. */
 static void set_cells(sorting *s)
 {
@@ -115,11 +151,10 @@ static void set_cells(sorting *s)
             low = s->low[i][axis] < low ? s->low[i][axis] : low;
             high = s->high[i][axis] > high ? s->high[i][axis] : high;
         }
-        s->origin[axis] = low;
-        largest = (double)high - low > largest ? (double)high - low : largest;
+        s->origin[axis] = squeeze(s, low, axis);
+        largest = fmax(largest, squeeze(s, high, axis) - s->origin[axis]);
     }
-    for (int axis = 0; axis < 3; axis++)
-        s->scale[axis] = largest > 0 ? (1 << CURVE_BITS) * (1 - 1e-9) / largest : 0;
+    s->scale = largest > 0 ? (1 << CURVE_BITS) * (1 - 1e-9) / largest : 0;
 }
 
 static void key_share(void *user, uint32_t share)
@@ -128,7 +163,7 @@ static void key_share(void *user, uint32_t share)
     for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++) {
         uint32_t cell[3];
         for (int axis = 0; axis < 3; axis++)
-            cell[axis] = (uint32_t)((s->list->photons[i].position[axis] - s->origin[axis]) * s->scale[axis]);
+            cell[axis] = (uint32_t)((squeeze(s, s->list->photons[i].position[axis], axis) - s->origin[axis]) * s->scale);
         s->from[i] = hilbert_key(&s->curve, cell) << INDEX_BITS | i;
     }
 }
@@ -183,6 +218,7 @@ rt_status rt_photon_order(uint64_t *items, uint64_t *spare, const rt_photon_list
     make_curve(&s.curve);
 
     rt_parallel(threads, SHARES, bound_share, &s);
+    find_most(&s);
     set_cells(&s);
     rt_parallel(threads, SHARES, key_share, &s);
     for (int pass = 0; pass < DIGITS; pass++) {

@@ -7,7 +7,7 @@
 #include "photon/photon_list.h"
 
 /*
- * Sorts the photons of a list, at most 2^28, along Hilbert's curve through their bounding box: the order is
+ * Sorts the photons of a list, at most 2^28, along Hilbert's curve, finest where most of them are: the order is
  * written to `items` [count], an index in the low 28 bits of each. `spare` [count] is scratch memory. The sort is
  * stable, so the result does not depend on the number of threads. Fails only for want of memory.
  */

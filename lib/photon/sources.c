@@ -80,6 +80,16 @@ static void share_by_power(rt_light_sources *s, const rt_light_data *lights)
         s->sources[i].share /= total;
 }
 
+/* How far around the middle of the scene light from infinitely far is followed, where it matters: see emit_distant. */
+static double reach(const rt_scene_header *scene)
+{
+    const rt_light_data *lights = table(scene, scene->lights);
+    for (size_t i = 0; i < scene->light_count && scene->plane_count > 0; i++)
+        if ((lights[i].kind == RT_LIGHT_DIRECTIONAL || lights[i].kind == RT_LIGHT_ENVIRONMENT) && lights[i].power > 0)
+            return scene->radius > 0 ? scene->radius : 1;
+    return 0;
+}
+
 static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const float *shares, size_t share_count,
                       rt_error *error)
 {
@@ -87,6 +97,7 @@ static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const f
     const rt_light_data *lights = table(scene, scene->lights);
 
     s->light_count = scene->light_count;
+    s->reach = reach(scene);
     s->sources = calloc(count, sizeof *s->sources);
     s->of_light = calloc(count, sizeof *s->of_light);
     s->shares = calloc(count, sizeof *s->shares);

@@ -3,19 +3,12 @@
 
 #include "error.h"
 #include "render/renderer.h"
-#include "scene/check.h"
-#include "scene/scene.h"
-
-/* Whether light can enter a solid of this material; the same as is_transparent in kernels/medium.h. */
-static int is_transparent(const rt_material *m)
-{
-    return !rt_is_black(m->kt) || (m->fresnel == RT_FRESNEL_DIELECTRIC && !rt_is_black(m->ks));
-}
+#include "scene/inside.h"
 
 static int has_solids(const rt_scene *scene)
 {
     for (size_t i = 0; i < scene->shape_count; i++)
-        if (is_transparent(scene->materials + scene->shapes[i].surface.material))
+        if (rt_material_is_transparent(scene->materials + scene->shapes[i].surface.material))
             return 1;
     return 0;
 }

@@ -5,6 +5,7 @@
 
 #include "error.h"
 #include "render/aov.h"
+#include "render/noise.h"
 
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error)
 {
@@ -32,6 +33,7 @@ void rt_film_destroy(rt_film *film)
     if (!film)
         return;
     rt_ledger_free(&film->ledger);
+    rt_noise_destroy(film->noise);
     free(film->pixels);
     free(film->rgb);
     free(film->layer_sums);
@@ -46,7 +48,7 @@ double rt_film_divisor(const rt_film_pixel *pixel)
     return fabs(weight) >= 0.25 * count ? weight : count;
 }
 
-void rt_film_resolve(rt_film *film)
+rt_status rt_film_resolve(rt_film *film, rt_error *error)
 {
     size_t count = (size_t)film->options.width * film->options.height;
     uint32_t fewest = film->pixels[0].count;
@@ -62,6 +64,7 @@ void rt_film_resolve(rt_film *film)
     }
     film->stats.spp = fewest;
     rt_aov_resolve(film);
+    return film->noise ? rt_noise_resolve(film->noise, film, error) : RT_OK;
 }
 
 const float *rt_film_rgb(const rt_film *film)

@@ -11,6 +11,7 @@ typedef enum rt_film_layer_id {
     RT_FILM_ALBEDO,
     RT_FILM_NORMAL,
     RT_FILM_DEPTH,
+    RT_FILM_VARIANCE,
     RT_FILM_PHOTON_COUNT,
     RT_FILM_PHOTON_RADIUS,
     RT_FILM_PHOTON_DENSITY,
@@ -33,6 +34,7 @@ struct rt_film {
     float *rgb;            /* [height][width][3], the means */
     rt_film_pixel *layer_sums;     /* [RT_LAYER_COUNT][height][width], of the layers that the kernel aov sums, or NULL */
     float *layers[RT_FILM_LAYERS]; /* [height][width][channels], or NULL */
+    struct rt_noise *noise;        /* what rounds tell of the error, or NULL; see noise.h */
 };
 
 /* Makes room for the layers from first to last, all zero; the film owns it. */
@@ -47,7 +49,7 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_err
  */
 double rt_film_divisor(const rt_film_pixel *pixel);
 
-/* Makes the means from the sums, and from them the counts of samples and of rejected ones. */
-void rt_film_resolve(rt_film *film);
+/* Makes the means from the sums, and from them the counts of samples and of rejected ones; and what the rounds tell. */
+rt_status rt_film_resolve(rt_film *film, rt_error *error);
 
 #endif

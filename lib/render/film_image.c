@@ -28,6 +28,10 @@ static rt_status describe(rt_image *image, const rt_film *film, const rt_image_o
         status = set_number(image, "librt.seed", o->seed, error);
     if (status == RT_OK)
         status = set_number(image, "librt.samples", film->stats.spp, error);
+    if (status == RT_OK && film->stats.replicates > 0)
+        status = set_number(image, "librt.replicates", film->stats.replicates, error);
+    if (status == RT_OK && film->stats.replicates > 0)
+        status = set_number(image, "librt.relative_error", film->stats.relative_error, error);
     if (status == RT_OK && o->mode == RT_MODE_PHOTON)
         status = set_number(image, "librt.photons", (double)film->stats.photons_emitted, error);
     return status;

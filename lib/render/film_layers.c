@@ -9,6 +9,7 @@ const rt_layer_kind rt_layer_kinds[RT_FILM_LAYERS] = {
     [RT_FILM_ALBEDO] = {"albedo", 3, {"albedo.R", "albedo.G", "albedo.B"}},
     [RT_FILM_NORMAL] = {"normal", 3, {"normal.X", "normal.Y", "normal.Z"}},
     [RT_FILM_DEPTH] = {"depth", 1, {"depth.Z"}},
+    [RT_FILM_VARIANCE] = {"variance", 3, {"variance.R", "variance.G", "variance.B"}},
     [RT_FILM_PHOTON_COUNT] = {"photon.count", 1, {"photon.count"}},
     [RT_FILM_PHOTON_RADIUS] = {"photon.radius", 1, {"photon.radius"}},
     [RT_FILM_PHOTON_DENSITY] = {"photon.density", 1, {"photon.density"}},

@@ -178,6 +178,7 @@ rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint
 
     params.first_sample = sample;
     params.sample_count = 1;
+    params.replicate = eye->replicate;
     for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
         params.first_item = done;
         params.item_count = pixels - done < batch ? pixels - done : (uint32_t)batch;
@@ -209,6 +210,7 @@ rt_status rt_photon_eye_mean_radius(rt_photon_eye *eye, rt_gatherer *gatherer, u
 
     params.first_sample = sample;
     params.sample_count = 1;
+    params.replicate = eye->replicate;
     for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
         params.first_item = done;
         params.item_count = pixels - done < batch ? pixels - done : (uint32_t)batch;

@@ -23,6 +23,7 @@ typedef struct rt_photon_eye {
     const rt_render_options *options;
     rt_eye_kernels kernels;
     rt_aov *aov;
+    uint32_t replicate; /* of the samples to come */
     rt_u32 rows;     /* of caustic points a path can have: diffuse bounces of the final gather */
     size_t capacity; /* paths a batch */
     cl_mem points;   /* rt_gather_point [capacity] */

@@ -61,6 +61,7 @@ static rt_status emit(emission *e, rt_error *error)
         status = emit_part(e, RT_PHOTONS_CAUSTIC, o->caustic_photons, &progress, error);
     if (status != RT_OK)
         return status;
+    rt_emitter_warn_reach(e->emitter, o->hooks);
     rt_photon_map_warn_starved(e->map, &e->map->ledger, o->k, o->caustic_k, o->hooks);
     return rt_stage_end(&progress, NULL);
 }

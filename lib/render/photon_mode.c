@@ -15,6 +15,7 @@
 #include "photon/emit.h"
 #include "photon/photon_map.h"
 #include "render/aov.h"
+#include "render/noise.h"
 #include "render/photon_eye.h"
 #include "render/renderer.h"
 
@@ -115,16 +116,24 @@ static const rt_photon_list *list_of(const photon_render *r, rt_photon_kind kind
     return r->in_use->lists + kind;
 }
 
+/* The independent sequences that passes take turns at. */
+static uint32_t replicates_of(const photon_render *r)
+{
+    return r->film->noise ? RT_REPLICATES : 1;
+}
+
 /*
  * Fills the map with the photons of a pass: the next paths of the seed, and when its indices are used up, of
- * another.
+ * another. Where the error is to be known, passes take turns at replicates, each with seeds of its own.
  */
 static rt_status emit_kind(photon_render *r, rt_photon_kind kind, uint64_t count, uint32_t pass,
                            rt_stage_progress *progress, rt_error *error)
 {
     uint64_t passes_a_seed = (UINT64_C(1) << 32) / count;
-    uint32_t seed = r->options->seed + (uint32_t)(pass / passes_a_seed) * 0x9e3779b9u;
-    return rt_emitter_emit(r->emitter, &r->map, kind, seed, pass % passes_a_seed * count, count, progress, error);
+    uint32_t replicates = replicates_of(r), turn = pass / replicates;
+    uint32_t seeds_before = (uint32_t)(turn / passes_a_seed) * replicates + pass % replicates;
+    uint32_t seed = r->options->seed + seeds_before * 0x9e3779b9u;
+    return rt_emitter_emit(r->emitter, &r->map, kind, seed, turn % passes_a_seed * count, count, progress, error);
 }
 
 /* The caustic photons of a list that holds all kinds. */
@@ -329,8 +338,9 @@ static rt_status render_pass(photon_render *r, uint32_t pass, double squared_fac
 {
     rt_film_stats *stats = &r->film->stats;
     double from = progress->from, to = progress->to, t0 = rt_clock();
-    uint32_t first = pass * r->options->spp;
+    uint32_t first = pass / replicates_of(r) * r->options->spp;
 
+    r->eye.replicate = pass % replicates_of(r);
     rt_stage_part(progress, from, from + 0.4 * (to - from));
     rt_status status = emit(r, pass, progress, error);
     double t1 = rt_clock();
@@ -345,22 +355,47 @@ static rt_status render_pass(photon_render *r, uint32_t pass, double squared_fac
     return status;
 }
 
-/* Pass after pass, as one stage, until there are enough or time is up. */
+/* At the end of a pass: learns what it tells of the error; *enough: the one asked for is reached. */
+static rt_status end_pass(photon_render *r, uint32_t pass, rt_stage_progress *progress, int *enough, rt_error *error)
+{
+    rt_stretch samples = {.replicate = r->eye.replicate, .count = r->options->spp};
+    rt_noise *noise = r->film->noise;
+    if (!noise)
+        return RT_OK;
+    rt_status status = rt_noise_read(noise, &samples, r->renderer->device, r->eye.pixels, r->film, error);
+    if (status == RT_OK && samples.replicate == RT_REPLICATES - 1)
+        *enough = rt_noise_look(noise, pass / RT_REPLICATES + 1, r->options->target_error);
+    progress->error = rt_noise_last(noise);
+    return status;
+}
+
+/* Where the progress of a pass begins: by passes, by time, or by the error, whichever is furthest. */
+static double part_done(const photon_render *r, uint32_t passes)
+{
+    const rt_render_options *o = r->options;
+    double length = (double)passes / RT_REPLICATES;
+    double by_error = r->film->noise ? rt_noise_progress(r->film->noise, length, o->target_error) : 0;
+    return fmax((double)passes / o->passes, fmax(elapsed_part(r), by_error));
+}
+
+/* Pass after pass, as one stage, until there are enough, time is up or the error is small enough. */
 static rt_status render_passes(photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->options;
     double squared_factor = 1, longest = 0;
+    int enough = 0;
     rt_stage_progress progress;
 
     rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_RENDER);
-    for (uint32_t pass = 0; pass < o->passes && status == RT_OK; pass++) {
-        double began = rt_clock(), by_passes = (double)pass / o->passes, by_time = elapsed_part(r);
-        double from = by_passes > by_time ? by_passes : by_time, to = 1.0 / o->passes;
+    for (uint32_t pass = 0; pass < o->passes && status == RT_OK && !enough; pass++) {
+        double began = rt_clock(), from = part_done(r, pass), to = 1.0 / o->passes;
         if (o->time > 0 && longest / o->time > to)
             to = longest / o->time;
         squared_factor = shrunk(squared_factor, pass, o->alpha);
         rt_stage_part(&progress, from, from + to < 1 ? from + to : 1);
         status = render_pass(r, pass, squared_factor, &progress, error);
+        if (status == RT_OK)
+            status = end_pass(r, pass, &progress, &enough, error);
         if (status == RT_OK)
             r->film->stats.passes = pass + 1;
         if (elapsed_part(r) >= 1)
@@ -400,6 +435,8 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
         r.began = rt_clock();
         status = r.in_passes ? render_passes(&r, error) : render_once(&r, error);
     }
+    if (status == RT_OK && r.emitter)
+        rt_emitter_warn_reach(r.emitter, options->hooks);
     if (status == RT_OK)
         rt_photon_map_warn_starved(r.in_use, &film->ledger, options->k, options->caustic_k, options->hooks);
     if (status == RT_OK || (status == RT_CANCELLED && r.eye.pixels)) {

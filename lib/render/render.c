@@ -1,23 +1,27 @@
 /* render.c - rt_render: completes the options, aims the camera, runs the mode. */
-#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
 #include "error.h"
 #include "image/bytes.h"
+#include "render/noise.h"
 #include "render/renderer.h"
-#include "scene/scene.h"
-#include "scene/vec.h"
+#include "scene/view.h"
 
-static const double pi = 3.14159265358979323846;
+/*
+ * The first depth at which roulette may end a path. Measured variance times time in closed rooms of albedo 0.7: under an
+ * area lamp 2 and 3 are equal and 4 is a tenth worse, under a point light 3 and 4 are 15 to 25 % better. 2 gives the
+ * most samples a second.
+ */
+enum { roulette_depth_default = 2 };
 
 /* Replaces zeros by the defaults that the public header states. */
 void rt_options_complete(rt_render_options *o)
 {
     if (o->width == 0)
-        o->width = 512;
+        o->width = RT_FILM_SIDE;
     if (o->height == 0)
-        o->height = 512;
+        o->height = RT_FILM_SIDE;
     if (o->passes == 0)
         o->passes = 1;
     if (o->alpha == 0)
@@ -25,9 +29,11 @@ void rt_options_complete(rt_render_options *o)
     if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
         o->spp = 1;
     if (o->spp == 0)
-        o->spp = o->time > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
+        o->spp = o->time > 0 || o->target_error > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
+    if (o->roulette_depth == 0)
+        o->roulette_depth = roulette_depth_default;
     if (o->photons == 0)
         o->photons = o->passes > 1 ? (uint64_t)o->width * o->height : 1000000;
     if (o->k == 0)
@@ -38,57 +44,6 @@ void rt_options_complete(rt_render_options *o)
         o->caustic_k = o->k;
     if (o->caustic_radius == 0)
         o->caustic_radius = o->radius;
-}
-
-static void scale(float out[3], const double v[3], double factor)
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = (float)(v[i] * factor);
-}
-
-/* Half the width of what is seen at the focal distance. */
-static double half_width_of(const rt_camera *camera)
-{
-    if (camera->kind == RT_CAMERA_ORTHOGRAPHIC)
-        return 0.5 * camera->width;
-    return camera->focal_distance * tan(0.5 * camera->fov * pi / 180);
-}
-
-/* The camera's rays for a film of these proportions; pixels are square. */
-static void aim(rt_camera_data *out, const rt_camera *camera, const rt_render_options *options)
-{
-    static const float origin[3];
-    double axis[3], right[3], up[3], corner[3];
-    double half_width = half_width_of(camera), half_height = half_width * options->height / options->width;
-    double depth = camera->kind == RT_CAMERA_ORTHOGRAPHIC ? 0 : camera->focal_distance;
-
-    rt_vec_sub(axis, camera->look_at, camera->eye);
-    rt_vec_sub(up, camera->up, origin);
-    double length = rt_vec_length(axis);
-    for (int i = 0; i < 3; i++)
-        axis[i] /= length;
-    rt_vec_cross(right, axis, up);
-    length = rt_vec_length(right);
-    for (int i = 0; i < 3; i++)
-        right[i] /= length;
-    rt_vec_cross(up, right, axis);
-    for (int i = 0; i < 3; i++)
-        corner[i] = depth * axis[i] - half_width * right[i] + half_height * up[i];
-
-    memset(out, 0, sizeof *out);
-    memcpy(out->eye, camera->eye, sizeof out->eye);
-    out->aperture = camera->aperture;
-    out->kind = camera->kind;
-    out->blades = camera->blades;
-    out->blade_rotation = (float)(fmod(camera->blade_rotation, 360) * pi / 180);
-    out->focal_distance = camera->focal_distance;
-    out->filter = options->filter;
-    scale(out->corner, corner, 1);
-    scale(out->across, right, 2 * half_width);
-    scale(out->down, up, -2 * half_height);
-    scale(out->lens_u, right, 1);
-    scale(out->lens_v, up, 1);
-    scale(out->axis, axis, 1);
 }
 
 const char *rt_mode_name(rt_mode mode)
@@ -109,6 +64,7 @@ rt_params rt_params_make(const rt_render_options *options)
     p.final_gather = options->final_gather;
     p.direct = options->direct;
     p.estimator = options->estimator;
+    p.roulette_depth = options->roulette_depth;
     return p;
 }
 
@@ -176,20 +132,32 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     if (!renderer->has_camera)
         return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
     rt_options_complete(&complete);
-    aim(&camera, &renderer->camera, &complete);
+    status = rt_noise_check(&complete, error);
+    if (status != RT_OK)
+        return status;
+    rt_view_aim(&camera, &renderer->camera, complete.width, complete.height);
+    camera.filter = complete.filter;
     status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,
                              &camera, error);
     if (status == RT_OK)
         status = rt_film_create(&film, &complete, error);
-    if (status != RT_OK)
+    if (status == RT_OK && rt_noise_wanted(&complete))
+        status = rt_noise_create(&film->noise, (size_t)complete.width * complete.height, error);
+    if (status != RT_OK) {
+        rt_film_destroy(film);
         return status;
+    }
 
+    if (!renderer->has_light && rt_mode_shows_light(complete.mode))
+        rt_warn(complete.hooks, "the scene has no light: its picture is black");
     film->stats.build_seconds = renderer->build_seconds;
     film->stats.light_power = renderer->image.light_power;
     status = complete.mode == RT_MODE_PHOTON ? rt_render_photon(renderer, &complete, film, error)
                                              : rt_render_samples(renderer, &complete, film, error);
-    if (status == RT_OK || status == RT_CANCELLED)
-        rt_film_resolve(film);
+    if (status == RT_OK || status == RT_CANCELLED) {
+        rt_status resolved = rt_film_resolve(film, error);
+        status = resolved == RT_OK ? status : resolved;
+    }
     int keep = status == RT_OK || (status == RT_CANCELLED && film->stats.spp > 0);
     if (keep)
         *out = film;

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "render/aov.h"
+#include "render/noise.h"
 #include "render/renderer.h"
 
 /* A launch aims at this long: short enough for lively progress and a prompt cancel. */
@@ -14,7 +15,9 @@ enum { samples_per_launch_max = 64 };
 /* Where a render stands: samples are given to all pixels before any pixel gets more. */
 typedef struct schedule {
     uint32_t pixels, spp;
-    uint32_t pixel, sample;  /* next launch begins here */
+    uint32_t done;            /* samples of each pixel */
+    rt_stretch stretch;       /* those that come next, */
+    uint32_t pixel, sample;   /* next launch begins here */
     uint32_t pixels_a_launch; /* the next launch's share of the film */
     uint32_t samples_a_launch;
 } schedule;
@@ -53,6 +56,7 @@ static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, u
     rt_status status = RT_OK;
     params->first_item = s->pixel;
     params->item_count = left < s->pixels_a_launch ? left : s->pixels_a_launch;
+    params->replicate = s->stretch.replicate;
     params->first_sample = s->sample;
     params->sample_count = samples;
 
@@ -70,28 +74,63 @@ static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, u
     return status;
 }
 
+/* At the end of a stretch: learns what it tells of the error; *enough: the one asked for is reached. */
+static rt_status end_stretch(const sample_render *r, schedule *s, rt_stage_progress *progress, int *enough,
+                             rt_error *error)
+{
+    rt_noise *noise = r->film->noise;
+    rt_status status = RT_OK;
+    if (noise) {
+        status = rt_noise_read(noise, &s->stretch, r->renderer->device, r->pixels, r->film, error);
+        if (status == RT_OK && s->stretch.replicate == RT_REPLICATES - 1)
+            *enough = rt_noise_look(noise, s->stretch.to, r->options->target_error);
+        progress->error = rt_noise_last(noise);
+    }
+    s->stretch = rt_stretch_next(s->stretch);
+    s->sample = s->stretch.first;
+    return status;
+}
+
+/* How much of the render is done: by samples, by time, or by the error, whichever is furthest. */
+static double part_done(const sample_render *r, const schedule *s, double samples, double seconds)
+{
+    const rt_render_options *o = r->options;
+    const rt_noise *noise = r->film->noise;
+    double by_samples = samples / s->spp, by_time = o->time > 0 ? fmin(seconds / o->time, 1) : 0;
+    if (o->target_error == 0)
+        return fmax(by_samples, by_time);
+    /* Until the error is first looked at, there is no telling: samples may be without limit. */
+    double by_error = rt_noise_progress(noise, samples / RT_REPLICATES, o->target_error);
+    return fmax(by_time, by_error > 0 ? fmax(by_samples, by_error) : 0);
+}
+
 /* The whole film, pass by pass; a pass gives every pixel the same number of samples. */
 static rt_status render_passes(sample_render *r, rt_stage_progress *progress, rt_error *error)
 {
     const rt_render_options *options = r->options;
     rt_params params = rt_params_make(options);
-    schedule s = {options->width * options->height, options->spp, 0, 0, 0, 1};
+    schedule s = {.pixels = options->width * options->height, .spp = options->spp, .samples_a_launch = 1};
     rt_status status = RT_OK;
     double began = rt_clock();
+    int enough = 0;
 
     s.pixels_a_launch = s.pixels < 16384 ? s.pixels : 16384;
-    while (status == RT_OK && s.sample < s.spp) {
-        uint32_t samples = s.samples_a_launch < s.spp - s.sample ? s.samples_a_launch : s.spp - s.sample;
+    s.stretch = rt_stretch_first(s.spp, r->film->noise != NULL);
+    while (status == RT_OK && s.done < s.spp && !enough) {
+        uint32_t left = s.stretch.first + s.stretch.count - s.sample;
+        uint32_t samples = s.samples_a_launch < left ? s.samples_a_launch : left;
         for (s.pixel = 0; s.pixel < s.pixels && status == RT_OK;) {
             double launched = rt_clock();
             status = launch_part(r, &params, &s, samples, error);
-            double now = rt_clock(), by_samples = (s.sample + (double)samples * s.pixel / s.pixels) / s.spp;
-            double by_time = options->time > 0 ? fmin((now - began) / options->time, 1) : 0;
+            double now = rt_clock(), done = s.done + (double)samples * s.pixel / s.pixels;
             adapt(&s, now - launched);
             if (status == RT_OK)
-                status = rt_stage_update(progress, by_samples > by_time ? by_samples : by_time);
+                status = rt_stage_update(progress, part_done(r, &s, done, now - began));
         }
         s.sample += samples;
+        s.done += samples;
+        if (status == RT_OK && samples == left)
+            status = end_stretch(r, &s, progress, &enough, error);
         if (options->time > 0 && rt_clock() - began >= options->time)
             break;
     }

@@ -25,8 +25,14 @@ static rt_status check_film(const rt_render_options *o, rt_error *error)
     if (o->max_depth > depth_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "max_depth", "max_depth is %u; it must not exceed %d",
                              o->max_depth, depth_max);
+    if (o->roulette_depth > depth_max)
+        return rt_fail_field(error, RT_ERROR_USAGE, "roulette_depth", "roulette_depth is %u; it must not exceed %d",
+                             o->roulette_depth, depth_max);
     if (!(o->time >= 0 && o->time <= 1e9))
         return rt_fail_field(error, RT_ERROR_USAGE, "time", "time is %g s; it must lie between 0 and 1e9", o->time);
+    if (!(o->target_error >= 0 && o->target_error <= 1))
+        return rt_fail_field(error, RT_ERROR_USAGE, "target_error", "target_error is %g; it must lie between 0 and 1",
+                             o->target_error);
     return RT_OK;
 }
 

@@ -7,6 +7,7 @@
 
 #include "error.h"
 #include "light/lights.h"
+#include "light/tree.h"
 #include "render/sobol.h"
 #include "scene/packing.h"
 
@@ -57,6 +58,8 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->prim_shape, &h->prim_count, p->prim_count, sizeof(rt_u32));
     place(&rows, &h->materials, &h->material_count, scene->material_count, sizeof(rt_material_data));
     place(&rows, &h->lights, &h->light_count, p->light_count, sizeof(rt_light_data));
+    h->light_leaves = (rt_u32)rt_light_tree_leaves(scene);
+    place(&rows, &h->light_nodes, NULL, 2 * (size_t)h->light_leaves, sizeof(rt_light_node));
     place(&rows, &h->transforms, &h->transform_count, p->transform_count, sizeof(rt_transform_data));
     place(&rows, &h->indices, &h->index_count, p->index_count, sizeof(rt_u32));
     place(&rows, &h->normals, &h->normal_count, p->normal_count, 4 * sizeof(float));
@@ -108,7 +111,8 @@ static rt_status fill(rt_packing *p, rt_error *error)
     rt_pack_environment(p);
     rt_sobol_table(rt_packing_table(p, p->header.sobol));
     memcpy(p->image.data, &p->header, sizeof p->header);
-    return RT_OK;
+    return rt_light_tree_fill(rt_packing_table(p, p->header.light_nodes), p->scene, &p->header,
+                              rt_packing_table(p, p->header.lights), rt_packing_table(p, p->header.prim_shape), error);
 }
 
 rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel, uint32_t threads,
@@ -125,6 +129,8 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
         status = fill(&p, error);
     if (status == RT_OK)
         *out = p.image;
+    else
+        free(p.image.data);
     rt_hierarchy_free(&p.hierarchy);
     free(p.first_prim);
     free(p.first_light);

@@ -185,21 +185,36 @@ void rt_pack_shapes(const rt_packing *p)
 
 /* ---- Vertices -------------------------------------------------------------- */
 
-/* Writes a mesh's normals, of unit length, mapped if there is a map; one of no length stays so. */
-static void pack_normals(float (*out)[4], const rt_scene_mesh *mesh, const rt_affine *inverse)
+/* Writes a mesh's normals, of unit length; one of no length stays so. */
+static void pack_normals(float (*out)[4], const rt_scene_mesh *mesh)
 {
     static const float zero[3];
     for (size_t i = 0; i < mesh->vertex_count; i++) {
-        double n[3], m[3];
+        double n[3];
         rt_vec_sub(n, mesh->normals + 3 * i, zero);
-        if (inverse)
-            rt_affine_normal(m, inverse, n);
-        else
-            memcpy(m, n, sizeof m);
-        double length = rt_vec_length(m);
+        double length = rt_vec_length(n);
         for (int c = 0; c < 3; c++)
-            out[i][c] = length > 0 ? (float)(m[c] / length) : 0;
+            out[i][c] = length > 0 ? (float)(n[c] / length) : 0;
     }
+}
+
+/*
+ * Maps them, and scales all alike so that the longest is of unit length: their mix is then that which is mapped
+ * after it was mixed, as instances do.
+ */
+static void map_normals(float (*normals)[4], size_t count, const rt_affine *inverse)
+{
+    double longest = 0;
+    for (size_t i = 0; i < count; i++) {
+        double n[3] = {normals[i][0], normals[i][1], normals[i][2]}, m[3];
+        rt_affine_normal(m, inverse, n);
+        longest = fmax(longest, rt_vec_length(m));
+        for (int c = 0; c < 3; c++)
+            normals[i][c] = (float)m[c];
+    }
+    for (size_t i = 0; i < count && longest > 0; i++)
+        for (int c = 0; c < 3; c++)
+            normals[i][c] = (float)(normals[i][c] / longest);
 }
 
 /* Normals of meshes as they are placed in world space. */
@@ -213,7 +228,8 @@ static void pack_placed_normals(const rt_packing *p)
         if (shape->kind != RT_SHAPE_TRIANGLES || first == RT_NONE || first == p->meshes[shape->mesh].normal)
             continue;
         rt_affine_inverse(&inverse, &shape->to_world);
-        pack_normals(normals + first, p->scene->meshes + shape->mesh, &inverse);
+        pack_normals(normals + first, p->scene->meshes + shape->mesh);
+        map_normals(normals + first, p->scene->meshes[shape->mesh].vertex_count, &inverse);
     }
 }
 
@@ -230,7 +246,7 @@ void rt_pack_vertices(const rt_packing *p)
         if (place->index != RT_NONE)
             memcpy(indices + place->index, mesh->indices, 3 * mesh->triangle_count * sizeof *indices);
         if (place->normal != RT_NONE)
-            pack_normals(normals + place->normal, mesh, NULL);
+            pack_normals(normals + place->normal, mesh);
         if (place->uv != RT_NONE)
             memcpy(uvs + place->uv, mesh->uv, mesh->vertex_count * sizeof *uvs);
         for (size_t i = 0; place->colour != RT_NONE && i < mesh->vertex_count; i++)

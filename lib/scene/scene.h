@@ -114,6 +114,10 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *mat
 /* The transform of a surface; fails with field "transform" when it cannot be inverted. */
 rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who, rt_error *error);
 
+/* Whether anything in the scene shines; whether a mode shows that, and no property of surfaces instead. */
+int rt_scene_has_light(const rt_scene *scene);
+int rt_mode_shows_light(rt_mode mode);
+
 /* Appends a mesh, taking its arrays over; checked already. */
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh, rt_error *error);
 void rt_scene_mesh_free(rt_scene_mesh *mesh);
@@ -123,6 +127,9 @@ void rt_scene_mesh_survey(rt_scene_mesh *mesh);
 
 /* Most samples that a pixel can have. */
 enum { RT_SPP_MAX = 1 << 24 };
+
+/* Pixels of a side of the film that is not given. */
+enum { RT_FILM_SIDE = 512 };
 
 /* Checks options for values out of their range; used for the scene's own and for rt_render's. */
 rt_status rt_options_check(const rt_render_options *options, rt_error *error);

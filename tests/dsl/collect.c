@@ -13,10 +13,11 @@
 static void keep(void *user, const rt_diagnostic *diagnostic)
 {
     collected *c = user;
-    c->errors += !diagnostic->is_warning;
+    c->errors += diagnostic->severity == RT_SEVERITY_ERROR;
     if (c->count < COLLECTED_MAX) {
         collected_diagnostic *d = &c->items[c->count];
-        d->is_warning = diagnostic->is_warning;
+        d->severity = diagnostic->severity;
+        d->finding = diagnostic->finding;
         d->line = diagnostic->line;
         d->column = diagnostic->column;
         d->length = diagnostic->length;
@@ -30,14 +31,21 @@ static void keep(void *user, const rt_diagnostic *diagnostic)
 
 void collect_text(collected *out, const char *text)
 {
-    rt_load_options options = {keep, out};
+    rt_load_options options = {keep, out, 0};
+    memset(out, 0, sizeof *out);
+    out->status = rt_scene_parse(&out->scene, text, "text", &options, &out->error);
+}
+
+void check_text(collected *out, const char *text)
+{
+    rt_load_options options = {keep, out, 1};
     memset(out, 0, sizeof *out);
     out->status = rt_scene_parse(&out->scene, text, "text", &options, &out->error);
 }
 
 void collect_file(collected *out, const char *path)
 {
-    rt_load_options options = {keep, out};
+    rt_load_options options = {keep, out, 0};
     memset(out, 0, sizeof *out);
     out->status = rt_scene_load(&out->scene, path, &options, &out->error);
 }

@@ -7,7 +7,9 @@
 #define COLLECTED_MAX 64
 
 typedef struct collected_diagnostic {
-    int is_warning, line, column, length;
+    rt_severity severity;
+    rt_finding_kind finding;
+    int line, column, length;
     char file[256], message[512], hint[512], source_line[256];
 } collected_diagnostic;
 
@@ -20,8 +22,9 @@ typedef struct collected {
     collected_diagnostic items[COLLECTED_MAX];
 } collected;
 
-/* Both write all of *out. */
+/* Each writes all of *out. check_text: with what rt_scene_check finds. */
 void collect_text(collected *out, const char *text);
+void check_text(collected *out, const char *text);
 void collect_file(collected *out, const char *path);
 void collected_free(collected *c);
 

@@ -155,6 +155,9 @@ static const bad_text bad_texts[] = {
     {"camera { eye 0 1 - 4 look_at 0 0 1 }", 1, 18, 1, "this '-' is neither a sign nor inside parentheses", "(a - b)"},
     {"camera { eye 0 1-4 look_at 0 0 1 }", 1, 17, 1, "this '-' is neither a sign nor inside parentheses", "(a - b)"},
     {"film { width 2 * 3 }", 1, 16, 1, "unexpected '*' after the value of 'width'", "(2 * 3)"},
+    {"camera { eye 0 3/2 1 look_at 0 0 1 }", 1, 17, 1, "unexpected '/' after the value of 'eye'", "(2 * 3)"},
+    {WHITE "let n = 2\nrepeat i from 0 to n + 1 {\n let z = i\n"
+           " sphere { centre z 0 0 radius 1 material white }\n}\n", 3, 22, 1, "expected '{' after repeat, found '+'", "(n - 1)"},
     {"film { width 5 -3 }", 1, 16, 1, "unexpected '-' after the value of 'width'", "in parentheses"},
     {"film { width +3 }", 1, 8, 5, "'width' takes a whole number, found '+'", ""},
     {"let radius = 1\n" WHITE "sphere { centre 0 0 0 radius radius material white }", 3, 23, 6,
@@ -286,9 +289,42 @@ static void what_nothing_uses_is_warned_of(void **state)
     collect_text(&c, "let a = 1\nlet b = a\nmaterial m { }\nfilm { width 4 }\n");
     assert_int_equal(c.status, RT_OK);
     assert_int_equal(c.count, 2);
-    assert_true(c.items[0].is_warning && c.items[1].is_warning);
+    assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[1].severity == RT_SEVERITY_WARNING);
     assert_string_equal(c.items[0].message, "constant 'b' is never used");
     assert_string_equal(c.items[1].message, "material 'm' is never used");
+    collected_free(&c);
+}
+
+/* With `check`, at the block that it is about; what no block is about, at the text as a whole. */
+static void what_a_check_finds_stands_at_its_place(void **state)
+{
+    static collected c;
+    (void)state;
+    check_text(&c, "material m { kd 0.5 }\nsphere { centre 0 0 0 radius 1 material m }\n"
+                   "camera { eye 0 0 -4 look_at 0 0 -9 }\nlight point { position 9 9 9 intensity 1 }\n"
+                   "repeat i from 1 to 3 {\n light point { position 0 0 0.1 intensity 1 }\n}\n");
+    assert_int_equal(c.status, RT_OK);
+    assert_int_equal(c.count, 2);
+    assert_int_equal(c.items[0].finding, RT_FINDING_NOTHING_IN_VIEW);
+    assert_true(c.items[0].line == 3 && c.items[0].column == 1 && c.items[0].severity == RT_SEVERITY_WARNING);
+    assert_int_equal(c.items[1].finding, RT_FINDING_LIGHT_SHUT_IN);
+    assert_true(c.items[1].line == 6 && c.items[1].column == 2);
+    assert_string_equal(c.items[1].hint, "the sphere is at text:2");
+    collected_free(&c);
+
+    check_text(&c, "material m { kt 1 }\nsphere { centre 0 0 0 radius 1 material m }\n"
+                   "camera { eye 0 0 0 look_at 0 0 9 }\n");
+    assert_int_equal(c.count, 2);
+    assert_true(c.items[0].finding == RT_FINDING_NO_LIGHT && c.items[0].line == 0);
+    assert_true(c.items[1].finding == RT_FINDING_EYE_IN_MEDIUM && c.items[1].line == 3);
+    assert_int_equal(c.items[1].severity, RT_SEVERITY_NOTE);
+    collected_free(&c);
+
+    /* Not where the text has errors; and not unless asked for. */
+    check_text(&c, "film { width 0 }\n");
+    assert_int_equal(c.count, 1);
+    collect_text(&c, "film { width 4 }\n");
+    assert_int_equal(c.count, 0);
     collected_free(&c);
 }
 
@@ -349,6 +385,7 @@ int main(void)
         cmocka_unit_test(five_errors_give_five_reports_in_order),
         cmocka_unit_test(the_source_line_is_quoted_whole),
         cmocka_unit_test(what_nothing_uses_is_warned_of),
+        cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
         cmocka_unit_test(deep_and_long_texts_are_refused),
     };

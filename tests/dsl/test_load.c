@@ -27,7 +27,7 @@ static void every_field_reaches_the_scene(void **state)
         "camera { eye 0 1 -4  look_at 0 1 0  up 0 1 1  fov 40  aperture 0.02  focal_distance 3 }\n"
         "film { width 640  height 480 }\n"
         "render { mode photon spp 7 max_depth 9 seed 4294967295 sampler independent time 2.5 photons 4000000000\n"
-        "  k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons final_gather 2\n"
+        "  roulette_depth 5 k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons final_gather 2\n"
         "  caustic_photons 3000000000 caustic_k 40 caustic_radius 0.125 caustic_kernel silverman }\n"
         "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel dielectric  two_sided true\n"
         "  priority 3 }\n"
@@ -53,6 +53,7 @@ static void every_field_reaches_the_scene(void **state)
     rt_render_options o;
     rt_scene_get_options(c.scene, &o);
     assert_true(o.width == 640 && o.height == 480 && o.mode == RT_MODE_PHOTON && o.spp == 7 && o.max_depth == 9);
+    assert_int_equal(o.roulette_depth, 5);
     assert_true(o.seed == 4294967295u && o.sampler == RT_SAMPLER_INDEPENDENT && o.time == 2.5);
     assert_true(o.photons == 4000000000u && o.k == 60 && o.radius == 0.25f && o.cone_k == 1.5f);
     assert_true(o.kernel == RT_DENSITY_GAUSSIAN_JENSEN && o.direct == RT_DIRECT_PHOTONS && o.final_gather == 2);
@@ -224,7 +225,7 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     static const char text[] =
         "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 blades 6 blade_rotation 30 }\n"
         "film { filter mitchell }\n"
-        "render { mode depth aov true estimator bsdf }\n"
+        "render { mode depth aov true estimator bsdf variance true target_error 0.02 }\n"
         "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 linear true }\n"
         "texture squares { pattern checker a 1 b 0 0.5 0 }\n"
         "material gold { ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture letter bump_scale 0.1 }\n"
@@ -246,6 +247,7 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     assert_true(s->camera.kind == RT_CAMERA_ORTHOGRAPHIC && s->camera.width == 3 && s->camera.blades == 6);
     assert_true(s->options.filter == RT_FILTER_MITCHELL && s->options.mode == RT_MODE_DEPTH && s->options.aov);
     assert_true(s->options.estimator == RT_ESTIMATOR_BSDF);
+    assert_true(s->options.variance && s->options.target_error == 0.02);
     const rt_texture_data *letter = &s->textures[0].data;
     assert_true(letter->kind == RT_TEXTURE_IMAGE && letter->width == 128 && letter->wrap == RT_WRAP_MIRROR);
     assert_true(letter->scale[0] == 4 && letter->scale[1] == 2 && letter->offset[1] == -1);
@@ -420,6 +422,23 @@ static void a_file_that_cannot_be_read_is_an_error_without_place(void **state)
     }
 }
 
+static void all_stands_for_a_number_of_photons(void **state)
+{
+    static collected c;
+    rt_render_options o;
+    const char *text = "let all = 7\nrender { k all\n caustic_k (all) spp (all) radius 1 photon_layers true }";
+    (void)state;
+    collect_text(&c, text);
+    expect_clean(&c, text);
+    rt_scene_get_options(c.scene, &o);
+    assert_true(o.k == RT_K_ALL && o.caustic_k == 7 && o.spp == 7 && o.photon_layers == 1 && o.aov == 0);
+    collected_free(&c);
+    collect_text(&c, "render { spp all }");
+    assert_int_equal(c.errors, 1);
+    collect_text(&c, "render { k all 3 }");
+    assert_int_equal(c.errors, 1);
+}
+
 static void without_callback_or_error_it_still_works(void **state)
 {
     rt_scene *scene = NULL;
@@ -447,6 +466,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(cycles_and_explosions_of_includes_are_refused, make_scratch, remove_scratch),
         cmocka_unit_test_setup_teardown(what_is_no_text_is_one_error, make_scratch, remove_scratch),
         cmocka_unit_test(a_file_that_cannot_be_read_is_an_error_without_place),
+        cmocka_unit_test(all_stands_for_a_number_of_photons),
         cmocka_unit_test(without_callback_or_error_it_still_works),
     };
     return cmocka_run_group_tests_name("load", tests, NULL, NULL);

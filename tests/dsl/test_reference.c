@@ -96,7 +96,7 @@ static void every_example_is_a_good_scene(void **state)
         end[1] = '\0';
         collect_text(&c, text);
         for (int i = 0; i < c.count; i++)
-            if (!c.items[i].is_warning)
+            if (c.items[i].severity == RT_SEVERITY_ERROR)
                 fail_msg("line %d of an example: %s\n%s", c.items[i].line, c.items[i].message, text);
         assert_int_equal(c.status, RT_OK);
         collected_free(&c);

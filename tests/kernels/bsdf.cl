@@ -33,15 +33,15 @@ kernel void reflectance(uint count, global const float2 *in, global float2 *out)
  * Four rows an item: wi and event, weight over survival and squeeze, light and density of the event's lobe at wi, and
  * albedo with the density that was sampled.
  */
-kernel void scatter(uint count, global const rt_scene_header *header, global const struct situation *situation,
-                    uint transport, global float4 *out)
+kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
+                    global const struct situation *situation, uint transport, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
         return;
     const struct situation at = *situation;
     const struct bsdf bsdf = situated(header, &at);
-    const float4 u = convert_float4(pcg4d((uint4)(i, 3u, 1u, 4u)) >> 8) * 0x1p-24f;
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 4u)) >> 8) * 0x1p-24f;
     const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
     struct scatter made;
     made.wi = bsdf.normal;
@@ -56,4 +56,71 @@ kernel void scatter(uint count, global const rt_scene_header *header, global con
     const struct lobe lobe = event == EVENT_ROUGH ? bsdf_rough(&bsdf, made.wi) : bsdf_diffuse(&bsdf, made.wi);
     out[4u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
     out[4u * i + 3u] = (float4)(bsdf_albedo(&bsdf), made.pdf_w);
+}
+
+/* Two rows an item: wi and its density, the event. */
+kernel void events(uint seed, uint count, global const rt_scene_header *header,
+                   global const struct situation *situation, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct situation at = *situation;
+    const struct bsdf bsdf = situated(header, &at);
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 5u)) >> 8) * 0x1p-24f;
+    const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
+    struct scatter made;
+    made.wi = bsdf.normal;
+    made.pdf_w = 0.0f;
+    if (event != EVENT_ABSORBED)
+        made = bsdf_scatter(&bsdf, event, u.xyw, CARRY_RADIANCE);
+    out[2u * i] = (float4)(made.wi, made.pdf_w);
+    out[2u * i + 1u] = (float4)((float)event, 0.0f, 0.0f, 0.0f);
+}
+
+/* Two rows an item: light and density of diffuse, and of rough events, in situations[i] at wi[i]. */
+kernel void evaluate(uint count, global const rt_scene_header *header, global const struct situation *situations,
+                     global const float4 *wi, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct situation at = situations[i];
+    const struct bsdf bsdf = situated(header, &at);
+    const struct lobe smooth = bsdf_diffuse(&bsdf, wi[i].xyz);
+    struct lobe rough;
+    rough.value = (float3)(0.0f);
+    rough.pdf_w = 0.0f;
+    if (bsdf_is_rough(&bsdf))
+        rough = bsdf_rough(&bsdf, wi[i].xyz);
+    out[2u * i] = (float4)(smooth.value, smooth.pdf_w);
+    out[2u * i + 1u] = (float4)(rough.value, rough.pdf_w);
+}
+
+/*
+ * Two rows an item, for situations[i]: mean and mean square of the part of the light that a sample keeps, with the
+ * largest part of all samples.
+ */
+kernel void albedo(uint count, global const rt_scene_header *header, global const struct situation *situations,
+                   uint samples, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct situation at = situations[i];
+    const struct bsdf bsdf = situated(header, &at);
+    float3 sum = (float3)(0.0f), squares = (float3)(0.0f);
+    float most = 0.0f;
+    for (uint k = 0u; k < samples; k++) {
+        const float4 u = convert_float4(pcg4d((uint4)(i, k, 8u, 6u)) >> 8) * 0x1p-24f;
+        const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
+        if (event == EVENT_ABSORBED)
+            continue;
+        const float3 kept = bsdf_scatter(&bsdf, event, u.xyw, CARRY_FLUX).weight;
+        sum += kept;
+        squares += kept * kept;
+        most = max(most, largest3(kept));
+    }
+    out[2u * i] = (float4)(sum / (float)samples, most);
+    out[2u * i + 1u] = (float4)(squares / (float)samples, 0.0f);
 }

@@ -1,4 +1,4 @@
-/* film.cl - the pixel of each work-item, for its test. */
+/* film.cl - the pixel of each work-item, and samples added to one, for their tests. */
 #include "film.h"
 
 kernel void pixels(const rt_params params, global uint *out)
@@ -8,4 +8,15 @@ kernel void pixels(const rt_params params, global uint *out)
         return;
     const uint2 at = pixel_of_item(&params, i);
     out[i] = at.y * params.width + at.x;
+}
+
+/* Adds `count` samples to one pixel, in order. */
+kernel void add(global const float *red, uint count, global rt_film_pixel *film)
+{
+    if (get_global_id(0) != 0)
+        return;
+    rt_film_pixel pixel = film[0];
+    for (uint i = 0; i < count; i++)
+        film_add(&pixel, (float3)(red[i], 1.0f, 1.0f), 1.0f);
+    film[0] = pixel;
 }

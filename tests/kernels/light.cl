@@ -19,17 +19,38 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
     made.at.position = made.at.normal = made.wi = made.radiance = (float3)(0.0f);
     made.lift = made.spread = 0.0f;
     made.delta = false;
-    float again = 0.0f;
+    float again = 0.0f, pmf;
     if (!sample_light(&scene, from.xyz, u, &made))
         made.radiance = (float3)(0.0f);
     else if (made.distant && !made.delta)
-        again = sky_light_pdf_w(&scene, made.wi);
+        again = sky_light_pdf_w(&scene, from.xyz, made.wi);
     else if (!made.delta)
-        again = light_pdf_w(&scene, scene.lights + choose_light(&scene, u.z), from.xyz, &made.at);
+        again = light_pdf_w(&scene, scene.lights + choose_light(&scene, from.xyz, u.z, &pmf), from.xyz, &made.at);
     out[4u * i] = (float4)(made.at.position, made.spread);
     out[4u * i + 1u] = (float4)(made.wi, made.delta ? 1.0f : 0.0f);
     out[4u * i + 2u] = (float4)(made.radiance, again);
     out[4u * i + 3u] = (float4)(made.at.normal, made.lift);
+}
+
+/* Which light the number i + 1/2 of count chooses, and with which probability. */
+kernel void choose(global const rt_scene_header *header, uint count, float4 from, global float2 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct scene scene = scene_open(header);
+    float pmf;
+    const uint light = choose_light(&scene, from.xyz, ((float)i + 0.5f) / (float)count, &pmf);
+    out[i] = (float2)((float)light, pmf);
+}
+
+/* The probability of each light. */
+kernel void chances(global const rt_scene_header *header, float4 from, global float *out)
+{
+    const struct scene scene = scene_open(header);
+    const uint i = (uint)get_global_id(0);
+    if (i < header->light_count)
+        out[i] = light_pmf(&scene, i, from.xyz);
 }
 
 /* Four rows an item: position, direction, flux and light, normal. */

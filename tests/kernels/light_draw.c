@@ -25,34 +25,54 @@ rt_renderer *light_renderer(rt_scene *scene)
     return renderer;
 }
 
-void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out)
+void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count, light_draw *out)
 {
     float point[4] = {from[0], from[1], from[2], 0};
-    uint32_t count = light_draws;
     cl_kernel kernel = test_kernel("light", "sample");
-    cl_mem made = test_buffer(light_draws * sizeof *out, NULL);
+    cl_mem made = test_buffer(count * sizeof *out, NULL);
     rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(point), RT_ARG(made)};
-    test_run(kernel, args, 5, light_draws);
-    test_read(made, light_draws * sizeof *out, out);
+    test_run(kernel, args, 5, count);
+    test_read(made, count * sizeof *out, out);
     rt_buffer_release(made);
     rt_kernel_release(kernel);
 }
 
-void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out)
+void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, emission_draw *out)
 {
-    uint32_t count = light_draws;
     cl_kernel kernel = test_kernel("light", "emit");
     rt_light_sources lights;
     rt_error error;
     expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
     cl_mem shares = test_buffer(lights.light_count * sizeof *lights.shares, lights.shares);
-    memset(out, 0, light_draws * sizeof *out);
-    cl_mem made = test_buffer(light_draws * sizeof *out, out);
+    memset(out, 0, count * sizeof *out);
+    cl_mem made = test_buffer(count * sizeof *out, out);
     rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(shares), RT_ARG(made)};
-    test_run(kernel, args, 5, light_draws);
-    test_read(made, light_draws * sizeof *out, out);
+    test_run(kernel, args, 5, count);
+    test_read(made, count * sizeof *out, out);
     rt_light_sources_free(&lights);
     rt_buffer_release(shares);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out)
+{
+    draw_many_lights(renderer, seed, from, light_draws, out);
+}
+
+void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out)
+{
+    draw_many_emissions(renderer, seed, light_draws, out);
+}
+
+void light_chances(rt_renderer *renderer, const float from[3], size_t count, float *out)
+{
+    float point[4] = {from[0], from[1], from[2], 0};
+    cl_kernel kernel = test_kernel("light", "chances");
+    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(point), RT_ARG(made)};
+    test_run(kernel, args, 3, count);
+    test_read(made, count * sizeof *out, out);
     rt_buffer_release(made);
     rt_kernel_release(kernel);
 }

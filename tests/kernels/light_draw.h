@@ -28,10 +28,17 @@ rt_scene *light_scene(void);
 /* Makes it ready on the test device, and destroys it. */
 rt_renderer *light_renderer(rt_scene *scene);
 
+/* Fill out[count]. */
+void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count, light_draw *out);
+void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, emission_draw *out);
+
 /* Fills out[light_draws] with samples of the lights seen from a point. */
 void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out);
 
 /* Fills out[light_draws] with starts of light paths. */
 void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out);
+
+/* The probabilities with which the scene's lights, `count` of them, are chosen for a point. */
+void light_chances(rt_renderer *renderer, const float from[3], size_t count, float *out);
 
 #endif

@@ -67,3 +67,13 @@ kernel void reflect_metal(uint count, const float4 eta, const float4 k, global c
     if (i < count)
         out[i] = (float4)(fresnel_conductor(cosine[i], eta.xyz, k.xyz), 0.0f);
 }
+
+/* A normal of a facet that wo sees, an item. */
+kernel void visible_normals(uint seed, uint count, float alpha, const float4 wo, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 7u, 2u)) >> 8) * 0x1p-24f;
+    out[i] = (float4)(sample_visible_normal(alpha, wo.xyz, u.xy), 0.0f);
+}

@@ -65,3 +65,10 @@ kernel void functions(uint count, global const float2 *in, global float4 *out)
     const float angle = atan_ratio((float4)(in[i].y), (float4)(in[i].x)).x;
     out[i] = (float4)(sin_cos(in[i].y), angle, 0.0f);
 }
+
+kernel void polygon(uint seed, uint count, uint corners, float turn, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i < count)
+        out[i] = (float4)(sample_polygon(corners, turn, pair(seed, i)), 0.0f, 0.0f);
+}

@@ -5,29 +5,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bsdf_draw.h"
 #include "statistics.h"
 #include "types.h"
 
 #define PI 3.14159265358979323846
 
 enum { n = 1 << 16 };
-enum { carry_radiance, carry_flux };                  /* enum transport */
-enum { absorbed, diffuse, reflected, refracted, rough, event_count }; /* enum event */
 
-typedef struct situation {
-    float normal[4], shading[4];
-    float wo[3], eta;
-    float beta[3], survival;
-} situation;
-
-typedef struct result {
-    float wi[3], event;
-    float weight[3], squeeze;
-    float eval[3], eval_pdf_w;
-    float albedo[3], pdf_w;
-} result;
-
-static result results[n];
+static bsdf_draw results[n];
 
 static const rt_material_data mixture = {.kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f},
                                          .ior = 1.5f};
@@ -40,32 +26,9 @@ static situation flat(float eta)
     return s;
 }
 
-/* A scene of one shape and one material. */
-typedef struct little_scene {
-    rt_scene_header header;
-    rt_shape shape;
-    char to_row[RT_SCENE_ROW - sizeof(rt_shape) % RT_SCENE_ROW];
-    rt_material_data material;
-} little_scene;
-
 static void scatter(const rt_material_data *material, const situation *at, uint32_t transport)
 {
-    uint32_t count = n;
-    little_scene scene;
-    memset(&scene, 0, sizeof scene);
-    scene.header.shapes = offsetof(little_scene, shape) / RT_SCENE_ROW;
-    scene.header.materials = offsetof(little_scene, material) / RT_SCENE_ROW;
-    scene.material = *material;
-    cl_kernel kernel = test_kernel("bsdf", "scatter");
-    cl_mem m = test_buffer(sizeof scene, &scene), s = test_buffer(sizeof *at, at);
-    cl_mem out = test_buffer(sizeof results, NULL);
-    rt_arg args[] = {RT_ARG(count), RT_ARG(m), RT_ARG(s), RT_ARG(transport), RT_ARG(out)};
-    test_run(kernel, args, 5, n);
-    test_read(out, sizeof results, results);
-    rt_buffer_release(m);
-    rt_buffer_release(s);
-    rt_buffer_release(out);
-    rt_kernel_release(kernel);
+    draw_scatter(material, at, transport, 3, n, results);
 }
 
 /* Closed form in double precision; eta = eta_i / eta_t. */
@@ -170,7 +133,7 @@ static void diffuse_density_is_what_is_sampled(void **state)
     (void)state;
     scatter(&matte, &at, carry_radiance);
     for (int i = 0; i < n; i++) {
-        const result *r = results + i;
+        const bsdf_draw *r = results + i;
         double t = atan2(r->wi[1], r->wi[0]) / (2 * PI) + 0.5;
         int ring = (int)((double)r->wi[2] * r->wi[2] * side), sector = (int)(t * side);
         counts[(ring > side - 1 ? side - 1 : ring) * side + (sector > side - 1 ? side - 1 : sector)]++;
@@ -196,7 +159,7 @@ static void delta_directions_obey_the_laws_of_reflection_and_refraction(void **s
             at.wo[2] *= (float)side;
             scatter(&mixture, &at, carry_radiance);
             for (int i = 0; i < n; i++) {
-                const result *r = results + i;
+                const bsdf_draw *r = results + i;
                 seen[(int)r->event]++;
                 if (r->event == reflected) {
                     assert_float_equal(r->wi[0], -at.wo[0], 1e-6);
@@ -235,7 +198,7 @@ static void shading_normals_leak_no_light(void **state)
     at.shading[2] = 0.5f;
     scatter(&mixture, &at, carry_radiance);
     for (int i = 0; i < n; i++) {
-        const result *r = results + i;
+        const bsdf_draw *r = results + i;
         int keeps = r->weight[0] > 0;
         lost += !keeps;
         if (keeps && r->event != absorbed)
@@ -259,7 +222,7 @@ static void rough_events_carry_their_lobe(void **state)
         material.roughness = 0.4f;
         scatter(&material, &at, carry_radiance);
         for (int i = 0; i < n; i++) {
-            const result *r = results + i;
+            const bsdf_draw *r = results + i;
             assert_true(r->event != reflected && r->event != refracted);
             if (r->event != rough || r->pdf_w < 1e-3)
                 continue;
@@ -295,7 +258,7 @@ static void flux_is_corrected_for_shading_normals(void **state)
             memcpy(radiance[i], results[i].weight, sizeof radiance[i]);
         scatter(&material, &at, carry_flux);
         for (int i = 0; i < n; i++) {
-            const result *r = results + i;
+            const bsdf_draw *r = results + i;
             double wo_s = at.wo[0] * 0.28 + at.wo[2] * 0.96, wi_s = r->wi[0] * 0.28 + r->wi[2] * 0.96;
             double factor = fabs(wo_s * r->wi[2] / (at.wo[2] * wi_s));
             if (r->event == absorbed || radiance[i][0] == 0)

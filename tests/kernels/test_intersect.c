@@ -315,6 +315,30 @@ static void add_ball(rt_scene *scene, const float centre[3], float radius)
     rays_add_triangles(scene, positions[0][0], (rings + 1) * n, indices[0][0][0], 2 * rings * n);
 }
 
+/*
+ * Follows each ray to a surface and leaves that in the direction away[i]: how far the next hit is; infinity: none;
+ * -1: the ray met nothing. Destroys the scene. The caller frees the result.
+ */
+static float *leave(rt_scene *scene, const rt_ray *rays, float (*away)[4], cl_uint count)
+{
+    rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
+    float *next = malloc(count * sizeof *next);
+    assert_non_null(next);
+    cl_mem in = test_buffer(count * sizeof *rays, rays), to = test_buffer(count * sizeof *away, away);
+    cl_mem out = test_buffer(count * sizeof *next, NULL);
+    cl_kernel kernel = test_kernel("leave", "leave");
+    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(to), RT_ARG(count), RT_ARG(out)};
+    test_run(kernel, args, 5, count);
+    test_read(out, count * sizeof *next, next);
+    rt_kernel_release(kernel);
+    rt_buffer_release(in);
+    rt_buffer_release(to);
+    rt_buffer_release(out);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+    return next;
+}
+
 /* Share of rays that, having met a convex body from outside, leave it outwards and yet meet it again. */
 static double share_that_returns(rt_scene *scene, const float centre[3], float size, uint64_t seed)
 {
@@ -322,7 +346,6 @@ static double share_that_returns(rt_scene *scene, const float centre[3], float s
     rays_stream stream = {seed};
     rt_ray *rays = malloc(count * sizeof *rays);
     float(*away)[4] = calloc(count, sizeof *away);
-    float *next = malloc(count * sizeof *next);
     for (size_t i = 0; i < count; i++) {
         float from[3], to[3], direction[3];
         rays_direction(&stream, from);
@@ -336,26 +359,13 @@ static double share_that_returns(rt_scene *scene, const float centre[3], float s
         }
         rays[i] = rays_make(from, direction, 0.0f, INFINITY);
     }
-    rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
-    cl_mem in = test_buffer(count * sizeof *rays, rays), to = test_buffer(count * sizeof *away, away);
-    cl_mem out = test_buffer(count * sizeof *next, NULL);
-    cl_kernel kernel = test_kernel("leave", "leave");
-    const cl_uint n = count;
-    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(to), RT_ARG(n), RT_ARG(out)};
-    test_run(kernel, args, 5, count);
-    test_read(out, count * sizeof *next, next);
+    float *next = leave(scene, rays, away, count);
     size_t met = 0, returned = 0;
     for (size_t i = 0; i < count; i++) {
         met += next[i] >= 0.0f;
         returned += next[i] >= 0.0f && !isinf(next[i]);
     }
     assert_true(met > count / 4);
-    rt_kernel_release(kernel);
-    rt_buffer_release(in);
-    rt_buffer_release(to);
-    rt_buffer_release(out);
-    rt_renderer_destroy(renderer);
-    rt_scene_destroy(scene);
     free(rays);
     free(away);
     free(next);
@@ -379,6 +389,35 @@ static void rays_leave_convex_bodies(void **state)
         }
 }
 
+/* The plane of two axes, which rays along the third meet at coordinates without any rounding. */
+static void rays_leave_planes_of_axes(void **state)
+{
+    enum { count = 64 };
+    (void)state;
+    for (int axis = 0; axis < 3; axis++) {
+        static const float origin[3];
+        float normal[3] = {0}, down[3] = {0}, away[count][4] = {{0}};
+        rt_ray rays[count];
+        rays_stream stream = {70};
+        rt_scene *scene = rays_scene();
+        normal[axis] = 1;
+        down[axis] = -1;
+        rays_add_plane(scene, origin, normal);
+        for (int i = 0; i < count; i++) {
+            float from[3];
+            rays_point(&stream, 1, from);
+            from[axis] = 0.5f + rays_uniform(&stream);
+            rays[i] = rays_make(from, down, 0, INFINITY);
+            rays_direction(&stream, away[i]);
+            away[i][axis] = fabsf(away[i][axis]);
+        }
+        float *next = leave(scene, rays, away, count);
+        for (int i = 0; i < count; i++)
+            assert_true(isinf(next[i]));
+        free(next);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -387,6 +426,7 @@ int main(void)
         cmocka_unit_test(spheres_match_the_closed_form),
         cmocka_unit_test(planes_match_the_closed_form),
         cmocka_unit_test(rays_leave_convex_bodies),
+        cmocka_unit_test(rays_leave_planes_of_axes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

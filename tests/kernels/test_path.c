@@ -357,9 +357,29 @@ static void every_pixel_has_one_item(void **state)
     }
 }
 
+static void samples_that_are_not_finite_are_counted_and_left_out(void **state)
+{
+    const float red[] = {1, NAN, 2, INFINITY, -INFINITY, 4};
+    const uint32_t count = sizeof red / sizeof *red;
+    rt_film_pixel pixel;
+    (void)state;
+    memset(&pixel, 0, sizeof pixel);
+    cl_mem samples = test_buffer(sizeof red, red), film = test_buffer(sizeof pixel, &pixel);
+    cl_kernel kernel = test_kernel("film", "add");
+    rt_arg args[] = {RT_ARG(samples), RT_ARG(count), RT_ARG(film)};
+    test_run(kernel, args, 3, 1);
+    test_read(film, sizeof pixel, &pixel);
+    assert_true(pixel.count == 3 && pixel.rejected == 3 && pixel.weight == 3);
+    assert_true(pixel.sum[0] == 7 && pixel.sum[1] == 3 && pixel.lost[0] == 0);
+    rt_buffer_release(samples);
+    rt_buffer_release(film);
+    rt_kernel_release(kernel);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(samples_that_are_not_finite_are_counted_and_left_out),
         cmocka_unit_test(a_furnace_sums_the_series_of_its_albedo),
         cmocka_unit_test(glass_disappears_in_even_light),
         cmocka_unit_test(nested_and_overlapping_solids_disappear_in_even_light),

@@ -173,6 +173,46 @@ static void streams_sets_and_seeds_are_unrelated(void **state)
     }
 }
 
+/* Set 2 and the next of sample 7, of each of n streams. */
+static void draw_pairs(rt_sampler kind, uint32_t n, float (*out)[8])
+{
+    rt_params params;
+    memset(&params, 0, sizeof params);
+    params.sampler = kind;
+    params.seed = 3;
+    uint32_t along = 0, set = 2;
+    cl_kernel kernel = test_kernel("rng", "pairs");
+    cl_mem scene = table_buffer(), buffer = test_buffer(n * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(along), RT_ARG(set), RT_ARG(n), RT_ARG(buffer)};
+    test_run(kernel, args, 6, n);
+    test_read(buffer, n * sizeof *out, out);
+    rt_buffer_release(buffer);
+    rt_buffer_release(scene);
+    rt_kernel_release(kernel);
+}
+
+/* What makes a mean unbiased: a single sample is even over the scramblings, and so are any two of its coordinates. */
+static void one_sample_is_even_over_the_streams(void **state)
+{
+    enum { n = 1 << 16, side = 16, cells = side * side };
+    static float numbers[n][8];
+    static uint32_t counts[cells];
+    static double expected[cells];
+    (void)state;
+    for (int i = 0; i < cells; i++)
+        expected[i] = (double)n / cells;
+    for (int kind = RT_SAMPLER_SOBOL; kind <= RT_SAMPLER_INDEPENDENT; kind++) {
+        draw_pairs((rt_sampler)kind, n, numbers);
+        for (int x = 0; x < 8; x++)
+            for (int y = x + 1; y < 8; y++) {
+                memset(counts, 0, sizeof counts);
+                for (int i = 0; i < n; i++)
+                    counts[(int)(numbers[i][x] * side) * side + (int)(numbers[i][y] * side)]++;
+                expect_counts(counts, expected, cells, "two coordinates of one sample");
+            }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -182,6 +222,7 @@ int main(void)
         cmocka_unit_test(numbers_lie_in_the_unit_interval_with_the_right_mean),
         cmocka_unit_test(independent_numbers_fill_the_hypercube_evenly),
         cmocka_unit_test(streams_sets_and_seeds_are_unrelated),
+        cmocka_unit_test(one_sample_is_even_over_the_streams),
     };
     return cmocka_run_group_tests_name("kernels/rng", tests, NULL, NULL);
 }

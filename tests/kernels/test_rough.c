@@ -1,4 +1,4 @@
-/* test_rough.c - rough reflection and refraction: sampling, densities, reciprocity, energy; metals' reflectance. */
+/* test_rough.c - rough reflection and refraction: sampling against evaluation, reciprocity, energy; metals' reflectance. */
 #include "support.h"
 
 #include <complex.h>
@@ -78,61 +78,6 @@ static void direction(float w[4], double z, double turns)
 }
 
 /* ---- Sampling ---------------------------------------------------------------- */
-
-enum { rings = 24, sectors = 24, fine = 32, cells = rings * sectors };
-
-/* Counts of the sampled directions in cells of equal solid angle against the integral of the evaluated density. */
-static void expect_sampling(const rt_material_data *material, boundary b, double cosine, const char *what)
-{
-    enum { points = cells * fine * fine };
-    static float directions[points][4], out[points][4];
-    static uint32_t counts[cells + 1];
-    static double expected[cells + 1];
-    double all = 0;
-
-    for (int i = 0; i < points; i++) {
-        int at = i / cells, cell = i % cells;
-        direction(directions[i], 2 * (cell / sectors + (at / fine + 0.5) / fine) / rings - 1,
-                  (cell % sectors + (at % fine + 0.5) / fine) / sectors);
-    }
-    evaluate("evaluate_rough", material, b, cosine, (const float(*)[4])directions, points, out);
-    memset(expected, 0, sizeof expected);
-    for (int i = 0; i < points; i++)
-        expected[i % cells] += n * out[i][3] * 4 * PI / points;
-    for (int i = 0; i < cells; i++)
-        all += expected[i];
-    expected[cells] = fmax(n - all, 0); /* light that is lost at a second facet */
-
-    sample(material, b, cosine);
-    memset(counts, 0, sizeof counts);
-    for (int i = 0; i < n; i++) {
-        const result *r = results + i;
-        double t = atan2(r->wi[1], r->wi[0]) / (2 * PI);
-        int ring = (int)((r->wi[2] + 1.0) / 2 * rings), sector = (int)((t < 0 ? t + 1 : t) * sectors);
-        ring = ring < rings ? ring : rings - 1;
-        sector = sector < sectors ? sector : sectors - 1;
-        counts[r->pdf_w > 0 ? ring * sectors + sector : cells]++;
-    }
-    expect_counts(counts, expected, cells + 1, what);
-}
-
-static void directions_are_sampled_with_the_density_of_evaluation(void **state)
-{
-    static const float alphas[] = {0.25f, 0.5f, 1};
-    static const double cosines[] = {0.95, 0.4};
-    (void)state;
-    for (int a = 0; a < 3; a++)
-        for (int c = 0; c < 2; c++) {
-            char what[64];
-            const boundary mirror = {1, 0, alphas[a], 1}, glass = {0, 1, alphas[a], 1 / 1.5f},
-                           water = {0, 1, alphas[a], 1.33f}, mixed = {0.3f, 0.6f, alphas[a], 1 / 1.5f};
-            snprintf(what, sizeof what, "alpha %g at cosine %g", alphas[a], cosines[c]);
-            expect_sampling(&plain, mirror, cosines[c], what);
-            expect_sampling(&dielectric, glass, cosines[c], what);
-            expect_sampling(&dielectric, water, cosines[c], what);
-            expect_sampling(&plain, mixed, cosines[c], what);
-        }
-}
 
 /* Whatever is sampled evaluates to the same light and the same density, however narrow the lobe. */
 static void sampling_and_evaluation_agree(void **state)
@@ -334,7 +279,6 @@ static void known_metals_have_their_reflectance(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(directions_are_sampled_with_the_density_of_evaluation),
         cmocka_unit_test(sampling_and_evaluation_agree),
         cmocka_unit_test(light_goes_both_ways_alike),
         cmocka_unit_test(a_white_furnace_loses_what_meets_two_facets),

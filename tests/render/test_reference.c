@@ -1,6 +1,6 @@
 /*
  * The reference scenes against the renders of an independent renderer: linear radiance agrees block by
- * block, by the rule of compare.h, in path and in photon mode.
+ * block, by the rule of rt_image_compare, in path and in photon mode.
  *
  * RT_REFERENCE names the directory that holds box_point.exr, box_area.exr and box_caustic.exr, 256x256.
  * Without it the program fails: it is run by a target of its own. The signed differences are left as
@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare.h"
 #include "support.h"
 
 #define RENDERS_MAX 8
@@ -35,15 +34,16 @@ static const reference_case cases[] = {
     {"box_caustic", RT_MODE_PHOTON, 32, 4, 8000000, 40, 0.02},
 };
 
-static rt_film *render(rt_renderer *renderer, const rt_scene *scene, const reference_case *c,
-                       const compare_image *reference, uint32_t seed)
+/* Renders a picture of the reference's size. */
+static rt_image *render(rt_renderer *renderer, const rt_scene *scene, const reference_case *c,
+                        const rt_image *reference, uint32_t seed)
 {
     rt_film *film = NULL;
+    rt_image *image = NULL;
     rt_error error;
     rt_render_options options;
     rt_scene_get_options(scene, &options);
-    options.width = reference->width;
-    options.height = reference->height;
+    rt_image_get_size(reference, &options.width, &options.height);
     options.mode = c->mode;
     options.spp = c->spp;
     options.seed = seed;
@@ -52,7 +52,9 @@ static rt_film *render(rt_renderer *renderer, const rt_scene *scene, const refer
     /* The map's own bias at edges would show: gather after the first bounce. */
     options.final_gather = c->mode == RT_MODE_PHOTON ? 1 : 0;
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
-    return film;
+    expect_ok(rt_image_from_rgb(&image, rt_film_rgb(film), options.width, options.height, &error), &error);
+    rt_film_destroy(film);
+    return image;
 }
 
 static const char *mode_name(const reference_case *c)
@@ -60,56 +62,60 @@ static const char *mode_name(const reference_case *c)
     return c->mode == RT_MODE_PHOTON ? "photon" : "path";
 }
 
-static void keep_difference(const reference_case *c, const float *const *renders, const compare_image *reference)
+static void keep_difference(const reference_case *c, const rt_comparison *comparison)
 {
     char path[1024];
+    rt_error error;
     const char *directory = getenv("RT_REFERENCE_OUT");
     if (!directory)
         return;
     snprintf(path, sizeof path, "%s/%s-%s-difference.exr", directory, c->scene, mode_name(c));
-    assert_true(compare_write_difference(path, renders, c->renders, reference));
+    expect_ok(rt_comparison_write_difference(comparison, path, 0.0, &error), &error);
 }
 
-static void compare_with_reference(const reference_case *c, const float *const *renders,
-                                   const compare_image *reference)
+static void compare_with_reference(const reference_case *c, const rt_image *const *renders, const rt_image *reference)
 {
-    compare_result result;
-    assert_true(compare_blocks(&result, renders, c->renders, reference, c->tolerance));
+    rt_comparison *comparison = NULL;
+    rt_comparison_info info;
+    rt_error error;
+    size_t count;
+    rt_compare_options options = {.tolerance = c->tolerance};
+    expect_ok(rt_image_compare(&comparison, renders, c->renders, reference, &options, &error), &error);
+    rt_comparison_get_info(comparison, &info);
+    const rt_image_block *worst = rt_comparison_blocks(comparison, &count) + info.worst;
+    uint32_t channel = info.worst_channel;
     printf("%s %s: %zu of %zu blocks off, mean ratio %.5f, RMSE %.5f; worst at (%u, %u) channel %u: %.6f for %.6f, "
            "standard error %.6f, %.2f of what is allowed\n",
-           c->scene, mode_name(c), result.failed, result.count, result.ratio, result.rmse, result.x, result.y,
-           result.channel, result.mean, result.reference_mean, result.error, result.excess);
-    keep_difference(c, renders, reference);
-    assert_int_equal(result.failed, 0);
+           c->scene, mode_name(c), info.off, info.blocks, info.ratio, info.rmse, worst->x, worst->y, channel,
+           worst->mean[channel], worst->reference[channel], worst->error[channel], worst->excess[channel]);
+    keep_difference(c, comparison);
+    rt_comparison_destroy(comparison);
+    assert_int_equal(info.off, 0);
 }
 
 static void agrees_with_the_reference(void **state)
 {
     const reference_case *c = *state;
     char path[1024];
-    compare_image reference;
+    rt_image *reference = NULL, *renders[RENDERS_MAX] = {0};
     rt_scene *scene = NULL;
     rt_renderer *renderer = NULL;
-    rt_film *films[RENDERS_MAX] = {0};
-    const float *renders[RENDERS_MAX];
     rt_error error;
 
     snprintf(path, sizeof path, "%s/%s.exr", getenv("RT_REFERENCE"), c->scene);
-    assert_true(compare_load(&reference, path));
+    expect_ok(rt_image_read(&reference, path, &error), &error);
     snprintf(path, sizeof path, "scenes/%s.rts", c->scene);
     expect_ok(rt_scene_load(&scene, path, NULL, &error), &error);
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    for (uint32_t i = 0; i < c->renders; i++) {
-        films[i] = render(renderer, scene, c, &reference, i + 1);
-        renders[i] = rt_film_rgb(films[i]);
-    }
-    compare_with_reference(c, renders, &reference);
+    for (uint32_t i = 0; i < c->renders; i++)
+        renders[i] = render(renderer, scene, c, reference, i + 1);
+    compare_with_reference(c, (const rt_image *const *)renders, reference);
 
     for (uint32_t i = 0; i < c->renders; i++)
-        rt_film_destroy(films[i]);
+        rt_image_destroy(renders[i]);
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);
-    free(reference.rgb);
+    rt_image_destroy(reference);
 }
 
 int main(void)

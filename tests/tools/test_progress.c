@@ -35,6 +35,38 @@ static void idle_options_are_warned_of(void **state)
     run_free(&run);
 }
 
+/* A scene without light, seen from inside of a ball of glass. */
+static const char dark_scene[] = "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
+                                 "material glass { kt 1 }\nmaterial white { kd 1 }\n"
+                                 "sphere { centre 0 0 0  radius 1  material white }\n"
+                                 "sphere { centre 0 0 -4  radius 1  material glass }\n";
+
+/* Notes are for a check alone; a render warns where its mode shows light. */
+static void what_would_be_black_is_warned_of(void **state)
+{
+    (void)state;
+    scratch_write("dark.rts", dark_scene);
+    run run = run_rtc("check dark.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "dark.rts: warning: the scene has no light: its picture is black\n");
+    expect_err(&run, "dark.rts:1:1: note: the camera is inside a transparent sphere\n"
+                     "    camera { eye 0 0 -4  look_at 0 0 0 }\n    ^~~~~~\n  hint: the sphere is at dark.rts:6\n");
+    expect_out(&run, "; 1 warning\n");
+    run_free(&run);
+
+    run = run_rtc("dark.rts --spp 1 --out a.pfm --progress none");
+    expect_status(&run, 0);
+    expect_err(&run, "rtc: warning: the scene has no light: its picture is black\nwrote ");
+    expect_no_err(&run, "note");
+    run_free(&run);
+    run = run_rtc("dark.rts --spp 1 --mode normals --out a.pfm --progress none");
+    expect_no_err(&run, "warning");
+    run_free(&run);
+    run = run_rtc("dark.rts --spp 1 --quiet --out a.pfm");
+    assert_string_equal(run.err, "");
+    run_free(&run);
+}
+
 static void quiet_says_nothing(void **state)
 {
     (void)state;
@@ -79,11 +111,13 @@ static void json_progress_is_one_object_a_line(void **state)
     expect_status(&run, 0);
     int lines = 0;
     for (char *line = strtok(run.err, "\n"); line; line = strtok(NULL, "\n"), lines++) {
-        char stage[16], remaining[32];
+        char stage[16], remaining[32], relative[32];
         double fraction, elapsed;
-        assert_int_equal(sscanf(line, "{\"stage\":\"%15[a-z]\",\"fraction\":%lf,\"elapsed\":%lf,\"remaining\":%31[^}]}",
-                                stage, &fraction, &elapsed, remaining),
-                         4);
+        assert_int_equal(sscanf(line,
+                                "{\"stage\":\"%15[a-z]\",\"fraction\":%lf,\"elapsed\":%lf,\"remaining\":%31[^,],"
+                                "\"error\":%31[^}]}",
+                                stage, &fraction, &elapsed, remaining, relative),
+                         5);
         assert_true(fraction >= 0.0 && fraction <= 1.0 && elapsed >= 0.0);
         assert_int_equal(line[strlen(line) - 1], '}');
     }
@@ -223,6 +257,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(idle_options_are_warned_of),
+        TEST(what_would_be_black_is_warned_of),
         TEST(quiet_says_nothing),
         TEST(verbose_names_the_device_and_its_threads),
         TEST(plain_progress_names_the_stages),

@@ -1,4 +1,5 @@
 /* test_rtc.c - rendering by the command: the effect of each option, and its files. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -62,9 +63,12 @@ static const struct {
 } pairs[] = {
     {"mode", "--spp 2", "--spp 2 --mode photon --photons 1000"},
     {"mode", "--spp 2", "--spp 2 --mode direct"},
+    {"variance", "--spp 40", "--spp 40 --variance"},
+    {"target-error", "--spp 40 --variance", "--spp 40 --target-error 1"},
     {"mode", "--spp 2 --mode normals", "--spp 2 --mode albedo"},
     {"mode", "--spp 2 --mode normals", "--spp 2 --mode depth"},
     {"filter", "--spp 2", "--spp 2 --filter mitchell"},
+    {"roulette-depth", "--spp 2", "--spp 2 --roulette-depth 9"},
     {"estimator", "--spp 2", "--spp 2 --estimator light"},
     {"estimator", "--spp 2", "--spp 2 --estimator bsdf"},
     {"spp", "--spp 2", "--spp 3"},
@@ -277,6 +281,81 @@ static void aov_adds_layers_to_exr(void **state)
     }
 }
 
+static void variance_is_a_layer_and_the_error_is_said(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 32 --variance --stats --out a.exr");
+    expect_status(&run, 0);
+    double said = stats_number(&run, "relative error"), bound = stats_number(&run, "relative error, 95 % bound");
+    assert_true(said > 0 && bound > said && bound < 10 * said);
+    assert_true(stats_number(&run, "independent sequences") == 8);
+    expect_err(&run, "\nrelative error ");
+    run_free(&run);
+
+    /* What is said follows from the layer. */
+    rt_image *image = read_image("a.exr");
+    static const char *const names[] = {"R", "G", "B", "variance.R", "variance.G", "variance.B"};
+    double sums[6];
+    for (int c = 0; c < 6; c++) {
+        uint32_t channel = rt_image_channel(image, names[c]);
+        assert_true(channel != RT_IMAGE_NO_CHANNEL);
+        sums[c] = 0;
+        for (size_t i = 0; i < (size_t)image->width * image->height; i++)
+            sums[c] += image->data[i * image->channel_count + channel];
+    }
+    double pixels = (double)image->width * image->height * 3, mean = (sums[0] + sums[1] + sums[2]) / pixels;
+    assert_float_equal(sqrt((sums[3] + sums[4] + sums[5]) / pixels) / mean, said, 1e-4 * said);
+    assert_string_equal(rt_image_attribute_value(image, "librt.replicates"), "8");
+    assert_string_equal(rt_image_attribute_value(image, "librt.command"), "rtc a.rts --spp 32 --variance");
+    rt_image_destroy(image);
+}
+
+static void a_render_ends_at_the_target_error(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --mode direct --target-error 0.1 --stats --out a.pfm");
+    expect_status(&run, 0);
+    assert_true(stats_number(&run, "relative error, 95 % bound") <= 0.1);
+    expect_no_err(&run, "warning");
+    run_free(&run);
+
+    run = run_rtc("a.rts --target-error 1e-9 --spp 20 --out a.pfm");
+    expect_status(&run, 0);
+    expect_err(&run, "warning: the target error of 1e-07 % was not reached");
+    run_free(&run);
+
+    run = run_rtc("a.rts --mode photon --passes 40 --photons 1000 --target-error 1 --stats --out a.pfm");
+    expect_status(&run, 0);
+    assert_true(stats_number(&run, "passes") == 32);
+    expect_err(&run, "of the noise alone, not of the bias");
+    run_free(&run);
+
+    run = run_rtc("a.rts --mode photon --photons 1000 --target-error 0.1 --out a.pfm");
+    expect_status(&run, 2);
+    expect_err(&run, "--target-error: the samples of one photon map share its photons");
+    run_free(&run);
+}
+
+/* So near to the lamp, and so bright is it, that some samples are beyond float32. */
+static void samples_that_are_not_finite_are_shown(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", "camera { projection orthographic  eye 0 1 0  look_at 0 0 0  up 0 0 1  width 1e-4 }\n"
+                           "film { width 8  height 8 }\n"
+                           "material white { kd 0.7 }\n"
+                           "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
+                           "light point { position 0 1e-6 0  intensity 1e28 }\n");
+    run run = run_rtc("a.rts --spp 64 --variance --stats --out a.pfm");
+    expect_status(&run, 0);
+    assert_true(stats_number(&run, "samples rejected") > 0);
+    assert_true(isfinite(stats_number(&run, "relative error")));
+    expect_err(&run, "samples left out because they were not finite: ");
+    assert_true(isfinite(image_mean("a.pfm")));
+    run_free(&run);
+}
+
 static void output_that_cannot_be_written_is_status_4_before_rendering(void **state)
 {
     (void)state;
@@ -333,6 +412,9 @@ int main(void)
         TEST(exposure_and_tonemap_change_8_bit_files_only),
         TEST(exr_tells_where_it_came_from),
         TEST(aov_adds_layers_to_exr),
+        TEST(variance_is_a_layer_and_the_error_is_said),
+        TEST(a_render_ends_at_the_target_error),
+        TEST(samples_that_are_not_finite_are_shown),
         TEST(output_that_cannot_be_written_is_status_4_before_rendering),
         TEST(full_disk_is_status_4),
         TEST(scene_comes_from_stdin_too),

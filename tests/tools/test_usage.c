@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "dsl/schema.h"
 #include "expect.h"
 #include "lib/image/scratch.h"
 #include "spawn.h"
@@ -71,6 +72,7 @@ static const struct {
     {"a.rts --width 65537", "--width takes a whole number from 1 to 65536"},
     {"a.rts --width 65536 --height 65536", "--height: a film of"},
     {"a.rts --max-depth 1e6", "--max-depth takes a whole number from 1 to 4096"},
+    {"a.rts --roulette-depth 5000", "--roulette-depth takes a whole number"},
     {"a.rts --work-group 1e6", "--work-group: "},
     {"check", "which scene?"},
     {"check a.rts --spp 3", "`rtc check` takes no option --spp"},
@@ -203,7 +205,7 @@ static void help_describes_every_option(void **state)
 static void each_command_has_its_help(void **state)
 {
     (void)state;
-    static const char *const commands[] = {"check", "mesh", "devices", "doctor", "photons"};
+    static const char *const commands[] = {"check", "mesh", "devices", "doctor", "photons", "compare"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         char usage[64];
         snprintf(usage, sizeof usage, "usage: rtc %s", commands[i]);
@@ -282,6 +284,42 @@ static void no_platform_is_status_3_and_says_what_to_install(void **state)
     assert_int_equal(scratch_count(), 1);
 }
 
+/* Each field of `film` and `render` is an option. */
+static void each_field_is_an_option(const char *help, const rt_block *block)
+{
+    char option[64];
+    for (size_t i = 0; i < block->field_count; i++) {
+        snprintf(option, sizeof option, "\n  --%s", block->fields[i].name);
+        for (char *c = option; *c; c++)
+            *c = *c == '_' ? '-' : *c;
+        const char *found = strstr(help, option);
+        if (!found || !strchr(" \n", found[strlen(option)]))
+            fail_msg("the field %s has no option", block->fields[i].name);
+    }
+}
+
+/* And each option of what to render is a field, but for two that are of one run: --accel and --photon-map. */
+static void options_and_fields_are_the_same(void **state)
+{
+    const rt_block *film = &rt_blocks[RT_BLOCK_FILM], *render = &rt_blocks[RT_BLOCK_RENDER];
+    size_t options = 0;
+    (void)state;
+    run run = run_rtc("--help");
+    each_field_is_an_option(run.out, film);
+    each_field_is_an_option(run.out, render);
+    expect_out(&run, "\n  --accel ");
+    expect_out(&run, "\n  --photon-map ");
+
+    /* What is behind is about the output, --aov and --variance among it. */
+    char *end = strstr(run.out, "\nOutput:\n");
+    assert_true(end && strstr(end, "\n  --aov") && strstr(end, "\n  --variance"));
+    *end = '\0';
+    for (const char *at = run.out; (at = strstr(at, "\n  --")) != NULL; at++)
+        options++;
+    assert_int_equal(options, film->field_count + render->field_count - 2 + 2);
+    run_free(&run);
+}
+
 static void check_needs_no_device(void **state)
 {
     (void)state;
@@ -333,6 +371,7 @@ int main(void)
         TEST(check_counts_what_a_scene_holds),
         TEST(check_of_several_scenes_goes_on_after_a_bad_one),
         TEST(no_platform_is_status_3_and_says_what_to_install),
+        TEST(options_and_fields_are_the_same),
         TEST(check_needs_no_device),
         TEST(unknown_device_is_status_3),
         TEST(full_stdout_is_status_4),

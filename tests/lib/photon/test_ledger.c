@@ -106,6 +106,26 @@ static void light_that_meets_nothing_escapes(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/*
+ * Fails unless all paths are booked and each took the light's power over its share: true of lights that shine
+ * evenly, whose paths are all alike.
+ */
+static void expect_all_booked(const rt_light_ledger *rows, size_t lights, uint64_t photons, const char *what)
+{
+    uint64_t paths = 0;
+    for (size_t i = 0; i < lights; i++) {
+        const rt_light_ledger *l = rows + i;
+        double part = (double)l->paths / (l->share * (double)photons);
+        paths += l->paths;
+        for (int c = 0; c < 3; c++)
+            if (!(fabs(l->emitted[c] - part * l->power[c]) <= 1e-5 * part * l->power[c]))
+                fail_msg("%s: light %zu, channel %d: %g W emitted, not %g W", what, i, c, l->emitted[c],
+                         part * l->power[c]);
+    }
+    if (paths != photons)
+        fail_msg("%s: %llu of %llu paths are booked", what, (unsigned long long)paths, (unsigned long long)photons);
+}
+
 static void expect_closed_scene(const char *path)
 {
     rt_render_options render = {.photons = 50000, .max_depth = 24, .direct = RT_DIRECT_PHOTONS};
@@ -121,6 +141,7 @@ static void expect_closed_scene(const char *path)
     rt_photon_map_ledger(map, rows, lights);
     for (size_t i = 0; i < lights; i++)
         expect_closed(rows + i, path);
+    expect_all_booked(rows, lights, render.photons, path);
     free(rows);
     rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
@@ -134,7 +155,7 @@ static void closes_in_every_scene_that_ships(void **state)
     assert_int_equal(glob("scenes/*.rts", 0, NULL, &found), 0);
     for (size_t i = 0; i < found.gl_pathc; i++)
         expect_closed_scene(found.gl_pathv[i]);
-    assert_true(found.gl_pathc >= 4);
+    assert_true(found.gl_pathc >= 15);
     globfree(&found);
 }
 

@@ -132,6 +132,26 @@ static void even_environments_by_pi(void **state)
     expect_irradiance(even_sky, 2 * pi, 5e-3);
 }
 
+/* The same through a pane without end, which stands between the floor and where the light comes from. */
+static rt_scene *sky_behind_pane(void)
+{
+    static const rt_material clear = {.kt = {1, 1, 1}, .ior = 1};
+    static const float point[3] = {0, 1, 0}, up[3] = {0, 1, 0};
+    rt_scene *scene = even_sky();
+    rt_surface pane;
+    memset(&pane, 0, sizeof pane);
+    expect_ok(rt_scene_add_material(scene, &pane.material, NULL, &clear, &error), &error);
+    expect_ok(rt_scene_add_plane(scene, NULL, point, up, &pane, &error), &error);
+    return scene;
+}
+
+static void distant_light_comes_through_clear_planes(void **state)
+{
+    (void)state;
+    assert_float_equal(irradiance(sky_behind_pane(), RT_MODE_PATH), 2 * pi, 5e-3 * 2 * pi);
+    assert_float_equal(irradiance(sky_behind_pane(), RT_MODE_PHOTON), 2 * pi, 0.03 * 2 * pi);
+}
+
 /* On the axis of a disc, E = pi L r^2 / (r^2 + h^2). */
 static rt_scene *disc_lamp(void)
 {
@@ -193,6 +213,7 @@ int main(void)
         cmocka_unit_test(spots_by_the_cosine_cubed_and_their_edge),
         cmocka_unit_test(directional_lights_by_the_cosine),
         cmocka_unit_test(even_environments_by_pi),
+        cmocka_unit_test(distant_light_comes_through_clear_planes),
         cmocka_unit_test(discs_by_their_form_factor),
         cmocka_unit_test(environments_are_seen),
     };

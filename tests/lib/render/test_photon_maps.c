@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/image/scratch.h"
 #include "photon/map_file.h"
 #include "render/renderer.h"
 
@@ -367,6 +368,32 @@ static void starved_lights_and_maps_are_told(void **state)
     rt_renderer_destroy(renderer);
 }
 
+static void light_that_does_not_reach_planes_is_told(void **state)
+{
+    static const char sun[] = "light directional { direction 0 -1 0  irradiance 1 }\n",
+                      floor[] = "plane { point 0 -2 0  normal 0 1 0  material wall }\n",
+                      bulb[] = "light point { position 0 0 0.5  power 1 }\n", *const rooms[] = {floor, "", floor},
+                      *const lights[] = {sun, sun, bulb};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char text[2000], warnings[2000] = "";
+        rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+        rt_render_options render = {.photons = 2000, .mode = RT_MODE_PHOTON, .width = 4, .height = 4, .hooks = &hooks};
+        rt_emit_options options = {.render = &render};
+        rt_film *film = NULL;
+        rt_error error;
+        snprintf(text, sizeof text, "%s%s%scamera { eye 0 0 -0.9  look_at 0 0 0 }\n", ROOM, rooms[i], lights[i]);
+        rt_renderer *renderer = open_text(text);
+        rt_photon_map_destroy(emit(renderer, &options));
+        assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
+        warnings[0] = '\0';
+        expect_ok(rt_render(&film, renderer, &render, &error), &error);
+        assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
+        rt_film_destroy(film);
+        rt_renderer_destroy(renderer);
+    }
+}
+
 /* ---- Scenes -------------------------------------------------------------------------- */
 
 static uint64_t fingerprint(const char *text, rt_accel accel)
@@ -382,6 +409,20 @@ static uint64_t fingerprint(const char *text, rt_accel accel)
     return info.scene;
 }
 
+/* Images and meshes that differ in one thing each. */
+static void write_parts(void)
+{
+    scratch_write("grey.ppm", "P3 2 1 255  128 128 128  255 255 255\n");
+    scratch_write("white.ppm", "P3 2 1 255  255 255 255  255 255 255\n");
+    scratch_write("plain.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nf 1 2 3\n");
+    scratch_write("wide.obj", "v 0 0 0\nv 0.2 0 0\nv 0 0.1 0\nf 1 2 3\n");
+    scratch_write("smooth.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 1\nf 1//1 2//2 3//1\n");
+    scratch_write("smoother.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 2\nf 1//1 2//2 3//1\n");
+    scratch_write("mapped.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvt 0 0\nvt 1 1\nf 1/1 2/2 3/1\n");
+    scratch_write("red.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 1 0 0\nf 1 2 3\n");
+    scratch_write("green.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 0 1 0\nf 1 2 3\n");
+}
+
 static void scenes_are_told_apart_by_what_photons_see(void **state)
 {
     static const char *const others[] = {
@@ -391,10 +432,30 @@ static void scenes_are_told_apart_by_what_photons_see(void **state)
         ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material glass }\n",
         ROOM "quad { corner 0 0 0  edge1 0.1 0 0  edge2 0 0.1 0  material wall }\n",
         ROOM "plane { point 0 -3 0  normal 0 1 0  material wall }\n",
+        ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall }\n",
+        ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall  rotate 0 1 0 5 }\n",
+        ROOM "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM "texture t { file \"grey.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM "texture t { file \"white.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM "light environment { radiance 1 }\n",
+        ROOM "light environment { file \"grey.ppm\" }\n",
+        ROOM "light environment { file \"white.ppm\" }\n",
+        ROOM "light environment { file \"white.ppm\"  rotation 90 }\n",
+        ROOM "model { file \"plain.obj\"  material wall }\n",
+        ROOM "model { file \"smooth.obj\"  material wall }\n",
+        ROOM "model { file \"smoother.obj\"  material wall }\n",
+        ROOM "model { file \"mapped.obj\"  material wall }\n",
+        ROOM "model { file \"red.obj\"  material wall }\n",
+        ROOM "model { file \"green.obj\"  material wall }\n",
+        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material wall  scale 0.5 }\n",
+        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material wall  scale 0.6 }\n",
+        ROOM "mesh m { file \"wide.obj\" }  instance m { material wall }  instance m { material wall  scale 0.5 }\n",
     };
     enum { count = sizeof others / sizeof *others };
     uint64_t seen[count + 1] = {fingerprint(ROOM, RT_ACCEL_BVH)};
     (void)state;
+    write_parts();
     assert_true(fingerprint(ROOM, RT_ACCEL_NONE) == seen[0]);
     assert_true(fingerprint(ROOM "camera { eye 0 0 1  look_at 0 0 0 }\n", RT_ACCEL_BVH) == seen[0]);
     assert_true(fingerprint(others[1], RT_ACCEL_NONE) == fingerprint(others[1], RT_ACCEL_BVH));
@@ -545,7 +606,8 @@ int main(void)
         cmocka_unit_test(shares_move_paths_but_not_flux),
         cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(starved_lights_and_maps_are_told),
-        cmocka_unit_test(scenes_are_told_apart_by_what_photons_see),
+        cmocka_unit_test(light_that_does_not_reach_planes_is_told),
+        cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter, scratch_leave),
         cmocka_unit_test(stored_flux_is_what_path_tracing_says),
         cmocka_unit_test(irradiance_is_flux_over_area),
         cmocka_unit_test(irradiance_sums_both_lists),

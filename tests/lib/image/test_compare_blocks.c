@@ -1,16 +1,15 @@
-/* The comparison itself: it must pass noise and catch errors just past what is allowed. */
+/* Agreement block by block: it must pass noise and catch errors just past what is allowed. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include "compare.h"
+#include "support.h"
 
 #define SIDE 128u
 #define VALUES (3u * SIDE * SIDE)
+#define BLOCK 16u /* the default */
+#define TINY 1e-12
+#define RENDERS_MAX 8
 
 static double uniform(uint64_t *state)
 {
@@ -37,22 +36,53 @@ static float *picture(double scale, double deviation, uint64_t seed)
     return rgb;
 }
 
-static compare_result compare(const float *render, float *reference, double tolerance)
+/* What a comparison found: its measures and its worst block, in the worst channel. */
+typedef struct result {
+    rt_comparison_info info;
+    uint32_t x, y;
+    double reference, error, excess;
+} result;
+
+/* Renders of SIDE x SIDE against a reference of that size; a tolerance of almost 0 leaves the noise alone. */
+static result compare_renders(const float *const *renders, size_t count, const float *reference, double tolerance)
 {
-    compare_image image = {SIDE, SIDE, reference};
-    compare_result result;
-    assert_true(compare_blocks(&result, &render, 1, &image, tolerance));
-    assert_int_equal(result.count, 3 * (SIDE / COMPARE_BLOCK) * (SIDE / COMPARE_BLOCK));
-    return result;
+    rt_image *images[RENDERS_MAX] = {0}, *truth = NULL;
+    rt_comparison *comparison = NULL;
+    rt_compare_options options = {.tolerance = tolerance};
+    rt_error error;
+    result r;
+    size_t blocks;
+    for (size_t i = 0; i < count; i++)
+        expect_ok(rt_image_from_rgb(&images[i], renders[i], SIDE, SIDE, &error), &error);
+    expect_ok(rt_image_from_rgb(&truth, reference, SIDE, SIDE, &error), &error);
+    expect_ok(rt_image_compare(&comparison, (const rt_image *const *)images, count, truth, &options, &error), &error);
+    rt_comparison_get_info(comparison, &r.info);
+    const rt_image_block *block = rt_comparison_blocks(comparison, &blocks) + r.info.worst;
+    assert_int_equal(blocks, (SIDE / BLOCK) * (SIDE / BLOCK));
+    r.x = block->x;
+    r.y = block->y;
+    r.reference = block->reference[r.info.worst_channel];
+    r.error = block->error[r.info.worst_channel];
+    r.excess = block->excess[r.info.worst_channel];
+    rt_comparison_destroy(comparison);
+    rt_image_destroy(truth);
+    for (size_t i = 0; i < count; i++)
+        rt_image_destroy(images[i]);
+    return r;
+}
+
+static result compare(const float *render, const float *reference, double tolerance)
+{
+    return compare_renders(&render, 1, reference, tolerance);
 }
 
 static void equal_images_agree(void **state)
 {
     (void)state;
     float *a = picture(1.0, 0.1, 1);
-    compare_result result = compare(a, a, 0.0);
-    assert_int_equal(result.failed, 0);
-    assert_true(result.rmse == 0.0 && result.ratio == 1.0 && result.excess == 0.0);
+    result result = compare(a, a, TINY);
+    assert_int_equal(result.info.off, 0);
+    assert_true(result.info.rmse == 0.0 && result.info.ratio == 1.0 && result.excess == 0.0);
     free(a);
 }
 
@@ -61,10 +91,10 @@ static void the_tolerance_is_where_it_says(void **state)
     (void)state;
     float *reference = picture(1.0, 0.0, 1), *within = picture(1.009, 0.0, 1), *beyond = picture(1.011, 0.0, 1);
     /* Without noise but with an edge inside: the plane and the edge must not pass for noise of a percent. */
-    assert_int_equal(compare(within, reference, 0.01).failed, 0);
-    compare_result result = compare(beyond, reference, 0.01);
-    assert_true(result.failed > result.count / 2);
-    assert_true(fabs(result.ratio - 1.011) < 1e-5);
+    assert_int_equal(compare(within, reference, 0.01).info.off, 0);
+    result result = compare(beyond, reference, 0.01);
+    assert_true(result.info.off > result.info.blocks / 2);
+    assert_true(fabs(result.info.ratio - 1.011) < 1e-5);
     free(beyond);
     free(within);
     free(reference);
@@ -74,11 +104,11 @@ static void noise_alone_agrees_and_is_measured(void **state)
 {
     (void)state;
     float *reference = picture(1.0, 0.3, 1), *render = picture(1.0, 0.4, 2);
-    compare_result result = compare(render, reference, 0.0);
-    assert_int_equal(result.failed, 0);
+    result result = compare(render, reference, TINY);
+    assert_int_equal(result.info.off, 0);
     /* Relative error of a block's difference: sqrt(0.3^2 + 0.4^2) / 16. */
-    assert_true(result.error / result.reference_mean > 0.7 * 0.5 / 16);
-    assert_true(result.error / result.reference_mean < 1.4 * 0.5 / 16);
+    assert_true(result.error / result.reference > 0.7 * 0.5 / 16);
+    assert_true(result.error / result.reference < 1.4 * 0.5 / 16);
     free(render);
     free(reference);
 }
@@ -88,8 +118,8 @@ static void an_error_above_the_noise_is_caught(void **state)
     (void)state;
     /* The noise of a block is 0.5 / 16 = 3.1 percent; 25 percent is eight times that. */
     float *reference = picture(1.0, 0.3, 1), *render = picture(1.25, 0.4, 2);
-    compare_result result = compare(render, reference, 0.01);
-    assert_true(result.failed > result.count / 2);
+    result result = compare(render, reference, 0.01);
+    assert_true(result.info.off > result.info.blocks / 2);
     free(render);
     free(reference);
 }
@@ -101,11 +131,11 @@ static void one_wrong_block_is_found(void **state)
     for (uint32_t y = 32; y < 48; y++)
         for (uint32_t x = 80; x < 96; x++)
             render[3 * (y * SIDE + x) + 1] *= 1.02f;
-    compare_result result = compare(render, reference, 0.01);
-    assert_int_equal(result.failed, 1);
+    result result = compare(render, reference, 0.01);
+    assert_int_equal(result.info.off, 1);
     assert_int_equal(result.x, 80);
     assert_int_equal(result.y, 32);
-    assert_int_equal(result.channel, 1);
+    assert_int_equal(result.info.worst_channel, 1);
     assert_true(result.excess > 1.5 && result.excess < 2.5);
     free(render);
     free(reference);
@@ -118,8 +148,8 @@ static void what_is_not_finite_fails(void **state)
     for (int i = 0; i < 3; i++) {
         float *reference = picture(1.0, 0.01, 1), *render = picture(1.0, 0.01, 2);
         render[3 * (20 * SIDE + 20)] = bad[i];
-        compare_result result = compare(render, reference, 0.01);
-        assert_int_equal(result.failed, 1);
+        result result = compare(render, reference, 0.01);
+        assert_int_equal(result.info.off, 1);
         assert_int_equal(result.x, 16);
         assert_int_equal(result.y, 16);
         free(render);
@@ -132,9 +162,9 @@ static void black_agrees_with_black_alone(void **state)
     (void)state;
     float *black = calloc(VALUES, sizeof *black), *grey = picture(1.0, 0.0, 1);
     assert_non_null(black);
-    assert_int_equal(compare(black, black, 0.01).failed, 0);
-    compare_result result = compare(grey, black, 0.01);
-    assert_true(result.failed > result.count / 2);
+    assert_int_equal(compare(black, black, 0.01).info.off, 0);
+    result result = compare(grey, black, 0.01);
+    assert_true(result.info.off > result.info.blocks / 2);
     free(grey);
     free(black);
 }
@@ -143,11 +173,11 @@ static void black_agrees_with_black_alone(void **state)
 static float *blotchy(double scale, uint64_t seed)
 {
     float *rgb = picture(scale, 0.0, 1);
-    for (uint32_t row = 0; row < SIDE / COMPARE_BLOCK; row++)
-        for (uint32_t column = 0; column < SIDE / COMPARE_BLOCK; column++) {
+    for (uint32_t row = 0; row < SIDE / BLOCK; row++)
+        for (uint32_t column = 0; column < SIDE / BLOCK; column++) {
             double factor = 1.0 + 0.02 * noise(&seed);
-            for (uint32_t i = 0; i < COMPARE_BLOCK * COMPARE_BLOCK; i++) {
-                uint32_t x = column * COMPARE_BLOCK + i % COMPARE_BLOCK, y = row * COMPARE_BLOCK + i / COMPARE_BLOCK;
+            for (uint32_t i = 0; i < BLOCK * BLOCK; i++) {
+                uint32_t x = column * BLOCK + i % BLOCK, y = row * BLOCK + i / BLOCK;
                 for (int c = 0; c < 3; c++)
                     rgb[3 * (y * SIDE + x) + (uint32_t)c] *= (float)factor;
             }
@@ -158,26 +188,25 @@ static float *blotchy(double scale, uint64_t seed)
 static void shared_noise_is_measured_from_several_renders(void **state)
 {
     (void)state;
-    enum { COUNT = 8 };
+    enum { COUNT = RENDERS_MAX };
     const float *renders[COUNT], *wrong[COUNT];
-    compare_image reference = {SIDE, SIDE, picture(1.0, 0.0, 1)};
-    compare_result result;
+    float *reference = picture(1.0, 0.0, 1);
     for (int i = 0; i < COUNT; i++) {
         renders[i] = blotchy(1.0, 10 + (uint64_t)i);
         wrong[i] = blotchy(1.06, 30 + (uint64_t)i);
     }
     /* One render alone does not show its noise; several do, and still an error of 6 percent is seen. */
-    assert_true(compare_blocks(&result, renders, 1, &reference, 0.005));
-    assert_true(result.failed > result.count / 4);
-    assert_true(compare_blocks(&result, renders, COUNT, &reference, 0.005));
-    assert_int_equal(result.failed, 0);
-    assert_true(compare_blocks(&result, wrong, COUNT, &reference, 0.005));
-    assert_true(result.failed > result.count / 2);
+    result alone = compare_renders(renders, 1, reference, 0.005);
+    result several = compare_renders(renders, COUNT, reference, 0.005);
+    result off = compare_renders(wrong, COUNT, reference, 0.005);
+    assert_true(alone.info.off > alone.info.blocks / 4);
+    assert_int_equal(several.info.off, 0);
+    assert_true(off.info.off > off.info.blocks / 2);
     for (int i = 0; i < COUNT; i++) {
         free((void *)renders[i]);
         free((void *)wrong[i]);
     }
-    free(reference.rgb);
+    free(reference);
 }
 
 int main(void)
@@ -192,5 +221,5 @@ int main(void)
         cmocka_unit_test(black_agrees_with_black_alone),
         cmocka_unit_test(shared_noise_is_measured_from_several_renders),
     };
-    return cmocka_run_group_tests_name("render/compare", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("lib/image/compare_blocks", tests, NULL, NULL);
 }

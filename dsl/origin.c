@@ -1,0 +1,94 @@
+#include "dsl/origin.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int add_place(rt_places *places, rt_place place)
+{
+    if (places->count == places->capacity) {
+        size_t capacity = places->capacity ? 2 * places->capacity : 64;
+        rt_place *items = realloc(places->items, capacity * sizeof *items);
+        if (!items)
+            return 0;
+        places->items = items;
+        places->capacity = capacity;
+    }
+    places->items[places->count++] = place;
+    return 1;
+}
+
+int rt_origins_add(rt_origins *origins, const rt_block *block, rt_place place)
+{
+    switch (block->id) {
+    case RT_BLOCK_CAMERA:
+        origins->camera = place;
+        return 1;
+    case RT_BLOCK_FILM:
+    case RT_BLOCK_RENDER:
+    case RT_BLOCK_TEXTURE:
+    case RT_BLOCK_MATERIAL:
+    case RT_BLOCK_MESH:
+        return 1;
+    case RT_BLOCK_POINT_LIGHT:
+    case RT_BLOCK_SPOT_LIGHT:
+    case RT_BLOCK_DIRECTIONAL_LIGHT:
+    case RT_BLOCK_ENVIRONMENT_LIGHT:
+        return add_place(&origins->lights, place);
+    default:
+        return add_place(&origins->shapes, place);
+    }
+}
+
+/* Reports under way. */
+typedef struct reporting {
+    const rt_origins *origins;
+    rt_reports *reports;
+    rt_place last; /* of a light that was reported, line 0 before the first */
+} reporting;
+
+static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
+{
+    if (finding->light != RT_NONE)
+        return origins->lights.items[finding->light];
+    if (finding->lamp != RT_NONE)
+        return origins->shapes.items[finding->lamp];
+    switch (finding->kind) {
+    case RT_FINDING_NOTHING_IN_VIEW:
+    case RT_FINDING_EYE_IN_THE_DARK:
+    case RT_FINDING_EYE_IN_MEDIUM:
+        return origins->camera;
+    default:
+        return (rt_place){origins->text, 0, 0, 0, 0, 0};
+    }
+}
+
+static void report(void *user, const rt_finding *finding)
+{
+    reporting *r = user;
+    rt_place place = place_of(r->origins, finding);
+    /* The turns of a repeat are at one place: say once what is wrong there. */
+    if (finding->kind == RT_FINDING_LIGHT_SHUT_IN) {
+        if (place.source == r->last.source && place.offset == r->last.offset)
+            return;
+        r->last = place;
+    }
+    rt_report_finding(r->reports, place, finding);
+    if (finding->shape != RT_NONE) {
+        const rt_place *solid = &r->origins->shapes.items[finding->shape];
+        rt_text word = rt_place_text(solid);
+        rt_report_hint(r->reports, "the %.*s is at %s:%d", (int)word.length, word.at, solid->source->path, solid->line);
+    }
+}
+
+void rt_origins_report(const rt_origins *origins, const rt_scene *scene, rt_reports *reports)
+{
+    reporting r = {origins, reports, {NULL, 0, 0, 0, 0, 0}};
+    rt_scene_check(scene, report, &r);
+}
+
+void rt_origins_free(rt_origins *origins)
+{
+    free(origins->shapes.items);
+    free(origins->lights.items);
+    memset(origins, 0, sizeof *origins);
+}

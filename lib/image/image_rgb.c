@@ -1,0 +1,111 @@
+/* image_rgb.c - an image from three channels, and three channels from a layer of an image. */
+#include <stdio.h>
+#include <string.h>
+
+#include "image/image.h"
+#include "image/srgb.h"
+
+rt_status rt_image_from_rgb(rt_image **out, const float *rgb, uint32_t width, uint32_t height, rt_error *error)
+{
+    static const char *const names[3] = {"R", "G", "B"};
+    rt_image *image = NULL;
+    rt_status status = rt_image_create(&image, width, height, names, 3, error);
+    if (status != RT_OK)
+        return status;
+    memcpy(image->data, rgb, 3 * (size_t)width * height * sizeof *rgb);
+    *out = image;
+    return RT_OK;
+}
+
+void rt_image_get_size(const rt_image *image, uint32_t *width, uint32_t *height)
+{
+    *width = image->width;
+    *height = image->height;
+}
+
+/* The channel's name within its layer, or NULL when it is of another one. */
+static const char *name_in_layer(const char *name, const char *layer)
+{
+    if (!layer)
+        return strchr(name, '.') ? NULL : name;
+    size_t length = strlen(layer);
+    if (strncmp(name, layer, length) != 0 || name[length] != '.' || strchr(name + length + 1, '.'))
+        return NULL;
+    return name + length + 1;
+}
+
+static uint32_t find_in_layer(const rt_image *image, const char *layer, const char *wanted)
+{
+    for (uint32_t i = 0; i < image->channel_count; i++) {
+        const char *name = name_in_layer(image->names[i], layer);
+        if (name && strcmp(name, wanted) == 0)
+            return i;
+    }
+    return RT_IMAGE_NO_CHANNEL;
+}
+
+/* The channel called as the layer, or its grey channel Y, or the only one that it has, or RT_IMAGE_NO_CHANNEL. */
+static uint32_t find_single(const rt_image *image, const char *layer)
+{
+    uint32_t found = layer ? rt_image_channel(image, layer) : RT_IMAGE_NO_CHANNEL;
+    if (found == RT_IMAGE_NO_CHANNEL)
+        found = find_in_layer(image, layer, "Y");
+    if (found != RT_IMAGE_NO_CHANNEL)
+        return found;
+    for (uint32_t i = 0; i < image->channel_count; i++) {
+        if (!name_in_layer(image->names[i], layer))
+            continue;
+        if (found != RT_IMAGE_NO_CHANNEL)
+            return RT_IMAGE_NO_CHANNEL;
+        found = i;
+    }
+    return found;
+}
+
+/* Whether there is such a layer; then the channels that stand for red, green and blue. */
+static int find_channels(uint32_t channels[3], const rt_image *image, const char *layer)
+{
+    static const char *const triples[2][3] = {{"R", "G", "B"}, {"X", "Y", "Z"}};
+    for (int i = 0; i < 2; i++) {
+        for (int c = 0; c < 3; c++)
+            channels[c] = find_in_layer(image, layer, triples[i][c]);
+        if (channels[0] != RT_IMAGE_NO_CHANNEL && channels[1] != RT_IMAGE_NO_CHANNEL &&
+            channels[2] != RT_IMAGE_NO_CHANNEL)
+            return 1;
+    }
+    channels[0] = channels[1] = channels[2] = find_single(image, layer);
+    return channels[0] != RT_IMAGE_NO_CHANNEL;
+}
+
+static rt_status fail_layer(const rt_image *image, const char *layer, rt_error *error)
+{
+    char names[256] = "";
+    for (uint32_t i = 0; i < image->channel_count; i++) {
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", image->names[i]);
+    }
+    if (layer)
+        return rt_fail_field(error, RT_ERROR_INPUT, "layer", "no layer '%.60s' of colours or of one channel among %s",
+                             layer, names);
+    return rt_fail(error, RT_ERROR_INPUT, "no picture, of R, G and B or of one channel, among %s", names);
+}
+
+int rt_image_has_layer(const rt_image *image, const char *layer)
+{
+    uint32_t channels[3];
+    return find_channels(channels, image, layer);
+}
+
+rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer, rt_error *error)
+{
+    uint32_t channels[3];
+    if (!find_channels(channels, image, layer))
+        return fail_layer(image, layer, error);
+    size_t pixel_count = (size_t)image->width * image->height;
+    for (size_t i = 0; i < pixel_count; i++)
+        for (size_t c = 0; c < 3; c++) {
+            float value = image->data[i * image->channel_count + channels[c]];
+            rgb[3 * i + c] = image->is_srgb ? (float)rt_srgb_decode(value) : value;
+        }
+    return RT_OK;
+}

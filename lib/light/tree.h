@@ -1,0 +1,17 @@
+/* tree.h - the tree by which lights are chosen for the point that they are to light. */
+#ifndef RT_LIB_LIGHT_TREE_H
+#define RT_LIB_LIGHT_TREE_H
+
+#include "scene/scene.h"
+
+/* Leaves of the tree, a power of two. */
+size_t rt_light_tree_leaves(const rt_scene *scene);
+
+/*
+ * Fills nodes[2 leaves] from the lights of the scene, whose finite shapes lie in the ball of the header, and
+ * the shape of each primitive. Fails only for want of memory.
+ */
+rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene, const rt_scene_header *header,
+                             const rt_light_data *lights, const rt_u32 *prim_shape, rt_error *error);
+
+#endif

@@ -1,0 +1,210 @@
+/* findings.c - rt_scene_check: what a scene may hold but is hardly meant to, such as what makes its picture black. */
+#include <stdarg.h>
+
+#include "scene/check.h"
+#include "scene/inside.h"
+#include "scene/view.h"
+
+/* Lamps that are looked for inside solids: a mistake in a row of them is seen in its first ones. */
+enum { lamps_looked_at = 256 };
+
+/* A check under way. */
+typedef struct inspection {
+    const rt_scene *scene;
+    void (*found)(void *user, const rt_finding *finding);
+    void *user;
+    size_t warnings;
+} inspection;
+
+static const char *shape_name(rt_u32 kind)
+{
+    static const char *const names[] = {
+        [RT_SHAPE_TRIANGLES] = "mesh", [RT_SHAPE_SPHERE] = "sphere",     [RT_SHAPE_ELLIPSOID] = "ellipsoid",
+        [RT_SHAPE_CYLINDER] = "cylinder", [RT_SHAPE_CONE] = "cone", [RT_SHAPE_TORUS] = "torus",
+    };
+    return kind < sizeof names / sizeof *names && names[kind] ? names[kind] : "shape";
+}
+
+/* Passes a finding on with a message of this form. */
+static void say(inspection *in, rt_finding finding, const char *format, ...)
+{
+    char message[256];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    finding.message = message;
+    in->warnings += finding.severity == RT_SEVERITY_WARNING;
+    in->found(in->user, &finding);
+}
+
+static rt_finding finding_of(rt_finding_kind kind)
+{
+    rt_severity severity = kind == RT_FINDING_EYE_IN_MEDIUM ? RT_SEVERITY_NOTE : RT_SEVERITY_WARNING;
+    return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, NULL};
+}
+
+/* ---- What is missing ------------------------------------------------------- */
+
+int rt_mode_shows_light(rt_mode mode)
+{
+    return mode == RT_MODE_PATH || mode == RT_MODE_PHOTON || mode == RT_MODE_DIRECT;
+}
+
+int rt_scene_has_light(const rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->light_count; i++)
+        if (!rt_is_black(scene->lights[i].emission))
+            return 1;
+    for (size_t i = 0; i < scene->shape_count; i++)
+        if (scene->shapes[i].emits)
+            return 1;
+    return 0;
+}
+
+static void find_missing(inspection *in)
+{
+    const rt_scene *scene = in->scene;
+    if (!scene->has_camera)
+        say(in, finding_of(RT_FINDING_NO_CAMERA), "the scene has no camera: it cannot be rendered");
+    if (scene->shape_count == 0)
+        say(in, finding_of(RT_FINDING_NO_SHAPE), "the scene has no shapes: there is nothing to see");
+    if (rt_mode_shows_light(scene->options.mode) && !rt_scene_has_light(scene))
+        say(in, finding_of(RT_FINDING_NO_LIGHT), "the scene has no light: its picture is black");
+}
+
+/* ---- The camera ------------------------------------------------------------ */
+
+static void find_empty_view(inspection *in)
+{
+    const rt_scene *scene = in->scene;
+    const rt_render_options *options = &scene->options;
+    rt_camera_data camera;
+    rt_view_aim(&camera, &scene->camera, options->width ? options->width : RT_FILM_SIDE,
+                options->height ? options->height : RT_FILM_SIDE);
+    for (size_t i = 0; i < scene->shape_count; i++)
+        if (rt_view_may_see(&camera, scene->shapes + i))
+            return;
+    if (scene->shape_count > 0)
+        say(in, finding_of(RT_FINDING_NOTHING_IN_VIEW), "the camera looks past all shapes: none is in its view");
+}
+
+static int overlaps(const rt_scene_shape *a, const rt_scene_shape *b)
+{
+    for (int i = 0; i < 3; i++)
+        if (!(a->lo[i] <= b->hi[i] && b->lo[i] <= a->hi[i]))
+            return 0;
+    return 1;
+}
+
+/* Whether light may be inside a solid: of a lamp in it, or of its own where it shines inwards. */
+static int may_be_lit_inside(const rt_scene *scene, const rt_scene_shape *solid, int is_inverted)
+{
+    if (solid->emits && (is_inverted || scene->materials[solid->surface.material].two_sided))
+        return 1;
+    for (size_t i = 0; i < scene->light_count; i++) {
+        const rt_scene_light *light = scene->lights + i;
+        const double p[3] = {light->position[0], light->position[1], light->position[2]};
+        if ((light->kind == RT_LIGHT_POINT || light->kind == RT_LIGHT_SPOT) && rt_shape_contains(scene, solid, p))
+            return 1;
+    }
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *lamp = scene->shapes + i;
+        if (lamp->emits && lamp != solid && overlaps(lamp, solid))
+            return 1;
+    }
+    return 0;
+}
+
+/* Says of the first opaque solid that shuts the camera in, or else of the first of all around it. */
+static void find_eye_inside(inspection *in)
+{
+    const rt_scene *scene = in->scene;
+    const float *eye = scene->camera.eye;
+    rt_finding medium = finding_of(RT_FINDING_EYE_IN_MEDIUM), dark = finding_of(RT_FINDING_EYE_IN_THE_DARK);
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        int side = rt_shape_contains(scene, shape, (const double[3]){eye[0], eye[1], eye[2]});
+        if (side == 0)
+            continue;
+        if (rt_material_is_transparent(scene->materials + shape->surface.material)) {
+            medium.shape = medium.shape == RT_NONE ? (uint32_t)i : medium.shape;
+        } else if (!may_be_lit_inside(scene, shape, side < 0)) {
+            dark.shape = (uint32_t)i;
+            say(in, dark, "the camera is inside an opaque %s, where there is no light", shape_name(shape->kind));
+            return;
+        }
+    }
+    if (medium.shape != RT_NONE)
+        say(in, medium, "the camera is inside a transparent %s", shape_name(scene->shapes[medium.shape].kind));
+}
+
+/* ---- Lamps ----------------------------------------------------------------- */
+
+/* A light that is no shape, or a shape that shines. */
+typedef struct lamp {
+    const rt_scene_light *light;
+    const rt_scene_shape *shape;
+} lamp;
+
+static int contains_lamp(const rt_scene *scene, const rt_scene_shape *solid, const lamp *lamp)
+{
+    if (lamp->shape)
+        return lamp->shape != solid && rt_shape_contains_bounds(scene, solid, lamp->shape);
+    const float *p = lamp->light->position;
+    return rt_shape_contains(scene, solid, (const double[3]){p[0], p[1], p[2]});
+}
+
+/* Says so when the lamp is in an opaque solid and the camera is not. */
+static void find_lamp_inside(inspection *in, const lamp *lamp)
+{
+    const rt_scene *scene = in->scene;
+    const float *eye = scene->camera.eye;
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *solid = scene->shapes + i;
+        if (rt_material_is_transparent(scene->materials + solid->surface.material) ||
+            !contains_lamp(scene, solid, lamp) ||
+            rt_shape_contains(scene, solid, (const double[3]){eye[0], eye[1], eye[2]}))
+            continue;
+        rt_finding hidden = finding_of(RT_FINDING_LIGHT_SHUT_IN);
+        hidden.shape = (uint32_t)i;
+        if (lamp->shape)
+            hidden.lamp = (uint32_t)(lamp->shape - scene->shapes);
+        else
+            hidden.light = (uint32_t)(lamp->light - scene->lights);
+        say(in, hidden, "this light is inside an opaque %s and never seen", shape_name(solid->kind));
+        return;
+    }
+}
+
+static void find_lamps_inside(inspection *in)
+{
+    const rt_scene *scene = in->scene;
+    int looked_at = 0;
+    for (size_t i = 0; i < scene->light_count && looked_at < lamps_looked_at; i++) {
+        const lamp lamp = {.light = scene->lights + i};
+        if (lamp.light->kind == RT_LIGHT_POINT || lamp.light->kind == RT_LIGHT_SPOT) {
+            find_lamp_inside(in, &lamp);
+            looked_at++;
+        }
+    }
+    for (size_t i = 0; i < scene->shape_count && looked_at < lamps_looked_at; i++) {
+        const lamp lamp = {.shape = scene->shapes + i};
+        if (lamp.shape->emits) {
+            find_lamp_inside(in, &lamp);
+            looked_at++;
+        }
+    }
+}
+
+size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding), void *user)
+{
+    inspection in = {scene, found, user, 0};
+    find_missing(&in);
+    if (scene->has_camera) {
+        find_empty_view(&in);
+        find_eye_inside(&in);
+        find_lamps_inside(&in);
+    }
+    return in.warnings;
+}

@@ -1,0 +1,84 @@
+#include "bsdf_draw.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "support.h"
+
+/* A scene of one shape and one material. */
+typedef struct little_scene {
+    rt_scene_header header;
+    rt_shape shape;
+    char to_row[RT_SCENE_ROW - sizeof(rt_shape) % RT_SCENE_ROW];
+    rt_material_data material;
+} little_scene;
+
+static cl_mem scene_of(const rt_material_data *material)
+{
+    little_scene scene;
+    memset(&scene, 0, sizeof scene);
+    scene.header.shapes = offsetof(little_scene, shape) / RT_SCENE_ROW;
+    scene.header.materials = offsetof(little_scene, material) / RT_SCENE_ROW;
+    scene.material = *material;
+    return test_buffer(sizeof scene, &scene);
+}
+
+void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport, uint32_t seed,
+                  uint32_t count, bsdf_draw *out)
+{
+    cl_kernel kernel = test_kernel("bsdf", "scatter");
+    cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
+    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(transport), RT_ARG(made)};
+    test_run(kernel, args, 6, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(scene);
+    rt_buffer_release(s);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+void draw_events(const rt_material_data *material, const situation *at, uint32_t seed, uint32_t count, bsdf_event *out)
+{
+    cl_kernel kernel = test_kernel("bsdf", "events");
+    cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
+    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(made)};
+    test_run(kernel, args, 5, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(scene);
+    rt_buffer_release(s);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+void evaluate_scatter(const rt_material_data *material, const situation *at, const float (*wi)[4], uint32_t count,
+                      bsdf_value *out)
+{
+    cl_kernel kernel = test_kernel("bsdf", "evaluate");
+    cl_mem scene = scene_of(material), s = test_buffer(count * sizeof *at, at);
+    cl_mem w = test_buffer(count * sizeof *wi, wi), made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(w), RT_ARG(made)};
+    test_run(kernel, args, 5, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(scene);
+    rt_buffer_release(s);
+    rt_buffer_release(w);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+void measure_albedo(const rt_material_data *material, const situation *at, uint32_t samples, uint32_t count,
+                    bsdf_albedo *out)
+{
+    cl_kernel kernel = test_kernel("bsdf", "albedo");
+    cl_mem scene = scene_of(material), s = test_buffer(count * sizeof *at, at);
+    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(samples), RT_ARG(made)};
+    test_run(kernel, args, 5, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(scene);
+    rt_buffer_release(s);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}

@@ -1,0 +1,59 @@
+/* bsdf_draw.h - scattering events of one surface of one material, for the tests of materials. */
+#ifndef RT_TESTS_KERNELS_BSDF_DRAW_H
+#define RT_TESTS_KERNELS_BSDF_DRAW_H
+
+#include <stdint.h>
+
+#include "types.h"
+
+/* As enum transport and enum event of bsdf.h. */
+enum { carry_radiance, carry_flux };
+enum { absorbed, diffuse, reflected, refracted, rough, event_count };
+
+/* How a path meets the surface; eta: index on the side of wo over that on the other. */
+typedef struct situation {
+    float normal[4], shading[4];
+    float wo[3], eta;
+    float beta[3], survival;
+} situation;
+
+/* An event; eval and eval_pdf_w: light and density of its lobe at wi. */
+typedef struct bsdf_draw {
+    float wi[3], event;
+    float weight[3], squeeze; /* over survival */
+    float eval[3], eval_pdf_w;
+    float albedo[3], pdf_w;
+} bsdf_draw;
+
+/* What an event makes of the direction, alone. */
+typedef struct bsdf_event {
+    float wi[3], pdf_w;
+    float event, unused[3];
+} bsdf_event;
+
+/* Light and densities of all lobes at a direction. */
+typedef struct bsdf_value {
+    float diffuse[3], diffuse_pdf_w;
+    float rough[3], rough_pdf_w;
+} bsdf_value;
+
+/* What a situation keeps of the light: mean and mean square over samples, and the most that one keeps. */
+typedef struct bsdf_albedo {
+    float mean[3], most;
+    float square[3], unused;
+} bsdf_albedo;
+
+/* Fill out[count] with events. */
+void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport, uint32_t seed,
+                  uint32_t count, bsdf_draw *out);
+void draw_events(const rt_material_data *material, const situation *at, uint32_t seed, uint32_t count, bsdf_event *out);
+
+/* Fills out[count] with what each wo of the situations gets from each wi. */
+void evaluate_scatter(const rt_material_data *material, const situation *at, const float (*wi)[4], uint32_t count,
+                      bsdf_value *out);
+
+/* Fills out[count] with what each of the situations keeps. */
+void measure_albedo(const rt_material_data *material, const situation *at, uint32_t samples, uint32_t count,
+                    bsdf_albedo *out);
+
+#endif

@@ -1,0 +1,319 @@
+/* test_findings.c - points inside solids, shapes in view, and what rt_scene_check says of scenes. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/scene/scenes.h"
+#include "scene/inside.h"
+
+/* ---- Points in solids -------------------------------------------------------- */
+
+enum { points = 20000 };
+
+static const float at_a[3] = {0.3f, -0.2f, 0.4f}, at_b[3] = {-0.5f, 0.9f, -0.3f};
+
+static double uniform(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (*state >> 8) / 8388608.0 - 1;
+}
+
+/* Where p lies along the axis from at_a to at_b, 0 to 1, and how far from it. */
+static void about_axis(const double p[3], double *along, double *away)
+{
+    double length = 0, dot = 0, square = 0;
+    for (int i = 0; i < 3; i++) {
+        double n = (double)at_b[i] - at_a[i], d = p[i] - at_a[i];
+        length += n * n;
+        dot += n * d;
+        square += d * d;
+    }
+    *along = dot / length;
+    *away = sqrt(fmax(square - dot * dot / length, 0));
+}
+
+static double in_ball(const double p[3])
+{
+    return 0.8 - sqrt(pow(p[0] - at_a[0], 2) + pow(p[1] - at_a[1], 2) + pow(p[2] - at_a[2], 2));
+}
+
+static double in_ellipsoid(const double p[3])
+{
+    return 1 - sqrt(pow((p[0] - at_a[0]) / 0.8, 2) + pow((p[1] - at_a[1]) / 0.4, 2) + pow((p[2] - at_a[2]) / 0.6, 2));
+}
+
+static double in_cylinder(const double p[3])
+{
+    double along, away;
+    about_axis(p, &along, &away);
+    return fmin(fmin(along, 1 - along), 0.5 - away);
+}
+
+static double in_cone(const double p[3])
+{
+    double along, away;
+    about_axis(p, &along, &away);
+    return fmin(fmin(along, 1 - along), 0.7 + along * (0.2 - 0.7) - away);
+}
+
+static double in_torus(const double p[3])
+{
+    double along, away, length = 0;
+    about_axis(p, &along, &away);
+    for (int i = 0; i < 3; i++)
+        length += pow((double)at_b[i] - at_a[i], 2);
+    return 0.3 - hypot(away - 0.6, along * sqrt(length));
+}
+
+static double in_box(const double p[3])
+{
+    return 0.5 - fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
+}
+
+static const float box_corners[8][3] = {{-0.5f, -0.5f, -0.5f}, {0.5f, -0.5f, -0.5f}, {-0.5f, 0.5f, -0.5f},
+                                        {0.5f, 0.5f, -0.5f},   {-0.5f, -0.5f, 0.5f}, {0.5f, -0.5f, 0.5f},
+                                        {-0.5f, 0.5f, 0.5f},   {0.5f, 0.5f, 0.5f}};
+static const uint32_t box_faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                          {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+
+static void add_box(rt_scene *scene, size_t faces, const rt_surface *surface)
+{
+    rt_error error;
+    expect_ok(rt_scene_add_triangles(scene, NULL, box_corners[0], 8, box_faces[0], faces, NULL, surface, &error),
+              &error);
+}
+
+/* The closed shapes, each with what is positive inside of it. */
+static double (*const insides[])(const double p[3]) = {in_ball, in_ellipsoid, in_cylinder, in_cone, in_torus, in_box};
+
+static rt_scene *scene_of_solids(const rt_surface *surface)
+{
+    const float radii[3] = {0.8f, 0.4f, 0.6f};
+    rt_scene *scene = new_scene();
+    rt_error error;
+    float axis[3];
+    for (int i = 0; i < 3; i++)
+        axis[i] = at_b[i] - at_a[i];
+    expect_ok(rt_scene_add_sphere(scene, NULL, at_a, 0.8f, surface, &error), &error);
+    expect_ok(rt_scene_add_ellipsoid(scene, NULL, at_a, radii, surface, &error), &error);
+    expect_ok(rt_scene_add_cylinder(scene, NULL, at_a, at_b, 0.5f, 1, surface, &error), &error);
+    expect_ok(rt_scene_add_cone(scene, NULL, at_a, at_b, 0.7f, 0.2f, 1, surface, &error), &error);
+    expect_ok(rt_scene_add_torus(scene, NULL, at_a, axis, 0.6f, 0.3f, surface, &error), &error);
+    add_box(scene, 12, surface);
+    return scene;
+}
+
+/* Points of the cube from -1.5 to 1.5 about the solids, placed with them; those closer than rounding are left out. */
+static void expect_sides(const rt_surface *surface)
+{
+    rt_scene *scene = scene_of_solids(surface);
+    const rt_affine placed = rt_affine_from(&surface->transform);
+    for (size_t s = 0; s < scene->shape_count; s++) {
+        uint32_t state = 7;
+        int inside = 0;
+        for (int i = 0; i < points; i++) {
+            double p[3] = {1.5 * uniform(&state), 1.5 * uniform(&state), 1.5 * uniform(&state)}, q[3];
+            double depth = insides[s](p);
+            rt_affine_point(q, &placed, p);
+            inside += depth > 0;
+            if (fabs(depth) > 1e-5)
+                assert_int_equal(rt_shape_contains(scene, scene->shapes + s, q), depth > 0);
+        }
+        assert_in_range(inside, points / 100, points / 2);
+    }
+    rt_scene_destroy(scene);
+}
+
+static void points_in_solids_are_those_of_their_equations(void **state)
+{
+    rt_surface plain = {0}, placed = {.transform = {{{0, 2, 0, 5}, {-0.5f, 0.1f, 0, -3}, {0.3f, 0, -1.5f, 100}}}};
+    (void)state;
+    expect_sides(&plain);
+    expect_sides(&placed);
+}
+
+static void only_closed_shapes_have_an_inside(void **state)
+{
+    static const float point[3], normal[3] = {0, 0, 1}, top[3] = {0, 0, 1};
+    static const double middle[3] = {0, 0, 0.25}, outside[3] = {0, 0, 0.75};
+    rt_surface surface = {0}, mirrored = {.transform = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
+    rt_scene *scene = new_scene();
+    rt_error error;
+    (void)state;
+    add_box(scene, 11, &surface); /* a face is missing */
+    expect_ok(rt_scene_add_cylinder(scene, NULL, point, top, 1, 0, &surface, &error), &error);
+    expect_ok(rt_scene_add_cone(scene, NULL, point, top, 1, 0.5f, 0, &surface, &error), &error);
+    expect_ok(rt_scene_add_plane(scene, NULL, top, normal, &surface, &error), &error);
+    for (size_t i = 0; i < scene->shape_count; i++)
+        assert_int_equal(rt_shape_contains(scene, scene->shapes + i, middle), 0);
+
+    /* A box turned inside out, by the order of its corners; a map that mirrors does not do that. */
+    uint32_t inverted[12][3];
+    for (int i = 0; i < 12; i++) {
+        inverted[i][0] = box_faces[i][0];
+        inverted[i][1] = box_faces[i][2];
+        inverted[i][2] = box_faces[i][1];
+    }
+    uint32_t box;
+    expect_ok(rt_scene_add_triangles(scene, &box, box_corners[0], 8, inverted[0], 12, NULL, &mirrored, &error), &error);
+    assert_int_equal(rt_shape_contains(scene, scene->shapes + box, middle), -1);
+    assert_int_equal(rt_shape_contains(scene, scene->shapes + box, outside), 0);
+    rt_scene_destroy(scene);
+}
+
+/* ---- Scenes --------------------------------------------------------------------- */
+
+typedef struct told {
+    int count;
+    rt_finding last;
+    char message[256];
+} told;
+
+static void keep(void *user, const rt_finding *finding)
+{
+    told *t = user;
+    t->count++;
+    t->last = *finding;
+    snprintf(t->message, sizeof t->message, "%s", finding->message);
+}
+
+/* What is told of a scene; nothing, or one finding. */
+static told findings_of(const char *text)
+{
+    told t = {0, {RT_FINDING_NONE, RT_SEVERITY_ERROR, 0, 0, 0, NULL}, ""};
+    rt_scene *scene = NULL;
+    rt_error error;
+    expect_ok(rt_scene_parse(&scene, text, NULL, NULL, &error), &error);
+    size_t warnings = rt_scene_check(scene, keep, &t);
+    assert_true(warnings == (t.count == 1 && t.last.severity == RT_SEVERITY_WARNING));
+    assert_in_range(t.count, 0, 1);
+    assert_true(t.count == 0 || (t.message[0] && !strchr(t.message, '\n')));
+    rt_scene_destroy(scene);
+    return t;
+}
+
+#define MATERIALS                                                                                                      \
+    "material white { kd 0.5 }\nmaterial glass { kt 1 fresnel dielectric }\nmaterial lamp { emission 1 }\n"             \
+    "material glow { emission 1 two_sided true }\n"
+#define VIEW "camera { eye 0 0 -5 look_at 0 0 0 }\n"
+#define BALL "sphere { centre 0 0 0 radius 1 material white }\n"
+#define SUN "light directional { direction 0 -1 0 irradiance 1 }\n"
+
+typedef struct scene_case {
+    const char *text;
+    rt_finding_kind kind;
+} scene_case;
+
+static void expect_findings(const scene_case *cases, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        told t = findings_of(cases[i].text);
+        if (t.last.kind != cases[i].kind)
+            fail_msg("found %d (%s), expected %d in:\n%s", (int)t.last.kind, t.message, (int)cases[i].kind,
+                     cases[i].text);
+    }
+}
+
+#define EXPECT(cases) expect_findings(cases, sizeof cases / sizeof *cases)
+
+static void what_is_missing_is_told(void **state)
+{
+    static const scene_case cases[] = {
+        {MATERIALS VIEW BALL SUN, RT_FINDING_NONE},
+        {MATERIALS BALL SUN, RT_FINDING_NO_CAMERA},
+        {MATERIALS VIEW SUN, RT_FINDING_NO_SHAPE},
+        {MATERIALS VIEW BALL, RT_FINDING_NO_LIGHT},
+        {MATERIALS VIEW BALL "light point { position 0 3 0 intensity 0 }", RT_FINDING_NO_LIGHT},
+        {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material lamp }", RT_FINDING_NONE},
+        {MATERIALS VIEW BALL "render { mode normals }", RT_FINDING_NONE},
+        {MATERIALS VIEW BALL "render { mode photon }", RT_FINDING_NO_LIGHT},
+    };
+    (void)state;
+    EXPECT(cases);
+}
+
+/* Each view looks along +z and sees 45 degrees, from -22.5 to 22.5 in x, and in a square picture in y. */
+static void a_camera_that_looks_past_all_is_told(void **state)
+{
+    static const scene_case cases[] = {
+        {MATERIALS SUN BALL "camera { eye 0 0 -5 look_at 0 0 -9 }", RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN BALL "camera { eye 0 0 -5 look_at 0 0 0 }", RT_FINDING_NONE},
+        {MATERIALS SUN BALL "camera { eye 3.5 0 -5 look_at 3.5 0 0 }", RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN BALL "camera { eye -3.5 0 -5 look_at -3.5 0 0 }", RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN BALL "camera { eye 3.4 0 -5 look_at 3.4 0 0 }", RT_FINDING_NONE},
+        {MATERIALS SUN BALL "camera { eye 0 3.5 -5 look_at 0 3.5 0 }", RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN BALL "camera { eye 0 -3.5 -5 look_at 0 -3.5 0 }", RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN BALL "camera { eye 0 3.5 -5 look_at 0 3.5 0 } film { width 256 }", RT_FINDING_NONE},
+        {MATERIALS SUN BALL "camera { eye 3.5 0 -5 look_at 3.5 0 0 aperture 0.1 }", RT_FINDING_NONE},
+        {MATERIALS SUN BALL "camera { projection orthographic eye 1.9 0 -5 look_at 1.9 0 0 }", RT_FINDING_NONE},
+        {MATERIALS SUN BALL "camera { projection orthographic eye 2.1 0 -5 look_at 2.1 0 0 }",
+         RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN BALL "camera { projection environment eye 0 0 -5 look_at 0 0 -9 }", RT_FINDING_NONE},
+        {MATERIALS SUN "plane { point 0 -1 0 normal 0 1 0 material white } camera { eye 0 0 0 look_at 0 0 9 }",
+         RT_FINDING_NONE},
+        {MATERIALS SUN "plane { point 0 -1 0 normal 0 1 0 material white } camera { eye 0 0 0 look_at 0 5 9 }",
+         RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN "plane { point 0 0 1 normal 0 0 1 material white }"
+                       "camera { projection orthographic eye 0 0 2 look_at 0 0 9 }", RT_FINDING_NOTHING_IN_VIEW},
+    };
+    (void)state;
+    EXPECT(cases);
+}
+
+static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
+{
+    static const scene_case cases[] = {
+        {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material white }" VIEW, RT_FINDING_EYE_IN_THE_DARK},
+        {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material glass }" VIEW, RT_FINDING_EYE_IN_MEDIUM},
+        /* A room with a lamp in it, by its walls, or of glowing walls, is none; a lamp whose light goes outwards is. */
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 1 0 0 intensity 1 }" VIEW,
+         RT_FINDING_NONE},
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material white }"
+                   "quad { corner 0 0 0 edge1 1 0 0 edge2 0 1 0 material lamp }" VIEW, RT_FINDING_NONE},
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material glow }" VIEW, RT_FINDING_NONE},
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material lamp }" VIEW, RT_FINDING_EYE_IN_THE_DARK},
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 0 10 0 intensity 1 }" VIEW,
+         RT_FINDING_EYE_IN_THE_DARK},
+        {MATERIALS SUN "cylinder { a -1 0 -5 b 1 0 -5 radius 1 caps false material white }" VIEW, RT_FINDING_NONE},
+    };
+    (void)state;
+    EXPECT(cases);
+    told t = findings_of(cases[1].text);
+    assert_int_equal(t.last.severity, RT_SEVERITY_NOTE);
+    assert_true(t.last.shape == 0 && t.last.lamp == RT_NONE && t.last.light == RT_NONE);
+}
+
+static void a_lamp_in_a_solid_is_told(void **state)
+{
+    static const scene_case cases[] = {
+        {MATERIALS VIEW SUN BALL "light point { position 0 0 0.9 intensity 1 }", RT_FINDING_LIGHT_SHUT_IN},
+        {MATERIALS VIEW SUN BALL "light point { position 0 0 1.1 intensity 1 }", RT_FINDING_NONE},
+        {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 0.5 0 0 edge2 0 0.5 0 material lamp }",
+         RT_FINDING_LIGHT_SHUT_IN},
+        {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 2 0 0 edge2 0 0.5 0 material lamp }", RT_FINDING_NONE},
+        {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material glass } light point { position 0 0 0 intensity 1 }",
+         RT_FINDING_NONE},
+    };
+    (void)state;
+    EXPECT(cases);
+    told t = findings_of(cases[0].text);
+    assert_true(t.last.shape == 0 && t.last.lamp == RT_NONE && t.last.light == 1);
+    t = findings_of(cases[2].text);
+    assert_true(t.last.shape == 0 && t.last.lamp == 1 && t.last.light == RT_NONE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_in_solids_are_those_of_their_equations),
+        cmocka_unit_test(only_closed_shapes_have_an_inside),
+        cmocka_unit_test(what_is_missing_is_told),
+        cmocka_unit_test(a_camera_that_looks_past_all_is_told),
+        cmocka_unit_test(a_camera_in_a_solid_is_told_where_that_is_dark),
+        cmocka_unit_test(a_lamp_in_a_solid_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

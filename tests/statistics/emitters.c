@@ -1,0 +1,364 @@
+#include "statistics/emitters.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernels/light_draw.h"
+#include "statistics/space.h"
+
+enum { triangles = 12 };
+
+static const rt_transform skew = {{{1.2f, 0.1f, 0, 0.3f}, {-0.2f, 0.8f, 0.3f, 0.1f}, {0, -0.2f, 1.1f, 0}}};
+
+/* The rectangle and the parallelogram. */
+static const float corner[3] = {1, 2, 3}, edge1[3] = {2, 0, 0}, right[3] = {0, 0, 1}, slanted[3] = {1, 0, 1};
+
+static const float vertices[9] = {0, 2, 0, 1, 2, 0, 0, 2, 2};
+
+/* The others: centre or base; towards the top or along the axis. */
+static const float centre[3] = {0.3f, 0.2f, -0.1f}, top[3] = {0.5f, 1.4f, 0.3f}, radii[3] = {0.5f, 0.2f, 0.8f};
+
+static const double sphere_radius = 0.5, disc_radius = 0.7f, disc_hole = 0.3f, torus_major = 0.6f, torus_minor = 0.2f;
+
+/* Radii of the round shapes at base and top. */
+static void round_radii(emitter kind, double *at_base, double *at_top)
+{
+    *at_base = kind == EMIT_PIPE || kind == EMIT_CYLINDER ? 0.4f : 0.5f;
+    *at_top = kind == EMIT_CONE ? 0 : kind == EMIT_FRUSTUM ? 0.2f : *at_base;
+}
+
+static int is_closed(emitter kind)
+{
+    return kind >= EMIT_CYLINDER;
+}
+
+/* ---- The lamps ------------------------------------------------------------------ */
+
+static double strip_width(int i)
+{
+    return (i * 7 % 5 + 1) / 5.0;
+}
+
+static double strip_depth(int i)
+{
+    return (i * 3 % 4 + 1) / 2.0;
+}
+
+/* Triangle i has its corner at (i, 2, 0), one edge along x and one along z. */
+static rt_status add_mesh(rt_scene *scene, const rt_surface *lamp, rt_error *error)
+{
+    float positions[9 * triangles];
+    uint32_t indices[3 * triangles];
+    for (int i = 0; i < triangles; i++) {
+        const float three[9] = {(float)i, 2, 0, (float)(i + strip_width(i)), 2, 0, (float)i, 2, (float)strip_depth(i)};
+        memcpy(positions + 9 * i, three, sizeof three);
+        for (int c = 0; c < 3; c++)
+            indices[3 * i + c] = (uint32_t)(3 * i + c);
+    }
+    return rt_scene_add_triangles(scene, NULL, positions, 3 * triangles, indices, triangles, NULL, lamp, error);
+}
+
+static rt_status add_lamp(rt_scene *scene, emitter kind, const rt_surface *lamp, rt_error *error)
+{
+    static const uint32_t one[3] = {0, 1, 2};
+    double at_base, at_top;
+    round_radii(kind, &at_base, &at_top);
+    switch (kind) {
+    case EMIT_RECTANGLE:
+    case EMIT_TWO_SIDED:
+        return rt_scene_add_quad(scene, NULL, corner, edge1, right, lamp, error);
+    case EMIT_PARALLELOGRAM:
+        return rt_scene_add_quad(scene, NULL, corner, edge1, slanted, lamp, error);
+    case EMIT_TRIANGLE:
+        return rt_scene_add_triangles(scene, NULL, vertices, 3, one, 1, NULL, lamp, error);
+    case EMIT_MESH:
+        return add_mesh(scene, lamp, error);
+    case EMIT_SPHERE:
+        return rt_scene_add_sphere(scene, NULL, centre, (float)sphere_radius, lamp, error);
+    case EMIT_ELLIPSOID:
+        return rt_scene_add_ellipsoid(scene, NULL, centre, radii, lamp, error);
+    case EMIT_DISC:
+        return rt_scene_add_disc(scene, NULL, centre, top, (float)disc_radius, (float)disc_hole, lamp, error);
+    case EMIT_TORUS:
+        return rt_scene_add_torus(scene, NULL, centre, top, (float)torus_major, (float)torus_minor, lamp, error);
+    case EMIT_PIPE:
+    case EMIT_CYLINDER:
+        return rt_scene_add_cylinder(scene, NULL, centre, top, (float)at_base, is_closed(kind), lamp, error);
+    default:
+        return rt_scene_add_cone(scene, NULL, centre, top, (float)at_base, (float)at_top, 1, lamp, error);
+    }
+}
+
+static int is_skew(emitter kind)
+{
+    return kind >= EMIT_ELLIPSOID && kind <= EMIT_TORUS;
+}
+
+rt_scene *emitter_scene(emitter kind)
+{
+    const float radiance = (float)EMITTED_RADIANCE;
+    rt_material shining = {.emission = {radiance, radiance, radiance}, .two_sided = kind == EMIT_TWO_SIDED};
+    rt_surface lamp;
+    rt_scene *scene = light_scene();
+    rt_error error;
+    memset(&lamp, 0, sizeof lamp);
+    expect_ok(rt_scene_add_material(scene, &lamp.material, NULL, &shining, &error), &error);
+    if (is_skew(kind))
+        lamp.transform = skew;
+    expect_ok(add_lamp(scene, kind, &lamp, &error), &error);
+    return scene;
+}
+
+/* ---- Parameters ------------------------------------------------------------------ */
+
+/* Axes of the round shapes: the last is theirs, and not of unit length but theirs. */
+static void axes_of(emitter kind, double s[3], double t[3], double along[3])
+{
+    double unit[3];
+    wide(unit, top);
+    if (kind >= EMIT_PIPE)
+        rt_vec_sub(unit, top, centre);
+    memcpy(along, unit, 3 * sizeof *along);
+    normalise(unit);
+    axes_about(unit, s, t);
+    if (kind < EMIT_PIPE)
+        memcpy(along, unit, 3 * sizeof *along);
+}
+
+/* Radius and height of the round shapes, before the transform. */
+static void profile(emitter kind, double x, double *radius, double *height)
+{
+    double at_base, at_top;
+    round_radii(kind, &at_base, &at_top);
+    *height = 0;
+    if (kind == EMIT_DISC) {
+        *radius = disc_hole + x * (disc_radius - disc_hole);
+    } else if (kind == EMIT_TORUS) {
+        *radius = torus_major + torus_minor * cos(2 * PI * x);
+        *height = torus_minor * sin(2 * PI * x);
+    } else if (!is_closed(kind) || x < 1.0 / 3) {
+        *height = is_closed(kind) ? 3 * x : x;
+        *radius = at_base + *height * (at_top - at_base);
+    } else {
+        *height = x >= 2.0 / 3;
+        *radius = *height > 0 ? (3 * x - 2) * at_top : (3 * x - 1) * at_base;
+    }
+}
+
+static void round_point(emitter kind, double x, double y, double out[3])
+{
+    double s[3], t[3], along[3], radius, height;
+    axes_of(kind, s, t, along);
+    profile(kind, x, &radius, &height);
+    for (int i = 0; i < 3; i++)
+        out[i] = centre[i] + radius * (cos(2 * PI * y) * s[i] + sin(2 * PI * y) * t[i]) + height * along[i];
+}
+
+static void ball_point(emitter kind, double x, double y, double out[3])
+{
+    const double z = 2 * x - 1, r = sqrt(fmax(0, 1 - z * z));
+    const double n[3] = {r * cos(2 * PI * y), r * sin(2 * PI * y), z};
+    for (int i = 0; i < 3; i++)
+        out[i] = centre[i] + n[i] * (kind == EMIT_SPHERE ? sphere_radius : radii[i]);
+}
+
+static void flat_point(emitter kind, double x, double y, double out[3])
+{
+    const float *second = kind == EMIT_PARALLELOGRAM ? slanted : right;
+    const int which = (int)fmax(0, fmin(triangles - 1, floor(x * triangles)));
+    const double part = x * triangles - which;
+    for (int i = 0; i < 3; i++)
+        out[i] = corner[i] + x * edge1[i] + y * second[i];
+    if (kind == EMIT_TRIANGLE)
+        for (int i = 0; i < 3; i++)
+            out[i] = vertices[i] + x * (vertices[3 + i] - vertices[i]) + y * (1 - x) * (vertices[6 + i] - vertices[i]);
+    if (kind == EMIT_MESH) {
+        out[0] = which + part * strip_width(which);
+        out[2] = y * (1 - part) * strip_depth(which);
+    }
+}
+
+void emitter_point(emitter kind, double x, double y, double out[3])
+{
+    double p[3];
+    if (kind < EMIT_SPHERE)
+        flat_point(kind, x, y, p);
+    else if (kind <= EMIT_ELLIPSOID)
+        ball_point(kind, x, y, p);
+    else
+        round_point(kind, x, y, p);
+    for (int i = 0; i < 3; i++)
+        out[i] = is_skew(kind) ? skew.m[i][0] * p[0] + skew.m[i][1] * p[1] + skew.m[i][2] * p[2] + skew.m[i][3] : p[i];
+}
+
+/* What the transform maps to a point: by Cramer's rule. */
+static void before_skew(const float position[3], double out[3])
+{
+    double columns[3][3], away[3], cross[3];
+    for (int i = 0; i < 3; i++) {
+        away[i] = (double)position[i] - skew.m[i][3];
+        for (int c = 0; c < 3; c++)
+            columns[c][i] = skew.m[i][c];
+    }
+    for (int c = 0; c < 3; c++) {
+        rt_vec_cross(cross, columns[(c + 1) % 3], columns[(c + 2) % 3]);
+        out[c] = dot3(away, cross) / dot3(columns[c], cross);
+    }
+}
+
+static void flat_place(emitter kind, const double p[3], double *x, double *y)
+{
+    if (kind == EMIT_TRIANGLE) {
+        *x = p[0];
+        *y = *x < 1 ? p[2] / 2 / (1 - *x) : 0;
+    } else if (kind == EMIT_MESH) {
+        const int which = (int)fmax(0, fmin(triangles - 1, floor(p[0] + 1e-6)));
+        const double part = (p[0] - which) / strip_width(which);
+        *x = (which + fmax(0, fmin(part, 1 - 1e-9))) / triangles;
+        *y = part < 1 ? p[2] / strip_depth(which) / (1 - part) : 0;
+    } else {
+        *y = p[2] - corner[2];
+        *x = (p[0] - corner[0] - (kind == EMIT_PARALLELOGRAM ? *y : 0)) / 2;
+    }
+}
+
+static void round_place(emitter kind, const double p[3], const float normal[3], double *x, double *y)
+{
+    double s[3], t[3], along[3], away[3], n[3], at_base, at_top;
+    axes_of(kind, s, t, along);
+    round_radii(kind, &at_base, &at_top);
+    for (int i = 0; i < 3; i++)
+        away[i] = p[i] - centre[i];
+    wide(n, normal);
+    const double radius = distance(dot3(away, s), dot3(away, t)), height = dot3(away, along) / dot3(along, along);
+    const double facing = dot3(n, along) / rt_vec_length(along);
+    *y = turns_of(dot3(away, s), dot3(away, t));
+    if (kind == EMIT_DISC)
+        *x = (radius - disc_hole) / (disc_radius - disc_hole);
+    else if (kind == EMIT_TORUS)
+        *x = turns_of(radius - torus_major, height);
+    else if (!is_closed(kind))
+        *x = height;
+    else
+        *x = (facing < -0.9 ? 1 + radius / at_base : facing > 0.9 ? 2 + radius / at_top : height) / 3;
+}
+
+void emitter_place(emitter kind, const float position[3], const float normal[3], double *x, double *y)
+{
+    double p[3];
+    wide(p, position);
+    if (is_skew(kind))
+        before_skew(position, p);
+    if (kind < EMIT_SPHERE) {
+        flat_place(kind, p, x, y);
+    } else if (kind <= EMIT_ELLIPSOID) {
+        double n[3];
+        for (int i = 0; i < 3; i++)
+            n[i] = (p[i] - centre[i]) / (kind == EMIT_SPHERE ? sphere_radius : radii[i]);
+        *x = 0.5 + 0.5 * n[2];
+        *y = turns_of(n[0], n[1]);
+    } else {
+        round_place(kind, p, normal, x, y);
+    }
+}
+
+/* ---- Area ------------------------------------------------------------------------ */
+
+/* The product of the derivatives, by central differences. */
+static void across(emitter kind, double x, double y, double out[3])
+{
+    const double h = 1e-6;
+    double a[3], b[3], dx[3], dy[3];
+    emitter_point(kind, x + h, y, a);
+    emitter_point(kind, x - h, y, b);
+    for (int i = 0; i < 3; i++)
+        dx[i] = (a[i] - b[i]) / (2 * h);
+    emitter_point(kind, x, y + h, a);
+    emitter_point(kind, x, y - h, b);
+    for (int i = 0; i < 3; i++)
+        dy[i] = (a[i] - b[i]) / (2 * h);
+    rt_vec_cross(out, dx, dy);
+}
+
+double emitter_element(emitter kind, double x, double y)
+{
+    double product[3];
+    across(kind, x, y, product);
+    return rt_vec_length(product);
+}
+
+void emitter_normal(emitter kind, double x, double y, double out[3])
+{
+    across(kind, x, y, out);
+    normalise(out);
+}
+
+/* By the areas of side and caps, and by radius on each. */
+static double round_density(emitter kind, double x)
+{
+    double at_base, at_top, along[3], radius, height;
+    round_radii(kind, &at_base, &at_top);
+    rt_vec_sub(along, top, centre);
+    profile(kind, x, &radius, &height);
+    const double side = PI * (at_base + at_top) * distance(rt_vec_length(along), at_base - at_top);
+    const double base = PI * at_base * at_base, cover = PI * at_top * at_top, all = side + base + cover;
+    const double on_side = 2 * radius / (at_base + at_top);
+    if (!is_closed(kind))
+        return on_side;
+    if (x < 1.0 / 3)
+        return 3 * on_side * side / all;
+    if (x < 2.0 / 3)
+        return 3 * 2 * radius / at_base * base / all;
+    return at_top > 0 ? 3 * 2 * radius / at_top * cover / all : 0;
+}
+
+double emitter_density(emitter kind, double x, double y)
+{
+    double radius, height, total = 0;
+    (void)y;
+    switch (kind) {
+    case EMIT_TRIANGLE:
+        return 2 * (1 - x);
+    case EMIT_MESH: {
+        const int which = (int)fmax(0, fmin(triangles - 1, floor(x * triangles)));
+        for (int i = 0; i < triangles; i++)
+            total += strip_width(i) * strip_depth(i);
+        return triangles * strip_width(which) * strip_depth(which) / total * 2 * (1 - (x * triangles - which));
+    }
+    case EMIT_DISC:
+        profile(kind, x, &radius, &height);
+        return 2 * radius * (disc_radius - disc_hole) / (disc_radius * disc_radius - disc_hole * disc_hole);
+    case EMIT_TORUS:
+        profile(kind, x, &radius, &height);
+        return radius / torus_major;
+    default:
+        return kind >= EMIT_PIPE ? round_density(kind, x) : 1;
+    }
+}
+
+/* ---- Renderers --------------------------------------------------------------------- */
+
+static rt_renderer *kept;
+static const void *kept_for;
+static rt_scene *(*kept_by)(const void *key);
+
+static void drop(void)
+{
+    rt_renderer_destroy(kept);
+}
+
+rt_renderer *kept_renderer(const void *key, rt_scene *(*build)(const void *key))
+{
+    static int is_dropped_at_exit;
+    if (kept && key == kept_for && build == kept_by)
+        return kept;
+    rt_renderer *made = light_renderer(build(key));
+    rt_renderer_destroy(kept);
+    kept = made;
+    kept_for = key;
+    kept_by = build;
+    /* After the device is opened, so that it is still there. */
+    if (!is_dropped_at_exit)
+        is_dropped_at_exit = atexit(drop) == 0;
+    return kept;
+}

@@ -1,0 +1,91 @@
+#include "statistics/facets.h"
+
+#include <complex.h>
+
+#include "statistics/space.h"
+
+double dielectric_reflectance(double cosine, double eta)
+{
+    const double sine2 = eta * eta * (1 - cosine * cosine);
+    if (sine2 >= 1)
+        return 1;
+    const double beyond = sqrt(1 - sine2);
+    const double s = (eta * cosine - beyond) / (eta * cosine + beyond);
+    const double p = (eta * beyond - cosine) / (eta * beyond + cosine);
+    return (s * s + p * p) / 2;
+}
+
+double metal_reflectance(double cosine, double eta, double k)
+{
+    const double complex index = eta + k * I, beyond = csqrt(index * index - (1 - cosine * cosine));
+    const double s = cabs((cosine - beyond) / (cosine + beyond));
+    const double p = cabs((index * index * cosine - beyond) / (index * index * cosine + beyond));
+    return (s * s + p * p) / 2;
+}
+
+void boundary_split(const rt_material_data *material, int channel, double cosine, double eta, double *reflected,
+                    double *refracted)
+{
+    const double ks = material->ks[channel], kt = material->kt[channel];
+    if (material->flags & RT_MATERIAL_CONDUCTOR) {
+        *reflected = ks * metal_reflectance(cosine, material->eta[channel] / eta, material->k[channel] / eta);
+        *refracted = 0;
+        return;
+    }
+    const double share = dielectric_reflectance(cosine, eta);
+    const int is_split = (material->flags & RT_MATERIAL_FRESNEL) || share >= 1;
+    *reflected = is_split ? share * (ks + kt) : ks;
+    *refracted = is_split ? (1 - share) * (ks + kt) : kt;
+}
+
+double facet_distribution(double alpha, const double h[3])
+{
+    const double cos2 = h[2] * h[2], tan2 = (h[0] * h[0] + h[1] * h[1]) / cos2;
+    const double a2 = alpha * alpha;
+    return h[2] > 0 ? a2 / (PI * cos2 * cos2 * (a2 + tan2) * (a2 + tan2)) : 0;
+}
+
+double facet_masking(double alpha, const double w[3])
+{
+    const double tan2 = (w[0] * w[0] + w[1] * w[1]) / (w[2] * w[2]);
+    return 2 / (1 + sqrt(1 + alpha * alpha * tan2));
+}
+
+double visible_density(double alpha, const double wo[3], const double h[3])
+{
+    return facet_masking(alpha, wo) * fmax(0, dot3(wo, h)) * facet_distribution(alpha, h) / wo[2];
+}
+
+/* The probability of reflection at a facet, by the mean of the channels. */
+static double reflection_chance(const rt_material_data *material, double cosine, double eta)
+{
+    double r = 0, t = 0, reflected, refracted;
+    if (material->flags & RT_MATERIAL_CONDUCTOR)
+        return 1;
+    for (int c = 0; c < 3; c++) {
+        boundary_split(material, c, cosine, eta, &reflected, &refracted);
+        r += reflected;
+        t += refracted;
+    }
+    return r + t > 0 ? r / (r + t) : 0;
+}
+
+double rough_density(const rt_material_data *material, double eta, const double wo[3], const double wi[3])
+{
+    const int reflects = wi[2] > 0;
+    double h[3];
+    for (int i = 0; i < 3; i++)
+        h[i] = reflects ? wo[i] + wi[i] : eta * wo[i] + wi[i];
+    if (h[2] < 0)
+        for (int i = 0; i < 3; i++)
+            h[i] = -h[i];
+    normalise(h);
+    const double cos_o = dot3(wo, h), cos_i = dot3(wi, h);
+    if (cos_o <= 0 || wi[2] == 0 || (cos_i > 0) != reflects)
+        return 0;
+    const double chance = reflection_chance(material, cos_o, eta);
+    /* How normals spread over directions: equations 14 and 17 of Walter et al. */
+    const double bent = eta * cos_o + cos_i;
+    const double spread = reflects ? 1 / (4 * cos_o) : fabs(cos_i) / (bent * bent);
+    return (reflects ? chance : 1 - chance) * spread * visible_density(material->roughness, wo, h);
+}

@@ -1,0 +1,209 @@
+/* scatter.c - the normals of facets, and the events and directions of materials. */
+#include <math.h>
+
+#include "kernels/bsdf_draw.h"
+#include "statistics/facets.h"
+#include "statistics/space.h"
+#include "support.h"
+
+/* ---- Normals of facets --------------------------------------------------------------- */
+
+typedef struct facets {
+    float alpha;
+    double cosine; /* of the view to the surface */
+} facets;
+
+static float rows[most_samples][4];
+
+static void view(double wo[3], double cosine)
+{
+    const double sine = sqrt(1 - cosine * cosine);
+    wo[0] = 0.8 * sine;
+    wo[1] = -0.6 * sine;
+    wo[2] = cosine;
+}
+
+static void as_floats(float out[4], const double v[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)v[i];
+    out[3] = 0;
+}
+
+/*
+ * The slope s of a normal, over alpha, gives q = 1 / sqrt(1 + s^2), the cosine of its angle had it alpha 1: over
+ * q^2 normals are even when seen from above, however small alpha is.
+ */
+static void normal_at(double alpha, double q, double turn, double h[3])
+{
+    const double slope = alpha * sqrt(1 - q * q) / q;
+    h[2] = 1 / sqrt(1 + slope * slope);
+    h[0] = slope * h[2] * cos(2 * PI * turn);
+    h[1] = slope * h[2] * sin(2 * PI * turn);
+}
+
+static void draw_normals(const void *setup, uint32_t seed, uint32_t count)
+{
+    const facets *f = setup;
+    double wo[3];
+    float from[4];
+    view(wo, f->cosine);
+    as_floats(from, wo);
+    cl_kernel kernel = test_kernel("rough", "visible_normals");
+    cl_mem made = test_buffer(count * sizeof *rows, NULL);
+    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(f->alpha), RT_ARG(from), RT_ARG(made)};
+    test_run(kernel, args, 5, count);
+    test_read(made, count * sizeof *rows, rows);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+static sampled place_normals(const void *setup, uint32_t i)
+{
+    const facets *f = setup;
+    const double slope = distance(rows[i][0], rows[i][1]) / rows[i][2] / f->alpha;
+    return (sampled){1 / sqrt(1 + slope * slope), turns_of(rows[i][0], rows[i][1]), NAN};
+}
+
+/* The density D(h) h.z is 2 q over (q, turn). */
+static double of_normals(const void *setup, double q, double turn)
+{
+    const facets *f = setup;
+    double wo[3], h[3];
+    view(wo, f->cosine);
+    normal_at(f->alpha, q, turn, h);
+    return 2 * q * visible_density(f->alpha, wo, h) / (facet_distribution(f->alpha, h) * h[2]);
+}
+
+/* ---- Materials ------------------------------------------------------------------------- */
+
+/* What is looked at: which event comes; the directions of diffuse events; those of rough ones. */
+typedef enum aspect { EVENTS, DIFFUSE, ROUGH } aspect;
+
+typedef struct surface {
+    const rt_material_data *material;
+    double cosine, eta;
+    aspect aspect;
+} surface;
+
+static bsdf_event draws[most_samples];
+
+static void draw_surface(const void *setup, uint32_t seed, uint32_t count)
+{
+    const surface *s = setup;
+    double wo[3];
+    situation at = {{0, 0, 1, 0}, {0, 0, 1, 0}, {0, 0, 0}, 0, {1, 1, 1}, 1};
+    view(wo, s->cosine);
+    for (int i = 0; i < 3; i++)
+        at.wo[i] = (float)wo[i];
+    at.eta = (float)s->eta;
+    draw_events(s->material, &at, seed, count, draws);
+}
+
+static sampled place_surface(const void *setup, uint32_t i)
+{
+    const surface *s = setup;
+    const bsdf_event *d = draws + i;
+    const int event = (int)d->event;
+    if (s->aspect == EVENTS)
+        return (sampled){(event + 0.5) / event_count, 0.5, NAN};
+    if (s->aspect == DIFFUSE && event == diffuse)
+        return (sampled){d->wi[2], turns_of(d->wi[0], d->wi[1]), 2 * PI * d->pdf_w};
+    if (s->aspect == ROUGH && event == rough && d->pdf_w > 0)
+        return (sampled){0.5 + 0.5 * d->wi[2], turns_of(d->wi[0], d->wi[1]), 4 * PI * d->pdf_w};
+    return (sampled){-1, 0, NAN};
+}
+
+/* Events are chosen by what they keep of white light. */
+static void find_chances(const surface *s, double chances[event_count])
+{
+    double sum = 0, r, t;
+    for (int e = 0; e < event_count; e++)
+        chances[e] = 0;
+    for (int c = 0; c < 3; c++) {
+        boundary_split(s->material, c, s->cosine, s->eta, &r, &t);
+        chances[diffuse] += s->material->kd[c];
+        chances[s->material->roughness > 0 ? rough : reflected] += r;
+        chances[s->material->roughness > 0 ? rough : refracted] += t;
+        sum += s->material->kd[c] + r + t;
+    }
+    for (int e = 0; e < event_count; e++)
+        chances[e] /= sum;
+}
+
+static double of_surface(const void *setup, double x, double y)
+{
+    const surface *s = setup;
+    double chances[event_count], wo[3];
+    find_chances(s, chances);
+    if (s->aspect == EVENTS)
+        return event_count * chances[(int)floor(x * event_count)];
+    if (s->aspect == DIFFUSE)
+        return chances[diffuse] * 2 * x;
+    const double z = 2 * x - 1, r = sqrt(fmax(0, 1 - z * z));
+    const double wi[3] = {r * cos(2 * PI * y), r * sin(2 * PI * y), z};
+    view(wo, s->cosine);
+    return 4 * PI * chances[rough] * rough_density(s->material, s->eta, wo, wi);
+}
+
+/* ---- Table ------------------------------------------------------------------------------ */
+
+#define ALL(v) {v, v, v}
+#define MIXED .kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f}
+#define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
+#define GLASS .kt = ALL(1), .flags = RT_MATERIAL_FRESNEL
+
+static const rt_material_data matte = {.kd = ALL(0.5f)}, mixture = {MIXED},
+                              with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL},
+                              ore = {.kd = ALL(0.3f), .ks = ALL(0.7f), .eta = ALL(1.5f), .k = ALL(1),
+                                     .flags = RT_MATERIAL_CONDUCTOR},
+                              gold1 = {.ks = ALL(1), GOLD, .roughness = 0.1f},
+                              gold5 = {.ks = ALL(1), GOLD, .roughness = 0.5f},
+                              gold10 = {.ks = ALL(1), GOLD, .roughness = 1},
+                              glass1 = {GLASS, .roughness = 0.1f}, glass4 = {GLASS, .roughness = 0.4f},
+                              glass10 = {GLASS, .roughness = 1},
+                              rough_mixture = {MIXED, .roughness = 0.3f},
+                              rough_with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL, .roughness = 0.5f},
+                              rough_gilded = {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.25f};
+
+#define INTO (1 / 1.5)
+#define OUT_OF 1.5
+
+static const method by_normals = {draw_normals, place_normals, of_normals, 0};
+static const method by_surface = {draw_surface, place_surface, of_surface, 0};
+
+static const routine routines[] = {
+    {"facets that are seen, alpha 0.001", 16, 16, &by_normals, &(const facets){1e-3f, 0.9}},
+    {"facets that are seen, alpha 0.05, grazing", 16, 16, &by_normals, &(const facets){0.05f, 0.1}},
+    {"facets that are seen, alpha 0.3", 16, 16, &by_normals, &(const facets){0.3f, 0.6}},
+    {"facets that are seen, alpha 0.3, grazing", 16, 16, &by_normals, &(const facets){0.3f, 0.05}},
+    {"facets that are seen, alpha 1, grazing", 16, 16, &by_normals, &(const facets){1, 0.2}},
+    {"matte", 16, 16, &by_surface, &(const surface){&matte, 0.6, 1, DIFFUSE}},
+    {"mixture, events", event_count, 1, &by_surface, &(const surface){&mixture, 0.6, INTO, EVENTS}},
+    {"mixture, diffuse", 16, 16, &by_surface, &(const surface){&mixture, 0.6, INTO, DIFFUSE}},
+    {"mixture with Fresnel, events", event_count, 1, &by_surface, &(const surface){&with_fresnel, 0.3, INTO, EVENTS}},
+    {"mixture with Fresnel, events inside", event_count, 1, &by_surface,
+     &(const surface){&with_fresnel, 0.9, OUT_OF, EVENTS}},
+    {"mixture with Fresnel, total reflection", event_count, 1, &by_surface,
+     &(const surface){&with_fresnel, 0.3, OUT_OF, EVENTS}},
+    {"ore in water, events", event_count, 1, &by_surface, &(const surface){&ore, 0.9, 1.33, EVENTS}},
+    {"rough metal, alpha 0.1", 32, 32, &by_surface, &(const surface){&gold1, 0.9, 1, ROUGH}},
+    {"rough metal in water, alpha 0.1", 32, 32, &by_surface, &(const surface){&gold1, 0.4, 1.33, ROUGH}},
+    {"rough metal, alpha 0.5", 32, 32, &by_surface, &(const surface){&gold5, 0.9, 1, ROUGH}},
+    {"rough metal, alpha 0.5, grazing", 32, 32, &by_surface, &(const surface){&gold5, 0.2, 1, ROUGH}},
+    {"rough metal, alpha 1", 32, 32, &by_surface, &(const surface){&gold10, 0.7, 1, ROUGH}},
+    {"rough glass, alpha 0.1", 32, 32, &by_surface, &(const surface){&glass1, 0.9, INTO, ROUGH}},
+    {"rough glass from inside, alpha 0.1", 32, 32, &by_surface, &(const surface){&glass1, 0.6, OUT_OF, ROUGH}},
+    {"rough glass, alpha 0.4", 32, 32, &by_surface, &(const surface){&glass4, 0.8, INTO, ROUGH}},
+    {"rough glass from inside, alpha 0.4", 32, 32, &by_surface, &(const surface){&glass4, 0.3, OUT_OF, ROUGH}},
+    {"rough glass, alpha 1", 32, 32, &by_surface, &(const surface){&glass10, 0.7, INTO, ROUGH}},
+    {"rough glass from inside, alpha 1", 32, 32, &by_surface, &(const surface){&glass10, 0.7, OUT_OF, ROUGH}},
+    {"rough mixture, diffuse", 16, 16, &by_surface, &(const surface){&rough_mixture, 0.7, INTO, DIFFUSE}},
+    {"rough mixture, rough", 32, 32, &by_surface, &(const surface){&rough_mixture, 0.7, INTO, ROUGH}},
+    {"rough mixture with Fresnel, rough", 32, 32, &by_surface,
+     &(const surface){&rough_with_fresnel, 0.4, OUT_OF, ROUGH}},
+    {"rough metal over matte, diffuse", 16, 16, &by_surface, &(const surface){&rough_gilded, 0.5, 1, DIFFUSE}},
+    {"rough metal over matte, rough", 32, 32, &by_surface, &(const surface){&rough_gilded, 0.5, 1, ROUGH}},
+};
+
+const routine_table scatter_routines = {routines, sizeof routines / sizeof *routines};

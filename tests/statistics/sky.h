@@ -1,0 +1,23 @@
+/* sky.h - a sky, even or of a picture of a few pixels, around a small sphere. */
+#ifndef RT_TESTS_STATISTICS_SKY_H
+#define RT_TESTS_STATISTICS_SKY_H
+
+#include "rt.h"
+
+/* The sphere is what the scene's extent comes from. */
+#define SKY_SPHERE_CENTRE {1, 2, 3}
+#define SKY_SPHERE_RADIUS 0.5
+
+rt_scene *sky_scene(int has_picture);
+
+/* The point of the picture in a direction, and the solid angle that an area of the picture at height v stands for. */
+void sky_place(const float w[3], double *u, double *v);
+double sky_element(double v);
+
+/* The density over the picture with which directions are to be sampled; that of a picture but for a factor. */
+double sky_density(int has_picture, double u, double v);
+
+/* The radiance at a point of the picture. */
+double sky_radiance(int has_picture, double u, double v);
+
+#endif

@@ -1,0 +1,176 @@
+/* compare.c - `rtc compare`: how much images differ from a reference, and whether by more than is allowed. */
+#include "compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "message.h"
+#include "outputs.h"
+#include "rtc.h"
+#include "session.h"
+
+/* ---- Limits --------------------------------------------------------------- */
+
+const compare_limit compare_limits[COMPARE_LIMITS] = {
+    {OPTION_MAX_MSE, "mse", 0},   {OPTION_MAX_RMSE, "rmse", 0}, {OPTION_MAX_RELMSE, "relmse", 0},
+    {OPTION_MAX_BIAS, "bias", 0}, {OPTION_MIN_SSIM, "ssim", 1}, {OPTION_MAX_FLIP, "flip", 0},
+    {OPTION_MAX_OFF, "blocks off", 0},
+};
+
+double compare_measured(const compare_limit *limit, const rt_comparison_info *info)
+{
+    switch (limit->option) {
+    case OPTION_MAX_MSE:
+        return info->mse;
+    case OPTION_MAX_RMSE:
+        return info->rmse;
+    case OPTION_MAX_RELMSE:
+        return info->relmse;
+    case OPTION_MAX_BIAS:
+        return fabs(info->ratio - 1.0);
+    case OPTION_MIN_SSIM:
+        return info->ssim;
+    case OPTION_MAX_FLIP:
+        return info->flip;
+    default:
+        return (double)info->off;
+    }
+}
+
+int compare_given(const compare_limit *limit, const command_line *arguments)
+{
+    return arguments->options[limit->option].given;
+}
+
+double compare_allowed(const compare_limit *limit, const command_line *arguments)
+{
+    const option_value *value = &arguments->options[limit->option];
+    return option_table[limit->option].kind == KIND_WHOLE ? (double)value->count : value->real;
+}
+
+int compare_kept(const compare_limit *limit, const command_line *arguments, const rt_comparison_info *info)
+{
+    double measured = compare_measured(limit, info), allowed = compare_allowed(limit, arguments);
+    return limit->is_least ? measured >= allowed : measured <= allowed;
+}
+
+/* Says which limits are broken; whether all are kept. Pixels that are not finite break any limit. */
+static int check_limits(const command_line *arguments, const rt_comparison_info *info)
+{
+    int given = 0, within = 1;
+    for (int i = 0; i < COMPARE_LIMITS; i++) {
+        const compare_limit *limit = &compare_limits[i];
+        if (!compare_given(limit, arguments))
+            continue;
+        given = 1;
+        if (compare_kept(limit, arguments, info))
+            continue;
+        message_note("%s %.6g is %s --%s %.6g", limit->measure, compare_measured(limit, info),
+                     limit->is_least ? "not at least" : "over", option_table[limit->option].name,
+                     compare_allowed(limit, arguments));
+        within = 0;
+    }
+    unsigned long long not_finite[2] = {info->not_finite[0], info->not_finite[1]};
+    if (given && not_finite[0] + not_finite[1] > 0) {
+        message_note("%llu pixels, and %llu of the reference, are not finite: within no limit", not_finite[0],
+                     not_finite[1]);
+        within = 0;
+    }
+    return within;
+}
+
+/* ---- The command ---------------------------------------------------------- */
+
+static void free_images(rt_image **images, size_t count)
+{
+    for (size_t i = 0; images && i < count; i++)
+        rt_image_destroy(images[i]);
+    free(images);
+}
+
+/* Reads all images that the command line names; says of each that cannot be read why. */
+static int read_images(rt_image ***out, const command_line *arguments)
+{
+    size_t count = arguments->operand_count;
+    rt_image **images = calloc(count, sizeof *images);
+    int status = STATUS_DONE;
+    if (!images) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    for (size_t i = 0; i < count; i++) {
+        rt_error error;
+        if (rt_image_read(&images[i], arguments->operands[i], &error) == RT_OK)
+            continue;
+        int now = message_failure(&error);
+        status = status == STATUS_DONE ? now : status;
+    }
+    if (status == STATUS_DONE)
+        *out = images;
+    else
+        free_images(images, count);
+    return status;
+}
+
+static int compare_images(rt_comparison **out, rt_image **images, const command_line *arguments)
+{
+    const option_value *given = arguments->options;
+    rt_compare_options options = {0};
+    rt_error error;
+    size_t count = arguments->operand_count - 1;
+    options.layer = given[OPTION_LAYER].text;
+    options.block = (uint32_t)given[OPTION_BLOCK].count;
+    options.tolerance = given[OPTION_TOLERANCE].real;
+    options.exposure = given[OPTION_COMPARE_EXPOSURE].real;
+    rt_status status = rt_image_compare(out, (const rt_image *const *)images, count, images[count], &options, &error);
+    return status == RT_OK ? STATUS_DONE : session_fail(&error);
+}
+
+static int write_differences(const output_list *outputs, const rt_comparison *comparison, double scale)
+{
+    int status = STATUS_DONE;
+    for (size_t i = 0; i < outputs->count; i++) {
+        rt_error error;
+        if (rt_comparison_write_difference(comparison, outputs->paths[i], scale, &error) == RT_OK)
+            continue;
+        int now = message_failure(&error);
+        status = status == STATUS_DONE ? now : status;
+    }
+    return status;
+}
+
+/* Prints the results and writes the difference pictures; images that differ too much are no success. */
+static int report(const rt_comparison *comparison, const command_line *arguments, const output_list *outputs)
+{
+    rt_comparison_info info;
+    rt_comparison_get_info(comparison, &info);
+    int within = check_limits(arguments, &info);
+    if (arguments->options[OPTION_JSON].given)
+        compare_print_json(comparison, arguments, within);
+    else
+        compare_print_text(comparison, arguments);
+    int status = write_differences(outputs, comparison, arguments->options[OPTION_SCALE].real);
+    return status == STATUS_DONE && !within ? STATUS_INPUT : status;
+}
+
+int command_compare(const command_line *arguments)
+{
+    rt_image **images = NULL;
+    rt_comparison *comparison = NULL;
+    output_list outputs = {0};
+    if (arguments->operand_count < 2) {
+        message_error("which images? usage: rtc compare A B [OPTION]...");
+        return STATUS_USAGE;
+    }
+    int status = outputs_plan(&outputs, arguments, NULL);
+    if (status == STATUS_DONE)
+        status = read_images(&images, arguments);
+    if (status == STATUS_DONE)
+        status = compare_images(&comparison, images, arguments);
+    if (status == STATUS_DONE)
+        status = report(comparison, arguments, &outputs);
+    rt_comparison_destroy(comparison);
+    free_images(images, arguments->operand_count);
+    outputs_free(&outputs);
+    return status;
+}
