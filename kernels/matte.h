@@ -1,10 +1,11 @@
 /*
  * matte.h - the commonest vertex, for eight paths at once: on a surface that is only diffuse, outside of all solids.
  *
- * Most vertices of most scenes are matte. There path_vertex comes down to what stands here, in eight lanes and without
- * a branch. Where a vertex lies on a flat triangle or parallelogram, and where a flat lamp is sampled by area, that is
- * done in lanes as well; other surfaces and lights are asked for one by one. Vertices that are not matte go to
- * path_vertex.
+ * Most vertices of most scenes are matte. There path_vertex comes down to what stands here: the same estimate by the
+ * same numbers, equal but for rounding, in eight lanes and with hardly a branch. Where a vertex lies on a flat triangle
+ * or parallelogram, and where a flat lamp is sampled by area, that is done in lanes as well; other surfaces and lights
+ * are asked for one by one. Vertices that are not matte go to path_vertex. No lane looks at another, so that a path's
+ * bits do not depend on those beside it; what stands in lanes that are not taken has no meaning.
  */
 #ifndef RT_MATTE_H
 #define RT_MATTE_H
