@@ -84,7 +84,8 @@ static rt_scene *new_scene(void)
 /* Renders by the library, which aims the camera, to means, and by the test's kernel to sums. */
 static void render_both(rt_scene *scene, rt_film_pixel *singly, float *together)
 {
-    rt_render_options options = {.width = width, .height = height, .spp = spp, .max_depth = 9, .roulette_depth = 2, .seed = 5};
+    rt_render_options options = {.width = width, .height = height, .spp = spp, .max_depth = 9, .seed = 5,
+                                 .roulette_depth = 2};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
     rt_error error;
