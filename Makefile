@@ -92,7 +92,7 @@ TESTS_QUICK := \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_light_tree.c tests/kernels/test_path.c \
-	tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
+	tests/kernels/test_matte.c tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
 	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c \
 	tests/lib/render/test_each_shape.c tests/lib/render/test_modes.c tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
@@ -120,7 +120,8 @@ TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c 
 	tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c tests/statistics/quadrature.c \
 	tests/statistics/scatter.c tests/statistics/sky.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
-	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
+	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/matte.cl \
+	tests/kernels/medium.cl tests/kernels/rng.cl \
 	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
 
 # ---- Build ------------------------------------------------------------------
