@@ -326,7 +326,7 @@ typedef struct rt_params {
     rt_u32 sampler;   /* rt_sampler */
     rt_u32 max_depth; /* longest path: number of segments from the eye or the light */
     rt_u32 final_gather; /* photon mode: diffuse bounces before the map is asked */
-    rt_u32 slots;        /* photon emission: photons a path can store */
+    rt_u32 slots;        /* photon emission: photons in a row of slots, one a path */
     rt_u32 direct;       /* photon mode: rt_direct */
     rt_u32 estimator;    /* rt_estimator */
     rt_u32 store;        /* photon emission: RT_STORE_* */
