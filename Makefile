@@ -43,7 +43,7 @@ LIB_SRC := \
 	lib/image/bytes.c lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
 	lib/image/file.c lib/image/flip.c lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c lib/image/ssim.c \
-	lib/photon/emit.c lib/photon/device_gather.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_list.c lib/photon/photon_order.c lib/photon/search.c lib/photon/tree.c \
+	lib/photon/emit.c lib/photon/device_gather.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_list.c lib/photon/point_order.c lib/photon/search.c lib/photon/tree.c \
 	lib/photon/photon_map.c lib/photon/fingerprint.c lib/photon/ledger.c lib/photon/sources.c \
 	lib/photon/crc32.c lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
 	lib/render/photon_irradiance.c lib/render/photon_maps.c \
@@ -92,11 +92,11 @@ TESTS_QUICK := \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_light_tree.c tests/kernels/test_path.c \
-	tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
+	tests/kernels/test_matte.c tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
 	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c \
-	tests/lib/render/test_modes.c tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
+	tests/lib/render/test_each_shape.c tests/lib/render/test_modes.c tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
-	tests/lib/photon/test_photon_list.c tests/lib/photon/test_photon_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
+	tests/lib/photon/test_photon_list.c tests/lib/photon/test_point_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
 	tests/lib/render/test_photon_maps.c tests/proof/test_proof.c tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
@@ -121,7 +121,8 @@ TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c 
 	tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c tests/statistics/quadrature.c \
 	tests/statistics/scatter.c tests/statistics/sky.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
-	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
+	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/matte.cl \
+	tests/kernels/medium.cl tests/kernels/rng.cl \
 	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
 
 # ---- Build ------------------------------------------------------------------
@@ -195,10 +196,17 @@ run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 proof: all $(call TEST_BIN,$(TESTS_PROOF))
 	tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
 
-# What the choices of photon mapping cost and bring, and how fast progressive passes come to the truth: numbers.
-study: all $(B)/tests/studies/study_consistency $(B)/tests/studies/study_photons
-	$(B)/tests/studies/study_consistency
-	$(B)/tests/studies/study_photons
+# What the choices of photon mapping cost and bring, how fast progressive passes come to the truth, and a caustic by path
+# tracing and by photons in equal time: numbers, and pictures in build/study. Each alone: study-k and its like.
+STUDIES := study-k study-paths study-direct study-kernels study-ways study-consistency study-caustic
+.PHONY: $(STUDIES)
+study: $(STUDIES)
+study-k study-paths study-direct study-kernels study-ways: study-%: all $(B)/tests/studies/study_photons
+	@mkdir -p build/study
+	$(B)/tests/studies/study_photons $*
+study-consistency study-caustic: study-%: all $(B)/tests/studies/study_consistency $(B)/tests/studies/study_caustic
+	@mkdir -p build/study
+	$(B)/tests/studies/study_$*
 
 # The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see tests/render/test_reference.c.
 check-reference: all $(B)/tests/render/test_reference

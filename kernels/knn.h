@@ -218,7 +218,8 @@ INLINE_ALWAYS bool take_within(struct distances *d, const struct photon_tree *tr
     uint first, mask;
     d->count = 0u;
     d->bound = guess;
-    walk_start(&walk, tree);
+    const struct photon_start root = start_at_root(tree);
+    walk_start(&walk, &root);
     while (walk_next(&walk, tree, query, d->bound, &first, &mask))
         for (; mask; mask &= mask - 1u)
             take_distances(d, tree, query, first + lane_first(mask));
@@ -254,8 +255,6 @@ INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct pho
     struct distances d;
     if (tree->shape.levels == 0u)
         return 0.0f;
-    if (estimate->k == 0u)
-        return estimate->squared_limit;
     d.squared = scratch;
     d.capacity = estimate->stride;
     d.k = estimate->k;

@@ -42,8 +42,8 @@ static bool start_path(struct light_path *path, const struct scene *scene, globa
                        const struct sampler *sampler, rt_path_account *account)
 {
     struct emission emission;
-    const bool lit =
-        light_emit(scene, shares, sampler_set(sampler, SET_START), sampler_set(sampler, SET_EMISSION), &emission);
+    const float8 u = sampler_pair(sampler, SET_START); /* and SET_EMISSION, the set after it */
+    const bool lit = light_emit(scene, shares, u.lo, u.hi, &emission);
     path->flux = path->absorbed = path->roulette = (float3)(0.0f);
     path->media = RT_VACUUM;
     account->light = RT_NONE;
@@ -131,40 +131,35 @@ static bool scatter_path(struct light_path *path, const struct surface *surface,
 }
 
 /*
- * shares: [light_count]; slots: [item_count][params.slots], of which each path fills as many as its account
- * says; accounts: [item_count].
+ * Follows a path from its start to its end: photons go to the slots of its column, from the first row on, and what
+ * became of the flux to the account.
  */
-kernel void photon_emit(const rt_params params, global const rt_scene_header *header,
-                        global const rt_light_share *shares, global rt_photon *slots, global rt_path_account *accounts)
+INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *params, const struct sampler *sampler,
+                                    global const rt_light_share *shares, uint index, global rt_photon *slots,
+                                    rt_path_account *account)
 {
-    const uint item = (uint)get_global_id(0);
-    if (item >= params.item_count)
-        return;
-    const struct scene scene = scene_open(header);
-    const uint index = params.first_item + item;
-    const bool for_caustics = params.store == RT_STORE_CAUSTIC;
-    const struct sampler sampler =
-        sampler_start(&scene, &params, for_caustics ? RT_STREAM_CAUSTIC : RT_STREAM_PHOTONS, index);
-    global rt_photon *own = slots + (size_t)item * params.slots;
-    rt_path_account account;
+    const bool for_caustics = params->store == RT_STORE_CAUSTIC;
     struct light_path path;
     uint count = 0u, rejected = 0u, end = RT_END_CUT_OFF;
 
-    bool alive = start_path(&path, &scene, shares, &sampler, &account) && can_follow(&path.ray);
-    while (alive && path.depth < params.max_depth) {
+    bool alive = start_path(&path, scene, shares, sampler, account) && can_follow(&path.ray);
+    while (alive && path.depth < params->max_depth) {
+        /* Draw the numbers of the next event: they hang on nothing, so a processor makes them while it waits below. */
+        const float4 u = sampler_set(sampler, set_scatter(path.depth - 1u));
+
         /* Find the nearest surface. */
         struct hit hit;
-        if (!closest_hit(&scene, &path.ray, &hit)) {
+        if (!closest_hit(scene, &path.ray, &hit)) {
             end = RT_END_ESCAPED;
             break;
         }
-        const struct surface surface = surface_at(&scene, &path.ray, &hit);
-        const uint material_index = scene.shapes[surface.shape].material;
-        global const rt_material_data *material = scene.materials + material_index;
+        const struct surface surface = surface_at(scene, &path.ray, &hit);
+        const uint material_index = scene->shapes[surface.shape].material;
+        global const rt_material_data *material = scene->materials + material_index;
         const float3 wo = -path.ray.direction;
 
         /* Lose what the medium absorbs on the way. */
-        const float3 passed = path.flux * medium_transmittance(scene.materials, path.media.x, hit.t);
+        const float3 passed = path.flux * medium_transmittance(scene->materials, path.media.x, hit.t);
         path.absorbed += path.flux - passed;
         path.flux = passed;
         if (!(largest3(path.flux) > 0.0f)) {
@@ -175,9 +170,9 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         /* Go straight on through a boundary that a stronger medium hides. */
         struct boundary boundary;
         boundary.beyond = path.media;
-        boundary.eta = media_ior(&scene, path.media);
+        boundary.eta = media_ior(scene, path.media);
         if (is_transparent(material)) {
-            boundary = media_cross(&scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
+            boundary = media_cross(scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
             if (!boundary.exists) {
                 path.ray.origin = leave_surface(&surface, path.ray.direction);
                 path.media = boundary.beyond;
@@ -188,17 +183,16 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         }
 
         /* Leave a photon where the map wants one. */
-        const struct bsdf bsdf = bsdf_at(&scene, material, &surface, wo, boundary.eta, path.flux);
-        if (bsdf_is_diffuse(&bsdf) && is_stored(&path, &params)) {
+        const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, boundary.eta, path.flux);
+        if (bsdf_is_diffuse(&bsdf) && is_stored(&path, params)) {
             const rt_photon photon = make_photon(&path, &surface, &bsdf, index);
             if (photon_is_finite(&photon))
-                own[count++] = photon;
+                slots[count++ * params->slots] = photon;
             else
                 rejected++;
         }
 
         /* Choose an event, or absorption, and go on. */
-        const float4 u = sampler_set(&sampler, set_scatter(path.depth - 1u));
         alive = scatter_path(&path, &surface, &bsdf, boundary.beyond, u);
         if (!alive)
             end = RT_END_ABSORBED;
@@ -207,11 +201,29 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
         if (for_caustics && path.scattered)
             break;
     }
-    vstore3(path.absorbed, 0, account.absorbed);
-    account.photons = count;
-    vstore3(path.flux, 0, account.left);
-    account.end = end;
-    vstore3(path.roulette, 0, account.roulette);
-    account.rejected = rejected;
+    vstore3(path.absorbed, 0, account->absorbed);
+    account->photons = count;
+    vstore3(path.flux, 0, account->left);
+    account->end = end;
+    vstore3(path.roulette, 0, account->roulette);
+    account->rejected = rejected;
+}
+
+/*
+ * shares: [light_count]; slots: [params.max_depth - 1][params.slots], a column a path, of which each fills as many as its
+ * account says: so neighbours write side by side, and rows that few paths reach stay untouched; accounts: [item_count].
+ */
+kernel void photon_emit(const rt_params params, global const rt_scene_header *header,
+                        global const rt_light_share *shares, global rt_photon *slots, global rt_path_account *accounts)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= params.item_count)
+        return;
+    const struct scene scene = scene_open(header);
+    const uint index = params.first_item + item;
+    const struct sampler sampler = sampler_start(
+        &scene, &params, params.store == RT_STORE_CAUSTIC ? RT_STREAM_CAUSTIC : RT_STREAM_PHOTONS, index);
+    rt_path_account account;
+    follow_light_path(&scene, &params, &sampler, shares, index, slots + item, &account);
     accounts[item] = account;
 }

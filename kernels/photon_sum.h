@@ -24,15 +24,15 @@ INLINE_ALWAYS float sum_lanes(float8 v)
  * Sums the accepted photons strictly nearer than the radius; returns how many there are of any kind. The order of
  * summing is that of the tree.
  */
-INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tree, const struct photon_query *query,
-                            const rt_density_params *estimate)
+INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tree, const struct photon_start *start,
+                            const struct photon_query *query, const rt_density_params *estimate)
 {
     const float r2 = sum->squared_radius;
     float8 red = (float8)(0.0f), green = red, blue = red;
     struct photon_walk walk;
     uint first, mask, looked = 0u, count = 0u;
 
-    walk_start(&walk, tree);
+    walk_start(&walk, start);
     while (walk_next(&walk, tree, query, r2, &first, &mask))
         for (; mask; mask &= mask - 1u) {
             global const rt_photon_block *block = tree->blocks + first + lane_first(mask);
@@ -54,18 +54,48 @@ INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tr
     return looked;
 }
 
-/* The estimate at a point; guess and scratch as for disc_radius. */
-INLINE_NEVER struct photon_sum sum_photons(const struct photon_tree *tree, const struct photon_query *query,
+/* The estimate at a point from the k nearest; guess and scratch as for disc_radius. */
+INLINE_NEVER struct photon_sum sum_nearest(const struct photon_tree *tree, const struct photon_query *query,
                                            const rt_density_params *estimate, float guess, global float *scratch)
 {
+    const struct photon_start root = start_at_root(tree);
     struct photon_sum sum;
     sum.squared_radius = disc_radius(tree, query, estimate, guess, scratch);
-    const uint looked = sum_disc(&sum, tree, query, estimate);
-    if (estimate->k > 0u && looked >= estimate->look && tree->shape.photon_count > estimate->look) {
+    const uint looked = sum_disc(&sum, tree, &root, query, estimate);
+    if (looked >= estimate->look && tree->shape.photon_count > estimate->look) {
         sum.squared_radius = look_distance(tree, query, estimate->look, sum.squared_radius);
-        sum_disc(&sum, tree, query, estimate);
+        sum_disc(&sum, tree, &root, query, estimate);
     }
     return sum;
+}
+
+/* The estimate from all within the limit on the radius; start: that of a group which the point is in. */
+INLINE_NEVER struct photon_sum sum_within(const struct photon_tree *tree, const struct photon_start *start,
+                                          const struct photon_query *query, const rt_density_params *estimate)
+{
+    struct photon_sum sum;
+    sum.squared_radius = tree->shape.levels > 0u ? estimate->squared_limit : 0.0f;
+    sum_disc(&sum, tree, start, query, estimate);
+    return sum;
+}
+
+/* Whether a point asks for photons: it has weight, and a place that is finite. */
+static inline bool point_asks(global const rt_gather_point *point)
+{
+    return any(row3(point->weight) != 0.0f) && all(isfinite(row3(point->position)));
+}
+
+/* Where the walks of a group of points begin when all photons within the limit count. */
+static inline struct photon_start start_of_points(const struct photon_tree *tree, global const rt_gather_point *points,
+                                                  uint count, const rt_density_params *estimate)
+{
+    float3 low = (float3)(INFINITY), high = -low;
+    for (uint i = 0u; i < count; i++)
+        if (point_asks(points + i)) {
+            low = min(low, row3(points[i].position));
+            high = max(high, row3(points[i].position));
+        }
+    return start_near(tree, low, high, estimate->squared_limit);
 }
 
 #endif

@@ -52,15 +52,24 @@ INLINE_ALWAYS int8 photons_accepted(global const rt_photon_block *block, const s
     return x + y + z > PHOTON_NORMAL_COSINE;
 }
 
+/* How far eight intervals on an axis are from low .. high. */
+INLINE_ALWAYS float8 gaps(global const float *from, global const float *to, float low, float high)
+{
+    return lane_max(lane_max(vload8(0, from) - high, low - vload8(0, to)), (float8)(0.0f));
+}
+
+/* Squared distances of the boxes of a node's children from a box: never above those from a point in it. */
+INLINE_ALWAYS float8 box_gaps(global const rt_photon_node *node, float3 low, float3 high)
+{
+    return squared_length8(gaps(node->bounds[0], node->bounds[3], low.x, high.x),
+                           gaps(node->bounds[1], node->bounds[4], low.y, high.y),
+                           gaps(node->bounds[2], node->bounds[5], low.z, high.z));
+}
+
 /* Squared distances of the boxes of a node's children. */
 INLINE_ALWAYS float8 box_distances(global const rt_photon_node *node, const struct photon_query *query)
 {
-    const float8 zero = (float8)(0.0f);
-    const float8 px = (float8)(query->position.x), py = (float8)(query->position.y), pz = (float8)(query->position.z);
-    const float8 x = lane_max(lane_max(vload8(0, node->bounds[0]) - px, px - vload8(0, node->bounds[3])), zero);
-    const float8 y = lane_max(lane_max(vload8(0, node->bounds[1]) - py, py - vload8(0, node->bounds[4])), zero);
-    const float8 z = lane_max(lane_max(vload8(0, node->bounds[2]) - pz, pz - vload8(0, node->bounds[5])), zero);
-    return squared_length8(x, y, z);
+    return box_gaps(node, query->position, query->position);
 }
 
 /* Squared distances of their farthest corners. */
@@ -79,16 +88,31 @@ INLINE_ALWAYS float8 box_reaches(global const rt_photon_node *node, const struct
 #define WALK_LEVEL_SHIFT 28u
 #define WALK_INDEX 0x0fffffffu
 
+/* Where walks begin: at the root, or at the few nodes of level 0 that any of a group of points needs, the last first. */
+#define PHOTON_STARTS 16u
+struct photon_start {
+    uint entry[PHOTON_STARTS];
+    uint count;
+};
+
+INLINE_ALWAYS struct photon_start start_at_root(const struct photon_tree *tree)
+{
+    struct photon_start start;
+    start.entry[0] = (tree->shape.levels - 1u) << WALK_LEVEL_SHIFT;
+    start.count = tree->shape.levels > 0u ? 1u : 0u;
+    return start;
+}
+
 struct photon_walk {
     uint stack[RT_PHOTON_STACK];
     uint count;
 };
 
-INLINE_ALWAYS void walk_start(struct photon_walk *walk, const struct photon_tree *tree)
+INLINE_ALWAYS void walk_start(struct photon_walk *walk, const struct photon_start *start)
 {
-    walk->count = 0u;
-    if (tree->shape.levels > 0u)
-        walk->stack[walk->count++] = (tree->shape.levels - 1u) << WALK_LEVEL_SHIFT;
+    walk->count = start->count;
+    for (uint i = 0u; i < start->count; i++)
+        walk->stack[i] = start->entry[i];
 }
 
 /*
@@ -114,6 +138,38 @@ INLINE_ALWAYS bool walk_next(struct photon_walk *walk, const struct photon_tree 
                 walk->stack[walk->count++] = ((level - 1u) << WALK_LEVEL_SHIFT) | (8u * index + lane_first(near));
     }
     return false;
+}
+
+/*
+ * Where the walks of all points in a box may begin, for one squared radius: the walks meet the same blocks in the same
+ * order as from the root, which it is when too many nodes come near.
+ */
+INLINE_NEVER struct photon_start start_near(const struct photon_tree *tree, float3 low, float3 high,
+                                            float squared_radius)
+{
+    uint stack[RT_PHOTON_STACK];
+    const struct photon_start root = start_at_root(tree);
+    struct photon_start start;
+    uint entries = root.count, free = PHOTON_STARTS; /* filled from the end, for the last are walked first */
+    stack[0] = root.entry[0];
+    while (entries > 0u) {
+        const uint entry = stack[--entries];
+        const uint level = entry >> WALK_LEVEL_SHIFT, index = entry & WALK_INDEX;
+        global const rt_photon_node *node = tree->nodes + tree->shape.first_node[level] + index;
+        uint near = lane_mask(box_gaps(node, low, high) < squared_radius);
+        if (level == 0u && near) {
+            if (free == 0u)
+                return root;
+            start.entry[--free] = entry;
+            continue;
+        }
+        for (; near; near &= near - 1u)
+            stack[entries++] = ((level - 1u) << WALK_LEVEL_SHIFT) | (8u * index + lane_first(near));
+    }
+    start.count = PHOTON_STARTS - free;
+    for (uint i = 0u; i < start.count; i++)
+        start.entry[i] = start.entry[free + i];
+    return start;
 }
 
 /* Photons under a node, from the packing of the tree. */

@@ -6,8 +6,8 @@
 #include "reflect.h"
 
 /*
- * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found at each point, without the lists. A point without
- * weight, or whose place is not finite, is not asked for.
+ * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found at each point,
+ * without the lists.
  */
 kernel void photon_walk(const rt_params params, const rt_density_params estimate,
                         global rt_gather_point *points, global rt_gather_disc *discs, const rt_photon_tree shape,
@@ -22,6 +22,9 @@ kernel void photon_walk(const rt_params params, const rt_density_params estimate
     tree.nodes = nodes;
     tree.blocks = blocks;
     float guess = 0.0f; /* from the point before, with some to spare, so that k photons lie inside more often than not */
+    struct photon_start start;
+    if (estimate.k == 0u && begin < end)
+        start = start_of_points(&tree, points + begin, end - begin, &estimate);
 
     for (uint i = begin; i < end; i++) {
         struct photon_query query;
@@ -30,11 +33,13 @@ kernel void photon_walk(const rt_params params, const rt_density_params estimate
         rt_gather_disc disc;
         disc.count = 0u;
         disc.squared_radius = 0.0f;
-        disc.asked = any(row3(points[i].weight) != 0.0f) && all(isfinite(query.position));
+        disc.asked = point_asks(points + i);
         disc.reserved = 0u;
         if (disc.asked) {
             const struct photon_sum sum =
-                sum_photons(&tree, &query, &estimate, guess, scratch + (size_t)item * estimate.stride);
+                estimate.k == 0u
+                    ? sum_within(&tree, &start, &query, &estimate)
+                    : sum_nearest(&tree, &query, &estimate, guess, scratch + (size_t)item * estimate.stride);
             guess = 1.3f * sum.squared_radius;
             disc.count = sum.count;
             disc.squared_radius = sum.squared_radius;

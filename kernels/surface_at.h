@@ -12,7 +12,18 @@
 #include "surface.h"
 #include "types.h"
 
-/* Position moved onto the sphere; a transform turns the normal to that of u and v. */
+/* The texture coordinates of a point on a sphere; a transform turns the normal to that of u and v. */
+static inline void locate_on_sphere(struct surface *surface, const struct scene *scene, global const rt_shape *shape)
+{
+    const float3 n = unit(surface->position - vload3(0, shape->p));
+    const float3 turned =
+        shape->transform == RT_NONE ? n : unit(map_vector(scene->transforms[shape->transform].to_object, n));
+    const float2 uv = sphere_parameters(turned);
+    surface->u = uv.x;
+    surface->v = uv.y;
+}
+
+/* Position moved onto the sphere; u and v, which take long, only where a texture or a light may ask for them. */
 static inline void sphere_surface(struct surface *surface, const struct scene *scene, global const rt_shape *shape,
                                   const struct ray *ray, const struct hit *hit)
 {
@@ -23,11 +34,9 @@ static inline void sphere_surface(struct surface *surface, const struct scene *s
     surface->shading = surface->normal;
     surface->position = centre + radius * n;
     surface->error = gamma_bound(6.0f) * radius + gamma_bound(3.0f) * dot(fabs(centre), fabs(n));
-    const float3 turned =
-        shape->transform == RT_NONE ? n : unit(map_vector(scene->transforms[shape->transform].to_object, n));
-    const float2 uv = sphere_parameters(turned);
-    surface->u = uv.x;
-    surface->v = uv.y;
+    surface->u = surface->v = 0.0f;
+    if ((shape->flags & RT_SHAPE_VARIED) || shape->first_light != RT_NONE)
+        locate_on_sphere(surface, scene, shape);
 }
 
 /*
@@ -83,7 +92,7 @@ static inline void placed_surface(struct surface *surface, const struct scene *s
     place_canonical(surface, placement, &point);
 }
 
-/* Turns a hit of closest_hit, found with this ray, into a surface. */
+/* Turns a hit of closest_hit, found with this ray, into a surface; see sphere_surface for u and v. */
 static inline struct surface surface_at(const struct scene *scene, const struct ray *ray, const struct hit *hit)
 {
     struct surface surface;

@@ -101,6 +101,8 @@ RT_SIZE(rt_hit, 32);
 #define RT_SHAPE_CAPS 8u      /* flag: cylinder and cone are closed */
 #define RT_SHAPE_MIRRORED 16u /* flag of triangles and quads: in world space the normal is (v2 - v0) x (v1 - v0) */
 #define RT_SHAPE_VARIED 32u   /* flag: textures, vertex colours or bumps make the material differ from point to point */
+#define RT_SHAPE_MATTE 64u    /* flag: only diffuse, and does not shine */
+#define RT_SHAPE_FLAT 128u    /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 
 typedef struct rt_shape {
     rt_u32 kind;       /* RT_SHAPE_* */
@@ -193,6 +195,7 @@ RT_SIZE(rt_texture_data, 80);
 
 #define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
+#define RT_LIGHT_BY_AREA 4u   /* flag: a triangle or skewed quad without a texture: sampled by area from everywhere */
 
 typedef struct rt_light_data {
     float a[3];
@@ -309,6 +312,9 @@ RT_SIZE(rt_scene_header, 384);
 
 /* ---- Rendering ---------------------------------------------------------- */
 
+#define RT_PATH_BATCH 8u   /* paths that a work-item of path tracing follows together */
+#define RT_PATH_PIXELS 64u /* pixels that it takes */
+
 /* The parameters of a launch, for every kernel that makes paths. */
 typedef struct rt_params {
     rt_u32 width, height; /* film, pixels */
@@ -320,7 +326,7 @@ typedef struct rt_params {
     rt_u32 sampler;   /* rt_sampler */
     rt_u32 max_depth; /* longest path: number of segments from the eye or the light */
     rt_u32 final_gather; /* photon mode: diffuse bounces before the map is asked */
-    rt_u32 slots;        /* photon emission: photons a path can store */
+    rt_u32 slots;        /* photon emission: photons in a row of slots, one a path */
     rt_u32 direct;       /* photon mode: rt_direct */
     rt_u32 estimator;    /* rt_estimator */
     rt_u32 store;        /* photon emission: RT_STORE_* */

@@ -307,7 +307,10 @@ RT_API rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const fl
 /* The parallelogram corner + u edge1 + v edge2; its normal is edge1 x edge2. */
 RT_API rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3], const float edge1[3],
                                    const float edge2[3], const rt_surface *surface, rt_error *error);
-/* A disc, with a hole when inner_radius > 0. u: angle in [0,1], v: from 0 at the inner to 1 at the outer rim. */
+/*
+ * A disc, with a hole when inner_radius > 0. u: angle in [0,1], clockwise seen from the side of the normal, v: from 0 at
+ * the inner to 1 at the outer rim.
+ */
 RT_API rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3], const float normal[3],
                                    float radius, float inner_radius, const rt_surface *surface, rt_error *error);
 /* A cylinder from a to b, open or closed by caps. u: angle in [0,1], v: height in [0,1]; caps as a disc. */

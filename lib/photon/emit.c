@@ -6,7 +6,7 @@
 #include "error.h"
 
 /* Bounds of a batch: the memory of its slots, and its length, so that progress moves. */
-enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 16 };
+enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 12 };
 
 struct rt_emitter {
     rt_device *device;
@@ -16,7 +16,7 @@ struct rt_emitter {
     cl_mem shares;   /* rt_light_share, one a light of the kernels' table */
     size_t slots;    /* photons a path can store; 0 before the first emission */
     size_t paths;    /* a batch, at most */
-    cl_mem photons;  /* rt_photon [paths][slots] */
+    cl_mem photons;  /* rt_photon [slots][paths] */
     cl_mem accounts; /* rt_path_account [paths] */
 };
 
@@ -99,7 +99,7 @@ static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind ki
         status =
             rt_buffer_map(e->device, e->photons, paths * e->slots * sizeof(rt_photon), &photons, "photons", error);
     if (status == RT_OK)
-        status = rt_photon_list_append(map->lists + kind, photons, accounts, paths, e->slots, e->device->threads, error);
+        status = rt_photon_list_append(map->lists + kind, photons, e->paths, accounts, paths, e->device->threads, error);
     if (status == RT_OK && kind == RT_PHOTONS_GLOBAL)
         status = rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads, error);
     rt_status first = rt_buffer_unmap(e->device, e->photons, photons, status == RT_OK ? error : NULL);
@@ -117,7 +117,7 @@ static rt_params make_params(const rt_emitter *e, const rt_photon_settings *sett
     p.sampler = settings->sampler;
     p.max_depth = settings->max_depth;
     p.direct = settings->direct;
-    p.slots = (rt_u32)e->slots;
+    p.slots = (rt_u32)e->paths;
     p.store = kind == RT_PHOTONS_CAUSTIC ? RT_STORE_CAUSTIC : settings->split ? RT_STORE_GLOBAL : RT_STORE_ALL;
     return p;
 }

@@ -38,8 +38,9 @@ int rt_photon_is_finite(const rt_photon *p)
 /* Paths whose photons are copied in shares, each to its place. */
 typedef struct appending {
     const rt_photon *slots;
+    size_t row; /* of slots */
     const rt_path_account *accounts;
-    size_t path_count, slots_per_path;
+    size_t path_count;
     size_t *places; /* [jobs + 1]: where the photons of a share begin */
     rt_photon *photons;
 } appending;
@@ -72,14 +73,14 @@ static void copy_share(void *user, uint32_t index)
     rt_photon *out = a->photons + a->places[index];
     for (size_t i = (size_t)index * PATHS_A_JOB; i < share_end(a, index); i++)
         for (size_t j = 0; j < a->accounts[i].photons; j++)
-            *out++ = a->slots[i * a->slots_per_path + j];
+            *out++ = a->slots[j * a->row + i];
 }
 
-rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, const rt_path_account *accounts,
-                                size_t path_count, size_t slots_per_path, uint32_t threads, rt_error *error)
+rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, size_t row,
+                                const rt_path_account *accounts, size_t path_count, uint32_t threads, rt_error *error)
 {
     size_t jobs = (path_count + PATHS_A_JOB - 1) / PATHS_A_JOB;
-    appending a = {slots, accounts, path_count, slots_per_path, calloc(jobs + 1, sizeof *a.places), NULL};
+    appending a = {slots, row, accounts, path_count, calloc(jobs + 1, sizeof *a.places), NULL};
 
     if (!a.places)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to collect photons");

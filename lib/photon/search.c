@@ -8,6 +8,7 @@
 #include "accel/parallel.h"
 #include "error.h"
 #include "photon/flann_index.h"
+#include "photon/point_order.h"
 
 /* Neighbours that a thread asks for at a time, 16 bytes each: few enough to stay in its cache. */
 enum { NEIGHBOURS_A_JOB = 1 << 16 };
@@ -210,22 +211,50 @@ static rt_status look_at(const rt_photon_search *search, const rt_gather_point *
     return RT_OK;
 }
 
+/* Finds the points that ask, in the order of a curve: those near each other go the same ways through the tree. */
+static rt_status find_asked(rt_u32 *asked, size_t *count, const rt_gather_point *points, size_t point_count,
+                            uint32_t threads, rt_error *error)
+{
+    float(*positions)[3] = malloc((point_count ? point_count : 1) * sizeof *positions);
+    uint64_t *items = malloc((point_count ? point_count : 1) * 2 * sizeof *items);
+    rt_status status = RT_OK;
+    size_t n = 0;
+
+    if (!positions || !items) {
+        free(positions);
+        free(items);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to ask for photons at %zu points", point_count);
+    }
+    for (size_t i = 0; i < point_count; i++)
+        if (is_asked(points + i)) {
+            memcpy(positions[n], points[i].position, sizeof *positions);
+            asked[n++] = (rt_u32)i;
+        }
+    if (n > 0)
+        status = rt_point_order(items, items + n, positions[0], sizeof *positions, n, threads, error);
+    /* The keys have served: the points take their place, and then go where they belong. */
+    for (size_t i = 0; i < n && status == RT_OK; i++)
+        items[i] = asked[items[i] & RT_POINT_ORDER_INDEX];
+    for (size_t i = 0; i < n && status == RT_OK; i++)
+        asked[i] = (rt_u32)items[i];
+    free(positions);
+    free(items);
+    *count = n;
+    return status;
+}
+
 rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points, size_t count,
                                 rt_u32 *lists, rt_gather_disc *discs, rt_error *error)
 {
     rt_u32 *asked = malloc((count ? count : 1) * sizeof *asked);
-    rt_status status = RT_OK;
     size_t left = 0;
 
     if (!asked)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to ask for photons at %zu points", count);
-    for (size_t i = 0; i < count; i++) {
-        discs[i] = (rt_gather_disc){0};
-        if (is_asked(points + i)) {
-            discs[i].asked = 1;
-            asked[left++] = (rt_u32)i;
-        }
-    }
+    memset(discs, 0, count * sizeof *discs);
+    rt_status status = find_asked(asked, &left, points, count, search->threads, error);
+    for (size_t i = 0; i < left && status == RT_OK; i++)
+        discs[asked[i]].asked = 1;
     if (search->count == 0)
         left = 0;
     /* Most points are done with k photons; the others look at twice as many, and again. */

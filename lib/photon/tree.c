@@ -6,7 +6,7 @@
 
 #include "accel/parallel.h"
 #include "error.h"
-#include "photon/photon_order.h"
+#include "photon/point_order.h"
 
 enum { NODES_A_JOB = 256 };
 
@@ -36,13 +36,13 @@ static size_t level_size(const rt_photon_tree_data *tree, rt_u32 level)
 static void fill_block(rt_photon_block *block, const rt_photon_list *list, const uint64_t *items, size_t count)
 {
     for (size_t lane = 0; lane < 8; lane++) {
-        const rt_photon *photon = lane < count ? list->photons + (items[lane] & RT_PHOTON_ORDER_INDEX) : NULL;
+        const rt_photon *photon = lane < count ? list->photons + (items[lane] & RT_POINT_ORDER_INDEX) : NULL;
         for (int axis = 0; axis < 3; axis++) {
             block->position[axis][lane] = photon ? photon->position[axis] : HUGE_VALF;
             block->normal[axis][lane] = photon ? photon->normal[axis] : 0;
             block->flux[axis][lane] = photon ? photon->flux[axis] * photon->shading : 0;
         }
-        block->photon[lane] = photon ? (rt_u32)(items[lane] & RT_PHOTON_ORDER_INDEX) : RT_NONE;
+        block->photon[lane] = photon ? (rt_u32)(items[lane] & RT_POINT_ORDER_INDEX) : RT_NONE;
     }
 }
 
@@ -130,7 +130,8 @@ rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *l
 
     rt_status status = allocate(&tree, list->count, error);
     if (status == RT_OK && list->count > 0)
-        status = rt_photon_order(items, items + list->count, list, threads, error);
+        status = rt_point_order(items, items + list->count, list->photons->position, sizeof *list->photons, list->count,
+                                threads, error);
     if (status == RT_OK && list->count > 0) {
         building b = {&tree, list, items};
         rt_parallel(threads, (uint32_t)((level_size(&tree, 0) + NODES_A_JOB - 1) / NODES_A_JOB), build_share, &b);

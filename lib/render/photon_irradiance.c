@@ -10,6 +10,7 @@
 #include "error.h"
 #include "photon/gather.h"
 #include "photon/photon_map.h"
+#include "photon/point_order.h"
 #include "render/renderer.h"
 
 static const float pi = 3.14159265358979323846f;
@@ -24,6 +25,7 @@ typedef struct asking {
     size_t capacity;         /* points a batch */
     cl_mem points;           /* rt_gather_point [capacity] */
     rt_gather_point *host;   /* the same on the host */
+    uint64_t *order;         /* [2][capacity]: which position each is, and scratch memory */
 } asking;
 
 static rt_status make_gatherer(asking *a, const rt_photon_map *map, rt_photon_kind kind, rt_error *error)
@@ -57,29 +59,36 @@ static rt_status prepare(asking *a, const rt_photon_map *map, size_t count, rt_e
                                   "gather points", error);
     if (status != RT_OK)
         return status;
-    a->host = calloc(a->capacity ? a->capacity : 1, sizeof *a->host);
-    return a->host ? RT_OK : rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu gather points", a->capacity);
+    a->host = calloc(a->capacity, sizeof *a->host);
+    a->order = malloc(2 * a->capacity * sizeof *a->order);
+    return a->host && a->order ? RT_OK : rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu gather points", a->capacity);
 }
 
+/* Asks in the order of a curve, because points near each other find their photons in the same memory. */
 static rt_status ask_batch(asking *a, float *rgb, const float *positions, const float *normals, size_t count,
                            rt_error *error)
 {
+    rt_status status = rt_point_order(a->order, a->order + count, positions, 3 * sizeof *positions, count,
+                                      a->device->threads, error);
+    if (status != RT_OK)
+        return status;
     for (size_t i = 0; i < count; i++) {
         rt_gather_point *p = a->host + i;
+        size_t at = 3 * (a->order[i] & RT_POINT_ORDER_INDEX);
         memset(p, 0, sizeof *p);
-        memcpy(p->position, positions + 3 * i, sizeof p->position);
-        memcpy(p->normal, normals + 3 * i, sizeof p->normal);
+        memcpy(p->position, positions + at, sizeof p->position);
+        memcpy(p->normal, normals + at, sizeof p->normal);
         for (int c = 0; c < 3; c++)
             p->weight[c] = pi;
     }
-    rt_status status = rt_buffer_write(a->device, a->points, 0, count * sizeof *a->host, a->host, error);
+    status = rt_buffer_write(a->device, a->points, 0, count * sizeof *a->host, a->host, error);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
         if (a->gatherers[kind])
             status = rt_gatherer_add(a->gatherers[kind], a->points, 0, count, NULL, error);
     if (status == RT_OK)
         status = rt_buffer_read(a->device, a->points, 0, count * sizeof *a->host, a->host, error);
     for (size_t i = 0; i < count && status == RT_OK; i++)
-        memcpy(rgb + 3 * i, a->host[i].radiance, sizeof a->host[i].radiance);
+        memcpy(rgb + 3 * (a->order[i] & RT_POINT_ORDER_INDEX), a->host[i].radiance, sizeof a->host[i].radiance);
     return status;
 }
 
@@ -129,5 +138,6 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
     rt_buffer_release(a.points);
     rt_kernel_release(a.kernel);
     free(a.host);
+    free(a.order);
     return status;
 }

@@ -1,6 +1,6 @@
 /*
  * bench_gather.c - nearest photons: the library's search on the host, and the gather on the device, which both
- * leave out the photons that face elsewhere, against plain FLANN, in one run and in turn. The gather on the device
+ * sort the queries along a curve and leave out the photons that face elsewhere, against plain FLANN, in one run and in turn. The gather on the device
  * takes the density sum as well.
  *
  *     bench_gather [PHOTONS [QUERIES [K]]]    1 000 000, 100 000 and 50 by default
@@ -17,6 +17,7 @@
 
 #include "lib/photon/points.h"
 #include "photon/device_gather.h"
+#include "photon/point_order.h"
 #include "photon/search.h"
 #include "progress.h"
 
@@ -114,6 +115,8 @@ typedef struct device_side {
     rt_device *device;
     cl_kernel kernel;
     cl_mem points;
+    rt_gather_point *in_order; /* [queries], along the curve */
+    uint64_t *order;           /* [2][queries] */
     rt_device_gather gather;
 } device_side;
 
@@ -123,9 +126,11 @@ static void open_device(device_side *d, const problem *p)
     rt_error error;
     must(rt_device_open(&d->device, NULL, &error), &error);
     must(rt_device_kernel(d->device, &d->kernel, "photon_walk", "photon_walk", NULL, &error), &error);
-    must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE, p->queries * sizeof *p->points, p->points, "points",
+    must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE, p->queries * sizeof *p->points, NULL, "points",
                           &error),
          &error);
+    d->in_order = allocate(p->queries, sizeof *d->in_order);
+    d->order = allocate(2 * p->queries, sizeof *d->order);
     double began = rt_clock();
     must(rt_device_gather_prepare(&d->gather, d->device, &p->map, &estimate, p->queries, &error), &error);
     printf("the device's tree takes %.3f s to build\n", rt_clock() - began);
@@ -136,14 +141,23 @@ static void close_device(device_side *d)
     rt_device_gather_release(&d->gather);
     rt_buffer_release(d->points);
     rt_kernel_release(d->kernel);
+    free(d->in_order);
+    free(d->order);
     rt_device_close(d->device);
 }
 
+/* From points as they come to their discs, sorting and copies included. */
 static void gather_on_device(device_side *d, const problem *p)
 {
     rt_error error;
+    must(rt_point_order(d->order, d->order + p->queries, p->points->position, sizeof *p->points, p->queries, p->threads,
+                        &error),
+         &error);
+    for (size_t i = 0; i < p->queries; i++)
+        d->in_order[i] = p->points[d->order[i] & RT_POINT_ORDER_INDEX];
+    must(rt_buffer_write(d->device, d->points, 0, p->queries * sizeof *d->in_order, d->in_order, &error), &error);
     must(rt_device_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error), &error);
-    must(rt_device_finish(d->device, &error), &error);
+    must(rt_buffer_read(d->device, d->gather.discs, 0, p->queries * sizeof *p->discs, p->discs, &error), &error);
 }
 
 static void report(const char *name, const problem *p, double times[runs], double flann)

@@ -16,12 +16,21 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     struct photon_query query;
     query.position = row3(points[item].position);
     query.normal = row3(points[item].normal);
-    /* By turns without a guess, with a good one, one much too large and one too small. */
     global float *own = scratch + (size_t)item * estimate.stride;
-    struct photon_sum sum = sum_photons(&tree, &query, &estimate, 0.0f, own);
-    if (item % 4u)
-        sum = sum_photons(&tree, &query, &estimate,
-                          sum.squared_radius * (item % 4u == 1u ? 1.3f : item % 4u == 2u ? 30.0f : 0.5f), own);
+    struct photon_start start = start_at_root(&tree);
+    struct photon_sum sum;
+    if (estimate.k == 0u) {
+        /* By turns as one of a group of up to four points. */
+        const uint first = item - item % 4u;
+        start = start_of_points(&tree, points + first, min(1u + item % 4u, params.item_count - first), &estimate);
+        sum = sum_within(&tree, &start, &query, &estimate);
+    } else {
+        /* By turns without a guess, with a good one, one much too large and one too small. */
+        sum = sum_nearest(&tree, &query, &estimate, 0.0f, own);
+        if (item % 4u)
+            sum = sum_nearest(&tree, &query, &estimate,
+                              sum.squared_radius * (item % 4u == 1u ? 1.3f : item % 4u == 2u ? 30.0f : 0.5f), own);
+    }
 
     rt_gather_disc disc;
     disc.count = 0u;
@@ -30,7 +39,7 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     disc.reserved = 0u;
     struct photon_walk walk;
     uint first, mask;
-    walk_start(&walk, &tree);
+    walk_start(&walk, &start);
     while (walk_next(&walk, &tree, &query, sum.squared_radius, &first, &mask))
         for (; mask; mask &= mask - 1u) {
             global const rt_photon_block *block = blocks + first + lane_first(mask);

@@ -19,6 +19,9 @@ void study_close(study *s);
 /* Renders; the same on failure. *seconds, if not NULL, is the time of emission, gathering and rendering. */
 rt_film *study_render(const study *s, const rt_render_options *options, double *seconds);
 
+/* Writes films of the study's size side by side to build/study/NAME.png; ends the program when it cannot. */
+void study_write(const study *s, const rt_film *const *films, int count, const char *name);
+
 /*
  * Mean squared difference of a film from a reference of the same size, without the pixels that see a lamp or
  * border on one: those brighter than half the brightest where that is far above the mean. Their noise is that of

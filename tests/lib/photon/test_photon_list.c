@@ -15,8 +15,8 @@ static void fill(rt_photon slots[path_count * slots_per_path], rt_path_account c
     for (rt_u32 i = 0; i < path_count; i++) {
         counts[i].photons = i % (slots_per_path + 1);
         for (rt_u32 j = 0; j < slots_per_path; j++) {
-            slots[i * slots_per_path + j].path = i;
-            slots[i * slots_per_path + j].flags = j;
+            slots[j * path_count + i].path = i;
+            slots[j * path_count + i].flags = j;
         }
     }
 }
@@ -30,7 +30,7 @@ static void photons_follow_in_the_order_of_paths(void **state)
     size_t at = 0;
     (void)state;
     fill(slots, counts);
-    expect_ok(rt_photon_list_append(&whole, slots, counts, path_count, slots_per_path, 2, &error), &error);
+    expect_ok(rt_photon_list_append(&whole, slots, path_count, counts, path_count, 2, &error), &error);
     for (rt_u32 i = 0; i < path_count; i++)
         for (rt_u32 j = 0; j < counts[i].photons; j++, at++) {
             assert_int_equal(whole.photons[at].path, i);
@@ -41,7 +41,7 @@ static void photons_follow_in_the_order_of_paths(void **state)
 
     /* Appending part by part makes the same map. */
     for (size_t first = 0; first < path_count; first += 2500)
-        expect_ok(rt_photon_list_append(&parts, slots + first * slots_per_path, counts + first, 2500, slots_per_path, 1,
+        expect_ok(rt_photon_list_append(&parts, slots + first, path_count, counts + first, 2500, 1,
                                        &error),
                   &error);
     assert_int_equal(parts.count, whole.count);
@@ -62,7 +62,7 @@ static void photons_left_out_are_counted(void **state)
     fill(slots, counts);
     counts[1].rejected = 1;
     counts[5000].rejected = 2;
-    expect_ok(rt_photon_list_append(&map, slots, counts, path_count, slots_per_path, 2, &error), &error);
+    expect_ok(rt_photon_list_append(&map, slots, path_count, counts, path_count, 2, &error), &error);
     assert_int_equal(map.rejected, 3);
     assert_int_equal(map.count, 2 * path_count);
     rt_photon_list_clear(&map);

@@ -1,5 +1,5 @@
 /*
- * test_photon_order.c - the order names every photon once and keeps neighbours together, however far some photons lie.
+ * test_point_order.c - the order names every photon once and keeps neighbours together, however far some photons lie.
  */
 #include "support.h"
 
@@ -7,7 +7,8 @@
 #include <string.h>
 
 #include "lib/photon/points.h"
-#include "photon/photon_order.h"
+#include "photon/photon_list.h"
+#include "photon/point_order.h"
 
 enum { count = 20000 };
 
@@ -34,9 +35,9 @@ static double mean_step(const rt_photon_list *list)
     double sum = 0;
     size_t steps = 0;
     rt_error error;
-    expect_ok(rt_photon_order(items, spare, list, 2, &error), &error);
+    expect_ok(rt_point_order(items, spare, list->photons->position, sizeof *list->photons, list->count, 2, &error), &error);
     for (size_t i = 0; i < count; i++) {
-        const float *at = photons[items[i] & RT_PHOTON_ORDER_INDEX].position;
+        const float *at = photons[items[i] & RT_POINT_ORDER_INDEX].position;
         if (at[0] > 1 || at[2] > 1)
             continue;
         if (before) {
@@ -55,9 +56,9 @@ static void every_photon_has_one_place(void **state)
     rt_photon_list list = make_photons(20);
     rt_error error;
     (void)state;
-    expect_ok(rt_photon_order(items, spare, &list, 2, &error), &error);
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error), &error);
     for (size_t i = 0; i < count; i++) {
-        size_t index = items[i] & RT_PHOTON_ORDER_INDEX;
+        size_t index = items[i] & RT_POINT_ORDER_INDEX;
         assert_true(index < count && !seen[index]);
         seen[index] = 1;
     }
@@ -82,11 +83,11 @@ static void photons_in_one_place_and_none_are_ordered(void **state)
     rt_error error;
     (void)state;
     memset(photons, 0, sizeof photons);
-    expect_ok(rt_photon_order(items, spare, &list, 2, &error), &error);
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error), &error);
     for (size_t i = 0; i < count; i++)
-        assert_int_equal(items[i] & RT_PHOTON_ORDER_INDEX, i);
+        assert_int_equal(items[i] & RT_POINT_ORDER_INDEX, i);
     list.count = 0;
-    expect_ok(rt_photon_order(items, spare, &list, 2, &error), &error);
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error), &error);
 }
 
 int main(void)
@@ -96,5 +97,5 @@ int main(void)
         cmocka_unit_test(neighbours_stay_together),
         cmocka_unit_test(photons_in_one_place_and_none_are_ordered),
     };
-    return cmocka_run_group_tests_name("lib/photon/photon_order", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("lib/photon/point_order", tests, NULL, NULL);
 }

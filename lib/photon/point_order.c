@@ -1,13 +1,13 @@
 /*
- * photon_order.c - Hilbert keys and a parallel radix sort.
+ * point_order.c - Hilbert keys and a parallel radix sort.
  *
- * On a plane without end, some photons lie so far out that the rest would share a cell. Cells are therefore cubes of
- * one size where most of the photons are, and grow outside of that.
+ * On a plane without end, some points lie so far out that the rest would share a cell. Cells are therefore cubes of
+ * one size where most of the points are, and grow outside of that.
  *
  * References:
  *   Hamilton: "Compact Hilbert Indices", Technical Report CS-2006-07, Dalhousie University, 2006.
  */
-#include "photon/photon_order.h"
+#include "photon/point_order.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,8 +19,8 @@
 enum { CURVE_BITS = 12 };   /* an axis */
 enum { INDEX_BITS = 28 };   /* beside a key in an item */
 enum { DIGIT_BITS = 12, DIGITS = 3 * CURVE_BITS / DIGIT_BITS, BINS = 1 << DIGIT_BITS };
-enum { SHARES = 16 };       /* of the photons, each one job */
-enum { SAMPLE = 2048, FAR_OUT = 20 }; /* photons that show where most are: all but one in so many at either end */
+enum { SHARES = 16 };       /* of the points, each one job */
+enum { SAMPLE = 2048, FAR_OUT = 20 }; /* points that show where most are: all but one in so many at either end */
 
 /* ---- The curve ----------------------------------------------------------------- */
 
@@ -80,8 +80,8 @@ static uint64_t hilbert_key(const curve *c, const uint32_t cell[3])
 /* ---- Sorting ------------------------------------------------------------------ */
 
 typedef struct sorting {
-    const rt_photon_list *list;
-    size_t count;
+    const char *positions; /* float[3] each, `stride` bytes apart */
+    size_t stride, count;
     uint64_t *from, *to;
     int shift; /* of the digit */
     float low[SHARES][3], high[SHARES][3];
@@ -96,13 +96,18 @@ static size_t share_begin(const sorting *s, uint32_t share)
     return s->count * share / SHARES;
 }
 
+static const float *position(const sorting *s, size_t i)
+{
+    return (const float *)(const void *)(s->positions + i * s->stride);
+}
+
 static void bound_share(void *user, uint32_t share)
 {
     sorting *s = user;
     float low[3] = {HUGE_VALF, HUGE_VALF, HUGE_VALF}, high[3] = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
     for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++)
         for (int axis = 0; axis < 3; axis++) {
-            float x = s->list->photons[i].position[axis];
+            float x = position(s, i)[axis];
             low[axis] = x < low[axis] ? x : low[axis];
             high[axis] = x > high[axis] ? x : high[axis];
         }
@@ -116,7 +121,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds where most of the photons are, from some of them; the reach leaves them half as much room again. */
+/* Finds where most of the points are, from some of them; the reach leaves them half as much room again. */
 static void find_most(sorting *s)
 {
     float sample[SAMPLE];
@@ -124,7 +129,7 @@ static void find_most(sorting *s)
     s->reach = 0;
     for (int axis = 0; axis < 3 && count > 0; axis++) {
         for (size_t i = 0; i < count; i++)
-            sample[i] = s->list->photons[i * s->count / count].position[axis];
+            sample[i] = position(s, i * s->count / count)[axis];
         qsort(sample, count, sizeof *sample, by_value);
         double low = sample[aside], high = sample[count - 1 - aside];
         s->middle[axis] = 0.5 * (low + high);
@@ -141,7 +146,7 @@ static double squeeze(const sorting *s, float x, int axis)
     return far <= 1 ? from : copysign(2 - 1 / far, from);
 }
 
-/* Maps the box around all photons to the cells; one scale for all axes keeps the cells cubes. */
+/* Maps the box around all points to the cells; one scale for all axes keeps the cells cubes. */
 static void set_cells(sorting *s)
 {
     double largest = 0;
@@ -163,7 +168,7 @@ static void key_share(void *user, uint32_t share)
     for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++) {
         uint32_t cell[3];
         for (int axis = 0; axis < 3; axis++)
-            cell[axis] = (uint32_t)((squeeze(s, s->list->photons[i].position[axis], axis) - s->origin[axis]) * s->scale);
+            cell[axis] = (uint32_t)((squeeze(s, position(s, i)[axis], axis) - s->origin[axis]) * s->scale);
         s->from[i] = hilbert_key(&s->curve, cell) << INDEX_BITS | i;
     }
 }
@@ -202,19 +207,20 @@ static void move_share(void *user, uint32_t share)
         s->to[bins[digit(s, s->from[i])]++] = s->from[i];
 }
 
-rt_status rt_photon_order(uint64_t *items, uint64_t *spare, const rt_photon_list *list, uint32_t threads,
-                          rt_error *error)
+rt_status rt_point_order(uint64_t *items, uint64_t *spare, const float *first, size_t stride, size_t count,
+                         uint32_t threads, rt_error *error)
 {
     sorting s;
     memset(&s, 0, sizeof s);
-    s.list = list;
-    s.count = list->count;
+    s.positions = (const char *)first;
+    s.stride = stride;
+    s.count = count;
     /* An odd number of passes ends in the other array than it began with. */
     s.from = DIGITS % 2 ? spare : items;
     s.to = DIGITS % 2 ? items : spare;
     s.bins = malloc(SHARES * sizeof *s.bins);
     if (!s.bins)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to sort %zu photons", list->count);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to sort %zu points", count);
     make_curve(&s.curve);
 
     rt_parallel(threads, SHARES, bound_share, &s);
