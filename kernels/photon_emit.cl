@@ -99,7 +99,7 @@ kernel void photon_emit(const rt_params params, global const rt_scene_header *he
     struct light_path path;
     uint count = 0u;
 
-    bool alive = start_path(&path, &scene, &sampler, params.emitted);
+    bool alive = start_path(&path, &scene, &sampler, params.emitted) && can_follow(&path.ray);
     while (alive && path.depth < params.max_depth) {
         /* Find the nearest surface. */
         struct hit hit;

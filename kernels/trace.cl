@@ -31,7 +31,7 @@ kernel void trace_closest(global const rt_scene_header *scene_data, global const
     const struct ray ray = load_ray(rays + i);
     struct hit found;
     rt_hit hit = no_hit();
-    if (closest_hit(&scene, &ray, &found)) {
+    if (can_follow(&ray) && closest_hit(&scene, &ray, &found)) {
         const struct surface surface = surface_at(&scene, &ray, &found);
         hit.t = found.t;
         hit.u = surface.u;
@@ -53,7 +53,7 @@ kernel void trace_any(global const rt_scene_header *scene_data, global const rt_
     const struct scene scene = scene_open(scene_data);
     const struct ray ray = load_ray(rays + i);
     rt_hit hit = no_hit();
-    if (occluded(&scene, &ray))
+    if (can_follow(&ray) && occluded(&scene, &ray))
         hit.shape = 0u;
     hits[i] = hit;
 }

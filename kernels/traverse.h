@@ -19,7 +19,8 @@
 
 /*
  * Whether the ray can be followed: its numbers are finite and small enough for what make_ray_slabs does with
- * them. A comparison with NaN fails, so without this the boxes of unused lanes would be met.
+ * them. A comparison with NaN fails, so without this the boxes of unused lanes would be met. closest_hit and
+ * occluded ask for such rays; it is asked where a path begins, for a bounce's direction is a unit vector.
  */
 INLINE_ALWAYS bool can_follow(const struct ray *ray)
 {
@@ -235,13 +236,11 @@ static inline void test_all(const struct scene *scene, const struct ray *ray, st
         test_shape(scene, ray, scene->analytic[i], hit);
 }
 
-/* The nearest hit in [t_min, t_max]; false, and *hit without meaning, when there is none. */
+/* The nearest hit in [t_min, t_max] of a ray that can be followed; false, and *hit without meaning, when there is none. */
 INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
     hit->t = ray->t_max;
     hit->prim = RT_NONE;
-    if (!can_follow(ray))
-        return false;
     for (uint i = 0; i < scene->header->plane_count; i++)
         test_shape(scene, ray, scene->planes[i], hit);
     if (scene->header->accel == RT_ACCEL_BVH)
@@ -310,11 +309,9 @@ static inline bool all_occlude(const struct scene *scene, const struct ray *ray)
     return false;
 }
 
-/* Whether the ray meets anything in [t_min, t_max]; stops at the first. */
+/* Whether a ray that can be followed meets anything in [t_min, t_max]; stops at the first. */
 INLINE_NEVER bool occluded(const struct scene *scene, const struct ray *ray)
 {
-    if (!can_follow(ray))
-        return false;
     for (uint i = 0; i < scene->header->plane_count; i++)
         if (intersect_shape(scene->shapes + scene->planes[i], ray) < INFINITY)
             return true;
