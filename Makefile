@@ -31,7 +31,7 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/error.c lib/progress.c lib/version.c \
 	lib/device/device.c lib/device/buffer.c lib/device/program.c \
-	lib/scene/scene.c lib/scene/shape.c lib/scene/options.c lib/scene/hierarchy.c lib/scene/pack.c \
+	lib/scene/scene.c lib/scene/shape.c lib/scene/options.c lib/scene/faces.c lib/scene/hierarchy.c lib/scene/pack.c \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
 	lib/light/lights.c \

@@ -44,14 +44,15 @@ struct emission {
 
 /*
  * The light at u of the cumulative distribution: chosen in proportion to its power. A bisection of which only
- * the length, not the way, depends on branches: those would be mispredicted.
+ * the length, not the way, depends on branches: those would be mispredicted. The mask of all ones or none
+ * keeps compilers from making a branch of it after all.
  */
 static inline uint choose_light(const struct scene *scene, float u)
 {
     uint first = 0u;
     for (uint count = scene->header->light_count; count > 1u;) {
         const uint half_count = count >> 1;
-        first += u < scene->lights[first + half_count - 1u].cdf ? 0u : half_count;
+        first += half_count & (0u - (uint)(u >= scene->lights[first + half_count - 1u].cdf));
         count -= half_count;
     }
     return first;

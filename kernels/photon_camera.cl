@@ -24,7 +24,9 @@ kernel void photon_camera(const rt_params params, global const rt_scene_header *
     gather.found = false;
     gather.position = gather.normal = gather.wo = gather.weight = (float3)(0.0f);
     gather.material = 0u;
-    const float3 radiance = follow_path(&scene, &params, &sampler, ray, true, &gather);
+    struct path path;
+    path_start(&path, ray, sampler);
+    follow_paths(&scene, &params, &path, 1u, true, &gather);
 
     rt_gather_point point;
     vstore3(gather.position, 0, point.position);
@@ -35,7 +37,7 @@ kernel void photon_camera(const rt_params params, global const rt_scene_header *
     point.sample = params.first_sample;
     vstore3(gather.wo, 0, point.wo);
     point.reserved0 = 0u;
-    vstore3(radiance, 0, point.radiance);
+    vstore3(path.radiance, 0, point.radiance);
     point.reserved1 = 0u;
     points[item] = point;
 }

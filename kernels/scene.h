@@ -14,6 +14,7 @@ struct scene {
     global const rt_scene_header *header;
     global const rt_bvh_node *nodes;
     global const rt_tri_block *blocks;
+    global const rt_face *faces;   /* of each lane of each block */
     global const uint *analytic;   /* shape of each analytic entry */
     global const uint *planes;     /* shape of each plane */
     global const rt_shape *shapes;
@@ -31,6 +32,7 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     scene.header = header;
     scene.nodes = (global const rt_bvh_node *)(base + (size_t)header->nodes * RT_SCENE_ROW);
     scene.blocks = (global const rt_tri_block *)(base + (size_t)header->blocks * RT_SCENE_ROW);
+    scene.faces = (global const rt_face *)(base + (size_t)header->faces * RT_SCENE_ROW);
     scene.analytic = (global const uint *)(base + (size_t)header->analytic * RT_SCENE_ROW);
     scene.planes = (global const uint *)(base + (size_t)header->planes * RT_SCENE_ROW);
     scene.shapes = (global const rt_shape *)(base + (size_t)header->shapes * RT_SCENE_ROW);

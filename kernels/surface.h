@@ -66,11 +66,7 @@ static inline float3 smooth_normal(const struct scene *scene, global const rt_sh
     return mixed * (dot(mixed, normal) < 0.0f ? -rsqrt(square) : rsqrt(square));
 }
 
-/*
- * Position from the barycentric mix. To the bound on its error comes the error with which a ray
- * that leaves at a grazing angle sees the triangle's own plane: a few roundings of its size,
- * magnified where the triangle is a sliver.
- */
+/* Position from the barycentric mix; the host made what does not depend on where the hit is. */
 static inline void triangle_surface(struct surface *surface, const struct scene *scene, const struct hit *hit)
 {
     global const rt_tri_block *block = scene->blocks + (hit->slot >> 3);
@@ -78,22 +74,17 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
     const float3 v0 = block_vertex(block->v0, lane);
     const float3 e1 = block_vertex(block->v1, lane) - v0;
     const float3 e2 = block_vertex(block->v2, lane) - v0;
+    const float4 face = ((global const float4 *)scene->faces)[hit->slot];
     global const rt_shape *shape = scene->shapes + surface->shape;
 
     surface->u = hit->u;
     surface->v = hit->v;
     surface->position = v0 + (hit->u * e1 + hit->v * e2);
-    const float3 across = cross(e1, e2);
-    const float twice_area = length(across);
-    surface->normal = across / twice_area;
+    surface->normal = face.xyz;
+    surface->error = face.w;
     surface->shading = shape->flags & RT_SHAPE_SMOOTH
                            ? smooth_normal(scene, shape, surface->prim, hit->u, hit->v, surface->normal)
                            : surface->normal;
-
-    const float3 reach = fabs(v0) + fabs(e1) + fabs(e2);
-    const float size = length(e1) + length(e2);
-    const float sliver = fmin(size * size / twice_area, 64.0f);
-    surface->error = gamma_bound(4.0f) * dot(reach, fabs(surface->normal)) + gamma_bound(2.0f) * size * sliver;
 }
 
 /* Position moved onto the sphere; u: longitude from +x towards +z, v: latitude from the south pole. */

@@ -65,6 +65,13 @@ typedef struct rt_tri_block {
 } rt_tri_block;
 RT_SIZE(rt_tri_block, 320);
 
+/* What all points of a triangle or parallelogram have in common. */
+typedef struct rt_face {
+    float normal[3]; /* unit, of (v1 - v0) x (v2 - v0); 0 if that is 0 */
+    float error;     /* m; how far along the normal a ray must start to be off the surface */
+} rt_face;
+RT_SIZE(rt_face, 16);
+
 /* ---- Rays and hits ----------------------------------------------------- */
 
 RT_SIZE(rt_ray, 32);
@@ -210,6 +217,7 @@ RT_SIZE(rt_camera_data, 96);
 typedef struct rt_scene_header {
     rt_u32 nodes, node_count;           /* rt_bvh_node; node 0 is the root */
     rt_u32 blocks, block_count;         /* rt_tri_block */
+    rt_u32 faces, face_count;           /* rt_face: that of lane l of block b is 8 b + l */
     rt_u32 analytic, analytic_count;    /* u32: index of an analytic shape, one an entry */
     rt_u32 planes, plane_count;         /* u32: index of a plane's shape; planes are infinite and tested beside the tree */
     rt_u32 shapes, shape_count;         /* rt_shape */
@@ -218,15 +226,18 @@ typedef struct rt_scene_header {
     rt_u32 lights, light_count;         /* rt_light_data */
     rt_u32 normals, normal_count;       /* float[4]: unit normals of smooth triangles, w = 0 */
     rt_u32 sobol, sobol_count;          /* uint4[4][256]: XOR of the first four Sobol matrices' columns, by byte of the index */
+    rt_u32 reserved0[2];
     float bounds_lo[3], radius;         /* lowest corner and bounding-sphere radius of all finite shapes */
     float bounds_hi[3];
     rt_u32 accel;                       /* rt_accel */
     rt_camera_data camera;
-    rt_u32 reserved[12];
+    rt_u32 reserved[8];
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 256);
 
 /* ---- Rendering ---------------------------------------------------------- */
+
+#define RT_PATH_BATCH 8u /* pixels of a work-item in path tracing, whose paths are followed together */
 
 /* The parameters of a launch, for every kernel that makes paths. */
 typedef struct rt_params {

@@ -46,7 +46,7 @@ static rt_status launch_part(rt_renderer *renderer, cl_kernel kernel, rt_params 
     rt_arg first = {sizeof *params, params};
     rt_status status = rt_kernel_args(kernel, &first, 1, error);
     if (status == RT_OK)
-        status = rt_launch(renderer->device, kernel, params->item_count, error);
+        status = rt_launch(renderer->device, kernel, (params->item_count + RT_PATH_BATCH - 1) / RT_PATH_BATCH, error);
     if (status == RT_OK)
         status = rt_device_finish(renderer->device, error);
     s->pixel += params->item_count;

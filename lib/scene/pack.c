@@ -10,6 +10,7 @@
 #include "light/lights.h"
 #include "render/sobol.h"
 #include "scene/check.h"
+#include "scene/faces.h"
 #include "scene/hierarchy.h"
 
 enum { buffer_alignment = 4096, sobol_entries = 4 * 256 };
@@ -62,6 +63,7 @@ static size_t place_tables(packing *p)
     size_t rows = sizeof *h / RT_SCENE_ROW;
     place(&rows, &h->nodes, &h->node_count, p->counts.nodes, sizeof(rt_bvh_node));
     place(&rows, &h->blocks, &h->block_count, p->counts.blocks, sizeof(rt_tri_block));
+    place(&rows, &h->faces, &h->face_count, RT_BVH_WIDTH * (size_t)p->counts.blocks, sizeof(rt_face));
     place(&rows, &h->analytic, &h->analytic_count, p->counts.analytic, sizeof(rt_u32));
     place(&rows, &h->planes, &h->plane_count, p->plane_count, sizeof(rt_u32));
     place(&rows, &h->shapes, &h->shape_count, p->scene->shape_count, sizeof(rt_shape));
@@ -171,6 +173,7 @@ static rt_status fill(packing *p, rt_scene_image *image, rt_error *error)
     memset(image->data, 0, image->bytes);
     rt_bvh_write(p->bvh, table(image, p->header.nodes), table(image, p->header.blocks),
                  table(image, p->header.analytic));
+    rt_faces_fill(table(image, p->header.faces), table(image, p->header.blocks), p->header.block_count);
     image->light_power = rt_lights_fill(p->scene, p->first_prim, table(image, p->header.lights), p->first_light);
     pack_shapes(p, image);
     pack_materials(p, image);
