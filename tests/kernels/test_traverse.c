@@ -243,8 +243,8 @@ static void closed_meshes_do_not_leak(void **state)
         rt_ray *rays = malloc(count * sizeof *rays);
         for (size_t i = 0; i < count; i++) {
             float from[3], direction[3];
-            const uint32_t *face = shell_faces[0][0][(size_t)(rays_uniform(&stream) * 2 * side * around)];
-            const float *a = shell[0][face[0]], *b = shell[0][face[i % 2]];
+            const uint32_t *face = &shell_faces[0][0][0][0] + 3 * (size_t)(rays_uniform(&stream) * 2 * side * around);
+            const float *a = &shell[0][0][0] + 3 * face[0], *b = &shell[0][0][0] + 3 * face[i % 2];
             rays_point(&stream, 0.4f * places[p].scale, from);
             for (int k = 0; k < 3; k++) {
                 from[k] += places[p].move[k];
