@@ -99,6 +99,7 @@ TESTS_QUICK := \
 	tests/lib/photon/test_photon_list.c tests/lib/photon/test_point_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
 	tests/lib/render/test_photon_maps.c tests/proof/test_proof.c tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
+	tests/render/test_samples.c \
 	tests/kernels/test_shapes_many.c \
 	tests/tools/test_compare.c tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
@@ -131,7 +132,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all proof study demo deps need-deps check check-corpus check-quick check-mutation check-reference check-sanitize run-quick run-all bench install uninstall clean help
+.PHONY: all proof study demo deps need-deps check check-corpus check-mutation check-peers check-quick check-reference check-samples check-sanitize run-quick run-all bench install uninstall clean help
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -193,8 +194,8 @@ run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 	tests/run.sh $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL)) $(TESTS_SHELL)
 
 # The page of what was compared with what: tests/proof/README.md.
-proof: all $(call TEST_BIN,$(TESTS_PROOF))
-	tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
+proof: all $(call TEST_BIN,$(TESTS_PROOF)) $(B)/tests/render/test_reference
+	B=$(B) RTC=$(B)/rtc tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
 
 # What the choices of photon mapping cost and bring, how fast progressive passes come to the truth, and a caustic by path
 # tracing and by photons in equal time: numbers, and pictures in build/study. Each alone: study-k and its like.
@@ -211,6 +212,15 @@ study-consistency study-caustic: study-%: all $(B)/tests/studies/study_consisten
 # The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see tests/render/test_reference.c.
 check-reference: all $(B)/tests/render/test_reference
 	RT_TEST_TIMEOUT=3600 tests/run.sh $(B)/tests/render/test_reference
+
+# Five scenes beside Mitsuba 3, for the python3 that has it.
+check-peers: all
+	RTC=$(B)/rtc tests/peers/compare.sh
+
+# So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a number.
+SAMPLES ?= 1e9
+check-samples: all $(B)/tests/render/test_samples
+	RT_TEST_SAMPLES=$(SAMPLES) $(B)/tests/render/test_samples
 
 # Files that others wrote, from RT_CORPUS, a directory of folders; see tests/corpus/manifest.h.
 TESTS_CORPUS := tests/corpus/test_img.c tests/corpus/test_ply.c
@@ -289,6 +299,8 @@ help:
 	@echo 'make check-quick     only the tests that take seconds'
 	@echo 'make check-sanitize  the quick tests under the address and undefined-behaviour sanitizers'
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE, by another program'
+	@echo 'make check-peers     five scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, none infinite or not a number'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make check-mutation  plants physical errors, one at a time, and counts those that the tests see'
 	@echo 'make bench           measures speed, beside a peer where one is installed'

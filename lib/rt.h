@@ -759,6 +759,7 @@ typedef struct rt_film_stats {
     uint64_t rejected;         /* samples left out because they were not finite */
     uint64_t photons_emitted;  /* photon paths */
     uint64_t photons_stored;
+    uint64_t photons_rejected; /* photons left out because they were not finite */
     uint64_t gathers;          /* queries of the photon map */
     uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
     uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */
