@@ -246,9 +246,10 @@ $(B)/tests/bench/bench_trace: $(BENCH_TRACE) $(B)/librt.a
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(if $(HAVE_EMBREE),-DRT_HAVE_EMBREE) $(LDFLAGS) -o $@ $^ $(if $(HAVE_EMBREE),-lembree3) $(ALL_LIBS)
 
-bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather
+bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather $(B)/tests/bench/bench_progressive
 	$(B)/tests/bench/bench_trace
 	$(B)/tests/bench/bench_gather
+	$(B)/tests/bench/bench_progressive scenes/cornell.rts 20
 	RTC=$(B)/rtc tests/bench/bench_render.sh
 
 # ---- Dependencies and demonstration -------------------------------------------
@@ -305,6 +306,7 @@ help:
 	@echo 'make check-mutation  plants physical errors, one at a time, and counts those that the tests see'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'
+	@echo 'make study           numbers and pictures on photon mapping; study-k, -paths, -direct, -kernels ... make one'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'
