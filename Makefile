@@ -92,13 +92,14 @@ TESTS_QUICK := \
 	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_light_tree.c tests/kernels/test_path.c \
-	tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
+	tests/kernels/test_matte.c tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
 	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c \
-	tests/lib/render/test_modes.c tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
+	tests/lib/render/test_each_shape.c tests/lib/render/test_modes.c tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
 	tests/lib/photon/test_photon_list.c tests/lib/photon/test_point_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
 	tests/lib/render/test_photon_maps.c tests/proof/test_proof.c tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
+	tests/render/test_samples.c \
 	tests/kernels/test_shapes_many.c \
 	tests/tools/test_compare.c tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
 	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
@@ -110,6 +111,7 @@ TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_estimators.c tests/proof/test_convergence.c
 TESTS_FULL  += $(TESTS_PROOF)
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
+TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
@@ -120,7 +122,8 @@ TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c 
 	tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c tests/statistics/quadrature.c \
 	tests/statistics/scatter.c tests/statistics/sky.c
 TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
-	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
+	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/matte.cl \
+	tests/kernels/medium.cl tests/kernels/rng.cl \
 	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
 
 # ---- Build ------------------------------------------------------------------
@@ -129,7 +132,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all proof study demo deps need-deps check check-corpus check-quick check-reference check-sanitize run-quick run-all bench install uninstall clean help
+.PHONY: all proof study demo deps need-deps check check-corpus check-mutation check-peers check-quick check-reference check-samples check-sanitize run-quick run-all bench install uninstall clean help
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -191,8 +194,8 @@ run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 	tests/run.sh $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL)) $(TESTS_SHELL)
 
 # The page of what was compared with what: tests/proof/README.md.
-proof: all $(call TEST_BIN,$(TESTS_PROOF))
-	tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
+proof: all $(call TEST_BIN,$(TESTS_PROOF)) $(B)/tests/render/test_reference
+	B=$(B) RTC=$(B)/rtc tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
 
 # What the choices of photon mapping cost and bring, how fast progressive passes come to the truth, and a caustic by path
 # tracing and by photons in equal time: numbers, and pictures in build/study. Each alone: study-k and its like.
@@ -210,6 +213,15 @@ study-consistency study-caustic: study-%: all $(B)/tests/studies/study_consisten
 check-reference: all $(B)/tests/render/test_reference
 	RT_TEST_TIMEOUT=3600 tests/run.sh $(B)/tests/render/test_reference
 
+# Five scenes beside Mitsuba 3, for the python3 that has it.
+check-peers: all
+	RTC=$(B)/rtc tests/peers/compare.sh
+
+# So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a number.
+SAMPLES ?= 1e9
+check-samples: all $(B)/tests/render/test_samples
+	RT_TEST_SAMPLES=$(SAMPLES) $(B)/tests/render/test_samples
+
 # Files that others wrote, from RT_CORPUS, a directory of folders; see tests/corpus/manifest.h.
 TESTS_CORPUS := tests/corpus/test_img.c tests/corpus/test_ply.c
 check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
@@ -221,6 +233,10 @@ check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
 	 $(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
+# Physical errors planted one at a time in a copy of the sources: the tests must see them; see tests/mutation/run.sh.
+check-mutation: deps
+	tests/mutation/run.sh
+
 # ---- Benchmarks: ours beside a peer's, where it is installed ---------------------
 
 HAVE_EMBREE = $(shell echo 'int main(void) { return 0; }' | $(CC) -x c - -lembree3 -o /dev/null 2>/dev/null && echo yes)
@@ -230,9 +246,10 @@ $(B)/tests/bench/bench_trace: $(BENCH_TRACE) $(B)/librt.a
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(if $(HAVE_EMBREE),-DRT_HAVE_EMBREE) $(LDFLAGS) -o $@ $^ $(if $(HAVE_EMBREE),-lembree3) $(ALL_LIBS)
 
-bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather
+bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather $(B)/tests/bench/bench_progressive
 	$(B)/tests/bench/bench_trace
 	$(B)/tests/bench/bench_gather
+	$(B)/tests/bench/bench_progressive scenes/cornell.rts 20
 	RTC=$(B)/rtc tests/bench/bench_render.sh
 
 # ---- Dependencies and demonstration -------------------------------------------
@@ -283,9 +300,13 @@ help:
 	@echo 'make check-quick     only the tests that take seconds'
 	@echo 'make check-sanitize  the quick tests under the address and undefined-behaviour sanitizers'
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE, by another program'
+	@echo 'make check-peers     five scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, none infinite or not a number'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
+	@echo 'make check-mutation  plants physical errors, one at a time, and counts those that the tests see'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'
+	@echo 'make study           numbers and pictures on photon mapping; study-k, -paths, -direct, -kernels ... make one'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'

@@ -6,8 +6,8 @@
  *
  * wo and wi are unit vectors that point away from the surface. The geometric normal says on which
  * side a direction is, the shading normal gives the cosine of diffuse reflection and the axis of
- * reflection and refraction; light that would cross the surface by the shading normal alone is
- * lost, not leaked.
+ * reflection and refraction. Diffuse and rough light that would cross the surface by the shading normal
+ * alone is lost, not leaked; what is smooth then goes by the geometric normal.
  *
  * A path takes one event a surface, diffuse or specular, and carries the light of that event alone. So each
  * event is weighed by itself against light sampling, and photon maps, which hold what diffuse events scatter,
@@ -66,6 +66,34 @@ static inline void roughen(struct bsdf *bsdf, float alpha)
         bsdf->shading = bsdf->normal;
 }
 
+/* The direction of perfect reflection. */
+static inline float3 reflected_way(const struct bsdf *bsdf)
+{
+    return unit(2.0f * dot(bsdf->wo, bsdf->shading) * bsdf->shading - bsdf->wo);
+}
+
+/* The direction of perfect refraction, where there is one. */
+static inline float3 refracted_way(const struct bsdf *bsdf, float cos_t)
+{
+    const float eta = bsdf->specular.eta;
+    const float cos_i = dot(bsdf->wo, bsdf->shading);
+    const float3 axis = cos_i < 0.0f ? -bsdf->shading : bsdf->shading;
+    return unit((eta * fabs(cos_i) - cos_t) * axis - eta * bsdf->wo);
+}
+
+/*
+ * What is perfectly reflected stays on its side of the surface, and what is refracted goes to the other: where the
+ * shading normal would have it otherwise, the geometric one takes its place. So smooth glass loses no light.
+ */
+static inline void keep_sides(struct bsdf *bsdf)
+{
+    const struct split split = split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->shading)));
+    const bool stays = dot(bsdf->wo, bsdf->shading) > 0.0f && dot(reflected_way(bsdf), bsdf->normal) > 0.0f;
+    const bool crosses = largest3(split.refracted) == 0.0f || dot(refracted_way(bsdf, split.cos_t), bsdf->normal) < 0.0f;
+    if (!(stays && crosses))
+        bsdf->shading = bsdf->normal;
+}
+
 /*
  * The scattering of a surface for a path that arrives along -wo with throughput beta. eta is the index on the side
  * of wo over that on the other. The events are to be chosen in proportion to what the throughput keeps in each.
@@ -93,6 +121,8 @@ static inline struct bsdf bsdf_at(const struct scene *scene, global const rt_mat
         bsdf.specular.material = material;
         if (material->roughness >= RT_SMOOTH_ALPHA)
             roughen(&bsdf, material->roughness);
+        else if (any(bsdf.shading != bsdf.normal))
+            keep_sides(&bsdf);
         const struct split split = split_light(&bsdf.specular, fabs(dot(wo, bsdf.shading)));
         bsdf.reflected = split.reflected;
         bsdf.refracted = split.refracted;
@@ -179,17 +209,14 @@ static inline void scatter_diffuse(struct scatter *scatter, const struct bsdf *b
 
 static inline void scatter_reflected(struct scatter *scatter, const struct bsdf *bsdf)
 {
-    scatter->wi = unit(2.0f * dot(bsdf->wo, bsdf->shading) * bsdf->shading - bsdf->wo);
+    scatter->wi = reflected_way(bsdf);
     if (dot(scatter->wi, bsdf->normal) > 0.0f)
         scatter->weight = bsdf->reflected / bsdf->reflection;
 }
 
 static inline void scatter_refracted(struct scatter *scatter, const struct bsdf *bsdf)
 {
-    const float eta = bsdf->specular.eta;
-    const float cos_i = dot(bsdf->wo, bsdf->shading);
-    const float3 axis = cos_i < 0.0f ? -bsdf->shading : bsdf->shading;
-    scatter->wi = unit((eta * fabs(cos_i) - bsdf->cos_t) * axis - eta * bsdf->wo);
+    scatter->wi = refracted_way(bsdf, bsdf->cos_t);
     scatter->through = true;
     if (dot(scatter->wi, bsdf->normal) < 0.0f)
         scatter->weight = bsdf->refracted / bsdf->refraction;

@@ -65,14 +65,15 @@ static inline struct tangents round_tangents(global const rt_shape *shape, float
     const float from_axis = length(p.xy);
     const float2 outwards = from_axis > 0.0f ? p.xy / from_axis : (float2)(1.0f, 0.0f);
     const float top = shape->kind == RT_SHAPE_CONE ? shape->p[0] : 1.0f;
-    const bool is_flat = fabs(n.z) > 0.999f;
+    const bool is_cap = fabs(n.z) > 0.999f && shape->kind != RT_SHAPE_DISC && shape->kind != RT_SHAPE_TORUS;
+    const bool is_mirrored = shape->kind == RT_SHAPE_DISC || (is_cap && n.z > 0.0f); /* see turns_on_disc */
     struct tangents along;
-    along.u = 2.0f * RT_PI * (float3)(-p.y, p.x, 0.0f);
+    along.u = (is_mirrored ? -2.0f : 2.0f) * RT_PI * (float3)(-p.y, p.x, 0.0f);
     if (shape->kind == RT_SHAPE_DISC)
         along.v = (float3)((1.0f - shape->p[0]) * outwards, 0.0f);
     else if (shape->kind == RT_SHAPE_TORUS)
         along.v = 2.0f * RT_PI * (float3)(-p.z * outwards, from_axis - 1.0f);
-    else if (is_flat)
+    else if (is_cap)
         along.v = (float3)((n.z < 0.0f ? 1.0f : top) * outwards, 0.0f);
     else
         along.v = (float3)((top - 1.0f) * outwards, 1.0f);

@@ -64,6 +64,12 @@ static inline struct canonical canonical_ellipsoid(float3 p)
     return point;
 }
 
+/* The angle of a point about z, in turns, clockwise seen from the side of the normal (+-z): so no lettering is mirrored. */
+static inline float turns_on_disc(float3 p, float normal_z)
+{
+    return turns(normal_z > 0.0f ? -p.y : p.y, p.x);
+}
+
 static inline struct canonical canonical_disc(global const rt_shape *shape, float3 p)
 {
     struct canonical point;
@@ -71,7 +77,7 @@ static inline struct canonical canonical_disc(global const rt_shape *shape, floa
     point.position = (float3)(p.xy, 0.0f);
     point.normal = (float3)(0.0f, 0.0f, 1.0f);
     point.error = gamma_bound(2.0f);
-    point.u = turns(p.y, p.x);
+    point.u = turns_on_disc(p, 1.0f);
     point.v = clamp((length(p.xy) - hole) / (1.0f - hole), 0.0f, 1.0f);
     return point;
 }
@@ -83,7 +89,7 @@ static inline struct canonical canonical_cap(float3 p, float radius, float z, fl
     point.position = (float3)(p.xy * (from_axis > rim ? rim / from_axis : 1.0f), z);
     point.normal = (float3)(0.0f, 0.0f, z > 0.0f ? 1.0f : -1.0f);
     point.error = gamma_bound(2.0f);
-    point.u = turns(p.y, p.x);
+    point.u = turns_on_disc(p, point.normal.z);
     point.v = fmin(from_axis / radius, 1.0f);
     return point;
 }

@@ -25,7 +25,9 @@
 
 #include "bsdf.h"
 #include "light.h"
+#include "matte.h"
 #include "medium.h"
+#include "path_state.h"
 #include "rng.h"
 #include "traverse.h"
 
@@ -90,30 +92,27 @@ static inline float3 counted(const rt_params *params, const struct light_sample 
 }
 
 /*
- * The light that one sampled point of a light sends by way of the surface to wo. Diffuse light stands alone at the
- * last vertex of a path, unless the photon map has it; rough events go on there.
+ * Joins a vertex with one sampled point of a light, whose light goes by way of the surface to wo. Diffuse light stands
+ * alone at the last vertex of a path, unless the photon map has it; rough events go on there.
  */
-static inline float3 direct_light(const struct scene *scene, const rt_params *params, const struct surface *surface,
-                                  const struct bsdf *bsdf, uint medium, uint beyond, float4 u, bool last)
+static inline void connect_light(struct connection *connection, const struct scene *scene, const rt_params *params,
+                                 const struct path *path, const struct surface *surface, const struct bsdf *bsdf,
+                                 uint beyond, float4 u, bool last)
 {
     struct light_sample sample;
     if (!sample_light(scene, surface->position, u, &sample))
-        return (float3)(0.0f);
+        return;
     float3 scattered = (float3)(0.0f);
     if (!(last && params->direct == RT_DIRECT_PHOTONS))
         scattered = counted(params, &sample, bsdf_diffuse(bsdf, sample.wi), last);
     if (bsdf_is_rough(bsdf))
         scattered += counted(params, &sample, bsdf_rough(bsdf, sample.wi), false);
-    if (largest3(scattered) <= 0.0f)
-        return (float3)(0.0f);
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;
-    const struct ray ray = shadow_ray(surface->position + lift * bsdf->normal, &sample);
-    if (occluded(scene, &ray))
-        return (float3)(0.0f);
-    const float distance = sample.distant ? INFINITY : length(ray.direction);
-    const float3 arrived = medium_transmittance(scene->materials, through ? beyond : medium, distance);
-    return scattered * arrived * sample.radiance * sample.spread;
+    connection->ray = shadow_ray(surface->position + lift * bsdf->normal, &sample);
+    const float distance = sample.distant ? INFINITY : length(connection->ray.direction);
+    const float3 arrived = medium_transmittance(scene->materials, through ? beyond : path->media.x, distance);
+    connection->radiance = path->squeeze * path->beta * (scattered * arrived * sample.radiance * sample.spread);
 }
 
 /* The chance to go on after `depth` segments, from the throughput that would be left. */
@@ -142,110 +141,175 @@ static inline void ask_photons(global rt_gather_point *point, const struct surfa
     point->material = material;
 }
 
+/* Begins a path with this ray; one that cannot be followed ends at once. */
+static inline void path_begin(struct path *path, const struct scene *scene, const struct sampler *sampler,
+                              struct ray ray)
+{
+    path->sampler = *sampler;
+    path->ray = ray;
+    path->from = ray.origin;
+    path->radiance = (float3)(0.0f);
+    path->beta = (float3)(1.0f);
+    path->squeeze = 1.0f;
+    path->pdf_w = 0.0f;
+    path->media = vload4(0, scene->header->eye_media) - 1u;
+    path->depth = can_follow(&ray) ? 1u : 0u;
+    path->hidden = 0u;
+    path->diffuse_events = 0u;
+    path->scattered = false;
+    path->rough = false;
+}
+
+/* Ends a path whose ray meets nothing. */
+static inline void path_escape(const struct scene *scene, const rt_params *params, struct path *path,
+                               const uint purpose)
+{
+    path->depth = 0u;
+    if (!has_sky(scene) || left_to_photons(purpose, path->diffuse_events, path->pdf_w, path->rough))
+        return;
+    path->radiance += path->squeeze * path->beta * medium_transmittance(scene->materials, path->media.x, INFINITY) *
+                      environment_light(scene, params, path->from, path->ray.direction, path->pdf_w);
+}
+
+/* Goes on from a surface by the chosen event, by u in [0,1)^3. */
+static inline void path_scatter(struct path *path, const struct surface *surface, const struct bsdf *bsdf, uint event,
+                                float3 u, uint4 beyond)
+{
+    const struct scatter scatter = bsdf_scatter(bsdf, event, u, CARRY_RADIANCE);
+    path->beta *= scatter.weight;
+    path->depth = largest3(path->beta) > 0.0f ? path->depth + 1u : 0u;
+    path->squeeze *= scatter.squeeze;
+    path->pdf_w = scatter.pdf_w;
+    path->scattered |= path->pdf_w > 0.0f;
+    path->from = surface->position;
+    if (scatter.through)
+        path->media = beyond;
+    const float lift = scatter.through ? -surface->error : surface->error;
+    path->ray = make_ray(surface->position + lift * bsdf->normal, scatter.wi, 0.0f, INFINITY);
+}
+
 /*
- * Follows the path that begins with `ray` (of unit direction) and returns the radiance it brings.
- * purpose is a constant at each call; *gather serves FOLLOW_TO_GATHER alone, and its points are left alone when the
- * path ends before.
+ * Takes a path through the vertex that its ray hits, with the vertex's numbers u; *connection holds the direct light
+ * that remains to be asked for. purpose is a constant at each call; *gather serves FOLLOW_TO_GATHER alone, and its
+ * points are left alone when the path ends before.
  */
+static inline void path_vertex(const struct scene *scene, const rt_params *params, struct path *path,
+                               const struct hit *hit, float8 u, struct connection *connection, const uint purpose,
+                               const struct gather *gather)
+{
+    const struct surface surface = surface_at(scene, &path->ray, hit);
+    const uint material_index = scene->shapes[surface.shape].material;
+    global const rt_material_data *material = scene->materials + material_index;
+    const float3 wo = -path->ray.direction;
+
+    /* Lose what the medium absorbs on the way. */
+    path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
+
+    /* Go straight on through a boundary that a stronger medium hides. */
+    struct boundary boundary;
+    boundary.beyond = path->media;
+    boundary.eta = media_ior(scene, path->media);
+    if (is_transparent(material)) {
+        boundary = media_cross(scene, path->media, material_index, dot(wo, surface.normal) > 0.0f);
+        if (!boundary.exists) {
+            path->ray.origin = leave_surface(&surface, path->ray.direction);
+            path->media = boundary.beyond;
+            path->pdf_w = 0.0f;
+            if (++path->hidden > RT_HIDDEN_BOUNDARIES)
+                path->depth = 0u;
+            return;
+        }
+    }
+
+    /* Add what the surface emits, unless caustic photons account for it. */
+    if (!left_to_photons(purpose, path->diffuse_events, path->pdf_w, path->rough))
+        path->radiance +=
+            path->squeeze * path->beta * emitted_light(scene, params, &surface, wo, path->from, path->pdf_w);
+    if (path->depth == params->max_depth || (purpose == FOLLOW_DIRECT && path->scattered)) {
+        path->depth = 0u;
+        return;
+    }
+
+    /* Sample direct light. */
+    const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, boundary.eta, path->beta);
+    const bool last = purpose == FOLLOW_TO_GATHER && path->diffuse_events == params->final_gather;
+    if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
+        connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, u.lo, last);
+
+    /* Choose an event, or the end of the path by roulette, which spares nothing where the path ends anyway. */
+    const float survival = last ? 1.0f : survival_chance(params, path->depth, path->beta * bsdf_albedo(&bsdf));
+    const uint event = bsdf_choose(&bsdf, survival, u.hi.z);
+    if (event == EVENT_ABSORBED) {
+        path->depth = 0u;
+        return;
+    }
+    path->beta *= 1.0f / survival;
+
+    /* In photon mapping, ask for photons at each diffuse event: all of them at the last, caustic ones before. */
+    if (purpose == FOLLOW_TO_GATHER && event == EVENT_DIFFUSE) {
+        ask_photons(last ? gather->point : gather->caustics + path->diffuse_events * gather->stride, &surface, &bsdf,
+                    material_index, path->squeeze * path->beta * bsdf_event_weight(&bsdf, EVENT_DIFFUSE));
+        if (last) {
+            path->depth = 0u;
+            return;
+        }
+        path->diffuse_events++;
+    }
+    path->rough = event == EVENT_ROUGH || (path->rough && event != EVENT_DIFFUSE);
+
+    /* Take the event's direction and go on. */
+    path_scatter(path, &surface, &bsdf, event, u.hi.xyw, boundary.beyond);
+}
+
+/*
+ * Takes paths through their next vertex, RT_PATH_BATCH of them at most; those that have ended stay as they are. No
+ * path waits for another in any of the steps, so that a processor that runs ahead has several under way at once.
+ */
+static inline void follow_paths(const struct scene *scene, const rt_params *params, struct path *paths,
+                                const uint count, const uint purpose, const struct gather *gather)
+{
+    struct hit hits[RT_PATH_BATCH];
+    float8 numbers[RT_PATH_BATCH];
+    struct connection connections[RT_PATH_BATCH];
+    const bool together = purpose == FOLLOW_ALL && params->estimator == RT_ESTIMATOR_MIS;
+
+    /* Find the nearest surfaces, and draw the numbers of the vertices there: that fills the time of waiting. */
+    for (uint i = 0u; i < count; i++) {
+        if (!paths[i].depth)
+            continue;
+        numbers[i] = sampler_pair(&paths[i].sampler, set_light(paths[i].depth - 1u));
+        if (!closest_hit(scene, &paths[i].ray, &hits[i]))
+            path_escape(scene, params, &paths[i], purpose);
+    }
+
+    /* Scatter, on matte surfaces all together, on others one by one. */
+    struct matte matte;
+    matte.taken = matte.curved = 0u;
+    for (uint i = 0u; i < count; i++) {
+        connections[i].radiance = (float3)(0.0f);
+        if (!paths[i].depth)
+            continue;
+        if (!together || !matte_take(&matte, i, scene, params, &paths[i], &hits[i]))
+            path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], purpose, gather);
+    }
+    if (matte.taken)
+        matte_vertices(scene, params, &matte, paths, hits, numbers, connections);
+
+    /* Add the direct light that arrives. */
+    for (uint i = 0u; i < count; i++)
+        if (largest3(connections[i].radiance) > 0.0f && !occluded(scene, &connections[i].ray))
+            paths[i].radiance += connections[i].radiance;
+}
+
+/* Follows one path to its end and returns the radiance that it brings. */
 static inline float3 follow_path(const struct scene *scene, const rt_params *params, const struct sampler *sampler,
                                  struct ray ray, const uint purpose, const struct gather *gather)
 {
-    float3 radiance = (float3)(0.0f); /* so far */
-    float3 beta = (float3)(1.0f);     /* throughput, without the change of radiance at refraction */
-    float squeeze = 1.0f;             /* which is kept here, and means nothing to roulette */
-    float pdf_w = 0.0f;               /* density of the ray's direction, 0 for the camera and delta events */
-    float3 from = ray.origin;         /* the previous vertex */
-    uint4 media = vload4(0, scene->header->eye_media) - 1u;
-    uint hidden = 0u;
-    uint diffuse_events = 0u;
-    bool scattered = false; /* by an event other than a delta one */
-    bool rough = false;     /* by a rough event since the last diffuse one */
-
-    if (!can_follow(&ray))
-        return radiance;
-    for (uint depth = 1u; depth <= params->max_depth;) {
-        /* Draw the numbers of the next vertex: they hang on nothing, so a processor makes them while it waits below. */
-        const uint vertex = depth - 1u;
-        const float8 u = sampler_pair(sampler, set_light(vertex));
-
-        /* Find the nearest surface. */
-        struct hit hit;
-        if (!closest_hit(scene, &ray, &hit)) {
-            if (has_sky(scene) && !left_to_photons(purpose, diffuse_events, pdf_w, rough))
-                radiance += squeeze * beta * medium_transmittance(scene->materials, media.x, INFINITY) *
-                            environment_light(scene, params, from, ray.direction, pdf_w);
-            break;
-        }
-        const struct surface surface = surface_at(scene, &ray, &hit);
-        const uint material_index = scene->shapes[surface.shape].material;
-        global const rt_material_data *material = scene->materials + material_index;
-        const float3 wo = -ray.direction;
-
-        /* Lose what the medium absorbs on the way. */
-        beta *= medium_transmittance(scene->materials, media.x, hit.t);
-
-        /* Go straight on through a boundary that a stronger medium hides. */
-        struct boundary boundary;
-        boundary.beyond = media;
-        boundary.eta = media_ior(scene, media);
-        if (is_transparent(material)) {
-            boundary = media_cross(scene, media, material_index, dot(wo, surface.normal) > 0.0f);
-            if (!boundary.exists) {
-                if (++hidden > RT_HIDDEN_BOUNDARIES)
-                    break;
-                ray.origin = leave_surface(&surface, ray.direction);
-                media = boundary.beyond;
-                pdf_w = 0.0f;
-                continue;
-            }
-        }
-
-        /* Add what the surface emits, unless caustic photons account for it. */
-        if (!left_to_photons(purpose, diffuse_events, pdf_w, rough))
-            radiance += squeeze * beta * emitted_light(scene, params, &surface, wo, from, pdf_w);
-        if (depth == params->max_depth || (purpose == FOLLOW_DIRECT && scattered))
-            break;
-
-        /* Add direct light. */
-        const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, boundary.eta, beta);
-        const bool last = purpose == FOLLOW_TO_GATHER && diffuse_events == params->final_gather;
-        if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
-            radiance += squeeze * beta *
-                        direct_light(scene, params, &surface, &bsdf, media.x, boundary.beyond.x, u.lo, last);
-
-        /* Choose an event, or the end of the path by roulette, which spares nothing where the path ends anyway. */
-        const float survival = last ? 1.0f : survival_chance(params, depth, beta * bsdf_albedo(&bsdf));
-        const uint event = bsdf_choose(&bsdf, survival, u.hi.z);
-        if (event == EVENT_ABSORBED)
-            break;
-        beta *= 1.0f / survival;
-
-        /* In photon mapping, ask for photons at each diffuse event: all of them at the last, caustic ones before. */
-        if (purpose == FOLLOW_TO_GATHER && event == EVENT_DIFFUSE) {
-            ask_photons(last ? gather->point : gather->caustics + diffuse_events * gather->stride, &surface, &bsdf,
-                        material_index, squeeze * beta * bsdf_event_weight(&bsdf, EVENT_DIFFUSE));
-            if (last)
-                break;
-            diffuse_events++;
-        }
-        rough = event == EVENT_ROUGH || (rough && event != EVENT_DIFFUSE);
-
-        /* Take the event's direction and go on. */
-        const struct scatter scatter = bsdf_scatter(&bsdf, event, u.hi.xyw, CARRY_RADIANCE);
-        beta *= scatter.weight;
-        if (largest3(beta) <= 0.0f)
-            break;
-        squeeze *= scatter.squeeze;
-        pdf_w = scatter.pdf_w;
-        scattered |= pdf_w > 0.0f;
-        from = surface.position;
-        if (scatter.through)
-            media = boundary.beyond;
-        const float lift = scatter.through ? -surface.error : surface.error;
-        ray = make_ray(surface.position + lift * bsdf.normal, scatter.wi, 0.0f, INFINITY);
-        depth++;
-    }
-    return radiance;
+    struct path path;
+    path_begin(&path, scene, sampler, ray);
+    while (path.depth)
+        follow_paths(scene, params, &path, 1u, purpose, gather);
+    return path.radiance;
 }
 
 #endif

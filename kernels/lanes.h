@@ -42,6 +42,12 @@ static inline uint lane_mask(int8 truth)
 #endif
 }
 
+/* The comparison that is true in the lanes whose bits are set in `mask`. */
+static inline int8 lanes_of(uint mask)
+{
+    return ((int8)((int)mask) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0;
+}
+
 /* The lanes whose bits are set in `mask`, moved together to the front; what follows them is arbitrary. */
 static inline float8 lane_compress(float8 v, uint mask)
 {

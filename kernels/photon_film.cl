@@ -4,6 +4,12 @@
 #include "film.h"
 #include "frame.h"
 
+/* The radiance that came to a point; of one at no finite place, where photons are not asked for, no finite one. */
+static float3 radiance_of(global const rt_gather_point *point)
+{
+    return all(isfinite(row3(point->position))) ? row3(point->radiance) : (float3)(NAN);
+}
+
 /*
  * points: [item_count], no two of the same pixel; caustics: [params.final_gather][stride], points whose radiance
  * belongs to the same sample.
@@ -15,9 +21,9 @@ kernel void photon_film(const rt_params params, global const rt_gather_point *po
     if (item >= params.item_count)
         return;
     const uint index = points[item].pixel;
-    float3 radiance = row3(points[item].radiance);
+    float3 radiance = radiance_of(points + item);
     for (uint i = 0u; i < params.final_gather; i++)
-        radiance += row3(caustics[i * stride + item].radiance);
+        radiance += radiance_of(caustics + i * stride + item);
     rt_film_pixel pixel = film[index];
     film_add(&pixel, radiance, points[item].film_weight);
     film[index] = pixel;

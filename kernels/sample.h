@@ -106,7 +106,7 @@ static inline float sphere_pdf_w(void)
 /* Barycentric weights of the second and third vertex, uniform in area (Heitz). */
 static inline float2 sample_triangle(float2 u)
 {
-    return u.y > u.x ? (float2)(0.5f * u.x, u.y - 0.5f * u.x) : (float2)(u.x - 0.5f * u.y, 0.5f * u.y);
+    return u - 0.5f * (u.x < u.y ? u.x : u.y);
 }
 
 static inline float triangle_pdf_a(float3 e1, float3 e2)

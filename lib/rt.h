@@ -307,7 +307,10 @@ RT_API rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const fl
 /* The parallelogram corner + u edge1 + v edge2; its normal is edge1 x edge2. */
 RT_API rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3], const float edge1[3],
                                    const float edge2[3], const rt_surface *surface, rt_error *error);
-/* A disc, with a hole when inner_radius > 0. u: angle in [0,1], v: from 0 at the inner to 1 at the outer rim. */
+/*
+ * A disc, with a hole when inner_radius > 0. u: angle in [0,1], clockwise seen from the side of the normal, v: from 0 at
+ * the inner to 1 at the outer rim.
+ */
 RT_API rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3], const float normal[3],
                                    float radius, float inner_radius, const rt_surface *surface, rt_error *error);
 /* A cylinder from a to b, open or closed by caps. u: angle in [0,1], v: height in [0,1]; caps as a disc. */
@@ -443,7 +446,7 @@ typedef enum rt_mode {
     RT_MODE_PHOTON,   /* photon mapping */
     RT_MODE_DIRECT,   /* emission and direct light at the first hit (mirrors and clear glass are followed) */
     RT_MODE_NORMALS,  /* shading normal n at the first hit as the colour (n + 1) / 2; black where nothing is hit */
-    RT_MODE_ALBEDO,   /* the part of the light that the first hit does not absorb: kd + ks + kt */
+    RT_MODE_ALBEDO,   /* the part of the light that the first hit does not absorb: kd + ks + kt, ks of a metal by its reflectance */
     RT_MODE_DEPTH     /* distance along the view axis, metres, mean of the samples that hit; 0 where none does */
 } rt_mode;
 
@@ -736,7 +739,7 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  * A layer of the film, [height][width][*channels], top row first; owned by the film. NULL when there is none of
  * that name. channels may be NULL. With rt_render_options.aov, and by the modes that show one, as means over the
  * samples that the picture has:
- *   albedo           3  kd + ks + kt of the first hit, 0 where nothing is hit
+ *   albedo           3  kd + ks + kt of the first hit, ks of a metal by its reflectance; 0 where nothing is hit
  *   normal           3  its shading normal in the world, as the shape has it, not turned to the camera; 0 likewise
  *   depth            1  metres along the view axis (from the eye, for an environment camera), mean of the samples
  *                       that hit
@@ -758,6 +761,7 @@ typedef struct rt_film_stats {
     uint64_t rejected;         /* samples left out because they were not finite */
     uint64_t photons_emitted;  /* photon paths */
     uint64_t photons_stored;
+    uint64_t photons_rejected; /* photons left out because they were not finite */
     uint64_t gathers;          /* queries of the photon map */
     uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
     uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */

@@ -32,6 +32,7 @@ static void print_photons(const rt_film_stats *stats)
 {
     print_count("photon paths emitted", stats->photons_emitted);
     print_count("photons stored", stats->photons_stored);
+    print_count("photons rejected", stats->photons_rejected);
     print_count("gathers", stats->gathers);
     if (stats->passes > 0)
         print_count("passes", stats->passes);

@@ -79,6 +79,8 @@ static void fill_edges(rt_light_data *light, const double b[3], const double c[3
     light->height = (float)height;
     if (light->kind == RT_LIGHT_QUAD && fabs(cosine) < right_angle)
         light->flags |= RT_LIGHT_RECTANGLE;
+    else if (light->texture == RT_NONE)
+        light->flags |= RT_LIGHT_BY_AREA;
 }
 
 static void fill_triangle(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape, size_t primitive)

@@ -166,6 +166,7 @@ static rt_status emit(photon_render *r, uint32_t pass, rt_stage_progress *progre
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
         stats->photons_emitted += r->in_use->lists[kind].emitted;
         stats->photons_stored += r->in_use->lists[kind].count;
+        stats->photons_rejected += r->in_use->lists[kind].rejected;
     }
     if (status == RT_OK)
         status = rt_ledger_add(&r->film->ledger, &r->in_use->ledger, error);

@@ -28,6 +28,7 @@ typedef struct sample_render {
     const rt_render_options *options;
     rt_film *film;
     cl_kernel kernel; /* NULL in the modes that show a layer */
+    uint32_t batch;   /* pixels that a work-item takes */
     cl_mem pixels;    /* rt_film_pixel, the film on the device */
     rt_aov aov;
 } sample_render;
@@ -63,7 +64,7 @@ static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, u
         rt_arg first = {sizeof *params, params};
         status = rt_kernel_args(r->kernel, &first, 1, error);
         if (status == RT_OK)
-            status = rt_launch(r->renderer->device, r->kernel, params->item_count, error);
+            status = rt_launch(r->renderer->device, r->kernel, (params->item_count + r->batch - 1) / r->batch, error);
     }
     if (status == RT_OK)
         status = rt_aov_add(&r->aov, r->renderer, params, error);
@@ -181,6 +182,7 @@ rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *opti
     r.renderer = renderer;
     r.options = options;
     r.film = film;
+    r.batch = options->mode == RT_MODE_PATH ? RT_PATH_PIXELS : 1;
     rt_status status =
         rt_buffer_create(renderer->device, &r.pixels, CL_MEM_READ_WRITE, bytes, film->pixels, "the film", error);
     if (status == RT_OK)

@@ -125,6 +125,22 @@ static int is_varied(const rt_scene *scene, const rt_shape *shape)
            m->kt_texture || m->bump_texture;
 }
 
+/* Whether it only reflects diffusely. */
+static int is_matte(const rt_scene *scene, const rt_shape *shape)
+{
+    const rt_material *m = scene->materials + shape->material;
+    for (int i = 0; i < 3; i++)
+        if (m->ks[i] > 0 || m->kt[i] > 0)
+            return 0;
+    return shape->first_light == RT_NONE;
+}
+
+static int is_flat(const rt_shape *shape)
+{
+    const rt_u32 other = RT_SHAPE_SMOOTH | RT_SHAPE_VARIED | RT_SHAPE_MIRRORED;
+    return (shape->kind == RT_SHAPE_TRIANGLES || shape->kind == RT_SHAPE_QUAD) && !(shape->flags & other);
+}
+
 static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
 {
     const rt_scene_shape *shape = p->scene->shapes + index;
@@ -144,6 +160,10 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         out->flags |= RT_SHAPE_MIRRORED;
     if (is_varied(p->scene, out))
         out->flags |= RT_SHAPE_VARIED;
+    if (is_matte(p->scene, out))
+        out->flags |= RT_SHAPE_MATTE;
+    if (is_flat(out))
+        out->flags |= RT_SHAPE_FLAT;
 }
 
 void rt_pack_shapes(const rt_packing *p)

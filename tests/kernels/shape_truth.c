@@ -251,16 +251,17 @@ static double turns(double y, double x)
 int truth_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
 {
     const double *p = hit->position, *n = hit->normal, from_axis = hypot(p[0], p[1]);
-    uv[0] = turns(p[1], p[0]);
+    const int is_cap = fabs(n[2]) > 0.9 && (shape->kind == RT_SHAPE_CYLINDER || shape->kind == RT_SHAPE_CONE);
+    uv[0] = turns(n[2] > 0 && (is_cap || shape->kind == RT_SHAPE_DISC) ? -p[1] : p[1], p[0]);
     switch (shape->kind) {
     case RT_SHAPE_DISC:
         uv[1] = (from_axis - shape->p) / (1 - shape->p);
         break;
     case RT_SHAPE_CYLINDER:
-        uv[1] = fabs(n[2]) > 0.9 ? from_axis : p[2];
+        uv[1] = is_cap ? from_axis : p[2];
         break;
     case RT_SHAPE_CONE:
-        uv[1] = n[2] > 0.9 ? from_axis / shape->p : n[2] < -0.9 ? from_axis : p[2];
+        uv[1] = is_cap ? from_axis / (n[2] > 0 ? shape->p : 1) : p[2];
         break;
     case RT_SHAPE_TORUS:
         uv[1] = turns(p[2], from_axis - 1);

@@ -376,10 +376,43 @@ static void samples_that_are_not_finite_are_counted_and_left_out(void **state)
     rt_kernel_release(kernel);
 }
 
+/* Photons are not asked for around a point that is nowhere: it must not pass for a dark one. */
+static void samples_that_gather_nowhere_are_rejected(void **state)
+{
+    const float places[][3] = {{1, 2, 3}, {NAN, 2, 3}, {1, INFINITY, 3}};
+    enum { COUNT = 3 };
+    rt_gather_point points[COUNT] = {0};
+    rt_film_pixel pixels[COUNT] = {0};
+    rt_params params = {0};
+    cl_uint stride = 0;
+    cl_kernel kernel = NULL;
+    rt_error error;
+    (void)state;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        memcpy(points[i].position, places[i], sizeof places[i]);
+        points[i].pixel = i;
+        points[i].film_weight = 1;
+    }
+    params.item_count = COUNT;
+    cl_mem gathered = test_buffer(sizeof points, points), film = test_buffer(sizeof pixels, pixels);
+    expect_ok(rt_device_kernel(test_device(), &kernel, "photon_film", "photon_film", NULL, &error), &error);
+    rt_arg args[] = {RT_ARG(params), RT_ARG(gathered), RT_ARG(gathered), RT_ARG(stride), RT_ARG(film)};
+    test_run(kernel, args, 5, COUNT);
+    test_read(film, sizeof pixels, pixels);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        assert_int_equal(pixels[i].count, i == 0 ? 1 : 0);
+        assert_int_equal(pixels[i].rejected, i == 0 ? 0 : 1);
+    }
+    rt_buffer_release(gathered);
+    rt_buffer_release(film);
+    rt_kernel_release(kernel);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_that_are_not_finite_are_counted_and_left_out),
+        cmocka_unit_test(samples_that_gather_nowhere_are_rejected),
         cmocka_unit_test(a_furnace_sums_the_series_of_its_albedo),
         cmocka_unit_test(glass_disappears_in_even_light),
         cmocka_unit_test(nested_and_overlapping_solids_disappear_in_even_light),

@@ -3,7 +3,9 @@
 #
 #   tests/proof/page.sh PROGRAM...
 #
-# The page is replaced only when every program passes.
+# The page is replaced only when every program passes. Its sections on other programs are measured anew where these
+# are to be had, and kept as they are where not: reference renders in RT_REFERENCE, Mitsuba for $PYTHON (default
+# python3).
 set -eu
 
 page=tests/proof/README.md
@@ -25,12 +27,40 @@ last digits on another machine.
 `path` is path tracing, `direct` the mode of that name; `photons` has all light at diffuse surfaces from the photon map,
 in which a closed form is smoothed by the density kernel as the map is; `photons and shadow rays` leaves direct light
 to shadow rays. L is radiance, E irradiance, P power, I intensity, a albedo, R reflectance and T what passes.
+
+The last two sections are about another program, Mitsuba 3: renders of it that were made once, of three box scenes, with
+2048 samples a pixel (8192 for the caustic), and renders that `make check-peers` makes of these and two more, from
+scenes written for it separately (see [../peers/mitsuba_scenes.py](../peers/mitsuba_scenes.py)). There the mean ratio is
+over all pixels, with a standard error from the noise of both pictures; a picture agrees where no block of 16x16 pixels
+has a mean off by more than 1 % (2 % for the caustic) and by more than four standard errors in any channel.
 END
 
-for program in "$@"; do
-    log=$(RT_PROOF_ROWS=$made "$program" 2>&1) || {
+# The program adds its section, or is shown where it fails.
+add() {
+    log=$(RT_PROOF_ROWS=$made "$@" 2>&1) || {
         printf '%s\n' "$log" >&2
         exit 1
     }
+}
+
+# The section of that title stays.
+keep() {
+    echo "page.sh: '$1' is kept: $2" >&2
+    echo >>"$made"
+    awk -v title="## $1" '/^## / { within = $0 == title } within { print }' "$page" | sed '$ { /^$/d; }' >>"$made"
+}
+
+for program in "$@"; do
+    add "$program"
 done
+if [ -n "${RT_REFERENCE:-}" ]; then
+    add "${B:-build}/tests/render/test_reference"
+else
+    keep 'Against renders that are kept' 'RT_REFERENCE names no directory'
+fi
+if "${PYTHON:-python3}" -c 'import mitsuba' 2>/dev/null; then
+    add tests/peers/compare.sh
+else
+    keep 'Against Mitsuba 3' "${PYTHON:-python3} has no module mitsuba"
+fi
 cp "$made" "$page"

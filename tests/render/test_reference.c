@@ -1,6 +1,6 @@
 /*
  * The reference scenes against the renders of an independent renderer: linear radiance agrees block by
- * block, by the rule of rt_image_compare, in path and in photon mode.
+ * block, by the rule of rt_image_compare, in path and in photon mode. The page of the proof has a section of it.
  *
  * RT_REFERENCE names the directory that holds box_point.exr, box_area.exr and box_caustic.exr, 256x256.
  * Without it the program fails: it is run by a target of its own. The signed differences are left as
@@ -8,8 +8,8 @@
  */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "proof/page.h"
 #include "support.h"
 
 #define RENDERS_MAX 8
@@ -62,6 +62,16 @@ static const char *mode_name(const reference_case *c)
     return c->mode == RT_MODE_PHOTON ? "photon" : "path";
 }
 
+/* The row of the page. */
+static void tell_page(const reference_case *c, const rt_comparison_info *info, double excess)
+{
+    char stated[128], measured[128];
+    snprintf(stated, sizeof stated, "%s | %s | %s.exr | 1", c->scene, mode_name(c), c->scene);
+    snprintf(measured, sizeof measured, "%.6g | %.1e | %+.2f | %zu of %zu | %.2f", info->ratio, info->ratio_error,
+             (info->ratio - 1.0) / info->ratio_error, info->off, info->blocks, excess);
+    page_row(stated, measured);
+}
+
 static void keep_difference(const reference_case *c, const rt_comparison *comparison)
 {
     char path[1024];
@@ -88,6 +98,7 @@ static void compare_with_reference(const reference_case *c, const rt_image *cons
            "standard error %.6f, %.2f of what is allowed\n",
            c->scene, mode_name(c), info.off, info.blocks, info.ratio, info.rmse, worst->x, worst->y, channel,
            worst->mean[channel], worst->reference[channel], worst->error[channel], worst->excess[channel]);
+    tell_page(c, &info, worst->excess[channel]);
     keep_difference(c, comparison);
     rt_comparison_destroy(comparison);
     assert_int_equal(info.off, 0);
@@ -118,16 +129,23 @@ static void agrees_with_the_reference(void **state)
     rt_image_destroy(reference);
 }
 
+static void the_page_says_so(void **state)
+{
+    (void)state;
+    page_section("Against renders that are kept",
+                 "scene | by | peer | mean ratio expected | ours | standard error | off by standard errors | blocks off | "
+                 "worst block, of what is allowed");
+}
+
 int main(void)
 {
     enum { COUNT = sizeof cases / sizeof cases[0] };
-    struct CMUnitTest tests[COUNT];
+    struct CMUnitTest tests[COUNT + 1] = {[COUNT] = cmocka_unit_test(the_page_says_so)};
     char names[COUNT][64];
     if (!getenv("RT_REFERENCE")) {
         fprintf(stderr, "RT_REFERENCE does not name the directory of the reference renders\n");
         return 1;
     }
-    memset(tests, 0, sizeof tests);
     for (int i = 0; i < COUNT; i++) {
         snprintf(names[i], sizeof names[i], "%s_agrees_in_mode_%s", cases[i].scene, mode_name(&cases[i]));
         tests[i].name = names[i];

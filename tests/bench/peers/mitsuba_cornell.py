@@ -21,24 +21,15 @@ What the two programs must agree on, and how it is said in each:
 import argparse
 import os
 import re
-import shutil
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
 
-SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "cornell32.rts")
-
-
-def find_llvm():
-    """The newest LLVM library that the dynamic linker knows, for Mitsuba's just-in-time compiler."""
-    ldconfig = shutil.which("ldconfig", path=os.environ.get("PATH", "") + ":/sbin:/usr/sbin")
-    if not ldconfig:
-        return None
-    listing = subprocess.run([ldconfig, "-p"], capture_output=True, text=True, check=False).stdout
-    found = [(int(version), path) for version, path in re.findall(r"libLLVM[-.]\D*(\d+)\S*.*=> (\S+)", listing)]
-    return max(found)[1] if found else None
+HERE = os.path.dirname(os.path.abspath(__file__))
+SCENE = os.path.join(HERE, os.pardir, "cornell32.rts")
+sys.path.insert(0, os.path.join(HERE, os.pardir, os.pardir, "peers"))
+import mitsuba_llvm  # noqa: E402
 
 
 def read_scene(path):
@@ -121,14 +112,7 @@ def main():
     parser.add_argument("--out", help="keep the last render here, .exr or .pfm")
     arguments = parser.parse_args()
 
-    llvm = find_llvm()
-    if llvm:
-        os.environ.setdefault("DRJIT_LIBLLVM_PATH", llvm)
-    try:
-        import mitsuba as mi
-    except ImportError:
-        sys.exit("mitsuba is not installed: pip install mitsuba")
-    mi.set_variant(arguments.variant)
+    mi = mitsuba_llvm.start(arguments.variant)
     import drjit as dr
 
     blocks = read_scene(SCENE)

@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""Renders a scene of mitsuba_scenes.py, or writes the sky that our own scenes read.
+
+    mitsuba_render.py SCENE SPP OUT.exr
+    mitsuba_render.py --sky OUT.exr
+
+Run from the top directory.
+"""
+import sys
+
+import mitsuba_llvm
+
+mi = mitsuba_llvm.start()
+
+import numpy as np  # noqa: E402
+
+import mitsuba_scenes  # noqa: E402
+
+PASS = 64  # samples a pixel at once, for the sake of memory
+
+
+def render(name, spp):
+    scene = mi.load_dict(mitsuba_scenes.SCENES[name]())
+    total = 0.0
+    for first in range(0, spp, PASS):
+        samples = min(PASS, spp - first)
+        total = total + samples * np.array(mi.render(scene, spp=samples, seed=first), dtype=np.float64)
+    return total / spp
+
+
+def main():
+    match sys.argv[1:]:
+        case ["--sky", out]:
+            image = mitsuba_scenes.our_sky()
+        case [name, spp, out] if name in mitsuba_scenes.SCENES and spp.isdigit() and int(spp) > 0:
+            image = render(name, int(spp))
+        case _:
+            sys.exit(f"{__doc__}\nSCENE is one of {', '.join(mitsuba_scenes.SCENES)}.")
+    mitsuba_scenes.bitmap(image).write(out)
+
+
+if __name__ == "__main__":
+    main()
