@@ -222,7 +222,10 @@ typedef struct rt_transform {
 
 /* ---- Textures ----------------------------------------------------------- */
 
-/* A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds and wraps are in common.h. */
+/*
+ * A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds and wraps are in common.h. An image with
+ * negative values is refused where it is to be a colour; as heights they are fine.
+ */
 typedef struct rt_texture {
     rt_texture_kind kind;
     const char *path; /* image: .png, .ppm, .pgm, .exr or .pfm, decided by content */
