@@ -770,7 +770,8 @@ typedef struct rt_film_stats {
                                   mean radiance. Estimated from the layer variance, so that of photon mapping is
                                   the noise alone */
     double relative_error_bound; /* what it is below, with a confidence of 95 %; as long as samples are many
-                                  enough to show what light there is: what no path has met yet, none can tell of */
+                                  enough to show what light there is: what no path has met yet, none can tell of.
+                                  Infinite below 8 samples, or passes in photon mode, which are too few to tell */
     double interval_factor;    /* half of a pixel's 95 % interval by its standard deviation, the root of the layer
                                   variance: Student's t, two-sided, replicates - 1 degrees of freedom */
     double light_power;        /* emitted power of all lights, W, mean of the three channels */
