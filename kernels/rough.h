@@ -25,12 +25,6 @@
 #include "types.h"
 
 /*
- * Below this alpha a surface is smooth. A lobe of it spreads light by a tenth of a degree, less than a pixel, so
- * no seam shows.
- */
-#define RT_SMOOTH_ALPHA 1e-3f
-
-/*
  * With indices as close as this, refraction hardly bends light: its density is too narrow for float32, and light
  * sampling leaves it alone as it does a smooth boundary.
  */

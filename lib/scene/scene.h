@@ -125,6 +125,12 @@ rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const 
 int rt_scene_has_light(const rt_scene *scene);
 int rt_mode_shows_light(rt_mode mode);
 
+/*
+ * Whether lights without size (point, spot and directional) and smooth mirrors or glass may cast caustics on a diffuse
+ * shape: light that path tracing misses, for no path from the eye meets such a light by way of them.
+ */
+int rt_scene_casts_hidden_caustics(const rt_scene *scene);
+
 /* Appends a mesh, taking its arrays over; checked already. */
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh, rt_error *error);
 void rt_scene_mesh_free(rt_scene_mesh *mesh);
