@@ -151,6 +151,12 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
 
+/*
+ * Below this roughness a surface is smooth. A lobe of it spreads light by a tenth of a degree, less than a pixel, so
+ * no seam shows.
+ */
+#define RT_SMOOTH_ALPHA 1e-3f
+
 typedef struct rt_material_data {
     float kd[3]; /* diffuse albedo */
     float ior;   /* index of refraction of the inside */
@@ -159,7 +165,7 @@ typedef struct rt_material_data {
     float kt[3];     /* specular transmittance */
     rt_u32 priority; /* nested media: the higher wins where solids overlap */
     float eta[3];    /* conductor: complex index of refraction eta + i k */
-    float roughness; /* GGX alpha; 0 is smooth */
+    float roughness; /* GGX alpha; below RT_SMOOTH_ALPHA it is smooth */
     float k[3];
     float bump_scale;    /* height in metres of a texture value of 1 */
     float absorption[3]; /* of the inside, 1/m */

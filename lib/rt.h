@@ -222,7 +222,10 @@ typedef struct rt_transform {
 
 /* ---- Textures ----------------------------------------------------------- */
 
-/* A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds and wraps are in common.h. */
+/*
+ * A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds and wraps are in common.h. An image with
+ * negative values is refused where it is to be a colour; as heights they are fine.
+ */
 typedef struct rt_texture {
     rt_texture_kind kind;
     const char *path; /* image: .png, .ppm, .pgm, .exr or .pfm, decided by content */
@@ -442,7 +445,8 @@ RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, r
 /* ---- Options of a render ------------------------------------------------ */
 
 typedef enum rt_mode {
-    RT_MODE_PATH = 0, /* path tracing with next-event estimation and multiple importance sampling */
+    RT_MODE_PATH = 0, /* path tracing with next-event estimation and multiple importance sampling; it leaves out what
+                         lights without size (point, spot, directional) cast by way of smooth mirrors or glass */
     RT_MODE_PHOTON,   /* photon mapping */
     RT_MODE_DIRECT,   /* emission and direct light at the first hit (mirrors and clear glass are followed) */
     RT_MODE_NORMALS,  /* shading normal n at the first hit as the colour (n + 1) / 2; black where nothing is hit */
@@ -767,9 +771,10 @@ typedef struct rt_film_stats {
     uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */
     double relative_error;     /* of the picture: root of the mean squared error over all pixels and channels, by the
                                   mean radiance. Estimated from the layer variance, so that of photon mapping is
-                                  the noise alone */
+                                  the noise alone, and light that RT_MODE_PATH leaves out is not in it */
     double relative_error_bound; /* what it is below, with a confidence of 95 %; as long as samples are many
-                                  enough to show what light there is: what no path has met yet, none can tell of */
+                                  enough to show what light there is: what no path has met yet, none can tell of.
+                                  Infinite below 8 samples, or passes in photon mode, which are too few to tell */
     double interval_factor;    /* half of a pixel's 95 % interval by its standard deviation, the root of the layer
                                   variance: Student's t, two-sided, replicates - 1 degrees of freedom */
     double light_power;        /* emitted power of all lights, W, mean of the three channels */

@@ -1,4 +1,5 @@
 /* render.c - `rtc SCENE`: a scene becomes image files. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -138,6 +139,19 @@ static void say_what_was_written(const render_job *job, int interrupted)
                  (unsigned)width, (unsigned)height, (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
 }
 
+/* The relative error, and what it is below, if that is known. */
+static void say_error(const rt_film_stats *stats, rt_mode mode)
+{
+    int is_photon = mode == RT_MODE_PHOTON;
+    char bound[64];
+    if (isfinite(stats->relative_error_bound))
+        snprintf(bound, sizeof bound, "below %.3g %% with 95 %% confidence", 100.0 * stats->relative_error_bound);
+    else
+        snprintf(bound, sizeof bound, "without a bound, which takes 8 %s", is_photon ? "passes" : "samples a pixel");
+    message_note("relative error %.3g %%, %s (root mean square over mean radiance%s)", 100.0 * stats->relative_error,
+                 bound, is_photon ? "; of the noise alone, not of the bias of gathering" : "");
+}
+
 /* What is known of the picture's error, and whether it is what was asked for. */
 static void say_how_good_it_is(const render_job *job)
 {
@@ -147,10 +161,7 @@ static void say_how_good_it_is(const render_job *job)
     if (stats.rejected > 0)
         message_warning("samples left out because they were not finite: %llu", (unsigned long long)stats.rejected);
     if (stats.replicates > 0)
-        message_note("relative error %.3g %%, below %.3g %% with 95 %% confidence (root mean square over mean "
-                     "radiance%s)",
-                     100.0 * stats.relative_error, 100.0 * stats.relative_error_bound,
-                     job->options.mode == RT_MODE_PHOTON ? "; of the noise alone, not of the bias of gathering" : "");
+        say_error(&stats, job->options.mode);
     if (target > 0.0 && !(stats.replicates > 0 && stats.relative_error_bound <= target))
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);
 }

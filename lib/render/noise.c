@@ -153,7 +153,8 @@ static double relative_error(const rt_noise *noise, double *bound)
     double t = rt_student_quantile(RT_NORMAL_ONE_SIDE, replicates - 1);
     double error = variance > 0 ? sqrt(variance) / fabs(radiance) : 0;
     double deviation = variance > 0 ? sqrt(spread) * replicates / variance : 0;
-    *bound = error * exp(0.5 * t * deviation * sqrt(1 + 1 / replicates));
+    *bound = noise->replicates < RT_REPLICATES ? INFINITY
+                                               : error * exp(0.5 * t * deviation * sqrt(1 + 1 / replicates));
     return error;
 }
 

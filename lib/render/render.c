@@ -119,6 +119,19 @@ rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *progr
     return status;
 }
 
+/* Three segments, from the eye to what is lit, to the mirror and to the lamp, are the shortest path of a caustic. */
+enum { caustic_depth = 3 };
+
+/* Says what light the picture will lack. */
+static void warn_of_missing_light(const rt_renderer *renderer, const rt_render_options *o)
+{
+    if (!renderer->has_light && rt_mode_shows_light(o->mode))
+        rt_warn(o->hooks, "the scene has no light: its picture is black");
+    if (renderer->casts_hidden_caustics && o->mode == RT_MODE_PATH && o->max_depth >= caustic_depth)
+        rt_warn(o->hooks, "mode path leaves out the light that point, spot and directional lights cast by way of smooth "
+                          "mirrors or glass; mode photon shows it");
+}
+
 rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options, rt_error *error)
 {
     rt_render_options complete = options ? *options : renderer->options;
@@ -147,8 +160,7 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
         return status;
     }
 
-    if (!renderer->has_light && rt_mode_shows_light(complete.mode))
-        rt_warn(complete.hooks, "the scene has no light: its picture is black");
+    warn_of_missing_light(renderer, &complete);
     film->stats.build_seconds = renderer->build_seconds;
     film->stats.light_power = renderer->image.light_power;
     status = complete.mode == RT_MODE_PHOTON ? rt_render_photon(renderer, &complete, film, error)

@@ -25,6 +25,7 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
     renderer->camera = scene->camera;
     renderer->has_camera = scene->has_camera;
     renderer->has_light = rt_scene_has_light(scene);
+    renderer->casts_hidden_caustics = rt_scene_casts_hidden_caustics(scene);
     renderer->options = scene->options;
 
     rt_status status = rt_stage_begin(&progress, options->hooks, RT_STAGE_BUILD);

@@ -14,7 +14,7 @@ struct rt_renderer {
     rt_scene_image image; /* on the host; freed when the device has its copy */
     cl_mem scene;         /* the same on the device */
     rt_camera camera;
-    int has_camera, has_light;
+    int has_camera, has_light, casts_hidden_caustics;
     rt_render_options options; /* the scene's own */
     double build_seconds;
 };

@@ -62,6 +62,25 @@ int rt_scene_has_light(const rt_scene *scene)
     return 0;
 }
 
+static int has_light_without_size(const rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].kind != RT_LIGHT_ENVIRONMENT && !rt_is_black(scene->lights[i].emission))
+            return 1;
+    return 0;
+}
+
+int rt_scene_casts_hidden_caustics(const rt_scene *scene)
+{
+    int casts = 0, shows = 0;
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_material *m = scene->materials + scene->shapes[i].surface.material;
+        casts |= m->roughness < RT_SMOOTH_ALPHA && !(rt_is_black(m->ks) && rt_is_black(m->kt));
+        shows |= !rt_is_black(m->kd);
+    }
+    return casts && shows && has_light_without_size(scene);
+}
+
 static void find_missing(inspection *in)
 {
     const rt_scene *scene = in->scene;

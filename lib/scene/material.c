@@ -8,15 +8,6 @@
 /* What a fraction in decimals may exceed 1 by. */
 static const double rounding = 1e-6;
 
-static rt_status check_handle(const rt_scene *scene, uint32_t texture, const char *who, const char *field,
-                              rt_error *error)
-{
-    if (texture > scene->texture_count)
-        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: there is no texture %u among %zu", who, texture,
-                             scene->texture_count);
-    return RT_OK;
-}
-
 /* A texture stands for a colour that is all zero. */
 static void complete_colour(float colour[3], uint32_t texture)
 {
@@ -27,11 +18,11 @@ static void complete_colour(float colour[3], uint32_t texture)
 static rt_status check_textures(const rt_scene *scene, rt_material *m, const char *who, rt_error *error)
 {
     rt_status status;
-    if ((status = check_handle(scene, m->kd_texture, who, "kd_texture", error)) != RT_OK ||
-        (status = check_handle(scene, m->ks_texture, who, "ks_texture", error)) != RT_OK ||
-        (status = check_handle(scene, m->kt_texture, who, "kt_texture", error)) != RT_OK ||
-        (status = check_handle(scene, m->emission_texture, who, "emission_texture", error)) != RT_OK ||
-        (status = check_handle(scene, m->bump_texture, who, "bump_texture", error)) != RT_OK)
+    if ((status = rt_texture_check_colours(scene, m->kd_texture, who, "kd_texture", error)) != RT_OK ||
+        (status = rt_texture_check_colours(scene, m->ks_texture, who, "ks_texture", error)) != RT_OK ||
+        (status = rt_texture_check_colours(scene, m->kt_texture, who, "kt_texture", error)) != RT_OK ||
+        (status = rt_texture_check_colours(scene, m->emission_texture, who, "emission_texture", error)) != RT_OK ||
+        (status = rt_texture_check(scene, m->bump_texture, who, "bump_texture", error)) != RT_OK)
         return status;
     complete_colour(m->kd, m->kd_texture);
     complete_colour(m->ks, m->ks_texture);

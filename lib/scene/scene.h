@@ -11,6 +11,8 @@
 typedef struct rt_scene_texture {
     rt_texture_data data;
     float mean[3], largest[3];
+    float least;          /* of all channels; 0 where none is negative */
+    uint32_t least_at[2]; /* column and row of the image, from the top left, where one is */
 } rt_scene_texture;
 
 /* A mesh in a space of its own; owns its arrays. */
@@ -111,12 +113,23 @@ rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *sha
 rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *material, uint32_t shape_texture,
                                    const char *who, const char *field, rt_error *error);
 
+/* Whether a handle is one of a texture, or 0 for none; and whether the texture is of colours, none negative. */
+rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *who, const char *field, rt_error *error);
+rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const char *who, const char *field,
+                                   rt_error *error);
+
 /* The transform of a surface; fails with field "transform" when it cannot be inverted. */
 rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who, rt_error *error);
 
 /* Whether anything in the scene shines; whether a mode shows that, and no property of surfaces instead. */
 int rt_scene_has_light(const rt_scene *scene);
 int rt_mode_shows_light(rt_mode mode);
+
+/*
+ * Whether lights without size (point, spot and directional) and smooth mirrors or glass may cast caustics on a diffuse
+ * shape: light that path tracing misses, for no path from the eye meets such a light by way of them.
+ */
+int rt_scene_casts_hidden_caustics(const rt_scene *scene);
 
 /* Appends a mesh, taking its arrays over; checked already. */
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh, rt_error *error);

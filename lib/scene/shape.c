@@ -101,10 +101,8 @@ static rt_status check_surface(const rt_scene *scene, const rt_surface *s, const
     if (s->material >= scene->material_count)
         return rt_fail_field(error, RT_ERROR_INPUT, "material", "%s: there is no material %u among %zu", who,
                              s->material, scene->material_count);
-    if (s->texture > scene->texture_count)
-        return rt_fail_field(error, RT_ERROR_INPUT, "texture", "%s: there is no texture %u among %zu", who, s->texture,
-                             scene->texture_count);
-    if ((status = rt_check_colour(s->radiance, who, "radiance", error)) != RT_OK ||
+    if ((status = rt_texture_check_colours(scene, s->texture, who, "texture", error)) != RT_OK ||
+        (status = rt_check_colour(s->radiance, who, "radiance", error)) != RT_OK ||
         (status = rt_check_colour(s->power, who, "power", error)) != RT_OK)
         return status;
     if (!rt_is_black(s->radiance) && !rt_is_black(s->power))

@@ -9,7 +9,7 @@
 #include "scene/scene.h"
 #include "texture/texture.h"
 
-/* Mean and largest linear value of each channel; the channels are there, for the image was packed. */
+/* Mean and largest linear value of each channel, and the least of all; the channels are there, for the image was packed. */
 static void survey(rt_scene_texture *texture, const rt_image *image, int is_linear)
 {
     uint32_t channels[3];
@@ -25,6 +25,11 @@ static void survey(rt_scene_texture *texture, const rt_image *image, int is_line
         for (size_t i = 0; i < count; i++, value += image->channel_count) {
             sum += is_srgb ? rt_srgb_decode(*value) : *value;
             largest = *value > largest ? *value : largest;
+            if (*value < texture->least) {
+                texture->least = *value;
+                texture->least_at[0] = (uint32_t)(i % image->width);
+                texture->least_at[1] = (uint32_t)(i / image->width);
+            }
         }
         texture->mean[c] = (float)(sum / (double)count);
         texture->largest[c] = is_srgb ? (float)rt_srgb_decode(largest) : largest;
@@ -45,6 +50,28 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
         snprintf(error->field, sizeof error->field, "path");
     rt_image_destroy(image);
     return status;
+}
+
+rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *who, const char *field, rt_error *error)
+{
+    if (handle > scene->texture_count)
+        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: there is no texture %u among %zu", who, handle,
+                             scene->texture_count);
+    return RT_OK;
+}
+
+rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const char *who, const char *field,
+                                   rt_error *error)
+{
+    rt_status status = rt_texture_check(scene, handle, who, field, error);
+    if (status != RT_OK || handle == 0)
+        return status;
+    const rt_scene_texture *texture = scene->textures + handle - 1;
+    if (texture->least < 0)
+        return rt_fail_field(error, RT_ERROR_INPUT, field,
+                             "%s: %s has the value %g at pixel (%u, %u) from the top left; only heights may be negative",
+                             who, field, texture->least, texture->least_at[0], texture->least_at[1]);
+    return RT_OK;
 }
 
 static rt_status make_pattern(rt_scene_texture *texture, const rt_texture *from, rt_error *error)

@@ -332,6 +332,12 @@ static void a_render_ends_at_the_target_error(void **state)
     expect_err(&run, "of the noise alone, not of the bias");
     run_free(&run);
 
+    run = run_rtc("a.rts --mode photon --passes 2 --photons 1000 --target-error 1 --out a.pfm");
+    expect_status(&run, 0);
+    expect_err(&run, " %, without a bound, which takes 8 passes (");
+    expect_err(&run, "warning: the target error of 100 % was not reached");
+    run_free(&run);
+
     run = run_rtc("a.rts --mode photon --photons 1000 --target-error 0.1 --out a.pfm");
     expect_status(&run, 2);
     expect_err(&run, "--target-error: the samples of one photon map share its photons");

@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "image/image_file.h"
@@ -197,6 +198,61 @@ static void filters_spread_an_edge(void **state)
     rt_film_destroy(film);
 }
 
+/* ---- What path tracing leaves out --------------------------------------------- */
+
+static void count_missing_caustics(void *user, const char *line)
+{
+    *(int *)user += strstr(line, "mirrors or glass; mode photon shows it") != NULL;
+}
+
+/* How often a render of a ball above a floor warns that caustics are missing. */
+static int warnings_of(const char *ball, const char *floor, const char *light, rt_mode mode, uint32_t depth)
+{
+    int count = 0;
+    rt_hooks hooks = {.user = &count, .warning = count_missing_caustics};
+    rt_render_options options = {.width = 2, .height = 2, .spp = 1, .mode = mode, .max_depth = depth, .photons = 10,
+                                 .hooks = &hooks};
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_film *film = NULL;
+    char text[1000];
+    snprintf(text, sizeof text,
+             "camera { eye 0 1 -4  look_at 0 1 0 }\nmaterial ball { %s }\nmaterial floor { %s }\n"
+             "sphere { centre 0 2 0  radius 1  material ball }\n"
+             "quad { corner -2 0 -2  edge1 0 0 4  edge2 4 0 0  material floor }\nlight %s\n",
+             ball, floor, light);
+    expect_ok(rt_scene_parse(&scene, text, "ball", NULL, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+    return count;
+}
+
+static void caustics_that_path_tracing_leaves_out_are_told(void **state)
+{
+    static const char glass[] = "kt 1  fresnel dielectric", matte[] = "kd 0.5",
+                      point[] = "point { position 0 5 0  power 9 }",
+                      spot[] = "spot { position 0 5 0  target 0 0 0  intensity 1 }",
+                      sun[] = "directional { direction 0 -1 0  irradiance 1 }",
+                      sky[] = "environment { radiance 1 }", out[] = "point { position 0 5 0  power 0 }";
+    (void)state;
+    assert_int_equal(warnings_of(glass, matte, point, RT_MODE_PATH, 0), 1);
+    assert_int_equal(warnings_of(glass, matte, spot, RT_MODE_PATH, 3), 1);
+    assert_int_equal(warnings_of("ks 0.5  kd 0.2", matte, sun, RT_MODE_PATH, 0), 1);
+    assert_int_equal(warnings_of("ks 0.5  roughness 0.0005", matte, sun, RT_MODE_PATH, 0), 1);
+
+    assert_int_equal(warnings_of(glass, matte, point, RT_MODE_PATH, 2), 0);
+    assert_int_equal(warnings_of(glass, matte, point, RT_MODE_PHOTON, 0), 0);
+    assert_int_equal(warnings_of(glass, matte, point, RT_MODE_DIRECT, 0), 0);
+    assert_int_equal(warnings_of(glass, matte, sky, RT_MODE_PATH, 0), 0);
+    assert_int_equal(warnings_of(glass, matte, out, RT_MODE_PATH, 0), 0);
+    assert_int_equal(warnings_of(glass, glass, point, RT_MODE_PATH, 0), 0);
+    assert_int_equal(warnings_of(matte, matte, point, RT_MODE_PATH, 0), 0);
+    assert_int_equal(warnings_of("ks 0.5  roughness 0.1", matte, point, RT_MODE_PATH, 0), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -206,6 +262,7 @@ int main(void)
         cmocka_unit_test(direct_light_is_the_path_of_two_segments),
         cmocka_unit_test(filters_keep_what_is_even),
         cmocka_unit_test(filters_spread_an_edge),
+        cmocka_unit_test(caustics_that_path_tracing_leaves_out_are_told),
     };
     return cmocka_run_group_tests_name("lib/render/modes", tests, scratch_enter, scratch_leave);
 }

@@ -295,6 +295,28 @@ static void passes_end_at_the_target(void **state)
     rt_film_destroy(film);
 }
 
+/* ---- Few sequences -------------------------------------------------------------- */
+
+/* Seven samples or passes tell an error, but not how far to trust it; eight tell both. */
+static void a_bound_takes_all_sequences(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        rt_render_options options = i < 2 ? path_options(RT_SAMPLER_SOBOL, RT_FILTER_BOX) : pass_options();
+        uint32_t count = i % 2 ? 8 : 7;
+        rt_film_stats stats;
+        options.spp = i < 2 ? count : 1;
+        options.passes = i < 2 ? 0 : count;
+        rt_film *film = render(&options);
+        rt_film_get_stats(film, &stats);
+        assert_int_equal(stats.replicates, count);
+        assert_true(stats.relative_error > 0 && isfinite(stats.relative_error));
+        assert_int_equal(isfinite(stats.relative_error_bound), count == 8);
+        assert_true(stats.relative_error_bound > stats.relative_error);
+        rt_film_destroy(film);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -306,6 +328,7 @@ int main(void)
         cmocka_unit_test(what_cannot_tell_its_error_is_refused),
         cmocka_unit_test(intervals_of_passes_hold_the_mean_of_passes),
         cmocka_unit_test(passes_end_at_the_target),
+        cmocka_unit_test(a_bound_takes_all_sequences),
     };
     return cmocka_run_group_tests(tests, make_renderer, destroy_renderer);
 }

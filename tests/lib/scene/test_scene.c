@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "lib/image/scratch.h"
 #include "lib/scene/scenes.h"
 #include "light/lights.h"
 #include "scene/scene.h"
@@ -81,6 +82,44 @@ static void textures_count_in_the_balance_of_energy(void **state)
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error, "texture");
     surface.texture = full;
     expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error);
+    rt_scene_destroy(scene);
+}
+
+/* Light cannot be negative; a height can. */
+static void negative_texels_are_refused_as_colours(void **state)
+{
+    static const float values[18] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, -0.5f, 0, 0, 0};
+    rt_scene *scene = new_scene();
+    rt_image *image = NULL;
+    rt_texture texture = {.path = "heights.pfm"};
+    rt_surface surface = {0}, lamp = {.radiance = {1, 1, 1}};
+    uint32_t heights;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_image_from_rgb(&image, values, 3, 2, &error), &error);
+    expect_ok(rt_image_write(image, texture.path, NULL, &error), &error);
+    rt_image_destroy(image);
+    expect_ok(rt_scene_add_texture(scene, &heights, &texture, &error), &error);
+
+    const struct {
+        rt_material material;
+        const char *field;
+    } cases[] = {
+        {{.kd_texture = heights}, "kd_texture"},
+        {{.ks_texture = heights}, "ks_texture"},
+        {{.kt_texture = heights}, "kt_texture"},
+        {{.emission_texture = heights}, "emission_texture"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        expect_refused(rt_scene_add_material(scene, NULL, "m", &cases[i].material, &error), &error, cases[i].field);
+        assert_non_null(strstr(error.message, "has the value -0.5 at pixel (1, 1) from the top left"));
+    }
+    surface.texture = lamp.texture = heights;
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error, "texture");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &lamp, &error), &error, "texture");
+
+    rt_material bumpy = {.kd = {0.5f, 0.5f, 0.5f}, .bump_texture = heights};
+    expect_ok(rt_scene_add_material(scene, NULL, NULL, &bumpy, &error), &error);
     rt_scene_destroy(scene);
 }
 
@@ -372,6 +411,7 @@ int main(void)
         cmocka_unit_test(materials_that_gain_energy_are_refused),
         cmocka_unit_test(materials_out_of_range_are_refused),
         cmocka_unit_test(textures_count_in_the_balance_of_energy),
+        cmocka_unit_test_setup_teardown(negative_texels_are_refused_as_colours, scratch_enter, scratch_leave),
         cmocka_unit_test(missing_files_are_refused),
         cmocka_unit_test(lights_without_direction_or_cone_are_refused),
         cmocka_unit_test(power_of_distant_lights_is_what_meets_the_scene),
