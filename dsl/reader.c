@@ -8,10 +8,10 @@
 #include "dsl/check.h"
 #include "dsl/parser.h"
 
-rt_status rt_reader_begin(rt_reader *reader, int checks, rt_error *error)
+rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_error *error)
 {
     memset(reader, 0, sizeof *reader);
-    reader->checks = checks;
+    reader->options = options;
     return rt_scene_create(&reader->scene, error);
 }
 
@@ -22,6 +22,12 @@ void rt_reader_free(rt_reader *reader)
     rt_scope_free(&reader->scope);
     rt_reports_free(&reader->reports);
     rt_sources_free(&reader->sources);
+}
+
+void rt_reader_tell_file(const rt_reader *reader, const char *path)
+{
+    if (reader->options->file)
+        reader->options->file(reader->options->user, path);
 }
 
 static int must_stop(const rt_reader *reader)
@@ -182,9 +188,11 @@ static void read_block(rt_reader *reader, const rt_statement *statement, const r
     if (block->flags & RT_BLOCK_REFERS)
         is_good &= find_mesh(&checker, statement, &as);
     is_good &= rt_check_block(&checker, statement, &fields);
+    if (path)
+        rt_reader_tell_file(reader, path);
     if (is_good)
         is_good = build(reader, statement, &fields, &as);
-    if (is_good && reader->checks && !rt_origins_add(&reader->origins, block, statement->place))
+    if (is_good && reader->options->check && !rt_origins_add(&reader->origins, block, statement->place))
         reader->reports.out_of_memory = 1;
     free(path);
 
@@ -223,6 +231,7 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
         rt_report_error(&reader->reports, statement->path, "cannot include '%s': %s", rt_text_quote(quote, shown),
                         cause);
     } else {
+        rt_reader_tell_file(reader, source->path);
         rt_reader_read(reader, source);
     }
 }
@@ -354,7 +363,7 @@ void rt_reader_read(rt_reader *reader, const rt_source *source)
     rt_operations_free(&operations);
 }
 
-rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_options *options, rt_error *error)
+rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
 {
     if (reader->fatal.status != RT_OK) {
         if (error)
@@ -364,9 +373,9 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_opti
     static const rt_scope_counts all = {0, 0, 0, 0};
     if (reader->reports.errors == 0)
         rt_scope_warn(&reader->scope, &all, &reader->reports);
-    if (reader->reports.errors == 0 && reader->checks)
+    if (reader->reports.errors == 0 && reader->options->check)
         rt_origins_report(&reader->origins, reader->scene, &reader->reports);
-    rt_status status = rt_reports_finish(&reader->reports, options, error);
+    rt_status status = rt_reports_finish(&reader->reports, reader->options, error);
     if (status == RT_OK) {
         *out = reader->scene;
         reader->scene = NULL;

@@ -191,6 +191,8 @@ typedef struct rt_load_options {
     void (*diagnostic)(void *user, const rt_diagnostic *diagnostic); /* told of every error and warning */
     void *user;
     int check; /* 1: the scene is to be rendered as it is; tell also what rt_scene_check finds, at its place */
+    void (*file)(void *user, const char *path); /* told of every file that is read because the text names it, and of
+                                                   the text's own; not of what a mesh file names in turn */
 } rt_load_options;
 
 /*

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "inputs.h"
 #include "message.h"
 #include "nearest.h"
 #include "outputs.h"
@@ -16,6 +17,7 @@ typedef struct render_job {
     session session;
     const char *scene_path;
     output_list outputs;
+    input_list inputs;
     rt_render_options options;
     rt_photon_map *photon_map;
     rt_scene *scene;
@@ -41,6 +43,7 @@ static int load_photon_map(render_job *job)
         return STATUS_DONE;
     if (rt_photon_map_load(&job->photon_map, path, &error) != RT_OK)
         return session_fail(&error);
+    inputs_add(&job->inputs, path);
     rt_photon_map_get_info(job->photon_map, &info);
     job->options.photon_map = job->photon_map;
     if (!value(job, OPTION_MODE)->given)
@@ -86,10 +89,12 @@ static int load(render_job *job)
 {
     rt_error error;
     int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER,
-                                 NULL);
+                                 NULL, &job->inputs);
     if (status != STATUS_DONE)
         return status;
     status = set_options(job);
+    for (size_t i = 0; i < job->outputs.count && status == STATUS_DONE; i++)
+        status = inputs_check(&job->inputs, job->outputs.paths[i]);
     if (status != STATUS_DONE)
         return status;
     if (!job->session.quiet)
@@ -250,6 +255,7 @@ int command_render(const command_line *arguments)
     rt_renderer_destroy(job.renderer);
     rt_device_close(job.device);
     rt_scene_destroy(job.scene);
+    inputs_free(&job.inputs);
     outputs_free(&job.outputs);
     return status;
 }

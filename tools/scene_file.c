@@ -14,6 +14,7 @@
 typedef struct scene_reading {
     scene_findings findings;
     scene_purpose purpose;
+    input_list *inputs;
 } scene_reading;
 
 static int is_wanted(const rt_diagnostic *diagnostic, scene_purpose purpose)
@@ -31,6 +32,13 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     reading->findings.warnings += diagnostic->severity == RT_SEVERITY_WARNING;
     if (is_wanted(diagnostic, reading->purpose))
         message_diagnostic(diagnostic);
+}
+
+static void on_file(void *user, const char *path)
+{
+    scene_reading *reading = user;
+    if (reading->inputs)
+        inputs_add(reading->inputs, path);
 }
 
 /* All of stdin as a string that the caller frees, or NULL after saying why not. */
@@ -70,10 +78,12 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     return STATUS_DONE;
 }
 
-int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings)
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings,
+                    input_list *inputs)
 {
-    scene_reading reading = {{0, 0}, purpose};
-    rt_load_options options = {on_diagnostic, &reading, purpose == SCENE_TO_CHECK || purpose == SCENE_TO_RENDER};
+    scene_reading reading = {{0, 0}, purpose, inputs};
+    rt_load_options options = {.diagnostic = on_diagnostic, .user = &reading, .file = on_file};
+    options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_RENDER;
     rt_error error;
     rt_status result = RT_OK;
     int status = STATUS_DONE;

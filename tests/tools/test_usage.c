@@ -102,6 +102,10 @@ static const struct {
     {"photons merge --out m.rtp", "usage: rtc photons merge"},
     {"photons merge a.rtp", "--out FILE"},
     {"photons diff a.rtp", "usage: rtc photons diff"},
+    {"photons a.rts --out m.png", "--out m.png: the photon map goes to a file called NAME.rtp"},
+    {"photons a.rts --out a.rts", "called NAME.rtp"},
+    {"photons merge a.rtp --out m", "called NAME.rtp"},
+    {"photons export a.rtp --out a.rtp", "called NAME.ply"},
     {"photons export a.rtp b.rtp --out c.ply", "usage: rtc photons export"},
 };
 
@@ -130,6 +134,56 @@ static void several_mistakes_are_all_told(void **state)
     expect_err(&run, "--kernel takes");
     expect_err(&run, "unknown option '--bogus'");
     run_free(&run);
+}
+
+/* Not by its own name, nor by a link, and whoever names it: nothing that is read is overwritten. */
+static void outputs_spare_what_is_read(void **state)
+{
+    static const struct {
+        const char *line, *output;
+    } cases[] = {
+        {"b.rts --spp 1", "wood.ppm"}, /* a texture */
+        {"b.rts --spp 1", "link.ppm"},
+        {"b.rts --spp 1 --out c.pfm", "part.ppm"}, /* an included text */
+        {"b.rts --spp 1", "a.pfm"},                /* the scene itself */
+        {"compare wood.ppm wood.ppm", "wood.ppm"},
+        {"compare wood.ppm wood.ppm", "link.ppm"},
+        {"photons b.rts --photons 10", "m.rtp"},
+        {"photons merge n.rtp", "n.rtp"},
+        {"photons export n.rtp", "n.ply"},
+        {"b.rts --spp 1 --photon-map n.rtp", "n.pfm"},
+    };
+    (void)state;
+    scratch_write("wood.ppm", "P3 1 1 255 9 9 9\n");
+    scratch_write("part.ppm", "texture wood { file \"wood.ppm\" }\n");
+    scratch_write("b.rts", "include \"part.ppm\"\n"
+                           "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
+                           "material white { kd_texture wood }\nsphere { centre 0 0 0  radius 1  material white }\n"
+                           "light point { position 2 4 -3  intensity 20 }\n");
+    assert_int_equal(symlink("wood.ppm", "link.ppm"), 0);
+    assert_int_equal(link("b.rts", "a.pfm"), 0);
+    run made = run_rtc("photons b.rts --photons 10 --out n.rtp");
+    expect_status(&made, 0);
+    run_free(&made);
+    assert_int_equal(link("n.rtp", "n.ply"), 0);
+    assert_int_equal(link("n.rtp", "n.pfm"), 0);
+    assert_int_equal(symlink("b.rts", "m.rtp"), 0);
+    size_t files = scratch_count();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char says[64];
+        snprintf(says, sizeof says, "--out %s: is read by this command", cases[i].output);
+        run run = run_rtc("%s --out %s", cases[i].line, cases[i].output);
+        expect_status(&run, 2);
+        expect_err(&run, says);
+        run_free(&run);
+    }
+    assert_int_equal(scratch_count(), files);
+    /* What is not read may be replaced. */
+    run first = run_rtc("b.rts --spp 1 --quiet --out c.pfm"), again = run_rtc("b.rts --spp 1 --quiet --out c.pfm");
+    expect_status(&first, 0);
+    expect_status(&again, 0);
+    run_free(&first);
+    run_free(&again);
 }
 
 /* ---- What is accepted ------------------------------------------------------- */
@@ -359,6 +413,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(wrong_usage_is_refused_with_status_2),
         TEST(several_mistakes_are_all_told),
+        TEST(outputs_spare_what_is_read),
         TEST(both_forms_of_an_option_are_the_same),
         TEST(last_of_a_repeated_option_counts),
         TEST(two_dashes_end_the_options),
