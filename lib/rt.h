@@ -724,6 +724,12 @@ RT_API rt_status rt_photon_map_export(const rt_photon_map *map, const char *path
 typedef struct rt_film rt_film;
 
 /*
+ * Fails with RT_ERROR_USAGE, error->field naming the member, when an option is out of its range or does not go with
+ * another, as rt_render does.
+ */
+RT_API rt_status rt_render_options_check(const rt_render_options *options, rt_error *error);
+
+/*
  * Renders; options NULL: the scene's own. The caller owns *out. When a progress callback cancels, returns
  * RT_CANCELLED and *out still receives the film of the samples so far (NULL when there are none yet).
  * The film does not depend on the renderer's further life.

@@ -18,7 +18,8 @@ typedef struct render_job {
     const char *scene_path;
     output_list outputs;
     input_list inputs;
-    rt_render_options options;
+    rt_render_options own;     /* of the scene, and of the photon map */
+    rt_render_options options; /* and of the command line */
     rt_photon_map *photon_map;
     rt_scene *scene;
     rt_device *device;
@@ -45,19 +46,20 @@ static int load_photon_map(render_job *job)
         return session_fail(&error);
     inputs_add(&job->inputs, path);
     rt_photon_map_get_info(job->photon_map, &info);
-    job->options.photon_map = job->photon_map;
-    if (!value(job, OPTION_MODE)->given)
-        job->options.mode = RT_MODE_PHOTON;
-    if (!value(job, OPTION_DIRECT)->given)
-        job->options.direct = info.direct;
+    job->own.photon_map = job->photon_map;
+    job->own.mode = RT_MODE_PHOTON;
+    job->own.direct = info.direct;
     return STATUS_DONE;
 }
 
+/* What the command line says goes before what the map says, and that before what the scene says. */
 static int set_options(render_job *job)
 {
-    rt_scene_get_options(job->scene, &job->options);
+    rt_scene_get_options(job->scene, &job->own);
+    int status = load_photon_map(job);
+    job->options = job->own;
     session_merge_options(&job->session, &job->options);
-    return load_photon_map(job);
+    return status;
 }
 
 /* An option that cannot change anything in this render is probably a mistake. */
@@ -99,7 +101,10 @@ static int load(render_job *job)
         return status;
     if (!job->session.quiet)
         warn_idle_options(job);
-    /* Options out of range are told before any work. */
+    /* Options that cannot be are told before any work. */
+    status = session_check_options(&job->session, &job->own, &job->options);
+    if (status != STATUS_DONE)
+        return status;
     return rt_scene_set_options(job->scene, &job->options, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 

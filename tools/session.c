@@ -111,15 +111,59 @@ void session_merge_options(const session *s, rt_render_options *options)
         options->direct = (rt_direct)session_value(s, OPTION_DIRECT)->choice;
 }
 
+/* The name of a field as an option has it. */
+static void option_name(char *out, size_t size, const char *field)
+{
+    snprintf(out, size, "%s", field);
+    for (char *c = out; *c; c++)
+        if (*c == '_')
+            *c = '-';
+}
+
+static int is_typed(const session *s, const char *name)
+{
+    for (int i = 0; i < OPTION_COUNT; i++)
+        if (session_value(s, (option_id)i)->given && strcmp(option_table[i].name, name) == 0)
+            return 1;
+    return 0;
+}
+
+/* The option without which the others would go with the scene's own, or NULL. */
+static const char *option_at_fault(const session *s, const rt_render_options *own)
+{
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        command_line others = *s->arguments;
+        session trial = *s;
+        rt_render_options options = *own;
+        trial.arguments = &others;
+        others.options[i].given = 0;
+        session_merge_options(&trial, &options);
+        if (session_value(s, (option_id)i)->given && rt_render_options_check(&options, NULL) == RT_OK)
+            return option_table[i].name;
+    }
+    return NULL;
+}
+
+int session_check_options(const session *s, const rt_render_options *own, const rt_render_options *options)
+{
+    char name[sizeof((rt_error *)0)->field];
+    rt_error error;
+    if (rt_render_options_check(options, &error) == RT_OK)
+        return STATUS_DONE;
+    option_name(name, sizeof name, error.field);
+    const char *typed = is_typed(s, name) ? NULL : option_at_fault(s, own);
+    if (!typed)
+        return session_fail(&error);
+    message_error("--%s does not go with the scene's %s: %s", typed, error.field, error.message);
+    return STATUS_USAGE;
+}
+
 int session_fail(const rt_error *error)
 {
     if (error->status != RT_ERROR_USAGE || !error->field[0] || error->line)
         return message_failure(error);
     char name[sizeof error->field];
-    snprintf(name, sizeof name, "%s", error->field);
-    for (char *c = name; *c; c++)
-        if (*c == '_')
-            *c = '-';
+    option_name(name, sizeof name, error->field);
     message_error("--%s: %s", name, error->message);
     return STATUS_USAGE;
 }

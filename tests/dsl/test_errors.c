@@ -133,6 +133,12 @@ static const bad_text bad_texts[] = {
     {WHITE "triangle { a 0 0 0 b 1 0 0 c 2 0 0 material white }", 2, 1, 8, "its area is zero", ""},
     {"material l { emission 1 }\nplane { point 0 0 0 normal 0 1 0 material l }", 2, 43, 1, "cannot emit", ""},
 
+    /* What a render would refuse. */
+    {"render { mode photon k all }", 1, 24, 3, "to gather all photons within a radius, give the radius", ""},
+    {"render { mode photon radius 1 caustic_k all k 9 passes 2 area hull }", 1, 63, 4, "not for passes", ""},
+    {"render { variance true mode photon }", 1, 19, 4, "the samples of one photon map share its photons", ""},
+    {"render { target_error 0.1 mode depth }", 1, 23, 3, "the error is that of light, and mode depth shows none", ""},
+
     /* let and arithmetic. */
     {"let = 3\n" BALL, 1, 1, 3, "expected a name after 'let', found '='", ""},
     {"let a 3\n" BALL, 1, 7, 1, "expected '=' after 'let a', found '3'", ""},

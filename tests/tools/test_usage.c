@@ -186,6 +186,33 @@ static void outputs_spare_what_is_read(void **state)
     run_free(&again);
 }
 
+/* Options that are good alone may not go together; what is at fault is called by the name that was typed. */
+static void typed_options_are_named_when_the_scene_disagrees(void **state)
+{
+    static const struct {
+        const char *render, *options, *says;
+    } cases[] = {
+        {"mode photon area hull", "--passes 4", "--passes does not go with the scene's area: the hull is"},
+        {"mode photon passes 4", "--area hull", "--area: the hull is"},
+        {"mode photon", "--k all", "--k: to gather all photons within a radius, give the radius"},
+        {"mode photon k all radius 1", "--radius 0", "--radius does not go with the scene's k: to gather"},
+        {"mode photon gather flann", "--passes 4", "--passes does not go with the scene's gather: FLANN"},
+        {"target_error 0.1", "--spp 1", "--spp does not go with the scene's target_error: one sample"},
+        {"", "--mode photon --variance", "--variance: the samples of one photon map"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, "%srender { %s }\n", scene, cases[i].render);
+        scratch_write("a.rts", text);
+        run run = run_rtc("a.rts %s --out a.pfm", cases[i].options);
+        expect_status(&run, 2);
+        expect_err(&run, cases[i].says);
+        expect_no_file("a.pfm");
+        run_free(&run);
+    }
+}
+
 /* ---- What is accepted ------------------------------------------------------- */
 
 static void both_forms_of_an_option_are_the_same(void **state)
@@ -414,6 +441,7 @@ int main(void)
         TEST(wrong_usage_is_refused_with_status_2),
         TEST(several_mistakes_are_all_told),
         TEST(outputs_spare_what_is_read),
+        TEST(typed_options_are_named_when_the_scene_disagrees),
         TEST(both_forms_of_an_option_are_the_same),
         TEST(last_of_a_repeated_option_counts),
         TEST(two_dashes_end_the_options),
