@@ -62,12 +62,17 @@ static int set_options(render_job *job)
     return status;
 }
 
+static int is_switched_off(const render_job *job, option_id id)
+{
+    return option_table[id].kind == KIND_SWITCH && !value(job, id)->choice;
+}
+
 /* An option that cannot change anything in this render is probably a mistake. */
 static void warn_idle_options(const render_job *job)
 {
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON &&
-            value(job, (option_id)i)->given)
+            value(job, (option_id)i)->given && !is_switched_off(job, (option_id)i))
             message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
                             option_table[i].name, rt_mode_name(job->options.mode));
     if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
@@ -165,10 +170,13 @@ static void say_how_good_it_is(const render_job *job)
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);
 }
 
-/* The value of an option as written; empty for a flag. */
-static const char *text_of(const render_job *job, option_id id)
+/* An option as the command line has it, "--spp 16" or "--no-variance". Returns its length, which may exceed size. */
+static size_t write_option(char *out, size_t size, const render_job *job, option_id id)
 {
-    return option_table[id].kind == KIND_FLAG ? "" : value(job, id)->text;
+    const option *option = &option_table[id];
+    if (option_takes_value(option))
+        return (size_t)snprintf(out, size, " --%s %s", option->name, value(job, id)->text);
+    return (size_t)snprintf(out, size, " --%s%s", is_switched_off(job, id) ? "no-" : "", option->name);
 }
 
 /* The command line as far as it decides the pixels, so that two equal images are equal files. */
@@ -177,15 +185,14 @@ static char *recorded_command(const render_job *job)
     size_t size = strlen(job->scene_path) + 8;
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].decides_pixels && value(job, (option_id)i)->given)
-            size += strlen(option_table[i].name) + strlen(text_of(job, (option_id)i)) + 4;
+            size += write_option(NULL, 0, job, (option_id)i);
     char *line = malloc(size);
     if (!line)
         return NULL;
     size_t used = (size_t)snprintf(line, size, "rtc %s", job->scene_path);
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].decides_pixels && value(job, (option_id)i)->given)
-            used += (size_t)snprintf(line + used, size - used, " --%s%s%s", option_table[i].name,
-                                     option_table[i].kind == KIND_FLAG ? "" : " ", text_of(job, (option_id)i));
+            used += write_option(line + used, size - used, job, (option_id)i);
     return line;
 }
 

@@ -72,7 +72,7 @@ void session_merge_options(const session *s, rt_render_options *options)
     if (session_value(s, OPTION_AREA)->given)
         options->area = (rt_area)session_value(s, OPTION_AREA)->choice;
     if (session_value(s, OPTION_PHOTON_LAYERS)->given)
-        options->photon_layers = 1;
+        options->photon_layers = session_value(s, OPTION_PHOTON_LAYERS)->choice;
     if (session_value(s, OPTION_ALPHA)->given)
         options->alpha = (float)session_value(s, OPTION_ALPHA)->real;
     if (session_value(s, OPTION_GATHER)->given)
@@ -84,7 +84,7 @@ void session_merge_options(const session *s, rt_render_options *options)
     if (session_value(s, OPTION_TARGET_ERROR)->given)
         options->target_error = session_value(s, OPTION_TARGET_ERROR)->real;
     if (session_value(s, OPTION_VARIANCE)->given)
-        options->variance = 1;
+        options->variance = session_value(s, OPTION_VARIANCE)->choice;
     if (session_value(s, OPTION_RADIUS)->given)
         options->radius = (float)session_value(s, OPTION_RADIUS)->real;
     if (session_value(s, OPTION_CONE_K)->given)
@@ -98,7 +98,7 @@ void session_merge_options(const session *s, rt_render_options *options)
     if (session_value(s, OPTION_ESTIMATOR)->given)
         options->estimator = (rt_estimator)session_value(s, OPTION_ESTIMATOR)->choice;
     if (session_value(s, OPTION_AOV)->given)
-        options->aov = 1;
+        options->aov = session_value(s, OPTION_AOV)->choice;
     if (session_value(s, OPTION_KERNEL)->given)
         options->kernel = (rt_density)session_value(s, OPTION_KERNEL)->choice;
     if (session_value(s, OPTION_CAUSTIC_PHOTONS)->given)
@@ -155,6 +155,8 @@ int session_check_options(const session *s, const rt_render_options *own, const 
     if (!typed)
         return session_fail(&error);
     message_error("--%s does not go with the scene's %s: %s", typed, error.field, error.message);
+    if (strcmp(error.field, "variance") == 0)
+        message_hint("--no-variance leaves it out");
     return STATUS_USAGE;
 }
 

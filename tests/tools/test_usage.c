@@ -79,6 +79,8 @@ static const struct {
     {"devices --spp 3", "`rtc devices` takes no option --spp"},
     {"devices a.rts", "takes no argument"},
     {"doctor a.rts", "takes no argument but options"},
+    {"a.rts --no-stats", "unknown option '--no-stats'"},
+    {"a.rts --no-aov=1", "--aov takes no value"},
     {"check --help=yes", "--help takes no value"},
     {"a.rts --caustic-k 1", "--caustic-k takes a whole number from 2 to 65536"},
     {"a.rts --caustic-kernel q", "--caustic-kernel takes one of"},
@@ -227,6 +229,32 @@ static void both_forms_of_an_option_are_the_same(void **state)
     expect_same_files("a.pfm", "b.pfm");
     run_free(&a);
     run_free(&b);
+}
+
+/* What the scene turns on the command line can turn off. */
+static void switches_of_the_scene_are_taken_back(void **state)
+{
+    char text[1024];
+    (void)state;
+    snprintf(text, sizeof text, "%srender { variance true  aov true }\n", scene);
+    scratch_write("a.rts", text);
+    run refused = run_rtc("a.rts --mode normals --out a.exr");
+    expect_status(&refused, 2);
+    expect_err(&refused, "--mode does not go with the scene's variance: ");
+    expect_err(&refused, "hint: --no-variance");
+    run_free(&refused);
+
+    run plain = run_rtc("a.rts --spp 4 --no-variance --no-aov --out plain.exr");
+    run layers = run_rtc("a.rts --spp 4 --no-variance --no-aov --aov --out layers.exr");
+    run normals = run_rtc("a.rts --spp 4 --no-variance --mode normals --out normals.exr");
+    expect_status(&plain, 0);
+    expect_no_err(&plain, "relative error");
+    expect_status(&layers, 0);
+    expect_different_files("plain.exr", "layers.exr");
+    expect_status(&normals, 0);
+    run_free(&plain);
+    run_free(&layers);
+    run_free(&normals);
 }
 
 static void last_of_a_repeated_option_counts(void **state)
@@ -443,6 +471,7 @@ int main(void)
         TEST(outputs_spare_what_is_read),
         TEST(typed_options_are_named_when_the_scene_disagrees),
         TEST(both_forms_of_an_option_are_the_same),
+        TEST(switches_of_the_scene_are_taken_back),
         TEST(last_of_a_repeated_option_counts),
         TEST(two_dashes_end_the_options),
         TEST(negative_value_is_a_value),
