@@ -54,7 +54,7 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c dsl/origin.c \
+	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/idle.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c dsl/origin.c \
 	dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c \
 	dsl/scope.c dsl/source.c dsl/suggest.c dsl/transform.c
 

@@ -23,6 +23,7 @@ typedef struct rt_reader {
     size_t blocks;                 /* blocks so far */
     size_t turns;                  /* of all repeats so far */
     int repeats;                   /* inside each other */
+    int is_further_turn;           /* the text was read before, in an earlier turn of a repeat around it */
     rt_error fatal;                /* a failure that is no fault of the text; status RT_OK while there is none */
 } rt_reader;
 

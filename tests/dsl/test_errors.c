@@ -169,6 +169,9 @@ static const bad_text bad_texts[] = {
     {"let radius = 1\n" WHITE "sphere { centre 0 0 0 radius radius material white }", 3, 23, 6,
      "'radius' takes a number, found 'radius'", "in parentheses"},
 
+    {"let pi = 4\n" BALL, 1, 5, 2, "'pi' is already defined", "a constant of the language"},
+    {"repeat pi from 1 to 2 { }\n" BALL, 1, 8, 2, "'pi' is already defined", "a constant of the language"},
+
     /* Functions. */
     {"let a = sine(3)\n" BALL, 1, 9, 4, "unknown function 'sine'", "did you mean 'sin'?"},
     {"let a = 1\nlet b = a(3)\n" BALL, 2, 9, 1, "unknown function 'a'", "a space separates"},
@@ -301,6 +304,64 @@ static void what_nothing_uses_is_warned_of(void **state)
     collected_free(&c);
 }
 
+/* Not where a repeat around it may give it turns at other times. */
+static void a_repeat_without_turns_is_warned_of(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_text(&c, BALL "repeat i from 5 to 1 { nonsense }\n");
+    assert_int_equal(c.status, RT_OK);
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[0].line == 3 && c.items[0].column == 1);
+    assert_string_equal(c.items[0].message, "this repeat makes no turns: it counts up from 5 to 1");
+    collected_free(&c);
+    collect_text(&c, BALL "repeat i from 1 to 2 { repeat j from 1 to (i - 1) { film { width (i + j) } } }\n");
+    expect_clean(&c, "a triangle of turns");
+    collected_free(&c);
+}
+
+/* Each is read, and changes nothing beside the others of its block. */
+static void fields_without_effect_are_warned_of(void **state)
+{
+    static const struct {
+        const char *text;
+        int column;
+        const char *message;
+    } cases[] = {
+        {"material m { kd 0.5 eta 1 }", 21, "'eta' has no effect without 'fresnel conductor'"},
+        {"material m { ks 1 fresnel dielectric k 1 }", 38, "'k' has no effect without 'fresnel conductor'"},
+        {"material m { kd 0.5 roughness 0.1 }", 21, "'roughness' has no effect without 'ks' or 'kt'"},
+        {"material m { ior 1.2 }", 14, "'ior' has no effect without 'ks' or 'kt'"},
+        {"material m { absorption 1 }", 14, "'absorption' has no effect without 'ks' or 'kt'"},
+        {"material m { bump_scale 1 }", 14, "'bump_scale' has no effect without 'bump_texture'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 width 2 }", 34, "'width' has no effect without 'projection orthographic'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 projection orthographic fov 2 }", 58,
+         "'fov' has no effect without 'projection perspective'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 blades 5 }", 34, "'blades' has no effect without 'aperture'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 focal_distance 5 }", 34, "'focal_distance' has no effect without 'aperture'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 aperture 1 blade_rotation 5 }", 45,
+         "'blade_rotation' has no effect without 'blades'"},
+        {"texture t { pattern checker file \"none.png\" }", 29, "'file' has no effect without 'pattern image'"},
+        {"texture t { pattern checker linear true }", 29, "'linear' has no effect without 'pattern image'"},
+        {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
+         "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
+        {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37, "'ior' has no effect"},
+    };
+    static collected c;
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        int found = 0;
+        collect_text(&c, cases[i].text);
+        assert_int_equal(c.status, RT_OK);
+        for (int j = 0; j < c.count; j++)
+            found += c.items[j].severity == RT_SEVERITY_WARNING && c.items[j].line == 1 &&
+                     c.items[j].column == cases[i].column && strstr(c.items[j].message, cases[i].message);
+        if (found != 1)
+            fail_msg("%d times at column %d: %s\nin %s", found, cases[i].column, cases[i].message, cases[i].text);
+        collected_free(&c);
+    }
+}
+
 /* With `check`, at the block that it is about; what no block is about, at the text as a whole. */
 static void what_a_check_finds_stands_at_its_place(void **state)
 {
@@ -391,6 +452,8 @@ int main(void)
         cmocka_unit_test(five_errors_give_five_reports_in_order),
         cmocka_unit_test(the_source_line_is_quoted_whole),
         cmocka_unit_test(what_nothing_uses_is_warned_of),
+        cmocka_unit_test(a_repeat_without_turns_is_warned_of),
+        cmocka_unit_test(fields_without_effect_are_warned_of),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
         cmocka_unit_test(deep_and_long_texts_are_refused),

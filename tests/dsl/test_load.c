@@ -200,7 +200,7 @@ static void repeats_count_and_scope_their_names(void **state)
         "    material paint { kd (i / 10) }\n"
         "    repeat j from i to (i + 1.5) { sphere { centre x j 0 radius 1 material paint } }\n"
         "}\n"
-        "repeat i from 2 to 1 { this is not even read }\n"
+        "repeat i from 1 to 1 { repeat j from 2 to i { this is not even read } }\n"
         "let x = 7\n"
         "material paint { }\n"
         "sphere { centre x 0 0 radius 1 material paint }\n";
@@ -223,7 +223,7 @@ static void repeats_count_and_scope_their_names(void **state)
 static void meshes_textures_and_lights_reach_the_scene(void **state)
 {
     static const char text[] =
-        "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 blades 6 blade_rotation 30 }\n"
+        "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 aperture 0.1 blades 6 blade_rotation 30 }\n"
         "film { filter mitchell }\n"
         "render { mode direct aov true estimator bsdf variance true target_error 0.02 }\n"
         "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 linear true }\n"
