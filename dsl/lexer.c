@@ -170,12 +170,24 @@ static void read_number(rt_lexer *lexer, rt_token *token)
     }
 }
 
+/* The last '}' of a line that an open string has run over hardly belongs to a file name: it closes the block. */
+static void give_back_brace(rt_lexer *lexer, size_t start)
+{
+    for (size_t at = lexer->at; at > start; at--)
+        if (byte_at(lexer, at - 1) == '}') {
+            lexer->at = at - 1;
+            return;
+        }
+}
+
 static void read_string(rt_lexer *lexer, rt_token *token)
 {
     size_t start = lexer->at++, errors = lexer->reports->errors;
     uint64_t order = ++*lexer->order; /* before that of bad bytes inside */
     skip_free_text(lexer, '"');
     int closed = byte_at(lexer, lexer->at) == '"' && lexer->at < lexer->source->size;
+    if (!closed)
+        give_back_brace(lexer, start);
     lexer->at += (size_t)closed;
     token->kind = RT_TOKEN_STRING;
     token->place = place_of(lexer, start);

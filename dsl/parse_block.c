@@ -93,6 +93,7 @@ static void parse_field(rt_parser *parser, rt_statement *statement)
     setting.name = rt_parser_take(parser).place;
     rt_parse_setting(parser, statement->block, &setting);
     statement->is_broken |= setting.is_broken;
+    statement->is_incomplete |= setting.is_broken && field->type == RT_FIELD_FILE; /* it may have run over others */
 
     const rt_setting *earlier = rt_field_is_transform(field) ? NULL : rt_statement_setting(statement, field);
     if (!earlier && statement->setting_count < RT_SETTINGS_MAX) {
@@ -206,6 +207,14 @@ static void parse_block_name(rt_parser *parser, rt_statement *statement)
     }
 }
 
+/* Whether what stands in place of the '{' is one sign before the first field, as in `sphere ( centre`. */
+static int is_stray_opening(rt_parser *parser, const rt_block *block)
+{
+    const rt_token *token = rt_parser_peek(parser, 0), *next = rt_parser_peek(parser, 1);
+    return token->kind != RT_TOKEN_WORD && token->kind != RT_TOKEN_END && token->kind != '}' &&
+           next->kind == RT_TOKEN_WORD && rt_schema_field(block, text_of(next));
+}
+
 int rt_parse_block(rt_parser *parser, rt_statement *statement)
 {
     char found[RT_FOUND_SIZE], title[RT_BLOCK_TITLE_SIZE];
@@ -225,6 +234,9 @@ int rt_parse_block(rt_parser *parser, rt_statement *statement)
         rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '{' after %s, found %s",
                         rt_block_title(title, statement->block), rt_parser_found(found, token));
         statement->is_broken = statement->is_incomplete = 1;
+        if (is_stray_opening(parser, statement->block))
+            rt_parser_take(parser);
+        token = rt_parser_peek(parser, 0);
         if (token->kind != RT_TOKEN_WORD || !rt_schema_field(statement->block, text_of(token))) {
             rt_parser_skip_statement(parser);
             return 1;

@@ -11,6 +11,9 @@
 #define STDIN_LIMIT ((size_t)64 << 20)
 #define STDIN_CHUNK ((size_t)1 << 16)
 
+/* Errors of a scene that are printed; further ones mostly follow from these. */
+enum { ERRORS_SHOWN = 20 };
+
 typedef struct scene_reading {
     scene_findings findings;
     scene_purpose purpose;
@@ -30,6 +33,8 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     scene_reading *reading = user;
     reading->findings.errors += diagnostic->severity == RT_SEVERITY_ERROR;
     reading->findings.warnings += diagnostic->severity == RT_SEVERITY_WARNING;
+    if (reading->findings.errors > ERRORS_SHOWN && diagnostic->severity == RT_SEVERITY_ERROR)
+        return;
     if (is_wanted(diagnostic, reading->purpose))
         message_diagnostic(diagnostic);
 }
@@ -98,7 +103,9 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, sce
     /* What has a place was told by diagnostics. */
     if (reading.findings.errors == 0)
         return message_failure(&error);
-    if (reading.findings.errors > 1)
+    if (reading.findings.errors > ERRORS_SHOWN)
+        message_note("%s: and %u more errors", path, reading.findings.errors - ERRORS_SHOWN);
+    else if (reading.findings.errors > 1)
         message_note("%s: %u errors", path, reading.findings.errors);
     return STATUS_INPUT;
 }

@@ -223,6 +223,12 @@ static const bad_text bad_texts[] = {
     {WHITE "cone { base 0 0 0 apex 0 1 0 radius 1 apex_radius 2 material white }\n", 2, 51, 1, "apex_radius is 2 m", ""},
 
     /* include and strings. */
+    {"mesh m { file \"wood.ply shading flat }\n" BALL, 1, 15, 1, "the string is not closed", ""},
+    {"texture wood { file \"wood.png  scale 2 2\n wrap clamp\n}\n" BALL, 1, 21, 1, "the string is not closed", ""},
+    {"model { file \"wood.ply  material white }\n" BALL, 1, 14, 1, "the string is not closed", ""},
+    {WHITE "sphere (\n centre 0 0 0\n radius 1\n material white\n}\n", 2, 8, 1, "expected '{' after sphere, found '('", ""},
+    {WHITE "sphere\n centre 0 0 0\n radius 1\n material white\n}\n", 2, 7, 1, "expected '{' after sphere, found 'centre'",
+     ""},
     {"include box\n" BALL, 1, 1, 7, "expected a file name in quotes after 'include', found 'box'", "materials.rts"},
     {"include \"box.rts\n" BALL, 1, 9, 1, "the string is not closed", ""},
     {"include \"\"\n" BALL, 1, 10, 1, "the name of the file to include is empty", ""},

@@ -365,6 +365,21 @@ static void check_counts_what_a_scene_holds(void **state)
     run_free(&run);
 }
 
+static void only_the_first_errors_are_printed(void **state)
+{
+    char text[1024] = "";
+    (void)state;
+    for (int i = 0; i < 33; i++)
+        strcat(text, "material { }\n");
+    scratch_write("a.rts", text);
+    run run = run_rtc("check a.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "a.rts:20:1: error: ");
+    expect_no_err(&run, "a.rts:21:1: error: ");
+    expect_err(&run, "a.rts: and 13 more errors\n");
+    run_free(&run);
+}
+
 static void check_of_several_scenes_goes_on_after_a_bad_one(void **state)
 {
     (void)state;
@@ -481,6 +496,7 @@ int main(void)
         TEST(devices_are_listed),
         TEST(doctor_finds_all_well),
         TEST(check_counts_what_a_scene_holds),
+        TEST(only_the_first_errors_are_printed),
         TEST(check_of_several_scenes_goes_on_after_a_bad_one),
         TEST(no_platform_is_status_3_and_says_what_to_install),
         TEST(options_and_fields_are_the_same),
