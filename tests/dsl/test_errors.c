@@ -393,6 +393,13 @@ static void what_a_check_finds_stands_at_its_place(void **state)
     assert_int_equal(c.items[1].severity, RT_SEVERITY_NOTE);
     collected_free(&c);
 
+    check_text(&c, "material m { kt 1 }\nlight point { position 0 3 0 power 1 }\ncamera { eye 0 0 -4 look_at 0 0 0 }\n"
+                   "repeat i from 1 to 3 { disc { centre 0 0 0 normal 0 0 1 radius 1 material m } }\n");
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].finding == RT_FINDING_OPEN_GLASS && c.items[0].line == 4 && c.items[0].column == 24);
+    assert_true(strstr(c.items[0].hint, "closed shape") != NULL);
+    collected_free(&c);
+
     /* Not where the text has errors; and not unless asked for. */
     check_text(&c, "film { width 0 }\n");
     assert_int_equal(c.count, 1);
