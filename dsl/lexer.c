@@ -21,7 +21,7 @@ static int is_space(char c)
 
 static int is_punctuation(char c)
 {
-    return c != '\0' && strchr("{}()[]+-*/=,;:", c) != NULL;
+    return c != '\0' && strchr("{}()[]+-*/=,;:^%", c) != NULL;
 }
 
 /* Bytes of the well-formed UTF-8 sequence at s (Unicode, table 3-7), or 0. */
@@ -164,7 +164,7 @@ static void read_number(rt_lexer *lexer, rt_token *token)
     token->is_broken = result != RT_NUMBER_OK;
     if (result == RT_NUMBER_MALFORMED) {
         rt_report_error(lexer->reports, token->place, "'%s' is not a number", rt_text_quote(quote, text));
-        rt_report_hint(lexer->reports, "numbers are written like 2, 0.5 or 1e-3");
+        rt_report_hint(lexer->reports, "numbers are written without units, like 2, 0.5 or 1e-3");
     } else if (result == RT_NUMBER_TOO_LARGE) {
         rt_report_error(lexer->reports, token->place, "the number '%s' is too large", rt_text_quote(quote, text));
     }

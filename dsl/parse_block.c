@@ -44,8 +44,11 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
         rt_suggestion_offer_word(&suggestion, block->fields[i].name);
     rt_report_error(parser->reports, place, "unknown field '%s' in %s", rt_text_quote(quote, text),
                     rt_block_title(title, block));
-    if (!suggestion.best.at) {
-        hint_fields(parser, block);
+    if (!suggestion.best.at || rt_text_is_unit(text)) {
+        if (rt_text_is_unit(text))
+            rt_report_hint(parser->reports, RT_UNIT_HINT);
+        else
+            hint_fields(parser, block);
         statement->is_incomplete = 1;
         return;
     }
@@ -164,11 +167,11 @@ static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
     }
 
     rt_suggestion suggestion = rt_suggestion_begin(kind);
-    const char *example = "";
+    char kinds[RT_PHRASE_SIZE] = "";
     for (size_t i = 0; i < RT_BLOCK_COUNT; i++)
         if (rt_blocks[i].kind && rt_text_equal(word, rt_blocks[i].word)) {
             rt_suggestion_offer_word(&suggestion, rt_blocks[i].kind);
-            example = *example ? example : rt_blocks[i].kind;
+            strcat(strcat(kinds, " "), rt_blocks[i].kind);
         }
     rt_text_quote(quote, word);
     rt_report_error(parser->reports, token->kind == RT_TOKEN_WORD ? token->place : statement->place,
@@ -176,7 +179,8 @@ static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
     if (suggestion.best.at)
         rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
     else
-        rt_report_hint(parser->reports, "as in: %s %s { ... }", quote, example);
+        rt_report_hint(parser->reports, "the kinds are:%s; as in: %s%.*s { ... }", kinds, quote,
+                       1 + (int)strcspn(kinds + 1, " "), kinds);
     return 0;
 }
 

@@ -211,8 +211,13 @@ int arguments_parse(command_line *out, int argc, char **argv)
         return STATUS_DEVICE;
     }
     int at = 1, options_end = 0, status = STATUS_DONE;
-    if (argc > 1)
-        out->command = find_command(argv[1]);
+    /* `rtc help COMMAND` is `rtc COMMAND --help`. */
+    if (argc > 1 && strcmp(argv[1], "help") == 0) {
+        out->options[OPTION_HELP].given = 1;
+        at++;
+    }
+    if (argc > at)
+        out->command = find_command(argv[at]);
     if (out->command != COMMAND_RENDER)
         at++;
     /* Say all that is wrong, not only the first. */
