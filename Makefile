@@ -111,6 +111,7 @@ TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_estimators.c tests/proof/test_convergence.c
 TESTS_FULL  += $(TESTS_PROOF)
 TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
+TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
@@ -131,7 +132,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all proof study demo deps need-deps check check-corpus check-peers check-quick check-reference check-samples check-sanitize run-quick run-all bench install uninstall clean help
+.PHONY: all proof study demo deps need-deps check check-corpus check-mutation check-peers check-quick check-reference check-samples check-sanitize run-quick run-all bench install uninstall clean help
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -232,6 +233,10 @@ check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
 	 $(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
+# Physical errors planted one at a time in a copy of the sources: the tests must see them; see tests/mutation/run.sh.
+check-mutation: deps
+	tests/mutation/run.sh
+
 # ---- Benchmarks: ours beside a peer's, where it is installed ---------------------
 
 HAVE_EMBREE = $(shell echo 'int main(void) { return 0; }' | $(CC) -x c - -lembree3 -o /dev/null 2>/dev/null && echo yes)
@@ -241,9 +246,10 @@ $(B)/tests/bench/bench_trace: $(BENCH_TRACE) $(B)/librt.a
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(if $(HAVE_EMBREE),-DRT_HAVE_EMBREE) $(LDFLAGS) -o $@ $^ $(if $(HAVE_EMBREE),-lembree3) $(ALL_LIBS)
 
-bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather
+bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather $(B)/tests/bench/bench_progressive
 	$(B)/tests/bench/bench_trace
 	$(B)/tests/bench/bench_gather
+	$(B)/tests/bench/bench_progressive scenes/cornell.rts 20
 	RTC=$(B)/rtc tests/bench/bench_render.sh
 
 # ---- Dependencies and demonstration -------------------------------------------
@@ -297,8 +303,10 @@ help:
 	@echo 'make check-peers     five scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, none infinite or not a number'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
+	@echo 'make check-mutation  plants physical errors, one at a time, and counts those that the tests see'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'
+	@echo 'make study           numbers and pictures on photon mapping; study-k, -paths, -direct, -kernels ... make one'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'

@@ -16,20 +16,6 @@
 #include "path_state.h"
 #include "surface_at.h"
 
-/* Where the members of rt_light_data are, in floats. */
-enum light_member {
-    LIGHT_A = 0,
-    LIGHT_KIND = 3,
-    LIGHT_B = 4,
-    LIGHT_WIDTH = 7,
-    LIGHT_C = 8,
-    LIGHT_HEIGHT = 11,
-    LIGHT_NORMAL = 12,
-    LIGHT_AREA = 15,
-    LIGHT_EMISSION = 16,
-    LIGHT_FLAGS = 23,
-};
-
 /* What is noted of matte vertices before they are taken on together. */
 struct matte {
     float3 kd[8];
@@ -170,11 +156,11 @@ static inline void choose_lights(struct matte_lights *lights, const struct scene
 static inline struct matte_light flat_lights(global const float *const data[8], struct lanes3 from,
                                              const float8 *numbers)
 {
-    const struct lanes3 a = lanes3_gather(data, LIGHT_A, 1u);
-    const struct lanes3 b = lanes3_gather(data, LIGHT_B, 1u), c = lanes3_gather(data, LIGHT_C, 1u);
-    const struct lanes3 normal = lanes3_gather(data, LIGHT_NORMAL, 1u);
-    const int8 kind = as_int8(lanes_gather(data, LIGHT_KIND)), flags = as_int8(lanes_gather(data, LIGHT_FLAGS));
-    const float8 width = lanes_gather(data, LIGHT_WIDTH), height = lanes_gather(data, LIGHT_HEIGHT);
+    const struct lanes3 a = lanes3_gather(data, RT_LIGHT_AT_A, 1u);
+    const struct lanes3 b = lanes3_gather(data, RT_LIGHT_AT_B, 1u), c = lanes3_gather(data, RT_LIGHT_AT_C, 1u);
+    const struct lanes3 normal = lanes3_gather(data, RT_LIGHT_AT_NORMAL, 1u);
+    const int8 kind = as_int8(lanes_gather(data, RT_LIGHT_AT_KIND)), flags = as_int8(lanes_gather(data, RT_LIGHT_AT_FLAGS));
+    const float8 width = lanes_gather(data, RT_LIGHT_AT_WIDTH), height = lanes_gather(data, RT_LIGHT_AT_HEIGHT);
     const float8 u = lanes_load((const float *)numbers, 8u), v = lanes_load((const float *)numbers + 1, 8u);
     const float8 fold = kind == (int)RT_LIGHT_QUAD ? (float8)(0.0f) : 0.5f * lane_min(u, v);
     const struct lanes3 point = along8(along8(a, (u - fold) * width, b), (v - fold) * height, c);
@@ -186,9 +172,9 @@ static inline struct matte_light flat_lights(global const float *const data[8], 
     const int8 two_sided = (flags & (int)RT_LIGHT_TWO_SIDED) != 0;
     struct matte_light light;
     light.wi = scale8(1.0f / distance, towards);
-    light.radiance = lanes3_gather(data, LIGHT_EMISSION, 1u);
+    light.radiance = lanes3_gather(data, RT_LIGHT_AT_EMISSION, 1u);
     light.target = along8(point, copysign(gamma_bound(8.0f) * size, above), normal);
-    light.spread = fabs(dot8(towards, normal)) * lanes_gather(data, LIGHT_AREA) / (d2 * distance);
+    light.spread = fabs(dot8(towards, normal)) * lanes_gather(data, RT_LIGHT_AT_AREA) / (d2 * distance);
     light.spread = above > 0.0f || two_sided ? light.spread : (float8)(0.0f);
     return light;
 }

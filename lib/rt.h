@@ -449,7 +449,7 @@ typedef enum rt_mode {
     RT_MODE_PHOTON,   /* photon mapping */
     RT_MODE_DIRECT,   /* emission and direct light at the first hit (mirrors and clear glass are followed) */
     RT_MODE_NORMALS,  /* shading normal n at the first hit as the colour (n + 1) / 2; black where nothing is hit */
-    RT_MODE_ALBEDO,   /* the part of the light that the first hit does not absorb: kd + ks + kt */
+    RT_MODE_ALBEDO,   /* the part of the light that the first hit does not absorb: kd + ks + kt, ks of a metal by its reflectance */
     RT_MODE_DEPTH     /* distance along the view axis, metres, mean of the samples that hit; 0 where none does */
 } rt_mode;
 
@@ -746,7 +746,7 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  * A layer of the film, [height][width][*channels], top row first; owned by the film. NULL when there is none of
  * that name. channels may be NULL. With rt_render_options.aov, and by the modes that show one, as means over the
  * samples that the picture has:
- *   albedo           3  kd + ks + kt of the first hit, 0 where nothing is hit
+ *   albedo           3  kd + ks + kt of the first hit, ks of a metal by its reflectance; 0 where nothing is hit
  *   normal           3  its shading normal in the world, as the shape has it, not turned to the camera; 0 likewise
  *   depth            1  metres along the view axis (from the eye, for an environment camera), mean of the samples
  *                       that hit

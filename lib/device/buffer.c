@@ -135,10 +135,14 @@ rt_status rt_kernel_args(cl_kernel kernel, const rt_arg *args, cl_uint count, rt
 
 rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error *error)
 {
-    size_t local = device->work_group;
-    size_t global = (items + local - 1) / local * local;
+    size_t local = device->work_group, largest = 0;
     if (items == 0)
         return RT_OK;
+    /* A kernel that needs much of a compute unit takes fewer items than the device allows. */
+    if (clGetKernelWorkGroupInfo(kernel, device->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof largest, &largest, NULL) ==
+            CL_SUCCESS && largest > 0 && largest < local)
+        local = largest;
+    size_t global = (items + local - 1) / local * local;
     rt_status status = rt_cl_check(clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
                                    "launching a kernel", error);
     if (status == RT_OK)

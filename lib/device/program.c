@@ -43,6 +43,18 @@ static rt_status report_build(rt_device *device, cl_program program, const char 
                    device->info.name, rt_cl_error_name(code), line);
 }
 
+/*
+ * Bounds on rounding in the kernels take quotients and roots to be correctly rounded, which OpenCL 1.2 promises on
+ * demand alone, where a device can do it.
+ */
+static const char *build_options(const rt_device *device)
+{
+    cl_device_fp_config can = 0;
+    clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof can, &can, NULL);
+    return can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
+                                                     : "-cl-std=CL1.2";
+}
+
 static rt_status build(rt_device *device, cl_program *out, const rt_kernel_source *source, const rt_hooks *hooks,
                        rt_error *error)
 {
@@ -52,7 +64,7 @@ static rt_status build(rt_device *device, cl_program *out, const rt_kernel_sourc
     rt_status status = rt_cl_check(code, "creating an OpenCL program", error);
     if (status != RT_OK)
         return status;
-    code = clBuildProgram(program, 1, &device->id, "-cl-std=CL1.2", NULL, NULL);
+    code = clBuildProgram(program, 1, &device->id, build_options(device), NULL, NULL);
     if (code != CL_SUCCESS) {
         status = report_build(device, program, source->name, code, hooks, error);
         clReleaseProgram(program);

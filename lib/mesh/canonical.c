@@ -97,11 +97,6 @@ rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source,
     return status;
 }
 
-void rt_canonical_corners(const rt_canonical *mesh, uint32_t triangle, uint32_t corners[3])
-{
-    memcpy(corners, mesh->faces + (size_t)triangle * RT_CANONICAL_FACE + 1, 3 * sizeof *corners);
-}
-
 void rt_canonical_free(rt_canonical *mesh)
 {
     free(mesh->vertices);

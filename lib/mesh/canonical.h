@@ -53,9 +53,6 @@ rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source
 rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source, const uint32_t *corners,
                                uint64_t count);
 
-/* The three corners of a triangle. */
-void rt_canonical_corners(const rt_canonical *mesh, uint32_t triangle, uint32_t corners[3]);
-
 void rt_canonical_free(rt_canonical *mesh);
 
 #endif

@@ -140,11 +140,6 @@ void rt_flann_index_destroy(rt_flann_index *index)
     free(index);
 }
 
-size_t rt_flann_index_count(const rt_flann_index *index)
-{
-    return index->count;
-}
-
 rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries, size_t query_count, size_t k,
                                  int *indices, float *squared, rt_error *error)
 {

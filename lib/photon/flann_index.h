@@ -22,9 +22,6 @@ typedef struct rt_flann_index rt_flann_index;
 rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count, rt_error *error);
 void rt_flann_index_destroy(rt_flann_index *index);
 
-/* Number of points. */
-size_t rt_flann_index_count(const rt_flann_index *index);
-
 /*
  * The k nearest points of each query, nearest first: indices and squared distances, both
  * [query_count][k]. queries: [query_count][3], finite. k must be between 1 and the number of

@@ -68,7 +68,7 @@ static void share_out(rt_light_sources *s, const rt_light_data *lights, const fl
     }
 }
 
-/* The distribution of light sampling, which goes by power. */
+/* The distribution by power. */
 static void share_by_power(rt_light_sources *s, const rt_light_data *lights)
 {
     double total = 0;

@@ -140,7 +140,6 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
 
     if (status != RT_OK)
         return status;
-    *out = NULL;
     if (!renderer->has_camera)
         return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
     rt_options_complete(&complete);
@@ -168,9 +167,9 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
         status = resolved == RT_OK ? status : resolved;
     }
     int keep = status == RT_OK || (status == RT_CANCELLED && film->stats.spp > 0);
-    if (keep)
-        *out = film;
-    else
+    if (keep || status == RT_CANCELLED)
+        *out = keep ? film : NULL;
+    if (!keep)
         rt_film_destroy(film);
     return status == RT_CANCELLED ? rt_fail(error, RT_CANCELLED, "cancelled") : status;
 }

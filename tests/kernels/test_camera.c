@@ -80,15 +80,18 @@ static void pinhole_rays_leave_from_the_eye(void **state)
 static void lens_rays_leave_from_the_disc_and_meet_in_focus(void **state)
 {
     double largest = 0;
+    int inside = 0; /* half the radius, which is a quarter of the disc */
     (void)state;
     make_rays(0.25f);
     expect_to_meet_in_focus();
     for (int i = 0; i < n; i++) {
         double r = hypot(rays[i][0][0] - 1, rays[i][0][1] - 2);
         largest = r > largest ? r : largest;
+        inside += r < 0.125;
         assert_true(rays[i][0][2] == 3);
     }
     assert_true(largest > 0.24 && largest <= 0.250001);
+    assert_in_range(inside, n / 4 - 30, n / 4 + 30);
 }
 
 /* Film points 4 m across and 2 m down, about the eye; in focus at 5 m. */

@@ -106,6 +106,27 @@ static void light_that_meets_nothing_escapes(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* From the middle of a ball of index 1, exp(-absorption radius) comes out. */
+static void what_a_solid_absorbs_is_booked(void **state)
+{
+    rt_render_options render = {.photons = 1000};
+    rt_light_ledger l;
+    (void)state;
+    rt_renderer *renderer = open_text("material ink { kt 1  ior 1  absorption 0.5 1 2 }\n"
+                                      "sphere { centre 0 0 0  radius 0.8  material ink }\n"
+                                      "light point { position 0 0 0  power 1 }\n");
+    rt_photon_map *map = emit(renderer, &render);
+    assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
+    expect_closed(&l, "ball of ink");
+    for (int c = 0; c < 3; c++) {
+        double left = exp(-0.5 * (1 << c) * 0.8);
+        assert_float_equal(l.escaped[c], left, 1e-4);
+        assert_float_equal(l.absorbed[c], 1 - left, 1e-4);
+    }
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
 /*
  * Fails unless all paths are booked and each took the light's power over its share: true of lights that shine
  * evenly, whose paths are all alike.
@@ -279,6 +300,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_rooms_follow_the_geometric_series),
         cmocka_unit_test(light_that_meets_nothing_escapes),
+        cmocka_unit_test(what_a_solid_absorbs_is_booked),
         cmocka_unit_test(closes_in_every_scene_that_ships),
         cmocka_unit_test(stored_flux_agrees_with_what_is_absorbed),
         cmocka_unit_test(lights_are_counted_apart),

@@ -157,6 +157,20 @@ static void lamps_of_meshes(void **state)
     expect_same_mean("mesh");
 }
 
+/* Two walls that shine, right beside the floor: rays meet them as often as points of them are sampled. */
+static void large_lamps(void **state)
+{
+    static const float left[3] = {-2, 0, 2}, right[3] = {2, 0, -2}, up[3] = {0, 3, 0}, back[3] = {0, 0, -4},
+                       front[3] = {0, 0, 4};
+    (void)state;
+    begin(0);
+    rt_surface s = lamp();
+    s.transform = (rt_transform){{{0}}};
+    expect_ok(rt_scene_add_quad(scene, NULL, left, back, up, &s, &error), &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, right, front, up, &s, &error), &error);
+    expect_same_mean("two large lamps");
+}
+
 /* Dim, with a sun of one pixel. */
 static void write_sky(const char *path)
 {
@@ -215,8 +229,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lamps_of_every_shape), cmocka_unit_test(lamps_of_meshes),
-        cmocka_unit_test(environments),         cmocka_unit_test(rough_floors),
-        cmocka_unit_test(delta_lights_are_always_sampled),
+        cmocka_unit_test(large_lamps),          cmocka_unit_test(environments),
+        cmocka_unit_test(rough_floors),         cmocka_unit_test(delta_lights_are_always_sampled),
     };
     return cmocka_run_group_tests_name("lib/render/estimators", tests, scratch_enter, scratch_leave);
 }

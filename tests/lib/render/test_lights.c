@@ -152,20 +152,34 @@ static void distant_light_comes_through_clear_planes(void **state)
     assert_float_equal(irradiance(sky_behind_pane(), RT_MODE_PHOTON), 2 * pi, 0.03 * 2 * pi);
 }
 
-/* On the axis of a disc, E = pi L r^2 / (r^2 + h^2). */
-static rt_scene *disc_lamp(void)
+/* A black disc over the middle of the floor, which shines down when it has radiance. */
+static void add_disc(rt_scene *scene, float height, float radius, float radiance)
 {
-    static const float centre[3] = {0, 1, 0}, down[3] = {0, -1, 0};
+    static const rt_material black;
+    static const float down[3] = {0, -1, 0};
+    const float centre[3] = {0, height, 0};
+    rt_surface surface;
+    memset(&surface, 0, sizeof surface);
+    expect_ok(rt_scene_add_material(scene, &surface.material, NULL, &black, &error), &error);
+    surface.radiance[0] = surface.radiance[1] = surface.radiance[2] = radiance;
+    expect_ok(rt_scene_add_disc(scene, NULL, centre, down, radius, 0, &surface, &error), &error);
+}
+
+/* The floor from below all that hangs over it. */
+static rt_scene *spot_of_floor(void)
+{
     rt_scene *scene = floor_scene(0.02f);
     rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC, .eye = {0, 0.9f, 0}, .look_at = {0, 0, 0}, .up = {0, 0, 1},
                         .width = 0.02f};
-    static const rt_material black;
-    rt_surface lamp;
-    memset(&lamp, 0, sizeof lamp);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
-    expect_ok(rt_scene_add_material(scene, &lamp.material, NULL, &black, &error), &error);
-    lamp.radiance[0] = lamp.radiance[1] = lamp.radiance[2] = 4;
-    expect_ok(rt_scene_add_disc(scene, NULL, centre, down, 0.5f, 0, &lamp, &error), &error);
+    return scene;
+}
+
+/* On the axis of a disc, E = pi L r^2 / (r^2 + h^2). */
+static rt_scene *disc_lamp(void)
+{
+    rt_scene *scene = spot_of_floor();
+    add_disc(scene, 1, 0.5f, 4);
     return scene;
 }
 
@@ -173,6 +187,45 @@ static void discs_by_their_form_factor(void **state)
 {
     (void)state;
     assert_float_equal(irradiance(disc_lamp(), RT_MODE_PATH), pi * 4 * 0.25 / 1.25, 3e-3 * pi * 0.8);
+}
+
+/* The irradiance by a lamp of a metre's height and a disc that hides it, or does not, at another height. */
+static double past_disc(int is_point, float height)
+{
+    rt_point_light point = {.position = {0, 1, 0}, .intensity = {1, 1, 1}};
+    rt_scene *scene = spot_of_floor();
+    add_disc(scene, height, 0.3f, 0);
+    if (is_point)
+        expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
+    else
+        add_disc(scene, 1, 0.1f, 100);
+    return irradiance(scene, RT_MODE_DIRECT);
+}
+
+static void shadows_are_cast_by_what_is_before_the_lamp(void **state)
+{
+    (void)state;
+    for (int is_point = 0; is_point < 2; is_point++) {
+        double whole = is_point ? 1 : pi * 100 * 0.01 / 1.01;
+        assert_float_equal(past_disc(is_point, 1.001f), whole, 3e-3 * whole);
+        assert_true(past_disc(is_point, 0.999f) == 0);
+    }
+}
+
+/* Each by intensity over squared height, however unlike they are. */
+static void point_lights_add_up(void **state)
+{
+    static const float intensities[] = {2, 3, 4}, heights[] = {1, 2, 4};
+    double whole = 0;
+    (void)state;
+    rt_scene *scene = spot_of_floor();
+    for (int i = 0; i < 3; i++) {
+        rt_point_light point = {.position = {0, heights[i], 0}};
+        point.intensity[0] = point.intensity[1] = point.intensity[2] = intensities[i];
+        expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
+        whole += intensities[i] / (heights[i] * heights[i]);
+    }
+    assert_float_equal(irradiance(scene, RT_MODE_DIRECT), whole, 0.03 * whole);
 }
 
 /* What the camera, a mirror and a clear pane show of an environment is the environment. */
@@ -215,6 +268,8 @@ int main(void)
         cmocka_unit_test(even_environments_by_pi),
         cmocka_unit_test(distant_light_comes_through_clear_planes),
         cmocka_unit_test(discs_by_their_form_factor),
+        cmocka_unit_test(shadows_are_cast_by_what_is_before_the_lamp),
+        cmocka_unit_test(point_lights_add_up),
         cmocka_unit_test(environments_are_seen),
     };
     return cmocka_run_group_tests_name("lib/render/lights", tests, NULL, NULL);

@@ -1,0 +1,55 @@
+#!/bin/sh
+# test_mutations.sh - every mutation fits the sources as they are: its text is there once, its tests are in the Makefile.
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+table=$here/mutations.txt
+. "$here/table.sh"
+bad=0
+
+# verdict NAME WHY: ok, or not ok for that reason.
+verdict() {
+    if [ -z "$2" ]; then
+        printf 'ok %s\n' "$1"
+    else
+        printf 'not ok %s: %s\n' "$1" "$2"
+        bad=1
+    fi
+}
+
+# fault NAME: what is wrong with a mutation.
+fault() {
+    for field in breaks file old new tests; do
+        [ "$(mutation_field "$1" "$field" | grep -c .)" -eq 1 ] || echo "not one line '$field';"
+    done
+    file=$root/$(mutation_field "$1" file)
+    [ -f "$file" ] || { echo 'no such file;' && return; }
+    plant "$(mutation_field "$1" old)" "$(mutation_field "$1" new)" <"$file" 2>&1 >/dev/null
+    plant "$(mutation_field "$1" old)" "$(mutation_field "$1" new)" <"$file" 2>/dev/null | cmp -s - "$file" &&
+        echo 'nothing changes;'
+    missing_tests $(mutation_field "$1" tests)
+}
+
+# missing_tests TEST...: those that the Makefile does not list.
+missing_tests() {
+    for test in "$@"; do
+        grep -qE "(^|[[:space:]])tests/$test\\.c([[:space:]]|\$)" "$root/Makefile" || echo "no test $test;"
+    done
+}
+
+# plants NAME WANTED OLD NEW TEXT: what plant makes of a text; `refused` when it does not.
+plants() {
+    got=$(printf '%s\n' "$5" | plant "$3" "$4" 2>/dev/null) || got=refused
+    [ "$got" = "$2" ] && verdict "$1" '' || verdict "$1" "'$got', not '$2'"
+}
+
+plants text_is_replaced 'a/b & "c\n"' 'x*[' '& "c\n"' 'a/b x*['
+plants text_that_is_missing_is_refused refused 'x' 'y' 'abc'
+plants text_that_is_there_twice_is_refused refused 'x' 'y' 'x + x'
+for name in $(mutation_names); do
+    verdict "$name" "$(fault "$name" | tr '\n' ' ')"
+done
+verdict rest "$(missing_tests $(mutation_rest) | tr '\n' ' ')"
+repeated=$(mutation_names | sort | uniq -d)
+verdict names_are_different "$repeated"
+exit $bad
