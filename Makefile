@@ -54,12 +54,12 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c dsl/origin.c \
+	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/idle.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c dsl/origin.c \
 	dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c \
 	dsl/scope.c dsl/source.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
-	tools/check.c tools/compare.c tools/compare_print.c tools/devices.c tools/doctor.c tools/help.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \
+	tools/check.c tools/compare.c tools/compare_print.c tools/devices.c tools/doctor.c tools/help.c tools/inputs.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \
 	tools/message.c tools/nearest.c \
 	tools/number.c tools/option_table.c tools/options.c tools/outputs.c tools/progress.c tools/render.c \
 	tools/ledger.c tools/photons.c tools/photons_emit.c tools/photons_info.c tools/session.c \

@@ -21,6 +21,13 @@ static int is_zero(const float *v, int count)
     return 1;
 }
 
+/* What a render would refuse is wrong in the text already. */
+static rt_status build_render(rt_scene *scene, const rt_render_options *options, rt_error *error)
+{
+    rt_status status = rt_render_options_check(options, error);
+    return status == RT_OK ? rt_scene_set_options(scene, options, error) : status;
+}
+
 static rt_status build_triangle(rt_scene *scene, const rt_triangle_fields *triangle, rt_error *error)
 {
     static const uint32_t indices[3] = {0, 1, 2};
@@ -106,8 +113,9 @@ rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_
     case RT_BLOCK_CAMERA:
         return rt_scene_set_camera(scene, &fields->camera, error);
     case RT_BLOCK_FILM:
-    case RT_BLOCK_RENDER:
         return rt_scene_set_options(scene, &fields->options, error);
+    case RT_BLOCK_RENDER:
+        return build_render(scene, &fields->options, error);
     case RT_BLOCK_TEXTURE:
         return rt_scene_add_texture(scene, &name->index, &fields->texture, error);
     case RT_BLOCK_MATERIAL:

@@ -21,7 +21,7 @@ static int is_space(char c)
 
 static int is_punctuation(char c)
 {
-    return c != '\0' && strchr("{}()[]+-*/=,;:", c) != NULL;
+    return c != '\0' && strchr("{}()[]+-*/=,;:^%", c) != NULL;
 }
 
 /* Bytes of the well-formed UTF-8 sequence at s (Unicode, table 3-7), or 0. */
@@ -164,10 +164,20 @@ static void read_number(rt_lexer *lexer, rt_token *token)
     token->is_broken = result != RT_NUMBER_OK;
     if (result == RT_NUMBER_MALFORMED) {
         rt_report_error(lexer->reports, token->place, "'%s' is not a number", rt_text_quote(quote, text));
-        rt_report_hint(lexer->reports, "numbers are written like 2, 0.5 or 1e-3");
+        rt_report_hint(lexer->reports, "numbers are written without units, like 2, 0.5 or 1e-3");
     } else if (result == RT_NUMBER_TOO_LARGE) {
         rt_report_error(lexer->reports, token->place, "the number '%s' is too large", rt_text_quote(quote, text));
     }
+}
+
+/* The last '}' of a line that an open string has run over hardly belongs to a file name: it closes the block. */
+static void give_back_brace(rt_lexer *lexer, size_t start)
+{
+    for (size_t at = lexer->at; at > start; at--)
+        if (byte_at(lexer, at - 1) == '}') {
+            lexer->at = at - 1;
+            return;
+        }
 }
 
 static void read_string(rt_lexer *lexer, rt_token *token)
@@ -176,6 +186,8 @@ static void read_string(rt_lexer *lexer, rt_token *token)
     uint64_t order = ++*lexer->order; /* before that of bad bytes inside */
     skip_free_text(lexer, '"');
     int closed = byte_at(lexer, lexer->at) == '"' && lexer->at < lexer->source->size;
+    if (!closed)
+        give_back_brace(lexer, start);
     lexer->at += (size_t)closed;
     token->kind = RT_TOKEN_STRING;
     token->place = place_of(lexer, start);

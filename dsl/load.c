@@ -25,10 +25,11 @@ static void report_unreadable(rt_reader *reader, const rt_source *source, const 
 static rt_status read_into(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
                            rt_error *error)
 {
+    static const rt_load_options silent = {0};
     char cause[128] = "";
     const char *why = cause;
     rt_reader reader;
-    rt_status status = rt_reader_begin(&reader, options && options->check, error);
+    rt_status status = rt_reader_begin(&reader, options ? options : &silent, error);
     if (status != RT_OK)
         return status;
 
@@ -41,13 +42,16 @@ static rt_status read_into(rt_scene **out, const char *text, const char *name, c
         status = rt_source_read(&reader.sources, source, cause, sizeof cause);
 
     reader.origins.text = source;
-    if (status == RT_OK)
+    if (status == RT_OK) {
+        if (source->is_file)
+            rt_reader_tell_file(&reader, source->path);
         read_scene(&reader, source);
-    else if (status == RT_ERROR_INPUT)
+    } else if (status == RT_ERROR_INPUT) {
         report_unreadable(&reader, source, why);
-    else
+    } else {
         reader.reports.out_of_memory = 1;
-    status = rt_reader_finish(&reader, out, options, error);
+    }
+    status = rt_reader_finish(&reader, out, error);
     rt_reader_free(&reader);
     return status;
 }

@@ -43,7 +43,7 @@ int rt_origins_add(rt_origins *origins, const rt_block *block, rt_place place)
 typedef struct reporting {
     const rt_origins *origins;
     rt_reports *reports;
-    rt_place last; /* of a light that was reported, line 0 before the first */
+    rt_place last; /* of a light or open shape that was reported, line 0 before the first */
 } reporting;
 
 static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
@@ -53,6 +53,8 @@ static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
     if (finding->lamp != RT_NONE)
         return origins->shapes.items[finding->lamp];
     switch (finding->kind) {
+    case RT_FINDING_OPEN_GLASS:
+        return origins->shapes.items[finding->shape];
     case RT_FINDING_NOTHING_IN_VIEW:
     case RT_FINDING_EYE_IN_THE_DARK:
     case RT_FINDING_EYE_IN_MEDIUM:
@@ -67,13 +69,15 @@ static void report(void *user, const rt_finding *finding)
     reporting *r = user;
     rt_place place = place_of(r->origins, finding);
     /* The turns of a repeat are at one place: say once what is wrong there. */
-    if (finding->kind == RT_FINDING_LIGHT_SHUT_IN) {
+    if (finding->kind == RT_FINDING_LIGHT_SHUT_IN || finding->kind == RT_FINDING_OPEN_GLASS) {
         if (place.source == r->last.source && place.offset == r->last.offset)
             return;
         r->last = place;
     }
     rt_report_finding(r->reports, place, finding);
-    if (finding->shape != RT_NONE) {
+    if (finding->kind == RT_FINDING_OPEN_GLASS) {
+        rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; ior 1 makes a sheet that bends nothing");
+    } else if (finding->shape != RT_NONE) {
         const rt_place *solid = &r->origins->shapes.items[finding->shape];
         rt_text word = rt_place_text(solid);
         rt_report_hint(r->reports, "the %.*s is at %s:%d", (int)word.length, word.at, solid->source->path, solid->line);

@@ -44,8 +44,11 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
         rt_suggestion_offer_word(&suggestion, block->fields[i].name);
     rt_report_error(parser->reports, place, "unknown field '%s' in %s", rt_text_quote(quote, text),
                     rt_block_title(title, block));
-    if (!suggestion.best.at) {
-        hint_fields(parser, block);
+    if (!suggestion.best.at || rt_text_is_unit(text)) {
+        if (rt_text_is_unit(text))
+            rt_report_hint(parser->reports, RT_UNIT_HINT);
+        else
+            hint_fields(parser, block);
         statement->is_incomplete = 1;
         return;
     }
@@ -93,6 +96,7 @@ static void parse_field(rt_parser *parser, rt_statement *statement)
     setting.name = rt_parser_take(parser).place;
     rt_parse_setting(parser, statement->block, &setting);
     statement->is_broken |= setting.is_broken;
+    statement->is_incomplete |= setting.is_broken && field->type == RT_FIELD_FILE; /* it may have run over others */
 
     const rt_setting *earlier = rt_field_is_transform(field) ? NULL : rt_statement_setting(statement, field);
     if (!earlier && statement->setting_count < RT_SETTINGS_MAX) {
@@ -163,11 +167,11 @@ static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
     }
 
     rt_suggestion suggestion = rt_suggestion_begin(kind);
-    const char *example = "";
+    char kinds[RT_PHRASE_SIZE] = "";
     for (size_t i = 0; i < RT_BLOCK_COUNT; i++)
         if (rt_blocks[i].kind && rt_text_equal(word, rt_blocks[i].word)) {
             rt_suggestion_offer_word(&suggestion, rt_blocks[i].kind);
-            example = *example ? example : rt_blocks[i].kind;
+            strcat(strcat(kinds, " "), rt_blocks[i].kind);
         }
     rt_text_quote(quote, word);
     rt_report_error(parser->reports, token->kind == RT_TOKEN_WORD ? token->place : statement->place,
@@ -175,7 +179,8 @@ static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
     if (suggestion.best.at)
         rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
     else
-        rt_report_hint(parser->reports, "as in: %s %s { ... }", quote, example);
+        rt_report_hint(parser->reports, "the kinds are:%s; as in: %s%.*s { ... }", kinds, quote,
+                       1 + (int)strcspn(kinds + 1, " "), kinds);
     return 0;
 }
 
@@ -206,6 +211,14 @@ static void parse_block_name(rt_parser *parser, rt_statement *statement)
     }
 }
 
+/* Whether what stands in place of the '{' is one sign before the first field, as in `sphere ( centre`. */
+static int is_stray_opening(rt_parser *parser, const rt_block *block)
+{
+    const rt_token *token = rt_parser_peek(parser, 0), *next = rt_parser_peek(parser, 1);
+    return token->kind != RT_TOKEN_WORD && token->kind != RT_TOKEN_END && token->kind != '}' &&
+           next->kind == RT_TOKEN_WORD && rt_schema_field(block, text_of(next));
+}
+
 int rt_parse_block(rt_parser *parser, rt_statement *statement)
 {
     char found[RT_FOUND_SIZE], title[RT_BLOCK_TITLE_SIZE];
@@ -225,6 +238,9 @@ int rt_parse_block(rt_parser *parser, rt_statement *statement)
         rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '{' after %s, found %s",
                         rt_block_title(title, statement->block), rt_parser_found(found, token));
         statement->is_broken = statement->is_incomplete = 1;
+        if (is_stray_opening(parser, statement->block))
+            rt_parser_take(parser);
+        token = rt_parser_peek(parser, 0);
         if (token->kind != RT_TOKEN_WORD || !rt_schema_field(statement->block, text_of(token))) {
             rt_parser_skip_statement(parser);
             return 1;

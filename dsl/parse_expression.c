@@ -42,6 +42,8 @@ static void report_unknown_constant(rt_parser *parser, rt_place place)
     rt_suggestion_offer_names(&suggestion, &parser->scope->constants);
     if (suggestion.best.at)
         rt_report_hint(parser->reports, "did you mean '%s'?", rt_text_quote(quote, suggestion.best));
+    else if (rt_text_is_unit(text))
+        rt_report_hint(parser->reports, RT_UNIT_HINT);
     else if (rt_text_equal(text, "nan") || rt_text_equal(text, "inf") || rt_text_equal(text, "infinity"))
         rt_report_hint(parser->reports, "every number is finite");
     else
@@ -88,8 +90,9 @@ static int close_bracket(rt_parser *parser, rt_place open, char bracket)
     }
     rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '%c', found %s", bracket,
                     rt_parser_found(found, token));
-    rt_report_hint(parser->reports, "it closes the '%c' at line %d, column %d", bracket == ')' ? '(' : '[', open.line,
-                   open.column);
+    if (!rt_parser_hint_operator(parser, token))
+        rt_report_hint(parser->reports, "it closes the '%c' at line %d, column %d", bracket == ')' ? '(' : '[',
+                       open.line, open.column);
     return 0;
 }
 
@@ -142,6 +145,20 @@ static int parse_call(rt_parser *parser, int *is_vector)
     return add(parser, RT_OPERATION_CALL, place, 0, (size_t)(function < 0 ? 0 : function));
 }
 
+/* Whether a call follows but for a space, as in `sin (30)`; this is then reported. */
+static int call_follows_apart(rt_parser *parser)
+{
+    rt_place place = rt_parser_peek(parser, 0)->place;
+    rt_text name = rt_place_text(&place);
+    if (rt_function_find(name) < 0 || rt_parser_is_constant(parser, name) || rt_parser_peek(parser, 1)->kind != '(')
+        return 0;
+    char quote[RT_QUOTE_SIZE];
+    rt_report_error(parser->reports, place, "'%s' is apart from its '('", rt_text_quote(quote, name));
+    rt_report_hint(parser->reports, "a function's name touches it: %s(...)", quote);
+    parser->value_broken = 1;
+    return 1;
+}
+
 static int parse_vector(rt_parser *parser, int *is_vector)
 {
     rt_place open;
@@ -174,7 +191,9 @@ static int parse_primary(rt_parser *parser, int *is_vector)
     case RT_TOKEN_NUMBER:
         return parse_number(parser, is_vector);
     case RT_TOKEN_WORD:
-        return rt_parser_call_follows(parser) ? parse_call(parser, is_vector) : parse_constant(parser, is_vector);
+        if (rt_parser_call_follows(parser) || call_follows_apart(parser))
+            return parse_call(parser, is_vector);
+        return parse_constant(parser, is_vector);
     case '(':
         return parse_parentheses(parser, is_vector);
     case '[':

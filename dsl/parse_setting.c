@@ -30,7 +30,8 @@ static int is_field(const rt_block *block, const rt_token *token)
 
 static int is_operator(const rt_token *token)
 {
-    return token->kind == '+' || token->kind == '*' || token->kind == '/' || token->kind == '-';
+    return token->kind == '+' || token->kind == '*' || token->kind == '/' || token->kind == '-' ||
+           token->kind == '^' || token->kind == '%';
 }
 
 static int is_constant(const rt_parser *parser, const rt_token *token)
@@ -177,7 +178,8 @@ static void check_end(rt_parser *parser, const rt_context *context)
     if (is_operator(token)) {
         rt_report_error(parser->reports, token->place, "unexpected '%c' after the value of '%s'", token->kind,
                         setting->field->name);
-        rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
+        if (!rt_parser_hint_operator(parser, token))
+            rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
     } else if (is_value(parser, context->block) || token->kind == RT_TOKEN_STRING) {
         rt_report_error(parser->reports, token->place, "'%s' takes %s, found one more: %s", setting->field->name,
                         context->phrase, rt_parser_found(found, token));
@@ -288,6 +290,8 @@ static void parse_string(rt_parser *parser, rt_context *context)
     if (!setting->is_broken && token->kind != RT_TOKEN_END)
         rt_report_error(parser->reports, is_missing ? setting->name : token->place, "'%s' takes %s, found %s",
                         setting->field->name, context->phrase, rt_parser_found(found, token));
+    if (!setting->is_broken && !is_missing && token->kind == RT_TOKEN_WORD)
+        rt_report_hint(parser->reports, "file names stand in double quotes");
     setting->is_broken = 1;
     /* A name without quotes, as in images/wood.png, goes on to the next space. */
     if (token->kind == RT_TOKEN_WORD && !is_missing && !token->first_on_line)

@@ -65,6 +65,15 @@ rt_place rt_parser_expected_place(rt_parser *parser)
     return place;
 }
 
+int rt_parser_hint_operator(rt_parser *parser, const rt_token *token)
+{
+    if (token->kind != '^' && token->kind != '%')
+        return 0;
+    rt_report_hint(parser->reports, token->kind == '^' ? "a power is written pow(x, y)"
+                                                       : "a remainder is written mod(x, y)");
+    return 1;
+}
+
 rt_place rt_parser_take_word(rt_parser *parser, int *is_broken)
 {
     rt_place place = rt_parser_take(parser).place;
@@ -213,7 +222,7 @@ static int parse_let(rt_parser *parser, rt_statement *statement)
                         rt_parser_found(found, token), quote);
         if (token->kind == RT_TOKEN_NUMBER)
             rt_report_hint(parser->reports, "a vector stands in brackets: [0.65 0.05 0.05]");
-        else
+        else if (!rt_parser_hint_operator(parser, token))
             rt_report_hint(parser->reports, "the next statement begins on a new line");
         statement->is_broken = 1;
         parsed = 0;

@@ -92,6 +92,9 @@ const char *rt_parser_found(char out[RT_FOUND_SIZE], const rt_token *token);
 /* Where to point when something else was expected: at the next token, or behind the latest if that ended its line. */
 rt_place rt_parser_expected_place(rt_parser *parser);
 
+/* Says which function does what a sign that is no operator here, ^ or %, does elsewhere. Returns whether it is one. */
+int rt_parser_hint_operator(rt_parser *parser, const rt_token *token);
+
 /* Takes a word, joining `red-wall` into one mistake; the next token must be a word. */
 rt_place rt_parser_take_word(rt_parser *parser, int *is_broken);
 

@@ -6,12 +6,13 @@
 
 #include "dsl/build.h"
 #include "dsl/check.h"
+#include "dsl/idle.h"
 #include "dsl/parser.h"
 
-rt_status rt_reader_begin(rt_reader *reader, int checks, rt_error *error)
+rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_error *error)
 {
     memset(reader, 0, sizeof *reader);
-    reader->checks = checks;
+    reader->options = options;
     return rt_scene_create(&reader->scene, error);
 }
 
@@ -22,6 +23,12 @@ void rt_reader_free(rt_reader *reader)
     rt_scope_free(&reader->scope);
     rt_reports_free(&reader->reports);
     rt_sources_free(&reader->sources);
+}
+
+void rt_reader_tell_file(const rt_reader *reader, const char *path)
+{
+    if (reader->options->file)
+        reader->options->file(reader->options->user, path);
 }
 
 static int must_stop(const rt_reader *reader)
@@ -40,6 +47,11 @@ static rt_name *define(rt_reader *reader, rt_names *names, rt_place place, const
     char quote[RT_QUOTE_SIZE];
     rt_text text = rt_place_text(&place);
     size_t found = rt_names_find(names, text);
+    if (names == &reader->scope.constants && rt_text_equal(text, "pi")) {
+        rt_report_error(&reader->reports, place, "'pi' is already defined");
+        rt_report_hint(&reader->reports, "it is a constant of the language");
+        return NULL;
+    }
     if (found != RT_NAME_NONE) {
         const rt_place *first = &names->items[found].place;
         rt_report_error(&reader->reports, place, "%s '%s' is defined twice", what, rt_text_quote(quote, text));
@@ -182,9 +194,13 @@ static void read_block(rt_reader *reader, const rt_statement *statement, const r
     if (block->flags & RT_BLOCK_REFERS)
         is_good &= find_mesh(&checker, statement, &as);
     is_good &= rt_check_block(&checker, statement, &fields);
+    if (path)
+        rt_reader_tell_file(reader, path);
     if (is_good)
         is_good = build(reader, statement, &fields, &as);
-    if (is_good && reader->checks && !rt_origins_add(&reader->origins, block, statement->place))
+    if (is_good && !reader->is_further_turn)
+        rt_idle_warn(statement, &fields, &reader->reports);
+    if (is_good && reader->options->check && !rt_origins_add(&reader->origins, block, statement->place))
         reader->reports.out_of_memory = 1;
     free(path);
 
@@ -223,6 +239,7 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
         rt_report_error(&reader->reports, statement->path, "cannot include '%s': %s", rt_text_quote(quote, shown),
                         cause);
     } else {
+        rt_reader_tell_file(reader, source->path);
         rt_reader_read(reader, source);
     }
 }
@@ -271,13 +288,27 @@ static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *stateme
         name->is_used = 1;
         name->is_broken = !is_good;
     }
+    int was_further = reader->is_further_turn;
+    reader->is_further_turn |= !is_first;
     read_statements(reader, parser, statement, operations, &is_closed);
+    reader->is_further_turn = was_further;
     if (!is_closed && !must_stop(reader))
         rt_report_error(&reader->reports, variable, "this repeat is not closed: expected '}' before the end of the file");
     if (is_first && reader->reports.errors == 0)
         rt_scope_warn(&reader->scope, &before, &reader->reports);
     rt_scope_forget(&reader->scope, &before);
     return is_closed && reader->reports.errors == errors;
+}
+
+/* A repeat without turns; one inside another may be meant to have none in some of the other's. */
+static void skip_empty(rt_reader *reader, rt_parser *parser, rt_place place, double first, double last)
+{
+    if (reader->repeats == 0) {
+        rt_report_warning(&reader->reports, place, "this repeat makes no turns: it counts up from %.10g to %.10g", first,
+                          last);
+        rt_report_hint(&reader->reports, "what its braces hold is not read");
+    }
+    rt_parser_skip_repeat(parser);
 }
 
 static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *statement, rt_operations *operations)
@@ -292,7 +323,7 @@ static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *stat
         return;
     }
     if (first > last)
-        rt_parser_skip_repeat(parser);
+        skip_empty(reader, parser, place, first, last);
     reader->repeats++;
     for (size_t turn = 0; first + (double)turn <= last; turn++) {
         if (turn > 0)
@@ -354,7 +385,7 @@ void rt_reader_read(rt_reader *reader, const rt_source *source)
     rt_operations_free(&operations);
 }
 
-rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_options *options, rt_error *error)
+rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
 {
     if (reader->fatal.status != RT_OK) {
         if (error)
@@ -364,9 +395,9 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_opti
     static const rt_scope_counts all = {0, 0, 0, 0};
     if (reader->reports.errors == 0)
         rt_scope_warn(&reader->scope, &all, &reader->reports);
-    if (reader->reports.errors == 0 && reader->checks)
+    if (reader->reports.errors == 0 && reader->options->check)
         rt_origins_report(&reader->origins, reader->scene, &reader->reports);
-    rt_status status = rt_reports_finish(&reader->reports, options, error);
+    rt_status status = rt_reports_finish(&reader->reports, reader->options, error);
     if (status == RT_OK) {
         *out = reader->scene;
         reader->scene = NULL;

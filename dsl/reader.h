@@ -18,22 +18,26 @@ typedef struct rt_reader {
     rt_scope scope;
     rt_place once[RT_BLOCK_COUNT]; /* the first block of each kind that may stand only once; length 0: none yet */
     rt_origins origins;            /* of what is in the scene, when it is to be checked */
-    int checks;
+    const rt_load_options *options; /* never NULL */
     uint64_t order;                /* tokens so far */
     size_t blocks;                 /* blocks so far */
     size_t turns;                  /* of all repeats so far */
     int repeats;                   /* inside each other */
+    int is_further_turn;           /* the text was read before, in an earlier turn of a repeat around it */
     rt_error fatal;                /* a failure that is no fault of the text; status RT_OK while there is none */
 } rt_reader;
 
-/* Starts with an empty scene; checks: look at the whole when it is read. Whatever it returns, free the reader. */
-rt_status rt_reader_begin(rt_reader *reader, int checks, rt_error *error);
+/* Starts with an empty scene; options, not NULL, must outlive the reader. Whatever it returns, free the reader. */
+rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_error *error);
 void rt_reader_free(rt_reader *reader);
 
 /* Reads one text and all that it includes. Errors are collected. */
 void rt_reader_read(rt_reader *reader, const rt_source *source);
 
 /* Hands the errors and warnings on, and the scene when there are no errors. */
-rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, const rt_load_options *options, rt_error *error);
+rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error);
+
+/* Tells the caller of a file that is read. */
+void rt_reader_tell_file(const rt_reader *reader, const char *path);
 
 #endif

@@ -22,4 +22,8 @@ void rt_suggestion_offer_names(rt_suggestion *suggestion, const rt_names *names)
  */
 int rt_edit_distance(rt_text a, rt_text b, int limit);
 
+/* Whether a word is the sign of a unit, such as cm, and what to say then. */
+int rt_text_is_unit(rt_text text);
+#define RT_UNIT_HINT "numbers are written without units: lengths are metres, angles degrees"
+
 #endif

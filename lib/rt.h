@@ -166,7 +166,8 @@ typedef enum rt_finding_kind {
     RT_FINDING_NOTHING_IN_VIEW, /* the camera looks past all shapes */
     RT_FINDING_EYE_IN_THE_DARK, /* the camera is inside an opaque solid, where there is no light */
     RT_FINDING_EYE_IN_MEDIUM,   /* the camera is inside a transparent solid: no more than a note */
-    RT_FINDING_LIGHT_SHUT_IN    /* a light is inside an opaque solid, and the camera is not */
+    RT_FINDING_LIGHT_SHUT_IN,   /* a light is inside an opaque solid, and the camera is not */
+    RT_FINDING_OPEN_GLASS       /* a shape of glass bounds nothing, not even with others of its material */
 } rt_finding_kind;
 
 typedef enum rt_severity {
@@ -191,6 +192,8 @@ typedef struct rt_load_options {
     void (*diagnostic)(void *user, const rt_diagnostic *diagnostic); /* told of every error and warning */
     void *user;
     int check; /* 1: the scene is to be rendered as it is; tell also what rt_scene_check finds, at its place */
+    void (*file)(void *user, const char *path); /* told of every file that is read because the text names it, and of
+                                                   the text's own; not of what a mesh file names in turn */
 } rt_load_options;
 
 /*
@@ -536,15 +539,15 @@ RT_API void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out);
 typedef struct rt_finding {
     rt_finding_kind kind;
     rt_severity severity;
-    uint32_t shape; /* the solid that it is about, or RT_NONE */
+    uint32_t shape; /* the solid or open shape that it is about, or RT_NONE */
     uint32_t lamp;  /* the shape that shines in it, or RT_NONE, or ... */
     uint32_t light; /* ... the light that is no shape, counted from 0 in the order in which they were added */
     const char *message; /* one line */
 } rt_finding;
 
 /*
- * Tells a callback what makes the picture of a complete scene, with its own options, black or empty, and returns how
- * many warnings there were. There are no false alarms: solids are spheres, ellipsoids, tori, cylinders and cones with
+ * Tells a callback what makes the picture of a complete scene, with its own options, black or empty, and of glass
+ * without an inside; returns how many warnings there were. There are no false alarms: solids are spheres, ellipsoids, tori, cylinders and cones with
  * caps, and closed meshes; what is inside of them is decided in double precision, and a light only counts as shut in
  * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights the first 256 are
  * looked at.
@@ -726,6 +729,12 @@ RT_API rt_status rt_photon_map_export(const rt_photon_map *map, const char *path
 /* ---- Film --------------------------------------------------------------- */
 
 typedef struct rt_film rt_film;
+
+/*
+ * Fails with RT_ERROR_USAGE, error->field naming the member, when an option is out of its range or does not go with
+ * another, as rt_render does.
+ */
+RT_API rt_status rt_render_options_check(const rt_render_options *options, rt_error *error);
 
 /*
  * Renders; options NULL: the scene's own. The caller owns *out. When a progress callback cancels, returns

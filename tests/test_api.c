@@ -132,7 +132,7 @@ static void every_error_of_a_text_is_reported(void **state)
     int count = 0;
     rt_scene *scene;
     rt_error error;
-    rt_load_options options = {count_diagnostic, &count, 0};
+    rt_load_options options = {.diagnostic = count_diagnostic, .user = &count};
     static const char bad[] = "a { }\nb { }\nfilm { c 1 }\nfilm { width -1 }\n";
     assert_int_equal(rt_scene_parse(&scene, bad, "name", &options, &error), RT_ERROR_INPUT);
     assert_true(count >= 4);

@@ -29,7 +29,7 @@ static int check(const char *path)
 {
     rt_scene *scene = NULL;
     scene_findings findings;
-    int status = scene_file_load(&scene, path, SCENE_TO_CHECK, &findings);
+    int status = scene_file_load(&scene, path, SCENE_TO_CHECK, &findings, NULL);
     if (status == STATUS_DONE)
         print_summary(path, scene, findings.warnings);
     rt_scene_destroy(scene);

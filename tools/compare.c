@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "inputs.h"
 #include "message.h"
 #include "outputs.h"
 #include "rtc.h"
@@ -153,6 +154,19 @@ static int report(const rt_comparison *comparison, const command_line *arguments
     return status == STATUS_DONE && !within ? STATUS_INPUT : status;
 }
 
+/* Whether no difference picture replaces an image that is compared. */
+static int check_inputs(const command_line *arguments, const output_list *outputs)
+{
+    input_list inputs = {0};
+    int status = STATUS_DONE;
+    for (size_t i = 0; i < arguments->operand_count; i++)
+        inputs_add(&inputs, arguments->operands[i]);
+    for (size_t i = 0; i < outputs->count && status == STATUS_DONE; i++)
+        status = inputs_check(&inputs, outputs->paths[i]);
+    inputs_free(&inputs);
+    return status;
+}
+
 int command_compare(const command_line *arguments)
 {
     rt_image **images = NULL;
@@ -163,6 +177,8 @@ int command_compare(const command_line *arguments)
         return STATUS_USAGE;
     }
     int status = outputs_plan(&outputs, arguments, NULL);
+    if (status == STATUS_DONE)
+        status = check_inputs(arguments, &outputs);
     if (status == STATUS_DONE)
         status = read_images(&images, arguments);
     if (status == STATUS_DONE)

@@ -14,7 +14,7 @@ static const char *const usages[COMMAND_COUNT] = {
                        "       rtc doctor [OPTION]...      check that everything works here\n"
                        "       rtc photons ...             make, join, look at and export photon maps\n"
                        "       rtc compare A B [OPTION]... measure how an image differs from another\n"
-                       "       rtc COMMAND --help          the options of one command\n"
+                       "       rtc help COMMAND            the options of one command\n"
                        "       rtc --version               the version\n"
                        "\n"
                        "Renders a scene of the .rts language by path tracing or photon mapping. The\n"

@@ -114,15 +114,20 @@ static int read_number(option_value *value, const option *option, const char *te
     return STATUS_USAGE;
 }
 
+int option_takes_value(const option *option)
+{
+    return option->kind != KIND_FLAG && option->kind != KIND_SWITCH;
+}
+
 /* Reads text, NULL for none, as the value of an option. */
 static int read_value(command_line *out, const option *option, const char *text)
 {
     option_value *value = &out->options[option - option_table];
-    if (option->kind == KIND_FLAG && text) {
+    if (!option_takes_value(option) && text) {
         message_error("--%s takes no value; not '%s'", option->name, text);
         return STATUS_USAGE;
     }
-    if (option->kind != KIND_FLAG && (!text || text[0] == '\0')) {
+    if (option_takes_value(option) && (!text || text[0] == '\0')) {
         message_error("--%s needs a value: --%s %s", option->name, option->name, option->value);
         return STATUS_USAGE;
     }
@@ -131,11 +136,22 @@ static int read_value(command_line *out, const option *option, const char *text)
         status = read_choice(value, option, text);
     else if (option->kind == KIND_WHOLE || option->kind == KIND_REAL)
         status = read_number(value, option, text);
+    else if (option->kind == KIND_SWITCH)
+        value->choice = 1;
     value->given = 1;
     value->text = text;
     if (option == &option_table[OPTION_OUT])
         out->outputs[out->output_count++] = text;
     return status;
+}
+
+/* The switch that --no-NAME takes back, or NULL. */
+static const option *find_switched_off(const char *name, size_t length, command_id command)
+{
+    if (length < 4 || memcmp(name, "no-", 3) != 0)
+        return NULL;
+    const option *found = find_option(name + 3, length - 3, command);
+    return found && found->kind == KIND_SWITCH ? found : NULL;
 }
 
 /* ---- The line ------------------------------------------------------------- */
@@ -146,7 +162,8 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     const char *name = argv[*at] + 2;
     const char *equals = strchr(name, '=');
     size_t length = equals ? (size_t)(equals - name) : strlen(name);
-    const option *option = find_option(name, length, out->command);
+    const option *off = find_switched_off(name, length, out->command);
+    const option *option = off ? off : find_option(name, length, out->command);
     if (!option)
         return fail_unknown_option(name, length, out->command);
     if (!(option->commands & (1u << out->command))) {
@@ -155,9 +172,12 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     }
     const char *text = equals ? equals + 1 : NULL;
     /* A word that starts with two dashes is the next option, not a value that was forgotten. */
-    if (!text && option->kind != KIND_FLAG && *at + 1 < argc && strncmp(argv[*at + 1], "--", 2) != 0)
+    if (!text && option_takes_value(option) && *at + 1 < argc && strncmp(argv[*at + 1], "--", 2) != 0)
         text = argv[++*at];
-    return read_value(out, option, text);
+    int status = read_value(out, option, text);
+    if (off)
+        out->options[off - option_table].choice = 0;
+    return status;
 }
 
 /* Reads the argument at argv[*at]; after `--` every argument is an operand. */
@@ -191,8 +211,13 @@ int arguments_parse(command_line *out, int argc, char **argv)
         return STATUS_DEVICE;
     }
     int at = 1, options_end = 0, status = STATUS_DONE;
-    if (argc > 1)
-        out->command = find_command(argv[1]);
+    /* `rtc help COMMAND` is `rtc COMMAND --help`. */
+    if (argc > 1 && strcmp(argv[1], "help") == 0) {
+        out->options[OPTION_HELP].given = 1;
+        at++;
+    }
+    if (argc > at)
+        out->command = find_command(argv[at]);
     if (out->command != COMMAND_RENDER)
         at++;
     /* Say all that is wrong, not only the first. */

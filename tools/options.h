@@ -88,6 +88,7 @@ typedef enum option_id {
 
 typedef enum option_kind {
     KIND_FLAG,
+    KIND_SWITCH, /* a flag that the scene may have set: --no-NAME takes it back; choice is 0 or 1 */
     KIND_WHOLE,  /* a whole number, 1e6 allowed */
     KIND_REAL,   /* a finite number */
     KIND_CHOICE, /* one of a list of words */
@@ -162,6 +163,9 @@ const char *command_name(command_id command);
 
 /* "path, photon": the words of a list, as far as they fit in out. */
 void option_join_choices(char *out, size_t size, const option_choice *choices);
+
+/* Whether a value follows the option's name. */
+int option_takes_value(const option *option);
 
 /* Prints the help of a command on stdout. */
 void help_print(command_id command);

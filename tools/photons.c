@@ -3,7 +3,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
+#include "inputs.h"
 #include "message.h"
 #include "session.h"
 
@@ -13,13 +15,18 @@ int photons_load(rt_photon_map **out, const char *path)
     return rt_photon_map_load(out, path, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
-int photons_output(const char **out, const command_line *arguments, const char *what)
+int photons_output(const char **out, const command_line *arguments, const char *what, const char *extension)
 {
     if (arguments->output_count != 1) {
         message_error("%s goes to one file: --out FILE", what);
         return STATUS_USAGE;
     }
-    *out = arguments->outputs[0];
+    const char *path = arguments->outputs[0], *dot = strrchr(path, '.');
+    if (!dot || strcasecmp(dot, extension) != 0) {
+        message_error("--out %s: %s goes to a file called NAME%s", path, what, extension);
+        return STATUS_USAGE;
+    }
+    *out = path;
     return STATUS_DONE;
 }
 
@@ -28,6 +35,17 @@ static int fail_operands(const char *usage)
     message_error("usage: rtc photons %s", usage);
     message_hint("`rtc photons --help` says what each form does");
     return STATUS_USAGE;
+}
+
+/* Whether a form's output is none of the maps that it reads. */
+static int check_inputs(const command_line *arguments, const char *output)
+{
+    input_list inputs = {0};
+    for (size_t i = 1; i < arguments->operand_count; i++)
+        inputs_add(&inputs, arguments->operands[i]);
+    int status = inputs_check(&inputs, output);
+    inputs_free(&inputs);
+    return status;
 }
 
 /* What is said of written files, unless rtc is to be quiet. */
@@ -67,7 +85,9 @@ static int merge(const command_line *arguments)
     rt_error error;
     if (count < 1)
         return fail_operands("merge MAP... --out MAP");
-    int status = photons_output(&path, arguments, "the merged map");
+    int status = photons_output(&path, arguments, "the merged map", ".rtp");
+    if (status == STATUS_DONE)
+        status = check_inputs(arguments, path);
     if (status != STATUS_DONE)
         return status;
     rt_photon_map **maps = calloc(count, sizeof *maps);
@@ -113,7 +133,9 @@ static int export(const command_line *arguments)
     rt_error error;
     if (arguments->operand_count != 2)
         return fail_operands("export MAP --out FILE.ply");
-    int status = photons_output(&path, arguments, "the cloud of points");
+    int status = photons_output(&path, arguments, "the cloud of points", ".ply");
+    if (status == STATUS_DONE)
+        status = check_inputs(arguments, path);
     if (status == STATUS_DONE)
         status = photons_load(&map, arguments->operands[1]);
     if (status == STATUS_DONE && rt_photon_map_export(map, path, &error) != RT_OK)

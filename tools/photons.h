@@ -11,8 +11,8 @@ int photons_emit(const command_line *arguments);
 /* Loads the map at path; says why when that fails. The caller owns *out. */
 int photons_load(rt_photon_map **out, const char *path);
 
-/* The one file of --out. */
-int photons_output(const char **out, const command_line *arguments, const char *what);
+/* The one file of --out, which has this extension. */
+int photons_output(const char **out, const command_line *arguments, const char *what, const char *extension);
 
 /* Prints what a map holds on stdout. */
 int photons_print_info(const char *path, const rt_photon_map *map);

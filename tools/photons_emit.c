@@ -19,6 +19,7 @@ typedef struct emit_job {
     rt_device *device;
     rt_renderer *renderer;
     rt_photon_map *map;
+    input_list inputs;
 } emit_job;
 
 /* Reads "I/N", 1 <= I <= N. */
@@ -81,7 +82,7 @@ static int read_shares(emit_job *job)
 
 static int read_options(emit_job *job, const command_line *arguments)
 {
-    int status = photons_output(&job->map_path, arguments, "the photon map");
+    int status = photons_output(&job->map_path, arguments, "the photon map", ".rtp");
     int part = read_part(job), shares = read_shares(job);
     status = status == STATUS_DONE ? part : status;
     return status == STATUS_DONE ? shares : status;
@@ -91,7 +92,9 @@ static int load(emit_job *job)
 {
     rt_error error;
     int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet ? SCENE_QUIETLY : SCENE_TO_EMIT,
-                                 NULL);
+                                 NULL, &job->inputs);
+    if (status == STATUS_DONE)
+        status = inputs_check(&job->inputs, job->map_path);
     if (status != STATUS_DONE)
         return status;
     rt_scene_get_options(job->scene, &job->render);
@@ -154,5 +157,6 @@ int photons_emit(const command_line *arguments)
     rt_device_close(job.device);
     rt_scene_destroy(job.scene);
     free(job.shares);
+    inputs_free(&job.inputs);
     return status;
 }

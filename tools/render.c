@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "inputs.h"
 #include "message.h"
 #include "nearest.h"
 #include "outputs.h"
@@ -17,7 +18,9 @@ typedef struct render_job {
     session session;
     const char *scene_path;
     output_list outputs;
-    rt_render_options options;
+    input_list inputs;
+    rt_render_options own;     /* of the scene, and of the photon map */
+    rt_render_options options; /* and of the command line */
     rt_photon_map *photon_map;
     rt_scene *scene;
     rt_device *device;
@@ -42,20 +45,27 @@ static int load_photon_map(render_job *job)
         return STATUS_DONE;
     if (rt_photon_map_load(&job->photon_map, path, &error) != RT_OK)
         return session_fail(&error);
+    inputs_add(&job->inputs, path);
     rt_photon_map_get_info(job->photon_map, &info);
-    job->options.photon_map = job->photon_map;
-    if (!value(job, OPTION_MODE)->given)
-        job->options.mode = RT_MODE_PHOTON;
-    if (!value(job, OPTION_DIRECT)->given)
-        job->options.direct = info.direct;
+    job->own.photon_map = job->photon_map;
+    job->own.mode = RT_MODE_PHOTON;
+    job->own.direct = info.direct;
     return STATUS_DONE;
 }
 
+/* What the command line says goes before what the map says, and that before what the scene says. */
 static int set_options(render_job *job)
 {
-    rt_scene_get_options(job->scene, &job->options);
+    rt_scene_get_options(job->scene, &job->own);
+    int status = load_photon_map(job);
+    job->options = job->own;
     session_merge_options(&job->session, &job->options);
-    return load_photon_map(job);
+    return status;
+}
+
+static int is_switched_off(const render_job *job, option_id id)
+{
+    return option_table[id].kind == KIND_SWITCH && !value(job, id)->choice;
 }
 
 /* An option that cannot change anything in this render is probably a mistake. */
@@ -63,7 +73,7 @@ static void warn_idle_options(const render_job *job)
 {
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON &&
-            value(job, (option_id)i)->given)
+            value(job, (option_id)i)->given && !is_switched_off(job, (option_id)i))
             message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
                             option_table[i].name, rt_mode_name(job->options.mode));
     if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
@@ -87,15 +97,20 @@ static int load(render_job *job)
 {
     rt_error error;
     int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER,
-                                 NULL);
+                                 NULL, &job->inputs);
     if (status != STATUS_DONE)
         return status;
     status = set_options(job);
+    for (size_t i = 0; i < job->outputs.count && status == STATUS_DONE; i++)
+        status = inputs_check(&job->inputs, job->outputs.paths[i]);
     if (status != STATUS_DONE)
         return status;
     if (!job->session.quiet)
         warn_idle_options(job);
-    /* Options out of range are told before any work. */
+    /* Options that cannot be are told before any work. */
+    status = session_check_options(&job->session, &job->own, &job->options);
+    if (status != STATUS_DONE)
+        return status;
     return rt_scene_set_options(job->scene, &job->options, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
@@ -166,10 +181,13 @@ static void say_how_good_it_is(const render_job *job)
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);
 }
 
-/* The value of an option as written; empty for a flag. */
-static const char *text_of(const render_job *job, option_id id)
+/* An option as the command line has it, "--spp 16" or "--no-variance". Returns its length, which may exceed size. */
+static size_t write_option(char *out, size_t size, const render_job *job, option_id id)
 {
-    return option_table[id].kind == KIND_FLAG ? "" : value(job, id)->text;
+    const option *option = &option_table[id];
+    if (option_takes_value(option))
+        return (size_t)snprintf(out, size, " --%s %s", option->name, value(job, id)->text);
+    return (size_t)snprintf(out, size, " --%s%s", is_switched_off(job, id) ? "no-" : "", option->name);
 }
 
 /* The command line as far as it decides the pixels, so that two equal images are equal files. */
@@ -178,15 +196,14 @@ static char *recorded_command(const render_job *job)
     size_t size = strlen(job->scene_path) + 8;
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].decides_pixels && value(job, (option_id)i)->given)
-            size += strlen(option_table[i].name) + strlen(text_of(job, (option_id)i)) + 4;
+            size += write_option(NULL, 0, job, (option_id)i);
     char *line = malloc(size);
     if (!line)
         return NULL;
     size_t used = (size_t)snprintf(line, size, "rtc %s", job->scene_path);
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].decides_pixels && value(job, (option_id)i)->given)
-            used += (size_t)snprintf(line + used, size - used, " --%s%s%s", option_table[i].name,
-                                     option_table[i].kind == KIND_FLAG ? "" : " ", text_of(job, (option_id)i));
+            used += write_option(line + used, size - used, job, (option_id)i);
     return line;
 }
 
@@ -261,6 +278,7 @@ int command_render(const command_line *arguments)
     rt_renderer_destroy(job.renderer);
     rt_device_close(job.device);
     rt_scene_destroy(job.scene);
+    inputs_free(&job.inputs);
     outputs_free(&job.outputs);
     return status;
 }

@@ -11,9 +11,13 @@
 #define STDIN_LIMIT ((size_t)64 << 20)
 #define STDIN_CHUNK ((size_t)1 << 16)
 
+/* Errors of a scene that are printed; further ones mostly follow from these. */
+enum { ERRORS_SHOWN = 20 };
+
 typedef struct scene_reading {
     scene_findings findings;
     scene_purpose purpose;
+    input_list *inputs;
 } scene_reading;
 
 static int is_wanted(const rt_diagnostic *diagnostic, scene_purpose purpose)
@@ -29,8 +33,17 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     scene_reading *reading = user;
     reading->findings.errors += diagnostic->severity == RT_SEVERITY_ERROR;
     reading->findings.warnings += diagnostic->severity == RT_SEVERITY_WARNING;
+    if (reading->findings.errors > ERRORS_SHOWN && diagnostic->severity == RT_SEVERITY_ERROR)
+        return;
     if (is_wanted(diagnostic, reading->purpose))
         message_diagnostic(diagnostic);
+}
+
+static void on_file(void *user, const char *path)
+{
+    scene_reading *reading = user;
+    if (reading->inputs)
+        inputs_add(reading->inputs, path);
 }
 
 /* All of stdin as a string that the caller frees, or NULL after saying why not. */
@@ -70,10 +83,12 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     return STATUS_DONE;
 }
 
-int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings)
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings,
+                    input_list *inputs)
 {
-    scene_reading reading = {{0, 0}, purpose};
-    rt_load_options options = {on_diagnostic, &reading, purpose == SCENE_TO_CHECK || purpose == SCENE_TO_RENDER};
+    scene_reading reading = {{0, 0}, purpose, inputs};
+    rt_load_options options = {.diagnostic = on_diagnostic, .user = &reading, .file = on_file};
+    options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_RENDER;
     rt_error error;
     rt_status result = RT_OK;
     int status = STATUS_DONE;
@@ -88,7 +103,9 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, sce
     /* What has a place was told by diagnostics. */
     if (reading.findings.errors == 0)
         return message_failure(&error);
-    if (reading.findings.errors > 1)
+    if (reading.findings.errors > ERRORS_SHOWN)
+        message_note("%s: and %u more errors", path, reading.findings.errors - ERRORS_SHOWN);
+    else if (reading.findings.errors > 1)
         message_note("%s: %u errors", path, reading.findings.errors);
     return STATUS_INPUT;
 }

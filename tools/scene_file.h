@@ -2,6 +2,7 @@
 #ifndef RTC_SCENE_FILE_H
 #define RTC_SCENE_FILE_H
 
+#include "inputs.h"
 #include "rt.h"
 
 /* How many errors and warnings were found. */
@@ -19,8 +20,10 @@ typedef enum scene_purpose {
 
 /*
  * Reads the scene at path, "-" for stdin, and prints every error and what else its purpose asks for.
- * Returns an exit status; the caller owns *out, written only on STATUS_DONE. findings may be NULL.
+ * Returns an exit status; the caller owns *out, written only on STATUS_DONE. findings may be
+ * NULL; inputs receives the files that were read, and may be NULL.
  */
-int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings);
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings,
+                    input_list *inputs);
 
 #endif

@@ -72,7 +72,7 @@ void session_merge_options(const session *s, rt_render_options *options)
     if (session_value(s, OPTION_AREA)->given)
         options->area = (rt_area)session_value(s, OPTION_AREA)->choice;
     if (session_value(s, OPTION_PHOTON_LAYERS)->given)
-        options->photon_layers = 1;
+        options->photon_layers = session_value(s, OPTION_PHOTON_LAYERS)->choice;
     if (session_value(s, OPTION_ALPHA)->given)
         options->alpha = (float)session_value(s, OPTION_ALPHA)->real;
     if (session_value(s, OPTION_GATHER)->given)
@@ -84,7 +84,7 @@ void session_merge_options(const session *s, rt_render_options *options)
     if (session_value(s, OPTION_TARGET_ERROR)->given)
         options->target_error = session_value(s, OPTION_TARGET_ERROR)->real;
     if (session_value(s, OPTION_VARIANCE)->given)
-        options->variance = 1;
+        options->variance = session_value(s, OPTION_VARIANCE)->choice;
     if (session_value(s, OPTION_RADIUS)->given)
         options->radius = (float)session_value(s, OPTION_RADIUS)->real;
     if (session_value(s, OPTION_CONE_K)->given)
@@ -98,7 +98,7 @@ void session_merge_options(const session *s, rt_render_options *options)
     if (session_value(s, OPTION_ESTIMATOR)->given)
         options->estimator = (rt_estimator)session_value(s, OPTION_ESTIMATOR)->choice;
     if (session_value(s, OPTION_AOV)->given)
-        options->aov = 1;
+        options->aov = session_value(s, OPTION_AOV)->choice;
     if (session_value(s, OPTION_KERNEL)->given)
         options->kernel = (rt_density)session_value(s, OPTION_KERNEL)->choice;
     if (session_value(s, OPTION_CAUSTIC_PHOTONS)->given)
@@ -111,15 +111,61 @@ void session_merge_options(const session *s, rt_render_options *options)
         options->direct = (rt_direct)session_value(s, OPTION_DIRECT)->choice;
 }
 
+/* The name of a field as an option has it. */
+static void option_name(char *out, size_t size, const char *field)
+{
+    snprintf(out, size, "%s", field);
+    for (char *c = out; *c; c++)
+        if (*c == '_')
+            *c = '-';
+}
+
+static int is_typed(const session *s, const char *name)
+{
+    for (int i = 0; i < OPTION_COUNT; i++)
+        if (session_value(s, (option_id)i)->given && strcmp(option_table[i].name, name) == 0)
+            return 1;
+    return 0;
+}
+
+/* The option without which the others would go with the scene's own, or NULL. */
+static const char *option_at_fault(const session *s, const rt_render_options *own)
+{
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        command_line others = *s->arguments;
+        session trial = *s;
+        rt_render_options options = *own;
+        trial.arguments = &others;
+        others.options[i].given = 0;
+        session_merge_options(&trial, &options);
+        if (session_value(s, (option_id)i)->given && rt_render_options_check(&options, NULL) == RT_OK)
+            return option_table[i].name;
+    }
+    return NULL;
+}
+
+int session_check_options(const session *s, const rt_render_options *own, const rt_render_options *options)
+{
+    char name[sizeof((rt_error *)0)->field];
+    rt_error error;
+    if (rt_render_options_check(options, &error) == RT_OK)
+        return STATUS_DONE;
+    option_name(name, sizeof name, error.field);
+    const char *typed = is_typed(s, name) ? NULL : option_at_fault(s, own);
+    if (!typed)
+        return session_fail(&error);
+    message_error("--%s does not go with the scene's %s: %s", typed, error.field, error.message);
+    if (strcmp(error.field, "variance") == 0)
+        message_hint("--no-variance leaves it out");
+    return STATUS_USAGE;
+}
+
 int session_fail(const rt_error *error)
 {
     if (error->status != RT_ERROR_USAGE || !error->field[0] || error->line)
         return message_failure(error);
     char name[sizeof error->field];
-    snprintf(name, sizeof name, "%s", error->field);
-    for (char *c = name; *c; c++)
-        if (*c == '_')
-            *c = '-';
+    option_name(name, sizeof name, error->field);
     message_error("--%s: %s", name, error->message);
     return STATUS_USAGE;
 }

@@ -28,6 +28,12 @@ void session_merge_options(const session *session, rt_render_options *options);
  */
 int session_fail(const rt_error *error);
 
+/*
+ * Whether the options, merged from the scene's own, go together. Says what does not by the option that was typed.
+ * Returns an exit status.
+ */
+int session_check_options(const session *session, const rt_render_options *own, const rt_render_options *options);
+
 /* Opens the device that the command line names. Returns an exit status; the caller owns *out. */
 int session_open_device(const session *session, rt_device **out);
 

@@ -45,8 +45,7 @@ typedef struct photon_render {
 
 /* ---- Preparation ---------------------------------------------------------- */
 
-/* What options must be to each other. */
-static rt_status check(const rt_render_options *o, rt_error *error)
+rt_status rt_photon_mode_check(const rt_render_options *o, rt_error *error)
 {
     int all = o->k == RT_K_ALL || o->caustic_k == RT_K_ALL, in_passes = o->passes > 1;
     if (o->gather == RT_GATHER_FLANN && (all || in_passes))
@@ -56,8 +55,11 @@ static rt_status check(const rt_render_options *o, rt_error *error)
     if (o->area == RT_AREA_HULL && (all || in_passes || o->gather == RT_GATHER_DEVICE))
         return rt_fail_field(error, RT_ERROR_USAGE, "area",
                              "the hull is for the k nearest photons by FLANN, not for passes or the device");
-    if (!in_passes && ((o->k == RT_K_ALL && o->radius == 0) || (o->caustic_k == RT_K_ALL && o->caustic_radius == 0)))
-        return rt_fail_field(error, RT_ERROR_USAGE, "radius", "to gather all photons within a radius, give the radius");
+    if (!in_passes && o->k == RT_K_ALL && o->radius == 0)
+        return rt_fail_field(error, RT_ERROR_USAGE, "k", "to gather all photons within a radius, give the radius");
+    if (!in_passes && o->caustic_k == RT_K_ALL && o->caustic_radius == 0)
+        return rt_fail_field(error, RT_ERROR_USAGE, "caustic_k",
+                             "to gather all photons within a radius, give the caustic_radius");
     if ((uint64_t)o->passes * o->spp > UINT32_MAX)
         return rt_fail_field(error, RT_ERROR_USAGE, "passes", "%u passes of %u samples are more than the %lu possible",
                              o->passes, o->spp, (unsigned long)UINT32_MAX);
@@ -415,8 +417,8 @@ static rt_status render_passes(photon_render *r, rt_error *error)
 rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error)
 {
     photon_render r;
-    rt_status status = check(options, error);
-    if (status == RT_OK && options->photon_map)
+    rt_status status = RT_OK;
+    if (options->photon_map)
         status = rt_photon_map_check(options->photon_map, renderer, options, error);
     if (status != RT_OK)
         return status;

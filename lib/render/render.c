@@ -132,21 +132,30 @@ static void warn_of_missing_light(const rt_renderer *renderer, const rt_render_o
                           "mirrors or glass; mode photon shows it");
 }
 
+rt_status rt_render_options_check(const rt_render_options *options, rt_error *error)
+{
+    rt_render_options complete = *options;
+    rt_status status = rt_options_check(options, error);
+    rt_options_complete(&complete);
+    if (status == RT_OK)
+        status = rt_noise_check(&complete, error);
+    if (status == RT_OK && complete.mode == RT_MODE_PHOTON)
+        status = rt_photon_mode_check(&complete, error);
+    return status;
+}
+
 rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options, rt_error *error)
 {
     rt_render_options complete = options ? *options : renderer->options;
     rt_camera_data camera;
     rt_film *film = NULL;
-    rt_status status = rt_options_check(&complete, error);
+    rt_status status = rt_render_options_check(&complete, error);
 
     if (status != RT_OK)
         return status;
     if (!renderer->has_camera)
         return rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
     rt_options_complete(&complete);
-    status = rt_noise_check(&complete, error);
-    if (status != RT_OK)
-        return status;
     rt_view_aim(&camera, &renderer->camera, complete.width, complete.height);
     camera.filter = complete.filter;
     status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,

@@ -51,4 +51,7 @@ rt_status rt_renderer_enclose(rt_renderer *renderer, const rt_scene *scene, size
 rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error);
 rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error);
 
+/* What the options of photon mode, completed, must be to each other. */
+rt_status rt_photon_mode_check(const rt_render_options *options, rt_error *error);
+
 #endif

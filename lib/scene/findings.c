@@ -5,8 +5,8 @@
 #include "scene/inside.h"
 #include "scene/view.h"
 
-/* Lamps that are looked for inside solids: a mistake in a row of them is seen in its first ones. */
-enum { lamps_looked_at = 256 };
+/* Lamps, and open shapes of glass, that are looked at: a mistake in a row of them is seen in its first ones. */
+enum { looked_at_most = 256 };
 
 /* A check under way. */
 typedef struct inspection {
@@ -200,14 +200,14 @@ static void find_lamps_inside(inspection *in)
 {
     const rt_scene *scene = in->scene;
     int looked_at = 0;
-    for (size_t i = 0; i < scene->light_count && looked_at < lamps_looked_at; i++) {
+    for (size_t i = 0; i < scene->light_count && looked_at < looked_at_most; i++) {
         const lamp lamp = {.light = scene->lights + i};
         if (lamp.light->kind == RT_LIGHT_POINT || lamp.light->kind == RT_LIGHT_SPOT) {
             find_lamp_inside(in, &lamp);
             looked_at++;
         }
     }
-    for (size_t i = 0; i < scene->shape_count && looked_at < lamps_looked_at; i++) {
+    for (size_t i = 0; i < scene->shape_count && looked_at < looked_at_most; i++) {
         const lamp lamp = {.shape = scene->shapes + i};
         if (lamp.shape->emits) {
             find_lamp_inside(in, &lamp);
@@ -216,10 +216,71 @@ static void find_lamps_inside(inspection *in)
     }
 }
 
+/* ---- Glass ----------------------------------------------------------------- */
+
+/* A plane bounds a half-space by itself, and is no open shape. */
+static int is_open(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    switch (shape->kind) {
+    case RT_SHAPE_QUAD:
+    case RT_SHAPE_DISC:
+        return 1;
+    case RT_SHAPE_TRIANGLES:
+        return scene->meshes[shape->mesh].triangle_count == 1;
+    case RT_SHAPE_CYLINDER:
+    case RT_SHAPE_CONE:
+        return !shape->caps;
+    default:
+        return 0;
+    }
+}
+
+/* Whether what enters the material is bent or absorbed; where not, a sheet of it is a mere filter. */
+static int is_glass(const rt_material *material)
+{
+    return (!rt_is_black(material->kt) || material->kt_texture) &&
+           (material->ior != 1 || !rt_is_black(material->absorption));
+}
+
+/* Whether shapes of one material may close each other: four flat ones can, and fewer where one is curved. */
+static int may_bound(const rt_scene *scene, uint32_t material)
+{
+    size_t flat = 0, curved = 0;
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (shape->surface.material != material)
+            continue;
+        if (shape->kind == RT_SHAPE_CYLINDER || shape->kind == RT_SHAPE_CONE ||
+            (shape->kind == RT_SHAPE_TRIANGLES && !is_open(scene, shape)))
+            curved++;
+        else
+            flat += is_open(scene, shape) || shape->kind == RT_SHAPE_PLANE;
+    }
+    return flat >= 4 || (curved > 0 && flat + curved > 1);
+}
+
+static void find_open_glass(inspection *in)
+{
+    const rt_scene *scene = in->scene;
+    int looked_at = 0;
+    for (size_t i = 0; i < scene->shape_count && looked_at < looked_at_most; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (!is_open(scene, shape) || !is_glass(scene->materials + shape->surface.material))
+            continue;
+        looked_at++;
+        if (may_bound(scene, shape->surface.material))
+            continue;
+        rt_finding open = finding_of(RT_FINDING_OPEN_GLASS);
+        open.shape = (uint32_t)i;
+        say(in, open, "an open shape of glass has no inside: light that has crossed it goes on as in the glass");
+    }
+}
+
 size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding), void *user)
 {
     inspection in = {scene, found, user, 0};
     find_missing(&in);
+    find_open_glass(&in);
     if (scene->has_camera) {
         find_empty_view(&in);
         find_eye_inside(&in);

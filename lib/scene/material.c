@@ -71,6 +71,8 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m, 
 static rt_status check_conductor(const rt_material *m, const char *who, rt_error *error)
 {
     for (int c = 0; c < 3; c++) {
+        if (rt_is_black(m->eta))
+            return rt_fail_field(error, RT_ERROR_INPUT, "eta", "%s: a conductor needs eta, its index of refraction", who);
         if (!(m->eta[c] > 0 && m->eta[c] <= 100))
             return rt_fail_field(error, RT_ERROR_INPUT, "eta",
                                  "%s: eta has the component %g; that of a conductor must lie between 0 and 100", who,

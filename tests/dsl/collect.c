@@ -31,21 +31,21 @@ static void keep(void *user, const rt_diagnostic *diagnostic)
 
 void collect_text(collected *out, const char *text)
 {
-    rt_load_options options = {keep, out, 0};
+    rt_load_options options = {.diagnostic = keep, .user = out};
     memset(out, 0, sizeof *out);
     out->status = rt_scene_parse(&out->scene, text, "text", &options, &out->error);
 }
 
 void check_text(collected *out, const char *text)
 {
-    rt_load_options options = {keep, out, 1};
+    rt_load_options options = {.diagnostic = keep, .user = out, .check = 1};
     memset(out, 0, sizeof *out);
     out->status = rt_scene_parse(&out->scene, text, "text", &options, &out->error);
 }
 
 void collect_file(collected *out, const char *path)
 {
-    rt_load_options options = {keep, out, 0};
+    rt_load_options options = {.diagnostic = keep, .user = out};
     memset(out, 0, sizeof *out);
     out->status = rt_scene_load(&out->scene, path, &options, &out->error);
 }

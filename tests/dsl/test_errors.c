@@ -133,6 +133,12 @@ static const bad_text bad_texts[] = {
     {WHITE "triangle { a 0 0 0 b 1 0 0 c 2 0 0 material white }", 2, 1, 8, "its area is zero", ""},
     {"material l { emission 1 }\nplane { point 0 0 0 normal 0 1 0 material l }", 2, 43, 1, "cannot emit", ""},
 
+    /* What a render would refuse. */
+    {"render { mode photon k all }", 1, 24, 3, "to gather all photons within a radius, give the radius", ""},
+    {"render { mode photon radius 1 caustic_k all k 9 passes 2 area hull }", 1, 63, 4, "not for passes", ""},
+    {"render { variance true mode photon }", 1, 19, 4, "the samples of one photon map share its photons", ""},
+    {"render { target_error 0.1 mode depth }", 1, 23, 3, "the error is that of light, and mode depth shows none", ""},
+
     /* let and arithmetic. */
     {"let = 3\n" BALL, 1, 1, 3, "expected a name after 'let', found '='", ""},
     {"let a 3\n" BALL, 1, 7, 1, "expected '=' after 'let a', found '3'", ""},
@@ -163,12 +169,23 @@ static const bad_text bad_texts[] = {
     {"let radius = 1\n" WHITE "sphere { centre 0 0 0 radius radius material white }", 3, 23, 6,
      "'radius' takes a number, found 'radius'", "in parentheses"},
 
+    {"let pi = 4\n" BALL, 1, 5, 2, "'pi' is already defined", "a constant of the language"},
+    {"repeat pi from 1 to 2 { }\n" BALL, 1, 8, 2, "'pi' is already defined", "a constant of the language"},
+
     /* Functions. */
     {"let a = sine(3)\n" BALL, 1, 9, 4, "unknown function 'sine'", "did you mean 'sin'?"},
     {"let a = 1\nlet b = a(3)\n" BALL, 2, 9, 1, "unknown function 'a'", "a space separates"},
     {"let a = min(3)\n" BALL, 1, 9, 3, "'min' takes two values, separated by a comma, found 1", ""},
     {"let a = sin(1, 2)\n" BALL, 1, 9, 3, "'sin' takes one value, found 2", ""},
     {"let a = sqrt(-1)\n" BALL, 1, 9, 4, "'sqrt' has no finite value here", ""},
+    {"let a = sin (30)\n" BALL, 1, 9, 3, "'sin' is apart from its '('", "sin(...)"},
+    {"camera { eye 0 0 pow (2, 3) look_at 0 0 0 }", 1, 18, 3, "'pow' is apart from its '('", "pow(...)"},
+    {"let a = 2 ^ 3\n" BALL, 1, 11, 1, "unexpected '^' after the value of 'a'", "pow(x, y)"},
+    {"let a = (5 % 3)\n" BALL, 1, 12, 1, "expected ')', found '%'", "mod(x, y)"},
+    {"film { width 2 ^ 3 }", 1, 16, 1, "unexpected '^' after the value of 'width'", "pow(x, y)"},
+    {"film { width 10 cm }", 1, 17, 2, "unknown field 'cm' in film", "without units"},
+    {"film { width 10px }", 1, 14, 4, "'10px' is not a number", "without units"},
+    {"light { }", 1, 1, 5, "expected a kind of light", "the kinds are: point spot directional environment; as in"},
     {"let a = sin(1\n" BALL, 1, 14, 1, "expected ')', found 'material'", "closes the '('"},
 
     /* repeat. */
@@ -199,7 +216,7 @@ static const bad_text bad_texts[] = {
     {"texture wood { file \"none.png\" }\n", 1, 22, 8, "none.png", ""},
     {"texture wood { }\n", 1, 1, 7, "an image needs a file", ""},
     {"texture wood { file \"\" }\n", 1, 22, 0 + 1, "the name of the file is empty", ""},
-    {"texture wood { file wood }\n", 1, 21, 4, "'file' takes a file name in quotes, found 'wood'", ""},
+    {"texture wood { file wood }\n", 1, 21, 4, "'file' takes a file name in quotes, found 'wood'", "double quotes"},
     {"texture t { pattern checker a 1 }\nmaterial m { kd_texture t  ks 0.1 }", 2, 25, 1,
      "kd + ks + kt is 1.1 in red where the textures are brightest", ""},
     {"mesh m { file \"none.ply\" }\n", 1, 16, 8, "none.ply", ""},
@@ -208,12 +225,18 @@ static const bad_text bad_texts[] = {
     {WHITE "instance { material white }\n", 2, 1, 8, "instance needs a name, found '{'", "instance bunny"},
     {WHITE "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 0 material white }\n", 2, 1, 8,
      "triangle needs all of 'uva', 'uvb' and 'uvc', or none", ""},
-    {"material m { ks 1 fresnel conductor }", 1, 1, 8, "eta has the component 0", ""},
+    {"material m { ks 1 fresnel conductor }", 1, 1, 8, "a conductor needs eta", ""},
     {"light environment { radiance 1 }\nlight environment { radiance 1 }", 2, 1, 17, "a scene has only one light environment",
      "the first is at text:1"},
     {WHITE "cone { base 0 0 0 apex 0 1 0 radius 1 apex_radius 2 material white }\n", 2, 51, 1, "apex_radius is 2 m", ""},
 
     /* include and strings. */
+    {"mesh m { file \"wood.ply shading flat }\n" BALL, 1, 15, 1, "the string is not closed", ""},
+    {"texture wood { file \"wood.png  scale 2 2\n wrap clamp\n}\n" BALL, 1, 21, 1, "the string is not closed", ""},
+    {"model { file \"wood.ply  material white }\n" BALL, 1, 14, 1, "the string is not closed", ""},
+    {WHITE "sphere (\n centre 0 0 0\n radius 1\n material white\n}\n", 2, 8, 1, "expected '{' after sphere, found '('", ""},
+    {WHITE "sphere\n centre 0 0 0\n radius 1\n material white\n}\n", 2, 7, 1, "expected '{' after sphere, found 'centre'",
+     ""},
     {"include box\n" BALL, 1, 1, 7, "expected a file name in quotes after 'include', found 'box'", "materials.rts"},
     {"include \"box.rts\n" BALL, 1, 9, 1, "the string is not closed", ""},
     {"include \"\"\n" BALL, 1, 10, 1, "the name of the file to include is empty", ""},
@@ -295,6 +318,64 @@ static void what_nothing_uses_is_warned_of(void **state)
     collected_free(&c);
 }
 
+/* Not where a repeat around it may give it turns at other times. */
+static void a_repeat_without_turns_is_warned_of(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_text(&c, BALL "repeat i from 5 to 1 { nonsense }\n");
+    assert_int_equal(c.status, RT_OK);
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[0].line == 3 && c.items[0].column == 1);
+    assert_string_equal(c.items[0].message, "this repeat makes no turns: it counts up from 5 to 1");
+    collected_free(&c);
+    collect_text(&c, BALL "repeat i from 1 to 2 { repeat j from 1 to (i - 1) { film { width (i + j) } } }\n");
+    expect_clean(&c, "a triangle of turns");
+    collected_free(&c);
+}
+
+/* Each is read, and changes nothing beside the others of its block. */
+static void fields_without_effect_are_warned_of(void **state)
+{
+    static const struct {
+        const char *text;
+        int column;
+        const char *message;
+    } cases[] = {
+        {"material m { kd 0.5 eta 1 }", 21, "'eta' has no effect without 'fresnel conductor'"},
+        {"material m { ks 1 fresnel dielectric k 1 }", 38, "'k' has no effect without 'fresnel conductor'"},
+        {"material m { kd 0.5 roughness 0.1 }", 21, "'roughness' has no effect without 'ks' or 'kt'"},
+        {"material m { ior 1.2 }", 14, "'ior' has no effect without 'ks' or 'kt'"},
+        {"material m { absorption 1 }", 14, "'absorption' has no effect without 'ks' or 'kt'"},
+        {"material m { bump_scale 1 }", 14, "'bump_scale' has no effect without 'bump_texture'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 width 2 }", 34, "'width' has no effect without 'projection orthographic'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 projection orthographic fov 2 }", 58,
+         "'fov' has no effect without 'projection perspective'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 blades 5 }", 34, "'blades' has no effect without 'aperture'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 focal_distance 5 }", 34, "'focal_distance' has no effect without 'aperture'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 aperture 1 blade_rotation 5 }", 45,
+         "'blade_rotation' has no effect without 'blades'"},
+        {"texture t { pattern checker file \"none.png\" }", 29, "'file' has no effect without 'pattern image'"},
+        {"texture t { pattern checker linear true }", 29, "'linear' has no effect without 'pattern image'"},
+        {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
+         "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
+        {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37, "'ior' has no effect"},
+    };
+    static collected c;
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        int found = 0;
+        collect_text(&c, cases[i].text);
+        assert_int_equal(c.status, RT_OK);
+        for (int j = 0; j < c.count; j++)
+            found += c.items[j].severity == RT_SEVERITY_WARNING && c.items[j].line == 1 &&
+                     c.items[j].column == cases[i].column && strstr(c.items[j].message, cases[i].message);
+        if (found != 1)
+            fail_msg("%d times at column %d: %s\nin %s", found, cases[i].column, cases[i].message, cases[i].text);
+        collected_free(&c);
+    }
+}
+
 /* With `check`, at the block that it is about; what no block is about, at the text as a whole. */
 static void what_a_check_finds_stands_at_its_place(void **state)
 {
@@ -318,6 +399,13 @@ static void what_a_check_finds_stands_at_its_place(void **state)
     assert_true(c.items[0].finding == RT_FINDING_NO_LIGHT && c.items[0].line == 0);
     assert_true(c.items[1].finding == RT_FINDING_EYE_IN_MEDIUM && c.items[1].line == 3);
     assert_int_equal(c.items[1].severity, RT_SEVERITY_NOTE);
+    collected_free(&c);
+
+    check_text(&c, "material m { kt 1 }\nlight point { position 0 3 0 power 1 }\ncamera { eye 0 0 -4 look_at 0 0 0 }\n"
+                   "repeat i from 1 to 3 { disc { centre 0 0 0 normal 0 0 1 radius 1 material m } }\n");
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].finding == RT_FINDING_OPEN_GLASS && c.items[0].line == 4 && c.items[0].column == 24);
+    assert_true(strstr(c.items[0].hint, "closed shape") != NULL);
     collected_free(&c);
 
     /* Not where the text has errors; and not unless asked for. */
@@ -385,6 +473,8 @@ int main(void)
         cmocka_unit_test(five_errors_give_five_reports_in_order),
         cmocka_unit_test(the_source_line_is_quoted_whole),
         cmocka_unit_test(what_nothing_uses_is_warned_of),
+        cmocka_unit_test(a_repeat_without_turns_is_warned_of),
+        cmocka_unit_test(fields_without_effect_are_warned_of),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
         cmocka_unit_test(deep_and_long_texts_are_refused),

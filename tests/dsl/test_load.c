@@ -200,7 +200,7 @@ static void repeats_count_and_scope_their_names(void **state)
         "    material paint { kd (i / 10) }\n"
         "    repeat j from i to (i + 1.5) { sphere { centre x j 0 radius 1 material paint } }\n"
         "}\n"
-        "repeat i from 2 to 1 { this is not even read }\n"
+        "repeat i from 1 to 1 { repeat j from 2 to i { this is not even read } }\n"
         "let x = 7\n"
         "material paint { }\n"
         "sphere { centre x 0 0 radius 1 material paint }\n";
@@ -223,9 +223,9 @@ static void repeats_count_and_scope_their_names(void **state)
 static void meshes_textures_and_lights_reach_the_scene(void **state)
 {
     static const char text[] =
-        "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 blades 6 blade_rotation 30 }\n"
+        "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 aperture 0.1 blades 6 blade_rotation 30 }\n"
         "film { filter mitchell }\n"
-        "render { mode depth aov true estimator bsdf variance true target_error 0.02 }\n"
+        "render { mode direct aov true estimator bsdf variance true target_error 0.02 }\n"
         "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 linear true }\n"
         "texture squares { pattern checker a 1 b 0 0.5 0 }\n"
         "material gold { ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture letter bump_scale 0.1 }\n"
@@ -245,7 +245,7 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     expect_clean(&c, text);
     const rt_scene *s = c.scene;
     assert_true(s->camera.kind == RT_CAMERA_ORTHOGRAPHIC && s->camera.width == 3 && s->camera.blades == 6);
-    assert_true(s->options.filter == RT_FILTER_MITCHELL && s->options.mode == RT_MODE_DEPTH && s->options.aov);
+    assert_true(s->options.filter == RT_FILTER_MITCHELL && s->options.mode == RT_MODE_DIRECT && s->options.aov);
     assert_true(s->options.estimator == RT_ESTIMATOR_BSDF);
     assert_true(s->options.variance && s->options.target_error == 0.02);
     const rt_texture_data *letter = &s->textures[0].data;

@@ -79,6 +79,8 @@ static const struct {
     {"devices --spp 3", "`rtc devices` takes no option --spp"},
     {"devices a.rts", "takes no argument"},
     {"doctor a.rts", "takes no argument but options"},
+    {"a.rts --no-stats", "unknown option '--no-stats'"},
+    {"a.rts --no-aov=1", "--aov takes no value"},
     {"check --help=yes", "--help takes no value"},
     {"a.rts --caustic-k 1", "--caustic-k takes a whole number from 2 to 65536"},
     {"a.rts --caustic-kernel q", "--caustic-kernel takes one of"},
@@ -102,6 +104,10 @@ static const struct {
     {"photons merge --out m.rtp", "usage: rtc photons merge"},
     {"photons merge a.rtp", "--out FILE"},
     {"photons diff a.rtp", "usage: rtc photons diff"},
+    {"photons a.rts --out m.png", "--out m.png: the photon map goes to a file called NAME.rtp"},
+    {"photons a.rts --out a.rts", "called NAME.rtp"},
+    {"photons merge a.rtp --out m", "called NAME.rtp"},
+    {"photons export a.rtp --out a.rtp", "called NAME.ply"},
     {"photons export a.rtp b.rtp --out c.ply", "usage: rtc photons export"},
 };
 
@@ -132,6 +138,83 @@ static void several_mistakes_are_all_told(void **state)
     run_free(&run);
 }
 
+/* Not by its own name, nor by a link, and whoever names it: nothing that is read is overwritten. */
+static void outputs_spare_what_is_read(void **state)
+{
+    static const struct {
+        const char *line, *output;
+    } cases[] = {
+        {"b.rts --spp 1", "wood.ppm"}, /* a texture */
+        {"b.rts --spp 1", "link.ppm"},
+        {"b.rts --spp 1 --out c.pfm", "part.ppm"}, /* an included text */
+        {"b.rts --spp 1", "a.pfm"},                /* the scene itself */
+        {"compare wood.ppm wood.ppm", "wood.ppm"},
+        {"compare wood.ppm wood.ppm", "link.ppm"},
+        {"photons b.rts --photons 10", "m.rtp"},
+        {"photons merge n.rtp", "n.rtp"},
+        {"photons export n.rtp", "n.ply"},
+        {"b.rts --spp 1 --photon-map n.rtp", "n.pfm"},
+    };
+    (void)state;
+    scratch_write("wood.ppm", "P3 1 1 255 9 9 9\n");
+    scratch_write("part.ppm", "texture wood { file \"wood.ppm\" }\n");
+    scratch_write("b.rts", "include \"part.ppm\"\n"
+                           "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
+                           "material white { kd_texture wood }\nsphere { centre 0 0 0  radius 1  material white }\n"
+                           "light point { position 2 4 -3  intensity 20 }\n");
+    assert_int_equal(symlink("wood.ppm", "link.ppm"), 0);
+    assert_int_equal(link("b.rts", "a.pfm"), 0);
+    run made = run_rtc("photons b.rts --photons 10 --out n.rtp");
+    expect_status(&made, 0);
+    run_free(&made);
+    assert_int_equal(link("n.rtp", "n.ply"), 0);
+    assert_int_equal(link("n.rtp", "n.pfm"), 0);
+    assert_int_equal(symlink("b.rts", "m.rtp"), 0);
+    size_t files = scratch_count();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char says[64];
+        snprintf(says, sizeof says, "--out %s: is read by this command", cases[i].output);
+        run run = run_rtc("%s --out %s", cases[i].line, cases[i].output);
+        expect_status(&run, 2);
+        expect_err(&run, says);
+        run_free(&run);
+    }
+    assert_int_equal(scratch_count(), files);
+    /* What is not read may be replaced. */
+    run first = run_rtc("b.rts --spp 1 --quiet --out c.pfm"), again = run_rtc("b.rts --spp 1 --quiet --out c.pfm");
+    expect_status(&first, 0);
+    expect_status(&again, 0);
+    run_free(&first);
+    run_free(&again);
+}
+
+/* Options that are good alone may not go together; what is at fault is called by the name that was typed. */
+static void typed_options_are_named_when_the_scene_disagrees(void **state)
+{
+    static const struct {
+        const char *render, *options, *says;
+    } cases[] = {
+        {"mode photon area hull", "--passes 4", "--passes does not go with the scene's area: the hull is"},
+        {"mode photon passes 4", "--area hull", "--area: the hull is"},
+        {"mode photon", "--k all", "--k: to gather all photons within a radius, give the radius"},
+        {"mode photon k all radius 1", "--radius 0", "--radius does not go with the scene's k: to gather"},
+        {"mode photon gather flann", "--passes 4", "--passes does not go with the scene's gather: FLANN"},
+        {"target_error 0.1", "--spp 1", "--spp does not go with the scene's target_error: one sample"},
+        {"", "--mode photon --variance", "--variance: the samples of one photon map"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, "%srender { %s }\n", scene, cases[i].render);
+        scratch_write("a.rts", text);
+        run run = run_rtc("a.rts %s --out a.pfm", cases[i].options);
+        expect_status(&run, 2);
+        expect_err(&run, cases[i].says);
+        expect_no_file("a.pfm");
+        run_free(&run);
+    }
+}
+
 /* ---- What is accepted ------------------------------------------------------- */
 
 static void both_forms_of_an_option_are_the_same(void **state)
@@ -146,6 +229,32 @@ static void both_forms_of_an_option_are_the_same(void **state)
     expect_same_files("a.pfm", "b.pfm");
     run_free(&a);
     run_free(&b);
+}
+
+/* What the scene turns on the command line can turn off. */
+static void switches_of_the_scene_are_taken_back(void **state)
+{
+    char text[1024];
+    (void)state;
+    snprintf(text, sizeof text, "%srender { variance true  aov true }\n", scene);
+    scratch_write("a.rts", text);
+    run refused = run_rtc("a.rts --mode normals --out a.exr");
+    expect_status(&refused, 2);
+    expect_err(&refused, "--mode does not go with the scene's variance: ");
+    expect_err(&refused, "hint: --no-variance");
+    run_free(&refused);
+
+    run plain = run_rtc("a.rts --spp 4 --no-variance --no-aov --out plain.exr");
+    run layers = run_rtc("a.rts --spp 4 --no-variance --no-aov --aov --out layers.exr");
+    run normals = run_rtc("a.rts --spp 4 --no-variance --mode normals --out normals.exr");
+    expect_status(&plain, 0);
+    expect_no_err(&plain, "relative error");
+    expect_status(&layers, 0);
+    expect_different_files("plain.exr", "layers.exr");
+    expect_status(&normals, 0);
+    run_free(&plain);
+    run_free(&layers);
+    run_free(&normals);
 }
 
 static void last_of_a_repeated_option_counts(void **state)
@@ -209,10 +318,12 @@ static void each_command_has_its_help(void **state)
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         char usage[64];
         snprintf(usage, sizeof usage, "usage: rtc %s", commands[i]);
-        run run = run_rtc("%s --help", commands[i]);
+        run run = run_rtc("%s --help", commands[i]), same = run_rtc("help %s", commands[i]);
         expect_status(&run, 0);
         expect_out(&run, usage);
+        assert_string_equal(run.out, same.out);
         run_free(&run);
+        run_free(&same);
     }
 }
 
@@ -253,6 +364,21 @@ static void check_counts_what_a_scene_holds(void **state)
     run run = run_rtc("check a.rts");
     expect_status(&run, 0);
     assert_string_equal(run.out, "a.rts: ok: 1 shape, 0 triangles, 1 material, 1 light\n");
+    run_free(&run);
+}
+
+static void only_the_first_errors_are_printed(void **state)
+{
+    char text[1024] = "";
+    (void)state;
+    for (int i = 0; i < 33; i++)
+        strcat(text, "material { }\n");
+    scratch_write("a.rts", text);
+    run run = run_rtc("check a.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "a.rts:20:1: error: ");
+    expect_no_err(&run, "a.rts:21:1: error: ");
+    expect_err(&run, "a.rts: and 13 more errors\n");
     run_free(&run);
 }
 
@@ -359,7 +485,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(wrong_usage_is_refused_with_status_2),
         TEST(several_mistakes_are_all_told),
+        TEST(outputs_spare_what_is_read),
+        TEST(typed_options_are_named_when_the_scene_disagrees),
         TEST(both_forms_of_an_option_are_the_same),
+        TEST(switches_of_the_scene_are_taken_back),
         TEST(last_of_a_repeated_option_counts),
         TEST(two_dashes_end_the_options),
         TEST(negative_value_is_a_value),
@@ -369,6 +498,7 @@ int main(void)
         TEST(devices_are_listed),
         TEST(doctor_finds_all_well),
         TEST(check_counts_what_a_scene_holds),
+        TEST(only_the_first_errors_are_printed),
         TEST(check_of_several_scenes_goes_on_after_a_bad_one),
         TEST(no_platform_is_status_3_and_says_what_to_install),
         TEST(options_and_fields_are_the_same),

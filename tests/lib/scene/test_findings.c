@@ -263,6 +263,30 @@ static void a_camera_that_looks_past_all_is_told(void **state)
     EXPECT(cases);
 }
 
+static void glass_without_an_inside_is_told(void **state)
+{
+#define GLASS MATERIALS VIEW SUN "material clear { kt 1 ior 1.5 }\n"
+#define FACE(z) "quad { corner 0 0 " z " edge1 1 0 0 edge2 0 1 0 material clear }\n"
+    static const scene_case cases[] = {
+        {GLASS FACE("0"), RT_FINDING_OPEN_GLASS},
+        {GLASS "disc { centre 0 0 0 normal 0 0 1 radius 1 material clear }", RT_FINDING_OPEN_GLASS},
+        {GLASS "triangle { a 0 0 0 b 1 0 0 c 0 1 0 material clear }", RT_FINDING_OPEN_GLASS},
+        {GLASS "cylinder { a 0 0 0 b 0 1 0 radius 1 caps false material clear }", RT_FINDING_OPEN_GLASS},
+        {GLASS "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material clear }", RT_FINDING_OPEN_GLASS},
+        /* Closed, by itself or by what may be its other faces; a plane is the boundary of a half-space. */
+        {GLASS "cone { base 0 0 0 apex 0 1 0 radius 1 material clear }", RT_FINDING_NONE},
+        {GLASS "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material clear }"
+               "disc { centre 0 0 0 normal 0 -1 0 radius 1 material clear }", RT_FINDING_NONE},
+        {GLASS FACE("0") FACE("1") FACE("2") FACE("3"), RT_FINDING_NONE},
+        {GLASS "plane { point 0 -9 0 normal 0 1 0 material clear } sphere { centre 0 0 0 radius 1 material clear }",
+         RT_FINDING_NONE},
+        /* A sheet that bends nothing. */
+        {MATERIALS VIEW SUN "material clear { kt 0.5 ior 1 }" FACE("0"), RT_FINDING_NONE},
+    };
+    (void)state;
+    EXPECT(cases);
+}
+
 static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
 {
     static const scene_case cases[] = {
@@ -312,6 +336,7 @@ int main(void)
         cmocka_unit_test(only_closed_shapes_have_an_inside),
         cmocka_unit_test(what_is_missing_is_told),
         cmocka_unit_test(a_camera_that_looks_past_all_is_told),
+        cmocka_unit_test(glass_without_an_inside_is_told),
         cmocka_unit_test(a_camera_in_a_solid_is_told_where_that_is_dark),
         cmocka_unit_test(a_lamp_in_a_solid_is_told),
     };
