@@ -22,15 +22,23 @@ static inline float ggx_density(float alpha, float3 h)
     return a2 / (RT_PI * square(a2 * h.z * h.z + h.x * h.x + h.y * h.y));
 }
 
-/* Smith's Lambda: the masking of w is 1 / (1 + Lambda). */
-static inline float ggx_lambda(float alpha, float3 w)
+/*
+ * The facets that face w, as an area across w on a surface of area 1, hidden ones and all: |w.z| (1 + Lambda(w)), with
+ * Smith's Lambda. |w.z| of it is seen. Unlike Lambda it is finite for a w that only grazes the surface.
+ */
+static inline float ggx_facing(float alpha, float3 w)
 {
-    const float slope2 = alpha * alpha * (w.x * w.x + w.y * w.y) / (w.z * w.z);
-    return 0.5f * slope2 / (1.0f + sqrt(1.0f + slope2)); /* (sqrt(1 + slope2) - 1) / 2 without the difference */
+    return 0.5f * (fabs(w.z) + sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y)));
+}
+
+/* What is hidden of them, |w.z| Lambda(w); as a quotient, because the difference of the two is not precise. */
+static inline float ggx_hidden(float alpha, float3 w)
+{
+    return 0.25f * alpha * alpha * (w.x * w.x + w.y * w.y) / ggx_facing(alpha, w);
 }
 
 /*
- * A normal among those that wo, wo.z > 0, can see: density D(h) (wo.h) / (wo.z (1 + Lambda(wo))). Stretched to
+ * A normal among those that wo, wo.z >= 0, can see: density D(h) (wo.h) / ggx_facing(wo). Stretched to
  * roughness 1 the surface is a hemisphere of which wo sees a cap of mirror directions, uniform in solid angle.
  */
 static inline float3 sample_visible_normal(float alpha, float3 wo, float2 u)

@@ -10,8 +10,8 @@
  *   clear glass, normal view / all directions     0/0    0/1    1/2    3/8   10/20  %
  *   the same from inside                          0/0    1/3    4/10  24/30  58/52  %
  *
- * Directions are unit vectors in the frame of the surface, wo.z > 0. eta is the index on the side of wo over that
- * on the other. Refracted light is given as flux; radiance is to be scaled by eta^2.
+ * Directions are unit vectors in the frame of the surface, wo.z > 0, or 0 by rounding. eta is the index on the side
+ * of wo over that on the other. Refracted light is given as flux; radiance is to be scaled by eta^2.
  *
  * References:
  *   Walter, Marschner, Li, Torrance: "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007.
@@ -84,17 +84,20 @@ static inline bool is_matched(const struct specular *specular)
     return fabs(1.0f - specular->eta) < RT_MATCHED_INDEX;
 }
 
-/* The share of light from a facet that wo sees to wi that is not shadowed: G2 / G1, for correlated heights. */
+/*
+ * The share of light from a facet that wo sees to wi that is not shadowed: G2 / G1 for correlated heights, (1 +
+ * Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)), times |wo.z wi.z| above and below.
+ */
 static inline float unshadowed(const struct specular *specular, float3 wo, float3 wi)
 {
-    const float seen = 1.0f + ggx_lambda(specular->alpha, wo);
-    return seen / (seen + ggx_lambda(specular->alpha, wi));
+    const float seen = ggx_facing(specular->alpha, wo) * fabs(wi.z);
+    return seen / (seen + fabs(wo.z) * ggx_hidden(specular->alpha, wi));
 }
 
 /* The density of wi by facets of normal h: that of visible normals, times dh/dwi (Walter et al., eqs. 14 and 17). */
 static inline float facet_pdf_w(const struct specular *specular, float3 wo, float3 wi, float3 h)
 {
-    const float visible = ggx_density(specular->alpha, h) / (wo.z * (1.0f + ggx_lambda(specular->alpha, wo)));
+    const float visible = ggx_density(specular->alpha, h) / ggx_facing(specular->alpha, wo);
     if (wi.z > 0.0f)
         return 0.25f * visible;
     const float cos_o = dot(wo, h), cos_i = dot(wi, h);

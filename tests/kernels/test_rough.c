@@ -105,6 +105,28 @@ static void sampling_and_evaluation_agree(void **state)
         }
 }
 
+/* By rounding a path may meet a surface along it: what it samples there is light as anywhere else. */
+static void a_view_along_the_surface_is_finite(void **state)
+{
+    static const double cosines[] = {0, 1e-38, 1e-30, 1e-20, 1e-9};
+    static const float alphas[] = {1e-3f, 0.15f, 1};
+    (void)state;
+    for (int c = 0; c < 5; c++)
+        for (int a = 0; a < 3; a++) {
+            double mean = 0;
+            sample(&dielectric, (boundary){0.3f, 0.6f, alphas[a], a % 2 ? 1 / 1.5f : 1.5f}, cosines[c]);
+            for (int i = 0; i < n; i++) {
+                const result *r = results + i;
+                assert_true(isfinite(r->wi[0] + r->wi[1] + r->wi[2]) && isfinite(r->pdf_w));
+                assert_true(r->weight[0] >= 0 && r->weight[0] <= 1.001f);
+                assert_true(isfinite(r->value[0]) && isfinite(r->eval_pdf_w));
+                mean += r->weight[0] / n;
+            }
+            if (!(mean > 0.1 && mean < 0.901))
+                fail_msg("alpha %g, cosine %g: reflects and refracts %g of the light", alphas[a], cosines[c], mean);
+        }
+}
+
 /* ---- Reciprocity -------------------------------------------------------------- */
 
 /* fr is the same both ways; refracted flux is, over the square of the index on the side that it comes from. */
@@ -280,6 +302,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sampling_and_evaluation_agree),
+        cmocka_unit_test(a_view_along_the_surface_is_finite),
         cmocka_unit_test(light_goes_both_ways_alike),
         cmocka_unit_test(a_white_furnace_loses_what_meets_two_facets),
         cmocka_unit_test(the_roughest_metal_keeps_its_closed_form),
