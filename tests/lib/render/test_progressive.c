@@ -126,7 +126,7 @@ static void options_that_do_not_go_together_are_refused(void **state)
     expect_usage(&s, &options, "gather");
     options.gather = RT_GATHER_AUTO;
     options.radius = 0;
-    expect_usage(&s, &options, "radius");
+    expect_usage(&s, &options, "k");
     options = pass_options(&s, 1 << 24);
     options.spp = 1 << 16;
     expect_usage(&s, &options, "passes");
