@@ -30,44 +30,55 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 
 LIB_SRC := \
 	lib/error.c lib/progress.c lib/version.c \
-	lib/device/device.c lib/device/buffer.c lib/device/program.c \
-	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c lib/scene/light.c lib/scene/material.c \
-	lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/pack_targets.c lib/scene/scene.c \
-	lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
+	lib/device/buffer.c lib/device/device.c lib/device/program.c \
+	lib/image/bytes.c lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c \
+	lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/file.c \
+	lib/image/flip.c lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
+	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \
+	lib/image/ssim.c \
 	lib/light/environment.c lib/light/lights.c lib/light/tree.c \
 	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/mesh.c lib/mesh/normals.c lib/mesh/obj.c lib/mesh/off.c \
 	lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c lib/mesh/ply_reader.c \
-	lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
-	lib/image/bytes.c lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c \
-	lib/image/file.c lib/image/flip.c lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
-	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c lib/image/ssim.c \
-	lib/photon/emit.c lib/photon/device_gather.c lib/photon/flann_index.c lib/photon/gather.c lib/photon/photon_list.c lib/photon/point_order.c lib/photon/search.c lib/photon/tree.c \
-	lib/photon/photon_map.c lib/photon/fingerprint.c lib/photon/ledger.c lib/photon/sources.c \
-	lib/photon/crc32.c lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
-	lib/render/photon_irradiance.c lib/render/photon_maps.c \
-	lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c lib/render/aov.c lib/render/noise.c lib/render/replicates.c lib/render/student.c lib/render/photon_eye.c lib/render/photon_layers.c lib/render/photon_mode.c \
-	lib/render/render.c lib/render/renderer.c lib/render/sample_mode.c lib/render/sobol.c lib/render/trace.c \
+	lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c lib/mesh/text.c lib/mesh/text_number.c \
+	lib/mesh/unique.c \
+	lib/photon/crc32.c lib/photon/device_gather.c lib/photon/emit.c lib/photon/fingerprint.c \
+	lib/photon/flann_index.c lib/photon/gather.c lib/photon/ledger.c lib/photon/map_merge.c \
+	lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c lib/photon/photon_list.c \
+	lib/photon/photon_map.c lib/photon/point_order.c lib/photon/search.c lib/photon/sources.c \
+	lib/photon/tree.c \
+	lib/render/aov.c lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c \
+	lib/render/noise.c lib/render/photon_eye.c lib/render/photon_irradiance.c lib/render/photon_layers.c \
+	lib/render/photon_maps.c lib/render/photon_mode.c lib/render/render.c lib/render/renderer.c \
+	lib/render/replicates.c lib/render/sample_mode.c lib/render/sobol.c lib/render/student.c \
+	lib/render/trace.c \
+	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c \
+	lib/scene/light.c lib/scene/material.c lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c \
+	lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/pack_targets.c \
+	lib/scene/scene.c lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c \
+	lib/scene/view.c \
 	lib/texture/half.c lib/texture/texture.c
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/idle.c dsl/lexer.c dsl/load.c dsl/names.c dsl/number.c dsl/origin.c \
-	dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c \
-	dsl/scope.c dsl/source.c dsl/suggest.c dsl/transform.c
+	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/idle.c dsl/lexer.c dsl/load.c \
+	dsl/names.c dsl/number.c dsl/origin.c dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c \
+	dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c dsl/scope.c dsl/source.c dsl/suggest.c \
+	dsl/transform.c
 
 TOOL_SRC := \
-	tools/check.c tools/compare.c tools/compare_print.c tools/devices.c tools/doctor.c tools/help.c tools/inputs.c tools/interrupt.c tools/mesh.c tools/mesh_shape.c \
-	tools/message.c tools/nearest.c \
-	tools/number.c tools/option_table.c tools/options.c tools/outputs.c tools/progress.c tools/render.c \
-	tools/ledger.c tools/photons.c tools/photons_emit.c tools/photons_info.c tools/session.c \
-	tools/rtc.c tools/scene_file.c tools/stats.c
+	tools/check.c tools/compare.c tools/compare_print.c tools/devices.c tools/doctor.c tools/help.c \
+	tools/inputs.c tools/interrupt.c tools/ledger.c tools/mesh.c tools/mesh_shape.c tools/message.c \
+	tools/nearest.c tools/number.c tools/option_table.c tools/options.c tools/outputs.c tools/photons.c \
+	tools/photons_emit.c tools/photons_info.c tools/progress.c tools/render.c tools/rtc.c tools/scene_file.c \
+	tools/session.c tools/stats.c
 
 KERNEL_SRC := \
-	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl kernels/photon_camera.cl kernels/photon_emit.cl \
-	kernels/photon_film.cl kernels/photon_gather.cl kernels/photon_walk.cl kernels/trace.cl
+	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl kernels/photon_camera.cl \
+	kernels/photon_emit.cl kernels/photon_film.cl kernels/photon_gather.cl kernels/photon_walk.cl \
+	kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
@@ -77,54 +88,75 @@ TESTS_QUICK := \
 	tests/test_api.c \
 	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c tests/dsl/test_number.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c tests/dsl/test_suggest.c \
-	tests/lib/image/test_display.c tests/lib/image/test_exr.c tests/lib/image/test_file.c tests/lib/image/test_image.c \
-	tests/lib/image/test_image_file.c tests/lib/image/test_netpbm.c tests/lib/image/test_png.c \
-	tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c tests/lib/image/test_srgb.c tests/lib/texture/test_half.c \
-	tests/lib/texture/test_texture.c tests/kernels/test_texture.c \
-	tests/lib/mesh/test_damage.c tests/lib/mesh/test_mesh.c tests/lib/mesh/test_obj.c tests/lib/mesh/test_off.c \
-	tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c \
-	tests/lib/mesh/test_text.c \
-	tests/lib/accel/test_bvh.c tests/kernels/test_intersect.c tests/kernels/test_traverse.c \
-	tests/kernels/test_shapes.c tests/kernels/test_shape_sample.c \
+	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
+	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
+	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c \
+	tests/kernels/test_light_tree.c tests/kernels/test_matte.c tests/kernels/test_medium.c \
+	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_rough.c \
+	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
+	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
+	tests/lib/accel/test_bvh.c \
+	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c tests/lib/image/test_display.c \
+	tests/lib/image/test_exr.c tests/lib/image/test_file.c tests/lib/image/test_flip.c \
+	tests/lib/image/test_image.c tests/lib/image/test_image_file.c tests/lib/image/test_netpbm.c \
+	tests/lib/image/test_png.c tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c \
+	tests/lib/image/test_srgb.c tests/lib/image/test_ssim.c \
+	tests/lib/light/test_environment.c \
+	tests/lib/mesh/test_damage.c tests/lib/mesh/test_mesh.c tests/lib/mesh/test_obj.c \
+	tests/lib/mesh/test_off.c tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c \
+	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
+	tests/lib/photon/test_device_gather.c tests/lib/photon/test_emit.c tests/lib/photon/test_flann_index.c \
+	tests/lib/photon/test_gather.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
+	tests/lib/photon/test_photon_list.c tests/lib/photon/test_point_order.c tests/lib/photon/test_search.c \
+	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/render/test_lights.c \
+	tests/lib/render/test_materials.c tests/lib/render/test_modes.c tests/lib/render/test_photon_maps.c \
+	tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_findings.c tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c \
-	tests/lib/scene/test_shapes.c tests/lib/light/test_environment.c tests/kernels/test_types.c \
-	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c tests/lib/image/test_flip.c tests/lib/image/test_ssim.c \
-	tests/kernels/test_density.c tests/lib/photon/test_flann_index.c \
-	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c tests/kernels/test_filter.c \
-	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c tests/kernels/test_light_tree.c tests/kernels/test_path.c \
-	tests/kernels/test_matte.c tests/kernels/test_medium.c tests/kernels/test_rng.c tests/kernels/test_rough.c tests/kernels/test_sample.c \
-	tests/lib/render/test_estimators.c tests/lib/render/test_lights.c tests/lib/render/test_materials.c \
-	tests/lib/render/test_each_shape.c tests/lib/render/test_modes.c tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c tests/lib/photon/test_emit.c tests/lib/photon/test_gather.c \
-	tests/lib/photon/test_search.c tests/lib/photon/test_device_gather.c \
-	tests/lib/photon/test_photon_list.c tests/lib/photon/test_point_order.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
-	tests/lib/render/test_photon_maps.c tests/proof/test_proof.c tests/statistics/test_chi_square_quick.c
+	tests/lib/scene/test_shapes.c \
+	tests/lib/texture/test_half.c tests/lib/texture/test_texture.c \
+	tests/proof/test_proof.c \
+	tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
-	tests/render/test_samples.c \
 	tests/kernels/test_shapes_many.c \
-	tests/tools/test_compare.c tests/tools/test_mesh.c tests/tools/test_photons.c tests/tools/test_usage.c tests/tools/test_scenes.c \
-	tests/tools/test_rtc.c tests/tools/test_progress.c tests/tools/test_determinism.c \
-	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c tests/lib/render/test_noise.c \
-	tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
-	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c
+	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c \
+	tests/lib/render/test_noise.c tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c \
+	tests/lib/render/test_progressive.c \
+	tests/render/test_samples.c \
+	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c \
+	tests/tools/test_compare.c tests/tools/test_determinism.c tests/tools/test_mesh.c \
+	tests/tools/test_photons.c tests/tools/test_progress.c tests/tools/test_rtc.c tests/tools/test_scenes.c \
+	tests/tools/test_usage.c
 TESTS_PROOF := \
-	tests/proof/test_direct_light.c tests/proof/test_enclosures.c tests/proof/test_specular.c \
-	tests/proof/test_camera.c tests/proof/test_estimators.c tests/proof/test_convergence.c
+	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
+	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_specular.c
 TESTS_FULL  += $(TESTS_PROOF)
-TESTS_SHELL := tests/tools/test_run.sh tests/tools/test_deps.sh tests/install/test_install.sh tests/lib/test_symbols.sh
+TESTS_SHELL := \
+	tests/install/test_install.sh \
+	tests/lib/test_symbols.sh \
+	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
-TEST_SUPPORT_SRC := tests/support.c tests/corpus/manifest.c tests/dsl/collect.c \
+TEST_SUPPORT_SRC := \
+	tests/support.c \
+	tests/corpus/manifest.c \
+	tests/dsl/collect.c \
+	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/shape_check.c \
+	tests/kernels/shape_truth.c tests/kernels/statistics.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
-	tests/lib/mesh/sample.c tests/tools/expect.c tests/tools/spawn.c \
-	tests/lib/photon/points.c tests/lib/scene/scenes.c tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
-	tests/kernels/shape_check.c tests/kernels/shape_truth.c \
-	tests/kernels/statistics.c tests/studies/study.c tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
-	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c tests/statistics/facets.c \
-	tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c tests/statistics/quadrature.c \
-	tests/statistics/scatter.c tests/statistics/sky.c
-TEST_KERNEL_SRC  := tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl tests/kernels/film.cl \
-	tests/kernels/filter.cl tests/kernels/leave.cl tests/kernels/light.cl tests/kernels/matte.cl \
-	tests/kernels/medium.cl tests/kernels/rng.cl \
-	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl tests/kernels/types.cl tests/kernels/knn.cl
+	tests/lib/mesh/sample.c \
+	tests/lib/photon/points.c \
+	tests/lib/scene/scenes.c \
+	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
+	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \
+	tests/statistics/facets.c tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c \
+	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
+	tests/studies/study.c \
+	tests/tools/expect.c tests/tools/spawn.c
+TEST_KERNEL_SRC  := \
+	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl \
+	tests/kernels/film.cl tests/kernels/filter.cl tests/kernels/knn.cl tests/kernels/leave.cl \
+	tests/kernels/light.cl tests/kernels/matte.cl tests/kernels/medium.cl tests/kernels/rng.cl \
+	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl \
+	tests/kernels/types.cl
 
 # ---- Build ------------------------------------------------------------------
 
@@ -132,7 +164,9 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all proof study demo deps need-deps check check-corpus check-mutation check-peers check-quick check-reference check-samples check-sanitize run-quick run-all bench install uninstall clean help
+.PHONY: all bench check check-corpus check-mutation check-peers check-quick check-reference \
+	check-samples check-sanitize clean demo deps help install need-deps proof run-all run-quick study \
+	uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
