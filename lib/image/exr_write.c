@@ -71,8 +71,25 @@ static exr_result_t bind_channels(exr_encode_pipeline_t *pipeline, const rt_imag
     return EXR_ERR_SUCCESS;
 }
 
+typedef struct compressor {
+    exr_result_t (*run)(exr_encode_pipeline_t *pipeline);
+} compressor;
+
+/*
+ * The compression that OpenEXRCore chose, and one fault of it mended: where what it made is exactly as long as the
+ * pixels, the file must hold the pixels, for equal lengths tell a reader that a chunk is not compressed.
+ */
+static exr_result_t compress(exr_encode_pipeline_t *pipeline)
+{
+    const compressor *chosen = pipeline->encoding_user_data;
+    exr_result_t code = chosen->run(pipeline);
+    if (code == EXR_ERR_SUCCESS && pipeline->compressed_bytes == pipeline->packed_bytes)
+        memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, pipeline->packed_bytes);
+    return code;
+}
+
 static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *pipeline, const rt_image *image,
-                                uint32_t y)
+                                uint32_t y, compressor *chosen)
 {
     exr_chunk_info_t chunk;
     exr_result_t code = exr_write_scanline_chunk_info(context, 0, (int)y, &chunk);
@@ -81,8 +98,12 @@ static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *pi
                       : exr_encoding_update(context, 0, &chunk, pipeline);
     if (code == EXR_ERR_SUCCESS)
         code = bind_channels(pipeline, image, y);
-    if (code == EXR_ERR_SUCCESS && y == 0)
+    if (code == EXR_ERR_SUCCESS && y == 0) {
         code = exr_encoding_choose_default_routines(context, 0, pipeline);
+        chosen->run = pipeline->compress_fn;
+        pipeline->compress_fn = chosen->run ? compress : NULL;
+    }
+    pipeline->encoding_user_data = chosen;
     return code == EXR_ERR_SUCCESS ? exr_encoding_run(context, 0, pipeline) : code;
 }
 
@@ -90,9 +111,10 @@ static exr_result_t write_pixels(exr_context_t context, const rt_image *image)
 {
     int32_t lines = 0;
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    compressor chosen = {NULL};
     exr_result_t code = exr_get_scanlines_per_chunk(context, 0, &lines);
     for (uint32_t y = 0; code == EXR_ERR_SUCCESS && y < image->height; y += (uint32_t)lines)
-        code = write_chunk(context, &pipeline, image, y);
+        code = write_chunk(context, &pipeline, image, y, &chosen);
     exr_encoding_destroy(context, &pipeline);
     return code;
 }

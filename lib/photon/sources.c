@@ -104,8 +104,8 @@ static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const f
     if (!s->sources || !s->of_light || !s->shares)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu lights", count);
     group_lights(s, scene);
-    rt_status status = share_count ? check_shares(s, shares, share_count, error) : RT_OK;
-    if (status == RT_OK && share_count)
+    rt_status status = shares ? check_shares(s, shares, share_count, error) : RT_OK;
+    if (status == RT_OK && shares)
         share_out(s, lights, shares);
     else if (status == RT_OK)
         share_by_power(s, lights);

@@ -112,9 +112,13 @@ rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *rende
     if (status != RT_OK)
         return status;
     if (map->settings.scene != scene)
-        return rt_fail(error, RT_ERROR_INPUT, "the photon map was emitted in another scene, or in this one before it was changed");
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "the photon map was emitted in another scene, or in this one before it was changed");
     if (map->settings.direct != options->direct)
         return rt_fail_field(error, RT_ERROR_USAGE, "direct", "the photon map %s direct light",
                              map->settings.direct == RT_DIRECT_PHOTONS ? "already holds" : "does not hold");
+    if (map->settings.max_depth != options->max_depth)
+        rt_warn(options->hooks, "the photon map holds paths of at most %u segments, and max_depth is %u",
+                map->settings.max_depth, options->max_depth);
     return RT_OK;
 }

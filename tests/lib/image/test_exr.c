@@ -20,9 +20,8 @@ static rt_image *create(uint32_t width, uint32_t height, const char *const *name
 }
 
 /* Fills an image with random bits: every kind of float occurs, NaN payloads included. */
-static void fill_with_bits(rt_image *image)
+static void fill_with_bits(rt_image *image, uint64_t state)
 {
-    uint64_t state = 42;
     size_t count = (size_t)image->width * image->height * image->channel_count;
     for (size_t i = 0; i < count; i++) {
         state = state * UINT64_C(6364136223846793005) + 1;
@@ -72,7 +71,26 @@ static void every_bit_comes_back(void **state)
                                         {65536, 1}, {1, 65536}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         rt_image *image = create(sizes[i][0], sizes[i][1], rgb, 3);
-        fill_with_bits(image);
+        fill_with_bits(image, 42);
+        rt_bytes bytes = encode(image);
+        rt_image *copy = decode(&bytes);
+        expect_same(image, copy);
+        rt_image_destroy(copy);
+        rt_bytes_free(&bytes);
+        rt_image_destroy(image);
+    }
+}
+
+/* Noise with ever more zeros is just about compressed: at times to as many bytes as it has. */
+static void what_hardly_compresses_comes_back(void **state)
+{
+    static const char *const rgb[3] = {"R", "G", "B"};
+    (void)state;
+    for (uint64_t trial = 0; trial < 2000; trial++) {
+        const size_t zeros = 50 + trial % 100;
+        rt_image *image = create(48, 16, rgb, 3);
+        fill_with_bits(image, trial);
+        memset(image->data, 0, zeros);
         rt_bytes bytes = encode(image);
         rt_image *copy = decode(&bytes);
         expect_same(image, copy);
@@ -146,7 +164,7 @@ static void the_same_image_gives_the_same_bytes(void **state)
     (void)state;
     static const char *const rgb[3] = {"R", "G", "B"};
     rt_image *image = create(45, 67, rgb, 3);
-    fill_with_bits(image);
+    fill_with_bits(image, 42);
     assert_int_equal(rt_image_set_attribute(image, "scene", "box", NULL), RT_OK);
     rt_bytes once = encode(image), twice = encode(image);
     assert_int_equal(once.size, twice.size);
@@ -272,6 +290,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_bit_comes_back),
+        cmocka_unit_test(what_hardly_compresses_comes_back),
         cmocka_unit_test(special_values_come_back),
         cmocka_unit_test(channels_are_bound_by_name),
         cmocka_unit_test(attributes_come_back_in_order),
