@@ -167,7 +167,8 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     if (!option)
         return fail_unknown_option(name, length, out->command);
     if (!(option->commands & (1u << out->command))) {
-        message_error("`rtc %s` takes no option --%s", command_name(out->command), option->name);
+        message_error("`rtc%s%s` takes no option --%s", out->command == COMMAND_RENDER ? "" : " ",
+                      command_name(out->command), option->name);
         return STATUS_USAGE;
     }
     const char *text = equals ? equals + 1 : NULL;

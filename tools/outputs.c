@@ -72,7 +72,7 @@ static int check_directory(const char *path)
     return STATUS_DONE;
 }
 
-static int check_writable(const char *path)
+int outputs_check_writable(const char *path)
 {
     struct stat status;
     if (stat(path, &status) != 0)
@@ -132,7 +132,7 @@ int outputs_plan(output_list *out, const command_line *arguments, const char *sc
     }
     int status = arguments->output_count || !scene ? add_given(out, arguments) : add_defaults(out, scene);
     for (size_t i = 0; i < out->count && status == STATUS_DONE; i++)
-        status = check_writable(out->paths[i]);
+        status = outputs_check_writable(out->paths[i]);
     return status;
 }
 

@@ -7,6 +7,7 @@
 
 #include "inputs.h"
 #include "message.h"
+#include "outputs.h"
 #include "session.h"
 
 int photons_load(rt_photon_map **out, const char *path)
@@ -27,7 +28,7 @@ int photons_output(const char **out, const command_line *arguments, const char *
         return STATUS_USAGE;
     }
     *out = path;
-    return STATUS_DONE;
+    return outputs_check_writable(path);
 }
 
 static int fail_operands(const char *usage)

@@ -156,6 +156,7 @@ static void broken_maps_and_places_have_their_status(void **state)
         const char *says;
     } cases[] = {
         {"photons info a.rts", 1, "a.rts: this is no photon map"},
+        {"photons a.rts --out none/m.rtp", 4, "none/m.rtp: there is no such directory"},
         {"photons info none.rtp", 1, "none.rtp: No such file"},
         {"photons diff a.rtp a.rts", 1, "no photon map"},
         {"photons merge a.rtp a.rtp --out c.rtp", 1, "the same paths"},
