@@ -6,7 +6,7 @@
 #include "error.h"
 
 /* Bounds of a batch: the memory of its slots, and its length, so that progress moves. */
-enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 12 };
+enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 15 };
 
 struct rt_emitter {
     rt_device *device;
