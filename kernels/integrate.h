@@ -115,10 +115,13 @@ static inline void connect_light(struct connection *connection, const struct sce
     connection->radiance = path->squeeze * path->beta * (scattered * arrived * sample.radiance * sample.spread);
 }
 
-/* The chance to go on after `depth` segments, from the throughput that would be left. */
+/*
+ * The chance to go on after `depth` segments, from the throughput that would be left: the paths that go on from below
+ * the threshold all carry as much as the threshold.
+ */
 static inline float survival_chance(const rt_params *params, uint depth, float3 throughput)
 {
-    return depth < params->roulette_depth ? 1.0f : min(1.0f, largest3(throughput));
+    return depth < params->roulette_depth ? 1.0f : min(1.0f, largest3(throughput) / params->roulette_threshold);
 }
 
 /*

@@ -264,7 +264,7 @@ static inline void matte_scatter(const rt_params *params, const struct matte_sur
     const float *first = (const float *)numbers;
     struct lanes3 kept = mul8(beta, kd);
     const float8 depth = lanes_load((const float *)&paths[0].depth, sizeof(struct path) / 4u);
-    const float8 chance = lane_min(largest8(kept), (float8)(1.0f));
+    const float8 chance = lane_min(largest8(kept) / params->roulette_threshold, (float8)(1.0f));
     const float8 survival = as_int8(depth) < (int)params->roulette_depth ? (float8)(1.0f) : chance;
     kept = scale8(1.0f / survival, kept);
     const struct lanes3 way = sample_cosine8(lanes_load(first + 4, 8u), lanes_load(first + 5, 8u));

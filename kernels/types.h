@@ -383,8 +383,10 @@ typedef struct rt_params {
     rt_u32 store;        /* photon emission: RT_STORE_* */
     rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
     rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
+    float roulette_threshold; /* throughput below which it may */
+    rt_u32 reserved[3];
 } rt_params;
-RT_SIZE(rt_params, 64);
+RT_SIZE(rt_params, 80);
 
 /* A pixel of the film: compensated (Kahan) sum of weight times radiance, in order of the samples. */
 typedef struct rt_film_pixel {

@@ -73,6 +73,8 @@ void session_merge_options(const session *s, rt_render_options *options)
         options->area = (rt_area)session_value(s, OPTION_AREA)->choice;
     if (session_value(s, OPTION_PHOTON_LAYERS)->given)
         options->photon_layers = session_value(s, OPTION_PHOTON_LAYERS)->choice;
+    if (session_value(s, OPTION_ROULETTE_THRESHOLD)->given)
+        options->roulette_threshold = (float)session_value(s, OPTION_ROULETTE_THRESHOLD)->real;
     if (session_value(s, OPTION_ALPHA)->given)
         options->alpha = (float)session_value(s, OPTION_ALPHA)->real;
     if (session_value(s, OPTION_GATHER)->given)

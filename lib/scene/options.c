@@ -28,6 +28,9 @@ static rt_status check_film(const rt_render_options *o, rt_error *error)
     if (o->roulette_depth > depth_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "roulette_depth", "roulette_depth is %u; it must not exceed %d",
                              o->roulette_depth, depth_max);
+    if (o->roulette_threshold != 0 && !(o->roulette_threshold >= 1e-6f && o->roulette_threshold <= 1))
+        return rt_fail_field(error, RT_ERROR_USAGE, "roulette_threshold",
+                             "roulette_threshold is %g; it must lie between 1e-6 and 1", o->roulette_threshold);
     if (!(o->time >= 0 && o->time <= 1e9))
         return rt_fail_field(error, RT_ERROR_USAGE, "time", "time is %g s; it must lie between 0 and 1e9", o->time);
     if (!(o->target_error >= 0 && o->target_error <= 1))

@@ -66,7 +66,7 @@ static rt_renderer *ready(void)
 static rt_film *render(rt_renderer *renderer, rt_estimator estimator, uint32_t seed)
 {
     rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = 3, .seed = seed,
-                                 .sampler = RT_SAMPLER_INDEPENDENT, .estimator = estimator};
+                                 .roulette_threshold = 1, .sampler = RT_SAMPLER_INDEPENDENT, .estimator = estimator};
     rt_film *film = NULL;
     rt_film_stats stats;
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
