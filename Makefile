@@ -50,9 +50,9 @@ LIB_SRC := \
 	lib/photon/tree.c \
 	lib/render/aov.c lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c \
 	lib/render/noise.c lib/render/photon_eye.c lib/render/photon_irradiance.c lib/render/photon_layers.c \
-	lib/render/photon_maps.c lib/render/photon_mode.c lib/render/render.c lib/render/renderer.c \
-	lib/render/replicates.c lib/render/sample_mode.c lib/render/sobol.c lib/render/student.c \
-	lib/render/trace.c \
+	lib/render/photon_maps.c lib/render/photon_mode.c lib/render/photon_pass.c lib/render/photon_passes.c \
+	lib/render/render.c lib/render/renderer.c lib/render/replicates.c lib/render/sample_mode.c \
+	lib/render/sobol.c lib/render/student.c lib/render/trace.c \
 	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c \
 	lib/scene/light.c lib/scene/material.c lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c \
 	lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/pack_targets.c \
