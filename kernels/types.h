@@ -407,6 +407,9 @@ RT_SIZE(rt_film_pixel, 48);
 
 RT_SIZE(rt_photon, 64);
 
+/* Photons whose normal is farther than 60 degrees from a point's lie on another surface, or on its other side. */
+#define RT_PHOTON_NORMAL_COSINE 0.5f
+
 /* Which photons a path stores. */
 #define RT_STORE_ALL 0u     /* all: one map holds them */
 #define RT_STORE_GLOBAL 1u  /* all but those flagged RT_PHOTON_CAUSTIC, which another map holds */
