@@ -503,9 +503,8 @@ typedef struct rt_photon_block {
     float position[3][8];
     float normal[3][8];
     float flux[3][8]; /* rt_photon's flux times its factor `shading`, W */
-    rt_u32 photon[8]; /* index in the map */
 } rt_photon_block;
-RT_SIZE(rt_photon_block, 320);
+RT_SIZE(rt_photon_block, 288);
 
 typedef struct rt_photon_tree {
     rt_u32 levels; /* 0 for an empty map */
