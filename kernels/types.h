@@ -27,14 +27,6 @@ typedef int32_t rt_i32;
 
 #define RT_SIZE(type, bytes) typedef char type##_has_its_size[(sizeof(type) == (bytes)) ? 1 : -1]
 
-/* Asserts where a member is, in words; by the host's compiler, for a test compares all places on both sides. */
-#ifdef __OPENCL_VERSION__
-#define RT_PLACE(type, member, words)
-#else
-#define RT_PLACE(type, member, words)                                                                                  \
-    typedef char type##_##member##_has_its_place[offsetof(type, member) == 4u * (words) ? 1 : -1];
-#endif
-
 /* ---- Acceleration structure ------------------------------------------- */
 
 #define RT_BVH_WIDTH 8
@@ -237,28 +229,6 @@ typedef struct rt_light_data {
     rt_u32 media[3]; /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */
 } rt_light_data;
 RT_SIZE(rt_light_data, 112);
-
-/* Where its members are, in words of 4 bytes, for kernels that gather them from several lights. */
-#define RT_LIGHT_AT_A 0u
-#define RT_LIGHT_AT_KIND 3u
-#define RT_LIGHT_AT_B 4u
-#define RT_LIGHT_AT_WIDTH 7u
-#define RT_LIGHT_AT_C 8u
-#define RT_LIGHT_AT_HEIGHT 11u
-#define RT_LIGHT_AT_NORMAL 12u
-#define RT_LIGHT_AT_AREA 15u
-#define RT_LIGHT_AT_EMISSION 16u
-#define RT_LIGHT_AT_FLAGS 23u
-RT_PLACE(rt_light_data, a, RT_LIGHT_AT_A)
-RT_PLACE(rt_light_data, kind, RT_LIGHT_AT_KIND)
-RT_PLACE(rt_light_data, b, RT_LIGHT_AT_B)
-RT_PLACE(rt_light_data, width, RT_LIGHT_AT_WIDTH)
-RT_PLACE(rt_light_data, c, RT_LIGHT_AT_C)
-RT_PLACE(rt_light_data, height, RT_LIGHT_AT_HEIGHT)
-RT_PLACE(rt_light_data, normal, RT_LIGHT_AT_NORMAL)
-RT_PLACE(rt_light_data, area, RT_LIGHT_AT_AREA)
-RT_PLACE(rt_light_data, emission, RT_LIGHT_AT_EMISSION)
-RT_PLACE(rt_light_data, flags, RT_LIGHT_AT_FLAGS)
 
 /*
  * The tree by which lights are chosen: node 1 is the root, the children of node i are 2 i and 2 i + 1, and the
