@@ -139,9 +139,9 @@ TEST_SUPPORT_SRC := \
 	tests/support.c \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
-	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/shape_check.c \
-	tests/kernels/shape_truth.c tests/kernels/statistics.c \
-	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
+	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/rng_draw.c \
+	tests/kernels/shape_check.c tests/kernels/shape_truth.c tests/kernels/statistics.c \
+	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
 	tests/lib/photon/points.c \
 	tests/lib/scene/scenes.c \
