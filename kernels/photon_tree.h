@@ -85,7 +85,9 @@ INLINE_ALWAYS float8 box_reaches(global const rt_photon_node *node, const struct
 #define WALK_LEVEL_SHIFT 28u
 #define WALK_INDEX 0x0fffffffu
 
-/* Where walks begin: at the root, or at the few nodes of level 0 that any of a group of points needs, the last first. */
+/*
+ * Where walks begin: at the root, or at the few nodes of level 0 that any of a group of points needs, the last first.
+ */
 #define PHOTON_STARTS 16u
 struct photon_start {
     uint entry[PHOTON_STARTS];

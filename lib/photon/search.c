@@ -166,7 +166,8 @@ static void look_at_share(void *user, uint32_t index)
     for (size_t i = 0; i < count && !l->failed[index]; i++)
         memcpy(queries[i], l->points[asked[i]].position, sizeof *queries);
     if (!l->failed[index])
-        l->failed[index] = rt_flann_index_nearest(search->index, queries[0], count, look, found, squared, NULL) != RT_OK;
+        l->failed[index] =
+            rt_flann_index_nearest(search->index, queries[0], count, look, found, squared, NULL) != RT_OK;
     for (size_t i = 0; i < count && !l->failed[index]; i++) {
         rt_u32 *list = l->lists + asked[i] * rt_photon_search_stride(search);
         rt_gather_disc *disc = l->discs + asked[i];

@@ -9,8 +9,8 @@
 #include "scene/view.h"
 
 /*
- * The first depth at which roulette may end a path. Measured variance times time in closed rooms of albedo 0.7: under an
- * area lamp 2 and 3 are equal and 4 is a tenth worse, under a point light 3 and 4 are 15 to 25 % better. 2 gives the
+ * The first depth at which roulette may end a path. Measured variance times time in closed rooms of albedo 0.7: under
+ * an area lamp 2 and 3 are equal and 4 is a tenth worse, under a point light 3 and 4 are 15 to 25 % better. 2 gives the
  * most samples a second.
  */
 enum { roulette_depth_default = 2 };
@@ -128,8 +128,9 @@ static void warn_of_missing_light(const rt_renderer *renderer, const rt_render_o
     if (!renderer->has_light && rt_mode_shows_light(o->mode))
         rt_warn(o->hooks, "the scene has no light: its picture is black");
     if (renderer->casts_hidden_caustics && o->mode == RT_MODE_PATH && o->max_depth >= caustic_depth)
-        rt_warn(o->hooks, "mode path leaves out the light that point, spot and directional lights cast by way of smooth "
-                          "mirrors or glass; mode photon shows it");
+        rt_warn(o->hooks,
+                "mode path leaves out the light that point, spot and directional lights cast by way of smooth "
+                "mirrors or glass; mode photon shows it");
 }
 
 rt_status rt_render_options_check(const rt_render_options *options, rt_error *error)

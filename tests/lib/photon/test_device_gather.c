@@ -104,7 +104,8 @@ static uint64_t *order_of(const rt_photon_list *list)
 static void ask_device(answers *a, rt_device_gather *g, const uint64_t *order, cl_kernel kernel,
                        const rt_gather_point *points, size_t part)
 {
-    cl_mem on = test_buffer(part * sizeof *points, points), lists = test_buffer(part * a->stride * sizeof *a->lists, NULL);
+    cl_mem on = test_buffer(part * sizeof *points, points);
+    cl_mem lists = test_buffer(part * a->stride * sizeof *a->lists, NULL);
     cl_mem scratch = test_buffer(part * g->estimate.stride * sizeof(float), NULL);
     rt_params params;
     memset(&params, 0, sizeof params);
@@ -151,7 +152,8 @@ static void ask_all(answers *a, const problem *p, const rt_gather_point *points,
         for (size_t i = 0; i < n; i++) {
             const float *x = p->list.photons[i].position, *y = points[q].position;
             const float *m = p->list.photons[i].normal, *o = points[q].normal;
-            all[i].squared = (y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + (y[2] - x[2]) * (y[2] - x[2]);
+            all[i].squared =
+                (y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + (y[2] - x[2]) * (y[2] - x[2]);
             all[i].index = (rt_u32)i;
             all[i].accepted = m[0] * o[0] + m[1] * o[1] + m[2] * o[2] > 0.5f;
         }

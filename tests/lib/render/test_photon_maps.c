@@ -20,7 +20,7 @@
 /* A closed room with a glass ball, two lights of different kind and power. */
 #define ROOM                                                                                                           \
     "material wall { kd 0.4 0.5 0.6 }\n"                                                                               \
-    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                                                 \
+    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                                           \
     "sphere { centre 0 0 0  radius 1  material wall }\n"                                                               \
     "sphere { centre 0.3 0 0  radius 0.3  material glass }\n"                                                          \
     "quad { corner -0.6 0.5 -0.1  edge1 0.2 0 0  edge2 0 0 0.2  material wall  power 2 2 2 }\n"                        \
@@ -434,8 +434,10 @@ static void scenes_are_told_apart_by_what_photons_see(void **state)
         ROOM "plane { point 0 -3 0  normal 0 1 0  material wall }\n",
         ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall }\n",
         ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall  rotate 0 1 0 5 }\n",
-        ROOM "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
-        ROOM "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM
+        "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM
+        "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
         ROOM "texture t { file \"grey.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
         ROOM "texture t { file \"white.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
         ROOM "light environment { radiance 1 }\n",
@@ -521,7 +523,8 @@ static void irradiance_is_flux_over_area(void **state)
             normals[i][c] = (float)-n[c];
         }
     }
-    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error), &error);
+    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+              &error);
     for (int c = 0; c < 3; c++) {
         double expected = power[c] / (1 - kd[c]) / (16 * PI), mean = 0;
         for (int i = 0; i < count; i++)
@@ -556,7 +559,8 @@ static void irradiance_is_flux_over_area(void **state)
         for (int c = 0; c < 3; c++)
             normals[i][c] = -normals[i][c];
     ask.radius = 0.1f;
-    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error), &error);
+    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+              &error);
     for (int i = 0; i < count; i++)
         assert_true(rgb[i][0] == 0 && rgb[i][1] == 0 && rgb[i][2] == 0);
     /* What is not a point is refused; no points are no work. */
