@@ -438,7 +438,7 @@ typedef struct rt_gather_disc {
     rt_u32 count;
     float squared_radius; /* of the disc that they lie in, m^2; 0 when there are none */
     rt_u32 asked;         /* 1 when photons were asked for */
-    rt_u32 reserved;
+    rt_u32 pixel;         /* that of the point */
 } rt_gather_disc;
 RT_SIZE(rt_gather_disc, 16);
 
@@ -453,7 +453,9 @@ typedef struct rt_density_params {
     rt_u32 points_an_item; /* device gather: gather points that a work-item takes, one after the other */
     float scale;         /* of the photons' flux: 1 / emitted paths */
     rt_u32 area;         /* rt_area; the device gather knows the disc only */
-    rt_u32 reserved[3];
+    float own_limits;    /* device gather, k = 0: factor of the squared limit of the point's pixel, which takes the place
+                            of squared_limit; 0: that holds for all */
+    rt_u32 reserved[2];
 } rt_density_params;
 RT_SIZE(rt_density_params, 48);
 
