@@ -120,8 +120,8 @@ TESTS_QUICK := \
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c \
-	tests/lib/render/test_noise.c tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c \
-	tests/lib/render/test_progressive.c \
+	tests/lib/render/test_noise.c tests/lib/render/test_photon_film.c tests/lib/render/test_photon_glass.c \
+	tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
 	tests/render/test_samples.c \
 	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c \
 	tests/tools/test_compare.c tests/tools/test_determinism.c tests/tools/test_mesh.c \
@@ -145,6 +145,7 @@ TEST_SUPPORT_SRC := \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
 	tests/lib/photon/emitted.c tests/lib/photon/points.c \
+	tests/lib/render/photon_room.c \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \

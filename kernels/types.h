@@ -133,12 +133,6 @@ typedef struct rt_transform_data {
 } rt_transform_data;
 RT_SIZE(rt_transform_data, 96);
 
-/*
- * Below this roughness a surface is smooth. A lobe of it spreads light by a tenth of a degree, less than a pixel, so
- * no seam shows.
- */
-#define RT_SMOOTH_ALPHA 1e-3f
-
 #define RT_MATERIAL_FRESNEL 1u   /* flag: dielectric; ks + kt is split Fr : 1 - Fr */
 #define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
