@@ -3,6 +3,7 @@
  * a pixel in order.
  */
 #include "camera.h"
+#include "entry.h"
 #include "film.h"
 #include "integrate.h"
 
@@ -61,7 +62,7 @@ INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *para
     }
 }
 
-kernel void path(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
+KERNEL path(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
 {
     const uint item = (uint)get_global_id(0) * RT_PATH_PIXELS;
     if (item >= params.item_count)
