@@ -11,6 +11,9 @@
 
 enum { platforms_max = 16, devices_max = 64, default_work_group_cpu = 16, default_work_group_gpu = 64 };
 
+/* A core of a CPU keeps several paths of one work-item under way at once; a GPU wants as many work-items as there are. */
+enum { path_pixels_cpu = 64, path_pixels_gpu = 1 };
+
 typedef struct device_list {
     cl_platform_id platform[devices_max];
     cl_device_id id[devices_max];
@@ -170,6 +173,7 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     if ((status = limit_threads(device, error)) != RT_OK ||
         (status = choose_work_group(device, options->work_group, error)) != RT_OK)
         goto out;
+    device->path_pixels = device->info.is_cpu ? path_pixels_cpu : path_pixels_gpu;
     device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
     if ((status = rt_cl_check(code, "creating an OpenCL context", error)) != RT_OK)
         goto out;
