@@ -166,7 +166,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench check check-corpus check-mutation check-peers check-quick check-reference \
+.PHONY: all bench check check-corpus check-memory check-mutation check-peers check-quick check-reference \
 	check-samples check-sanitize clean demo deps help install need-deps proof run-all run-quick study \
 	uninstall
 .DELETE_ON_ERROR:
@@ -269,6 +269,10 @@ check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
 	 $(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
+# Small renders on Oclgrind, which sees reads and writes outside of buffers, races, and wrong calls of OpenCL.
+check-memory: all
+	RTC=$(B)/rtc tests/run.sh tests/memory/oclgrind.sh
+
 # Physical errors planted one at a time in a copy of the sources: the tests must see them; see tests/mutation/run.sh.
 check-mutation: deps
 	tests/mutation/run.sh
@@ -339,6 +343,7 @@ help:
 	@echo 'make check-peers     five scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, none infinite or not a number'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
+	@echo 'make check-memory    small renders in every mode on Oclgrind, a device that checks each access'
 	@echo 'make check-mutation  plants physical errors, one at a time, and counts those that the tests see'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'

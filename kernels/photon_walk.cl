@@ -2,6 +2,7 @@
  * photon_walk.cl - the gather on the device: each work-item finds the photons around a few gather points in the
  * tree, and adds to their radiance what the points make of them.
  */
+#include "entry.h"
 #include "photon_sum.h"
 #include "reflect.h"
 
@@ -9,10 +10,10 @@
  * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found at each point,
  * without the lists; own_limits: of each pixel, not read where estimate.own_limits is 0.
  */
-kernel void photon_walk(const rt_params params, const rt_density_params estimate,
-                        global rt_gather_point *points, global rt_gather_disc *discs, const rt_photon_tree shape,
-                        global const rt_photon_node *nodes, global const rt_photon_block *blocks,
-                        global float *scratch, global const float *own_limits)
+KERNEL photon_walk(const rt_params params, const rt_density_params estimate,
+                   global rt_gather_point *points, global rt_gather_disc *discs, const rt_photon_tree shape,
+                   global const rt_photon_node *nodes, global const rt_photon_block *blocks,
+                   global float *scratch, global const float *own_limits)
 {
     const uint item = (uint)get_global_id(0);
     const uint begin = item * estimate.points_an_item, end = min(begin + estimate.points_an_item, params.item_count);

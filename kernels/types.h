@@ -329,8 +329,7 @@ RT_SIZE(rt_scene_header, 384);
 
 /* ---- Rendering ---------------------------------------------------------- */
 
-#define RT_PATH_BATCH 8u   /* paths that a work-item of path tracing follows together */
-#define RT_PATH_PIXELS 64u /* pixels that it takes */
+#define RT_PATH_BATCH 8u /* paths that a work-item of path tracing follows together */
 
 /* The parameters of a launch, for every kernel that makes paths. */
 typedef struct rt_params {
@@ -350,7 +349,8 @@ typedef struct rt_params {
     rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
     rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
     float roulette_threshold; /* throughput below which it may */
-    rt_u32 reserved[3];
+    rt_u32 pixels_an_item; /* path tracing: pixels that a work-item takes, at least 1; the film is the same for all */
+    rt_u32 reserved[2];
 } rt_params;
 RT_SIZE(rt_params, 80);
 

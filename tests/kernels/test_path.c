@@ -286,19 +286,20 @@ static void samplers_agree(void **state)
     rt_film_destroy(independent);
 }
 
-/* Launches the kernel `launches` times, each with its share of 16 samples. */
-static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t group, rt_film_pixel *film)
+/* Launches the kernel `launches` times, each with its share of 16 samples, `each` pixels a work-item. */
+static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t group, uint32_t each, rt_film_pixel *film)
 {
     cl_kernel kernel = NULL;
     rt_error error;
     rt_render_options options = {.width = side, .height = side, .max_depth = 8, .seed = 3};
     rt_params params = rt_params_make(&options);
-    size_t bytes = pixels * sizeof *film, items = (pixels + group - 1) / group * group;
+    size_t bytes = pixels * sizeof *film, items = ((pixels + each - 1) / each + group - 1) / group * group;
     memset(film, 0, bytes);
     cl_mem buffer = test_buffer(bytes, film);
     expect_ok(rt_device_kernel(test_device(), &kernel, "path", "path", NULL, &error), &error);
     params.first_item = 0;
     params.item_count = pixels;
+    params.pixels_an_item = each;
     params.sample_count = 16 / launches;
     for (params.first_sample = 0; params.first_sample < 16; params.first_sample += params.sample_count) {
         rt_arg args[] = {RT_ARG(params), RT_ARG(renderer->scene), RT_ARG(buffer)};
@@ -320,12 +321,17 @@ static void the_film_does_not_depend_on_how_samples_are_shared_out(void **state)
     rt_error error;
     (void)state;
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    launch_in_parts(renderer, 1, 64, whole);
+    launch_in_parts(renderer, 1, 64, 64, whole);
     for (uint32_t launches = 2; launches <= 16; launches *= 2)
         for (size_t group = 1; group <= 64; group *= 8) {
-            launch_in_parts(renderer, launches, group, parts);
+            launch_in_parts(renderer, launches, group, 64, parts);
             assert_memory_equal(whole, parts, sizeof whole);
         }
+    static const uint32_t each[] = {1, 5, 8, 1000};
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
+        launch_in_parts(renderer, 1, 16, each[i], parts);
+        assert_memory_equal(whole, parts, sizeof whole);
+    }
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);
 }

@@ -269,15 +269,13 @@ static void maps_do_not_depend_on_batches(void **state)
 static void maps_do_not_depend_on_threads_and_work_groups(void **state)
 {
     static const float kd[3] = {0.2f, 0.5f, 0.8f};
-    static const rt_device_options options[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 2, 64}};
+    static const uint32_t devices[][2] = {{1, 1}, {2, 16}, {2, 64}}; /* threads, work-group */
     (void)state;
     rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LAMP_IN_GLASS);
     rt_photon_list expected = emit(renderer, 16, RT_DIRECT_NEE, 10000);
     rt_renderer_destroy(renderer);
-    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
-        rt_device *device = NULL;
-        rt_error error;
-        expect_ok(rt_device_open(&device, options + i, &error), &error);
+    for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
+        rt_device *device = test_device_open(devices[i][0], devices[i][1]);
         renderer = make_room_on(device, kd, CEILING_MIRROR, LAMP_IN_GLASS);
         rt_photon_list map = emit(renderer, 16, RT_DIRECT_NEE, 10000);
         assert_int_equal(map.count, expected.count);

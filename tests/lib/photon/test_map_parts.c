@@ -137,7 +137,7 @@ static void maps_that_do_not_fit_are_not_joined(void **state)
 
 static void maps_do_not_depend_on_threads_and_work_groups(void **state)
 {
-    static const rt_device_options devices[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 3, 64}};
+    static const uint32_t devices[][2] = {{1, 1}, {2, 16}, {3, 64}}; /* threads, work-group */
     rt_render_options render = {.photons = 20000, .caustic_photons = 5000};
     rt_emit_options options = {.render = &render};
     (void)state;
@@ -145,9 +145,7 @@ static void maps_do_not_depend_on_threads_and_work_groups(void **state)
     rt_photon_map *expected = emit_map(renderer, &options);
     rt_renderer_destroy(renderer);
     for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
-        rt_device *device = NULL;
-        rt_error error;
-        expect_ok(rt_device_open(&device, devices + i, &error), &error);
+        rt_device *device = test_device_open(devices[i][0], devices[i][1]);
         renderer = renderer_on(device, ROOM, RT_ACCEL_BVH);
         rt_photon_map *map = emit_map(renderer, &options);
         expect_same(map, expected);

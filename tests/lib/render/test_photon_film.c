@@ -8,13 +8,11 @@
 
 static void films_are_the_same(const rt_render_options *how)
 {
-    static const rt_device_options devices[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 2, 64}};
+    static const uint32_t devices[][2] = {{1, 1}, {2, 16}, {2, 64}}; /* threads, work-group */
     rt_render_options options = *how;
     rt_film *first = NULL;
     for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
-        rt_device *device = NULL;
-        rt_error error;
-        expect_ok(rt_device_open(&device, devices + i, &error), &error);
+        rt_device *device = test_device_open(devices[i][0], devices[i][1]);
         rt_renderer *renderer = room_renderer(device);
         rt_film *film = room_render(renderer, &options);
         if (first)
