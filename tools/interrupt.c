@@ -4,12 +4,26 @@
 #include <signal.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t pending;
+#include "rtc.h"
+
+static volatile sig_atomic_t deferred, pending;
+
+static void say(const char *text, size_t length)
+{
+    if (write(STDERR_FILENO, text, length) < 0) {
+        /* There is nobody to tell. */
+    }
+}
 
 static void handle(int signal_number)
 {
-    static const char text[] = "\nrtc: stopping; interrupt again to stop at once\n";
+    static const char stopped[] = "\nrtc: interrupted; nothing was written\n";
+    static const char stopping[] = "\nrtc: stopping; interrupt again to stop at once\n";
     int saved = errno;
+    if (!deferred) {
+        say(stopped, sizeof stopped - 1);
+        _exit(STATUS_INTERRUPTED);
+    }
     if (pending) {
         /* The second one: end as the signal does, once it is no longer blocked. */
         signal(signal_number, SIG_DFL);
@@ -17,9 +31,7 @@ static void handle(int signal_number)
         return;
     }
     pending = 1;
-    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) {
-        /* There is nobody to tell. */
-    }
+    say(stopping, sizeof stopping - 1);
     errno = saved;
 }
 
@@ -40,6 +52,11 @@ void interrupt_catch(void)
 {
     catch_one(SIGINT);
     catch_one(SIGTERM);
+}
+
+void interrupt_defer(void)
+{
+    deferred = 1;
 }
 
 int interrupt_pending(void)

@@ -177,6 +177,7 @@ int session_open_device(const session *s, rt_device **out)
     options.select = session_value(s, OPTION_DEVICE)->text;
     set_u32(&options.threads, session_value(s, OPTION_THREADS));
     set_u32(&options.work_group, session_value(s, OPTION_WORK_GROUP));
+    interrupt_defer();
     if (rt_device_open(out, &options, &error) != RT_OK)
         return session_fail(&error);
     if (session_value(s, OPTION_VERBOSE)->given) {

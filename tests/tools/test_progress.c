@@ -1,4 +1,5 @@
 /* test_progress.c - what the command says while it renders, and how it is interrupted. */
+#include <fcntl.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -251,6 +252,34 @@ static void second_interrupt_kills(void **state)
     expect_no_file("a.pfm");
 }
 
+/* A scene that never ends on stdin: the first signal stops the reading, and with it the run. */
+static void interrupted_wait_for_stdin_ends_at_once(void **state)
+{
+    static const int signals[] = {SIGINT, SIGTERM};
+    static char blanks[(1 << 16) + 1]; /* more than a pipe holds: once they are gone, rtc reads */
+    (void)state;
+    memset(blanks, ' ', sizeof blanks);
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) {
+        char said[1 << 12] = "";
+        int pipes[2];
+        assert_int_equal(pipe(pipes), 0);
+        fcntl(pipes[1], F_SETFD, FD_CLOEXEC);
+        running running = start_rtc_reading(pipes[0], "- --spp 1 --out a.pfm");
+        close(pipes[0]);
+        for (size_t done = 0; done < sizeof blanks;) {
+            ssize_t count = write(pipes[1], blanks + done, sizeof blanks - done);
+            assert_true(count > 0);
+            done += (size_t)count;
+        }
+        assert_int_equal(kill(running.pid, signals[i]), 0);
+        /* One that waits on sees an empty scene now, and ends with another status. */
+        close(pipes[1]);
+        assert_int_equal(running_finish(&running, said, sizeof said), 130);
+        assert_non_null(strstr(said, "rtc: interrupted; nothing was written\n"));
+        expect_no_file("a.pfm");
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
 
 int main(void)
@@ -270,6 +299,7 @@ int main(void)
         TEST(terminated_path_render_writes_its_samples),
         TEST(interrupted_photon_render_writes_its_samples),
         TEST(second_interrupt_kills),
+        TEST(interrupted_wait_for_stdin_ends_at_once),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
 }
