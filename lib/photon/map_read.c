@@ -74,9 +74,9 @@ typedef struct counts {
 
 rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size, const char *name, rt_error *error)
 {
-    reader r = {start + sizeof rt_map_magic, name, error};
     if (size < sizeof rt_map_magic || memcmp(start, rt_map_magic, sizeof rt_map_magic) != 0)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: this is no photon map", name);
+    reader r = {start + sizeof rt_map_magic, name, error};
     if (size < RT_MAP_HEADER)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short in its header", name);
     uint32_t version = get32(&r), header = get32(&r);
@@ -306,17 +306,8 @@ rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t 
 
 rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *error)
 {
-    uint8_t start[RT_MAP_HEADER];
-    uint64_t told;
-    size_t size;
     rt_bytes bytes = {0};
-
-    /* The start tells how much to read: what is no map is not read to its end, which may be far. */
-    rt_status status = rt_file_read_start(start, sizeof start, &size, path, error);
-    if (status == RT_OK)
-        status = rt_photon_map_file_size(&told, start, size, path, error);
-    if (status == RT_OK)
-        status = rt_file_read(&bytes, path, told < SIZE_MAX / 2 ? (size_t)told : SIZE_MAX / 2, error);
+    rt_status status = rt_file_read_told(&bytes, path, RT_MAP_HEADER, rt_photon_map_file_size, error);
     if (status == RT_OK)
         status = rt_photon_map_decode(out, bytes.data, bytes.size, path, error);
     rt_bytes_free(&bytes);
