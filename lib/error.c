@@ -36,3 +36,10 @@ rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, co
     va_end(args);
     return status;
 }
+
+int rt_is_missing(const void *pointer, const char *name, rt_error *error)
+{
+    if (!pointer)
+        rt_fail_field(error, RT_ERROR_USAGE, name, "%s is NULL", name);
+    return pointer == NULL;
+}

@@ -17,4 +17,7 @@ rt_status rt_fail(rt_error *error, rt_status status, const char *format, ...) RT
 rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, const char *format, ...)
     RT_PRINTF(4, 5);
 
+/* Whether a pointer that a call cannot do without is NULL; then *error says so as RT_ERROR_USAGE. */
+int rt_is_missing(const void *pointer, const char *name, rt_error *error);
+
 #endif

@@ -62,6 +62,10 @@
  * written only on success, unless a call says otherwise. Pointers passed in are not kept
  * after the call returns, unless a call says otherwise. Destroying NULL does nothing.
  *
+ * NULL may be passed only where a call says so: in place of a path, a text or an object (but a scene
+ * under construction) it makes a call that returns rt_status fail with RT_ERROR_USAGE, and anywhere
+ * else, as in place of a result or an array, the call is undefined.
+ *
  * Option structs: set what you need, leave the rest zero; zero always means the default
  * that the member's comment states. Passing NULL for an option struct means all defaults.
  *
@@ -205,7 +209,7 @@ typedef struct rt_load_options {
 RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options, rt_error *error);
 
 /*
- * The same from a string, which must not be NULL; `name` stands for the file in messages, NULL means
+ * The same from a string; `name` stands for the file in messages, NULL means
  * "text". Files that the text names are looked up relative to the current directory.
  */
 RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,

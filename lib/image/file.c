@@ -54,6 +54,8 @@ static rt_status read_all(rt_bytes *bytes, int fd, const char *path, size_t limi
 
 rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error)
 {
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
@@ -69,6 +71,8 @@ rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *
 
 rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell, rt_error *error)
 {
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
     uint64_t told = 0;
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
@@ -185,6 +189,8 @@ static int make_target(const char *path, const rt_bytes *bytes)
 
 rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error)
 {
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
     struct stat old, link;
     int code;
     if (stat(path, &old) != 0) {

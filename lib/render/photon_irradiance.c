@@ -116,6 +116,8 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
                                    const float *normals, size_t count, const rt_render_options *options,
                                    rt_error *error)
 {
+    if (rt_is_missing(map, "map", error) || rt_is_missing(device, "device", error))
+        return RT_ERROR_USAGE;
     static const rt_render_options defaults;
     asking a = {.device = device, .options = options ? *options : defaults};
 

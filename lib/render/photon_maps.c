@@ -78,6 +78,8 @@ static rt_status check_parts(const rt_emit_options *how, rt_error *error)
 rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const rt_emit_options *options,
                              rt_error *error)
 {
+    if (rt_is_missing(renderer, "renderer", error))
+        return RT_ERROR_USAGE;
     static const rt_emit_options defaults;
     emission e = {.renderer = renderer, .how = options ? options : &defaults};
 
