@@ -119,7 +119,7 @@ typedef struct rt_error {
     rt_status status;
     int line, column;  /* in `file`, from 1; 0 when the error has no place */
     char field[32];    /* the option or field at fault, or empty */
-    char file[512];    /* the file at fault, or empty */
+    char file[512];    /* the file that is wrong, or could not be read or written; or empty */
     char message[512]; /* one line, without newline, naming the offending value */
 } rt_error;
 

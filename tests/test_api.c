@@ -168,6 +168,40 @@ static void missing_objects_and_paths_are_refused(void **state)
     assert_true(!scene && !renderer && !map && !film && !comparison);
 }
 
+/* A file that is not there, is no file, or holds something else; and places that cannot be written. */
+static void errors_name_the_file_at_fault(void **state)
+{
+    const fixture *fixture = *state;
+    static const char *const unreadable[] = {"/nowhere/file", "/dev/null", "."};
+    rt_photon_map *map = NULL;
+    rt_image *image = NULL;
+    uint32_t handle;
+    const float grey[3] = {1, 1, 1};
+    rt_error e;
+    for (size_t i = 0; i < sizeof unreadable / sizeof *unreadable; i++) {
+        const char *path = unreadable[i];
+        rt_texture texture = {.path = path};
+        rt_environment environment = {.path = path};
+        assert_int_equal(rt_image_read(&image, path, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+        assert_int_equal(rt_photon_map_load(&map, path, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+        assert_int_equal(rt_scene_load_mesh(fixture->scene, &handle, path, RT_SHADING_FILE, NULL, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+        assert_int_equal(rt_scene_add_texture(fixture->scene, &handle, &texture, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+        assert_string_equal(e.field, "path");
+        assert_int_equal(rt_scene_set_environment(fixture->scene, &environment, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+    }
+    expect_ok(rt_image_from_rgb(&image, grey, 1, 1, &e), &e);
+    assert_int_equal(rt_image_write(image, "/nowhere/a.png", NULL, &e), RT_ERROR_OUTPUT);
+    assert_string_equal(e.file, "/nowhere/a.png");
+    assert_int_equal(rt_file_write("/nowhere/a", "", 0, &e), RT_ERROR_OUTPUT);
+    assert_string_equal(e.file, "/nowhere/a");
+    rt_image_destroy(image);
+}
+
 static void count_diagnostic(void *user, const rt_diagnostic *diagnostic)
 {
     int *count = user;
@@ -532,6 +566,7 @@ int main(void)
         cmocka_unit_test(failure_fills_the_error_and_leaves_the_result),
         cmocka_unit_test(error_may_be_null),
         cmocka_unit_test(missing_objects_and_paths_are_refused),
+        cmocka_unit_test(errors_name_the_file_at_fault),
         cmocka_unit_test(a_text_without_a_name_is_called_text),
         cmocka_unit_test(every_error_of_a_text_is_reported),
         cmocka_unit_test(options_out_of_range_name_their_field),

@@ -20,7 +20,7 @@ static rt_status fail_errno(rt_error *error, rt_status status, const char *verb,
     char cause[128];
     if (strerror_r(code, cause, sizeof cause) != 0)
         snprintf(cause, sizeof cause, "error %d", code);
-    return rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause);
+    return rt_at_file(rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause), path, error);
 }
 
 /* Reads on until there are `most` bytes, or to the end of the file. */
@@ -66,7 +66,7 @@ rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *
         *out = bytes;
     else
         rt_bytes_free(&bytes);
-    return status;
+    return rt_at_file(status, path, error);
 }
 
 rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell, rt_error *error)
@@ -88,7 +88,7 @@ rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_fi
         *out = bytes;
     else
         rt_bytes_free(&bytes);
-    return status;
+    return rt_at_file(status, path, error);
 }
 
 /* The functions below return 0, or the errno of what failed. */

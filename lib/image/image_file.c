@@ -90,5 +90,5 @@ rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)
         status = rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is %s", path,
                          bytes.size ? "not an EXR, PNG, PPM, PGM or PFM image" : "empty");
     rt_bytes_free(&bytes);
-    return status;
+    return rt_at_file(status, path, error);
 }

@@ -311,5 +311,5 @@ rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *er
     if (status == RT_OK)
         status = rt_photon_map_decode(out, bytes.data, bytes.size, path, error);
     rt_bytes_free(&bytes);
-    return status;
+    return rt_at_file(status, path, error);
 }

@@ -83,5 +83,5 @@ rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, r
         memcpy(info->hi, made->hi, sizeof info->hi);
     }
     rt_mesh_destroy(mesh);
-    return status;
+    return rt_at_file(status, path, error);
 }
