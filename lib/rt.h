@@ -701,7 +701,8 @@ RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *ou
 
 /*
  * Irradiance, W/m^2, at count points on surfaces: positions [count][3] in metres, normals [count][3] of unit
- * length, on the side from which light is to count; rgb [count][3], undefined on failure. Of the options, k, radius,
+ * length (to half a percent; RT_ERROR_USAGE names the first point where one is not), on the side from which light is
+ * to count; rgb [count][3], undefined on failure. Of the options, k, radius,
  * kernel, cone_k, gather and their like for the caustic map count; NULL: their defaults. Light that is left to
  * shadow rays is not in the map.
  */

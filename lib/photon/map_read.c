@@ -231,12 +231,6 @@ static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t cou
     return RT_OK;
 }
 
-static int is_unit(const float v[3])
-{
-    float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    return square > 0.99f && square < 1.01f;
-}
-
 static rt_status read_photon(reader *r, rt_photon *p)
 {
     get_floats(r, p->position, 3);
@@ -249,7 +243,7 @@ static rt_status read_photon(reader *r, rt_photon *p)
     p->shape = get32(r);
     if (!rt_photon_is_finite(p))
         return fail_content(r, "a photon is not finite");
-    if (!is_unit(p->wi) || !is_unit(p->normal))
+    if (!rt_is_unit(p->wi) || !rt_is_unit(p->normal))
         return fail_content(r, "a direction of a photon is not of unit length");
     if (p->flux[0] < 0 || p->flux[1] < 0 || p->flux[2] < 0 || p->shading < 0)
         return fail_content(r, "a photon has negative flux");

@@ -31,6 +31,9 @@ rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, si
 /* Whether all numbers of a photon are finite. */
 int rt_photon_is_finite(const rt_photon *photon);
 
+/* Whether a vector is of unit length, to half a percent. */
+int rt_is_unit(const float v[3]);
+
 /* Empties the list but keeps its memory. */
 void rt_photon_list_reset(rt_photon_list *list);
 

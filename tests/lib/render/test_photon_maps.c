@@ -559,12 +559,47 @@ static void irradiance_is_flux_over_area(void **state)
     expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error), &error);
     for (int i = 0; i < count; i++)
         assert_true(rgb[i][0] == 0 && rgb[i][1] == 0 && rgb[i][2] == 0);
-    /* What is not a point is refused; no points are no work. */
-    positions[count - 1][1] = NAN;
-    assert_int_equal(
-        rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, NULL, &error),
-        RT_ERROR_USAGE);
+    /* No points are no work. */
     expect_ok(rt_photon_map_irradiance(NULL, map, test_device(), NULL, NULL, 0, NULL, &error), &error);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* Neither a point that is nowhere nor a normal that is none gets a number. */
+static void irradiance_is_refused_where_there_is_no_surface(void **state)
+{
+    static const struct {
+        float position[3], normal[3];
+        const char *field; /* at fault, or NULL */
+    } cases[] = {
+        {{0, 2, 0}, {0, -1, 0}, NULL},
+        {{0, 2, 0}, {0, -0.9999f, 0.01f}, NULL},
+        {{0, 2, 0}, {0, 0, 0}, "normals"},
+        {{0, 2, 0}, {0, -2, 0}, "normals"},
+        {{0, 2, 0}, {0, -0.9f, 0}, "normals"},
+        {{0, 2, 0}, {0, -1, NAN}, "normals"},
+        {{0, 2, 0}, {-INFINITY, 0, 0}, "normals"},
+        {{0, NAN, 0}, {0, -1, 0}, "positions"},
+        {{0, 2, INFINITY}, {0, -1, 0}, "positions"},
+        {{-1e16f, 2, 0}, {0, -1, 0}, "positions"},
+    };
+    rt_render_options render = {.photons = 500, .direct = RT_DIRECT_PHOTONS};
+    rt_emit_options options = {.render = &render};
+    (void)state;
+    rt_renderer *renderer = open_text(furnace);
+    rt_photon_map *map = emit(renderer, &options);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        float positions[2][3] = {{0, 2, 0}}, normals[2][3] = {{0, -1, 0}}, rgb[2][3];
+        rt_error error = {0};
+        memcpy(positions[1], cases[i].position, sizeof positions[1]);
+        memcpy(normals[1], cases[i].normal, sizeof normals[1]);
+        rt_status status =
+            rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], 2, NULL, &error);
+        if (status != (cases[i].field ? RT_ERROR_USAGE : RT_OK))
+            fail_msg("case %zu: status %d: %s", i, (int)status, error.message);
+        assert_string_equal(error.field, cases[i].field ? cases[i].field : "");
+        assert_true(!cases[i].field || strstr(error.message, "point 1"));
+    }
     rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
 }
@@ -610,6 +645,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter, scratch_leave),
         cmocka_unit_test(stored_flux_is_what_path_tracing_says),
         cmocka_unit_test(irradiance_is_flux_over_area),
+        cmocka_unit_test(irradiance_is_refused_where_there_is_no_surface),
         cmocka_unit_test(irradiance_sums_both_lists),
     };
     return cmocka_run_group_tests_name("lib/render/photon_maps", tests, NULL, NULL);
