@@ -98,9 +98,9 @@ static rt_photon make_photon(const struct light_path *path, const struct surface
     return photon;
 }
 
-static bool photon_is_finite(const rt_photon *photon)
+static bool photon_is_sound(const rt_photon *photon)
 {
-    return all(isfinite(vload3(0, photon->position))) && all(isfinite(vload3(0, photon->wi))) &&
+    return all(fabs(vload3(0, photon->position)) <= RT_COORDINATE_MAX) && all(isfinite(vload3(0, photon->wi))) &&
            all(isfinite(vload3(0, photon->flux))) && all(isfinite(vload3(0, photon->normal))) &&
            isfinite(photon->shading);
 }
@@ -193,7 +193,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, boundary.eta, path.flux);
         if (bsdf_is_diffuse(&bsdf) && is_stored(&path, params)) {
             const rt_photon photon = make_photon(&path, &surface, &bsdf, index);
-            if (photon_is_finite(&photon))
+            if (photon_is_sound(&photon))
                 slots[count++ * params->slots] = photon;
             else
                 rejected++;

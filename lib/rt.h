@@ -653,7 +653,7 @@ RT_API void rt_photon_map_destroy(rt_photon_map *map);
 typedef struct rt_photon_map_info {
     uint64_t paths[2];   /* photon paths emitted, by rt_photon_kind */
     uint64_t photons[2]; /* photons stored */
-    uint64_t rejected;   /* photons left out because they were not finite */
+    uint64_t rejected;   /* photons left out because they were not finite or lay beyond 1e15 m */
     uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
     int split;           /* caustic photons are kept apart */
     rt_direct direct;
@@ -779,7 +779,7 @@ typedef struct rt_film_stats {
     uint64_t rejected;         /* samples left out because they were not finite */
     uint64_t photons_emitted;  /* photon paths */
     uint64_t photons_stored;
-    uint64_t photons_rejected; /* photons left out because they were not finite */
+    uint64_t photons_rejected; /* photons left out because they were not finite or lay beyond 1e15 m */
     uint64_t gathers;          /* queries of the photon map */
     uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
     uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */

@@ -12,6 +12,7 @@
 #include "image/file.h"
 #include "photon/crc32.h"
 #include "photon/map_file.h"
+#include "scene/check.h"
 
 /* A file being read; what is left is known to suffice for what is asked. */
 typedef struct reader {
@@ -243,6 +244,9 @@ static rt_status read_photon(reader *r, rt_photon *p)
     p->shape = get32(r);
     if (!rt_photon_is_finite(p))
         return fail_content(r, "a photon is not finite");
+    for (int c = 0; c < 3; c++)
+        if (fabsf(p->position[c]) > RT_COORDINATE_MAX)
+            return fail_content(r, "a photon lies farther out than coordinates go");
     if (!rt_is_unit(p->wi) || !rt_is_unit(p->normal))
         return fail_content(r, "a direction of a photon is not of unit length");
     if (p->flux[0] < 0 || p->flux[1] < 0 || p->flux[2] < 0 || p->shading < 0)

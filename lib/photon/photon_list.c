@@ -59,7 +59,7 @@ static size_t share_end(const appending *a, size_t index)
     return end < a->path_count ? end : a->path_count;
 }
 
-/* Finds the places; returns how many photons were left out as not finite. */
+/* Finds the places; returns how many photons were left out. */
 static uint64_t find_places(appending *a, size_t jobs)
 {
     uint64_t rejected = 0;

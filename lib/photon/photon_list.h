@@ -15,7 +15,7 @@ typedef struct rt_photon_list {
     rt_photon *photons; /* [count] */
     size_t count, capacity;
     uint64_t emitted;  /* photon paths */
-    uint64_t rejected; /* photons left out because they were not finite */
+    uint64_t rejected; /* photons left out because they were not finite or too far out */
 } rt_photon_list;
 
 /* Makes room for so many photons more. */
