@@ -99,6 +99,26 @@ static void diff_tells_equal_maps_from_others(void **state)
     }
 }
 
+/* A difference that could not be told is a failure, not the answer that there is one. */
+static void full_stdout_is_status_4(void **state)
+{
+    static const char *const lines[] = {
+        "photons info a.rtp", "photons diff a.rtp a.rtp", "photons diff a.rtp b.rtp", "compare a.pfm a.pfm",
+        "compare a.pfm b.pfm --max-rmse 0", "check a.rts", "a.rts --spp 1 --stats --quiet --out a.png",
+        "photons a.rts --photons 10 --stats --quiet --out c.rtp"};
+    (void)state;
+    succeed("photons a.rts --photons 100 --quiet --out a.rtp");
+    succeed("photons a.rts --photons 101 --quiet --out b.rtp");
+    succeed("a.rts --spp 1 --quiet --out a.pfm");
+    succeed("a.rts --spp 1 --seed 1 --quiet --out b.pfm");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        run run = run_rtc_to("/dev/full", "%s", lines[i]);
+        expect_status(&run, 4);
+        expect_err(&run, "cannot write to stdout: No space left");
+        run_free(&run);
+    }
+}
+
 static void maps_render_as_if_emitted(void **state)
 {
     (void)state;
@@ -251,6 +271,7 @@ int main(void)
         IN_SCRATCH(parts_merge_into_the_same_file),
         IN_SCRATCH(info_says_what_a_map_holds),
         IN_SCRATCH(diff_tells_equal_maps_from_others),
+        IN_SCRATCH(full_stdout_is_status_4),
         IN_SCRATCH(maps_render_as_if_emitted),
         IN_SCRATCH(maps_are_read_from_pipes),
         IN_SCRATCH(maps_of_other_scenes_are_refused),
