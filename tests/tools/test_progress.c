@@ -36,6 +36,29 @@ static void idle_options_are_warned_of(void **state)
     run_free(&run);
 }
 
+/* Layers go to an .exr; what the scene turns on by itself is no mistake of who types another name. */
+static void layers_without_a_place_are_warned_of(void **state)
+{
+    static const char *const options[] = {"--aov", "--variance", "--mode photon --photons 1000 --photon-layers"},
+                             *const says[] = {"warning: --aov has no effect without an .exr",
+                                              "warning: --variance adds no layer without an .exr",
+                                              "warning: --photon-layers has no effect without an .exr"};
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++) {
+        run png = run_rtc("a.rts --spp 8 %s --out a.png --out a.pfm", options[i]);
+        run exr = run_rtc("a.rts --spp 8 %s --out a.png --out a.exr", options[i]);
+        run off = run_rtc("a.rts --spp 8 %s --no-aov --no-variance --no-photon-layers --out a.png", options[i]);
+        expect_status(&png, 0);
+        expect_err(&png, says[i]);
+        expect_no_err(&exr, "warning");
+        expect_no_err(&off, "warning");
+        run_free(&png);
+        run_free(&exr);
+        run_free(&off);
+    }
+}
+
 /* A scene without light, seen from inside of a ball of glass. */
 static const char dark_scene[] = "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
                                  "material glass { kt 1 }\nmaterial white { kd 1 }\n"
@@ -286,6 +309,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(idle_options_are_warned_of),
+        TEST(layers_without_a_place_are_warned_of),
         TEST(what_would_be_black_is_warned_of),
         TEST(quiet_says_nothing),
         TEST(verbose_names_the_device_and_its_threads),
