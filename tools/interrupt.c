@@ -2,26 +2,29 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "rtc.h"
 
 static volatile sig_atomic_t deferred, pending;
+static int as_json;
 
-static void say(const char *text, size_t length)
+/* Only write() may be called in a handler. */
+static void say(const char *plain, const char *json)
 {
-    if (write(STDERR_FILENO, text, length) < 0) {
+    const char *text = as_json ? json : plain;
+    if (write(STDERR_FILENO, text, strlen(text)) < 0) {
         /* There is nobody to tell. */
     }
 }
 
 static void handle(int signal_number)
 {
-    static const char stopped[] = "\nrtc: interrupted; nothing was written\n";
-    static const char stopping[] = "\nrtc: stopping; interrupt again to stop at once\n";
     int saved = errno;
     if (!deferred) {
-        say(stopped, sizeof stopped - 1);
+        say("\nrtc: interrupted; nothing was written\n",
+            "{\"severity\":\"note\",\"message\":\"interrupted; nothing was written\"}\n");
         _exit(STATUS_INTERRUPTED);
     }
     if (pending) {
@@ -31,7 +34,8 @@ static void handle(int signal_number)
         return;
     }
     pending = 1;
-    say(stopping, sizeof stopping - 1);
+    say("\nrtc: stopping; interrupt again to stop at once\n",
+        "{\"severity\":\"note\",\"message\":\"stopping; interrupt again to stop at once\"}\n");
     errno = saved;
 }
 
@@ -48,8 +52,9 @@ static void catch_one(int signal_number)
     sigaction(signal_number, &action, NULL);
 }
 
-void interrupt_catch(void)
+void interrupt_catch(int in_json)
 {
+    as_json = in_json;
     catch_one(SIGINT);
     catch_one(SIGTERM);
 }

@@ -192,7 +192,8 @@ const option option_table[OPTION_COUNT] = {
                            "chosen for the device", "work-items a work-group"},
 
     [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS, 0, 0, progress_styles, 0, "auto",
-                         "progress on stderr; auto is one redrawn line on a terminal and plain lines elsewhere"},
+                         "progress on stderr; auto is one redrawn line on a terminal and plain lines elsewhere; with "
+                         "json all that is said there is a JSON object a line"},
     [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "print what the render did and how long it took on stdout"},
     [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR, 0, 0, NULL, 0, NULL,

@@ -42,7 +42,9 @@ void session_begin(session *s, const command_line *arguments)
     s->hooks.log = arguments->options[OPTION_VERBOSE].given ? on_log : NULL;
     s->hooks.warning = s->quiet ? NULL : on_warning;
     s->hooks.user = s;
-    interrupt_catch();
+    if (s->progress.style == PROGRESS_JSON)
+        message_as_json();
+    interrupt_catch(s->progress.style == PROGRESS_JSON);
 }
 
 const option_value *session_value(const session *s, option_id id)

@@ -150,6 +150,45 @@ static void json_progress_is_one_object_a_line(void **state)
     run_free(&run);
 }
 
+/* Fails unless every line is an object with a stage or a severity; returns how many have a severity. */
+static int expect_json_lines(char *text)
+{
+    int messages = 0;
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
+        int is_message = strncmp(line, "{\"severity\":\"", 13) == 0;
+        if ((!is_message && strncmp(line, "{\"stage\":\"", 10) != 0) || line[strlen(line) - 1] != '}' ||
+            strstr(line + 1, "{\""))
+            fail_msg("no JSON object: %s", line);
+        messages += is_message;
+    }
+    return messages;
+}
+
+/* A program reads one stream: warnings, errors with their place, hints and the last word are objects too. */
+static void all_that_is_said_beside_json_progress_is_json(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 1 --k 5 --verbose --progress json --out a.pfm");
+    expect_status(&run, 0);
+    expect_err(&run, "{\"severity\":\"warning\",\"message\":\"--k has no effect in path mode; ");
+    expect_err(&run, "{\"severity\":\"note\",\"message\":\"wrote a.pfm: ");
+    assert_true(expect_json_lines(run.err) >= 3);
+    run_free(&run);
+
+    scratch_write("b.rts", "camera { eye 0 0 -4  look_at 0 0 0 }\nsphear { file \"a\\b\" }\n");
+    run = run_rtc("b.rts --progress json --out a.pfm");
+    expect_status(&run, 1);
+    expect_err(&run, "{\"severity\":\"error\",\"file\":\"b.rts\",\"line\":2,\"column\":1,\"message\":\"");
+    expect_err(&run, "{\"severity\":\"hint\",\"message\":\"");
+    assert_true(expect_json_lines(run.err) >= 2);
+    run_free(&run);
+
+    run = run_rtc("no\"where\\.rts --progress json --out a.pfm");
+    expect_err(&run, "\"file\":\"no\\\"where\\\\.rts\"");
+    run_free(&run);
+}
+
 /* With an empty cache of the driver, the build takes seconds. */
 static void first_compile_keeps_reporting(void **state)
 {
@@ -235,7 +274,9 @@ static void interrupt_render(int signal_number, const char *options, const char 
     nanosleep(&nap, NULL);
     assert_int_equal(kill(running.pid, signal_number), 0);
     assert_int_equal(running_finish(&running, said, sizeof said), 130);
+    assert_non_null(strstr(said, "{\"severity\":\"note\",\"message\":\"stopping; interrupt again"));
     assert_non_null(strstr(said, "interrupted; wrote a.pfm: 24 x 16, "));
+    assert_int_equal(expect_json_lines(said), 2);
     expect_file("a.pfm");
 }
 
@@ -315,6 +356,7 @@ int main(void)
         TEST(verbose_names_the_device_and_its_threads),
         TEST(plain_progress_names_the_stages),
         TEST(json_progress_is_one_object_a_line),
+        TEST(all_that_is_said_beside_json_progress_is_json),
         TEST(first_compile_keeps_reporting),
         TEST(no_progress_when_none_is_asked),
         TEST(terminal_gets_a_redrawn_line_and_colours),
