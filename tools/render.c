@@ -109,7 +109,8 @@ static void warn_idle_output_options(const render_job *job)
 static void warn_idle_options(const render_job *job)
 {
     for (int i = 0; i < OPTION_COUNT; i++)
-        if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON && is_asked_for(job, (option_id)i))
+        if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON &&
+            is_asked_for(job, (option_id)i))
             message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
                             option_table[i].name, rt_mode_name(job->options.mode));
     warn_idle_photon_options(job);
