@@ -134,6 +134,7 @@ TESTS_FULL  += $(TESTS_PROOF)
 TESTS_SHELL := \
 	tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
+	tests/proof/test_page.sh \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \

@@ -1,5 +1,5 @@
 /* load.c - rt_scene_load and rt_scene_parse. */
-#include <assert.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "dsl/reader.h"
@@ -56,15 +56,24 @@ static rt_status read_into(rt_scene **out, const char *text, const char *name, c
     return status;
 }
 
+static rt_status fail_missing(rt_error *error, const char *name)
+{
+    if (error) {
+        memset(error, 0, sizeof *error);
+        error->status = RT_ERROR_USAGE;
+        snprintf(error->field, sizeof error->field, "%s", name);
+        snprintf(error->message, sizeof error->message, "%s is NULL", name);
+    }
+    return RT_ERROR_USAGE;
+}
+
 rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options, rt_error *error)
 {
-    assert(out && path);
-    return read_into(out, NULL, path, options, error);
+    return path ? read_into(out, NULL, path, options, error) : fail_missing(error, "path");
 }
 
 rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
                          rt_error *error)
 {
-    assert(out && text);
-    return read_into(out, text, name ? name : "text", options, error);
+    return text ? read_into(out, text, name ? name : "text", options, error) : fail_missing(error, "text");
 }

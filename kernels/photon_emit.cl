@@ -122,9 +122,9 @@ static rt_photon make_photon(const struct light_path *path, const struct surface
     return photon;
 }
 
-static bool photon_is_finite(const rt_photon *photon)
+static bool photon_is_sound(const rt_photon *photon)
 {
-    return all(isfinite(vload3(0, photon->position))) && all(isfinite(vload3(0, photon->wi))) &&
+    return all(fabs(vload3(0, photon->position)) <= RT_COORDINATE_MAX) && all(isfinite(vload3(0, photon->wi))) &&
            all(isfinite(vload3(0, photon->flux))) && all(isfinite(vload3(0, photon->normal))) &&
            isfinite(photon->shading);
 }
@@ -134,7 +134,7 @@ static void leave_photon(struct light_path *path, const rt_params *params, const
                          const struct bsdf *bsdf, uint index, global rt_photon *slots)
 {
     const rt_photon photon = make_photon(path, surface, bsdf, index);
-    if (photon_is_finite(&photon))
+    if (photon_is_sound(&photon))
         slots[path->photons++ * params->slots] = photon;
     else
         path->rejected++;

@@ -27,6 +27,9 @@ typedef int32_t rt_i32;
 
 #define RT_SIZE(type, bytes) typedef char type##_has_its_size[(sizeof(type) == (bytes)) ? 1 : -1]
 
+/* Coordinates beyond this, in metres, lose the squares of their differences in float32. */
+#define RT_COORDINATE_MAX 1e15f
+
 /* ---- Acceleration structure ------------------------------------------- */
 
 #define RT_BVH_WIDTH 8
@@ -400,7 +403,7 @@ typedef struct rt_path_account {
     float left[3];     /* flux at its end */
     rt_u32 end;        /* RT_END_* */
     float roulette[3]; /* what the choices of events took, less what they gave to the paths that went on */
-    rt_u32 rejected;   /* photons that it did not store because they were not finite */
+    rt_u32 rejected;   /* photons that it did not store: not finite, or beyond RT_COORDINATE_MAX */
 } rt_path_account;
 RT_SIZE(rt_path_account, 64);
 

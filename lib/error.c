@@ -36,3 +36,17 @@ rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, co
     va_end(args);
     return status;
 }
+
+rt_status rt_at_file(rt_status status, const char *path, rt_error *error)
+{
+    if (status != RT_OK && status != RT_ERROR_USAGE && error && !error->file[0])
+        snprintf(error->file, sizeof error->file, "%s", path);
+    return status;
+}
+
+int rt_is_missing(const void *pointer, const char *name, rt_error *error)
+{
+    if (!pointer)
+        rt_fail_field(error, RT_ERROR_USAGE, name, "%s is NULL", name);
+    return pointer == NULL;
+}

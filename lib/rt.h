@@ -62,6 +62,10 @@
  * written only on success, unless a call says otherwise. Pointers passed in are not kept
  * after the call returns, unless a call says otherwise. Destroying NULL does nothing.
  *
+ * NULL may be passed only where a call says so: in place of a path, a text or an object (but a scene
+ * under construction) it makes a call that returns rt_status fail with RT_ERROR_USAGE, and anywhere
+ * else, as in place of a result or an array, the call is undefined.
+ *
  * Option structs: set what you need, leave the rest zero; zero always means the default
  * that the member's comment states. Passing NULL for an option struct means all defaults.
  *
@@ -115,7 +119,7 @@ typedef struct rt_error {
     rt_status status;
     int line, column;  /* in `file`, from 1; 0 when the error has no place */
     char field[32];    /* the option or field at fault, or empty */
-    char file[512];    /* the file at fault, or empty */
+    char file[512];    /* the file that is wrong, or could not be read or written; or empty */
     char message[512]; /* one line, without newline, naming the offending value */
 } rt_error;
 
@@ -205,7 +209,7 @@ typedef struct rt_load_options {
 RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options, rt_error *error);
 
 /*
- * The same from a string, which must not be NULL; `name` stands for the file in messages, NULL means
+ * The same from a string; `name` stands for the file in messages, NULL means
  * "text". Files that the text names are looked up relative to the current directory.
  */
 RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
@@ -652,7 +656,7 @@ RT_API void rt_photon_map_destroy(rt_photon_map *map);
 typedef struct rt_photon_map_info {
     uint64_t paths[2];   /* photon paths emitted, by rt_photon_kind */
     uint64_t photons[2]; /* photons stored */
-    uint64_t rejected;   /* photons left out because they were not finite */
+    uint64_t rejected;   /* photons left out because they were not finite or lay beyond 1e15 m */
     uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
     int split;           /* caustic photons are kept apart */
     rt_direct direct;
@@ -700,7 +704,8 @@ RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *ou
 
 /*
  * Irradiance, W/m^2, at count points on surfaces: positions [count][3] in metres, normals [count][3] of unit
- * length, on the side from which light is to count; rgb [count][3], undefined on failure. Of the options, k, radius,
+ * length (to half a percent; RT_ERROR_USAGE names the first point where one is not), on the side from which light is
+ * to count; rgb [count][3], undefined on failure. Of the options, k, radius,
  * kernel, cone_k, gather and their like for the caustic map count; NULL: their defaults. Light that is left to
  * shadow rays is not in the map.
  */
@@ -777,7 +782,7 @@ typedef struct rt_film_stats {
     uint64_t rejected;         /* samples left out because they were not finite */
     uint64_t photons_emitted;  /* photon paths */
     uint64_t photons_stored;
-    uint64_t photons_rejected; /* photons left out because they were not finite */
+    uint64_t photons_rejected; /* photons left out because they were not finite or lay beyond 1e15 m */
     uint64_t gathers;          /* queries of the photon map */
     uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
     uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */

@@ -118,6 +118,91 @@ static void error_may_be_null(void **state)
     assert_int_equal(rt_device_open(&device, &options, NULL), RT_ERROR_DEVICE);
 }
 
+static void expect_missing(rt_status status, const char *name, const rt_error *error)
+{
+    assert_int_equal(status, RT_ERROR_USAGE);
+    assert_int_equal(error->status, RT_ERROR_USAGE);
+    assert_string_equal(error->field, name);
+    assert_non_null(strstr(error->message, "is NULL"));
+}
+
+/* What an earlier call, or a command line, failed to give. */
+static void missing_objects_and_paths_are_refused(void **state)
+{
+    const fixture *fixture = *state;
+    const rt_photon_map *maps[1] = {NULL};
+    const rt_image *images[1] = {NULL};
+    rt_scene *scene = NULL;
+    rt_renderer *renderer = NULL;
+    rt_photon_map *map = NULL;
+    rt_film *film = NULL;
+    rt_image *image = NULL;
+    rt_comparison *comparison = NULL;
+    uint32_t mesh;
+    float v[3] = {0, 0, 1};
+    rt_error e;
+    expect_missing(rt_scene_load(&scene, NULL, NULL, &e), "path", &e);
+    expect_missing(rt_scene_parse(&scene, NULL, "name", NULL, &e), "text", &e);
+    expect_missing(rt_scene_load_mesh(fixture->scene, &mesh, NULL, RT_SHADING_FILE, NULL, &e), "path", &e);
+    expect_missing(rt_renderer_create(&renderer, NULL, fixture->device, NULL, &e), "scene", &e);
+    expect_missing(rt_renderer_create(&renderer, fixture->scene, NULL, NULL, &e), "device", &e);
+    expect_missing(rt_trace(NULL, RT_TRACE_ANY, NULL, 0, NULL, &e), "renderer", &e);
+    expect_missing(rt_render(&film, NULL, NULL, &e), "renderer", &e);
+    expect_missing(rt_render_options_check(NULL, &e), "options", &e);
+    expect_missing(rt_photon_map_emit(&map, NULL, NULL, &e), "renderer", &e);
+    expect_missing(rt_photon_map_irradiance(v, NULL, fixture->device, v, v, 1, NULL, &e), "map", &e);
+    expect_missing(rt_photon_map_merge(&map, maps, 1, &e), "map", &e);
+    expect_missing(rt_photon_map_save(NULL, "a.rtp", &e), "map", &e);
+    expect_missing(rt_photon_map_export(NULL, "a.ply", &e), "map", &e);
+    expect_missing(rt_photon_map_load(&map, NULL, &e), "path", &e);
+    expect_missing(rt_film_write(NULL, "a.exr", NULL, &e), "film", &e);
+    expect_missing(rt_file_write(NULL, "", 0, &e), "path", &e);
+    expect_missing(rt_image_read(&image, NULL, &e), "path", &e);
+    expect_missing(rt_image_write(NULL, "a.exr", NULL, &e), "image", &e);
+    expect_missing(rt_image_get_rgb(v, NULL, NULL, &e), "image", &e);
+    expect_missing(rt_image_compare(&comparison, images, 1, NULL, NULL, &e), "image", &e);
+    expect_missing(rt_image_compare(&comparison, images, 0, NULL, NULL, &e), "reference", &e);
+    expect_missing(rt_comparison_write_difference(NULL, "a.exr", 0, &e), "comparison", &e);
+    expect_ok(rt_image_from_rgb(&image, v, 1, 1, &e), &e);
+    expect_missing(rt_image_write(image, NULL, NULL, &e), "path", &e);
+    rt_image_destroy(image);
+    assert_true(!scene && !renderer && !map && !film && !comparison);
+}
+
+/* A file that is not there, is no file, or holds something else; and places that cannot be written. */
+static void errors_name_the_file_at_fault(void **state)
+{
+    const fixture *fixture = *state;
+    static const char *const unreadable[] = {"/nowhere/file", "/dev/null", "."};
+    rt_photon_map *map = NULL;
+    rt_image *image = NULL;
+    uint32_t handle;
+    const float grey[3] = {1, 1, 1};
+    rt_error e;
+    for (size_t i = 0; i < sizeof unreadable / sizeof *unreadable; i++) {
+        const char *path = unreadable[i];
+        rt_texture texture = {.path = path};
+        rt_environment environment = {.path = path};
+        assert_int_equal(rt_image_read(&image, path, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+        assert_int_equal(rt_photon_map_load(&map, path, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+        assert_int_equal(rt_scene_load_mesh(fixture->scene, &handle, path, RT_SHADING_FILE, NULL, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+        assert_int_equal(rt_scene_add_texture(fixture->scene, &handle, &texture, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+        assert_string_equal(e.field, "path");
+        assert_int_equal(rt_scene_set_environment(fixture->scene, &environment, &e), RT_ERROR_INPUT);
+        assert_string_equal(e.file, path);
+    }
+    expect_ok(rt_image_from_rgb(&image, grey, 1, 1, &e), &e);
+    assert_int_equal(rt_image_write(image, "/nowhere/a.png", NULL, &e), RT_ERROR_OUTPUT);
+    assert_string_equal(e.file, "/nowhere/a.png");
+    assert_int_equal(rt_file_write("/nowhere/a", "", 0, &e), RT_ERROR_OUTPUT);
+    assert_string_equal(e.file, "/nowhere/a");
+    rt_image_destroy(image);
+}
+
 static void count_diagnostic(void *user, const rt_diagnostic *diagnostic)
 {
     int *count = user;
@@ -481,6 +566,8 @@ int main(void)
         cmocka_unit_test(destroying_null_does_nothing),
         cmocka_unit_test(failure_fills_the_error_and_leaves_the_result),
         cmocka_unit_test(error_may_be_null),
+        cmocka_unit_test(missing_objects_and_paths_are_refused),
+        cmocka_unit_test(errors_name_the_file_at_fault),
         cmocka_unit_test(a_text_without_a_name_is_called_text),
         cmocka_unit_test(every_error_of_a_text_is_reported),
         cmocka_unit_test(options_out_of_range_name_their_field),

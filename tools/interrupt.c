@@ -2,14 +2,31 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <string.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t pending;
+#include "rtc.h"
+
+static volatile sig_atomic_t deferred, pending;
+static int as_json;
+
+/* Only write() may be called in a handler. */
+static void say(const char *plain, const char *json)
+{
+    const char *text = as_json ? json : plain;
+    if (write(STDERR_FILENO, text, strlen(text)) < 0) {
+        /* There is nobody to tell. */
+    }
+}
 
 static void handle(int signal_number)
 {
-    static const char text[] = "\nrtc: stopping; interrupt again to stop at once\n";
     int saved = errno;
+    if (!deferred) {
+        say("\nrtc: interrupted; nothing was written\n",
+            "{\"severity\":\"note\",\"message\":\"interrupted; nothing was written\"}\n");
+        _exit(STATUS_INTERRUPTED);
+    }
     if (pending) {
         /* The second one: end as the signal does, once it is no longer blocked. */
         signal(signal_number, SIG_DFL);
@@ -17,9 +34,8 @@ static void handle(int signal_number)
         return;
     }
     pending = 1;
-    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) {
-        /* There is nobody to tell. */
-    }
+    say("\nrtc: stopping; interrupt again to stop at once\n",
+        "{\"severity\":\"note\",\"message\":\"stopping; interrupt again to stop at once\"}\n");
     errno = saved;
 }
 
@@ -36,10 +52,16 @@ static void catch_one(int signal_number)
     sigaction(signal_number, &action, NULL);
 }
 
-void interrupt_catch(void)
+void interrupt_catch(int in_json)
 {
+    as_json = in_json;
     catch_one(SIGINT);
     catch_one(SIGTERM);
+}
+
+void interrupt_defer(void)
+{
+    deferred = 1;
 }
 
 int interrupt_pending(void)

@@ -145,7 +145,8 @@ int command_mesh(const command_line *arguments)
     status = check_extension(path);
     if (status != STATUS_DONE)
         return status;
-    interrupt_catch();
+    interrupt_catch(0);
+    interrupt_defer();
     status = write_mesh(path, &grid);
     if (status == STATUS_DONE)
         printf("%s: %llu vertices, %llu triangles\n", path, (unsigned long long)grid.vertices,

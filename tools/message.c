@@ -56,44 +56,98 @@ static void put_safe(const char *text, size_t length)
     }
 }
 
-static void put_message(const char *before, const char *escape, const char *label, const char *format, va_list args)
+/* ---- Lines for a program ---------------------------------------------------- */
+
+static int as_json;
+
+void message_as_json(void)
+{
+    /* A line goes out whole, so that a signal that speaks up does not cut one in two. */
+    static char line[1 << 16];
+    setvbuf(stderr, line, _IOLBF, sizeof line);
+    as_json = 1;
+}
+
+static void put_json(const char *name, const char *text)
+{
+    size_t length = strlen(text);
+    fprintf(stderr, "\"%s\":\"", name);
+    for (size_t i = 0, size; i < length; i += size ? size : 1) {
+        size = character_size(text + i, length - i);
+        if (text[i] == '"' || text[i] == '\\')
+            fputc('\\', stderr);
+        if (text[i] == '\t')
+            fputs("\\t", stderr);
+        else if (size)
+            fwrite(text + i, 1, size, stderr);
+        else
+            fputc('?', stderr);
+    }
+    fputc('"', stderr);
+}
+
+static void put_json_message(const char *severity, const char *text)
+{
+    fputc('{', stderr);
+    put_json("severity", severity);
+    fputc(',', stderr);
+    put_json("message", text);
+    fputs("}\n", stderr);
+}
+
+/* ---- Messages ---------------------------------------------------------------- */
+
+/* How a kind of message looks; severity is its name in JSON. */
+typedef struct message_kind {
+    const char *severity, *before, *escape, *label;
+} message_kind;
+
+static void put_message(const message_kind *kind, const char *format, va_list args)
 {
     char text[2048];
     vsnprintf(text, sizeof text, format, args);
-    fprintf(stderr, "%s%s%s%s", before, colour(escape), label, colour(PLAIN));
+    if (as_json) {
+        put_json_message(kind->severity, text);
+        return;
+    }
+    fprintf(stderr, "%s%s%s%s", kind->before, colour(kind->escape), kind->label, colour(PLAIN));
     put_safe(text, strlen(text));
     fputc('\n', stderr);
 }
 
 void message_error(const char *format, ...)
 {
+    static const message_kind kind = {"error", "rtc: ", RED, "error: "};
     va_list args;
     va_start(args, format);
-    put_message("rtc: ", RED, "error: ", format, args);
+    put_message(&kind, format, args);
     va_end(args);
 }
 
 void message_warning(const char *format, ...)
 {
+    static const message_kind kind = {"warning", "rtc: ", YELLOW, "warning: "};
     va_list args;
     va_start(args, format);
-    put_message("rtc: ", YELLOW, "warning: ", format, args);
+    put_message(&kind, format, args);
     va_end(args);
 }
 
 void message_hint(const char *format, ...)
 {
+    static const message_kind kind = {"hint", "  ", CYAN, "hint: "};
     va_list args;
     va_start(args, format);
-    put_message("  ", CYAN, "hint: ", format, args);
+    put_message(&kind, format, args);
     va_end(args);
 }
 
 void message_note(const char *format, ...)
 {
+    static const message_kind kind = {"note", "", "", ""};
     va_list args;
     va_start(args, format);
-    put_message("", "", "", format, args);
+    put_message(&kind, format, args);
     va_end(args);
 }
 
@@ -141,7 +195,19 @@ static void put_excerpt(const char *line, size_t at, size_t marked)
     fprintf(stderr, "%s\n", colour(PLAIN));
 }
 
-void message_diagnostic(const rt_diagnostic *diagnostic)
+static void put_json_diagnostic(const rt_diagnostic *diagnostic)
+{
+    static const char *const severities[] = {"error", "warning", "note"};
+    fputc('{', stderr);
+    put_json("severity", severities[diagnostic->severity]);
+    fputc(',', stderr);
+    put_json("file", diagnostic->file);
+    fprintf(stderr, ",\"line\":%d,\"column\":%d,", diagnostic->line, diagnostic->column);
+    put_json("message", diagnostic->message);
+    fputs("}\n", stderr);
+}
+
+static void put_text_diagnostic(const rt_diagnostic *diagnostic)
 {
     static const char *const labels[] = {"error: ", "warning: ", "note: "}, *const colours[] = {RED, YELLOW, CYAN};
     fputs(colour(BOLD), stderr);
@@ -155,6 +221,14 @@ void message_diagnostic(const rt_diagnostic *diagnostic)
     if (diagnostic->line > 0 && diagnostic->source_line)
         put_excerpt(diagnostic->source_line, diagnostic->column > 0 ? (size_t)diagnostic->column - 1 : 0,
                     diagnostic->length > 0 ? (size_t)diagnostic->length : 1);
+}
+
+void message_diagnostic(const rt_diagnostic *diagnostic)
+{
+    if (as_json)
+        put_json_diagnostic(diagnostic);
+    else
+        put_text_diagnostic(diagnostic);
     if (diagnostic->hint)
         message_hint("%s", diagnostic->hint);
 }

@@ -12,6 +12,12 @@
 #define PRINTF_LIKE(text, first)
 #endif
 
+/*
+ * From now on every line on stderr is a JSON object: {"severity": "error", "message": ...}, with "warning", "hint" and
+ * "note" likewise, and "file", "line" and "column" before the message where a scene is at fault.
+ */
+void message_as_json(void);
+
 /* "rtc: error: ...", "rtc: warning: ...", "  hint: ..." and, without a prefix, a note; each one line. */
 void message_error(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_warning(const char *format, ...) PRINTF_LIKE(1, 2);

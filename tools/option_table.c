@@ -104,7 +104,7 @@ const option option_table[OPTION_COUNT] = {
                        "progressive photon mapping: P passes of fresh photons and eye paths, gathered within a radius "
                        "that shrinks from pass to pass; without --radius it begins with the mean distance of the K-th "
                        "photon"},
-    [OPTION_ALPHA] = {"alpha", "A", KIND_REAL, GROUP_PHOTON, RENDER, 0, 1, NULL, 1, "2/3",
+    [OPTION_ALPHA] = {"alpha", "A", KIND_BETWEEN, GROUP_PHOTON, RENDER, 0, 1, NULL, 1, "2/3",
                       "how slowly the radius of --passes shrinks, between 0 and 1"},
     [OPTION_PHOTON_LAYERS] = {"photon-layers", NULL, KIND_SWITCH, GROUP_PHOTON, RENDER, 0, 0, NULL, 0, NULL,
                               "add layers to an .exr: photon.count, photon.radius, photon.density, photon.variance; --no-photon-layers: do not"},
@@ -122,10 +122,10 @@ const option option_table[OPTION_COUNT] = {
                              "gather after N diffuse bounces instead of at the first hit"},
     [OPTION_CAUSTIC_PHOTONS] = {"caustic-photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER | PHOTONS, 0, 4e9, NULL, 1,
                                 "0", "keep caustic photons in a map of their own, filled by N further paths"},
-    [OPTION_CAUSTIC_K] = {"caustic-k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 2, 65536, NULL, 1, "that of --k",
-                          "nearest photons in the caustic map"},
+    [OPTION_CAUSTIC_K] = {"caustic-k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 2, 65536, all_photons, 1, "that of --k",
+                          "nearest photons in the caustic map; all: those within --caustic-radius"},
     [OPTION_CAUSTIC_RADIUS] = {"caustic-radius", "R", KIND_REAL, GROUP_PHOTON, RENDER, 0, 1e15, NULL, 1,
-                               "that of --radius", "largest gather radius in the caustic map in metres"},
+                               "0, that of --radius", "largest gather radius in the caustic map in metres"},
     [OPTION_CAUSTIC_KERNEL] = {"caustic-kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1,
                                "epanechnikov", "density kernel of the caustic map"},
     [OPTION_PHOTON_MAP] = {"photon-map", "FILE", KIND_TEXT, GROUP_PHOTON, RENDER, 0, 0, NULL, 1, NULL,
@@ -165,7 +165,7 @@ const option option_table[OPTION_COUNT] = {
     /* The same name as a render's. */
     [OPTION_COMPARE_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_COMPARE, COMPARE, -126, 126, NULL, 0, "0",
                                  "brighten by 2^EV before ssim and flip look at the pictures"},
-    [OPTION_SCALE] = {"scale", "V", KIND_REAL, GROUP_COMPARE, COMPARE, 0, 1e15, NULL, 0, "the typical one",
+    [OPTION_SCALE] = {"scale", "V", KIND_REAL, GROUP_COMPARE, COMPARE, 0, 1e15, NULL, 0, "0, the typical one",
                       "the difference that --out shows in full colour"},
     [OPTION_BLOCKS] = {"blocks", NULL, KIND_FLAG, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, NULL,
                        "print of every block the ratio, its standard error, and the difference as a part of what "
@@ -196,7 +196,8 @@ const option option_table[OPTION_COUNT] = {
                            "chosen for the device", "work-items a work-group"},
 
     [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS, 0, 0, progress_styles, 0, "auto",
-                         "progress on stderr; auto is one redrawn line on a terminal and plain lines elsewhere"},
+                         "progress on stderr; auto is one redrawn line on a terminal and plain lines elsewhere; with "
+                         "json all that is said there is a JSON object a line"},
     [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "print what the render did and how long it took on stdout"},
     [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR, 0, 0, NULL, 0, NULL,

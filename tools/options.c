@@ -97,6 +97,13 @@ static int read_number_word(option_value *value, const option *option, const cha
     return 0;
 }
 
+static int is_in_range(const option *option, double number)
+{
+    if (option->kind == KIND_BETWEEN)
+        return number > option->min && number < option->max;
+    return number >= option->min && number <= option->max;
+}
+
 static int read_number(option_value *value, const option *option, const char *text)
 {
     char words[128] = "";
@@ -105,12 +112,16 @@ static int read_number(option_value *value, const option *option, const char *te
     int is_count = option->kind == KIND_WHOLE;
     int bad = is_count ? number_count(&value->count, text) : number_real(&value->real, text);
     double number = is_count ? (double)value->count : value->real;
-    if (!bad && number >= option->min && number <= option->max)
+    if (!bad && is_in_range(option, number))
         return STATUS_DONE;
     if (option->choices)
         option_join_choices(words, sizeof words, option->choices);
-    message_error("--%s takes a %s from %.10g to %.10g%s%s; not '%s'", option->name,
-                  is_count ? "whole number" : "number", option->min, option->max, words[0] ? ", or " : "", words, text);
+    const char *limits =
+        option->kind == KIND_BETWEEN ? "between %.10g and %.10g, both excluded" : "from %.10g to %.10g";
+    char range[96];
+    snprintf(range, sizeof range, limits, option->min, option->max);
+    message_error("--%s takes a %s %s%s%s; not '%s'", option->name, is_count ? "whole number" : "number", range,
+                  words[0] ? ", or " : "", words, text);
     return STATUS_USAGE;
 }
 
@@ -134,7 +145,7 @@ static int read_value(command_line *out, const option *option, const char *text)
     int status = STATUS_DONE;
     if (option->kind == KIND_CHOICE)
         status = read_choice(value, option, text);
-    else if (option->kind == KIND_WHOLE || option->kind == KIND_REAL)
+    else if (option->kind == KIND_WHOLE || option->kind == KIND_REAL || option->kind == KIND_BETWEEN)
         status = read_number(value, option, text);
     else if (option->kind == KIND_SWITCH)
         value->choice = 1;

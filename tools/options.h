@@ -92,6 +92,7 @@ typedef enum option_kind {
     KIND_SWITCH, /* a flag that the scene may have set: --no-NAME takes it back; choice is 0 or 1 */
     KIND_WHOLE,  /* a whole number, 1e6 allowed */
     KIND_REAL,   /* a finite number */
+    KIND_BETWEEN, /* one that is neither min nor max: 0 would mean the default to the library */
     KIND_CHOICE, /* one of a list of words */
     KIND_TEXT    /* any text that is not empty */
 } option_kind;
@@ -120,7 +121,7 @@ typedef struct option {
     option_kind kind;
     option_group group;
     unsigned commands;            /* bit 1 << command_id for each that takes it */
-    double min, max;              /* KIND_WHOLE, KIND_REAL; the library checks what is narrower */
+    double min, max;              /* KIND_WHOLE, KIND_REAL, KIND_BETWEEN; the library checks what is narrower */
     const option_choice *choices; /* KIND_CHOICE; KIND_WHOLE: words that may stand for a number, or NULL */
     int decides_pixels;           /* part of the command line recorded in an image */
     const char *fallback;         /* the default, in words; NULL when there is none */

@@ -13,8 +13,8 @@
 
 static const struct {
     const char *name;
-    int is_8bit;
-} formats[] = {{".exr", 0}, {".png", 1}, {".ppm", 1}, {".pfm", 0}};
+    int is_8bit, has_layers;
+} formats[] = {{".exr", 0, 1}, {".png", 1, 0}, {".ppm", 1, 0}, {".pfm", 0, 0}};
 
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
@@ -145,6 +145,14 @@ int outputs_have_8bit(const output_list *outputs)
 {
     for (size_t i = 0; i < outputs->count; i++)
         if (formats[find_format(outputs->paths[i])].is_8bit)
+            return 1;
+    return 0;
+}
+
+int outputs_have_layers(const output_list *outputs)
+{
+    for (size_t i = 0; i < outputs->count; i++)
+        if (formats[find_format(outputs->paths[i])].has_layers)
             return 1;
     return 0;
 }

@@ -27,6 +27,9 @@ int outputs_check_writable(const char *path);
 /* Whether any of them has 8 bits a channel, so that exposure and tone curve matter. */
 int outputs_have_8bit(const output_list *outputs);
 
+/* Whether any of them is an .exr, the only format with layers. */
+int outputs_have_layers(const output_list *outputs);
+
 /* Writes the film to all of them, also after one has failed. Returns an exit status. */
 int outputs_write(const output_list *outputs, const rt_film *film, const rt_image_options *options);
 

@@ -37,5 +37,6 @@ int main(int argc, char **argv)
         status = run(&arguments);
     arguments_free(&arguments);
     int written = message_finish_stdout();
-    return status == STATUS_DONE ? written : status;
+    /* That things differ, which is status 1 too, is no result while what differs is lost. */
+    return status == STATUS_DONE || (status == STATUS_INPUT && written != STATUS_DONE) ? written : status;
 }

@@ -42,7 +42,9 @@ void session_begin(session *s, const command_line *arguments)
     s->hooks.log = arguments->options[OPTION_VERBOSE].given ? on_log : NULL;
     s->hooks.warning = s->quiet ? NULL : on_warning;
     s->hooks.user = s;
-    interrupt_catch();
+    if (s->progress.style == PROGRESS_JSON)
+        message_as_json();
+    interrupt_catch(s->progress.style == PROGRESS_JSON);
 }
 
 const option_value *session_value(const session *s, option_id id)
@@ -56,61 +58,82 @@ static void set_u32(uint32_t *out, const option_value *value)
         *out = (uint32_t)value->count;
 }
 
-void session_merge_options(const session *s, rt_render_options *options)
+static void set_u64(uint64_t *out, const option_value *value)
 {
-    options->hooks = &s->hooks;
+    if (value->given)
+        *out = value->count;
+}
+
+static void set_float(float *out, const option_value *value)
+{
+    if (value->given)
+        *out = (float)value->real;
+}
+
+static void set_double(double *out, const option_value *value)
+{
+    if (value->given)
+        *out = value->real;
+}
+
+static void set_switch(int *out, const option_value *value)
+{
+    if (value->given)
+        *out = value->choice;
+}
+
+/* The choice of an option, or what it is so far. */
+static int choice_or(const session *s, option_id id, int so_far)
+{
+    return session_value(s, id)->given ? session_value(s, id)->choice : so_far;
+}
+
+/* What is rendered, and for how long. */
+static void merge_picture(const session *s, rt_render_options *options)
+{
     set_u32(&options->width, session_value(s, OPTION_WIDTH));
     set_u32(&options->height, session_value(s, OPTION_HEIGHT));
     set_u32(&options->spp, session_value(s, OPTION_SPP));
     set_u32(&options->max_depth, session_value(s, OPTION_MAX_DEPTH));
     set_u32(&options->roulette_depth, session_value(s, OPTION_ROULETTE_DEPTH));
+    set_float(&options->roulette_threshold, session_value(s, OPTION_ROULETTE_THRESHOLD));
     set_u32(&options->seed, session_value(s, OPTION_SEED));
+    set_double(&options->time, session_value(s, OPTION_TIME));
+    set_double(&options->target_error, session_value(s, OPTION_TARGET_ERROR));
+    set_switch(&options->variance, session_value(s, OPTION_VARIANCE));
+    set_switch(&options->aov, session_value(s, OPTION_AOV));
+    options->mode = (rt_mode)choice_or(s, OPTION_MODE, options->mode);
+    options->sampler = (rt_sampler)choice_or(s, OPTION_SAMPLER, options->sampler);
+    options->filter = (rt_filter)choice_or(s, OPTION_FILTER, options->filter);
+    options->estimator = (rt_estimator)choice_or(s, OPTION_ESTIMATOR, options->estimator);
+}
+
+/* How photons are emitted and gathered. */
+static void merge_photons(const session *s, rt_render_options *options)
+{
+    set_u64(&options->photons, session_value(s, OPTION_PHOTONS));
     set_u32(&options->k, session_value(s, OPTION_K));
-    set_u32(&options->final_gather, session_value(s, OPTION_FINAL_GATHER));
-    set_u32(&options->caustic_k, session_value(s, OPTION_CAUSTIC_K));
+    set_float(&options->radius, session_value(s, OPTION_RADIUS));
     set_u32(&options->passes, session_value(s, OPTION_PASSES));
-    if (session_value(s, OPTION_AREA)->given)
-        options->area = (rt_area)session_value(s, OPTION_AREA)->choice;
-    if (session_value(s, OPTION_PHOTON_LAYERS)->given)
-        options->photon_layers = session_value(s, OPTION_PHOTON_LAYERS)->choice;
-    if (session_value(s, OPTION_ROULETTE_THRESHOLD)->given)
-        options->roulette_threshold = (float)session_value(s, OPTION_ROULETTE_THRESHOLD)->real;
-    if (session_value(s, OPTION_ALPHA)->given)
-        options->alpha = (float)session_value(s, OPTION_ALPHA)->real;
-    if (session_value(s, OPTION_GATHER)->given)
-        options->gather = (rt_gather)session_value(s, OPTION_GATHER)->choice;
-    if (session_value(s, OPTION_PHOTONS)->given)
-        options->photons = session_value(s, OPTION_PHOTONS)->count;
-    if (session_value(s, OPTION_TIME)->given)
-        options->time = session_value(s, OPTION_TIME)->real;
-    if (session_value(s, OPTION_TARGET_ERROR)->given)
-        options->target_error = session_value(s, OPTION_TARGET_ERROR)->real;
-    if (session_value(s, OPTION_VARIANCE)->given)
-        options->variance = session_value(s, OPTION_VARIANCE)->choice;
-    if (session_value(s, OPTION_RADIUS)->given)
-        options->radius = (float)session_value(s, OPTION_RADIUS)->real;
-    if (session_value(s, OPTION_CONE_K)->given)
-        options->cone_k = (float)session_value(s, OPTION_CONE_K)->real;
-    if (session_value(s, OPTION_MODE)->given)
-        options->mode = (rt_mode)session_value(s, OPTION_MODE)->choice;
-    if (session_value(s, OPTION_SAMPLER)->given)
-        options->sampler = (rt_sampler)session_value(s, OPTION_SAMPLER)->choice;
-    if (session_value(s, OPTION_FILTER)->given)
-        options->filter = (rt_filter)session_value(s, OPTION_FILTER)->choice;
-    if (session_value(s, OPTION_ESTIMATOR)->given)
-        options->estimator = (rt_estimator)session_value(s, OPTION_ESTIMATOR)->choice;
-    if (session_value(s, OPTION_AOV)->given)
-        options->aov = session_value(s, OPTION_AOV)->choice;
-    if (session_value(s, OPTION_KERNEL)->given)
-        options->kernel = (rt_density)session_value(s, OPTION_KERNEL)->choice;
-    if (session_value(s, OPTION_CAUSTIC_PHOTONS)->given)
-        options->caustic_photons = session_value(s, OPTION_CAUSTIC_PHOTONS)->count;
-    if (session_value(s, OPTION_CAUSTIC_RADIUS)->given)
-        options->caustic_radius = (float)session_value(s, OPTION_CAUSTIC_RADIUS)->real;
-    if (session_value(s, OPTION_CAUSTIC_KERNEL)->given)
-        options->caustic_kernel = (rt_density)session_value(s, OPTION_CAUSTIC_KERNEL)->choice;
-    if (session_value(s, OPTION_DIRECT)->given)
-        options->direct = (rt_direct)session_value(s, OPTION_DIRECT)->choice;
+    set_float(&options->alpha, session_value(s, OPTION_ALPHA));
+    set_u32(&options->final_gather, session_value(s, OPTION_FINAL_GATHER));
+    set_switch(&options->photon_layers, session_value(s, OPTION_PHOTON_LAYERS));
+    set_float(&options->cone_k, session_value(s, OPTION_CONE_K));
+    options->gather = (rt_gather)choice_or(s, OPTION_GATHER, options->gather);
+    options->area = (rt_area)choice_or(s, OPTION_AREA, options->area);
+    options->kernel = (rt_density)choice_or(s, OPTION_KERNEL, options->kernel);
+    options->direct = (rt_direct)choice_or(s, OPTION_DIRECT, options->direct);
+    set_u64(&options->caustic_photons, session_value(s, OPTION_CAUSTIC_PHOTONS));
+    set_u32(&options->caustic_k, session_value(s, OPTION_CAUSTIC_K));
+    set_float(&options->caustic_radius, session_value(s, OPTION_CAUSTIC_RADIUS));
+    options->caustic_kernel = (rt_density)choice_or(s, OPTION_CAUSTIC_KERNEL, options->caustic_kernel);
+}
+
+void session_merge_options(const session *s, rt_render_options *options)
+{
+    options->hooks = &s->hooks;
+    merge_picture(s, options);
+    merge_photons(s, options);
 }
 
 /* The name of a field as an option has it. */
@@ -179,6 +202,7 @@ int session_open_device(const session *s, rt_device **out)
     options.select = session_value(s, OPTION_DEVICE)->text;
     set_u32(&options.threads, session_value(s, OPTION_THREADS));
     set_u32(&options.work_group, session_value(s, OPTION_WORK_GROUP));
+    interrupt_defer();
     if (rt_device_open(out, &options, &error) != RT_OK)
         return session_fail(&error);
     if (session_value(s, OPTION_VERBOSE)->given) {

@@ -250,6 +250,11 @@ rt_status rt_image_compare(rt_comparison **out, const rt_image *const *renders, 
                            const rt_image *reference, const rt_compare_options *options, rt_error *error)
 {
     static const rt_compare_options defaults;
+    for (size_t i = 0; i < count; i++)
+        if (rt_is_missing(renders[i], "image", error))
+            return RT_ERROR_USAGE;
+    if (rt_is_missing(reference, "reference", error))
+        return RT_ERROR_USAGE;
     if (!options)
         options = &defaults;
     rt_status status = check_options(options, error);

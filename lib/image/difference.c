@@ -68,6 +68,8 @@ static void colour_of(float rgb[3], double difference, double scale)
 rt_status rt_comparison_write_difference(const rt_comparison *comparison, const char *path, double scale,
                                          rt_error *error)
 {
+    if (rt_is_missing(comparison, "comparison", error))
+        return RT_ERROR_USAGE;
     const rt_comparison_info *info = &comparison->info;
     rt_image_format format;
     rt_image *image = NULL;

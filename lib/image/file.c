@@ -20,30 +20,42 @@ static rt_status fail_errno(rt_error *error, rt_status status, const char *verb,
     char cause[128];
     if (strerror_r(code, cause, sizeof cause) != 0)
         snprintf(cause, sizeof cause, "error %d", code);
-    return rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause);
+    return rt_at_file(rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause), path, error);
 }
 
-static rt_status read_all(rt_bytes *bytes, int fd, const char *path, size_t limit, rt_error *error)
+/* Reads on until there are `most` bytes, or to the end of the file. */
+static rt_status read_up_to(rt_bytes *bytes, int fd, const char *path, size_t most, rt_error *error)
 {
     uint8_t chunk[READ_CHUNK];
-    for (;;) {
-        ssize_t count = read(fd, chunk, sizeof chunk);
+    while (bytes->size < most) {
+        size_t left = most - bytes->size;
+        ssize_t count = read(fd, chunk, left < sizeof chunk ? left : sizeof chunk);
         if (count < 0 && errno == EINTR)
             continue;
         if (count < 0)
             return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
         if (count == 0)
             return RT_OK;
-        if ((size_t)count > limit - bytes->size)
-            return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is larger than %zu bytes", path, limit);
         rt_status status = rt_bytes_put(bytes, bytes->size, chunk, (size_t)count, error);
         if (status != RT_OK)
             return status;
     }
+    return RT_OK;
+}
+
+/* Reads to the end of the file, which is refused when it has more than limit bytes. */
+static rt_status read_all(rt_bytes *bytes, int fd, const char *path, size_t limit, rt_error *error)
+{
+    rt_status status = read_up_to(bytes, fd, path, limit + 1, error);
+    if (status == RT_OK && bytes->size > limit)
+        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is larger than %zu bytes", path, limit);
+    return status;
 }
 
 rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error)
 {
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
@@ -54,28 +66,29 @@ rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *
         *out = bytes;
     else
         rt_bytes_free(&bytes);
-    return status;
+    return rt_at_file(status, path, error);
 }
 
-rt_status rt_file_read_start(void *out, size_t most, size_t *size, const char *path, rt_error *error)
+rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell, rt_error *error)
 {
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
+    uint64_t told = 0;
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
-    size_t done = 0;
-    ssize_t count = 1;
-    while (done < most && count != 0) {
-        count = read(fd, (uint8_t *)out + done, most - done);
-        if (count < 0 && errno != EINTR)
-            break;
-        done += count > 0 ? (size_t)count : 0;
-    }
-    int code = count < 0 ? errno : 0;
+    rt_bytes bytes = {0};
+    rt_status status = read_up_to(&bytes, fd, path, start, error);
+    if (status == RT_OK)
+        status = tell(&told, bytes.data, bytes.size, path, error);
+    if (status == RT_OK)
+        status = read_all(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told : SIZE_MAX / 2, error);
     close(fd);
-    if (code)
-        return fail_errno(error, RT_ERROR_INPUT, "read", path, code);
-    *size = done;
-    return RT_OK;
+    if (status == RT_OK)
+        *out = bytes;
+    else
+        rt_bytes_free(&bytes);
+    return rt_at_file(status, path, error);
 }
 
 /* The functions below return 0, or the errno of what failed. */
@@ -176,6 +189,8 @@ static int make_target(const char *path, const rt_bytes *bytes)
 
 rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error)
 {
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
     struct stat old, link;
     int code;
     if (stat(path, &old) != 0) {

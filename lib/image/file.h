@@ -10,8 +10,14 @@
  */
 rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error);
 
-/* Reads at most `most` bytes from the start of a file into out; *size is how many there were. Fails as above. */
-rt_status rt_file_read_start(void *out, size_t most, size_t *size, const char *path, rt_error *error);
+/* What the first `size` bytes of a file say of the size of the whole. */
+typedef rt_status rt_file_size(uint64_t *out, const uint8_t *start, size_t size, const char *path, rt_error *error);
+
+/*
+ * The same for a file whose first `start` bytes tell its size: what is no such file is not read to its end, which may
+ * be far. The file is opened once and read on, so that it may be a pipe.
+ */
+rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell, rt_error *error);
 
 /*
  * Makes path hold exactly these bytes, or leaves it as it was: they go to a temporary file in the

@@ -12,6 +12,8 @@
 
 rt_status rt_image_format_of(rt_image_format *out, const char *path, rt_error *error)
 {
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
     static const struct {
         const char *extension;
         rt_image_format format;
@@ -40,6 +42,8 @@ static rt_status encode(rt_bytes *out, const rt_image *image, rt_image_format fo
 
 rt_status rt_image_write(const rt_image *image, const char *path, const rt_image_options *options, rt_error *error)
 {
+    if (rt_is_missing(image, "image", error))
+        return RT_ERROR_USAGE;
     static const rt_image_options defaults;
     rt_image_format format;
     rt_bytes bytes = {0};
@@ -86,5 +90,5 @@ rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)
         status = rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is %s", path,
                          bytes.size ? "not an EXR, PNG, PPM, PGM or PFM image" : "empty");
     rt_bytes_free(&bytes);
-    return status;
+    return rt_at_file(status, path, error);
 }

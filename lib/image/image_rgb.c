@@ -98,6 +98,8 @@ int rt_image_has_layer(const rt_image *image, const char *layer)
 
 rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer, rt_error *error)
 {
+    if (rt_is_missing(image, "image", error))
+        return RT_ERROR_USAGE;
     uint32_t channels[3];
     if (!find_channels(channels, image, layer))
         return fail_layer(image, layer, error);

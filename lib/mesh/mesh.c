@@ -101,9 +101,7 @@ rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, r
     rt_mesh_destroy(mesh);
     if (status == RT_CANCELLED)
         rt_fail(error, RT_CANCELLED, "cancelled while reading %.400s", path);
-    if (error)
-        snprintf(error->file, sizeof error->file, "%s", path);
-    return status;
+    return rt_at_file(status, path, error);
 }
 
 void rt_mesh_destroy(rt_mesh *mesh)

@@ -18,7 +18,7 @@
  *   56  8  lights in the ledger
  *   64  8  paths in the ledger
  *   72  8  paths left out of it because they were not finite
- *   80 40  of the global photons: u64 paths, u64 photons left out because they were not finite, u64 photons,
+ *   80 40  of the global photons: u64 paths, u64 photons left out as not finite or too far out, u64 photons,
  *          u64 ranges, u64 0
  *  120 40  of the caustic photons: the same
  *
@@ -30,7 +30,8 @@
  *          f32 wi[3], u32 flags, f32 flux[3], f32 shading, f32 normal[3], u32 shape, as rt_photon says
  *     4    CRC-32 (that of zlib) of all bytes before
  *
- * A reader refuses what does not add up, what is not finite, and what is left over.
+ * A reader refuses what does not add up, what is not finite, positions beyond 1e15 m, directions that are not of unit
+ * length, and what is left over. Shapes are those of the scene, and are looked at where the map is used with one.
  */
 #ifndef RT_LIB_PHOTON_MAP_FILE_H
 #define RT_LIB_PHOTON_MAP_FILE_H

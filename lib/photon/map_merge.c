@@ -111,6 +111,9 @@ rt_status rt_photon_map_merge(rt_photon_map **out, const rt_photon_map *const *m
     rt_status status = RT_OK;
     if (count == 0)
         return rt_fail(error, RT_ERROR_USAGE, "no photon maps to merge");
+    for (size_t i = 0; i < count; i++)
+        if (rt_is_missing(maps[i], "map", error))
+            return RT_ERROR_USAGE;
     rt_photon_map *map = calloc(1, sizeof *map);
     if (!map)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");

@@ -86,6 +86,8 @@ static double find_brightest(const rt_photon_map *map)
 
 rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error)
 {
+    if (rt_is_missing(map, "map", error))
+        return RT_ERROR_USAGE;
     char text[sizeof header + 32];
     size_t count = map->lists[RT_PHOTONS_GLOBAL].count + map->lists[RT_PHOTONS_CAUSTIC].count;
     size_t start = (size_t)snprintf(text, sizeof text, header, (unsigned long long)count);

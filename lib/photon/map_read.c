@@ -12,6 +12,7 @@
 #include "image/file.h"
 #include "photon/crc32.h"
 #include "photon/map_file.h"
+#include "scene/check.h"
 
 /* A file being read; what is left is known to suffice for what is asked. */
 typedef struct reader {
@@ -74,9 +75,9 @@ typedef struct counts {
 
 rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size, const char *name, rt_error *error)
 {
-    reader r = {start + sizeof rt_map_magic, name, error};
     if (size < sizeof rt_map_magic || memcmp(start, rt_map_magic, sizeof rt_map_magic) != 0)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: this is no photon map", name);
+    reader r = {start + sizeof rt_map_magic, name, error};
     if (size < RT_MAP_HEADER)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short in its header", name);
     uint32_t version = get32(&r), header = get32(&r);
@@ -231,12 +232,6 @@ static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t cou
     return RT_OK;
 }
 
-static int is_unit(const float v[3])
-{
-    float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    return square > 0.99f && square < 1.01f;
-}
-
 static rt_status read_photon(reader *r, rt_photon *p)
 {
     get_floats(r, p->position, 3);
@@ -249,7 +244,10 @@ static rt_status read_photon(reader *r, rt_photon *p)
     p->shape = get32(r);
     if (!rt_photon_is_finite(p))
         return fail_content(r, "a photon is not finite");
-    if (!is_unit(p->wi) || !is_unit(p->normal))
+    for (int c = 0; c < 3; c++)
+        if (fabsf(p->position[c]) > RT_COORDINATE_MAX)
+            return fail_content(r, "a photon lies farther out than coordinates go");
+    if (!rt_is_unit(p->wi) || !rt_is_unit(p->normal))
         return fail_content(r, "a direction of a photon is not of unit length");
     if (p->flux[0] < 0 || p->flux[1] < 0 || p->flux[2] < 0 || p->shading < 0)
         return fail_content(r, "a photon has negative flux");
@@ -306,19 +304,10 @@ rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t 
 
 rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *error)
 {
-    uint8_t start[RT_MAP_HEADER];
-    uint64_t told;
-    size_t size;
     rt_bytes bytes = {0};
-
-    /* The start tells how much to read: what is no map is not read to its end, which may be far. */
-    rt_status status = rt_file_read_start(start, sizeof start, &size, path, error);
-    if (status == RT_OK)
-        status = rt_photon_map_file_size(&told, start, size, path, error);
-    if (status == RT_OK)
-        status = rt_file_read(&bytes, path, told < SIZE_MAX / 2 ? (size_t)told : SIZE_MAX / 2, error);
+    rt_status status = rt_file_read_told(&bytes, path, RT_MAP_HEADER, rt_photon_map_file_size, error);
     if (status == RT_OK)
         status = rt_photon_map_decode(out, bytes.data, bytes.size, path, error);
     rt_bytes_free(&bytes);
-    return status;
+    return rt_at_file(status, path, error);
 }

@@ -134,6 +134,8 @@ rt_status rt_photon_map_encode(rt_bytes *out, const rt_photon_map *map, rt_error
 
 rt_status rt_photon_map_save(const rt_photon_map *map, const char *path, rt_error *error)
 {
+    if (rt_is_missing(map, "map", error))
+        return RT_ERROR_USAGE;
     rt_bytes bytes = {0};
     rt_status status = rt_photon_map_encode(&bytes, map, error);
     if (status == RT_OK)

@@ -35,6 +35,12 @@ int rt_photon_is_finite(const rt_photon *p)
            finite3(p->normal);
 }
 
+int rt_is_unit(const float v[3])
+{
+    float square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    return square > 0.99f && square < 1.01f;
+}
+
 /* Paths whose photons are copied in shares, each to its place. */
 typedef struct appending {
     const rt_photon *slots;
@@ -53,7 +59,7 @@ static size_t share_end(const appending *a, size_t index)
     return end < a->path_count ? end : a->path_count;
 }
 
-/* Finds the places; returns how many photons were left out as not finite. */
+/* Finds the places; returns how many photons were left out. */
 static uint64_t find_places(appending *a, size_t jobs)
 {
     uint64_t rejected = 0;

@@ -15,7 +15,7 @@ typedef struct rt_photon_list {
     rt_photon *photons; /* [count] */
     size_t count, capacity;
     uint64_t emitted;  /* photon paths */
-    uint64_t rejected; /* photons left out because they were not finite */
+    uint64_t rejected; /* photons left out because they were not finite or too far out */
 } rt_photon_list;
 
 /* Makes room for so many photons more. */
@@ -30,6 +30,9 @@ rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, si
 
 /* Whether all numbers of a photon are finite. */
 int rt_photon_is_finite(const rt_photon *photon);
+
+/* Whether a vector is of unit length, to half a percent. */
+int rt_is_unit(const float v[3]);
 
 /* Empties the list but keeps its memory. */
 void rt_photon_list_reset(rt_photon_list *list);

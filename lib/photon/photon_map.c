@@ -127,7 +127,7 @@ static void warn_list(const rt_photon_list *list, const char *name, uint32_t k, 
         rt_warn(hooks, "the %s has only %zu photon%s, fewer than the %u nearest that an estimate wants", name,
                 list->count, list->count == 1 ? "" : "s", (unsigned)k);
     if (list->rejected > 0)
-        rt_warn(hooks, "%llu photons were left out of the %s because they were not finite",
+        rt_warn(hooks, "%llu photons were left out of the %s because they were not finite or lay beyond 1e15 m",
                 (unsigned long long)list->rejected, name);
 }
 

@@ -47,6 +47,8 @@ static void fill(rt_image *image, uint32_t first, const float *from, uint32_t ch
 
 rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error)
 {
+    if (rt_is_missing(film, "film", error))
+        return RT_ERROR_USAGE;
     const char *names[3 + 3 * RT_FILM_LAYERS] = {"R", "G", "B"};
     const rt_render_options *o = &film->options;
     uint32_t channels = 3;

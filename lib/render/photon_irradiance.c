@@ -12,6 +12,7 @@
 #include "photon/photon_map.h"
 #include "photon/point_order.h"
 #include "render/renderer.h"
+#include "scene/check.h"
 
 static const float pi = 3.14159265358979323846f;
 
@@ -107,9 +108,17 @@ static rt_status check_options(const rt_render_options *o, rt_error *error)
 
 static rt_status check_points(const float *positions, const float *normals, size_t count, rt_error *error)
 {
-    for (size_t i = 0; i < 3 * count; i++)
-        if (!isfinite(positions[i]) || !isfinite(normals[i]))
-            return rt_fail(error, RT_ERROR_USAGE, "point %zu, or its normal, is not finite", i / 3);
+    for (size_t i = 0; i < count; i++) {
+        const float *p = positions + 3 * i, *n = normals + 3 * i;
+        for (int c = 0; c < 3; c++)
+            if (!(fabsf(p[c]) <= RT_COORDINATE_MAX))
+                return rt_fail_field(error, RT_ERROR_USAGE, "positions",
+                                     "point %zu has the coordinate %g; it must lie within %g", i, p[c],
+                                     RT_COORDINATE_MAX);
+        if (!rt_is_unit(n))
+            return rt_fail_field(error, RT_ERROR_USAGE, "normals",
+                                 "the normal (%g, %g, %g) of point %zu is not of unit length", n[0], n[1], n[2], i);
+    }
     return RT_OK;
 }
 
@@ -117,6 +126,8 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
                                    const float *normals, size_t count, const rt_render_options *options,
                                    rt_error *error)
 {
+    if (rt_is_missing(map, "map", error) || rt_is_missing(device, "device", error))
+        return RT_ERROR_USAGE;
     static const rt_render_options defaults;
     asking a = {.device = device, .options = options ? *options : defaults};
 

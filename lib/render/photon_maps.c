@@ -83,6 +83,8 @@ static rt_status check_parts(const rt_emit_options *how, rt_error *error)
 rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const rt_emit_options *options,
                              rt_error *error)
 {
+    if (rt_is_missing(renderer, "renderer", error))
+        return RT_ERROR_USAGE;
     static const rt_emit_options defaults;
     emission e = {.renderer = renderer, .how = options ? options : &defaults};
 
@@ -109,6 +111,20 @@ rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const r
     return status == RT_CANCELLED ? rt_fail(error, RT_CANCELLED, "cancelled") : status;
 }
 
+/* Only a file that was tampered with can have others: the photons of a scene lie on its shapes. */
+static rt_status check_shapes(const rt_photon_map *map, const rt_renderer *renderer, rt_error *error)
+{
+    rt_u32 count;
+    rt_status status = rt_buffer_read(renderer->device, renderer->scene, offsetof(rt_scene_header, shape_count),
+                                      sizeof count, &count, error);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+        for (size_t i = 0; i < map->lists[kind].count; i++)
+            if (map->lists[kind].photons[i].shape >= count)
+                return rt_fail(error, RT_ERROR_INPUT, "the photon map has a photon on shape %u of a scene of %u shapes",
+                               map->lists[kind].photons[i].shape, count);
+    return status;
+}
+
 rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *renderer, const rt_render_options *options,
                               rt_error *error)
 {
@@ -125,5 +141,5 @@ rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *rende
     if (map->settings.max_depth != options->max_depth)
         rt_warn(options->hooks, "the photon map holds paths of at most %u segments, and max_depth is %u",
                 map->settings.max_depth, options->max_depth);
-    return RT_OK;
+    return check_shapes(map, renderer, error);
 }

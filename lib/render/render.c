@@ -140,6 +140,8 @@ static void warn_of_missing_light(const rt_renderer *renderer, const rt_render_o
 
 rt_status rt_render_options_check(const rt_render_options *options, rt_error *error)
 {
+    if (rt_is_missing(options, "options", error))
+        return RT_ERROR_USAGE;
     rt_render_options complete = *options;
     rt_status status = rt_options_check(options, error);
     rt_options_complete(&complete);
@@ -152,6 +154,8 @@ rt_status rt_render_options_check(const rt_render_options *options, rt_error *er
 
 rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options, rt_error *error)
 {
+    if (rt_is_missing(renderer, "renderer", error))
+        return RT_ERROR_USAGE;
     rt_render_options complete = options ? *options : renderer->options;
     rt_camera_data camera;
     rt_film *film = NULL;

@@ -10,6 +10,8 @@
 rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device *device,
                              const rt_renderer_options *options, rt_error *error)
 {
+    if (rt_is_missing(scene, "scene", error) || rt_is_missing(device, "device", error))
+        return RT_ERROR_USAGE;
     static const rt_renderer_options defaults;
     rt_stage_progress progress;
 

@@ -62,6 +62,8 @@ static rt_status trace_batch(rt_renderer *renderer, cl_kernel kernel, const rt_r
 rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays, size_t count, rt_hit *hits,
                    rt_error *error)
 {
+    if (rt_is_missing(renderer, "renderer", error))
+        return RT_ERROR_USAGE;
     cl_kernel kernel = NULL;
     rt_status status = RT_OK;
 

@@ -8,9 +8,7 @@
 
 #include "error.h"
 #include "scene/vec.h"
-
-/* Coordinates beyond this lose the squares of their differences in float32. */
-#define RT_COORDINATE_MAX 1e15f
+#include "types.h"
 
 /* Shorter lengths have squares, and areas have reciprocals, that float32 does not hold in full precision. */
 #define RT_LENGTH_MIN 1e-15f

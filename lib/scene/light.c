@@ -136,7 +136,7 @@ static rt_status read_environment(rt_scene_environment *out, const char *path, r
     else if (error)
         snprintf(error->field, sizeof error->field, "path");
     rt_image_destroy(image);
-    return status;
+    return rt_at_file(status, path, error);
 }
 
 rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment, rt_error *error)

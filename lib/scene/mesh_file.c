@@ -52,6 +52,8 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, cons
 rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, rt_shading shading, rt_mesh_info *info,
                              rt_error *error)
 {
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
     rt_mesh *mesh = NULL;
     uint32_t texture = 0;
 
@@ -81,5 +83,5 @@ rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, r
         memcpy(info->hi, made->hi, sizeof info->hi);
     }
     rt_mesh_destroy(mesh);
-    return status;
+    return rt_at_file(status, path, error);
 }

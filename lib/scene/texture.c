@@ -52,7 +52,7 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
     else if (error)
         snprintf(error->field, sizeof error->field, "path");
     rt_image_destroy(image);
-    return status;
+    return rt_at_file(status, from->path, error);
 }
 
 rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *who, const char *field, rt_error *error)

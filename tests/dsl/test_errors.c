@@ -359,6 +359,14 @@ static void fields_without_effect_are_warned_of(void **state)
         {"texture t { pattern checker linear true }", 29, "'linear' has no effect without 'pattern image'"},
         {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
          "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
+        {"material m { emission 7 } sphere { radiance 0 centre 0 0 0 radius 1 material m }", 36,
+         "'radiance' of 0 has no effect: it counts as left out"},
+        {"material m { emission 7 } disc { centre 0 0 0 normal 0 1 0 radius 1 power 0 material m }", 69,
+         "'power' of 0 has no effect"},
+        {"light environment { radiance 0 file \"scenes/textures/letter.png\" }", 21,
+         "'radiance' of 0 has no effect"},
+        {"texture t { file \"scenes/textures/letter.png\" } material m { kd 0 kd_texture t }", 62,
+         "'kd' of 0 has no effect"},
         {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37, "'ior' has no effect"},
     };
     static collected c;

@@ -43,8 +43,12 @@ add() {
     }
 }
 
-# The section of that title stays.
+# The section of that title stays; where there is none, nothing could be kept.
 keep() {
+    grep -qxF "## $1" "$page" || {
+        echo "page.sh: $page has no section '$1' to keep, and $2" >&2
+        exit 1
+    }
     echo "page.sh: '$1' is kept: $2" >&2
     echo >>"$made"
     awk -v title="## $1" '/^## / { within = $0 == title } within { print }' "$page" | sed '$ { /^$/d; }' >>"$made"

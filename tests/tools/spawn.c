@@ -157,17 +157,28 @@ void run_free(run *run)
 
 /* ---- Runs under way ---------------------------------------------------------- */
 
-running start_rtc(const char *format, ...)
+static running start_line(int in, char *line)
 {
-    FORMAT_LINE(line, format);
     int pipes[2];
     assert_int_equal(pipe(pipes), 0);
     fcntl(pipes[0], F_SETFD, FD_CLOEXEC);
     fcntl(pipes[1], F_SETFD, FD_CLOEXEC);
-    streams streams = {-1, -1, pipes[1]};
+    streams streams = {in, -1, pipes[1]};
     running running = {start(streams, line), pipes[0]};
     close(pipes[1]);
     return running;
+}
+
+running start_rtc(const char *format, ...)
+{
+    FORMAT_LINE(line, format);
+    return start_line(-1, line);
+}
+
+running start_rtc_reading(int in, const char *format, ...)
+{
+    FORMAT_LINE(line, format);
+    return start_line(in, line);
 }
 
 /* Reads once, behind what buffer holds; returns 0, or -1 at the end. */

@@ -40,6 +40,9 @@ typedef struct running {
 
 running start_rtc(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* The same with the descriptor `in` as stdin. */
+running start_rtc_reading(int in, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /* Reads until text shows, gathering in buffer; returns 0, or -1 at the end of the stream. */
 int running_wait_for(const running *running, const char *text, char *buffer, size_t size);
 

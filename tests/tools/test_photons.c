@@ -1,10 +1,12 @@
 /* test_photons.c - `rtc photons` and --photon-map: maps made, joined, looked at, exported and rendered with. */
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -97,6 +99,26 @@ static void diff_tells_equal_maps_from_others(void **state)
     }
 }
 
+/* A difference that could not be told is a failure, not the answer that there is one. */
+static void full_stdout_is_status_4(void **state)
+{
+    static const char *const lines[] = {
+        "photons info a.rtp", "photons diff a.rtp a.rtp", "photons diff a.rtp b.rtp", "compare a.pfm a.pfm",
+        "compare a.pfm b.pfm --max-rmse 0", "check a.rts", "a.rts --spp 1 --stats --quiet --out a.png",
+        "photons a.rts --photons 10 --stats --quiet --out c.rtp"};
+    (void)state;
+    succeed("photons a.rts --photons 100 --quiet --out a.rtp");
+    succeed("photons a.rts --photons 101 --quiet --out b.rtp");
+    succeed("a.rts --spp 1 --quiet --out a.pfm");
+    succeed("a.rts --spp 1 --seed 1 --quiet --out b.pfm");
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        run run = run_rtc_to("/dev/full", "%s", lines[i]);
+        expect_status(&run, 4);
+        expect_err(&run, "cannot write to stdout: No space left");
+        run_free(&run);
+    }
+}
+
 static void maps_render_as_if_emitted(void **state)
 {
     (void)state;
@@ -113,6 +135,36 @@ static void maps_render_as_if_emitted(void **state)
     expect_status(&run, 2);
     expect_err(&run, "--direct: the photon map already holds direct light");
     run_free(&run);
+}
+
+/* A pipe can be read once, from its start to its end. */
+static void maps_are_read_from_pipes(void **state)
+{
+    static const char *const lines[] = {"photons info /dev/stdin", "photons export /dev/stdin --out a.ply",
+                                        "a.rts --photon-map /dev/stdin --spp 1 --out a.pfm"};
+    char map[1 << 15]; /* less than a pipe holds */
+    (void)state;
+    succeed("photons a.rts --photons 200 --quiet --out a.rtp");
+    FILE *file = fopen("a.rtp", "rb");
+    assert_non_null(file);
+    size_t size = fread(map, 1, sizeof map, file);
+    fclose(file);
+    assert_in_range(size, 1000, sizeof map - 1);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char said[1 << 12] = "";
+        int pipes[2];
+        assert_int_equal(pipe(pipes), 0);
+        fcntl(pipes[1], F_SETFD, FD_CLOEXEC);
+        running running = start_rtc_reading(pipes[0], "%s", lines[i]);
+        close(pipes[0]);
+        assert_int_equal(write(pipes[1], map, size), size);
+        close(pipes[1]);
+        int status = running_finish(&running, said, sizeof said);
+        if (status != 0)
+            fail_msg("rtc %s: status %d: %s", lines[i], status, said);
+    }
+    expect_file("a.ply");
+    expect_file("a.pfm");
 }
 
 static void maps_of_other_scenes_are_refused(void **state)
@@ -157,6 +209,8 @@ static void broken_maps_and_places_have_their_status(void **state)
     } cases[] = {
         {"photons info a.rts", 1, "a.rts: this is no photon map"},
         {"photons a.rts --out none/m.rtp", 4, "none/m.rtp: there is no such directory"},
+        {"photons info .", 1, "directory"},
+        {"a.rts --photon-map . --out a.pfm", 1, "directory"},
         {"photons info none.rtp", 1, "none.rtp: No such file"},
         {"photons diff a.rtp a.rts", 1, "no photon map"},
         {"photons merge a.rtp a.rtp --out c.rtp", 1, "the same paths"},
@@ -217,7 +271,9 @@ int main(void)
         IN_SCRATCH(parts_merge_into_the_same_file),
         IN_SCRATCH(info_says_what_a_map_holds),
         IN_SCRATCH(diff_tells_equal_maps_from_others),
+        IN_SCRATCH(full_stdout_is_status_4),
         IN_SCRATCH(maps_render_as_if_emitted),
+        IN_SCRATCH(maps_are_read_from_pipes),
         IN_SCRATCH(maps_of_other_scenes_are_refused),
         IN_SCRATCH(exports_are_clouds_of_points),
         IN_SCRATCH(broken_maps_and_places_have_their_status),

@@ -1,4 +1,5 @@
 /* test_progress.c - what the command says while it renders, and how it is interrupted. */
+#include <fcntl.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -33,6 +34,29 @@ static void idle_options_are_warned_of(void **state)
     run = run_rtc("a.rts --spp 1 --mode photon --photons 1000 --cone-k 2 --out a.pfm");
     expect_err(&run, "warning: --cone-k has no effect without --kernel cone");
     run_free(&run);
+}
+
+/* Layers go to an .exr; what the scene turns on by itself is no mistake of who types another name. */
+static void layers_without_a_place_are_warned_of(void **state)
+{
+    static const char *const options[] = {"--aov", "--variance", "--mode photon --photons 1000 --photon-layers"},
+                             *const says[] = {"warning: --aov has no effect without an .exr",
+                                              "warning: --variance adds no layer without an .exr",
+                                              "warning: --photon-layers has no effect without an .exr"};
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    for (size_t i = 0; i < sizeof says / sizeof *says; i++) {
+        run png = run_rtc("a.rts --spp 8 %s --out a.png --out a.pfm", options[i]);
+        run exr = run_rtc("a.rts --spp 8 %s --out a.png --out a.exr", options[i]);
+        run off = run_rtc("a.rts --spp 8 %s --no-aov --no-variance --no-photon-layers --out a.png", options[i]);
+        expect_status(&png, 0);
+        expect_err(&png, says[i]);
+        expect_no_err(&exr, "warning");
+        expect_no_err(&off, "warning");
+        run_free(&png);
+        run_free(&exr);
+        run_free(&off);
+    }
 }
 
 /* A scene without light, seen from inside of a ball of glass. */
@@ -126,6 +150,45 @@ static void json_progress_is_one_object_a_line(void **state)
     run_free(&run);
 }
 
+/* Fails unless every line is an object with a stage or a severity; returns how many have a severity. */
+static int expect_json_lines(char *text)
+{
+    int messages = 0;
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
+        int is_message = strncmp(line, "{\"severity\":\"", 13) == 0;
+        if ((!is_message && strncmp(line, "{\"stage\":\"", 10) != 0) || line[strlen(line) - 1] != '}' ||
+            strstr(line + 1, "{\""))
+            fail_msg("no JSON object: %s", line);
+        messages += is_message;
+    }
+    return messages;
+}
+
+/* A program reads one stream: warnings, errors with their place, hints and the last word are objects too. */
+static void all_that_is_said_beside_json_progress_is_json(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --spp 1 --k 5 --verbose --progress json --out a.pfm");
+    expect_status(&run, 0);
+    expect_err(&run, "{\"severity\":\"warning\",\"message\":\"--k has no effect in path mode; ");
+    expect_err(&run, "{\"severity\":\"note\",\"message\":\"wrote a.pfm: ");
+    assert_true(expect_json_lines(run.err) >= 3);
+    run_free(&run);
+
+    scratch_write("b.rts", "camera { eye 0 0 -4  look_at 0 0 0 }\nsphear { file \"a\\b\" }\n");
+    run = run_rtc("b.rts --progress json --out a.pfm");
+    expect_status(&run, 1);
+    expect_err(&run, "{\"severity\":\"error\",\"file\":\"b.rts\",\"line\":2,\"column\":1,\"message\":\"");
+    expect_err(&run, "{\"severity\":\"hint\",\"message\":\"");
+    assert_true(expect_json_lines(run.err) >= 2);
+    run_free(&run);
+
+    run = run_rtc("no\"where\\.rts --progress json --out a.pfm");
+    expect_err(&run, "\"file\":\"no\\\"where\\\\.rts\"");
+    run_free(&run);
+}
+
 /* With an empty cache of the driver, the build takes seconds. */
 static void first_compile_keeps_reporting(void **state)
 {
@@ -211,7 +274,9 @@ static void interrupt_render(int signal_number, const char *options, const char 
     nanosleep(&nap, NULL);
     assert_int_equal(kill(running.pid, signal_number), 0);
     assert_int_equal(running_finish(&running, said, sizeof said), 130);
+    assert_non_null(strstr(said, "{\"severity\":\"note\",\"message\":\"stopping; interrupt again"));
     assert_non_null(strstr(said, "interrupted; wrote a.pfm: 24 x 16, "));
+    assert_int_equal(expect_json_lines(said), 2);
     expect_file("a.pfm");
 }
 
@@ -251,17 +316,47 @@ static void second_interrupt_kills(void **state)
     expect_no_file("a.pfm");
 }
 
+/* A scene that never ends on stdin: the first signal stops the reading, and with it the run. */
+static void interrupted_wait_for_stdin_ends_at_once(void **state)
+{
+    static const int signals[] = {SIGINT, SIGTERM};
+    static char blanks[(1 << 16) + 1]; /* more than a pipe holds: once they are gone, rtc reads */
+    (void)state;
+    memset(blanks, ' ', sizeof blanks);
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) {
+        char said[1 << 12] = "";
+        int pipes[2];
+        assert_int_equal(pipe(pipes), 0);
+        fcntl(pipes[1], F_SETFD, FD_CLOEXEC);
+        running running = start_rtc_reading(pipes[0], "- --spp 1 --out a.pfm");
+        close(pipes[0]);
+        for (size_t done = 0; done < sizeof blanks;) {
+            ssize_t count = write(pipes[1], blanks + done, sizeof blanks - done);
+            assert_true(count > 0);
+            done += (size_t)count;
+        }
+        assert_int_equal(kill(running.pid, signals[i]), 0);
+        /* One that waits on sees an empty scene now, and ends with another status. */
+        close(pipes[1]);
+        assert_int_equal(running_finish(&running, said, sizeof said), 130);
+        assert_non_null(strstr(said, "rtc: interrupted; nothing was written\n"));
+        expect_no_file("a.pfm");
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(idle_options_are_warned_of),
+        TEST(layers_without_a_place_are_warned_of),
         TEST(what_would_be_black_is_warned_of),
         TEST(quiet_says_nothing),
         TEST(verbose_names_the_device_and_its_threads),
         TEST(plain_progress_names_the_stages),
         TEST(json_progress_is_one_object_a_line),
+        TEST(all_that_is_said_beside_json_progress_is_json),
         TEST(first_compile_keeps_reporting),
         TEST(no_progress_when_none_is_asked),
         TEST(terminal_gets_a_redrawn_line_and_colours),
@@ -270,6 +365,7 @@ int main(void)
         TEST(terminated_path_render_writes_its_samples),
         TEST(interrupted_photon_render_writes_its_samples),
         TEST(second_interrupt_kills),
+        TEST(interrupted_wait_for_stdin_ends_at_once),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
 }

@@ -1,4 +1,5 @@
 /* test_usage.c - the command line of rtc: what it takes, what it refuses, and what it says. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,6 +50,9 @@ static const struct {
     {"a.rts --mode photon --radius 1e-20", "--radius: radius is 1e-20 m; it must lie between 1e-15"},
     {"a.rts --photons 4000000001", "--photons takes a whole number from 1 to 4000000000"},
     {"a.rts --cone-k 0.9", "--cone-k takes a number from 1 to 1000000"},
+    {"a.rts --mode photon --passes 2 --alpha 0", "--alpha takes a number between 0 and 1, both excluded; not '0'"},
+    {"a.rts --mode photon --passes 2 --alpha 1", "--alpha takes a number between 0 and 1, both excluded; not '1'"},
+    {"a.rts --mode photon --passes 2 --alpha 0.9999999999", "--alpha: alpha is 1; it must lie between 0 and 1"},
     {"a.rts --exposure ++1", "--exposure takes a number"},
     {"a.rts --exposure 1000", "--exposure takes a number"},
     {"a.rts --mode paht", "did you mean path?"},
@@ -448,6 +452,83 @@ static void options_and_fields_are_the_same(void **state)
     run_free(&run);
 }
 
+static int is_number(const rt_field *field)
+{
+    return field->type == RT_FIELD_NUMBER || field->type == RT_FIELD_INTEGER || field->type == RT_FIELD_COUNT;
+}
+
+/* Sets a member of the options as the language would. */
+static void set_member(rt_render_options *options, const rt_field *field, double value)
+{
+    unsigned char *member = (unsigned char *)options + field->offset;
+    int is_real = field->type == RT_FIELD_NUMBER;
+    if (is_real && field->size == sizeof(float))
+        memcpy(member, &(float){(float)value}, sizeof(float));
+    else if (is_real)
+        memcpy(member, &value, sizeof value);
+    else if (field->size == sizeof(uint32_t))
+        memcpy(member, &(uint32_t){(uint32_t)value}, sizeof(uint32_t));
+    else
+        memcpy(member, &(uint64_t){(uint64_t)value}, sizeof(uint64_t));
+}
+
+/* What the library says of a field's value, all else being left out. */
+static int library_takes(const rt_field *field, double value)
+{
+    rt_render_options options = {0};
+    set_member(&options, field, value);
+    return rt_render_options_check(&options, NULL) == RT_OK;
+}
+
+/* The limits that the command line tells for an option of this name; `all`: whether it takes that word too. */
+static void typed_range(const char *name, double limits[2], int *all)
+{
+    char option[64], *found;
+    snprintf(option, sizeof option, "%s", name);
+    for (char *c = option; *c; c++)
+        *c = *c == '_' ? '-' : *c;
+    run run = run_rtc("a.rts --%s x", option);
+    expect_status(&run, 2);
+    if ((found = strstr(run.err, "from ")))
+        assert_int_equal(sscanf(found, "from %lf to %lf", limits, limits + 1), 2);
+    else if ((found = strstr(run.err, "between ")))
+        assert_int_equal(sscanf(found, "between %lf and %lf", limits, limits + 1), 2);
+    else
+        fail_msg("--%s: %s", name, run.err);
+    *all = strstr(found, ", or all;") != NULL;
+    run_free(&run);
+}
+
+/*
+ * The language, the command line and the library each have a table of ranges. They agree, but that 0 takes back what
+ * the scene says where a command line may say so, and means the default to the library.
+ */
+static void ranges_are_the_same_in_language_command_and_library(void **state)
+{
+    static const rt_block_id ids[] = {RT_BLOCK_FILM, RT_BLOCK_RENDER};
+    (void)state;
+    for (size_t b = 0; b < 2; b++)
+        for (size_t i = 0; i < rt_blocks[ids[b]].field_count; i++) {
+            const rt_field *field = rt_blocks[ids[b]].fields + i;
+            double limits[2], low = field->range.low, high = field->range.high;
+            int all, is_open = field->range.kind == RT_RANGE_BETWEEN;
+            if (!is_number(field))
+                continue;
+            typed_range(field->name, limits, &all);
+            /* Messages have ten digits. */
+            int same = fabs(limits[1] - high) <= 1e-9 * high &&
+                       (limits[0] == low || (limits[0] == 0 && field->type == RT_FIELD_NUMBER));
+            if (!same || all != (field->type == RT_FIELD_COUNT))
+                fail_msg("%s: %g to %g on the command line, %g to %g in a scene", field->name, limits[0], limits[1],
+                         low, high);
+            int above = high < UINT32_MAX && library_takes(field, is_open ? high : high * 1.001 + 1);
+            int below = (low > 1 && library_takes(field, low - 1)) ||
+                        (low > 0 && low < 1 && library_takes(field, low / 2));
+            if (!library_takes(field, is_open ? (low + high) / 2 : high) || above || below)
+                fail_msg("%s: the library has another range than %g to %g", field->name, low, high);
+        }
+}
+
 static void check_needs_no_device(void **state)
 {
     (void)state;
@@ -504,6 +585,7 @@ int main(void)
         TEST(check_of_several_scenes_goes_on_after_a_bad_one),
         TEST(no_platform_is_status_3_and_says_what_to_install),
         TEST(options_and_fields_are_the_same),
+        TEST(ranges_are_the_same_in_language_command_and_library),
         TEST(check_needs_no_device),
         TEST(unknown_device_is_status_3),
         TEST(full_stdout_is_status_4),

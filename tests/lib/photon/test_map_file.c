@@ -191,10 +191,13 @@ static const struct {
     {RANGE_AT + 28, 1, 4, "a range of its paths"},
     {PHOTON_AT, 0x7fc00000u, 4, "not finite"},      /* position NaN */
     {PHOTON_AT, 0x7f800000u, 4, "not finite"},      /* infinite */
+    {PHOTON_AT, 0x7149f2cau, 4, "farther out"},     /* 1e30 */
+    {PHOTON_AT + 8, 0xd8635faau, 4, "farther out"}, /* just beyond -1e15 */
     {PHOTON_AT + 12, 4000, 4, "not of the paths"},  /* path */
     {PHOTON_AT + 16, 0x40000000u, 4, "unit length"}, /* wi.x 2 */
     {PHOTON_AT + 28, 0x80, 4, "flags"},
     {PHOTON_AT + 32, 0xbf800000u, 4, "negative flux"},
+    {PHOTON_AT + 32, 0x7fc00000u, 4, "not finite"}, /* flux NaN */
     {PHOTON_AT + 44, 0x7fc00000u, 4, "not finite"}, /* shading */
     {PHOTON_AT + 48, 0x7fc00000u, 4, "not finite"}, /* normal */
     {PHOTON_AT + 48, 0x40000000u, 4, "unit length"},

@@ -300,12 +300,94 @@ static void irradiance_is_flux_over_area(void **state)
               &error);
     for (int i = 0; i < count; i++)
         assert_true(rgb[i][0] == 0 && rgb[i][1] == 0 && rgb[i][2] == 0);
-    /* What is not a point is refused; no points are no work. */
-    positions[count - 1][1] = NAN;
-    assert_int_equal(
-        rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, NULL, &error),
-        RT_ERROR_USAGE);
+    /* No points are no work. */
     expect_ok(rt_photon_map_irradiance(NULL, map, test_device(), NULL, NULL, 0, NULL, &error), &error);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* Neither a point that is nowhere nor a normal that is none gets a number. */
+static void irradiance_is_refused_where_there_is_no_surface(void **state)
+{
+    static const struct {
+        float position[3], normal[3];
+        const char *field; /* at fault, or NULL */
+    } cases[] = {
+        {{0, 2, 0}, {0, -1, 0}, NULL},
+        {{0, 2, 0}, {0, -0.9999f, 0.01f}, NULL},
+        {{0, 2, 0}, {0, 0, 0}, "normals"},
+        {{0, 2, 0}, {0, -2, 0}, "normals"},
+        {{0, 2, 0}, {0, -0.9f, 0}, "normals"},
+        {{0, 2, 0}, {0, -1, NAN}, "normals"},
+        {{0, 2, 0}, {-INFINITY, 0, 0}, "normals"},
+        {{0, NAN, 0}, {0, -1, 0}, "positions"},
+        {{0, 2, INFINITY}, {0, -1, 0}, "positions"},
+        {{-1e16f, 2, 0}, {0, -1, 0}, "positions"},
+    };
+    rt_render_options render = {.photons = 500, .direct = RT_DIRECT_PHOTONS};
+    rt_emit_options options = {.render = &render};
+    (void)state;
+    rt_renderer *renderer = open_text(furnace);
+    rt_photon_map *map = emit(renderer, &options);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        float positions[2][3] = {{0, 2, 0}}, normals[2][3] = {{0, -1, 0}}, rgb[2][3];
+        rt_error error = {0};
+        memcpy(positions[1], cases[i].position, sizeof positions[1]);
+        memcpy(normals[1], cases[i].normal, sizeof normals[1]);
+        rt_status status =
+            rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], 2, NULL, &error);
+        if (status != (cases[i].field ? RT_ERROR_USAGE : RT_OK))
+            fail_msg("case %zu: status %d: %s", i, (int)status, error.message);
+        assert_string_equal(error.field, cases[i].field ? cases[i].field : "");
+        assert_true(!cases[i].field || strstr(error.message, "point 1"));
+    }
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* Where light grazes a plane it lands as far out as one likes; a map keeps what it can be read back with. */
+static void photons_beyond_all_coordinates_are_left_out(void **state)
+{
+    static const char text[] = "material wall { kd 0.5 }\n"
+                               "plane { point 0 -1e14 0  normal 0 1 0  material wall }\n"
+                               "light point { position 0 0 0  power 1 }\n";
+    rt_render_options render = {.photons = 2000, .direct = RT_DIRECT_PHOTONS};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map *back = NULL;
+    rt_photon_map_info info;
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer = open_text(text);
+    rt_photon_map *map = emit(renderer, &options);
+    rt_photon_map_get_info(map, &info);
+    /* Half of the paths go down, and of these a tenth lands farther out: 100, with a deviation of 10. */
+    assert_in_range(info.rejected, 50, 150);
+    expect_ok(rt_photon_map_save(map, "far.rtp", &error), &error);
+    expect_ok(rt_photon_map_load(&back, "far.rtp", &error), &error);
+    expect_same(map, back);
+    rt_photon_map_destroy(back);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
+/* The number of a scene can be forged; the shapes that photons lie on are counted besides. */
+static void maps_with_photons_on_no_shape_are_not_rendered(void **state)
+{
+    rt_render_options render = {.photons = 200};
+    rt_emit_options options = {.render = &render};
+    rt_film *film = NULL;
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer = open_text("camera { eye 0 0 -0.9  look_at 0 0 0 }\n" ROOM);
+    rt_photon_map *map = emit(renderer, &options);
+    rt_render_options use = {.mode = RT_MODE_PHOTON, .width = 2, .height = 2, .spp = 1, .photon_map = map};
+    expect_ok(rt_render(&film, renderer, &use, &error), &error);
+    rt_film_destroy(film);
+    film = NULL;
+    map->lists[RT_PHOTONS_GLOBAL].photons[7].shape = 3;
+    assert_int_equal(rt_render(&film, renderer, &use, &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "a photon on shape 3 of a scene of 3 shapes"));
+    assert_null(film);
     rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
 }
@@ -346,6 +428,9 @@ int main(void)
         cmocka_unit_test(light_that_does_not_reach_planes_is_told),
         cmocka_unit_test(stored_flux_is_what_path_tracing_says),
         cmocka_unit_test(irradiance_is_flux_over_area),
+        cmocka_unit_test(irradiance_is_refused_where_there_is_no_surface),
+        cmocka_unit_test_setup_teardown(photons_beyond_all_coordinates_are_left_out, scratch_enter, scratch_leave),
+        cmocka_unit_test(maps_with_photons_on_no_shape_are_not_rendered),
         cmocka_unit_test(irradiance_sums_both_lists),
     };
     return cmocka_run_group_tests_name("lib/render/photon_maps", tests, NULL, NULL);
