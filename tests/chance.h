@@ -5,19 +5,19 @@
  * A statistical test makes comparisons, T of them, each with the chance that what is right is as far off or farther.
  * The test is suspect when one of these is below CHANCE_SUSPECT / T, which by Bonferroni's inequality happens in fewer
  * than CHANCE_SUSPECT of all runs, whatever T is and however the comparisons hang together. Then the whole test runs
- * again with other seeds, and only one that is suspect again has failed: CHANCE_TEST of all runs. What is wrong is wrong
- * with any seed, so a limit of 3.5 standard errors for one comparison, and 4.9 for 500, costs no false alarms.
+ * again with other seeds, and only one that is suspect again has failed: CHANCE_TEST of all runs. What is wrong is so
+ * with any seed: a limit of 3.5 standard errors for one comparison, and 4.9 for 500, is enough.
  *
- * Where the standard error is known only from other seeds, a bound is stated beside it, of 5 standard deviations over
- * 20 seeds or more: Student's t of 19 degrees of freedom is beyond that in 1 of 10^4 runs, less than CHANCE_SUSPECT.
+ * Where the standard error is known only from other seeds, a bound is stated, of 5 standard deviations over 14 seeds or
+ * 7 over 8: Student's t of as many degrees of freedom less one is beyond that in fewer than CHANCE_SUSPECT of all runs.
  *
  *   what                                         how many       a false alarm of each     together
  *   statistical tests: kernels/, lib/,
- *     statistics/test_scattering                 about 80       (5e-4)^2 = 2.5e-7         2e-5
- *   checks of proof/, Student's t                about 330      1e-7                      3.3e-5
+ *     statistics/test_scattering                 about 90       (5e-4)^2 = 2.5e-7         2.3e-5
+ *   checks of proof/, Student's t                about 290      1e-7                      2.9e-5
  *   families of statistics/chi_square.h,
- *     T' tests, each suspect and again so        2              T' (0.01 / T')^2          2e-6
- *                                                                                         less than 6e-5
+ *     T' tests, each suspect and again so        2              T' (0.01 / T')^2          1.2e-6
+ *                                                                                           5.3e-5
  *
  * Nobody has to keep this table true: each program adds up its own part as it runs, and tests/run.sh all of them, which
  * fails when they are more than 1e-4.
@@ -37,8 +37,8 @@
 uint32_t test_seed(uint32_t seed);
 
 /*
- * A test that compares by chance_compare or by what kernels/statistics.h has of it: an entry of a cmocka group, which has
- * no state of its own, as that would take the place of the entry's.
+ * A test that compares by chance_compare or by what kernels/statistics.h has of it: an entry of a cmocka group, which
+ * has no state of its own, as that would take the place of the entry's.
  */
 typedef struct chance_test {
     void (*test)(void **state);

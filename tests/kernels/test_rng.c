@@ -147,7 +147,7 @@ static void independent_numbers_fill_the_hypercube_evenly(void **state)
 
 /*
  * Correlations of the coordinates over n samples. Of independent numbers they deviate by 1 / sqrt(n); of Sobol points,
- * over 20 seeds, by 1.1 to 1.4 times that.
+ * over 8 seeds, by 1.1 to 1.4 times that.
  */
 static void expect_unrelated(int kind, const float (*a)[4], const float (*b)[4], int n)
 {
