@@ -85,7 +85,7 @@ KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
 
 # Quick tests, the slower ones of `check`, and shell tests. tests/X/test_y.c makes build/tests/X/test_y.
 TESTS_QUICK := \
-	tests/test_api.c \
+	tests/test_api.c tests/test_chance.c \
 	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c tests/dsl/test_number.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c tests/dsl/test_suggest.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
@@ -138,7 +138,7 @@ TESTS_SHELL := \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \
-	tests/support.c \
+	tests/chance.c tests/support.c \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
 	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/rng_draw.c \
