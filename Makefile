@@ -109,7 +109,8 @@ TESTS_QUICK := \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c tests/lib/photon/test_ledger.c \
 	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c tests/lib/photon/test_photon_list.c \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_search.c \
-	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/render/test_lights.c \
+	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/render/test_first_radius.c \
+	tests/lib/render/test_lights.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_modes.c tests/lib/render/test_photon_maps.c \
 	tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_findings.c tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c \

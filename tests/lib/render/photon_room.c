@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "chance.h"
 #include "support.h"
 
 uint32_t room_material(rt_scene *scene, float kd, float ks, float kt)

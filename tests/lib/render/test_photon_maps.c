@@ -12,7 +12,9 @@
 #include <string.h>
 
 #include "kernels/statistics.h"
+#include "lib/image/scratch.h"
 #include "lib/photon/emitted.h"
+#include "photon/photon_map.h"
 #include "render/renderer.h"
 
 #define PI 3.14159265358979323846
@@ -328,8 +330,8 @@ static void irradiance_is_refused_where_there_is_no_surface(void **state)
     rt_render_options render = {.photons = 500, .direct = RT_DIRECT_PHOTONS};
     rt_emit_options options = {.render = &render};
     (void)state;
-    rt_renderer *renderer = open_text(furnace);
-    rt_photon_map *map = emit(renderer, &options);
+    rt_renderer *renderer = test_renderer(furnace);
+    rt_photon_map *map = emit_map(renderer, &options);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         float positions[2][3] = {{0, 2, 0}}, normals[2][3] = {{0, -1, 0}}, rgb[2][3];
         rt_error error = {0};
@@ -358,14 +360,14 @@ static void photons_beyond_all_coordinates_are_left_out(void **state)
     rt_photon_map_info info;
     rt_error error;
     (void)state;
-    rt_renderer *renderer = open_text(text);
-    rt_photon_map *map = emit(renderer, &options);
+    rt_renderer *renderer = test_renderer(text);
+    rt_photon_map *map = emit_map(renderer, &options);
     rt_photon_map_get_info(map, &info);
     /* Half of the paths go down, and of these a tenth lands farther out: 100, with a deviation of 10. */
     assert_in_range(info.rejected, 50, 150);
     expect_ok(rt_photon_map_save(map, "far.rtp", &error), &error);
     expect_ok(rt_photon_map_load(&back, "far.rtp", &error), &error);
-    expect_same(map, back);
+    expect_same_map(map, back);
     rt_photon_map_destroy(back);
     rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
@@ -379,8 +381,8 @@ static void maps_with_photons_on_no_shape_are_not_rendered(void **state)
     rt_film *film = NULL;
     rt_error error;
     (void)state;
-    rt_renderer *renderer = open_text("camera { eye 0 0 -0.9  look_at 0 0 0 }\n" ROOM);
-    rt_photon_map *map = emit(renderer, &options);
+    rt_renderer *renderer = test_renderer("camera { eye 0 0 -0.9  look_at 0 0 0 }\n" ROOM);
+    rt_photon_map *map = emit_map(renderer, &options);
     rt_render_options use = {.mode = RT_MODE_PHOTON, .width = 2, .height = 2, .spp = 1, .photon_map = map};
     expect_ok(rt_render(&film, renderer, &use, &error), &error);
     rt_film_destroy(film);
