@@ -741,6 +741,7 @@ RT_API rt_status rt_render_options_check(const rt_render_options *options, rt_er
 /*
  * Renders; options NULL: the scene's own. The caller owns *out. When a progress callback cancels, returns
  * RT_CANCELLED and *out still receives the film of the samples so far (NULL when there are none yet).
+ * In photon mode warns as rt_photon_map_emit does, and when most points that asked for all photons found none.
  * The film does not depend on the renderer's further life.
  */
 RT_API rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options, rt_error *error);
@@ -777,7 +778,11 @@ typedef struct rt_film_stats {
     uint64_t photons_emitted;  /* photon paths */
     uint64_t photons_stored;
     uint64_t photons_rejected; /* photons left out because they were not finite */
-    uint64_t gathers;          /* queries of the photon map */
+    uint64_t gathers;          /* queries of the photon map: points that asked for photons */
+    uint64_t gathers_at_ends;  /* of these, at the ends of eye paths, where all photons are asked for; the others are
+                                  on the way of a final gather, and ask for caustic photons */
+    uint64_t gathers_empty;    /* of those at the ends, the ones that found no photon to sum. When they are more than
+                                  half, rt_render warns of it */
     uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
     uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */
     double relative_error;     /* of the picture: root of the mean squared error over all pixels and channels, by the

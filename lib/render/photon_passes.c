@@ -24,8 +24,6 @@ static rt_status choose_radius(rt_photon_render *r, rt_photon_way way, uint32_t 
     rt_gather_options nearest = r->how[way];
     nearest.max_radius = 0;
     nearest.k = way == RT_WAY_GLOBAL ? r->options->k : r->options->caustic_k;
-    if (nearest.k == RT_K_ALL)
-        nearest.k = 50;
     rt_status status = rt_photon_render_open(r, way, &nearest, error);
     if (status == RT_OK)
         status = rt_photon_eye_mean_radius(&r->eye, r->gatherers[way], sample, r->first_radius + way, progress, error);
