@@ -640,7 +640,8 @@ typedef struct rt_emit_options {
 
 /*
  * Emits photons from the lights of a scene on the device and collects them; options NULL: the scene's own.
- * Warns of lights that no path came from, of a list that is empty, and of planes under light from infinitely far,
+ * Warns of lights with power that fewer than 100 paths came from (their light is then noisy by more than 10 %), of a
+ * list that is empty or has fewer photons than the k of an estimate, and of planes under light from infinitely far,
  * which is followed to them only within the sphere around all finite shapes. Fails with RT_ERROR_USAGE when an option
  * is out of its range, RT_CANCELLED when a progress callback asks for it. The caller owns *out.
  */
