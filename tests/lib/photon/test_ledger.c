@@ -8,6 +8,7 @@
 
 #include <glob.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -210,6 +211,33 @@ static void lights_are_counted_apart(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Whatever shines beside a light, its books are kept to 1e-5 of what it emits. */
+static void weak_lights_beside_strong_ones_are_booked(void **state)
+{
+    static const double powers[] = {1e-20, 1e-9, 1e-6, 1, 1e6};
+    enum { lights = sizeof powers / sizeof *powers };
+    const float shares[lights] = {1, 1, 1, 1, 1};
+    rt_render_options render = {.photons = 5000};
+    rt_emit_options options = {.render = &render, .light_shares = shares, .light_share_count = lights};
+    rt_photon_map *map = NULL;
+    rt_light_ledger l[lights];
+    char text[2000] = "material wall { kd 0.2 0.5 0.8 }\nsphere { centre 0 0 0  radius 1  material wall }\n";
+    rt_error error;
+    (void)state;
+    for (int i = 0; i < lights; i++)
+        sprintf(text + strlen(text), "light point { position 0 0 0.1  power %g }\n", powers[i]);
+    rt_renderer *renderer = test_renderer(text);
+    expect_ok(rt_photon_map_emit(&map, renderer, &options, &error), &error);
+    assert_int_equal(rt_photon_map_ledger(map, l, lights), lights);
+    for (int i = 0; i < lights; i++) {
+        assert_float_equal(l[i].power[0] / powers[i], 1, 1e-5);
+        expect_closed(l + i, "a light among others");
+    }
+    expect_all_booked(l, lights, render.photons, "weak and strong lights");
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
 static void accounts_that_are_not_finite_are_left_out(void **state)
 {
     rt_light_sources lights = {0};
@@ -293,6 +321,7 @@ int main(void)
         cmocka_unit_test(closes_in_every_scene_that_ships),
         cmocka_unit_test(stored_flux_agrees_with_what_is_absorbed),
         cmocka_unit_test(lights_are_counted_apart),
+        cmocka_unit_test(weak_lights_beside_strong_ones_are_booked),
         cmocka_unit_test(accounts_that_are_not_finite_are_left_out),
         cmocka_unit_test(sums_do_not_depend_on_shares_of_the_work),
         cmocka_unit_test(sums_that_overflow_are_refused),
