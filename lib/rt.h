@@ -643,7 +643,8 @@ typedef struct rt_emit_options {
  * Warns of lights with power that fewer than 100 paths came from (their light is then noisy by more than 10 %), of a
  * list that is empty or has fewer photons than the k of an estimate, and of planes under light from infinitely far,
  * which is followed to them only within the sphere around all finite shapes. Fails with RT_ERROR_USAGE when an option
- * is out of its range, RT_CANCELLED when a progress callback asks for it. The caller owns *out.
+ * is out of its range, RT_ERROR_MEMORY as soon as the first paths tell that the photons will be more than fit into
+ * the machine's memory, as does rt_render, RT_CANCELLED when a progress callback asks for it. The caller owns *out.
  */
 RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const rt_emit_options *options,
                                     rt_error *error);
