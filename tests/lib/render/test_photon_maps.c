@@ -206,6 +206,23 @@ static void many_starved_lights_are_told_in_one_line(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Without other shapes, light falls on planes about the origin. */
+static void planes_alone_are_told_of_the_origin(void **state)
+{
+    char warnings[2000] = "";
+    rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+    rt_render_options render = {.photons = 2000, .hooks = &hooks};
+    rt_emit_options options = {.render = &render};
+    (void)state;
+    rt_renderer *renderer = test_renderer("material wall { kd 0.5 }\n"
+                                          "plane { point 0 -2 0  normal 0 1 0  material wall }\n"
+                                          "light directional { direction 0 -1 0  irradiance 1 }\n");
+    rt_photon_map_destroy(emit_map(renderer, &options));
+    assert_non_null(strstr(warnings, "fall on planes only within 1 m of the origin, for want of other shapes: "));
+    assert_null(strstr(warnings, "middle"));
+    rt_renderer_destroy(renderer);
+}
+
 static void light_that_does_not_reach_planes_is_told(void **state)
 {
     static const char sun[] = "light directional { direction 0 -1 0  irradiance 1 }\n",
@@ -223,7 +240,7 @@ static void light_that_does_not_reach_planes_is_told(void **state)
         snprintf(text, sizeof text, "%s%s%scamera { eye 0 0 -0.9  look_at 0 0 0 }\n", ROOM, rooms[i], lights[i]);
         rt_renderer *renderer = test_renderer(text);
         rt_photon_map_destroy(emit_map(renderer, &options));
-        assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
+        assert_int_equal(strstr(warnings, "m of the middle of the other shapes: ") != NULL, i == 0);
         warnings[0] = '\0';
         expect_ok(rt_render(&film, renderer, &render, &error), &error);
         assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
@@ -372,6 +389,7 @@ int main(void)
         cmocka_unit_test(starved_lights_and_maps_are_told),
         cmocka_unit_test(many_starved_lights_are_told_in_one_line),
         cmocka_unit_test(light_that_does_not_reach_planes_is_told),
+        cmocka_unit_test(planes_alone_are_told_of_the_origin),
         cmocka_unit_test(stored_flux_is_what_path_tracing_says),
         cmocka_unit_test(irradiance_is_flux_over_area),
         cmocka_unit_test(irradiance_sums_both_lists),
