@@ -39,8 +39,10 @@
 #include "image/bytes.h"
 #include "photon/photon_map.h"
 
+enum { RT_MAP_VERSION = 2 };
+
 /* Sizes of the file's parts. */
-enum { RT_MAP_VERSION = 2, RT_MAP_HEADER = 160, RT_MAP_LIGHT = 168, RT_MAP_RANGE = 32, RT_MAP_PHOTON = 64, RT_MAP_CHECKSUM = 4 };
+enum { RT_MAP_HEADER = 160, RT_MAP_LIGHT = 168, RT_MAP_RANGE = 32, RT_MAP_PHOTON = 64, RT_MAP_CHECKSUM = 4 };
 
 /* The first eight bytes. */
 extern const uint8_t rt_map_magic[8];

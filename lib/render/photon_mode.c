@@ -85,8 +85,8 @@ static void warn_empty(const rt_film_stats *stats, const rt_hooks *hooks)
 {
     if (stats->gathers_empty > stats->gathers_at_ends / 2)
         rt_warn(hooks,
-                "%llu of the %llu points that asked for photons found none: the light that photons bring is missing there, "
-                "or all noise; a larger radius or more photons help",
+                "%llu of the %llu points that asked for photons found none: the light that photons bring is missing "
+                "there, or all noise; a larger radius or more photons help",
                 (unsigned long long)stats->gathers_empty, (unsigned long long)stats->gathers_at_ends);
 }
 
