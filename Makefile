@@ -44,7 +44,7 @@ LIB_SRC := \
 	lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c lib/mesh/text.c lib/mesh/text_number.c \
 	lib/mesh/unique.c \
 	lib/photon/crc32.c lib/photon/device_gather.c lib/photon/emit.c lib/photon/fingerprint.c \
-	lib/photon/flann_index.c lib/photon/gather.c lib/photon/ledger.c lib/photon/map_merge.c \
+	lib/photon/flann_index.c lib/photon/forecast.c lib/photon/gather.c lib/photon/ledger.c lib/photon/map_merge.c \
 	lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c lib/photon/photon_list.c \
 	lib/photon/photon_map.c lib/photon/point_order.c lib/photon/search.c lib/photon/sources.c \
 	lib/photon/tree.c \

@@ -13,11 +13,17 @@
 #include "torus.h"
 #include "types.h"
 
+/* sqrt(x y), also where the product, of squares both, is out of a float's range. */
+static inline float root_of_product(float x, float y)
+{
+    const float product = x * y;
+    return product >= 1e-30f && product < INFINITY ? sqrt(product) : sqrt(x) * sqrt(y);
+}
+
 /*
  * The nearest t in [t_min, t_max] at which the ray meets the sphere about `centre`, or infinity; *part tells in from
- * out. The discriminant
- * and the smaller root are computed without cancellation: Haines, Gunther and Akenine-Moeller,
- * "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7.
+ * out. The discriminant and the smaller root are computed without cancellation: Haines, Gunther and
+ * Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, chapter 7.
  */
 static inline float intersect_sphere(float3 centre, float radius, const struct ray *ray, uint *part)
 {
@@ -29,7 +35,7 @@ static inline float intersect_sphere(float3 centre, float radius, const struct r
     const float h = (radius - length(nearest)) * (radius + length(nearest));
     if (!(h >= 0.0f))
         return INFINITY;
-    const float q = b + copysign(sqrt(a * h), b);
+    const float q = b + copysign(root_of_product(a, h), b);
     const float distance = length(f);
     const float c = (distance - radius) * (distance + radius);
     const float t0 = c / q, t1 = q / a;

@@ -467,7 +467,8 @@ RT_API const char *rt_mode_name(rt_mode mode);
 typedef enum rt_gather {
     RT_GATHER_AUTO = 0, /* FLANN for the k nearest, the device for all within a radius */
     RT_GATHER_FLANN,    /* on the host, by FLANN's kd-tree: the k nearest only */
-    RT_GATHER_DEVICE    /* on the device, in a tree of its own */
+    RT_GATHER_DEVICE    /* on the device, in a tree of its own: the same photons, in less time for any k; with one of
+                           hundreds, 20 times less on a CPU */
 } rt_gather;
 
 #define RT_K_ALL 0xffffffffu /* for k: all photons within `radius` */
@@ -645,9 +646,11 @@ typedef struct rt_emit_options {
 
 /*
  * Emits photons from the lights of a scene on the device and collects them; options NULL: the scene's own.
- * Warns of lights that no path came from, of a list that is empty, and of planes under light from infinitely far,
+ * Warns of lights with power that fewer than 100 paths came from (their light is then noisy by more than 10 %), of a
+ * list that is empty or has fewer photons than the k of an estimate, and of planes under light from infinitely far,
  * which is followed to them only within the sphere around all finite shapes. Fails with RT_ERROR_USAGE when an option
- * is out of its range, RT_CANCELLED when a progress callback asks for it. The caller owns *out.
+ * is out of its range, RT_ERROR_MEMORY as soon as the first paths tell that the photons will be more than fit into
+ * the machine's memory, as does rt_render, RT_CANCELLED when a progress callback asks for it. The caller owns *out.
  */
 RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer, const rt_emit_options *options,
                                     rt_error *error);
@@ -747,6 +750,7 @@ RT_API rt_status rt_render_options_check(const rt_render_options *options, rt_er
 /*
  * Renders; options NULL: the scene's own. The caller owns *out. When a progress callback cancels, returns
  * RT_CANCELLED and *out still receives the film of the samples so far (NULL when there are none yet).
+ * In photon mode warns as rt_photon_map_emit does, and when most points that asked for all photons found none.
  * The film does not depend on the renderer's further life.
  */
 RT_API rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options, rt_error *error);
@@ -783,7 +787,11 @@ typedef struct rt_film_stats {
     uint64_t photons_emitted;  /* photon paths */
     uint64_t photons_stored;
     uint64_t photons_rejected; /* photons left out because they were not finite or lay beyond 1e15 m */
-    uint64_t gathers;          /* queries of the photon map */
+    uint64_t gathers;          /* queries of the photon map: points that asked for photons */
+    uint64_t gathers_at_ends;  /* of these, at the ends of eye paths, where all photons are asked for; the others are
+                                  on the way of a final gather, and ask for caustic photons */
+    uint64_t gathers_empty;    /* of those at the ends, the ones that found no photon to sum. When they are more than
+                                  half, rt_render warns of it */
     uint32_t passes;           /* of progressive photon mapping, done; 0: not in passes */
     uint32_t replicates;       /* independent sequences, from which the error is estimated; 0: it is not */
     double relative_error;     /* of the picture: root of the mean squared error over all pixels and channels, by the

@@ -34,6 +34,8 @@ static void print_photons(const rt_film_stats *stats)
     print_count("photons stored", stats->photons_stored);
     print_count("photons rejected", stats->photons_rejected);
     print_count("gathers", stats->gathers);
+    print_count("gathers at path ends", stats->gathers_at_ends);
+    print_count("gathers at path ends without a photon", stats->gathers_empty);
     if (stats->passes > 0)
         print_count("passes", stats->passes);
     print_seconds("emit time", stats->emit_seconds);

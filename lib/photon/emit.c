@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "error.h"
+#include "photon/forecast.h"
 
 /* Bounds of a batch: the memory of its slots, and its length, so that progress moves. */
 enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 15 };
@@ -18,6 +19,7 @@ struct rt_emitter {
     size_t paths;    /* a batch, at most */
     cl_mem photons;  /* rt_photon [slots][paths] */
     cl_mem accounts; /* rt_path_account [paths] */
+    uint64_t memory; /* bytes that the photons of a map must fit into; 0: any */
 };
 
 rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene, const float *shares,
@@ -29,6 +31,7 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
     e->device = device;
     e->kernel = kernel;
     e->scene = scene;
+    e->memory = rt_physical_memory();
     rt_status status = rt_light_sources_read(&e->lights, device, scene, shares, share_count, error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &e->shares, CL_MEM_READ_ONLY,
@@ -59,14 +62,19 @@ void rt_emitter_destroy(rt_emitter *e)
     free(e);
 }
 
+void rt_emitter_limit_memory(rt_emitter *e, uint64_t bytes)
+{
+    e->memory = bytes;
+}
+
 void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
 {
     if (e->lights.reach > 0)
         rt_warn(hooks,
-                "photons of the sky and of directional lights fall on planes only within %.3g m of the middle of the "
-                "other shapes: what planes reflect from farther out is missing; a final gather lessens the loss, quads "
-                "in their place end it",
-                e->lights.reach);
+                "photons of the sky and of directional lights fall on planes only within %.3g m of the %s: what planes "
+                "reflect from farther out is missing; a final gather lessens the loss, quads in their place end it",
+                e->lights.reach,
+                e->lights.planes_alone ? "origin, for want of other shapes" : "middle of the other shapes");
 }
 
 /* Makes memory for batches of at most `count` paths, unless there is enough. */
@@ -131,6 +139,8 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
 {
     rt_arg args[RT_EMIT_ARGUMENTS] = {{sizeof *p, p}, RT_ARG(e->scene), RT_ARG(e->shares), RT_ARG(e->photons),
                                       RT_ARG(e->accounts)};
+    const rt_photon_list *list = map->lists + kind;
+    size_t before = list->count, others = before + map->lists[!kind].count;
     rt_status status = RT_OK;
     for (uint64_t done = 0; done < count && status == RT_OK; done += p->item_count) {
         p->first_item = (rt_u32)(first + done);
@@ -140,6 +150,8 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
             status = rt_launch(e->device, e->kernel, p->item_count, error);
         if (status == RT_OK)
             status = take_batch(e, map, kind, p->item_count, error);
+        if (status == RT_OK)
+            status = rt_photon_forecast(others, list->count - before, done + p->item_count, count, e->memory, error);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + p->item_count) / (double)count);
     }

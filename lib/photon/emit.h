@@ -22,6 +22,9 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
                             size_t share_count, rt_error *error);
 void rt_emitter_destroy(rt_emitter *emitter);
 
+/* The memory that the photons of a map must fit into, in bytes; at first this machine's. 0: any. */
+void rt_emitter_limit_memory(rt_emitter *emitter, uint64_t bytes);
+
 /* Warns of light that photon paths leave out: that of the sky and of directional lights on far parts of planes. */
 void rt_emitter_warn_reach(const rt_emitter *emitter, const rt_hooks *hooks);
 
@@ -30,7 +33,7 @@ void rt_emitter_warn_reach(const rt_emitter *emitter, const rt_hooks *hooks);
  * bounded memory. The map's settings say how (`scene` apart); its ledger is made for the lights when it has none.
  * Path i of a seed is always the same path, whatever the batches; the paths of the caustic list are others than
  * those of the global one. Ranges must come in ascending order. Fails with RT_ERROR_USAGE when an index is above
- * 2^32 - 1.
+ * 2^32 - 1, and with RT_ERROR_MEMORY as soon as it is clear that the photons will not fit into memory.
  */
 rt_status rt_emitter_emit(rt_emitter *emitter, rt_photon_map *map, rt_photon_kind kind, uint32_t seed, uint64_t first,
                           uint64_t count, rt_stage_progress *progress, rt_error *error);

@@ -10,10 +10,18 @@
 /* Bits of a unit below the flux of one path: rounding is 4e-9 of it, and 10^11 paths fit into a sum. */
 enum { UNIT_BITS = 26 };
 
+/* A path carries the power of its light over the light's share. */
+static int32_t unit_exponent(const rt_light_source *source)
+{
+    double largest = fmax(source->power[0], fmax(source->power[1], source->power[2]));
+    int exponent;
+    frexp(source->share > 0 ? largest / source->share : 0, &exponent);
+    return exponent - UNIT_BITS;
+}
+
 rt_status rt_ledger_create(rt_ledger *out, const rt_light_sources *lights, rt_error *error)
 {
     rt_ledger l = {.count = lights->count};
-    double largest = 0;
 
     l.rows = calloc(l.count ? l.count : 1, sizeof *l.rows);
     if (!l.rows)
@@ -21,14 +29,10 @@ rt_status rt_ledger_create(rt_ledger *out, const rt_light_sources *lights, rt_er
     for (size_t i = 0; i < l.count; i++) {
         const rt_light_source *source = lights->sources + i;
         l.rows[i].shape = source->shape;
+        l.rows[i].exponent = unit_exponent(source);
         l.rows[i].share = source->share;
         memcpy(l.rows[i].power, source->power, sizeof l.rows[i].power);
-        /* A path carries the power of its light over the light's share. */
-        for (int c = 0; c < 3 && source->share > 0; c++)
-            largest = fmax(largest, source->power[c] / source->share);
     }
-    frexp(largest, &l.exponent);
-    l.exponent -= UNIT_BITS;
     *out = l;
     return RT_OK;
 }
@@ -53,7 +57,7 @@ typedef struct booking {
     const rt_light_sources *lights;
     const rt_path_account *accounts;
     size_t count, paths_a_job;
-    double per_unit;
+    double *per_unit;    /* [row_count] */
     rt_ledger_row *rows; /* [jobs][row_count] */
     size_t row_count;
     uint64_t *rejected; /* [jobs] */
@@ -92,12 +96,13 @@ static void book_share(void *user, uint32_t index)
             continue;
         }
         rt_ledger_row *row = rows + b->lights->of_light[a->light];
+        double per_unit = b->per_unit[b->lights->of_light[a->light]];
         row->paths++;
-        book(row->sums[RT_LEDGER_EMITTED], a->emitted, b->per_unit);
-        book(row->sums[RT_LEDGER_ABSORBED], a->absorbed, b->per_unit);
-        book(row->sums[RT_LEDGER_ROULETTE], a->roulette, b->per_unit);
+        book(row->sums[RT_LEDGER_EMITTED], a->emitted, per_unit);
+        book(row->sums[RT_LEDGER_ABSORBED], a->absorbed, per_unit);
+        book(row->sums[RT_LEDGER_ROULETTE], a->roulette, per_unit);
         if (a->end != RT_END_ABSORBED)
-            book(row->sums[a->end == RT_END_ESCAPED ? RT_LEDGER_ESCAPED : RT_LEDGER_CUT_OFF], a->left, b->per_unit);
+            book(row->sums[a->end == RT_END_ESCAPED ? RT_LEDGER_ESCAPED : RT_LEDGER_CUT_OFF], a->left, per_unit);
     }
 }
 
@@ -113,12 +118,14 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights, cons
                          size_t count, uint32_t threads, rt_error *error)
 {
     size_t jobs = threads ? threads : 1;
-    booking b = {lights, accounts, count, (count + jobs - 1) / jobs, ldexp(1, -ledger->exponent), NULL, ledger->count,
-                 NULL};
+    booking b = {lights, accounts, count, (count + jobs - 1) / jobs, NULL, NULL, ledger->count, NULL};
+    b.per_unit = malloc((ledger->count + 1) * sizeof *b.per_unit);
     b.rows = calloc(jobs * ledger->count + 1, sizeof *b.rows);
     b.rejected = calloc(jobs, sizeof *b.rejected);
-    int failed = !b.rows || !b.rejected;
+    int failed = !b.per_unit || !b.rows || !b.rejected;
     if (!failed) {
+        for (size_t i = 0; i < ledger->count; i++)
+            b.per_unit[i] = ldexp(1, -ledger->rows[i].exponent);
         rt_parallel(threads, (uint32_t)jobs, book_share, &b);
         for (size_t job = 0; job < jobs; job++) {
             ledger->rejected += b.rejected[job];
@@ -127,6 +134,7 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights, cons
         }
         ledger->paths += count;
     }
+    free(b.per_unit);
     free(b.rows);
     free(b.rejected);
     return failed ? rt_fail(error, RT_ERROR_MEMORY, "out of memory for the accounts of %zu photon paths", count)
@@ -135,10 +143,11 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights, cons
 
 int rt_ledger_matches(const rt_ledger *a, const rt_ledger *b)
 {
-    if (a->count != b->count || a->exponent != b->exponent)
+    if (a->count != b->count)
         return 0;
     for (size_t i = 0; i < a->count; i++)
-        if (a->rows[i].shape != b->rows[i].shape || a->rows[i].share != b->rows[i].share ||
+        if (a->rows[i].shape != b->rows[i].shape || a->rows[i].exponent != b->rows[i].exponent ||
+            a->rows[i].share != b->rows[i].share ||
             memcmp(a->rows[i].power, b->rows[i].power, sizeof a->rows[i].power) != 0)
             return 0;
     return 1;
@@ -184,7 +193,7 @@ rt_status rt_ledger_add(rt_ledger *a, const rt_ledger *b, rt_error *error)
 void rt_ledger_read(const rt_ledger *ledger, size_t i, rt_light_ledger *out)
 {
     const rt_ledger_row *row = ledger->rows + i;
-    double watts = ledger->paths ? ldexp(1, ledger->exponent) / (double)ledger->paths : 0;
+    double watts = ledger->paths ? ldexp(1, row->exponent) / (double)ledger->paths : 0;
     memset(out, 0, sizeof *out);
     out->shape = row->shape;
     out->paths = row->paths;

@@ -2,7 +2,8 @@
  * ledger.h - where the flux of all photon paths went, light by light.
  *
  * Sums are kept as whole numbers of a small unit, so that they are exact in whatever order and
- * in how many parts the paths are taken: the ledger of two joined maps is that of the whole, to the bit.
+ * in how many parts the paths are taken: the ledger of two joined maps is that of the whole, to the bit. Each light
+ * has a unit of its own, so that the light of weak ones is not lost beside that of strong ones.
  *
  * Paths of the caustic list are in no ledger: aimed as they are, they carry a part of the lights' flux only. Those of
  * the global list follow all of it, caustics included.
@@ -27,6 +28,7 @@ enum {
 /* One light. */
 typedef struct rt_ledger_row {
     rt_u32 shape;    /* as rt_light_source */
+    int32_t exponent; /* the unit is 2^exponent W */
     uint64_t paths;
     double power[3]; /* W */
     double share;
@@ -37,7 +39,6 @@ typedef struct rt_ledger_row {
 typedef struct rt_ledger {
     rt_ledger_row *rows; /* [count], one a light */
     size_t count;
-    int exponent;      /* the unit is 2^exponent W */
     uint64_t paths;    /* emitted, those without a light included */
     uint64_t rejected; /* paths left out because their accounts were not finite */
 } rt_ledger;

@@ -5,7 +5,7 @@
  *
  *   bytes  header
  *    0  8  89 52 54 50 0d 0a 1a 0a ("\x89RTP\r\n\x1a\n")
- *    8  4  version, 1
+ *    8  4  version, 2
  *   12  4  size of the header, 160
  *   16  8  size of the whole file
  *   24  8  fingerprint of the scene, 0: not taken
@@ -13,8 +13,7 @@
  *   36  4  sampler: 0 sobol, 1 independent
  *   40  4  direct light: 0 not in the map, 1 in the map
  *   44  4  1: caustic photons are kept apart, else 0
- *   48  4  exponent of the ledger's unit, signed: 2^exponent W
- *   52  4  0
+ *   48  8  0
  *   56  8  lights in the ledger
  *   64  8  paths in the ledger
  *   72  8  paths left out of it because they were not finite
@@ -22,8 +21,9 @@
  *          u64 ranges, u64 0
  *  120 40  of the caustic photons: the same
  *
- *   168 bytes a light: u32 shape or ffffffff, u32 0, u64 paths, f64 power[3] in W, f64 share of the paths,
- *          then emitted, absorbed, escaped, cut off and roulette, each i64[3] in units, summed over the paths
+ *   168 bytes a light: u32 shape or ffffffff, i32 exponent of its unit: 2^exponent W, u64 paths, f64 power[3] in W,
+ *          f64 share of the paths, then emitted, absorbed, escaped, cut off and roulette, each i64[3] in units,
+ *          summed over the paths
  *   32 bytes a range of paths, global, then caustic: u64 first, u64 count, u64 photons, u32 seed, u32 0;
  *          ascending by seed and first
  *   64 bytes a photon, global, then caustic, in the order of ranges and paths: f32 position[3], u32 path,
@@ -32,12 +32,15 @@
  *
  * A reader refuses what does not add up, what is not finite, positions beyond 1e15 m, directions that are not of unit
  * length, and what is left over. Shapes are those of the scene, and are looked at where the map is used with one.
+ * Version 1 had one unit for all lights, which lost the flux of weak ones; it is not read.
  */
 #ifndef RT_LIB_PHOTON_MAP_FILE_H
 #define RT_LIB_PHOTON_MAP_FILE_H
 
 #include "image/bytes.h"
 #include "photon/photon_map.h"
+
+enum { RT_MAP_VERSION = 2 };
 
 /* Sizes of the file's parts. */
 enum { RT_MAP_HEADER = 160, RT_MAP_LIGHT = 168, RT_MAP_RANGE = 32, RT_MAP_PHOTON = 64, RT_MAP_CHECKSUM = 4 };

@@ -81,10 +81,10 @@ rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t si
     if (size < RT_MAP_HEADER)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short in its header", name);
     uint32_t version = get32(&r), header = get32(&r);
-    if (version != 1 || header != RT_MAP_HEADER)
+    if (version != RT_MAP_VERSION || header != RT_MAP_HEADER)
         return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: a photon map of version %u with a header of %u bytes; known is version 1 with %d", name,
-                       version, header, RT_MAP_HEADER);
+                       "%.350s: a photon map of version %u with a header of %u bytes; known is version %d with %d",
+                       name, version, header, RT_MAP_VERSION, RT_MAP_HEADER);
     *out = get64(&r);
     return RT_OK;
 }
@@ -120,8 +120,7 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
     map->settings.sampler = get32(r);
     map->settings.direct = get32(r);
     map->settings.split = get32(r);
-    int32_t exponent = get_signed32(r);
-    uint32_t zero = get32(r);
+    int zero = get64(r) == 0;
     n->lights = get64(r);
     map->ledger.paths = get64(r);
     map->ledger.rejected = get64(r);
@@ -130,15 +129,12 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
         map->lists[kind].rejected = get64(r);
         n->photons[kind] = get64(r);
         n->ranges[kind] = get64(r);
-        zero |= get64(r) != 0;
+        zero = get64(r) == 0 && zero;
     }
-    map->ledger.exponent = exponent;
     if (map->settings.max_depth == 0 || map->settings.sampler > RT_SAMPLER_INDEPENDENT ||
         map->settings.direct > RT_DIRECT_PHOTONS || map->settings.split > 1)
         return fail_content(r, "its settings are out of range");
-    if (map->ledger.exponent < -400 || map->ledger.exponent > 400)
-        return fail_content(r, "the unit of its ledger is out of range");
-    if (zero != 0)
+    if (!zero)
         return fail_content(r, "its header is not zero where it must be");
     if (!map->settings.split && (n->photons[RT_PHOTONS_CAUSTIC] || n->ranges[RT_PHOTONS_CAUSTIC] ||
                                  map->lists[RT_PHOTONS_CAUSTIC].emitted || map->lists[RT_PHOTONS_CAUSTIC].rejected))
@@ -169,9 +165,9 @@ static rt_status check_counts(const reader *r, const counts *n, size_t file_size
 static rt_status read_light(reader *r, rt_ledger_row *row)
 {
     row->shape = get32(r);
-    uint32_t zero = get32(r);
+    row->exponent = get_signed32(r);
     row->paths = get64(r);
-    int sound = zero == 0;
+    int sound = row->exponent >= -400 && row->exponent <= 400;
     for (int c = 0; c < 3; c++) {
         row->power[c] = get_double(r);
         sound = sound && row->power[c] >= 0 && isfinite(row->power[c]);

@@ -46,7 +46,7 @@ static void put_header(writer *w, const rt_photon_map *map, size_t file_size)
 {
     memcpy(w->at, rt_map_magic, sizeof rt_map_magic);
     w->at += sizeof rt_map_magic;
-    put32(w, 1);
+    put32(w, RT_MAP_VERSION);
     put32(w, RT_MAP_HEADER);
     put64(w, file_size);
     put64(w, map->settings.scene);
@@ -54,8 +54,7 @@ static void put_header(writer *w, const rt_photon_map *map, size_t file_size)
     put32(w, map->settings.sampler);
     put32(w, map->settings.direct);
     put32(w, map->settings.split);
-    put32(w, (uint32_t)map->ledger.exponent);
-    put32(w, 0);
+    put64(w, 0);
     put64(w, map->ledger.count);
     put64(w, map->ledger.paths);
     put64(w, map->ledger.rejected);
@@ -71,7 +70,7 @@ static void put_header(writer *w, const rt_photon_map *map, size_t file_size)
 static void put_light(writer *w, const rt_ledger_row *row)
 {
     put32(w, row->shape);
-    put32(w, 0);
+    put32(w, (uint32_t)row->exponent);
     put64(w, row->paths);
     for (int c = 0; c < 3; c++)
         put_double(w, row->power[c]);

@@ -95,27 +95,43 @@ size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *out, size
     return map->ledger.count;
 }
 
-/* "light 2 (shape 5)". */
-static void name_light(char *out, size_t size, const rt_ledger *ledger, size_t i)
+/* Paths below which the light of a lamp is noisy by more than 1 / sqrt(100), and lamps that a warning names. */
+enum { PATHS_ENOUGH = 100, LIGHTS_NAMED = 4 };
+
+static int is_starved(const rt_ledger_row *row)
 {
-    if (ledger->rows[i].shape == RT_NONE)
-        snprintf(out, size, "light %zu", i);
-    else
-        snprintf(out, size, "light %zu (shape %u)", i, ledger->rows[i].shape);
+    return row->power[0] + row->power[1] + row->power[2] > 0 && row->paths < PATHS_ENOUGH;
 }
 
+/* Appends "light 2 (shape 5), 1e-09 W, 12 paths". */
+static void name_light(char *out, size_t size, const rt_ledger *ledger, size_t i)
+{
+    const rt_ledger_row *row = ledger->rows + i;
+    double power = (row->power[0] + row->power[1] + row->power[2]) / 3;
+    char shape[32] = "";
+    if (row->shape != RT_NONE)
+        snprintf(shape, sizeof shape, " (shape %u)", row->shape);
+    size_t used = strlen(out);
+    snprintf(out + used, size - used, "%slight %zu%s, %.4g W, %llu path%s", used ? "; " : "", i, shape, power,
+             (unsigned long long)row->paths, row->paths == 1 ? "" : "s");
+}
+
+/* One line for all lights. */
 static void warn_lights(const rt_ledger *ledger, const rt_hooks *hooks)
 {
-    for (size_t i = 0; i < ledger->count; i++) {
-        const rt_ledger_row *row = ledger->rows + i;
-        double power = (row->power[0] + row->power[1] + row->power[2]) / 3;
-        char name[64];
-        if (!(power > 0) || row->paths > 0)
-            continue;
-        name_light(name, sizeof name, ledger, i);
-        rt_warn(hooks, "%s emits %.4g W but none of %llu photon paths came from it; its light is missing", name, power,
-                (unsigned long long)ledger->paths);
-    }
+    char names[100 * LIGHTS_NAMED] = "", more[40] = "";
+    size_t starved = 0;
+    for (size_t i = 0; i < ledger->count; i++)
+        if (is_starved(ledger->rows + i) && starved++ < LIGHTS_NAMED)
+            name_light(names, sizeof names, ledger, i);
+    if (starved > LIGHTS_NAMED)
+        snprintf(more, sizeof more, "; and %zu more", starved - LIGHTS_NAMED);
+    if (starved > 0)
+        rt_warn(hooks,
+                "fewer than %d of %llu photon paths came from %s, whose light is noisy, or missing where there are "
+                "none: %s%s; more photons help, or a larger share of the paths (light_shares)",
+                PATHS_ENOUGH, (unsigned long long)ledger->paths,
+                starved == 1 ? "a light with power" : "each of some lights with power", names, more);
 }
 
 static void warn_list(const rt_photon_list *list, const char *name, uint32_t k, const rt_hooks *hooks)

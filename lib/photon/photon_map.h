@@ -47,8 +47,8 @@ void rt_photon_map_reset(rt_photon_map *map);
 void rt_photon_map_free(rt_photon_map *map);
 
 /*
- * Warns of lights with power that no path came from, by the ledger of all paths, and of lists of the map with fewer
- * photons than an estimate wants: k of them, or caustic_k in the caustic list.
+ * Warns of lights with power that fewer than 100 paths came from, by the ledger of all paths, and of lists of the map
+ * with fewer photons than an estimate wants: k of them, or caustic_k in the caustic list.
  */
 void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t k, uint32_t caustic_k,
                                 const rt_hooks *hooks);

@@ -98,6 +98,7 @@ static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const f
 
     s->light_count = scene->light_count;
     s->reach = reach(scene);
+    s->planes_alone = !(scene->radius > 0);
     s->sources = calloc(count, sizeof *s->sources);
     s->of_light = calloc(count, sizeof *s->of_light);
     s->shares = calloc(count, sizeof *s->shares);

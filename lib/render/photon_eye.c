@@ -126,6 +126,16 @@ static rt_status add_to_layers(rt_photon_eye *eye, const rt_eye_maps *maps, size
     return status;
 }
 
+/* Counts the points that asked; caustic: what they found in a second list, or NULL. */
+static void count_ends(const rt_gather_disc *discs, const rt_gather_disc *caustic, size_t count, rt_film_stats *stats)
+{
+    for (size_t i = 0; i < count; i++) {
+        stats->gathers += discs[i].asked;
+        stats->gathers_at_ends += discs[i].asked;
+        stats->gathers_empty += discs[i].asked && discs[i].count == 0 && !(caustic && caustic[i].count > 0);
+    }
+}
+
 static void count_asked(const rt_gather_disc *discs, size_t count, uint64_t *asked)
 {
     for (size_t i = 0; i < count; i++)
@@ -133,19 +143,19 @@ static void count_asked(const rt_gather_disc *discs, size_t count, uint64_t *ask
 }
 
 /* Asks all maps for the photons of a batch. A point counts as asked once, however many lists there are. */
-static rt_status ask(rt_photon_eye *eye, const rt_eye_maps *maps, size_t count, uint64_t *asked, rt_error *error)
+static rt_status ask(rt_photon_eye *eye, const rt_eye_maps *maps, size_t count, rt_film_stats *stats, rt_error *error)
 {
     rt_status status = RT_OK;
     if (maps->global)
         status = rt_gatherer_add(maps->global, eye->points, 0, count, eye->discs, error);
-    if (status == RT_OK && maps->global)
-        count_asked(eye->discs, count, asked);
     if (status == RT_OK && maps->caustic)
-        status = rt_gatherer_add(maps->caustic, eye->points, 0, count, NULL, error);
+        status = rt_gatherer_add(maps->caustic, eye->points, 0, count, eye->way_discs, error);
+    if (status == RT_OK && maps->global)
+        count_ends(eye->discs, maps->caustic ? eye->way_discs : NULL, count, stats);
     for (rt_u32 row = 0; row < eye->rows && maps->on_the_way && status == RT_OK; row++) {
         status = rt_gatherer_add(maps->on_the_way, eye->caustics, row * eye->capacity, count, eye->way_discs, error);
         if (status == RT_OK)
-            count_asked(eye->way_discs, count, asked);
+            count_asked(eye->way_discs, count, &stats->gathers);
     }
     return status;
 }
@@ -200,14 +210,14 @@ static rt_status each_batch(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_
 /* Of rt_photon_eye_sample. */
 typedef struct sampling {
     const rt_eye_maps *maps;
-    uint64_t *asked;
+    rt_film_stats *stats;
 } sampling;
 
 /* Asks the maps, and adds what comes of it to the film and its layers. */
 static rt_status add_batch(rt_photon_eye *eye, const rt_params *params, void *data, rt_error *error)
 {
     sampling *s = data;
-    rt_status status = ask(eye, s->maps, params->item_count, s->asked, error);
+    rt_status status = ask(eye, s->maps, params->item_count, s->stats, error);
     if (status == RT_OK)
         status = add_to_layers(eye, s->maps, params->item_count, error);
     if (status == RT_OK)
@@ -217,10 +227,10 @@ static rt_status add_batch(rt_photon_eye *eye, const rt_params *params, void *da
     return status;
 }
 
-rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, uint64_t *asked,
+rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, rt_film_stats *stats,
                                rt_stage_progress *progress, rt_error *error)
 {
-    sampling s = {maps, asked};
+    sampling s = {maps, stats};
     return each_batch(eye, maps, sample, add_batch, &s, progress, error);
 }
 

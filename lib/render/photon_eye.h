@@ -30,7 +30,7 @@ typedef struct rt_photon_eye {
     cl_mem caustics; /* rt_gather_point [rows][capacity] */
     cl_mem pixels;   /* rt_film_pixel, the film on the device */
     rt_gather_disc *discs; /* [capacity], what was found at the points */
-    rt_gather_disc *way_discs; /* [capacity], and at the caustic points */
+    rt_gather_disc *way_discs; /* [capacity], and at the caustic points, or in the caustic list */
     rt_photon_layer_sum *layers;  /* a pixel, or NULL when there are none */
     rt_gather_point *host_points; /* for them: [1 + rows][capacity] points and caustics */
 } rt_photon_eye;
@@ -53,10 +53,10 @@ rt_status rt_photon_eye_create(rt_photon_eye *out, rt_renderer *renderer, const 
 void rt_photon_eye_release(rt_photon_eye *eye);
 
 /*
- * Gives each pixel the sample of this number. *asked grows by the points that asked for photons. Reports
- * fractions of the part of the stage that progress is set to.
+ * Gives each pixel the sample of this number. The gathers of *stats grow by the points that asked for photons.
+ * Reports fractions of the part of the stage that progress is set to.
  */
-rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, uint64_t *asked,
+rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, rt_film_stats *stats,
                                rt_stage_progress *progress, rt_error *error);
 
 /*

@@ -19,9 +19,9 @@ rt_status rt_photon_mode_check(const rt_render_options *o, rt_error *error)
     if (o->area == RT_AREA_HULL && (all || in_passes || o->gather == RT_GATHER_DEVICE))
         return rt_fail_field(error, RT_ERROR_USAGE, "area",
                              "the hull is for the k nearest photons by FLANN, not for passes or the device");
-    if (!in_passes && o->k == RT_K_ALL && o->radius == 0)
+    if (o->k == RT_K_ALL && o->radius == 0)
         return rt_fail_field(error, RT_ERROR_USAGE, "k", "to gather all photons within a radius, give the radius");
-    if (!in_passes && o->caustic_k == RT_K_ALL && o->caustic_radius == 0)
+    if (o->caustic_k == RT_K_ALL && o->caustic_radius == 0)
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_k",
                              "to gather all photons within a radius, give the caustic_radius");
     if ((uint64_t)o->passes * o->spp > UINT32_MAX)
@@ -78,6 +78,16 @@ static rt_status create_gatherers(void *data)
         if (rt_photon_render_list(r, way))
             status = rt_photon_render_open(r, way, r->how + way, &r->error);
     return status;
+}
+
+/* Warns when most of the points that asked for all photons found none. */
+static void warn_empty(const rt_film_stats *stats, const rt_hooks *hooks)
+{
+    if (stats->gathers_empty > stats->gathers_at_ends / 2)
+        rt_warn(hooks,
+                "%llu of the %llu points that asked for photons found none: the light that photons bring is missing "
+                "there, or all noise; a larger radius or more photons help",
+                (unsigned long long)stats->gathers_empty, (unsigned long long)stats->gathers_at_ends);
 }
 
 /* Emission, then gathering, each a stage. */
@@ -140,6 +150,8 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
         rt_emitter_warn_reach(r.emitter, options->hooks);
     if (status == RT_OK)
         rt_photon_map_warn_starved(r.in_use, &film->ledger, options->k, options->caustic_k, options->hooks);
+    if (status == RT_OK)
+        warn_empty(&film->stats, options->hooks);
     if (status == RT_OK || (status == RT_CANCELLED && r.eye.pixels)) {
         rt_status read = rt_photon_eye_read(&r.eye, film, error);
         if (read == RT_OK)

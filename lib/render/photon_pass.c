@@ -113,7 +113,7 @@ rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_
             rt_stage_part(progress, by_time, by_time);
         else
             rt_stage_part(progress, by_samples, from + span * (i + 1) / spp);
-        status = rt_photon_eye_sample(&r->eye, &maps, first + i, &r->film->stats.gathers, progress, error);
+        status = rt_photon_eye_sample(&r->eye, &maps, first + i, &r->film->stats, progress, error);
         if (rt_photon_render_elapsed(r) >= 1)
             break;
     }

@@ -394,12 +394,52 @@ static void rays_leave_planes_of_axes(void **state)
     }
 }
 
+/* Rays as long as the sphere is large, as shadow rays are: the squares of both are in range, their product is not. */
+static void spheres_are_met_at_every_scale(void **state)
+{
+    (void)state;
+    static const float scales[] = {1e-14f, 1e-10f, 1e-5f, 1.0f, 1e5f, 1e10f, 1e14f};
+    enum { rays_a_scale = 2000 };
+    static rt_ray rays[rays_a_scale];
+    rays_stream stream = {12};
+    for (size_t s = 0; s < sizeof scales / sizeof *scales; s++) {
+        const shape sphere = {.p = {0, 0, 0, scales[s]}, .size = scales[s]};
+        rt_scene *scene = rays_scene();
+        rays_add_sphere(scene, sphere.p, scales[s]);
+        rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
+        for (int i = 0; i < rays_a_scale; i++) {
+            float origin[3], direction[3];
+            rays_point(&stream, 1.5f * scales[s], origin);
+            rays_direction(&stream, direction);
+            for (int a = 0; a < 3; a++)
+                direction[a] *= scales[s];
+            rays[i] = rays_make(origin, direction, 0, INFINITY);
+        }
+        rt_hit *hits = rays_trace(renderer, RT_TRACE_CLOSEST, rays, rays_a_scale);
+        size_t met = 0;
+        for (int i = 0; i < rays_a_scale; i++) {
+            const truth expected = solve_sphere(&sphere, rays + i);
+            if (fabs(expected.clearance) < 1e-3)
+                continue;
+            assert_int_equal(hits[i].shape != RT_NONE, expected.clearance > 0);
+            met += expected.clearance > 0;
+            if (expected.clearance > 0)
+                assert_float_equal(hits[i].t, expected.t, 1e-4);
+        }
+        assert_true(met > rays_a_scale / 10);
+        free(hits);
+        rt_renderer_destroy(renderer);
+        rt_scene_destroy(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triangles_match_the_closed_form),
         cmocka_unit_test(quads_match_the_closed_form),
         cmocka_unit_test(spheres_match_the_closed_form),
+        cmocka_unit_test(spheres_are_met_at_every_scale),
         cmocka_unit_test(planes_match_the_closed_form),
         cmocka_unit_test(rays_leave_convex_bodies),
         cmocka_unit_test(rays_leave_planes_of_axes),

@@ -13,6 +13,7 @@
 
 #include "kernels/statistics.h"
 #include "photon/emit.h"
+#include "photon/forecast.h"
 #include "render/renderer.h"
 
 enum { paths = 100000 };
@@ -287,6 +288,50 @@ static void maps_do_not_depend_on_threads_and_work_groups(void **state)
     rt_photon_list_clear(&expected);
 }
 
+static void more_photons_than_fit_are_foreseen(void **state)
+{
+    rt_error error;
+    (void)state;
+    /* 1.5 photons a path of 64 bytes: 96 GB for 10^9 paths, and 64 bytes a photon that is there. */
+    expect_ok(rt_photon_forecast(0, 60000, 40000, 1000000000, 97000000000u, &error), &error);
+    assert_int_equal(rt_photon_forecast(0, 60000, 40000, 1000000000, 95000000000u, &error), RT_ERROR_MEMORY);
+    assert_non_null(strstr(error.message, "1000000000 photon paths"));
+    assert_non_null(strstr(error.message, "1.5e+09 photons"));
+    assert_non_null(strstr(error.message, "take 96 GB"));
+    assert_non_null(strstr(error.message, "has 95 GB"));
+    assert_int_equal(rt_photon_forecast(50000000, 60000, 40000, 1000000000, 97000000000u, &error), RT_ERROR_MEMORY);
+    /* Not from a few paths, nor where the memory is not known. */
+    expect_ok(rt_photon_forecast(0, 1000, 100, 1000000000, 1, &error), &error);
+    expect_ok(rt_photon_forecast(0, 60000, 40000, 1000000000, 0, &error), &error);
+}
+
+static void emission_stops_when_photons_will_not_fit(void **state)
+{
+    const float kd[3] = {0.5f, 0.5f, 0.5f};
+    enum { many = 200000, photon_bytes = sizeof(rt_photon) };
+    (void)state;
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    for (int fits = 0; fits < 2; fits++) {
+        /* Two photons a path but for roulette: 0.4 M photons in all. */
+        rt_photon_map map = {.settings = {.max_depth = 8, .direct = RT_DIRECT_PHOTONS}};
+        rt_emitter *emitter = NULL;
+        rt_stage_progress progress;
+        cl_kernel kernel = NULL;
+        rt_error error;
+        expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_EMIT), &error);
+        expect_ok(rt_device_kernel(renderer->device, &kernel, "photon_emit", "photon_emit", NULL, &error), &error);
+        expect_ok(rt_emitter_create(&emitter, renderer->device, kernel, renderer->scene, NULL, 0, &error), &error);
+        rt_emitter_limit_memory(emitter, (uint64_t)photon_bytes * (fits ? 3 * many : many));
+        rt_status status = rt_emitter_emit(emitter, &map, RT_PHOTONS_GLOBAL, 11, 0, many, &progress, &error);
+        assert_int_equal(status, fits ? RT_OK : RT_ERROR_MEMORY);
+        assert_true(fits ? map.lists[0].count > many : map.lists[0].count < many / 2);
+        rt_emitter_destroy(emitter);
+        rt_kernel_release(kernel);
+        rt_photon_map_free(&map);
+    }
+    rt_renderer_destroy(renderer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -296,6 +341,8 @@ int main(void)
         cmocka_unit_test(delta_surfaces_store_nothing_and_pass_all_flux),
         cmocka_unit_test(photons_are_whole),
         cmocka_unit_test(maps_do_not_depend_on_batches),
+        cmocka_unit_test(more_photons_than_fit_are_foreseen),
+        cmocka_unit_test(emission_stops_when_photons_will_not_fit),
         cmocka_unit_test(maps_do_not_depend_on_threads_and_work_groups),
     };
     return cmocka_run_group_tests_name("lib/photon/emit", tests, NULL, NULL);

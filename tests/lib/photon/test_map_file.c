@@ -157,7 +157,7 @@ static const struct {
     const char *reason;
 } lies[] = {
     {0, 0, 1, "no photon map"},
-    {8, 2, 4, "version 2"},
+    {8, 1, 4, "version 1 "},
     {12, 64, 4, "header of 64"},
     {16, 1000, 8, "bytes instead of the 1000"},
     {32, 0, 4, "settings"},
@@ -165,7 +165,7 @@ static const struct {
     {40, 9, 4, "settings"},
     {44, 2, 4, "settings"},
     {44, 0, 4, "keeps none apart"},
-    {48, 100000, 4, "unit of its ledger"},
+    {48, 100000, 4, "not zero"},
     {52, 1, 4, "not zero"},
     {56, 3, 8, "counts"},
     {56, UINT64_MAX, 8, "counts"},
@@ -176,7 +176,8 @@ static const struct {
     {96, UINT64_MAX / 64, 8, "counts"},
     {104, 3, 8, "counts"},
     {112, 1, 8, "not zero"},
-    {LIGHT_AT + 4, 1, 4, "a light in its ledger"},
+    {LIGHT_AT + 4, 100000, 4, "a light in its ledger"}, /* exponent */
+    {LIGHT_AT + 4, (uint32_t)-401, 4, "a light in its ledger"},
     {LIGHT_AT + 16, 0x7ff8000000000000u, 8, "a light in its ledger"}, /* power NaN */
     {LIGHT_AT + 16, 0xbff0000000000000u, 8, "a light in its ledger"}, /* power -1 */
     {LIGHT_AT + 40, 0x4000000000000000u, 8, "a light in its ledger"}, /* share 2 */

@@ -60,6 +60,70 @@ static void the_film_tells_what_was_done(void **state)
     rt_renderer_destroy(renderer);
 }
 
+static void note_empty(void *user, const char *line)
+{
+    *(int *)user += strstr(line, "points that asked for photons found none") != NULL;
+}
+
+/* On the device, in passes and by FLANN; with caustic photons apart, too, whose share of the points is small. */
+static void gathers_that_find_nothing_are_counted_and_told(void **state)
+{
+    static const struct {
+        rt_gather gather;
+        uint32_t k, passes;
+        uint64_t caustic_photons;
+        float radius;
+        int is_empty;
+    } cases[] = {
+        {RT_GATHER_AUTO, RT_K_ALL, 1, 0, 1e-9f, 1},   {RT_GATHER_AUTO, 50, 3, 0, 1e-9f, 1},
+        {RT_GATHER_FLANN, 50, 1, 0, 1e-9f, 1},        {RT_GATHER_AUTO, RT_K_ALL, 1, 2000, 1e-9f, 1},
+        {RT_GATHER_AUTO, RT_K_ALL, 1, 2000, 0.3f, 0}, {RT_GATHER_AUTO, 50, 3, 0, 0, 0},
+        {RT_GATHER_FLANN, 50, 1, 0, 0, 0},
+    };
+    (void)state;
+    rt_renderer *renderer = room_renderer(test_device());
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        int told = 0;
+        rt_hooks hooks = {.user = &told, .warning = note_empty};
+        rt_render_options options = room_options();
+        rt_film_stats stats;
+        options.spp = 1;
+        options.photons = 10000;
+        options.gather = cases[i].gather;
+        options.k = cases[i].k;
+        options.passes = cases[i].passes;
+        options.caustic_photons = cases[i].caustic_photons;
+        options.radius = cases[i].radius;
+        options.hooks = &hooks;
+        rt_film *film = room_render(renderer, &options);
+        rt_film_get_stats(film, &stats);
+        assert_int_equal(told, cases[i].is_empty);
+        assert_int_equal(stats.gathers_at_ends, stats.gathers);
+        assert_true(stats.gathers > side * side / 2);
+        assert_true(cases[i].is_empty ? stats.gathers_empty > 0.99 * stats.gathers
+                                      : stats.gathers_empty < 0.05 * stats.gathers);
+        rt_film_destroy(film);
+    }
+    rt_renderer_destroy(renderer);
+}
+
+/* Caustic photons are asked for on the way, where most points find none, and that is no fault. */
+static void points_on_the_way_do_not_count_as_ends(void **state)
+{
+    rt_render_options options = room_options();
+    rt_film_stats stats;
+    (void)state;
+    options.spp = 1;
+    options.final_gather = 1;
+    rt_renderer *renderer = room_renderer(test_device());
+    rt_film *film = room_render(renderer, &options);
+    rt_film_get_stats(film, &stats);
+    assert_true(stats.gathers_at_ends > 0 && stats.gathers > 1.5 * stats.gathers_at_ends);
+    assert_true(stats.gathers_empty < 0.05 * stats.gathers_at_ends);
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+}
+
 static void layers_tell_what_was_gathered(void **state)
 {
     const double pi = 3.14159265358979323846;
@@ -132,6 +196,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(films_do_not_depend_on_threads_and_work_groups),
         cmocka_unit_test(the_film_tells_what_was_done),
+        cmocka_unit_test(gathers_that_find_nothing_are_counted_and_told),
+        cmocka_unit_test(points_on_the_way_do_not_count_as_ends),
         cmocka_unit_test(layers_tell_what_was_gathered),
         cmocka_unit_test(a_cancel_ends_the_render),
     };

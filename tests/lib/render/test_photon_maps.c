@@ -158,14 +158,15 @@ static void starved_lights_and_maps_are_told(void **state)
 {
     char warnings[2000] = "";
     rt_hooks hooks = {.user = warnings, .warning = keep_warning};
-    rt_render_options render = {.photons = 200, .caustic_photons = 20, .hooks = &hooks};
+    rt_render_options render = {.photons = 2000, .caustic_photons = 20, .hooks = &hooks};
     rt_emit_options options = {.render = &render};
     rt_photon_map *map = NULL;
     rt_error error;
     (void)state;
     rt_renderer *renderer = test_renderer(ROOM "light point { position 0 0 0.5  power 1e-9 }\n");
     rt_photon_map_destroy(emit_map(renderer, &options));
-    assert_non_null(strstr(warnings, "light 1 emits 1e-09 W but none of 200 photon paths came from it"));
+    assert_non_null(strstr(warnings, "fewer than 100 of 2000 photon paths came from a light with power"));
+    assert_non_null(strstr(warnings, ": light 1, 1e-09 W, 0 paths; more photons help"));
     assert_null(strstr(warnings, "light 0"));
     assert_null(strstr(warnings, "global"));
     assert_non_null(strstr(warnings, "the caustic photon map has only "));
@@ -175,10 +176,53 @@ static void starved_lights_and_maps_are_told(void **state)
     renderer = test_renderer("light point { position 0 0 0  power 1 }\n");
     render.caustic_photons = 0;
     rt_photon_map_destroy(emit_map(renderer, &options));
-    assert_string_equal(warnings, "the photon map is empty: none of 200 photon paths left a photon in it\n");
+    assert_string_equal(warnings, "the photon map is empty: none of 2000 photon paths left a photon in it\n");
     hooks.progress = cancel;
     assert_int_equal(rt_photon_map_emit(&map, renderer, &options, &error), RT_CANCELLED);
     assert_null(map);
+    rt_renderer_destroy(renderer);
+}
+
+static void many_starved_lights_are_told_in_one_line(void **state)
+{
+    char text[2000] = ROOM, warnings[2000] = "";
+    rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+    rt_render_options render = {.photons = 2000, .k = 10, .hooks = &hooks};
+    rt_emit_options options = {.render = &render};
+    (void)state;
+    for (int i = 0; i < 6; i++)
+        strcat(text, "light point { position 0 0 0.5  power 1e-9 }\n");
+    rt_renderer *renderer = test_renderer(text);
+    rt_photon_map_destroy(emit_map(renderer, &options));
+    assert_non_null(strstr(warnings, "each of some lights with power"));
+    assert_non_null(strstr(warnings, "light 1, 1e-09 W, 0 paths; light 2, "));
+    assert_non_null(strstr(warnings, "light 4, 1e-09 W, 0 paths; and 2 more; more photons help"));
+    assert_ptr_equal(strchr(warnings, '\n'), warnings + strlen(warnings) - 1);
+
+    /* A share of the paths is what they lack. */
+    const float shares[] = {2, 1, 1, 1, 1, 1, 1, 2};
+    options.light_shares = shares;
+    options.light_share_count = 8;
+    warnings[0] = '\0';
+    rt_photon_map_destroy(emit_map(renderer, &options));
+    assert_string_equal(warnings, "");
+    rt_renderer_destroy(renderer);
+}
+
+/* Without other shapes, light falls on planes about the origin. */
+static void planes_alone_are_told_of_the_origin(void **state)
+{
+    char warnings[2000] = "";
+    rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+    rt_render_options render = {.photons = 2000, .hooks = &hooks};
+    rt_emit_options options = {.render = &render};
+    (void)state;
+    rt_renderer *renderer = test_renderer("material wall { kd 0.5 }\n"
+                                          "plane { point 0 -2 0  normal 0 1 0  material wall }\n"
+                                          "light directional { direction 0 -1 0  irradiance 1 }\n");
+    rt_photon_map_destroy(emit_map(renderer, &options));
+    assert_non_null(strstr(warnings, "fall on planes only within 1 m of the origin, for want of other shapes: "));
+    assert_null(strstr(warnings, "middle"));
     rt_renderer_destroy(renderer);
 }
 
@@ -199,7 +243,7 @@ static void light_that_does_not_reach_planes_is_told(void **state)
         snprintf(text, sizeof text, "%s%s%scamera { eye 0 0 -0.9  look_at 0 0 0 }\n", ROOM, rooms[i], lights[i]);
         rt_renderer *renderer = test_renderer(text);
         rt_photon_map_destroy(emit_map(renderer, &options));
-        assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
+        assert_int_equal(strstr(warnings, "m of the middle of the other shapes: ") != NULL, i == 0);
         warnings[0] = '\0';
         expect_ok(rt_render(&film, renderer, &render, &error), &error);
         assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
@@ -429,7 +473,9 @@ int main(void)
         statistical_test(shares_move_paths_but_not_flux),
         cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(starved_lights_and_maps_are_told),
+        cmocka_unit_test(many_starved_lights_are_told_in_one_line),
         cmocka_unit_test(light_that_does_not_reach_planes_is_told),
+        cmocka_unit_test(planes_alone_are_told_of_the_origin),
         statistical_test(stored_flux_is_what_path_tracing_says),
         statistical_test(irradiance_is_flux_over_area),
         cmocka_unit_test(irradiance_is_refused_where_there_is_no_surface),

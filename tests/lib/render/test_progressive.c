@@ -139,6 +139,10 @@ static void options_that_do_not_go_together_are_refused(void **state)
     options = pass_options(&s, 4);
     options.alpha = 1;
     expect_usage(&s, &options, "alpha");
+    options = pass_options(&s, 4);
+    options.k = RT_K_ALL;
+    options.radius = 0;
+    expect_usage(&s, &options, "k");
     study_close(&s);
 }
 
