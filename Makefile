@@ -50,9 +50,9 @@ LIB_SRC := \
 	lib/photon/tree.c \
 	lib/render/aov.c lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c \
 	lib/render/noise.c lib/render/photon_eye.c lib/render/photon_irradiance.c lib/render/photon_layers.c \
-	lib/render/photon_maps.c lib/render/photon_mode.c lib/render/render.c lib/render/renderer.c \
-	lib/render/replicates.c lib/render/sample_mode.c lib/render/sobol.c lib/render/student.c \
-	lib/render/trace.c \
+	lib/render/photon_maps.c lib/render/photon_mode.c lib/render/photon_pass.c lib/render/photon_passes.c \
+	lib/render/render.c lib/render/renderer.c lib/render/replicates.c lib/render/sample_mode.c \
+	lib/render/sobol.c lib/render/student.c lib/render/trace.c \
 	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c \
 	lib/scene/light.c lib/scene/material.c lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c \
 	lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/pack_targets.c \
@@ -105,9 +105,10 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_damage.c tests/lib/mesh/test_mesh.c tests/lib/mesh/test_obj.c \
 	tests/lib/mesh/test_off.c tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c \
 	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
-	tests/lib/photon/test_device_gather.c tests/lib/photon/test_emit.c tests/lib/photon/test_flann_index.c \
-	tests/lib/photon/test_gather.c tests/lib/photon/test_ledger.c tests/lib/photon/test_map_file.c \
-	tests/lib/photon/test_photon_list.c tests/lib/photon/test_point_order.c tests/lib/photon/test_search.c \
+	tests/lib/photon/test_device_gather.c tests/lib/photon/test_emit.c tests/lib/photon/test_fingerprint.c \
+	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c tests/lib/photon/test_ledger.c \
+	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c tests/lib/photon/test_photon_list.c \
+	tests/lib/photon/test_point_order.c tests/lib/photon/test_search.c \
 	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/render/test_lights.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_modes.c tests/lib/render/test_photon_maps.c \
 	tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c \
@@ -140,11 +141,11 @@ TEST_SUPPORT_SRC := \
 	tests/support.c \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
-	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/shape_check.c \
-	tests/kernels/shape_truth.c tests/kernels/statistics.c \
-	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/scratch.c \
+	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/rng_draw.c \
+	tests/kernels/shape_check.c tests/kernels/shape_truth.c tests/kernels/statistics.c \
+	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
-	tests/lib/photon/points.c \
+	tests/lib/photon/emitted.c tests/lib/photon/points.c \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \

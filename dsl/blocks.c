@@ -96,6 +96,8 @@ static const rt_field render_fields[] = {
      AT(rt_render_options, max_depth)},
     {"roulette_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "2", NULL,
      AT(rt_render_options, roulette_depth)},
+    {"roulette_threshold", NUMBER, OPTIONAL, FROM_TO(1e-6, 1), "", "0.5", NULL,
+     AT(rt_render_options, roulette_threshold)},
     {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
     {"estimator", CHOICE, OPTIONAL, ANY, "", "mis", estimators, AT(rt_render_options, estimator)},

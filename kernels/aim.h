@@ -115,7 +115,8 @@ static inline struct lobe_of_light lobe_at(global const rt_light_data *light, co
 }
 
 /* The density of light_emit's directions. */
-static inline float emission_pdf_w(global const rt_light_data *light, const struct lobe_of_light *lobe, float3 direction)
+static inline float emission_pdf_w(global const rt_light_data *light, const struct lobe_of_light *lobe,
+                                   float3 direction)
 {
     const float cosine = dot(direction, lobe->axis);
     if (light->kind == RT_LIGHT_POINT)

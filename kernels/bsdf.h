@@ -89,7 +89,8 @@ static inline void keep_sides(struct bsdf *bsdf)
 {
     const struct split split = split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->shading)));
     const bool stays = dot(bsdf->wo, bsdf->shading) > 0.0f && dot(reflected_way(bsdf), bsdf->normal) > 0.0f;
-    const bool crosses = largest3(split.refracted) == 0.0f || dot(refracted_way(bsdf, split.cos_t), bsdf->normal) < 0.0f;
+    const bool crosses =
+        largest3(split.refracted) == 0.0f || dot(refracted_way(bsdf, split.cos_t), bsdf->normal) < 0.0f;
     if (!(stays && crosses))
         bsdf->shading = bsdf->normal;
 }

@@ -64,7 +64,10 @@ static inline struct canonical canonical_ellipsoid(float3 p)
     return point;
 }
 
-/* The angle of a point about z, in turns, clockwise seen from the side of the normal (+-z): so no lettering is mirrored. */
+/*
+ * The angle of a point about z, in turns, clockwise seen from the side of the normal (+-z): so no lettering is
+ * mirrored.
+ */
 static inline float turns_on_disc(float3 p, float normal_z)
 {
     return turns(normal_z > 0.0f ? -p.y : p.y, p.x);

@@ -2,8 +2,8 @@
  * hull.h - photon density by the convex hull of the photons, in the tangent plane of a point.
  *
  * A disc that reaches over the edge of a surface holds an area where no photon can lie, and up to half of the light
- * and more is lost there. The hull of the photons stays on the surface. Of n points spread evenly over a convex region of
- * area a, the hull leaves 1 - E[v]/(n + 1) of a one point more outside (v: its corners; Efron, "The convex hull of
+ * and more is lost there. The hull of the photons stays on the surface. Of n points spread evenly over a convex region
+ * of area a, the hull leaves 1 - E[v]/(n + 1) of a one point more outside (v: its corners; Efron, "The convex hull of
  * a random set of points", Biometrika 52, 1965), so that (n - v) points over the hull's area are the density, almost
  * without bias. The corners, which pushed the hull to where it is, do not count, like the k-th photon of a disc.
  */

@@ -115,10 +115,13 @@ static inline void connect_light(struct connection *connection, const struct sce
     connection->radiance = path->squeeze * path->beta * (scattered * arrived * sample.radiance * sample.spread);
 }
 
-/* The chance to go on after `depth` segments, from the throughput that would be left. */
+/*
+ * The chance to go on after `depth` segments, from the throughput that would be left: the paths that go on from below
+ * the threshold all carry as much as the threshold.
+ */
 static inline float survival_chance(const rt_params *params, uint depth, float3 throughput)
 {
-    return depth < params->roulette_depth ? 1.0f : min(1.0f, largest3(throughput));
+    return depth < params->roulette_depth ? 1.0f : min(1.0f, largest3(throughput) / params->roulette_threshold);
 }
 
 /*
@@ -130,15 +133,28 @@ static inline bool left_to_photons(const uint purpose, uint diffuse_events, floa
     return purpose == FOLLOW_TO_GATHER && diffuse_events > 0u && pdf_w == 0.0f && !rough;
 }
 
-/* Asks for the photons around a surface, whose diffuse reflection counts with this weight, kd included. */
-static inline void ask_photons(global rt_gather_point *point, const struct surface *surface, const struct bsdf *bsdf,
-                               uint material, float3 weight)
+/* Asks for the photons around a diffuse event: for all of them at the last, where the path ends, else caustic ones. */
+static inline void ask_photons(struct path *path, const struct gather *gather, bool last,
+                               const struct surface *surface, const struct bsdf *bsdf, uint material)
 {
+    global rt_gather_point *point = last ? gather->point : gather->caustics + path->diffuse_events * gather->stride;
+    const float3 weight = path->squeeze * path->beta * bsdf_event_weight(bsdf, EVENT_DIFFUSE);
     vstore3(surface->position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
     vstore3(bsdf->wo, 0, point->wo);
     vstore3(weight, 0, point->weight);
     point->material = material;
+    path->depth = last ? 0u : path->depth;
+    path->diffuse_events++;
+}
+
+/* Adds what a surface emits along wo, unless caustic photons account for it. */
+static inline void add_emitted(struct path *path, const struct scene *scene, const rt_params *params,
+                               const struct surface *surface, float3 wo, const uint purpose)
+{
+    if (!left_to_photons(purpose, path->diffuse_events, path->pdf_w, path->rough))
+        path->radiance +=
+            path->squeeze * path->beta * emitted_light(scene, params, surface, wo, path->from, path->pdf_w);
 }
 
 /* Begins a path with this ray; one that cannot be followed ends at once. */
@@ -206,25 +222,16 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
 
     /* Go straight on through a boundary that a stronger medium hides. */
-    struct boundary boundary;
-    boundary.beyond = path->media;
-    boundary.eta = media_ior(scene, path->media);
-    if (is_transparent(material)) {
-        boundary = media_cross(scene, path->media, material_index, dot(wo, surface.normal) > 0.0f);
-        if (!boundary.exists) {
-            path->ray.origin = leave_surface(&surface, path->ray.direction);
-            path->media = boundary.beyond;
-            path->pdf_w = 0.0f;
-            if (++path->hidden > RT_HIDDEN_BOUNDARIES)
-                path->depth = 0u;
-            return;
-        }
+    const struct boundary boundary = media_meet(scene, path->media, material_index, dot(wo, surface.normal) > 0.0f);
+    if (!boundary.exists) {
+        path->pdf_w = 0.0f;
+        if (!pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond))
+            path->depth = 0u;
+        return;
     }
 
-    /* Add what the surface emits, unless caustic photons account for it. */
-    if (!left_to_photons(purpose, path->diffuse_events, path->pdf_w, path->rough))
-        path->radiance +=
-            path->squeeze * path->beta * emitted_light(scene, params, &surface, wo, path->from, path->pdf_w);
+    /* Add what the surface emits, and end a path that is as long as wanted. */
+    add_emitted(path, scene, params, &surface, wo, purpose);
     if (path->depth == params->max_depth || (purpose == FOLLOW_DIRECT && path->scattered)) {
         path->depth = 0u;
         return;
@@ -245,15 +252,11 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     }
     path->beta *= 1.0f / survival;
 
-    /* In photon mapping, ask for photons at each diffuse event: all of them at the last, caustic ones before. */
+    /* In photon mapping, ask for photons at each diffuse event. */
     if (purpose == FOLLOW_TO_GATHER && event == EVENT_DIFFUSE) {
-        ask_photons(last ? gather->point : gather->caustics + path->diffuse_events * gather->stride, &surface, &bsdf,
-                    material_index, path->squeeze * path->beta * bsdf_event_weight(&bsdf, EVENT_DIFFUSE));
-        if (last) {
-            path->depth = 0u;
+        ask_photons(path, gather, last, &surface, &bsdf, material_index);
+        if (last)
             return;
-        }
-        path->diffuse_events++;
     }
     path->rough = event == EVENT_ROUGH || (path->rough && event != EVENT_DIFFUSE);
 

@@ -245,9 +245,9 @@ INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
 }
 
 /*
- * The squared radius of the disc around a point; 0 when no photon counts. guess: what it may be, such as that of a point
- * nearby; 0 for none: it changes the time taken, not the result. scratch: [estimate->stride]. The rule of the (look)-th
- * photon is left to the caller where k photons were accepted before it: only the sum shows.
+ * The squared radius of the disc around a point; 0 when no photon counts. guess: what it may be, such as that of a
+ * point nearby; 0 for none: it changes the time taken, not the result. scratch: [estimate->stride]. The rule of the
+ * (look)-th photon is left to the caller where k photons were accepted before it: only the sum shows.
  */
 INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_query *query,
                                 const rt_density_params *estimate, float guess, global float *scratch)

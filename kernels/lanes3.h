@@ -80,20 +80,20 @@ static inline float8 largest8(struct lanes3 a)
 
 /* ---- Memory ---------------------------------------------------------------- */
 
-/* Lane i from the float at first[stride i]. */
-static inline float8 lanes_load(const float *first, uint stride)
-{
-    return (float8)(first[0], first[stride], first[2u * stride], first[3u * stride], first[4u * stride],
-                    first[5u * stride], first[6u * stride], first[7u * stride]);
-}
+/* Lane i from array[i]; access: the way on to a member, such as .depth or ->flags. */
+#define LANES_OF(type, array, access)                                                                                  \
+    ((type)((array)[0] access, (array)[1] access, (array)[2] access, (array)[3] access, (array)[4] access,             \
+            (array)[5] access, (array)[6] access, (array)[7] access))
 
-/* Lane i from the float3 at first[stride i]. */
-static inline struct lanes3 lanes3_load(const float *first, uint stride)
-{
-    const struct lanes3 loaded = {lanes_load(first, stride), lanes_load(first + 1, stride),
-                                  lanes_load(first + 2, stride)};
-    return loaded;
-}
+/* An initialiser of lanes3 from members that are float3, and from those that are float[3]. */
+#define LANES3_OF(array, access)                                                                                       \
+    {                                                                                                                  \
+        LANES_OF(float8, array, access.x), LANES_OF(float8, array, access.y), LANES_OF(float8, array, access.z)        \
+    }
+#define LANES3_OF_ROW(array, access)                                                                                   \
+    {                                                                                                                  \
+        LANES_OF(float8, array, access[0]), LANES_OF(float8, array, access[1]), LANES_OF(float8, array, access[2])     \
+    }
 
 /* Lane i from from[i][offset]. */
 static inline float8 lanes_gather(global const float *const from[8], uint offset)

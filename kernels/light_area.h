@@ -55,7 +55,9 @@ static inline void sample_area(struct surface *at, global const rt_light_data *l
     }
 }
 
-/* 1 / pdf_w of sampling an area evenly, seen along `towards` (not of unit length): its solid angle, were it all there. */
+/*
+ * 1 / pdf_w of sampling an area evenly, seen along `towards` (not of unit length): its solid angle, were it all there.
+ */
 static inline float area_spread(float area, float3 towards, float3 normal)
 {
     const float d2 = dot(towards, towards);

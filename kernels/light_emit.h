@@ -44,14 +44,18 @@ static inline float spot_spread(global const rt_light_data *light)
     return 2.0f * RT_PI * ((1.0f - inner) + 0.5f * (inner - outer));
 }
 
-/* A direction in proportion to a spot's intensity. In the cosine, the edge has half the light of as wide a piece inside. */
+/*
+ * A direction in proportion to a spot's intensity. In the cosine, the edge has half the light of as wide a piece
+ * inside.
+ */
 static inline void emit_spot(struct emission *emission, global const rt_light_data *light, float2 u)
 {
     const float inner = light->c[0], outer = light->c[1];
     const float whole = spot_spread(light) / (2.0f * RT_PI);
     const float v = u.x * whole;
     const float inside = 1.0f - inner;
-    const float below = v < inside ? v : 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
+    const float below =
+        v < inside ? v : 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
     const float3 way = (float3)(sqrt(below * (2.0f - below)) * arc.yx, 1.0f - below);
     emit_from(emission, row3(light->a), frame_to_world(frame_about(row3(light->b)), way));

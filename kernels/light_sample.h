@@ -10,7 +10,7 @@ struct light_sample {
     struct surface at; /* position, normal and error only */
     float lift;        /* along at.normal, takes the position off the light by its error, to the side of the viewer */
     float3 wi;         /* unit, towards the light */
-    float3 radiance;   /* that arrives if nothing is in between; delta lights: irradiance on a surface that faces them */
+    float3 radiance; /* that arrives if nothing is in between; delta lights: irradiance on a surface that faces them */
     float spread;      /* sr: 1 / pdf_w of the direction, choice of the light included; delta lights: of the choice */
     bool delta;        /* no ray can meet it by chance: multiple importance sampling must leave it alone */
     bool distant;      /* infinitely far: wi says all of where it is */

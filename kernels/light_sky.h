@@ -97,7 +97,10 @@ static inline float sky_pdf_uv(const struct scene *scene, float2 point)
     return share * (float)sky->width * (float)sky->height;
 }
 
-/* The i with cdf[i] <= u < cdf[i + 1] of a cumulative distribution over `count` cells; *rest is u's place between the two. */
+/*
+ * The i with cdf[i] <= u < cdf[i + 1] of a cumulative distribution over `count` cells; *rest is u's place between the
+ * two.
+ */
 static inline uint sky_find(global const float *cdf, uint count, float u, float *rest)
 {
     uint first = 0u;

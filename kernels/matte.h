@@ -27,12 +27,12 @@ struct matte {
 
 /* The lights that are chosen for the vertices. */
 struct matte_lights {
-    global const float *light[8];   /* rt_light_data of those that are sampled in lanes */
-    float pmf[8];                   /* of the choice */
-    struct light_sample samples[8]; /* the others */
-    uint flat;                      /* a bit for each lane whose light is sampled in lanes, */
-    uint single;                    /* those that have a sample */
-    uint alone;                     /* those whose light no ray meets by chance */
+    global const rt_light_data *light[8]; /* those that are sampled in lanes */
+    float pmf[8];                         /* of the choice */
+    struct light_sample samples[8];       /* the others */
+    uint flat;                            /* a bit for each lane whose light is sampled in lanes, */
+    uint single;                          /* those that have a sample */
+    uint alone;                           /* those whose light no ray meets by chance */
 };
 
 /* Where the lanes' vertices are; the normals are on the side that the path comes from. */
@@ -71,19 +71,17 @@ static inline bool matte_take(struct matte *matte, uint lane, const struct scene
     return true;
 }
 
-/* Lets lanes that hold nothing point to what another one has, so that all can be read. */
-static inline void fill_lanes(global const float *pointers[8], uint held)
+/* The lane that lane i reads from: itself where it holds something, else the first that does. */
+static inline uint held_lane(uint held, uint i)
 {
-    const uint first = lane_first(held);
-    for (uint i = 0u; i < 8u; i++)
-        pointers[i] = pointers[held >> i & 1u ? i : first];
+    return held >> i & 1u ? i : lane_first(held);
 }
 
 /* As triangle_surface, without u and v. */
 static inline struct matte_surface flat_surfaces(const struct matte *matte, const struct hit *hits)
 {
-    const uint row = RT_BVH_WIDTH, vertex = 3u * RT_BVH_WIDTH, stride = sizeof(struct hit) / 4u;
-    const float8 u = lanes_load(&hits[0].u, stride), v = lanes_load(&hits[0].v, stride);
+    const uint row = RT_BVH_WIDTH, vertex = 3u * RT_BVH_WIDTH;
+    const float8 u = LANES_OF(float8, hits, .u), v = LANES_OF(float8, hits, .v);
     const struct lanes3 v0 = lanes3_gather(matte->corner, 0u, row);
     const struct lanes3 e1 = sub8(lanes3_gather(matte->corner, vertex, row), v0);
     const struct lanes3 e2 = sub8(lanes3_gather(matte->corner, 2u * vertex, row), v0);
@@ -103,13 +101,14 @@ static inline struct matte_surface flat_surfaces(const struct matte *matte, cons
 /* Takes those lanes from surfaces that were made one by one. */
 static inline void take_curved(struct matte_surface *surface, const struct matte *matte)
 {
-    const uint stride = sizeof(struct surface) / 4u;
-    const struct surface *from = matte->surfaces;
+    const struct lanes3 position = LANES3_OF(matte->surfaces, .position);
+    const struct lanes3 normal = LANES3_OF(matte->surfaces, .normal);
+    const struct lanes3 shading = LANES3_OF(matte->surfaces, .shading);
     const int8 curved = lanes_of(matte->curved);
-    surface->position = select8(curved, lanes3_load((const float *)&from->position, stride), surface->position);
-    surface->normal = select8(curved, lanes3_load((const float *)&from->normal, stride), surface->normal);
-    surface->shading = select8(curved, lanes3_load((const float *)&from->shading, stride), surface->shading);
-    surface->error = curved ? lanes_load(&from->error, stride) : surface->error;
+    surface->position = select8(curved, position, surface->position);
+    surface->normal = select8(curved, normal, surface->normal);
+    surface->shading = select8(curved, shading, surface->shading);
+    surface->error = curved ? LANES_OF(float8, matte->surfaces, .error) : surface->error;
 }
 
 static inline struct matte_surface matte_surfaces(struct matte *matte, const struct path *paths, const struct hit *hits)
@@ -117,12 +116,13 @@ static inline struct matte_surface matte_surfaces(struct matte *matte, const str
     struct matte_surface surface;
     const uint flat = matte->taken & ~matte->curved;
     if (flat) {
-        fill_lanes(matte->corner, flat);
+        for (uint i = 0u; i < 8u; i++)
+            matte->corner[i] = matte->corner[held_lane(flat, i)];
         surface = flat_surfaces(matte, hits);
     }
     if (matte->curved)
         take_curved(&surface, matte);
-    const struct lanes3 direction = lanes3_load((const float *)&paths[0].ray.direction, sizeof(struct path) / 4u);
+    const struct lanes3 direction = LANES3_OF(paths, .ray.direction);
     const float8 side = dot8(direction, surface.normal) > 0.0f ? (float8)(-1.0f) : (float8)(1.0f);
     surface.normal = scale8(side, surface.normal);
     surface.shading = scale8(side, surface.shading);
@@ -143,7 +143,7 @@ static inline void choose_lights(struct matte_lights *lights, const struct scene
         const uint chosen = choose_light(scene, positions[i], numbers[i].s2, &lights->pmf[i]);
         global const rt_light_data *light = scene->lights + chosen;
         if (light->flags & RT_LIGHT_BY_AREA) {
-            lights->light[i] = light->a;
+            lights->light[i] = light;
             lights->flat |= bit;
         } else if (sample_chosen(scene, light, positions[i], numbers[i].s01, &lights->samples[i])) {
             lights->single |= bit;
@@ -153,28 +153,28 @@ static inline void choose_lights(struct matte_lights *lights, const struct scene
 }
 
 /* As sample_chosen, for flat lights by area. */
-static inline struct matte_light flat_lights(global const float *const data[8], struct lanes3 from,
+static inline struct matte_light flat_lights(global const rt_light_data *const lights[8], struct lanes3 from,
                                              const float8 *numbers)
 {
-    const struct lanes3 a = lanes3_gather(data, RT_LIGHT_AT_A, 1u);
-    const struct lanes3 b = lanes3_gather(data, RT_LIGHT_AT_B, 1u), c = lanes3_gather(data, RT_LIGHT_AT_C, 1u);
-    const struct lanes3 normal = lanes3_gather(data, RT_LIGHT_AT_NORMAL, 1u);
-    const int8 kind = as_int8(lanes_gather(data, RT_LIGHT_AT_KIND)), flags = as_int8(lanes_gather(data, RT_LIGHT_AT_FLAGS));
-    const float8 width = lanes_gather(data, RT_LIGHT_AT_WIDTH), height = lanes_gather(data, RT_LIGHT_AT_HEIGHT);
-    const float8 u = lanes_load((const float *)numbers, 8u), v = lanes_load((const float *)numbers + 1, 8u);
-    const float8 fold = kind == (int)RT_LIGHT_QUAD ? (float8)(0.0f) : 0.5f * lane_min(u, v);
+    const struct lanes3 a = LANES3_OF_ROW(lights, ->a), b = LANES3_OF_ROW(lights, ->b), c = LANES3_OF_ROW(lights, ->c);
+    const struct lanes3 normal = LANES3_OF_ROW(lights, ->normal), emission = LANES3_OF_ROW(lights, ->emission);
+    const uint8 kind = LANES_OF(uint8, lights, ->kind), flags = LANES_OF(uint8, lights, ->flags);
+    const float8 width = LANES_OF(float8, lights, ->width), height = LANES_OF(float8, lights, ->height);
+    const float8 area = LANES_OF(float8, lights, ->area);
+    const float8 u = LANES_OF(float8, numbers, .s0), v = LANES_OF(float8, numbers, .s1);
+    const float8 fold = kind == RT_LIGHT_QUAD ? (float8)(0.0f) : 0.5f * lane_min(u, v);
     const struct lanes3 point = along8(along8(a, (u - fold) * width, b), (v - fold) * height, c);
     const float8 above = dot8(sub8(from, a), normal);
     const float8 size = fabs(a.x) + fabs(a.y) + fabs(a.z) + 2.0f * (width + height);
 
     const struct lanes3 towards = sub8(point, from);
     const float8 d2 = dot8(towards, towards), distance = sqrt(d2);
-    const int8 two_sided = (flags & (int)RT_LIGHT_TWO_SIDED) != 0;
+    const int8 two_sided = (flags & RT_LIGHT_TWO_SIDED) != 0u;
     struct matte_light light;
     light.wi = scale8(1.0f / distance, towards);
-    light.radiance = lanes3_gather(data, RT_LIGHT_AT_EMISSION, 1u);
+    light.radiance = emission;
     light.target = along8(point, copysign(gamma_bound(8.0f) * size, above), normal);
-    light.spread = fabs(dot8(towards, normal)) * lanes_gather(data, RT_LIGHT_AT_AREA) / (d2 * distance);
+    light.spread = fabs(dot8(towards, normal)) * area / (d2 * distance);
     light.spread = above > 0.0f || two_sided ? light.spread : (float8)(0.0f);
     return light;
 }
@@ -182,12 +182,11 @@ static inline struct matte_light flat_lights(global const float *const data[8], 
 /* Takes those lanes from samples. */
 static inline void take_samples(struct matte_light *light, const struct matte_lights *lights)
 {
-    const uint stride = sizeof(struct light_sample) / 4u;
-    const struct light_sample *from = lights->samples;
+    const struct lanes3 wi = LANES3_OF(lights->samples, .wi), radiance = LANES3_OF(lights->samples, .radiance);
     const int8 single = lanes_of(lights->single);
-    light->wi = select8(single, lanes3_load((const float *)&from->wi, stride), light->wi);
-    light->radiance = select8(single, lanes3_load((const float *)&from->radiance, stride), light->radiance);
-    light->spread = single ? lanes_load(&from->spread, stride) : light->spread;
+    light->wi = select8(single, wi, light->wi);
+    light->radiance = select8(single, radiance, light->radiance);
+    light->spread = single ? LANES_OF(float8, lights->samples, .spread) : light->spread;
 }
 
 /* As connect_light; `weight` is that of the path. */
@@ -199,7 +198,8 @@ static inline void matte_connect(const struct scene *scene, const struct matte_s
     struct matte_light light;
     choose_lights(&lights, scene, taken, surface->position, numbers);
     if (lights.flat) {
-        fill_lanes(lights.light, lights.flat);
+        for (uint i = 0u; i < 8u; i++)
+            lights.light[i] = lights.light[held_lane(lights.flat, i)];
         light = flat_lights(lights.light, surface->position, numbers);
     }
     if (lights.single)
@@ -261,16 +261,15 @@ static inline struct lanes3 frame_to_world8(struct lanes3 n, struct lanes3 v)
 static inline void matte_scatter(const rt_params *params, const struct matte_surface *surface, struct lanes3 beta,
                                  struct lanes3 kd, const float8 *numbers, uint taken, struct path *paths)
 {
-    const float *first = (const float *)numbers;
     struct lanes3 kept = mul8(beta, kd);
-    const float8 depth = lanes_load((const float *)&paths[0].depth, sizeof(struct path) / 4u);
-    const float8 chance = lane_min(largest8(kept), (float8)(1.0f));
-    const float8 survival = as_int8(depth) < (int)params->roulette_depth ? (float8)(1.0f) : chance;
+    const uint8 depth = LANES_OF(uint8, paths, .depth);
+    const float8 chance = lane_min(largest8(kept) / params->roulette_threshold, (float8)(1.0f));
+    const float8 survival = depth < params->roulette_depth ? (float8)(1.0f) : chance;
     kept = scale8(1.0f / survival, kept);
-    const struct lanes3 way = sample_cosine8(lanes_load(first + 4, 8u), lanes_load(first + 5, 8u));
+    const struct lanes3 way = sample_cosine8(LANES_OF(float8, numbers, .s4), LANES_OF(float8, numbers, .s5));
     const struct lanes3 wi = frame_to_world8(surface->shading, way);
     const struct lanes3 origin = along8(surface->position, surface->error, surface->normal);
-    const uint going = lane_mask(lanes_load(first + 6, 8u) < survival && way.z > 0.0f &&
+    const uint going = lane_mask(LANES_OF(float8, numbers, .s6) < survival && way.z > 0.0f &&
                                  dot8(wi, surface->normal) > 0.0f && largest8(kept) > 0.0f);
 
     float3 origins[8], directions[8], positions[8], betas[8];
@@ -297,11 +296,9 @@ INLINE_NEVER void matte_vertices(const struct scene *scene, const rt_params *par
                                  struct path *paths, const struct hit *hits, const float8 *numbers,
                                  struct connection *connections)
 {
-    const uint stride = sizeof(struct path) / 4u;
     const struct matte_surface surface = matte_surfaces(matte, paths, hits);
-    const struct lanes3 beta = lanes3_load((const float *)&paths[0].beta, stride);
-    const struct lanes3 weight = scale8(lanes_load(&paths[0].squeeze, stride), beta);
-    const struct lanes3 kd = lanes3_load((const float *)matte->kd, sizeof(float3) / 4u);
+    const struct lanes3 beta = LANES3_OF(paths, .beta), kd = LANES3_OF(matte->kd, );
+    const struct lanes3 weight = scale8(LANES_OF(float8, paths, .squeeze), beta);
     matte_connect(scene, &surface, matte->taken, weight, kd, numbers, connections);
     matte_scatter(params, &surface, beta, kd, numbers, matte->taken, paths);
 }

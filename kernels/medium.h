@@ -12,13 +12,15 @@
 #define RT_MEDIUM_H
 
 #include "frame.h"
+#include "ray.h"
 #include "scene.h"
+#include "surface.h"
 #include "types.h"
 
 #define RT_VACUUM ((uint4)(RT_NONE)) /* the list of a path outside of all solids */
 #define RT_HIDDEN_BOUNDARIES 64u /* boundaries without effect that a path may cross */
 
-/* A boundary, as a path meets it. */
+/* A boundary, as a path meets it. Behind an opaque surface nothing changes, and the index counts as 1. */
 struct boundary {
     uint4 beyond; /* the media list on its other side */
     float eta;    /* index on this side / index on the other */
@@ -86,6 +88,27 @@ static inline struct boundary media_cross(const struct scene *scene, uint4 media
     boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
     boundary.exists = boundary.beyond.x != media.x;
     return boundary;
+}
+
+/* The boundary that a path meets at a surface of this material. */
+static inline struct boundary media_meet(const struct scene *scene, uint4 media, uint material, bool entering)
+{
+    if (is_transparent(scene->materials + material))
+        return media_cross(scene, media, material, entering);
+    struct boundary boundary;
+    boundary.beyond = media;
+    boundary.eta = media_ior(scene, media);
+    boundary.exists = true;
+    return boundary;
+}
+
+/* Goes straight on through a boundary that does not exist; false when a path has crossed too many: `hidden` counts. */
+static inline bool pass_boundary(struct ray *ray, uint4 *media, uint *hidden, const struct surface *surface,
+                                 uint4 beyond)
+{
+    ray->origin = leave_surface(surface, ray->direction);
+    *media = beyond;
+    return ++*hidden <= RT_HIDDEN_BOUNDARIES;
 }
 
 #endif

@@ -38,6 +38,8 @@ struct light_path {
     uint hidden;   /* boundaries crossed that a stronger medium hides */
     bool straight; /* nothing was met yet: a shadow ray would find the light */
     bool scattered; /* by some event other than a delta one */
+    uint photons;   /* that it stored */
+    uint rejected;  /* and that it did not, because they were not finite */
 };
 
 /* Starts a path and its account, aimed when it is for caustics alone; false when there is no light. */
@@ -49,6 +51,7 @@ static bool start_path(struct light_path *path, const struct scene *scene, globa
     bool lit = light_emit(scene, shares, u.lo, u.hi, &emission);
     path->flux = path->absorbed = path->roulette = (float3)(0.0f);
     path->media = RT_VACUUM;
+    path->photons = path->rejected = 0u;
     account->light = RT_NONE;
     if (lit && for_caustics) {
         aim_at_caustics(scene, u.lo, u.hi, &emission);
@@ -66,6 +69,26 @@ static bool start_path(struct light_path *path, const struct scene *scene, globa
     path->straight = true;
     path->scattered = false;
     return lit;
+}
+
+/* Closes the account of a path that ended so. */
+static void end_path(const struct light_path *path, uint end, rt_path_account *account)
+{
+    vstore3(path->absorbed, 0, account->absorbed);
+    account->photons = path->photons;
+    vstore3(path->flux, 0, account->left);
+    account->end = end;
+    vstore3(path->roulette, 0, account->roulette);
+    account->rejected = path->rejected;
+}
+
+/* Loses what the medium absorbs over a distance; false when nothing is left. */
+static bool cross_medium(struct light_path *path, const struct scene *scene, float distance)
+{
+    const float3 passed = path->flux * medium_transmittance(scene->materials, path->media.x, distance);
+    path->absorbed += path->flux - passed;
+    path->flux = passed;
+    return largest3(path->flux) > 0.0f;
 }
 
 static bool is_caustic(const struct light_path *path)
@@ -103,6 +126,17 @@ static bool photon_is_sound(const rt_photon *photon)
     return all(fabs(vload3(0, photon->position)) <= RT_COORDINATE_MAX) && all(isfinite(vload3(0, photon->wi))) &&
            all(isfinite(vload3(0, photon->flux))) && all(isfinite(vload3(0, photon->normal))) &&
            isfinite(photon->shading);
+}
+
+/* Leaves a photon at a surface, in the next slot of the path's column. */
+static void leave_photon(struct light_path *path, const rt_params *params, const struct surface *surface,
+                         const struct bsdf *bsdf, uint index, global rt_photon *slots)
+{
+    const rt_photon photon = make_photon(path, surface, bsdf, index);
+    if (photon_is_sound(&photon))
+        slots[path->photons++ * params->slots] = photon;
+    else
+        path->rejected++;
 }
 
 /*
@@ -147,7 +181,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
 {
     const bool for_caustics = params->store == RT_STORE_CAUSTIC;
     struct light_path path;
-    uint count = 0u, rejected = 0u, end = RT_END_CUT_OFF;
+    uint end = RT_END_CUT_OFF;
 
     bool alive = start_path(&path, scene, shares, sampler, for_caustics, account) && can_follow(&path.ray);
     while (alive && path.depth < params->max_depth) {
@@ -166,38 +200,23 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         const float3 wo = -path.ray.direction;
 
         /* Lose what the medium absorbs on the way. */
-        const float3 passed = path.flux * medium_transmittance(scene->materials, path.media.x, hit.t);
-        path.absorbed += path.flux - passed;
-        path.flux = passed;
-        if (!(largest3(path.flux) > 0.0f)) {
+        if (!cross_medium(&path, scene, hit.t)) {
             end = RT_END_ABSORBED;
             break;
         }
 
         /* Go straight on through a boundary that a stronger medium hides. */
-        struct boundary boundary;
-        boundary.beyond = path.media;
-        boundary.eta = media_ior(scene, path.media);
-        if (is_transparent(material)) {
-            boundary = media_cross(scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
-            if (!boundary.exists) {
-                path.ray.origin = leave_surface(&surface, path.ray.direction);
-                path.media = boundary.beyond;
-                path.straight = false;
-                alive = ++path.hidden <= RT_HIDDEN_BOUNDARIES;
-                continue;
-            }
+        const struct boundary boundary = media_meet(scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
+        if (!boundary.exists) {
+            path.straight = false;
+            alive = pass_boundary(&path.ray, &path.media, &path.hidden, &surface, boundary.beyond);
+            continue;
         }
 
         /* Leave a photon where the map wants one. */
         const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, boundary.eta, path.flux);
-        if (bsdf_is_diffuse(&bsdf) && is_stored(&path, params)) {
-            const rt_photon photon = make_photon(&path, &surface, &bsdf, index);
-            if (photon_is_sound(&photon))
-                slots[count++ * params->slots] = photon;
-            else
-                rejected++;
-        }
+        if (bsdf_is_diffuse(&bsdf) && is_stored(&path, params))
+            leave_photon(&path, params, &surface, &bsdf, index, slots);
 
         /* Choose an event, or absorption, and go on. */
         alive = scatter_path(&path, &surface, &bsdf, boundary.beyond, u);
@@ -208,17 +227,13 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         if (for_caustics && path.scattered)
             break;
     }
-    vstore3(path.absorbed, 0, account->absorbed);
-    account->photons = count;
-    vstore3(path.flux, 0, account->left);
-    account->end = end;
-    vstore3(path.roulette, 0, account->roulette);
-    account->rejected = rejected;
+    end_path(&path, end, account);
 }
 
 /*
- * shares: [light_count]; slots: [params.max_depth - 1][params.slots], a column a path, of which each fills as many as its
- * account says: so neighbours write side by side, and rows that few paths reach stay untouched; accounts: [item_count].
+ * shares: [light_count]; slots: [params.max_depth - 1][params.slots], a column a path, of which each fills as many as
+ * its account says: so neighbours write side by side, and rows that few paths reach stay untouched; accounts:
+ * [item_count].
  */
 kernel void photon_emit(const rt_params params, global const rt_scene_header *header,
                         global const rt_light_share *shares, global rt_photon *slots, global rt_path_account *accounts)

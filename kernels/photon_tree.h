@@ -24,9 +24,6 @@ struct photon_query {
     float3 normal;
 };
 
-/* Photons whose normal is farther than 60 degrees from the point's lie on another surface, or its other side. */
-#define PHOTON_NORMAL_COSINE 0.5f
-
 INLINE_ALWAYS float8 squared_length8(float8 x, float8 y, float8 z)
 {
 #pragma OPENCL FP_CONTRACT OFF
@@ -49,7 +46,7 @@ INLINE_ALWAYS int8 photons_accepted(global const rt_photon_block *block, const s
     const float8 x = vload8(0, block->normal[0]) * query->normal.x;
     const float8 y = vload8(0, block->normal[1]) * query->normal.y;
     const float8 z = vload8(0, block->normal[2]) * query->normal.z;
-    return x + y + z > PHOTON_NORMAL_COSINE;
+    return x + y + z > RT_PHOTON_NORMAL_COSINE;
 }
 
 /* How far eight intervals on an axis are from low .. high. */
@@ -88,7 +85,9 @@ INLINE_ALWAYS float8 box_reaches(global const rt_photon_node *node, const struct
 #define WALK_LEVEL_SHIFT 28u
 #define WALK_INDEX 0x0fffffffu
 
-/* Where walks begin: at the root, or at the few nodes of level 0 that any of a group of points needs, the last first. */
+/*
+ * Where walks begin: at the root, or at the few nodes of level 0 that any of a group of points needs, the last first.
+ */
 #define PHOTON_STARTS 16u
 struct photon_start {
     uint entry[PHOTON_STARTS];

@@ -21,7 +21,7 @@ kernel void photon_walk(const rt_params params, const rt_density_params estimate
     tree.shape = shape;
     tree.nodes = nodes;
     tree.blocks = blocks;
-    float guess = 0.0f; /* from the point before, with some to spare, so that k photons lie inside more often than not */
+    float guess = 0.0f; /* from the point before, with some to spare: k photons lie inside more often than not */
     struct photon_start start;
     if (estimate.k == 0u && begin < end)
         start = start_of_points(&tree, points + begin, end - begin, &estimate);

@@ -140,7 +140,8 @@ static inline float8 sampler_pair(const struct sampler *sampler, uint set)
 {
     uint8 bits;
     if (sampler->sobol) {
-        const uint8 seeds = mix_words((uint8)(sampler->key + set * 0x9e3779b9u, sampler->key + (set + 1u) * 0x9e3779b9u));
+        const uint8 seeds =
+            mix_words((uint8)(sampler->key + set * 0x9e3779b9u, sampler->key + (set + 1u) * 0x9e3779b9u));
         bits = (uint8)(sobol_point(sampler, seeds.lo), sobol_point(sampler, seeds.hi));
         bits = reverse_bits8(scramble_reversed8(bits, seeds));
     } else {

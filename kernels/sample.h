@@ -52,7 +52,8 @@ static inline float4 atan_ratio(float4 y, float4 x)
     const int4 middle = low > 0.414213562f * high;
     const float4 t = select(low, low - high, middle) / select(high, low + high, middle);
     const float4 t2 = t * t;
-    float4 angle = t + t * t2 * (-3.33329491539e-1f + t2 * (1.99777106478e-1f + t2 * (-1.38776856032e-1f + t2 * 8.05374449538e-2f)));
+    const float4 tail = -1.38776856032e-1f + t2 * 8.05374449538e-2f;
+    float4 angle = t + t * t2 * (-3.33329491539e-1f + t2 * (1.99777106478e-1f + t2 * tail));
     angle += select((float4)(0.0f), (float4)(0.785398163f), middle);
     angle = select(angle, 1.57079632679f - angle, steep);
     return copysign(angle, y);

@@ -225,7 +225,9 @@ static inline void test_all(const struct scene *scene, const struct ray *ray, st
         test_shape(scene, ray, scene->analytic[i], hit);
 }
 
-/* The nearest hit in [t_min, t_max] of a ray that can be followed; false, and *hit without meaning, when there is none. */
+/*
+ * The nearest hit in [t_min, t_max] of a ray that can be followed; false, and *hit without meaning, when there is none.
+ */
 INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
     hit->t = ray->t_max;

@@ -27,14 +27,6 @@ typedef int32_t rt_i32;
 
 #define RT_SIZE(type, bytes) typedef char type##_has_its_size[(sizeof(type) == (bytes)) ? 1 : -1]
 
-/* Asserts where a member is, in words; by the host's compiler, for a test compares all places on both sides. */
-#ifdef __OPENCL_VERSION__
-#define RT_PLACE(type, member, words)
-#else
-#define RT_PLACE(type, member, words)                                                                                  \
-    typedef char type##_##member##_has_its_place[offsetof(type, member) == 4u * (words) ? 1 : -1];
-#endif
-
 /* Coordinates beyond this, in metres, lose the squares of their differences in float32. */
 #define RT_COORDINATE_MAX 1e15f
 
@@ -97,7 +89,7 @@ RT_SIZE(rt_hit, 32);
  */
 #define RT_SHAPE_TRIANGLES 0u /* a mesh in world space, geometry in rt_tri_block */
 #define RT_SHAPE_QUAD 1u      /* one parallelogram, geometry in rt_tri_block */
-#define RT_SHAPE_SPHERE 2u    /* p[0..2] centre, p[3] radius; a transform turns the point's normal to that of its u, v */
+#define RT_SHAPE_SPHERE 2u    /* p[0..2] centre, p[3] radius; a transform turns the normal to that of u and v */
 #define RT_SHAPE_PLANE 3u     /* p[0..2] a point, p[4..6] unit normal; infinite, kept beside the tree; a transform
                                  maps the point to x = u, y = v */
 #define RT_SHAPE_ELLIPSOID 4u /* the unit sphere */
@@ -126,7 +118,7 @@ typedef struct rt_shape {
     rt_u32 transform;    /* index in transforms; RT_NONE: none */
     rt_u32 texture;      /* index in textures, of the texture that multiplies kd; RT_NONE: none */
     rt_u32 root;         /* instance: root node of the mesh's tree; its blocks name triangles of the mesh, from 0 */
-    rt_u32 first_index;  /* mesh with vertex data: corner c of triangle i is vertex indices[first_index + 3 i + c] ... */
+    rt_u32 first_index;  /* mesh with vertex data: corner c of triangle i is indices[first_index + 3 i + c] ... */
     rt_u32 first_normal; /* ... of those that begin here in normals, ... */
     rt_u32 first_uv;     /* ... in uvs ... */
     rt_u32 first_colour; /* ... and in colours */
@@ -213,7 +205,8 @@ RT_SIZE(rt_texture_data, 80);
 #define RT_LIGHT_TRIANGLE 2u    /* a: vertex, b, c: edges; emission: radiance */
 #define RT_LIGHT_SPHERE 3u      /* a: centre, width: radius; emission: radiance */
 #define RT_LIGHT_SHAPE 4u       /* the analytic shape of prim, sampled by its parameters; emission: radiance */
-#define RT_LIGHT_SPOT 5u        /* a: position, b: unit axis, c[0] > c[1]: cosines of inner and outer angle; emission: W/sr on the axis */
+#define RT_LIGHT_SPOT 5u        /* a: position, b: unit axis, c[0] > c[1]: cosines of inner and outer angle; emission:
+                                   intensity on the axis, W/sr */
 #define RT_LIGHT_DIRECTIONAL 6u /* b: unit direction of travel; emission: irradiance on a facing surface, W/m^2 */
 #define RT_LIGHT_ENVIRONMENT 7u /* from all around; emission: radiance, which multiplies the environment's image */
 
@@ -240,28 +233,6 @@ typedef struct rt_light_data {
     rt_u32 media[3]; /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */
 } rt_light_data;
 RT_SIZE(rt_light_data, 112);
-
-/* Where its members are, in words of 4 bytes, for kernels that gather them from several lights. */
-#define RT_LIGHT_AT_A 0u
-#define RT_LIGHT_AT_KIND 3u
-#define RT_LIGHT_AT_B 4u
-#define RT_LIGHT_AT_WIDTH 7u
-#define RT_LIGHT_AT_C 8u
-#define RT_LIGHT_AT_HEIGHT 11u
-#define RT_LIGHT_AT_NORMAL 12u
-#define RT_LIGHT_AT_AREA 15u
-#define RT_LIGHT_AT_EMISSION 16u
-#define RT_LIGHT_AT_FLAGS 23u
-RT_PLACE(rt_light_data, a, RT_LIGHT_AT_A)
-RT_PLACE(rt_light_data, kind, RT_LIGHT_AT_KIND)
-RT_PLACE(rt_light_data, b, RT_LIGHT_AT_B)
-RT_PLACE(rt_light_data, width, RT_LIGHT_AT_WIDTH)
-RT_PLACE(rt_light_data, c, RT_LIGHT_AT_C)
-RT_PLACE(rt_light_data, height, RT_LIGHT_AT_HEIGHT)
-RT_PLACE(rt_light_data, normal, RT_LIGHT_AT_NORMAL)
-RT_PLACE(rt_light_data, area, RT_LIGHT_AT_AREA)
-RT_PLACE(rt_light_data, emission, RT_LIGHT_AT_EMISSION)
-RT_PLACE(rt_light_data, flags, RT_LIGHT_AT_FLAGS)
 
 /*
  * The tree by which lights are chosen: node 1 is the root, the children of node i are 2 i and 2 i + 1, and the
@@ -308,7 +279,8 @@ RT_SIZE(rt_target, 16);
 /*
  * The film point (s, t), s to the right, t down, both in [0,1]. Perspective: seen along corner + s across + t down,
  * relative to the eye, which is the point at the focal distance. Orthographic: from the eye moved by
- * corner + s across + t down, along axis. Environment: longitude 2 pi s, latitude pi t about lens_v, axis in the centre.
+ * corner + s across + t down, along axis. Environment: longitude 2 pi s, latitude pi t about lens_v, axis in the
+ * centre.
  */
 typedef struct rt_camera_data {
     float eye[3];
@@ -339,7 +311,7 @@ typedef struct rt_scene_header {
     rt_u32 nodes, node_count;           /* rt_bvh_node; node 0 is the root, the trees of meshes follow */
     rt_u32 blocks, block_count;         /* rt_tri_block of the tree at the root; those of meshes follow */
     rt_u32 analytic, analytic_count;    /* u32: index of an analytic shape or an instance, one an entry */
-    rt_u32 planes, plane_count;         /* u32: index of a plane's shape; planes are infinite and tested beside the tree */
+    rt_u32 planes, plane_count;         /* u32: index of a plane's shape; planes are tested beside the tree */
     rt_u32 shapes, shape_count;         /* rt_shape */
     rt_u32 prim_shape, prim_count;      /* u32: the shape of each primitive */
     rt_u32 materials, material_count;   /* rt_material_data */
@@ -351,7 +323,7 @@ typedef struct rt_scene_header {
     rt_u32 colours, colour_count;       /* float[4]: colours of vertices, w = 0 */
     rt_u32 textures, texture_count;     /* rt_texture_data */
     rt_u32 texels, texel_rows;          /* texels of all images, 64-byte rows */
-    rt_u32 sobol, sobol_count;          /* uint4[4][256]: XOR of the first four Sobol matrices' columns, by byte of the index */
+    rt_u32 sobol, sobol_count;          /* uint4[4][256]: XOR of four Sobol matrices' columns, by byte of the index */
     float bounds_lo[3], radius;         /* lowest corner and bounding-sphere radius of all finite shapes */
     float bounds_hi[3];
     rt_u32 accel; /* rt_accel */
@@ -386,8 +358,10 @@ typedef struct rt_params {
     rt_u32 store;        /* photon emission: RT_STORE_* */
     rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
     rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
+    float roulette_threshold; /* throughput below which it may */
+    rt_u32 reserved[3];
 } rt_params;
-RT_SIZE(rt_params, 64);
+RT_SIZE(rt_params, 80);
 
 /* A pixel of the film: compensated (Kahan) sum of weight times radiance, in order of the samples. */
 typedef struct rt_film_pixel {
@@ -410,10 +384,13 @@ RT_SIZE(rt_film_pixel, 48);
 
 RT_SIZE(rt_photon, 64);
 
+/* Photons whose normal is farther than 60 degrees from a point's lie on another surface, or on its other side. */
+#define RT_PHOTON_NORMAL_COSINE 0.5f
+
 /* Which photons a path stores. */
 #define RT_STORE_ALL 0u     /* all: one map holds them */
 #define RT_STORE_GLOBAL 1u  /* all but those flagged RT_PHOTON_CAUSTIC, which another map holds */
-#define RT_STORE_CAUSTIC 2u /* only those; a path is aimed at specular shapes, and ends where it is first reflected diffusely */
+#define RT_STORE_CAUSTIC 2u /* only those; a path is aimed at specular shapes, and ends at its first diffuse event */
 
 /* How a photon path ended. */
 #define RT_END_ABSORBED 0u /* by roulette or by a surface: no flux is left */
@@ -503,9 +480,8 @@ typedef struct rt_photon_block {
     float position[3][8];
     float normal[3][8];
     float flux[3][8]; /* rt_photon's flux times its factor `shading`, W */
-    rt_u32 photon[8]; /* index in the map */
 } rt_photon_block;
-RT_SIZE(rt_photon_block, 320);
+RT_SIZE(rt_photon_block, 288);
 
 typedef struct rt_photon_tree {
     rt_u32 levels; /* 0 for an empty map */

@@ -484,6 +484,8 @@ typedef struct rt_render_options {
     uint32_t max_depth;     /* longest path in segments, from the eye or from a light; 0 means 16 */
     uint32_t roulette_depth; /* segments from the eye after which Russian roulette may end a path; 0 means 2. From
                                 max_depth on, it ends none: the mean is the same, the time is not */
+    float roulette_threshold; /* throughput below which it may, with the chance throughput / threshold to go on; from
+                                1e-6 to 1, 0 means 0.5. 1 ends the most: more samples a second, each noisier */
     uint32_t seed;          /* the same seed gives the same bits */
     rt_sampler sampler;
     rt_filter filter;

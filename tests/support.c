@@ -25,6 +25,17 @@ rt_device *test_device(void)
     return device;
 }
 
+rt_renderer *test_renderer(const char *text)
+{
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_error error;
+    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
 cl_kernel test_kernel(const char *program, const char *kernel)
 {
     rt_error error;

@@ -24,6 +24,9 @@ void expect_ok(rt_status status, const rt_error *error);
 /* The first OpenCL device with default options, opened once a test program and closed at its end. */
 rt_device *test_device(void);
 
+/* A renderer of the scene that a text describes, on test_device(). */
+rt_renderer *test_renderer(const char *text);
+
 /* A kernel of rt_test_kernel_sources on test_device(). Release it with rt_kernel_release. */
 cl_kernel test_kernel(const char *program, const char *kernel);
 

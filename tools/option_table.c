@@ -65,6 +65,10 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_ROULETTE_DEPTH] = {"roulette-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 4096, NULL, 1, "2",
                                "segments from the eye after which Russian roulette may end a path; from --max-depth "
                                "on it ends none"},
+    [OPTION_ROULETTE_THRESHOLD] = {"roulette-threshold", "T", KIND_REAL, GROUP_RENDER, RENDER, 1e-6, 1, NULL, 1,
+                                   "0.5",
+                                   "share of light left to a path below which it may, with the chance share / T to go "
+                                   "on; 1 ends the most: more samples a second, each noisier"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
                      "stop after so many seconds, once every pixel has a sample; without --spp, go on "
                      "until then"},

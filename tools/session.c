@@ -96,6 +96,7 @@ static void merge_picture(const session *s, rt_render_options *options)
     set_u32(&options->spp, session_value(s, OPTION_SPP));
     set_u32(&options->max_depth, session_value(s, OPTION_MAX_DEPTH));
     set_u32(&options->roulette_depth, session_value(s, OPTION_ROULETTE_DEPTH));
+    set_float(&options->roulette_threshold, session_value(s, OPTION_ROULETTE_THRESHOLD));
     set_u32(&options->seed, session_value(s, OPTION_SEED));
     set_double(&options->time, session_value(s, OPTION_TIME));
     set_double(&options->target_error, session_value(s, OPTION_TARGET_ERROR));

@@ -284,9 +284,10 @@ rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rul
     if (status == RT_OK)
         return RT_OK;
     rt_tree_destroy(out);
-    return status == RT_CANCELLED ? rt_fail(error, RT_CANCELLED, "cancelled while the hierarchy was built")
-                                  : rt_fail(error, RT_ERROR_MEMORY, "not enough memory to build a hierarchy of %lu primitives",
-                                            (unsigned long)count);
+    return status == RT_CANCELLED
+               ? rt_fail(error, RT_CANCELLED, "cancelled while the hierarchy was built")
+               : rt_fail(error, RT_ERROR_MEMORY, "not enough memory to build a hierarchy of %lu primitives",
+                         (unsigned long)count);
 }
 
 void rt_tree_destroy(rt_tree *tree)

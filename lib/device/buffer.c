@@ -143,8 +143,9 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
             CL_SUCCESS && largest > 0 && largest < local)
         local = largest;
     size_t global = (items + local - 1) / local * local;
-    rt_status status = rt_cl_check(clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
-                                   "launching a kernel", error);
+    rt_status status =
+        rt_cl_check(clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
+                    "launching a kernel", error);
     if (status == RT_OK)
         status = rt_cl_check(clFlush(device->queue), "launching a kernel", error);
     return status;

@@ -147,7 +147,8 @@ static rt_status choose_work_group(rt_device *device, uint32_t asked, rt_error *
     device->work_group = asked ? asked : device->info.is_cpu ? default_work_group_cpu : default_work_group_gpu;
     if (device->work_group > largest)
         return rt_fail_field(error, RT_ERROR_USAGE, "work_group",
-                             "a work-group of %u work-items is more than the device's %zu", device->work_group, largest);
+                             "a work-group of %u work-items is more than the device's %zu", device->work_group,
+                             largest);
     return RT_OK;
 }
 

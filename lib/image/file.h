@@ -24,7 +24,8 @@ rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_fi
  * same directory, are synchronised to the disk, and the file is renamed. A new file has the
  * permissions that open() gives (0666 less the umask), a replaced one keeps its own; a symbolic
  * link stays and its target is replaced, or made where there is none. What is not a regular file
- * (a device, a pipe) is written in place. Fails with RT_ERROR_OUTPUT, naming path and cause; the temporary file is then gone.
+ * (a device, a pipe) is written in place. Fails with RT_ERROR_OUTPUT, naming path and cause; the temporary file is then
+ * gone.
  */
 rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error);
 

@@ -22,7 +22,8 @@ static rt_status create_buffers(rt_device_gather *g, rt_device *device, size_t c
     size_t items = (capacity + g->estimate.points_an_item - 1) / g->estimate.points_an_item;
     /* A CPU device works on the host's memory; another gets its copy. */
     cl_mem_flags flags = CL_MEM_READ_ONLY | (device->info.is_cpu ? CL_MEM_USE_HOST_PTR : 0);
-    size_t nodes = g->tree.node_count * sizeof *g->tree.nodes, blocks = g->tree.shape.block_count * sizeof *g->tree.blocks;
+    size_t nodes = g->tree.node_count * sizeof *g->tree.nodes;
+    size_t blocks = g->tree.shape.block_count * sizeof *g->tree.blocks;
     rt_status status = rt_buffer_create(device, &g->nodes, nodes ? flags : CL_MEM_READ_ONLY, nodes,
                                         nodes ? g->tree.nodes : NULL, "the photon tree", error);
     if (status == RT_OK)

@@ -31,7 +31,8 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
     e->scene = scene;
     rt_status status = rt_light_sources_read(&e->lights, device, scene, shares, share_count, error);
     if (status == RT_OK)
-        status = rt_buffer_create(device, &e->shares, CL_MEM_READ_ONLY, e->lights.light_count * sizeof *e->lights.shares,
+        status = rt_buffer_create(device, &e->shares, CL_MEM_READ_ONLY,
+                                  e->lights.light_count * sizeof *e->lights.shares,
                                   e->lights.light_count ? e->lights.shares : NULL, "the lights' shares", error);
     if (status == RT_OK)
         *out = e;
@@ -61,9 +62,10 @@ void rt_emitter_destroy(rt_emitter *e)
 void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
 {
     if (e->lights.reach > 0)
-        rt_warn(hooks, "photons of the sky and of directional lights fall on planes only within %.3g m of the middle of "
-                       "the other shapes: what planes reflect from farther out is missing; a final gather lessens the "
-                       "loss, quads in their place end it",
+        rt_warn(hooks,
+                "photons of the sky and of directional lights fall on planes only within %.3g m of the middle of the "
+                "other shapes: what planes reflect from farther out is missing; a final gather lessens the loss, quads "
+                "in their place end it",
                 e->lights.reach);
 }
 
@@ -99,7 +101,8 @@ static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind ki
         status =
             rt_buffer_map(e->device, e->photons, paths * e->slots * sizeof(rt_photon), &photons, "photons", error);
     if (status == RT_OK)
-        status = rt_photon_list_append(map->lists + kind, photons, e->paths, accounts, paths, e->device->threads, error);
+        status =
+            rt_photon_list_append(map->lists + kind, photons, e->paths, accounts, paths, e->device->threads, error);
     if (status == RT_OK && kind == RT_PHOTONS_GLOBAL)
         status = rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads, error);
     rt_status first = rt_buffer_unmap(e->device, e->photons, photons, status == RT_OK ? error : NULL);
@@ -151,9 +154,9 @@ rt_status rt_emitter_emit(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind
     size_t before = map->lists[kind].count;
 
     if (count > indices || first > indices - count)
-        return rt_fail_field(error, RT_ERROR_USAGE, "photons", "photon paths %llu to %llu are beyond the %llu of a seed",
-                             (unsigned long long)first, (unsigned long long)(first + count),
-                             (unsigned long long)indices);
+        return rt_fail_field(error, RT_ERROR_USAGE, "photons",
+                             "photon paths %llu to %llu are beyond the %llu of a seed", (unsigned long long)first,
+                             (unsigned long long)(first + count), (unsigned long long)indices);
     rt_status status = map->ledger.rows ? RT_OK : rt_ledger_create(&map->ledger, &e->lights, error);
     if (status == RT_OK && count > 0)
         status = prepare_batch(e, slots, count, error);

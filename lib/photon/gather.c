@@ -45,12 +45,14 @@ static rt_status create_buffers(rt_gatherer *g, const rt_photon_list *list, rt_e
     h->host_lists = malloc(list_bytes ? list_bytes : 1);
     if (!h->host_points || !h->host_discs || !h->host_lists)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points", g->capacity);
-    if ((status = rt_buffer_create(device, &h->photons, CL_MEM_READ_ONLY | in_place, list->count * sizeof *list->photons,
-                                   list->photons, "the photon map", error)) != RT_OK ||
-        (status = rt_buffer_create(device, &h->discs, CL_MEM_READ_ONLY, g->capacity * sizeof *h->host_discs, NULL,
-                                   "gather discs", error)) != RT_OK)
-        return status;
-    return rt_buffer_create(device, &h->lists, CL_MEM_READ_ONLY, list_bytes, NULL, "neighbour lists", error);
+    status = rt_buffer_create(device, &h->photons, CL_MEM_READ_ONLY | in_place, list->count * sizeof *list->photons,
+                              list->photons, "the photon map", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &h->discs, CL_MEM_READ_ONLY, g->capacity * sizeof *h->host_discs, NULL,
+                                  "gather discs", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &h->lists, CL_MEM_READ_ONLY, list_bytes, NULL, "neighbour lists", error);
+    return status;
 }
 
 static rt_status prepare_host(rt_gatherer *g, const rt_photon_list *list, const rt_density_params *estimate,
@@ -116,7 +118,8 @@ size_t rt_gatherer_capacity(const rt_gatherer *g)
 static rt_status find(rt_gatherer *g, cl_mem points, size_t first, size_t count, rt_error *error)
 {
     host_gather *h = &g->host;
-    rt_status status = rt_buffer_read(g->device, points, first * sizeof *h->host_points, count * sizeof *h->host_points, h->host_points, error);
+    rt_status status = rt_buffer_read(g->device, points, first * sizeof *h->host_points, count * sizeof *h->host_points,
+                                      h->host_points, error);
     if (status == RT_OK)
         status = rt_photon_search_find(h->search, h->host_points, count, h->host_lists, h->host_discs, error);
     if (status == RT_OK)

@@ -129,7 +129,8 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights, cons
     }
     free(b.rows);
     free(b.rejected);
-    return failed ? rt_fail(error, RT_ERROR_MEMORY, "out of memory for the accounts of %zu photon paths", count) : RT_OK;
+    return failed ? rt_fail(error, RT_ERROR_MEMORY, "out of memory for the accounts of %zu photon paths", count)
+                  : RT_OK;
 }
 
 int rt_ledger_matches(const rt_ledger *a, const rt_ledger *b)

@@ -15,7 +15,14 @@
 #include "types.h"
 
 /* The columns of a ledger. */
-enum { RT_LEDGER_EMITTED, RT_LEDGER_ABSORBED, RT_LEDGER_ESCAPED, RT_LEDGER_CUT_OFF, RT_LEDGER_ROULETTE, RT_LEDGER_COLUMNS };
+enum {
+    RT_LEDGER_EMITTED,
+    RT_LEDGER_ABSORBED,
+    RT_LEDGER_ESCAPED,
+    RT_LEDGER_CUT_OFF,
+    RT_LEDGER_ROULETTE,
+    RT_LEDGER_COLUMNS
+};
 
 /* One light. */
 typedef struct rt_ledger_row {

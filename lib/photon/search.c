@@ -13,8 +13,6 @@
 /* Neighbours that a thread asks for at a time, 16 bytes each: few enough to stay in its cache. */
 enum { NEIGHBOURS_A_JOB = 1 << 16 };
 
-static const float normal_cosine_min = 0.5f;
-
 struct rt_photon_search {
     rt_flann_index *index;
     float (*normals)[3]; /* of the photons */
@@ -97,7 +95,7 @@ static int is_asked(const rt_gather_point *point)
 
 static int is_accepted(const float a[3], const float b[3])
 {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > normal_cosine_min;
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > RT_PHOTON_NORMAL_COSINE;
 }
 
 /*
@@ -168,7 +166,8 @@ static void look_at_share(void *user, uint32_t index)
     for (size_t i = 0; i < count && !l->failed[index]; i++)
         memcpy(queries[i], l->points[asked[i]].position, sizeof *queries);
     if (!l->failed[index])
-        l->failed[index] = rt_flann_index_nearest(search->index, queries[0], count, look, found, squared, NULL) != RT_OK;
+        l->failed[index] =
+            rt_flann_index_nearest(search->index, queries[0], count, look, found, squared, NULL) != RT_OK;
     for (size_t i = 0; i < count && !l->failed[index]; i++) {
         rt_u32 *list = l->lists + asked[i] * rt_photon_search_stride(search);
         rt_gather_disc *disc = l->discs + asked[i];

@@ -30,8 +30,8 @@ typedef struct rt_photon_search rt_photon_search;
 enum { RT_PHOTON_LOOK_MAX = 16 };
 
 /*
- * Builds the search tree of a map, which is not referred to afterwards. k >= 1 photons a point; max_radius in metres, infinite for no limit; threads on the host.
- * The caller owns *out.
+ * Builds the search tree of a map, which is not referred to afterwards. k >= 1 photons a point; max_radius in metres,
+ * infinite for no limit; threads on the host. The caller owns *out.
  */
 rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_list *map, uint32_t k, float max_radius,
                                   uint32_t threads, rt_error *error);

@@ -23,8 +23,8 @@ typedef struct rt_light_sources {
     rt_u32 *of_light;       /* [light_count], the source of each entry */
     rt_light_share *shares; /* [light_count], for the device */
     size_t light_count;
-    double reach; /* m around all finite shapes, beyond which light from infinitely far is not followed to planes; 0: there
-                     is no such light or no plane */
+    double reach; /* m around all finite shapes, beyond which light from infinitely far is not followed to planes; 0:
+                     there is no such light or no plane */
 } rt_light_sources;
 
 /*

@@ -42,7 +42,6 @@ static void fill_block(rt_photon_block *block, const rt_photon_list *list, const
             block->normal[axis][lane] = photon ? photon->normal[axis] : 0;
             block->flux[axis][lane] = photon ? photon->flux[axis] * photon->shading : 0;
         }
-        block->photon[lane] = photon ? (rt_u32)(items[lane] & RT_POINT_ORDER_INDEX) : RT_NONE;
     }
 }
 

@@ -32,7 +32,7 @@ struct rt_film {
     rt_ledger ledger; /* of all photon paths */
     rt_film_pixel *pixels; /* [height][width], the sums */
     float *rgb;            /* [height][width][3], the means */
-    rt_film_pixel *layer_sums;     /* [RT_LAYER_COUNT][height][width], of the layers that the kernel aov sums, or NULL */
+    rt_film_pixel *layer_sums; /* [RT_LAYER_COUNT][height][width], of the layers that the kernel aov sums, or NULL */
     float *layers[RT_FILM_LAYERS]; /* [height][width][channels], or NULL */
     struct rt_noise *noise;        /* what rounds tell of the error, or NULL; see noise.h */
 };

@@ -6,9 +6,11 @@
 
 #include "error.h"
 
-rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, rt_device *device, cl_mem any, int on_device,
+rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *renderer, int on_device,
                                  rt_stage_progress *progress, rt_error *error)
 {
+    rt_device *device = renderer->device;
+    cl_mem any = renderer->scene; /* stands for all buffers that are not touched yet */
     const char *name = on_device ? "photon_walk" : "photon_gather";
     rt_params params;
     rt_density_params estimate;
@@ -168,8 +170,12 @@ static size_t batch_size(const rt_photon_eye *eye, const rt_eye_maps *maps)
     return batch;
 }
 
-rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, uint64_t *asked,
-                               rt_stage_progress *progress, rt_error *error)
+/* What is done with a batch of eye paths that were followed. */
+typedef rt_status batch_work(rt_photon_eye *eye, const rt_params *params, void *data, rt_error *error);
+
+/* Follows the eye paths of one sample of every pixel, a batch at a time, and does the work on each. */
+static rt_status each_batch(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, batch_work *work, void *data,
+                            rt_stage_progress *progress, rt_error *error)
 {
     uint32_t pixels = eye->options->width * eye->options->height;
     size_t batch = batch_size(eye, maps);
@@ -184,48 +190,67 @@ rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint
         params.item_count = pixels - done < batch ? pixels - done : (uint32_t)batch;
         status = follow_paths(eye, &params, error);
         if (status == RT_OK)
-            status = ask(eye, maps, params.item_count, asked, error);
-        if (status == RT_OK)
-            status = add_to_layers(eye, maps, params.item_count, error);
-        if (status == RT_OK)
-            status = add_to_film(eye, &params, error);
-        if (status == RT_OK)
-            status = rt_aov_add(eye->aov, eye->renderer, &params, error);
+            status = work(eye, &params, data, error);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
     }
     return status;
 }
 
+/* Of rt_photon_eye_sample. */
+typedef struct sampling {
+    const rt_eye_maps *maps;
+    uint64_t *asked;
+} sampling;
+
+/* Asks the maps, and adds what comes of it to the film and its layers. */
+static rt_status add_batch(rt_photon_eye *eye, const rt_params *params, void *data, rt_error *error)
+{
+    sampling *s = data;
+    rt_status status = ask(eye, s->maps, params->item_count, s->asked, error);
+    if (status == RT_OK)
+        status = add_to_layers(eye, s->maps, params->item_count, error);
+    if (status == RT_OK)
+        status = add_to_film(eye, params, error);
+    if (status == RT_OK)
+        status = rt_aov_add(eye->aov, eye->renderer, params, error);
+    return status;
+}
+
+rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, uint64_t *asked,
+                               rt_stage_progress *progress, rt_error *error)
+{
+    sampling s = {maps, asked};
+    return each_batch(eye, maps, sample, add_batch, &s, progress, error);
+}
+
+/* Of rt_photon_eye_mean_radius. */
+typedef struct radii {
+    rt_gatherer *gatherer;
+    double sum;
+    uint64_t count;
+} radii;
+
+/* Adds the radii of the discs at the ends of the paths. */
+static rt_status add_radii(rt_photon_eye *eye, const rt_params *params, void *data, rt_error *error)
+{
+    radii *r = data;
+    rt_status status = rt_gatherer_add(r->gatherer, eye->points, 0, params->item_count, eye->discs, error);
+    for (uint32_t i = 0; i < params->item_count && status == RT_OK; i++)
+        if (eye->discs[i].count > 0) {
+            r->sum += sqrt(eye->discs[i].squared_radius);
+            r->count++;
+        }
+    return status;
+}
+
 rt_status rt_photon_eye_mean_radius(rt_photon_eye *eye, rt_gatherer *gatherer, uint32_t sample, double *out,
                                     rt_stage_progress *progress, rt_error *error)
 {
-    uint32_t pixels = eye->options->width * eye->options->height;
     rt_eye_maps maps = {gatherer, NULL, NULL};
-    size_t batch = batch_size(eye, &maps);
-    rt_params params = rt_params_make(eye->options);
-    rt_status status = RT_OK;
-    double sum = 0;
-    uint64_t count = 0;
-
-    params.first_sample = sample;
-    params.sample_count = 1;
-    params.replicate = eye->replicate;
-    for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
-        params.first_item = done;
-        params.item_count = pixels - done < batch ? pixels - done : (uint32_t)batch;
-        status = follow_paths(eye, &params, error);
-        if (status == RT_OK)
-            status = rt_gatherer_add(gatherer, eye->points, 0, params.item_count, eye->discs, error);
-        for (uint32_t i = 0; i < params.item_count && status == RT_OK; i++)
-            if (eye->discs[i].count > 0) {
-                sum += sqrt(eye->discs[i].squared_radius);
-                count++;
-            }
-        if (status == RT_OK)
-            status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
-    }
-    *out = count ? sum / (double)count : 0;
+    radii r = {gatherer, 0, 0};
+    rt_status status = each_batch(eye, &maps, sample, add_radii, &r, progress, error);
+    *out = r.count ? r.sum / (double)r.count : 0;
     return status;
 }
 

@@ -42,7 +42,7 @@ typedef struct rt_eye_maps {
 } rt_eye_maps;
 
 /* Builds the kernels, as part of the stage `compile`. Release with rt_eye_kernels_release. */
-rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, rt_device *device, cl_mem any, int on_device,
+rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *renderer, int on_device,
                                  rt_stage_progress *progress, rt_error *error);
 void rt_eye_kernels_release(rt_eye_kernels *kernels);
 

@@ -62,7 +62,8 @@ static rt_status prepare(asking *a, const rt_photon_map *map, size_t count, rt_e
         return status;
     a->host = calloc(a->capacity, sizeof *a->host);
     a->order = malloc(2 * a->capacity * sizeof *a->order);
-    return a->host && a->order ? RT_OK : rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu gather points", a->capacity);
+    return a->host && a->order ? RT_OK
+                               : rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu gather points", a->capacity);
 }
 
 /* Asks in the order of a curve, because points near each other find their photons in the same memory. */

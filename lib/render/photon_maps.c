@@ -17,18 +17,23 @@ typedef struct emission {
     rt_photon_map *map;
 } emission;
 
-static rt_status compile(emission *e, rt_error *error)
+rt_status rt_emit_kernel_prepare(cl_kernel *out, const rt_renderer *renderer, rt_stage_progress *progress,
+                                 rt_error *error)
 {
-    cl_mem any = e->renderer->scene;
-    rt_stage_progress progress;
+    cl_mem any = renderer->scene;
     rt_params params;
     memset(&params, 0, sizeof params);
     rt_arg args[RT_EMIT_ARGUMENTS] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any)};
+    return rt_kernel_prepare(renderer->device, out, "photon_emit", "photon_emit", args, RT_EMIT_ARGUMENTS, progress,
+                             error);
+}
 
+static rt_status compile(emission *e, rt_error *error)
+{
+    rt_stage_progress progress;
     rt_status status = rt_stage_begin(&progress, e->options.hooks, RT_STAGE_COMPILE);
     if (status == RT_OK)
-        status = rt_kernel_prepare(e->renderer->device, &e->kernel, "photon_emit", "photon_emit", args,
-                                   RT_EMIT_ARGUMENTS, &progress, error);
+        status = rt_emit_kernel_prepare(&e->kernel, e->renderer, &progress, error);
     return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }
 

@@ -37,6 +37,10 @@ rt_params rt_params_make(const rt_render_options *options);
 rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *program, const char *kernel,
                             const rt_arg *args, cl_uint count, rt_stage_progress *progress, rt_error *error);
 
+/* Builds the kernel that emits photons: the same, with the arguments that it has. */
+rt_status rt_emit_kernel_prepare(cl_kernel *out, const rt_renderer *renderer, rt_stage_progress *progress,
+                                 rt_error *error);
+
 /*
  * Finds the solids that the camera and the lights lie in and notes them in the scene on the device; nothing where no
  * material lets light in. Runs as part of a stage.

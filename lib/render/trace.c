@@ -42,7 +42,8 @@ static rt_status trace_batch(rt_renderer *renderer, cl_kernel kernel, const rt_r
     cl_mem in = NULL, out = NULL;
     rt_u32 number = (rt_u32)count;
 
-    rt_status status = rt_buffer_create(device, &in, CL_MEM_READ_ONLY, count * sizeof *rays, (void *)rays, "rays", error);
+    rt_status status =
+        rt_buffer_create(device, &in, CL_MEM_READ_ONLY, count * sizeof *rays, (void *)rays, "rays", error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &out, CL_MEM_WRITE_ONLY, count * sizeof *hits, NULL, "hits", error);
     if (status == RT_OK) {
@@ -71,8 +72,8 @@ rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays
     for (size_t i = 0; i < count && status == RT_OK; i++)
         status = check_ray(rays + i, i, error);
     if (status == RT_OK)
-        status = rt_device_kernel(renderer->device, &kernel, "trace", kind == RT_TRACE_ANY ? "trace_any" : "trace_closest",
-                                  NULL, error);
+        status = rt_device_kernel(renderer->device, &kernel, "trace",
+                                  kind == RT_TRACE_ANY ? "trace_any" : "trace_closest", NULL, error);
     for (size_t first = 0; first < count && status == RT_OK; first += rays_per_batch) {
         size_t part = count - first < rays_per_batch ? count - first : rays_per_batch;
         status = trace_batch(renderer, kernel, rays + first, part, hits + first, error);

@@ -19,8 +19,8 @@ static rt_status check_lens(rt_camera *c, rt_error *error)
         return rt_fail_field(error, RT_ERROR_INPUT, "width", "camera: width is %g m; it must lie between %g and %g",
                              c->width, RT_LENGTH_MIN, RT_COORDINATE_MAX);
     if (!(c->aperture >= 0 && c->aperture <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, "aperture", "camera: aperture is %g m; it must lie between 0 and %g",
-                             c->aperture, RT_COORDINATE_MAX);
+        return rt_fail_field(error, RT_ERROR_INPUT, "aperture",
+                             "camera: aperture is %g m; it must lie between 0 and %g", c->aperture, RT_COORDINATE_MAX);
     if (c->blades == 1 || c->blades == 2 || c->blades > blades_max)
         return rt_fail_field(error, RT_ERROR_INPUT, "blades", "camera: %u blades; give 3 to %d, or 0 for a round lens",
                              c->blades, blades_max);

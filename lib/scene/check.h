@@ -27,8 +27,8 @@ static inline rt_status rt_check_point(const float p[3], const char *who, const 
 {
     for (int i = 0; i < 3; i++)
         if (!(fabsf(p[i]) <= RT_COORDINATE_MAX))
-            return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s has the coordinate %g; it must lie within %g", who,
-                                 field, p[i], RT_COORDINATE_MAX);
+            return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s has the coordinate %g; it must lie within %g",
+                                 who, field, p[i], RT_COORDINATE_MAX);
     return RT_OK;
 }
 

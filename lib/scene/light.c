@@ -61,8 +61,8 @@ rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, r
         return status;
     float outer = light->outer == 0 ? 30 : light->outer;
     if (!(outer > 0 && outer <= 180))
-        return rt_fail_field(error, RT_ERROR_INPUT, "outer", "spot light: outer is %g degrees; it must lie from 0 to 180",
-                             outer);
+        return rt_fail_field(error, RT_ERROR_INPUT, "outer",
+                             "spot light: outer is %g degrees; it must lie from 0 to 180", outer);
     if (!(light->inner >= 0 && light->inner <= outer))
         return rt_fail_field(error, RT_ERROR_INPUT, "inner",
                              "spot light: inner is %g degrees; it must lie from 0 to outer, %g", light->inner, outer);
@@ -105,7 +105,8 @@ static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, c
     if (rt_image_rgb_channels(channels, image, NULL) != RT_OK) {
         uint32_t grey = image->channel_count == 1 ? 0 : rt_image_channel(image, "Y");
         if (grey == RT_IMAGE_NO_CHANNEL)
-            return rt_fail(error, RT_ERROR_INPUT, "environment: %.350s has neither the channels R, G and B nor Y", path);
+            return rt_fail(error, RT_ERROR_INPUT, "environment: %.350s has neither the channels R, G and B nor Y",
+                           path);
         channels[0] = channels[1] = channels[2] = grey;
     }
     out->texels = calloc(count, 4 * sizeof *out->texels);

@@ -72,7 +72,8 @@ static rt_status check_conductor(const rt_material *m, const char *who, rt_error
 {
     for (int c = 0; c < 3; c++) {
         if (rt_is_black(m->eta))
-            return rt_fail_field(error, RT_ERROR_INPUT, "eta", "%s: a conductor needs eta, its index of refraction", who);
+            return rt_fail_field(error, RT_ERROR_INPUT, "eta", "%s: a conductor needs eta, its index of refraction",
+                                 who);
         if (!(m->eta[c] > 0 && m->eta[c] <= 100))
             return rt_fail_field(error, RT_ERROR_INPUT, "eta",
                                  "%s: eta has the component %g; that of a conductor must lie between 0 and 100", who,
@@ -91,7 +92,8 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
     if (m->ior == 0)
         m->ior = 1.5f;
     if (!(m->ior >= 0.1f && m->ior <= 10))
-        return rt_fail_field(error, RT_ERROR_INPUT, "ior", "%s: ior is %g; it must lie between 0.1 and 10", who, m->ior);
+        return rt_fail_field(error, RT_ERROR_INPUT, "ior", "%s: ior is %g; it must lie between 0.1 and 10", who,
+                             m->ior);
     if (!(m->roughness >= 0 && m->roughness <= 1))
         return rt_fail_field(error, RT_ERROR_INPUT, "roughness", "%s: roughness is %g; it must lie from 0 to 1", who,
                              m->roughness);

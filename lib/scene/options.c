@@ -28,6 +28,9 @@ static rt_status check_film(const rt_render_options *o, rt_error *error)
     if (o->roulette_depth > depth_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "roulette_depth", "roulette_depth is %u; it must not exceed %d",
                              o->roulette_depth, depth_max);
+    if (o->roulette_threshold != 0 && !(o->roulette_threshold >= 1e-6f && o->roulette_threshold <= 1))
+        return rt_fail_field(error, RT_ERROR_USAGE, "roulette_threshold",
+                             "roulette_threshold is %g; it must lie between 1e-6 and 1", o->roulette_threshold);
     if (!(o->time >= 0 && o->time <= 1e9))
         return rt_fail_field(error, RT_ERROR_USAGE, "time", "time is %g s; it must lie between 0 and 1e9", o->time);
     if (!(o->target_error >= 0 && o->target_error <= 1))
@@ -43,8 +46,8 @@ static rt_status check_photons(const rt_render_options *o, rt_error *error)
                              (unsigned long long)o->photons, photons_max);
     if (o->k == 1 || (o->k > k_max && o->k != RT_K_ALL))
         return rt_fail_field(error, RT_ERROR_USAGE, "k",
-                             "k is %u; it must lie between 2 (the k-th gives the radius and is not summed) and %d", o->k,
-                             k_max);
+                             "k is %u; it must lie between 2 (the k-th gives the radius and is not summed) and %d",
+                             o->k, k_max);
     if (o->radius != 0 && !(o->radius >= RT_LENGTH_MIN && o->radius <= RT_COORDINATE_MAX))
         return rt_fail_field(error, RT_ERROR_USAGE, "radius",
                              "radius is %g m; it must lie between %g and %g, or be 0 for no limit", o->radius,
@@ -65,8 +68,8 @@ static rt_status check_photons(const rt_render_options *o, rt_error *error)
                              o->caustic_k, k_max);
     if (o->caustic_radius != 0 && !(o->caustic_radius >= RT_LENGTH_MIN && o->caustic_radius <= RT_COORDINATE_MAX))
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_radius",
-                             "caustic_radius is %g m; it must lie between %g and %g, or be 0 for no limit", o->caustic_radius,
-                             RT_LENGTH_MIN, RT_COORDINATE_MAX);
+                             "caustic_radius is %g m; it must lie between %g and %g, or be 0 for no limit",
+                             o->caustic_radius, RT_LENGTH_MIN, RT_COORDINATE_MAX);
     if (o->final_gather > depth_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "final_gather", "final_gather is %u; it must not exceed %d",
                              o->final_gather, depth_max);

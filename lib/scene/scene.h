@@ -83,7 +83,9 @@ int rt_scene_is_instance(const rt_scene *scene, const rt_scene_shape *shape);
 /* Primitives of a shape on the device: triangles count one by one, every other shape is one, an instance too. */
 size_t rt_scene_shape_primitives(const rt_scene *scene, const rt_scene_shape *shape);
 
-/* Radiance that a shape emits, W/(m^2 sr), from its own radiance or power or its material's emission; before texture. */
+/*
+ * Radiance that a shape emits, W/(m^2 sr), from its own radiance or power or its material's emission; before texture.
+ */
 void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape, float radiance[3]);
 
 /* Whether a surface brings radiance or power of its own; its texture then multiplies that, and not kd. */

@@ -9,7 +9,10 @@
 #include "scene/scene.h"
 #include "texture/texture.h"
 
-/* Mean and largest linear value of each channel, and the least of all; the channels are there, for the image was packed. */
+/*
+ * Mean and largest linear value of each channel, and the least of all; the channels are there, for the image was
+ * packed.
+ */
 static void survey(rt_scene_texture *texture, const rt_image *image, int is_linear)
 {
     uint32_t channels[3];
@@ -68,9 +71,10 @@ rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const
         return status;
     const rt_scene_texture *texture = scene->textures + handle - 1;
     if (texture->least < 0)
-        return rt_fail_field(error, RT_ERROR_INPUT, field,
-                             "%s: %s has the value %g at pixel (%u, %u) from the top left; only heights may be negative",
-                             who, field, texture->least, texture->least_at[0], texture->least_at[1]);
+        return rt_fail_field(
+            error, RT_ERROR_INPUT, field,
+            "%s: %s has the value %g at pixel (%u, %u) from the top left; only heights may be negative", who, field,
+            texture->least, texture->least_at[0], texture->least_at[1]);
     return RT_OK;
 }
 
@@ -115,7 +119,8 @@ rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture 
         return rt_fail_field(error, RT_ERROR_INPUT, "kind", "texture: there is no kind %d", (int)texture->kind);
     if ((unsigned)texture->wrap > RT_WRAP_CLAMP)
         return rt_fail_field(error, RT_ERROR_INPUT, "wrap", "texture: there is no wrap mode %d", (int)texture->wrap);
-    rt_status status = rt_grow((void **)&scene->textures, &scene->texture_room, scene->texture_count, sizeof made, error);
+    rt_status status =
+        rt_grow((void **)&scene->textures, &scene->texture_room, scene->texture_count, sizeof made, error);
     if (status == RT_OK)
         status = texture->kind == RT_TEXTURE_IMAGE ? read_image(scene, &made, texture, error)
                                                    : make_pattern(&made, texture, error);

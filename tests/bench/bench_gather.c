@@ -1,7 +1,7 @@
 /*
  * bench_gather.c - nearest photons: the library's search on the host, and the gather on the device, which both
- * sort the queries along a curve and leave out the photons that face elsewhere, against plain FLANN, in one run and in turn. The gather on the device
- * takes the density sum as well.
+ * sort the queries along a curve and leave out the photons that face elsewhere, against plain FLANN, in one run and in
+ * turn. The gather on the device takes the density sum as well.
  *
  *     bench_gather [PHOTONS [QUERIES [K]]]    1 000 000, 100 000 and 50 by default
  *

@@ -117,11 +117,13 @@ static void aim_camera(rt_ray *rays)
 {
     for (uint32_t i = 0; i < ray_count; i++) {
         const uint32_t tile = i / 64, in_tile = i % 64, tiles = film_side / 8;
-        const float x = (float)(tile % tiles * 8 + in_tile % 8) + 0.5f, y = (float)(tile / tiles * 8 + in_tile / 8) + 0.5f;
-        const rt_ray ray = {{0.3f, 0.4f, 2.9f},
-                            0.0f,
-                            {(x / (film_side / 2) - 1.0f) * 0.45f - 0.1f, (1.0f - y / (film_side / 2)) * 0.45f - 0.13f, -1.0f},
-                            INFINITY};
+        const float x = (float)(tile % tiles * 8 + in_tile % 8) + 0.5f,
+                    y = (float)(tile / tiles * 8 + in_tile / 8) + 0.5f;
+        const rt_ray ray = {
+            {0.3f, 0.4f, 2.9f},
+            0.0f,
+            {(x / (film_side / 2) - 1.0f) * 0.45f - 0.1f, (1.0f - y / (film_side / 2)) * 0.45f - 0.13f, -1.0f},
+            INFINITY};
         rays[i] = ray;
     }
 }

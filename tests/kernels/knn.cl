@@ -1,4 +1,7 @@
-/* knn.cl - the photons that the gather on the device counts at each point, in no particular order. */
+/*
+ * knn.cl - the photons that the gather on the device counts at each point, in no particular order, by their places in
+ * the order of the tree.
+ */
 #include "photon_sum.h"
 
 /* lists: [item_count][params.slots]; the arguments before them are those of photon_walk, in its order. */
@@ -42,12 +45,13 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     walk_start(&walk, &start);
     while (walk_next(&walk, &tree, &query, sum.squared_radius, &first, &mask))
         for (; mask; mask &= mask - 1u) {
-            global const rt_photon_block *block = blocks + first + lane_first(mask);
+            const uint index = first + lane_first(mask);
+            global const rt_photon_block *block = blocks + index;
             uint lanes = lane_mask(photon_distances(block, &query) < sum.squared_radius &&
                                    photons_accepted(block, &query));
             for (; lanes; lanes &= lanes - 1u) {
                 if (disc.count < params.slots)
-                    lists[(size_t)item * params.slots + disc.count] = block->photon[lane_first(lanes)];
+                    lists[(size_t)item * params.slots + disc.count] = 8u * index + lane_first(lanes);
                 disc.count++;
             }
         }

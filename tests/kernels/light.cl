@@ -7,7 +7,9 @@ static float4 numbers(uint seed, uint i)
     return convert_float4(pcg4d((uint4)(i, seed, 29u, 2u)) >> 8) * 0x1p-24f;
 }
 
-/* Four rows an item: position and 1 / pdf_w, wi and delta, radiance and light_pdf_w at the same point, normal and lift. */
+/*
+ * Four rows an item: position and 1 / pdf_w, wi and delta, radiance and light_pdf_w at the same point, normal and lift.
+ */
 kernel void sample(global const rt_scene_header *header, uint seed, uint count, float4 from, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);

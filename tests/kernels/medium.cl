@@ -2,7 +2,8 @@
 #include "medium.h"
 
 /* Crosses boundaries in turn: in: material and 1 for entering; out: eta, exists, and the medium after. */
-kernel void cross_boundaries(global const rt_scene_header *header, uint count, global const uint2 *in, global float4 *out)
+kernel void cross_boundaries(global const rt_scene_header *header, uint count, global const uint2 *in,
+                             global float4 *out)
 {
     if (get_global_id(0) != 0)
         return;
@@ -11,7 +12,8 @@ kernel void cross_boundaries(global const rt_scene_header *header, uint count, g
     for (uint i = 0; i < count; i++) {
         const struct boundary boundary = media_cross(&scene, media, in[i].x, in[i].y != 0u);
         media = boundary.beyond;
-        out[i] = (float4)(boundary.eta, boundary.exists ? 1.0f : 0.0f, media.x == RT_NONE ? -1.0f : (float)media.x, 0.0f);
+        out[i] =
+            (float4)(boundary.eta, boundary.exists ? 1.0f : 0.0f, media.x == RT_NONE ? -1.0f : (float)media.x, 0.0f);
     }
 }
 

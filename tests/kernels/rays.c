@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/renderer.h"
 #include "support.h"
 
 static uint32_t next(rays_stream *stream)
@@ -101,4 +102,24 @@ rt_hit *rays_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays
     assert_non_null(hits);
     expect_ok(rt_trace(renderer, kind, rays, count, hits, &error), &error);
     return hits;
+}
+
+float *rays_leave(rt_scene *scene, const rt_ray *rays, float (*away)[4], uint32_t count)
+{
+    rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
+    float *next = malloc(count * sizeof *next);
+    assert_non_null(next);
+    cl_mem in = test_buffer(count * sizeof *rays, rays), to = test_buffer(count * sizeof *away, away);
+    cl_mem out = test_buffer(count * sizeof *next, NULL);
+    cl_kernel kernel = test_kernel("leave", "leave");
+    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(to), RT_ARG(count), RT_ARG(out)};
+    test_run(kernel, args, 5, count);
+    test_read(out, count * sizeof *next, next);
+    rt_kernel_release(kernel);
+    rt_buffer_release(in);
+    rt_buffer_release(to);
+    rt_buffer_release(out);
+    rt_renderer_destroy(renderer);
+    rt_scene_destroy(scene);
+    return next;
 }

@@ -33,4 +33,10 @@ rt_renderer *rays_renderer(const rt_scene *scene, rt_accel accel);
 /* Hits of count rays, to be freed by the caller. */
 rt_hit *rays_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays, size_t count);
 
+/*
+ * Follows each ray to a surface and leaves that in the direction away[i]: how far the next hit is; infinity: none;
+ * -1: the ray met nothing. Destroys the scene. The caller frees the result.
+ */
+float *rays_leave(rt_scene *scene, const rt_ray *rays, float (*away)[4], uint32_t count);
+
 #endif

@@ -14,7 +14,8 @@ void truth_place(truth_shape *shape, const rt_transform *to_world)
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-            c[i][j] = (double)to_world->m[i1][j1] * to_world->m[i2][j2] - (double)to_world->m[i1][j2] * to_world->m[i2][j1];
+            c[i][j] =
+                (double)to_world->m[i1][j1] * to_world->m[i2][j2] - (double)to_world->m[i1][j2] * to_world->m[i2][j1];
         }
     for (int j = 0; j < 3; j++)
         det += to_world->m[0][j] * c[0][j];
@@ -188,7 +189,8 @@ static int real_roots(const real *c, int degree, real lo, real hi, real *roots)
 /* (|p|^2 + 1 - m^2)^2 = 4 (x^2 + y^2) along the line, from its point nearest to the middle. */
 static void meet_torus(search *s)
 {
-    const real m = s->shape->p + s->wider, speed2 = (real)s->d[0] * s->d[0] + (real)s->d[1] * s->d[1] + (real)s->d[2] * s->d[2];
+    const real m = s->shape->p + s->wider,
+               speed2 = (real)s->d[0] * s->d[0] + (real)s->d[1] * s->d[1] + (real)s->d[2] * s->d[2];
     const real speed = sqrtl(speed2);
     real along = 0, n[3], d[3], n2 = 0, flat[3] = {0}, roots[4];
     for (int i = 0; i < 3; i++)

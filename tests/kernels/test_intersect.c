@@ -315,30 +315,6 @@ static void add_ball(rt_scene *scene, const float centre[3], float radius)
     rays_add_triangles(scene, positions[0][0], (rings + 1) * n, indices[0][0][0], 2 * rings * n);
 }
 
-/*
- * Follows each ray to a surface and leaves that in the direction away[i]: how far the next hit is; infinity: none;
- * -1: the ray met nothing. Destroys the scene. The caller frees the result.
- */
-static float *leave(rt_scene *scene, const rt_ray *rays, float (*away)[4], cl_uint count)
-{
-    rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
-    float *next = malloc(count * sizeof *next);
-    assert_non_null(next);
-    cl_mem in = test_buffer(count * sizeof *rays, rays), to = test_buffer(count * sizeof *away, away);
-    cl_mem out = test_buffer(count * sizeof *next, NULL);
-    cl_kernel kernel = test_kernel("leave", "leave");
-    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(to), RT_ARG(count), RT_ARG(out)};
-    test_run(kernel, args, 5, count);
-    test_read(out, count * sizeof *next, next);
-    rt_kernel_release(kernel);
-    rt_buffer_release(in);
-    rt_buffer_release(to);
-    rt_buffer_release(out);
-    rt_renderer_destroy(renderer);
-    rt_scene_destroy(scene);
-    return next;
-}
-
 /* Share of rays that, having met a convex body from outside, leave it outwards and yet meet it again. */
 static double share_that_returns(rt_scene *scene, const float centre[3], float size, uint64_t seed)
 {
@@ -359,7 +335,7 @@ static double share_that_returns(rt_scene *scene, const float centre[3], float s
         }
         rays[i] = rays_make(from, direction, 0.0f, INFINITY);
     }
-    float *next = leave(scene, rays, away, count);
+    float *next = rays_leave(scene, rays, away, count);
     size_t met = 0, returned = 0;
     for (size_t i = 0; i < count; i++) {
         met += next[i] >= 0.0f;
@@ -411,7 +387,7 @@ static void rays_leave_planes_of_axes(void **state)
             rays_direction(&stream, away[i]);
             away[i][axis] = fabsf(away[i][axis]);
         }
-        float *next = leave(scene, rays, away, count);
+        float *next = rays_leave(scene, rays, away, count);
         for (int i = 0; i < count; i++)
             assert_true(isinf(next[i]));
         free(next);

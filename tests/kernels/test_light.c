@@ -67,7 +67,8 @@ static void quads_fill_their_solid_angle(void **state)
 {
     static const float corner[3] = {1, 2, 3}, e1[3] = {2, 0, 0}, right[3] = {0, 0, 1}, skew[3] = {1, 0, 1};
     /* The normal is e1 x e2 = -y: lit points are below. Near, beside, in a corner, far, close to the plane. */
-    static const float from[][3] = {{2, 1.5f, 3.5f}, {4, 1, 5}, {1, 1.9f, 3}, {-20, -30, 10}, {5, 1.95f, 3.5f}, {2, 1.99f, 3.4f}};
+    static const float from[][3] = {{2, 1.5f, 3.5f}, {4, 1, 5},        {1, 1.9f, 3},
+                                    {-20, -30, 10},  {5, 1.95f, 3.5f}, {2, 1.99f, 3.4f}};
     (void)state;
     for (int skewed = 0; skewed < 2; skewed++) {
         const float *e2 = skewed ? skew : right;
@@ -178,7 +179,8 @@ static void area_lights_emit_by_the_cosine_and_points_evenly(void **state)
     draw_emissions(renderer, 1, emissions);
     for (int i = 0; i < n; i++) {
         const emission_draw *e = emissions + i;
-        double cosine = e->direction[0] * e->normal[0] + e->direction[1] * e->normal[1] + e->direction[2] * e->normal[2];
+        double cosine =
+            e->direction[0] * e->normal[0] + e->direction[1] * e->normal[1] + e->direction[2] * e->normal[2];
         assert_float_equal(e->direction[0] * e->direction[0] + e->direction[1] * e->direction[1] +
                            e->direction[2] * e->direction[2], 1, 1e-6);
         if (e->light == 0) {

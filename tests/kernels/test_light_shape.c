@@ -49,7 +49,8 @@ static void look_around(rt_renderer *renderer, const float from[3])
     rt_error error;
     for (int i = 0; i < n; i++) {
         double z = 1 - (2 * i + 1.0) / n, r = sqrt(1 - z * z), turn = i * 2.399963229728653;
-        rays[i] = (rt_ray){{from[0], from[1], from[2]}, 0, {(float)(r * cos(turn)), (float)(r * sin(turn)), (float)z}, INFINITY};
+        rays[i] = (rt_ray){
+            {from[0], from[1], from[2]}, 0, {(float)(r * cos(turn)), (float)(r * sin(turn)), (float)z}, INFINITY};
     }
     expect_ok(rt_trace(renderer, RT_TRACE_CLOSEST, rays, n, hits, &error), &error);
     for (int i = 0; i < n; i++) {

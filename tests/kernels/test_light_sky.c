@@ -4,44 +4,19 @@
 #include <math.h>
 #include <string.h>
 
-#include "image/image_file.h"
 #include "lib/image/scratch.h"
 #include "statistics.h"
+#include "statistics/sky.h"
 
 #define PI 3.14159265358979323846
 
-enum { n = light_draws, width = 16, height = 8, cells = width * height };
+enum { n = light_draws, width = sky_width, height = sky_height, cells = width * height };
 
 static light_draw samples[n];
 static emission_draw emissions[n];
 static double values[n];
 
 static const float origin[3] = {0, 0, 0};
-
-/* Dim noise, a bright pixel, one beside the seam, and a dark row. */
-static double texel(int x, int y)
-{
-    if (y == 5)
-        return 0;
-    if ((x == 6 && y == 2) || (x == 15 && y == 6))
-        return 40;
-    return 0.2 + (x * 7 + y * 13) % 11 / 10.0;
-}
-
-static const char file[] = "sky.pfm";
-
-/* The picture as a file. */
-static void write_sky(void)
-{
-    static const char *const names[] = {"R", "G", "B"};
-    rt_image *image = NULL;
-    rt_error error;
-    expect_ok(rt_image_create(&image, width, height, names, 3, &error), &error);
-    for (int i = 0; i < 3 * cells; i++)
-        image->data[i] = (float)texel(i / 3 % width, i / 3 / width);
-    expect_ok(rt_image_write(image, file, NULL, &error), &error);
-    rt_image_destroy(image);
-}
 
 /* A small sphere, which gives the scene its radius, in the sky. */
 static rt_renderer *sky(int has_image, float rotation)
@@ -52,10 +27,8 @@ static rt_renderer *sky(int has_image, float rotation)
     rt_surface surface;
     rt_error error;
     memset(&surface, 0, sizeof surface);
-    if (has_image) {
-        write_sky();
-        environment.path = file;
-    }
+    if (has_image)
+        environment.path = sky_write_picture();
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
     expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
     return light_renderer(scene);
@@ -86,8 +59,8 @@ static double radiance(double u, double v)
     int i = (int)floor(x), j = (int)floor(y);
     double a = x - i, b = y - j;
     int left = wrapped(i, width), right = wrapped(i + 1, width), top = clamped(j, height), low = clamped(j + 1, height);
-    return 2 * ((1 - b) * ((1 - a) * texel(left, top) + a * texel(right, top)) +
-                b * ((1 - a) * texel(left, low) + a * texel(right, low)));
+    return 2 * ((1 - b) * ((1 - a) * sky_texel(left, top) + a * sky_texel(right, top)) +
+                b * ((1 - a) * sky_texel(left, low) + a * sky_texel(right, low)));
 }
 
 /* Its integral over all directions. */

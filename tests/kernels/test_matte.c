@@ -85,7 +85,7 @@ static rt_scene *new_scene(void)
 static void render_both(rt_scene *scene, rt_film_pixel *singly, float *together)
 {
     rt_render_options options = {.width = width, .height = height, .spp = spp, .max_depth = 9, .seed = 5,
-                                 .roulette_depth = 2};
+                                 .roulette_depth = 2, .roulette_threshold = 0.5f};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
     rt_error error;

@@ -1,5 +1,5 @@
 /* test_rng.c - the random numbers: how evenly they lie, and that streams do not resemble each other. */
-#include "support.h"
+#include "rng_draw.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,19 +8,6 @@
 #include "render/sobol.h"
 #include "statistics.h"
 #include "types.h"
-
-/* A scene with nothing but the table of Sobol points. */
-static cl_mem table_buffer(void)
-{
-    static struct {
-        rt_scene_header header;
-        uint32_t table[RT_SOBOL_WORDS];
-    } scene;
-    scene.header.sobol = sizeof scene.header / RT_SCENE_ROW;
-    scene.header.sobol_count = RT_SOBOL_WORDS / 4;
-    rt_sobol_table(scene.table);
-    return test_buffer(sizeof scene, &scene);
-}
 
 /* count samples, from `first` on, of one set of one stream. */
 static void draw(rt_sampler kind, uint32_t seed, uint32_t stream, uint32_t set, uint32_t first, uint32_t count,
@@ -32,7 +19,7 @@ static void draw(rt_sampler kind, uint32_t seed, uint32_t stream, uint32_t set, 
     params.seed = seed;
     params.first_sample = first;
     cl_kernel kernel = test_kernel("rng", "sets");
-    cl_mem scene = table_buffer(), buffer = test_buffer(count * sizeof *out, NULL);
+    cl_mem scene = rng_scene(), buffer = test_buffer(count * sizeof *out, NULL);
     rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(stream), RT_ARG(set), RT_ARG(count), RT_ARG(buffer)};
     test_run(kernel, args, 6, count);
     test_read(buffer, count * sizeof *out, out);
@@ -173,24 +160,6 @@ static void streams_sets_and_seeds_are_unrelated(void **state)
     }
 }
 
-/* Set 2 and the next of sample 7, of each of n streams. */
-static void draw_pairs(rt_sampler kind, uint32_t n, float (*out)[8])
-{
-    rt_params params;
-    memset(&params, 0, sizeof params);
-    params.sampler = kind;
-    params.seed = 3;
-    uint32_t along = 0, set = 2;
-    cl_kernel kernel = test_kernel("rng", "pairs");
-    cl_mem scene = table_buffer(), buffer = test_buffer(n * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(along), RT_ARG(set), RT_ARG(n), RT_ARG(buffer)};
-    test_run(kernel, args, 6, n);
-    test_read(buffer, n * sizeof *out, out);
-    rt_buffer_release(buffer);
-    rt_buffer_release(scene);
-    rt_kernel_release(kernel);
-}
-
 /* What makes a mean unbiased: a single sample is even over the scramblings, and so are any two of its coordinates. */
 static void one_sample_is_even_over_the_streams(void **state)
 {
@@ -202,7 +171,7 @@ static void one_sample_is_even_over_the_streams(void **state)
     for (int i = 0; i < cells; i++)
         expected[i] = (double)n / cells;
     for (int kind = RT_SAMPLER_SOBOL; kind <= RT_SAMPLER_INDEPENDENT; kind++) {
-        draw_pairs((rt_sampler)kind, n, numbers);
+        rng_draw_pairs((rt_sampler)kind, 3, 0, 2, n, numbers);
         for (int x = 0; x < 8; x++)
             for (int y = x + 1; y < 8; y++) {
                 memset(counts, 0, sizeof counts);

@@ -1,4 +1,7 @@
-/* test_rough.c - rough reflection and refraction: sampling against evaluation, reciprocity, energy; metals' reflectance. */
+/*
+ * test_rough.c - rough reflection and refraction: sampling against evaluation, reciprocity, energy; metals'
+ * reflectance.
+ */
 #include "support.h"
 
 #include <complex.h>

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "kernels/shape_check.h"
-#include "render/renderer.h"
 #include "support.h"
 
 enum { rays_each = 4000, leaving_each = 10000 };
@@ -21,30 +20,14 @@ static void placed_shapes_match_extended_precision(void **state)
         }
 }
 
-/* How far the rays get, in their own t, that leave what these rays met in the direction `sign` times theirs; -1: no hit. */
+/* How far the rays get, in their own t, that leave what these rays met in the direction `sign` times theirs. */
 static float *leave(const truth_shape *shape, const rt_ray *rays, float sign)
 {
     static float away[leaving_each][4];
-    float *next = malloc(leaving_each * sizeof *next);
-    rt_scene *scene = shape_scene(shape);
-    rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
     for (int i = 0; i < leaving_each; i++)
         for (int a = 0; a < 3; a++)
             away[i][a] = sign * rays[i].direction[a];
-    cl_mem in = test_buffer(leaving_each * sizeof *rays, rays), to = test_buffer(sizeof away, away);
-    cl_mem out = test_buffer(leaving_each * sizeof *next, NULL);
-    cl_kernel kernel = test_kernel("leave", "leave");
-    const cl_uint n = leaving_each;
-    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(to), RT_ARG(n), RT_ARG(out)};
-    test_run(kernel, args, 5, leaving_each);
-    test_read(out, leaving_each * sizeof *next, next);
-    rt_kernel_release(kernel);
-    rt_buffer_release(in);
-    rt_buffer_release(to);
-    rt_buffer_release(out);
-    rt_renderer_destroy(renderer);
-    rt_scene_destroy(scene);
-    return next;
+    return rays_leave(shape_scene(shape), rays, away, leaving_each);
 }
 
 /*

@@ -310,7 +310,8 @@ static void an_empty_scene_is_missed(void **state)
 static void the_range_includes_its_ends(void **state)
 {
     (void)state;
-    static const float positions[3][3] = {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}, from[3] = {0, 0, 0}, along[3] = {0, 0, 1};
+    static const float positions[3][3] = {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}, from[3] = {0, 0, 0},
+                       along[3] = {0, 0, 1};
     static const uint32_t indices[3] = {0, 1, 2};
     static const struct {
         float t_min, t_max;

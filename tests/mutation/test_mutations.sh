@@ -1,5 +1,6 @@
 #!/bin/sh
-# test_mutations.sh - every mutation fits the sources as they are: its text is there once, its tests are in the Makefile.
+# test_mutations.sh - every mutation fits the sources as they are: its text is there once, and the Makefile has its
+# tests.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)

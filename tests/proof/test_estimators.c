@@ -62,6 +62,7 @@ static void roulette_on_and_off(void **state)
     expect_same("path without roulette", &options);
     options.seed = 400;
     options.roulette_depth = 1;
+    options.roulette_threshold = 1;
     expect_same("path, roulette from the first surface on", &options);
 }
 

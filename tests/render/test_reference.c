@@ -132,9 +132,10 @@ static void agrees_with_the_reference(void **state)
 static void the_page_says_so(void **state)
 {
     (void)state;
-    page_section("Against renders that are kept",
-                 "scene | by | peer | mean ratio expected | ours | standard error | off by standard errors | blocks off | "
-                 "worst block, of what is allowed");
+    page_section(
+        "Against renders that are kept",
+        "scene | by | peer | mean ratio expected | ours | standard error | off by standard errors | blocks off | "
+        "worst block, of what is allowed");
 }
 
 int main(void)

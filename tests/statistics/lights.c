@@ -45,7 +45,9 @@ static sampled place_lamp(const void *setup, uint32_t i)
     return s;
 }
 
-/* Evenly by area, or by the solid angle of what faces the point. Of a mesh only from far, where no triangle is nearer. */
+/*
+ * Evenly by area, or by the solid angle of what faces the point. Of a mesh only from far, where no triangle is nearer.
+ */
 static double of_lamp(const void *setup, double x, double y)
 {
     const viewed *v = setup;

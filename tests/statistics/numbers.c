@@ -1,10 +1,6 @@
 /* numbers.c - the random numbers themselves, two coordinates at a time: along one stream, and over many streams. */
-#include <string.h>
-
-#include "render/sobol.h"
+#include "kernels/rng_draw.h"
 #include "statistics/space.h"
-#include "support.h"
-#include "types.h"
 
 /* Which numbers of which sets; along: of the samples of one stream, else of one sample of many streams. */
 typedef struct choice {
@@ -16,31 +12,10 @@ typedef struct choice {
 
 static float rows[most_samples][8];
 
-static cl_mem sobol_scene(void)
-{
-    static struct {
-        rt_scene_header header;
-        uint32_t table[RT_SOBOL_WORDS];
-    } scene;
-    scene.header.sobol = sizeof scene.header / RT_SCENE_ROW;
-    scene.header.sobol_count = RT_SOBOL_WORDS / 4;
-    rt_sobol_table(scene.table);
-    return test_buffer(sizeof scene, &scene);
-}
-
 static void draw_numbers(const void *setup, uint32_t seed, uint32_t count)
 {
     const choice *c = setup;
-    rt_params params;
-    memset(&params, 0, sizeof params);
-    params.sampler = c->sampler;
-    params.seed = seed;
-    uint32_t along = (uint32_t)c->along;
-    cl_kernel kernel = test_kernel("rng", "pairs");
-    cl_mem scene = sobol_scene(), made = test_buffer(count * sizeof *rows, NULL);
-    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(along), RT_ARG(c->set), RT_ARG(count), RT_ARG(made)};
-    test_run(kernel, args, 6, count);
-    test_read(made, count * sizeof *rows, rows);
+    rng_draw_pairs(c->sampler, seed, c->along, c->set, count, rows);
 }
 
 static sampled place_numbers(const void *setup, uint32_t i)

@@ -6,12 +6,11 @@
 #include "kernels/light_draw.h"
 #include "statistics/space.h"
 
-enum { width = 16, height = 8 };
+enum { width = sky_width, height = sky_height };
 
 static const double rotation = 100; /* degrees */
 
-/* Dim noise, a bright pixel, one beside the seam, and a dark row. */
-static double texel(int x, int y)
+double sky_texel(int x, int y)
 {
     if (y == 5)
         return 0;
@@ -20,18 +19,18 @@ static double texel(int x, int y)
     return 0.2 + (x * 7 + y * 13) % 11 / 10.0;
 }
 
-static const char file[] = "sky.pfm";
-
-static void write_picture(void)
+const char *sky_write_picture(void)
 {
+    static const char file[] = "sky.pfm";
     static const char *const names[] = {"R", "G", "B"};
     rt_image *image = NULL;
     rt_error error;
     expect_ok(rt_image_create(&image, width, height, names, 3, &error), &error);
     for (int i = 0; i < 3 * width * height; i++)
-        image->data[i] = (float)texel(i / 3 % width, i / 3 / width);
+        image->data[i] = (float)sky_texel(i / 3 % width, i / 3 / width);
     expect_ok(rt_image_write(image, file, NULL, &error), &error);
     rt_image_destroy(image);
+    return file;
 }
 
 rt_scene *sky_scene(int has_picture)
@@ -42,10 +41,8 @@ rt_scene *sky_scene(int has_picture)
     rt_surface surface;
     rt_error error;
     memset(&surface, 0, sizeof surface);
-    if (has_picture) {
-        write_picture();
-        environment.path = file;
-    }
+    if (has_picture)
+        environment.path = sky_write_picture();
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, (float)SKY_SPHERE_RADIUS, &surface, &error), &error);
     expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
     return scene;
@@ -72,7 +69,7 @@ static double between(const double by[height], double u, double v)
     for (int dy = 0; dy < 2; dy++)
         for (int dx = 0; dx < 2; dx++) {
             const int x = (i + dx + width) % width, y = (int)fmax(0, fmin(height - 1, j + dy));
-            sum += texel(x, y) * by[y] * (1 - fabs(px - i - dx)) * (1 - fabs(py - j - dy));
+            sum += sky_texel(x, y) * by[y] * (1 - fabs(px - i - dx)) * (1 - fabs(py - j - dy));
         }
     return sum;
 }

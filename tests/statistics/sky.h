@@ -10,6 +10,13 @@
 
 rt_scene *sky_scene(int has_picture);
 
+/* The picture: dim noise, a bright pixel, one beside the seam, and a dark row, counted from the top. */
+enum { sky_width = 16, sky_height = 8 };
+double sky_texel(int x, int y);
+
+/* Writes it to a file in the current directory; returns the file's name. */
+const char *sky_write_picture(void);
+
 /* The point of the picture in a direction, and the solid angle that an area of the picture at height v stands for. */
 void sky_place(const float w[3], double *u, double *v);
 double sky_element(double v);

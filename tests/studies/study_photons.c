@@ -10,8 +10,8 @@
  *   kernels   the kernels side by side, all light from the map
  *   ways      disc and hull, FLANN and the device, with and without final gather
  *   all       all of these, the default
- * SCENE: scenes/box_area.rts by default; SIDE: of the films, pixels (128); REFERENCE: samples a pixel of the path traced
- * picture (4096). The error is the root of the mean square over the film, relative to the mean of the reference.
+ * SCENE: scenes/box_area.rts by default; SIDE: of the films, pixels (128); REFERENCE: samples a pixel of the path
+ * traced picture (4096). The error is the root of the mean square over the film, relative to the mean of the reference.
  * The pictures of each study, in the order of its rows, stand side by side in build/study/STUDY.png; the last is
  * the reference.
  */
@@ -141,7 +141,8 @@ static const struct {
     const char *name;
     void (*run)(comparison *c);
 } studies[] = {
-    {"k", sweep_k}, {"paths", sweep_paths}, {"direct", compare_direct}, {"kernels", compare_kernels}, {"ways", compare_ways},
+    {"k", sweep_k},         {"paths", sweep_paths}, {"direct", compare_direct}, {"kernels", compare_kernels},
+    {"ways", compare_ways},
 };
 enum { STUDIES = sizeof studies / sizeof *studies };
 

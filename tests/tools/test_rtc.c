@@ -69,6 +69,7 @@ static const struct {
     {"mode", "--spp 2 --mode normals", "--spp 2 --mode depth"},
     {"filter", "--spp 2", "--spp 2 --filter mitchell"},
     {"roulette-depth", "--spp 2", "--spp 2 --roulette-depth 9"},
+    {"roulette-threshold", "--spp 2", "--spp 2 --roulette-threshold 1"},
     {"estimator", "--spp 2", "--spp 2 --estimator light"},
     {"estimator", "--spp 2", "--spp 2 --estimator bsdf"},
     {"spp", "--spp 2", "--spp 3"},

@@ -77,6 +77,8 @@ static const struct {
     {"a.rts --width 65536 --height 65536", "--height: a film of"},
     {"a.rts --max-depth 1e6", "--max-depth takes a whole number from 1 to 4096"},
     {"a.rts --roulette-depth 5000", "--roulette-depth takes a whole number"},
+    {"a.rts --roulette-threshold 0", "--roulette-threshold takes a number"},
+    {"a.rts --roulette-threshold 1.5", "--roulette-threshold takes a number"},
     {"a.rts --work-group 1e6", "--work-group: "},
     {"check", "which scene?"},
     {"check a.rts --spp 3", "`rtc check` takes no option --spp"},

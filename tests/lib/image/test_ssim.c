@@ -3,11 +3,8 @@
 
 #include "image/ssim.h"
 #include "image/srgb.h"
+#include "lib/image/pictures.h"
 #include "support.h"
-
-#define WIDTH 40u
-#define HEIGHT 24u
-#define VALUES (3u * WIDTH * HEIGHT)
 
 static double similarity(const float *a, const float *b)
 {
@@ -16,40 +13,11 @@ static double similarity(const float *a, const float *b)
     return value;
 }
 
-static void assert_close(double found, double expected, double tolerance)
-{
-    if (!(fabs(found - expected) <= tolerance))
-        fail_msg("%.9g instead of %.9g", found, expected);
-}
-
-/* A picture of many values in 0..1, the same in all three channels. */
-static void texture(float *rgb)
-{
-    for (size_t i = 0; i < VALUES; i++) {
-        double x = (double)(i / 3 % WIDTH), y = (double)(i / 3 / WIDTH);
-        rgb[i] = (float)(0.5 + 0.3 * sin(0.7 * x) * cos(0.4 * y) + 0.005 * x);
-    }
-}
-
-/* The texture with a tint, with one white pixel, and with a darker right side. */
-static void changed(float *tint, float *dot, float *step)
-{
-    static const float factors[3] = {1.0f, 0.9f, 0.8f};
-    texture(tint);
-    texture(dot);
-    texture(step);
-    for (size_t i = 0; i < VALUES; i++) {
-        tint[i] *= factors[i % 3];
-        dot[i] = i / 3 == 12 * WIDTH + 20 ? 1.0f : dot[i];
-        step[i] *= i / 3 % WIDTH >= 25 ? 0.5f : 1.0f;
-    }
-}
-
 static void equal_pictures_are_similar(void **state)
 {
     (void)state;
     float a[VALUES];
-    texture(a);
+    picture_texture(a);
     assert_true(similarity(a, a) == 1.0);
 }
 
@@ -75,7 +43,7 @@ static void contrast_counts_by_the_formula(void **state)
         double vx = 0.25 * p * (1 - p), vy = 0.04 * p * (1 - p), cov = 0.1 * p * (1 - p);
         expected += 0.5 * (2 * mx * my + 1e-4) * (2 * cov + 9e-4) / ((mx * mx + my * my + 1e-4) * (vx + vy + 9e-4));
     }
-    assert_close(similarity(a, b), expected, 1e-5);
+    expect_close(similarity(a, b), expected, 1e-5);
 }
 
 /* Values by structural_similarity of scikit-image 0.26, with the paper's window and moments. */
@@ -83,12 +51,12 @@ static void an_independent_program_agrees(void **state)
 {
     (void)state;
     float a[VALUES], tint[VALUES], dot[VALUES], step[VALUES];
-    texture(a);
-    changed(tint, dot, step);
-    assert_close(similarity(tint, a), 0.99854417, 1e-6);
-    assert_close(similarity(dot, a), 0.99356491, 1e-6);
-    assert_close(similarity(step, a), 0.90649719, 1e-6);
-    assert_close(similarity(a, step), 0.90649719, 1e-6);
+    picture_texture(a);
+    picture_changed(tint, dot, step);
+    expect_close(similarity(tint, a), 0.99854417, 1e-6);
+    expect_close(similarity(dot, a), 0.99356491, 1e-6);
+    expect_close(similarity(step, a), 0.90649719, 1e-6);
+    expect_close(similarity(a, step), 0.90649719, 1e-6);
 }
 
 int main(void)

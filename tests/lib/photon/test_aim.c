@@ -75,17 +75,6 @@ typedef struct flux_grid {
     size_t photons;
 } flux_grid;
 
-static rt_renderer *open_text(const char *text)
-{
-    rt_renderer *renderer = NULL;
-    rt_scene *scene = NULL;
-    rt_error error;
-    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
-    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    rt_scene_destroy(scene);
-    return renderer;
-}
-
 static rt_photon_map *emit(rt_renderer *renderer, uint64_t photons, uint64_t caustic_photons, uint32_t seed)
 {
     rt_render_options render = {.photons = photons, .caustic_photons = caustic_photons, .max_depth = 8, .seed = seed,
@@ -132,7 +121,7 @@ static void aimed_paths_make_the_same_caustics(void **state)
     enum { all_paths = 1000000, aimed_paths = 200000 };
     const caustic_scene *scene = *state;
     static flux_grid all, aimed;
-    rt_renderer *renderer = open_text(scene->text);
+    rt_renderer *renderer = test_renderer(scene->text);
     rt_photon_map *map = emit(renderer, all_paths, 0, 1);
     fill_grid(&all, map, RT_PHOTONS_GLOBAL, all_paths);
     rt_photon_map_destroy(map);
@@ -165,7 +154,7 @@ static void aimed_paths_make_the_same_caustics(void **state)
 static void nothing_specular_makes_no_caustics(void **state)
 {
     (void)state;
-    rt_renderer *renderer = open_text(ROOM "light point { position 0.1 0.8 -0.2  power 3 4 5 }\n"
+    rt_renderer *renderer = test_renderer(ROOM "light point { position 0.1 0.8 -0.2  power 3 4 5 }\n"
                                            "light directional { direction -0.4 -1 0.5  irradiance 1 }\n");
     rt_photon_map *map = emit(renderer, 1, 10000, 1);
     assert_int_equal(rt_photon_map_count(map, RT_PHOTONS_CAUSTIC), 0);

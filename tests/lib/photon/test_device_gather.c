@@ -14,6 +14,7 @@
 
 #include "lib/photon/points.h"
 #include "photon/device_gather.h"
+#include "photon/point_order.h"
 #include "photon/search.h"
 
 /* Queries are asked in parts of so many list entries. */
@@ -88,9 +89,23 @@ static void sort_lists(answers *a, size_t part)
         qsort(a->lists + i * a->stride, a->discs[i].count, sizeof *a->lists, by_index);
 }
 
-static void ask_device(answers *a, rt_device_gather *g, cl_kernel kernel, const rt_gather_point *points, size_t part)
+/* The photons in the order of the tree; to be freed. */
+static uint64_t *order_of(const rt_photon_list *list)
 {
-    cl_mem on = test_buffer(part * sizeof *points, points), lists = test_buffer(part * a->stride * sizeof *a->lists, NULL);
+    uint64_t *order = calloc(2 * list->count + 1, sizeof *order);
+    rt_error error;
+    assert_non_null(order);
+    if (list->count > 0)
+        expect_ok(rt_point_order(order, order + list->count, list->photons->position, sizeof *list->photons,
+                                 list->count, test_device()->threads, &error), &error);
+    return order;
+}
+
+static void ask_device(answers *a, rt_device_gather *g, const uint64_t *order, cl_kernel kernel,
+                       const rt_gather_point *points, size_t part)
+{
+    cl_mem on = test_buffer(part * sizeof *points, points);
+    cl_mem lists = test_buffer(part * a->stride * sizeof *a->lists, NULL);
     cl_mem scratch = test_buffer(part * g->estimate.stride * sizeof(float), NULL);
     rt_params params;
     memset(&params, 0, sizeof params);
@@ -107,6 +122,8 @@ static void ask_device(answers *a, rt_device_gather *g, cl_kernel kernel, const 
     for (size_t i = 0; i < part; i++) {
         assert_true(a->discs[i].count <= a->stride);
         assert_int_equal(a->discs[i].count, a->discs[i].asked); /* what the sum counts is what is listed */
+        for (rt_u32 *place = a->lists + i * a->stride, *end = place + a->discs[i].count; place < end; place++)
+            *place = (rt_u32)(order[*place] & RT_POINT_ORDER_INDEX);
     }
     sort_lists(a, part);
 }
@@ -135,7 +152,8 @@ static void ask_all(answers *a, const problem *p, const rt_gather_point *points,
         for (size_t i = 0; i < n; i++) {
             const float *x = p->list.photons[i].position, *y = points[q].position;
             const float *m = p->list.photons[i].normal, *o = points[q].normal;
-            all[i].squared = (y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + (y[2] - x[2]) * (y[2] - x[2]);
+            all[i].squared =
+                (y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + (y[2] - x[2]) * (y[2] - x[2]);
             all[i].index = (rt_u32)i;
             all[i].accepted = m[0] * o[0] + m[1] * o[1] + m[2] * o[2] > 0.5f;
         }
@@ -206,6 +224,7 @@ static void compete(const problem *p, size_t brute)
     part = part < 1 ? 1 : part > p->queries ? p->queries : part;
     cl_kernel kernel = test_kernel("knn", "neighbours");
     answers theirs = make_answers(part, stride), ours = make_answers(part, stride);
+    uint64_t *order = order_of(&p->list);
 
     expect_ok(rt_device_gather_prepare(&on, test_device(), &p->list, &estimate, part, &error), &error);
     if (p->k)
@@ -213,7 +232,7 @@ static void compete(const problem *p, size_t brute)
     for (size_t first = 0; first < p->queries; first += part) {
         size_t count = p->queries - first < part ? p->queries - first : part;
         const rt_gather_point *points = p->points + first;
-        ask_device(&ours, &on, kernel, points, count);
+        ask_device(&ours, &on, order, kernel, points, count);
         if (first == 0) {
             size_t few = brute < count ? brute : count;
             ask_all(&theirs, p, points, few);
@@ -234,6 +253,7 @@ static void compete(const problem *p, size_t brute)
     rt_device_gather_release(&on);
     free_answers(&theirs);
     free_answers(&ours);
+    free(order);
     rt_kernel_release(kernel);
 }
 

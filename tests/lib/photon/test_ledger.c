@@ -27,17 +27,6 @@ static const char room[] = "material wall { kd 0.2 0.5 0.8 }\n"
                            "light point { position 0.1 0.2 -0.1  power 2 3 5 }\n"
                            "sphere { centre -0.5 0 0  radius 0.1  material wall  power 1 1 0.5 }\n";
 
-static rt_renderer *open_text(const char *text)
-{
-    rt_renderer *renderer = NULL;
-    rt_scene *scene = NULL;
-    rt_error error;
-    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
-    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    rt_scene_destroy(scene);
-    return renderer;
-}
-
 static rt_photon_map *emit(rt_renderer *renderer, const rt_render_options *render)
 {
     rt_emit_options options = {.render = render};
@@ -68,7 +57,7 @@ static void closed_rooms_follow_the_geometric_series(void **state)
     rt_render_options render = {.photons = paths, .max_depth = depth};
     rt_light_ledger l;
     (void)state;
-    rt_renderer *renderer = open_text(box);
+    rt_renderer *renderer = test_renderer(box);
     rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
     assert_int_equal(l.paths, paths);
@@ -94,7 +83,7 @@ static void light_that_meets_nothing_escapes(void **state)
     rt_render_options render = {.photons = 1000};
     rt_light_ledger l;
     (void)state;
-    rt_renderer *renderer = open_text("light point { position 0 0 0  power 1 2 3 }\n");
+    rt_renderer *renderer = test_renderer("light point { position 0 0 0  power 1 2 3 }\n");
     rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
     for (int c = 0; c < 3; c++) {
@@ -112,7 +101,7 @@ static void what_a_solid_absorbs_is_booked(void **state)
     rt_render_options render = {.photons = 1000};
     rt_light_ledger l;
     (void)state;
-    rt_renderer *renderer = open_text("material ink { kt 1  ior 1  absorption 0.5 1 2 }\n"
+    rt_renderer *renderer = test_renderer("material ink { kt 1  ior 1  absorption 0.5 1 2 }\n"
                                       "sphere { centre 0 0 0  radius 0.8  material ink }\n"
                                       "light point { position 0 0 0  power 1 }\n");
     rt_photon_map *map = emit(renderer, &render);
@@ -188,7 +177,7 @@ static void stored_flux_agrees_with_what_is_absorbed(void **state)
     rt_light_ledger l[2];
     double stored[3] = {0};
     (void)state;
-    rt_renderer *renderer = open_text(room);
+    rt_renderer *renderer = test_renderer(room);
     rt_photon_map *map = emit(renderer, &render);
     const rt_photon *photons = rt_photon_map_photons(map, RT_PHOTONS_GLOBAL);
     for (size_t i = 0; i < rt_photon_map_count(map, RT_PHOTONS_GLOBAL); i++)
@@ -206,7 +195,7 @@ static void lights_are_counted_apart(void **state)
     rt_render_options render = {.photons = 20000, .max_depth = 16};
     rt_light_ledger l[3];
     (void)state;
-    rt_renderer *renderer = open_text(room);
+    rt_renderer *renderer = test_renderer(room);
     rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, l, 3), 2);
     assert_int_equal(l[0].shape, RT_NONE);
@@ -229,7 +218,7 @@ static void accounts_that_are_not_finite_are_left_out(void **state)
     rt_error error;
     rt_path_account accounts[3];
     (void)state;
-    rt_renderer *renderer = open_text("light point { position 0 0 0  power 3 3 3 }\n");
+    rt_renderer *renderer = test_renderer("light point { position 0 0 0  power 3 3 3 }\n");
     expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
     expect_ok(rt_ledger_create(&ledger, &lights, &error), &error);
     memset(accounts, 0, sizeof accounts);
@@ -258,7 +247,7 @@ static void sums_do_not_depend_on_shares_of_the_work(void **state)
     rt_ledger whole = {0}, parts = {0}, half = {0};
     rt_error error;
     (void)state;
-    rt_renderer *renderer = open_text(room);
+    rt_renderer *renderer = test_renderer(room);
     expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
     expect_ok(rt_ledger_create(&whole, &lights, &error), &error);
     expect_ok(rt_ledger_create(&half, &lights, &error), &error);

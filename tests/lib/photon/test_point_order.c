@@ -35,7 +35,8 @@ static double mean_step(const rt_photon_list *list)
     double sum = 0;
     size_t steps = 0;
     rt_error error;
-    expect_ok(rt_point_order(items, spare, list->photons->position, sizeof *list->photons, list->count, 2, &error), &error);
+    expect_ok(rt_point_order(items, spare, list->photons->position, sizeof *list->photons, list->count, 2, &error),
+              &error);
     for (size_t i = 0; i < count; i++) {
         const float *at = photons[items[i] & RT_POINT_ORDER_INDEX].position;
         if (at[0] > 1 || at[2] > 1)
@@ -56,7 +57,8 @@ static void every_photon_has_one_place(void **state)
     rt_photon_list list = make_photons(20);
     rt_error error;
     (void)state;
-    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error), &error);
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error),
+              &error);
     for (size_t i = 0; i < count; i++) {
         size_t index = items[i] & RT_POINT_ORDER_INDEX;
         assert_true(index < count && !seen[index]);
@@ -64,7 +66,10 @@ static void every_photon_has_one_place(void **state)
     }
 }
 
-/* In no order, a step across the square is 0.52 m long in the mean; in the order, as the points' distances, 1 / sqrt(count). */
+/*
+ * In no order, a step across the square is 0.52 m long in the mean; in the order, as the points' distances, 1 /
+ * sqrt(count).
+ */
 static void neighbours_stay_together(void **state)
 {
     rt_photon_list list = make_photons(0);
@@ -83,11 +88,13 @@ static void photons_in_one_place_and_none_are_ordered(void **state)
     rt_error error;
     (void)state;
     memset(photons, 0, sizeof photons);
-    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error), &error);
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error),
+              &error);
     for (size_t i = 0; i < count; i++)
         assert_int_equal(items[i] & RT_POINT_ORDER_INDEX, i);
     list.count = 0;
-    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error), &error);
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error),
+              &error);
 }
 
 int main(void)

@@ -48,7 +48,9 @@ static void write_letter(const char *path)
     scratch_write(path, text);
 }
 
-/* How black the letter is at texture coordinates that the texture's scale has multiplied; -1 near the edge of a texel. */
+/*
+ * How black the letter is at texture coordinates that the texture's scale has multiplied; -1 near the edge of a texel.
+ */
 static int letter_at(double u, double v)
 {
     const double x = (u - floor(u)) * letter_side, y = (1 - (v - floor(v))) * letter_side;
@@ -117,7 +119,10 @@ static void expect_upright(const struct lettered *shape, const rt_hit hits[3 * p
     assert_true(seen > pixels / 10);
 }
 
-/* Whether half a pixel, by which a sample may lie off the middle, is less than a seventh of a texel: then black stays below 1/2. */
+/*
+ * Whether half a pixel, by which a sample may lie off the middle, is less than a seventh of a texel: then black stays
+ * below 1/2.
+ */
 static int is_large(const rt_hit *hit)
 {
     const double texels = 0.5 * 2 / side / apart * 2 * letter_side;
@@ -157,10 +162,12 @@ static void lettering_is_upright_and_unmirrored_on_every_shape(void **state)
     for (size_t i = 0; i < sizeof lettered / sizeof *lettered; i++) {
         rt_scene *scene = NULL;
         rt_error error;
-        snprintf(text, sizeof text,
-                 "camera { projection orthographic  eye 0 0 2  look_at 0 0 0  width 2 }\nlight environment { radiance 1 }\n"
-                 "texture letter { file \"letter.ppm\"  scale 2 2 }\nmaterial paper { kd_texture letter }\n"
-                 "%s  material paper }\n", lettered[i].shape);
+        snprintf(
+            text, sizeof text,
+            "camera { projection orthographic  eye 0 0 2  look_at 0 0 0  width 2 }\nlight environment { radiance 1 }\n"
+            "texture letter { file \"letter.ppm\"  scale 2 2 }\nmaterial paper { kd_texture letter }\n"
+            "%s  material paper }\n",
+            lettered[i].shape);
         rt_renderer *renderer = open_scene(&scene, text);
         expect_ok(rt_trace(renderer, RT_TRACE_CLOSEST, rays, 3 * pixels, hits, &error), &error);
         render(rgb, side, renderer, (rt_render_options){.mode = RT_MODE_ALBEDO, .spp = 1});
@@ -189,8 +196,9 @@ static void clear_glass_of_every_closed_shape_disappears_in_even_light(void **st
     static float rgb[3 * glass_pixels];
     char text[1024];
     (void)state;
-    scratch_write("octahedron.off", "OFF\n6 8 12\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n"
-                                    "3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n");
+    scratch_write("octahedron.off",
+                  "OFF\n6 8 12\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n"
+                  "3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n");
     for (size_t i = 0; i < sizeof closed / sizeof *closed; i++) {
         rt_scene *scene = NULL;
         snprintf(text, sizeof text,
@@ -210,7 +218,8 @@ static void clear_glass_of_every_closed_shape_disappears_in_even_light(void **st
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(lettering_is_upright_and_unmirrored_on_every_shape, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(lettering_is_upright_and_unmirrored_on_every_shape, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test_setup_teardown(clear_glass_of_every_closed_shape_disappears_in_even_light, scratch_enter,
                                         scratch_leave),
     };

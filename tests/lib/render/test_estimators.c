@@ -29,7 +29,8 @@ static uint32_t material(const rt_material *m)
 /* A floor, seen from above, beside a wall that hides a part of what lights it. */
 static void begin(float roughness)
 {
-    static const float corner[3] = {-2, 0, 2}, x[3] = {4, 0, 0}, z[3] = {0, 0, -4}, wall[3] = {-2, 0, -1}, up[3] = {0, 1, 0};
+    static const float corner[3] = {-2, 0, 2}, x[3] = {4, 0, 0}, z[3] = {0, 0, -4}, wall[3] = {-2, 0, -1},
+                       up[3] = {0, 1, 0};
     rt_material floor_material = {.kd = {0.6f, 0.5f, 0.4f}};
     rt_camera camera = {.eye = {0, 5, 4}, .look_at = {0, 0, 0}, .fov = 30};
     rt_surface surface;
@@ -66,7 +67,7 @@ static rt_renderer *ready(void)
 static rt_film *render(rt_renderer *renderer, rt_estimator estimator, uint32_t seed)
 {
     rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = 3, .seed = seed,
-                                 .sampler = RT_SAMPLER_INDEPENDENT, .estimator = estimator};
+                                 .roulette_threshold = 1, .sampler = RT_SAMPLER_INDEPENDENT, .estimator = estimator};
     rt_film *film = NULL;
     rt_film_stats stats;
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
@@ -124,13 +125,14 @@ static void lamps_of_every_shape(void **state)
     for (int kind = 0; kind < 7; kind++) {
         begin(0);
         rt_surface s = lamp();
-        rt_status status = kind == 0   ? rt_scene_add_quad(scene, NULL, at, edge2, edge1, &s, &error)
-                           : kind == 1 ? rt_scene_add_sphere(scene, NULL, at, 0.4f, (s.transform = (rt_transform){{{0}}}, &s), &error)
-                           : kind == 2 ? rt_scene_add_ellipsoid(scene, NULL, at, radii, &s, &error)
-                           : kind == 3 ? rt_scene_add_disc(scene, NULL, at, (const float[3]){0, -1, 0}, 0.5f, 0.2f, &s, &error)
-                           : kind == 4 ? rt_scene_add_cylinder(scene, NULL, at, to, 0.3f, 1, &s, &error)
-                           : kind == 5 ? rt_scene_add_cone(scene, NULL, at, to, 0.4f, 0.1f, 1, &s, &error)
-                                       : rt_scene_add_torus(scene, NULL, at, to, 0.4f, 0.15f, &s, &error);
+        rt_status status =
+            kind == 0   ? rt_scene_add_quad(scene, NULL, at, edge2, edge1, &s, &error)
+            : kind == 1 ? rt_scene_add_sphere(scene, NULL, at, 0.4f, (s.transform = (rt_transform){{{0}}}, &s), &error)
+            : kind == 2 ? rt_scene_add_ellipsoid(scene, NULL, at, radii, &s, &error)
+            : kind == 3 ? rt_scene_add_disc(scene, NULL, at, (const float[3]){0, -1, 0}, 0.5f, 0.2f, &s, &error)
+            : kind == 4 ? rt_scene_add_cylinder(scene, NULL, at, to, 0.3f, 1, &s, &error)
+            : kind == 5 ? rt_scene_add_cone(scene, NULL, at, to, 0.4f, 0.1f, 1, &s, &error)
+                        : rt_scene_add_torus(scene, NULL, at, to, 0.4f, 0.15f, &s, &error);
         expect_ok(status, &error);
         expect_same_mean(names[kind]);
     }

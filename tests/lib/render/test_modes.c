@@ -112,7 +112,8 @@ static void modes_show_their_layer(void **state)
 
 static void layers_go_to_exr_by_their_names(void **state)
 {
-    static const char *const names[] = {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z"};
+    static const char *const names[] = {"albedo.R", "albedo.G", "albedo.B", "normal.X",
+                                        "normal.Y", "normal.Z", "depth.Z"};
     static const char *const layers[] = {"albedo", "albedo", "albedo", "normal", "normal", "normal", "depth"};
     rt_image *image = NULL;
     rt_film *film = render(RT_MODE_PATH, 1, RT_FILTER_BOX);

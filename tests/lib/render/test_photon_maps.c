@@ -1,6 +1,6 @@
 /*
- * test_photon_maps.c - photon maps by the public interface: parts that join to the bit, caustic photons apart,
- * shares of lights, warnings, and what the photons say of the light against theory and path tracing.
+ * test_photon_maps.c - photon maps by the public interface: caustic photons apart, shares of lights, warnings, and
+ * what the photons say of the light against theory and path tracing.
  *
  * Random sums are held to five standard errors or to a stated bound about as wide; seeds are fixed.
  */
@@ -11,199 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/image/scratch.h"
-#include "photon/map_file.h"
+#include "lib/photon/emitted.h"
 #include "render/renderer.h"
 
 #define PI 3.14159265358979323846
-
-/* A closed room with a glass ball, two lights of different kind and power. */
-#define ROOM                                                                                                           \
-    "material wall { kd 0.4 0.5 0.6 }\n"                                                                               \
-    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                                                 \
-    "sphere { centre 0 0 0  radius 1  material wall }\n"                                                               \
-    "sphere { centre 0.3 0 0  radius 0.3  material glass }\n"                                                          \
-    "quad { corner -0.6 0.5 -0.1  edge1 0.2 0 0  edge2 0 0 0.2  material wall  power 2 2 2 }\n"                        \
-    "light point { position 0 0.6 0  power 2 3 5 }\n"
-
-static rt_renderer *open_on(rt_device *device, const char *text, rt_accel accel)
-{
-    rt_renderer_options options = {.accel = accel};
-    rt_renderer *renderer = NULL;
-    rt_scene *scene = NULL;
-    rt_error error;
-    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
-    expect_ok(rt_renderer_create(&renderer, scene, device, &options, &error), &error);
-    rt_scene_destroy(scene);
-    return renderer;
-}
-
-static rt_renderer *open_text(const char *text)
-{
-    return open_on(test_device(), text, RT_ACCEL_BVH);
-}
-
-static rt_photon_map *emit(rt_renderer *renderer, const rt_emit_options *options)
-{
-    rt_photon_map *map = NULL;
-    rt_error error;
-    expect_ok(rt_photon_map_emit(&map, renderer, options, &error), &error);
-    return map;
-}
-
-/* The same files mean the same maps, to the bit. */
-static void expect_same(const rt_photon_map *a, const rt_photon_map *b)
-{
-    rt_bytes x = {0}, y = {0};
-    rt_error error;
-    expect_ok(rt_photon_map_encode(&x, a, &error), &error);
-    expect_ok(rt_photon_map_encode(&y, b, &error), &error);
-    assert_int_equal(x.size, y.size);
-    assert_memory_equal(x.data, y.data, x.size);
-    rt_bytes_free(&x);
-    rt_bytes_free(&y);
-}
-
-static rt_photon_map *merge(rt_photon_map *const *maps, size_t count)
-{
-    rt_photon_map *map = NULL;
-    rt_error error;
-    expect_ok(rt_photon_map_merge(&map, (const rt_photon_map *const *)maps, count, &error), &error);
-    return map;
-}
-
-static void expect_no_merge(rt_photon_map *a, rt_photon_map *b, const char *reason)
-{
-    const rt_photon_map *both[] = {a, b};
-    rt_photon_map *map = NULL;
-    rt_error error;
-    assert_int_equal(rt_photon_map_merge(&map, both, 2, &error), RT_ERROR_INPUT);
-    assert_null(map);
-    if (!strstr(error.message, reason))
-        fail_msg("'%s' does not say '%s'", error.message, reason);
-}
-
-/* ---- Parts ------------------------------------------------------------------- */
-
-static void parts_join_to_the_map_of_all(void **state)
-{
-    rt_render_options render = {.photons = 10007, .caustic_photons = 5003, .max_depth = 10, .seed = 5};
-    rt_emit_options options = {.render = &render};
-    rt_photon_map *parts[3];
-    (void)state;
-    rt_renderer *renderer = open_text(ROOM);
-    rt_photon_map *whole = emit(renderer, &options);
-    options.parts = 3;
-    for (options.part = 0; options.part < 3; options.part++)
-        parts[options.part] = emit(renderer, &options);
-    static const int orders[][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}};
-    for (int i = 0; i < 3; i++) {
-        rt_photon_map *some[] = {parts[orders[i][0]], parts[orders[i][1]], parts[orders[i][2]]};
-        rt_photon_map *joined = merge(some, 3);
-        expect_same(joined, whole);
-        rt_photon_map_destroy(joined);
-        /* Two at a time comes to the same, with a gap in between or not. */
-        rt_photon_map *pair = merge(some, 2);
-        rt_photon_map *rest[] = {some[2], pair};
-        joined = merge(rest, 2);
-        expect_same(joined, whole);
-        rt_photon_map_destroy(pair);
-        rt_photon_map_destroy(joined);
-    }
-    for (int i = 0; i < 3; i++)
-        rt_photon_map_destroy(parts[i]);
-    rt_photon_map_destroy(whole);
-    rt_renderer_destroy(renderer);
-}
-
-static void seeds_join_in_any_order(void **state)
-{
-    rt_render_options render = {.photons = 3000};
-    rt_emit_options options = {.render = &render};
-    rt_photon_map *maps[2], *turned[2];
-    rt_photon_map_info info;
-    size_t range_count = 0;
-    (void)state;
-    rt_renderer *renderer = open_text(ROOM);
-    for (int i = 0; i < 2; i++) {
-        render.seed = (uint32_t)(9 - i);
-        maps[i] = turned[1 - i] = emit(renderer, &options);
-    }
-    rt_photon_map *a = merge(maps, 2), *b = merge(turned, 2);
-    expect_same(a, b);
-    rt_photon_map_get_info(a, &info);
-    assert_int_equal(info.paths[RT_PHOTONS_GLOBAL], 6000);
-    const rt_path_range *ranges = rt_photon_map_ranges(a, RT_PHOTONS_GLOBAL, &range_count);
-    assert_int_equal(range_count, 2);
-    for (uint32_t i = 0; i < 2; i++)
-        assert_true(ranges[i].seed == 8 + i && ranges[i].first == 0 && ranges[i].count == 3000);
-    assert_int_equal(info.photons[RT_PHOTONS_GLOBAL],
-                     rt_photon_map_count(maps[0], RT_PHOTONS_GLOBAL) + rt_photon_map_count(maps[1], RT_PHOTONS_GLOBAL));
-    for (int i = 0; i < 2; i++)
-        rt_photon_map_destroy(maps[i]);
-    rt_photon_map_destroy(a);
-    rt_photon_map_destroy(b);
-    rt_renderer_destroy(renderer);
-}
-
-static void maps_that_do_not_fit_are_not_joined(void **state)
-{
-    static const float shares[] = {1, 1};
-    rt_render_options render = {.photons = 100}, other = {.photons = 100, .seed = 1};
-    rt_emit_options options = {.render = &render}, others = {.render = &other};
-    (void)state;
-    rt_renderer *renderer = open_text(ROOM);
-    rt_renderer *changed = open_text(ROOM "light point { position 0 0 0.5  power 1 }\n");
-    rt_photon_map *map = emit(renderer, &options), *odd[6];
-    expect_no_merge(map, map, "the same paths");
-    odd[0] = emit(changed, &others);
-    expect_no_merge(map, odd[0], "different scenes");
-    other.max_depth = 5;
-    odd[1] = emit(renderer, &others);
-    expect_no_merge(map, odd[1], "segments");
-    other = (rt_render_options){.photons = 100, .seed = 1, .direct = RT_DIRECT_PHOTONS};
-    odd[2] = emit(renderer, &others);
-    expect_no_merge(map, odd[2], "direct light");
-    other = (rt_render_options){.photons = 100, .seed = 1, .caustic_photons = 10};
-    odd[3] = emit(renderer, &others);
-    expect_no_merge(map, odd[3], "caustic photons apart");
-    other = (rt_render_options){.photons = 100, .seed = 1, .sampler = RT_SAMPLER_INDEPENDENT};
-    odd[4] = emit(renderer, &others);
-    expect_no_merge(map, odd[4], "samplers");
-    other = (rt_render_options){.photons = 100, .seed = 1};
-    others.light_shares = shares;
-    others.light_share_count = 2;
-    odd[5] = emit(renderer, &others);
-    expect_no_merge(map, odd[5], "shares");
-    for (int i = 0; i < 6; i++)
-        rt_photon_map_destroy(odd[i]);
-    rt_photon_map_destroy(map);
-    rt_renderer_destroy(changed);
-    rt_renderer_destroy(renderer);
-}
-
-static void maps_do_not_depend_on_threads_and_work_groups(void **state)
-{
-    static const rt_device_options devices[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 3, 64}};
-    rt_render_options render = {.photons = 20000, .caustic_photons = 5000};
-    rt_emit_options options = {.render = &render};
-    (void)state;
-    rt_renderer *renderer = open_text(ROOM);
-    rt_photon_map *expected = emit(renderer, &options);
-    rt_renderer_destroy(renderer);
-    for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
-        rt_device *device = NULL;
-        rt_error error;
-        expect_ok(rt_device_open(&device, devices + i, &error), &error);
-        renderer = open_on(device, ROOM, RT_ACCEL_BVH);
-        rt_photon_map *map = emit(renderer, &options);
-        expect_same(map, expected);
-        rt_photon_map_destroy(map);
-        rt_renderer_destroy(renderer);
-        rt_device_close(device);
-    }
-    rt_photon_map_destroy(expected);
-}
 
 /* ---- Caustics and shares --------------------------------------------------------- */
 
@@ -225,10 +36,10 @@ static void caustic_photons_are_kept_apart_when_asked(void **state)
     rt_emit_options options = {.render = &render};
     size_t j = 0;
     (void)state;
-    rt_renderer *renderer = open_text(ROOM);
-    rt_photon_map *one = emit(renderer, &options);
+    rt_renderer *renderer = test_renderer(ROOM);
+    rt_photon_map *one = emit_map(renderer, &options);
     render.caustic_photons = 300000;
-    rt_photon_map *two = emit(renderer, &options);
+    rt_photon_map *two = emit_map(renderer, &options);
     const rt_photon *all = rt_photon_map_photons(one, RT_PHOTONS_GLOBAL);
     const rt_photon *global = rt_photon_map_photons(two, RT_PHOTONS_GLOBAL);
     const rt_photon *caustic = rt_photon_map_photons(two, RT_PHOTONS_CAUSTIC);
@@ -263,11 +74,11 @@ static void shares_move_paths_but_not_flux(void **state)
     rt_emit_options options = {.render = &render};
     rt_light_ledger by_power[2], by_shares[2];
     (void)state;
-    rt_renderer *renderer = open_text(ROOM);
-    rt_photon_map *plain = emit(renderer, &options);
+    rt_renderer *renderer = test_renderer(ROOM);
+    rt_photon_map *plain = emit_map(renderer, &options);
     options.light_shares = shares;
     options.light_share_count = 2;
-    rt_photon_map *shared = emit(renderer, &options);
+    rt_photon_map *shared = emit_map(renderer, &options);
     assert_int_equal(rt_photon_map_ledger(plain, by_power, 2), 2);
     assert_int_equal(rt_photon_map_ledger(shared, by_shares, 2), 2);
     assert_true(by_shares[0].shape == RT_NONE && by_shares[1].shape == 2);
@@ -307,7 +118,7 @@ static void wrong_options_are_refused(void **state)
     rt_photon_map *map = NULL;
     rt_error error;
     (void)state;
-    rt_renderer *renderer = open_text(ROOM "render { photons 100 }\n");
+    rt_renderer *renderer = test_renderer(ROOM "render { photons 100 }\n");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         assert_int_equal(rt_photon_map_emit(&map, renderer, &cases[i].options, &error), RT_ERROR_USAGE);
         assert_string_equal(error.field, cases[i].field);
@@ -316,7 +127,7 @@ static void wrong_options_are_refused(void **state)
     assert_string_equal(error.field, "caustic_k");
     assert_null(map);
     /* Without options the scene's own count. */
-    map = emit(renderer, NULL);
+    map = emit_map(renderer, NULL);
     assert_int_equal(rt_photon_map_merge(&map, NULL, 0, &error), RT_ERROR_USAGE);
     rt_photon_map_info info;
     rt_photon_map_get_info(map, &info);
@@ -349,8 +160,8 @@ static void starved_lights_and_maps_are_told(void **state)
     rt_photon_map *map = NULL;
     rt_error error;
     (void)state;
-    rt_renderer *renderer = open_text(ROOM "light point { position 0 0 0.5  power 1e-9 }\n");
-    rt_photon_map_destroy(emit(renderer, &options));
+    rt_renderer *renderer = test_renderer(ROOM "light point { position 0 0 0.5  power 1e-9 }\n");
+    rt_photon_map_destroy(emit_map(renderer, &options));
     assert_non_null(strstr(warnings, "light 1 emits 1e-09 W but none of 200 photon paths came from it"));
     assert_null(strstr(warnings, "light 0"));
     assert_null(strstr(warnings, "global"));
@@ -358,9 +169,9 @@ static void starved_lights_and_maps_are_told(void **state)
     rt_renderer_destroy(renderer);
 
     warnings[0] = '\0';
-    renderer = open_text("light point { position 0 0 0  power 1 }\n");
+    renderer = test_renderer("light point { position 0 0 0  power 1 }\n");
     render.caustic_photons = 0;
-    rt_photon_map_destroy(emit(renderer, &options));
+    rt_photon_map_destroy(emit_map(renderer, &options));
     assert_string_equal(warnings, "the photon map is empty: none of 200 photon paths left a photon in it\n");
     hooks.progress = cancel;
     assert_int_equal(rt_photon_map_emit(&map, renderer, &options, &error), RT_CANCELLED);
@@ -383,86 +194,14 @@ static void light_that_does_not_reach_planes_is_told(void **state)
         rt_film *film = NULL;
         rt_error error;
         snprintf(text, sizeof text, "%s%s%scamera { eye 0 0 -0.9  look_at 0 0 0 }\n", ROOM, rooms[i], lights[i]);
-        rt_renderer *renderer = open_text(text);
-        rt_photon_map_destroy(emit(renderer, &options));
+        rt_renderer *renderer = test_renderer(text);
+        rt_photon_map_destroy(emit_map(renderer, &options));
         assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
         warnings[0] = '\0';
         expect_ok(rt_render(&film, renderer, &render, &error), &error);
         assert_int_equal(strstr(warnings, "fall on planes only within") != NULL, i == 0);
         rt_film_destroy(film);
         rt_renderer_destroy(renderer);
-    }
-}
-
-/* ---- Scenes -------------------------------------------------------------------------- */
-
-static uint64_t fingerprint(const char *text, rt_accel accel)
-{
-    rt_render_options render = {.photons = 1};
-    rt_emit_options options = {.render = &render};
-    rt_photon_map_info info;
-    rt_renderer *renderer = open_on(test_device(), text, accel);
-    rt_photon_map *map = emit(renderer, &options);
-    rt_photon_map_get_info(map, &info);
-    rt_photon_map_destroy(map);
-    rt_renderer_destroy(renderer);
-    return info.scene;
-}
-
-/* Images and meshes that differ in one thing each. */
-static void write_parts(void)
-{
-    scratch_write("grey.ppm", "P3 2 1 255  128 128 128  255 255 255\n");
-    scratch_write("white.ppm", "P3 2 1 255  255 255 255  255 255 255\n");
-    scratch_write("plain.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nf 1 2 3\n");
-    scratch_write("wide.obj", "v 0 0 0\nv 0.2 0 0\nv 0 0.1 0\nf 1 2 3\n");
-    scratch_write("smooth.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 1\nf 1//1 2//2 3//1\n");
-    scratch_write("smoother.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 2\nf 1//1 2//2 3//1\n");
-    scratch_write("mapped.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvt 0 0\nvt 1 1\nf 1/1 2/2 3/1\n");
-    scratch_write("red.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 1 0 0\nf 1 2 3\n");
-    scratch_write("green.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 0 1 0\nf 1 2 3\n");
-}
-
-static void scenes_are_told_apart_by_what_photons_see(void **state)
-{
-    static const char *const others[] = {
-        ROOM "light point { position 0 0 0.5  power 1 }\n",
-        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material wall }\n",
-        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.2 0  material wall }\n",
-        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material glass }\n",
-        ROOM "quad { corner 0 0 0  edge1 0.1 0 0  edge2 0 0.1 0  material wall }\n",
-        ROOM "plane { point 0 -3 0  normal 0 1 0  material wall }\n",
-        ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall }\n",
-        ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall  rotate 0 1 0 5 }\n",
-        ROOM "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
-        ROOM "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
-        ROOM "texture t { file \"grey.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
-        ROOM "texture t { file \"white.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
-        ROOM "light environment { radiance 1 }\n",
-        ROOM "light environment { file \"grey.ppm\" }\n",
-        ROOM "light environment { file \"white.ppm\" }\n",
-        ROOM "light environment { file \"white.ppm\"  rotation 90 }\n",
-        ROOM "model { file \"plain.obj\"  material wall }\n",
-        ROOM "model { file \"smooth.obj\"  material wall }\n",
-        ROOM "model { file \"smoother.obj\"  material wall }\n",
-        ROOM "model { file \"mapped.obj\"  material wall }\n",
-        ROOM "model { file \"red.obj\"  material wall }\n",
-        ROOM "model { file \"green.obj\"  material wall }\n",
-        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material wall  scale 0.5 }\n",
-        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material wall  scale 0.6 }\n",
-        ROOM "mesh m { file \"wide.obj\" }  instance m { material wall }  instance m { material wall  scale 0.5 }\n",
-    };
-    enum { count = sizeof others / sizeof *others };
-    uint64_t seen[count + 1] = {fingerprint(ROOM, RT_ACCEL_BVH)};
-    (void)state;
-    write_parts();
-    assert_true(fingerprint(ROOM, RT_ACCEL_NONE) == seen[0]);
-    assert_true(fingerprint(ROOM "camera { eye 0 0 1  look_at 0 0 0 }\n", RT_ACCEL_BVH) == seen[0]);
-    assert_true(fingerprint(others[1], RT_ACCEL_NONE) == fingerprint(others[1], RT_ACCEL_BVH));
-    for (int i = 1; i <= count; i++) {
-        seen[i] = fingerprint(others[i - 1], RT_ACCEL_BVH);
-        for (int j = 0; j < i; j++)
-            assert_true(seen[i] != seen[j]);
     }
 }
 
@@ -486,8 +225,8 @@ static void stored_flux_is_what_path_tracing_says(void **state)
     rt_film *film = NULL;
     rt_error error;
     (void)state;
-    rt_renderer *renderer = open_text(furnace);
-    rt_photon_map *map = emit(renderer, &options);
+    rt_renderer *renderer = test_renderer(furnace);
+    rt_photon_map *map = emit_map(renderer, &options);
     expect_ok(rt_render(&film, renderer, &path, &error), &error);
     for (int c = 0; c < 3; c++) {
         double stored = flux_of(map, RT_PHOTONS_GLOBAL, 0, c), mean = 0;
@@ -511,8 +250,8 @@ static void irradiance_is_flux_over_area(void **state)
     rt_emit_options options = {.render = &render};
     rt_error error;
     (void)state;
-    rt_renderer *renderer = open_text(furnace);
-    rt_photon_map *map = emit(renderer, &options);
+    rt_renderer *renderer = test_renderer(furnace);
+    rt_photon_map *map = emit_map(renderer, &options);
     for (int i = 0; i < count; i++) {
         double z = (i + 0.5) / count * 2 - 1, turn = 2.399963 * i, r = sqrt(1 - z * z);
         const double n[3] = {r * cos(turn), r * sin(turn), z};
@@ -521,7 +260,8 @@ static void irradiance_is_flux_over_area(void **state)
             normals[i][c] = (float)-n[c];
         }
     }
-    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error), &error);
+    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+              &error);
     for (int c = 0; c < 3; c++) {
         double expected = power[c] / (1 - kd[c]) / (16 * PI), mean = 0;
         for (int i = 0; i < count; i++)
@@ -556,7 +296,8 @@ static void irradiance_is_flux_over_area(void **state)
         for (int c = 0; c < 3; c++)
             normals[i][c] = -normals[i][c];
     ask.radius = 0.1f;
-    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error), &error);
+    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+              &error);
     for (int i = 0; i < count; i++)
         assert_true(rgb[i][0] == 0 && rgb[i][1] == 0 && rgb[i][2] == 0);
     /* No points are no work. */
@@ -666,8 +407,8 @@ static void irradiance_sums_both_lists(void **state)
     rt_error error;
     float rgb[3];
     (void)state;
-    rt_renderer *renderer = open_text(text);
-    rt_photon_map *map = emit(renderer, &options);
+    rt_renderer *renderer = test_renderer(text);
+    rt_photon_map *map = emit_map(renderer, &options);
     rt_photon_map_get_info(map, &info);
     assert_true(info.split && info.photons[RT_PHOTONS_CAUSTIC] > 49000);
     expect_ok(rt_photon_map_irradiance(rgb, map, test_device(), position, normal, 1, &render, &error), &error);
@@ -680,16 +421,11 @@ static void irradiance_sums_both_lists(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_join_to_the_map_of_all),
-        cmocka_unit_test(seeds_join_in_any_order),
-        cmocka_unit_test(maps_that_do_not_fit_are_not_joined),
-        cmocka_unit_test(maps_do_not_depend_on_threads_and_work_groups),
         cmocka_unit_test(caustic_photons_are_kept_apart_when_asked),
         cmocka_unit_test(shares_move_paths_but_not_flux),
         cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(starved_lights_and_maps_are_told),
         cmocka_unit_test(light_that_does_not_reach_planes_is_told),
-        cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter, scratch_leave),
         cmocka_unit_test(stored_flux_is_what_path_tracing_says),
         cmocka_unit_test(irradiance_is_flux_over_area),
         cmocka_unit_test(irradiance_is_refused_where_there_is_no_surface),

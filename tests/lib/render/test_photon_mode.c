@@ -271,7 +271,8 @@ static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
 /* A dark wall behind clear glass that reflects nothing. */
 static void every_eye_path_through_glass_comes_to_the_map(void **state)
 {
-    const float pane[3] = {-2, -2, 0}, behind[3] = {-2, -2, 0.2f}, wall[3] = {-2, -2, 1}, x[3] = {4, 0, 0}, y[3] = {0, 4, 0};
+    const float pane[3] = {-2, -2, 0}, behind[3] = {-2, -2, 0.2f}, wall[3] = {-2, -2, 1}, x[3] = {4, 0, 0},
+                y[3] = {0, 4, 0};
     rt_point_light light = {{0, 0, 0.5f}, {1, 1, 1}, {0}};
     rt_camera camera = {.eye = {0, 0, -2}, .fov = 40};
     rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f};

@@ -83,7 +83,7 @@ static void map_normal(double out[3], const rt_transform *t, const double n[3])
 /* The mix of the corners' unit normals, mapped; whether the mesh is placed once or is an instance. */
 static void normals_are_mixed_and_then_placed(void **state)
 {
-    static const float normals[3][3] = {{0.6f, 0, 0.8f}, {0, 3, 4}, {-0.48f, -0.64f, 0.6f}}; /* one not of unit length */
+    static const float normals[3][3] = {{0.6f, 0, 0.8f}, {0, 3, 4}, {-0.48f, -0.64f, 0.6f}}; /* one not a unit */
     static const double units[3][3] = {{0.6, 0, 0.8}, {0, 0.6, 0.8}, {-0.48, -0.64, 0.6}};
     const rt_mesh_data attributes = {.normals = normals[0]};
     const rt_material white = {.kd = {1, 1, 1}};

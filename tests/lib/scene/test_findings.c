@@ -196,7 +196,7 @@ static told findings_of(const char *text)
 }
 
 #define MATERIALS                                                                                                      \
-    "material white { kd 0.5 }\nmaterial glass { kt 1 fresnel dielectric }\nmaterial lamp { emission 1 }\n"             \
+    "material white { kd 0.5 }\nmaterial glass { kt 1 fresnel dielectric }\nmaterial lamp { emission 1 }\n"            \
     "material glow { emission 1 two_sided true }\n"
 #define VIEW "camera { eye 0 0 -5 look_at 0 0 0 }\n"
 #define BALL "sphere { centre 0 0 0 radius 1 material white }\n"

@@ -134,7 +134,8 @@ static void instances_have_trees_of_their_own(void **state)
         assert_int_equal(count_triangles(nodes, blocks, shapes[i].root, shapes[i].first_block, shapes[i].block_count),
                          triangles);
     }
-    assert_true(shapes[0].root == shapes[2].root && shapes[1].root == shapes[3].root && shapes[0].root != shapes[1].root);
+    assert_true(shapes[0].root == shapes[2].root && shapes[1].root == shapes[3].root &&
+                shapes[0].root != shapes[1].root);
     assert_true(shapes[0].first_normal == shapes[2].first_normal && shapes[0].first_uv == shapes[2].first_uv);
     assert_float_equal(transforms[shapes[0].transform].to_world[1][1], 2, 0);
     assert_float_equal(transforms[shapes[0].transform].to_object[1][1], 0.5, 0);

@@ -292,7 +292,8 @@ static float power_of_only_light(rt_scene *scene)
 static void power_of_a_point_light_is_four_pi_intensity(void **state)
 {
     rt_error error;
-    rt_point_light by_intensity = {.intensity = {1, 2, 3}}, by_power = {.power = {5, 5, 5}}, both = {.power = {1, 1, 1}};
+    rt_point_light by_intensity = {.intensity = {1, 2, 3}}, by_power = {.power = {5, 5, 5}},
+                   both = {.power = {1, 1, 1}};
     (void)state;
 
     rt_scene *scene = new_scene();

@@ -62,7 +62,8 @@ static void codes_keep_their_value_and_rows_go_up(void **state)
     for (int i = 0; i < codes; i++)
         assert_true(decode[i] == (float)rt_srgb_decode(i / 255.0));
     /* Pixel i of the image holds G = 10 i, B = 10 i + 1, R = 10 i + 2. The bottom row is pixels 4 and 5. */
-    const uint8_t expected[24] = {42, 40, 41, 0, 52, 50, 51, 0, 22, 20, 21, 0, 32, 30, 31, 0, 2, 0, 1, 0, 12, 10, 11, 0};
+    const uint8_t expected[24] = {42, 40, 41, 0, 52, 50, 51, 0, 22, 20, 21, 0,
+                                  32, 30, 31, 0, 2,  0,  1,  0, 12, 10, 11, 0};
     assert_memory_equal(texel, expected, sizeof expected);
     rt_bytes_free(&texels);
     rt_image_destroy(image);

@@ -1,0 +1,35 @@
+#include "kernels/rng_draw.h"
+
+#include <string.h>
+
+#include "render/sobol.h"
+#include "types.h"
+
+cl_mem rng_scene(void)
+{
+    static struct {
+        rt_scene_header header;
+        uint32_t table[RT_SOBOL_WORDS];
+    } scene;
+    scene.header.sobol = sizeof scene.header / RT_SCENE_ROW;
+    scene.header.sobol_count = RT_SOBOL_WORDS / 4;
+    rt_sobol_table(scene.table);
+    return test_buffer(sizeof scene, &scene);
+}
+
+void rng_draw_pairs(rt_sampler kind, uint32_t seed, int along, uint32_t set, uint32_t count, float (*out)[8])
+{
+    const uint32_t is_along = along != 0;
+    rt_params params;
+    memset(&params, 0, sizeof params);
+    params.sampler = kind;
+    params.seed = seed;
+    cl_kernel kernel = test_kernel("rng", "pairs");
+    cl_mem scene = rng_scene(), made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(is_along), RT_ARG(set), RT_ARG(count), RT_ARG(made)};
+    test_run(kernel, args, 6, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(made);
+    rt_buffer_release(scene);
+    rt_kernel_release(kernel);
+}

@@ -1,0 +1,85 @@
+/* test_fingerprint.c - scenes are told apart by what photons see of them, and by nothing else. */
+#include "support.h"
+
+#include "lib/image/scratch.h"
+#include "lib/photon/emitted.h"
+
+static uint64_t fingerprint(const char *text, rt_accel accel)
+{
+    rt_render_options render = {.photons = 1};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map_info info;
+    rt_renderer *renderer = renderer_on(test_device(), text, accel);
+    rt_photon_map *map = emit_map(renderer, &options);
+    rt_photon_map_get_info(map, &info);
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+    return info.scene;
+}
+
+/* Images and meshes that differ in one thing each. */
+static void write_parts(void)
+{
+    scratch_write("grey.ppm", "P3 2 1 255  128 128 128  255 255 255\n");
+    scratch_write("white.ppm", "P3 2 1 255  255 255 255  255 255 255\n");
+    scratch_write("plain.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nf 1 2 3\n");
+    scratch_write("wide.obj", "v 0 0 0\nv 0.2 0 0\nv 0 0.1 0\nf 1 2 3\n");
+    scratch_write("smooth.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 1\nf 1//1 2//2 3//1\n");
+    scratch_write("smoother.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 2\nf 1//1 2//2 3//1\n");
+    scratch_write("mapped.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvt 0 0\nvt 1 1\nf 1/1 2/2 3/1\n");
+    scratch_write("red.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 1 0 0\nf 1 2 3\n");
+    scratch_write("green.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 0 1 0\nf 1 2 3\n");
+}
+
+static void scenes_are_told_apart_by_what_photons_see(void **state)
+{
+    static const char *const others[] = {
+        ROOM "light point { position 0 0 0.5  power 1 }\n",
+        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material wall }\n",
+        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.2 0  material wall }\n",
+        ROOM "triangle { a 0 0 0  b 0.1 0 0  c 0 0.1 0  material glass }\n",
+        ROOM "quad { corner 0 0 0  edge1 0.1 0 0  edge2 0 0.1 0  material wall }\n",
+        ROOM "plane { point 0 -3 0  normal 0 1 0  material wall }\n",
+        ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall }\n",
+        ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall  rotate 0 1 0 5 }\n",
+        ROOM
+        "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM
+        "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM "texture t { file \"grey.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM "texture t { file \"white.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM "light environment { radiance 1 }\n",
+        ROOM "light environment { file \"grey.ppm\" }\n",
+        ROOM "light environment { file \"white.ppm\" }\n",
+        ROOM "light environment { file \"white.ppm\"  rotation 90 }\n",
+        ROOM "model { file \"plain.obj\"  material wall }\n",
+        ROOM "model { file \"smooth.obj\"  material wall }\n",
+        ROOM "model { file \"smoother.obj\"  material wall }\n",
+        ROOM "model { file \"mapped.obj\"  material wall }\n",
+        ROOM "model { file \"red.obj\"  material wall }\n",
+        ROOM "model { file \"green.obj\"  material wall }\n",
+        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material wall  scale 0.5 }\n",
+        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material wall  scale 0.6 }\n",
+        ROOM "mesh m { file \"wide.obj\" }  instance m { material wall }  instance m { material wall  scale 0.5 }\n",
+    };
+    enum { count = sizeof others / sizeof *others };
+    uint64_t seen[count + 1] = {fingerprint(ROOM, RT_ACCEL_BVH)};
+    (void)state;
+    write_parts();
+    assert_true(fingerprint(ROOM, RT_ACCEL_NONE) == seen[0]);
+    assert_true(fingerprint(ROOM "camera { eye 0 0 1  look_at 0 0 0 }\n", RT_ACCEL_BVH) == seen[0]);
+    assert_true(fingerprint(others[1], RT_ACCEL_NONE) == fingerprint(others[1], RT_ACCEL_BVH));
+    for (int i = 1; i <= count; i++) {
+        seen[i] = fingerprint(others[i - 1], RT_ACCEL_BVH);
+        for (int j = 0; j < i; j++)
+            assert_true(seen[i] != seen[j]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter, scratch_leave),
+    };
+    return cmocka_run_group_tests_name("lib/photon/fingerprint", tests, NULL, NULL);
+}
