@@ -69,6 +69,15 @@ rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *
     return rt_at_file(status, path, error);
 }
 
+rt_status rt_file_check_regular(const char *path, rt_error *error)
+{
+    struct stat info;
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
+        return rt_at_file(rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is not a regular file", path), path,
+                          error);
+    return RT_OK;
+}
+
 rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell, rt_error *error)
 {
     if (rt_is_missing(path, "path", error))

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -373,6 +374,24 @@ static void check_counts_what_a_scene_holds(void **state)
     run_free(&run);
 }
 
+/* A pipe that none writes to would make rtc wait without end. */
+static void scenes_name_regular_files_only(void **state)
+{
+    static const char *const texts[] = {
+        "include \"pipe\"\n", "texture t { file \"pipe\" }\n", "light environment { file \"pipe\" }\n",
+        "mesh m { file \"pipe\" }\n"};
+    (void)state;
+    assert_int_equal(mkfifo("pipe", 0600), 0);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        scratch_write("b.rts", texts[i]);
+        run run = run_rtc("check b.rts");
+        expect_status(&run, 1);
+        expect_err(&run, "b.rts:");
+        expect_err(&run, "it is not a regular file");
+        run_free(&run);
+    }
+}
+
 static void only_the_first_errors_are_printed(void **state)
 {
     char text[1024] = "";
@@ -580,6 +599,7 @@ int main(void)
         TEST(devices_are_listed),
         TEST(doctor_finds_all_well),
         TEST(check_counts_what_a_scene_holds),
+        TEST(scenes_name_regular_files_only),
         TEST(only_the_first_errors_are_printed),
         TEST(check_of_several_scenes_goes_on_after_a_bad_one),
         TEST(no_platform_is_status_3_and_says_what_to_install),
