@@ -524,6 +524,10 @@ typedef struct rt_render_options {
     uint32_t caustic_k;     /* nearest photons in the caustic map; 0 means k */
     float caustic_radius;   /* largest gather radius in the caustic map, metres; 0 means radius */
     rt_density caustic_kernel; /* density kernel of the caustic map */
+    const float *light_shares; /* [light_share_count]: what part of the photon paths each light gets, in proportion and in
+                                  the order of rt_photon_map_ledger, each from 0 to 1e15; flux is weighted so that the
+                                  mean stays the same. NULL: in proportion to power. Not kept in a scene */
+    size_t light_share_count;
     const rt_photon_map *photon_map; /* use these photons and emit none; NULL: emit. Not kept in a scene */
     const rt_hooks *hooks;  /* NULL: none; not kept in a scene */
 } rt_render_options;
@@ -633,13 +637,9 @@ typedef enum rt_photon_kind {
 } rt_photon_kind;
 
 typedef struct rt_emit_options {
-    const rt_render_options *render; /* of which photons, caustic_photons, max_depth, seed, sampler, direct and
-                                        hooks count; NULL: the scene's own */
+    const rt_render_options *render; /* of which photons, caustic_photons, light_shares, max_depth, seed, sampler,
+                                        direct and hooks count; NULL: the scene's own */
     uint32_t part, parts; /* make part `part`, counted from 0, of a map in `parts` parts; parts 0 means 1 */
-    const float *light_shares; /* [light_share_count]: what part of the paths each light gets, in proportion and in
-                                  the order of rt_photon_map_ledger; flux is weighted so that the mean stays the
-                                  same. NULL: in proportion to power */
-    size_t light_share_count;
 } rt_emit_options;
 
 /*
@@ -729,7 +729,8 @@ RT_API rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_er
 
 /*
  * Writes the photons as the points of a binary PLY file: position, normal, flux in W, direction of travel, segments
- * of the path, whether caustic, and an 8-bit colour (the flux by the brightest, sRGB) for viewers.
+ * of the path, whether caustic, and an 8-bit colour (the flux by the brightest, sRGB) for viewers; and the shape that
+ * it lies on, as rt_hit.shape, and the path and seed that it is of, which a path of a merged map is known by.
  */
 RT_API rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error);
 

@@ -11,6 +11,7 @@
 #include "rtc.h"
 #include "scene_file.h"
 #include "session.h"
+#include "shares.h"
 #include "stats.h"
 
 /* Everything that one render holds. */
@@ -22,6 +23,8 @@ typedef struct render_job {
     rt_render_options own;     /* of the scene, and of the photon map */
     rt_render_options options; /* and of the command line */
     rt_photon_map *photon_map;
+    float *shares; /* of the photon paths, one a light */
+    size_t share_count;
     rt_scene *scene;
     rt_device *device;
     rt_renderer *renderer;
@@ -60,6 +63,8 @@ static int set_options(render_job *job)
     int status = load_photon_map(job);
     job->options = job->own;
     session_merge_options(&job->session, &job->options);
+    job->options.light_shares = job->shares;
+    job->options.light_share_count = job->share_count;
     return status;
 }
 
@@ -79,8 +84,9 @@ static void warn_idle_photon_options(const render_job *job)
     if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
         job->options.kernel != RT_DENSITY_CONE)
         message_warning("--cone-k has no effect without --kernel cone");
-    if (job->photon_map && (value(job, OPTION_PHOTONS)->given || value(job, OPTION_CAUSTIC_PHOTONS)->given))
-        message_warning("--photons and --caustic-photons have no effect with --photon-map");
+    if (job->photon_map && (value(job, OPTION_PHOTONS)->given || value(job, OPTION_CAUSTIC_PHOTONS)->given ||
+                            value(job, OPTION_LIGHT_SHARES)->given))
+        message_warning("--photons, --caustic-photons and --light-shares have no effect with --photon-map");
     if (!job->photon_map && job->options.caustic_photons == 0 &&
         (value(job, OPTION_CAUSTIC_K)->given || value(job, OPTION_CAUSTIC_RADIUS)->given ||
          value(job, OPTION_CAUSTIC_KERNEL)->given))
@@ -261,7 +267,9 @@ static int write_images(const render_job *job, int status)
 
 static int run(render_job *job)
 {
-    int status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path);
+    int status = light_shares_read(&job->shares, &job->share_count, job->session.arguments);
+    if (status == STATUS_DONE)
+        status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path);
     if (status == STATUS_DONE)
         status = load(job);
     if (status == STATUS_DONE)
@@ -303,6 +311,7 @@ int command_render(const command_line *arguments)
     rt_renderer_destroy(job.renderer);
     rt_device_close(job.device);
     rt_scene_destroy(job.scene);
+    free(job.shares);
     inputs_free(&job.inputs);
     outputs_free(&job.outputs);
     return status;

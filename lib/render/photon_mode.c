@@ -63,7 +63,8 @@ static rt_status prepare(rt_photon_render *r, rt_error *error)
     }
     rt_status status = rt_photon_eye_create(&r->eye, r->renderer, o, &r->eye_kernels, &r->aov, r->film, error);
     if (status == RT_OK && !o->photon_map)
-        status = rt_emitter_create(&r->emitter, r->renderer->device, r->emit, r->renderer->scene, NULL, 0, error);
+        status = rt_emitter_create(&r->emitter, r->renderer->device, r->emit, r->renderer->scene, o->light_shares,
+                                   o->light_share_count, error);
     return status;
 }
 

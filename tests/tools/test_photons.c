@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "expect.h"
+#include "image/image.h"
 #include "lib/image/scratch.h"
 #include "spawn.h"
 
@@ -250,6 +251,32 @@ static void starved_lights_are_told_without_verbose(void **state)
     run_free(&shared);
 }
 
+/* Paths go to the lights as a render is told, and the picture says in its file that they did. */
+static void renders_share_paths_among_lights(void **state)
+{
+    (void)state;
+    scratch_write("b.rts", SCENE "light point { position 0 0 0.5  power 5 }\n");
+    run told = run_rtc("b.rts --mode photon --photons 1000 --light-shares 0.25,0.75 --spp 1 --stats --out b.exr");
+    run path = run_rtc("b.rts --light-shares 1,1 --spp 1 --out b.pfm");
+    expect_status(&told, 0);
+    const char *line = strstr(told.out, "ledger light 0: ");
+    int paths = 0;
+    assert_non_null(line);
+    /* Of 1000 paths a quarter, within five standard errors of 14; but sobol draws them more evenly. */
+    assert_true(sscanf(line, "ledger light 0: %d paths", &paths) == 1 && paths > 180 && paths < 320);
+    rt_image *image = NULL;
+    assert_int_equal(rt_image_read(&image, "b.exr", NULL), RT_OK);
+    assert_non_null(strstr(rt_image_attribute_value(image, "librt.command"), "--light-shares 0.25,0.75"));
+    rt_image_destroy(image);
+    expect_err(&path, "warning: --light-shares has no effect in path mode");
+    run_free(&told);
+    run_free(&path);
+    succeed("photons b.rts --photons 100 --quiet --out b.rtp");
+    run map = run_rtc("b.rts --photon-map b.rtp --light-shares 1,1 --spp 1 --out b.pfm");
+    expect_err(&map, "warning: --photons, --caustic-photons and --light-shares have no effect with --photon-map");
+    run_free(&map);
+}
+
 static void renders_print_the_ledger(void **state)
 {
     (void)state;
@@ -278,6 +305,7 @@ int main(void)
         IN_SCRATCH(exports_are_clouds_of_points),
         IN_SCRATCH(broken_maps_and_places_have_their_status),
         IN_SCRATCH(starved_lights_are_told_without_verbose),
+        IN_SCRATCH(renders_share_paths_among_lights),
         IN_SCRATCH(renders_print_the_ledger),
     };
     return cmocka_run_group_tests_name("tools/photons", tests, NULL, NULL);

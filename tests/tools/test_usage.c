@@ -96,11 +96,15 @@ static const struct {
     {"photons a.rts", "--out FILE"},
     {"photons a.rts b.rts --out m.rtp", "usage: rtc photons"},
     {"photons a.rts --out m.rtp --out n.rtp", "--out FILE"},
-    {"photons a.rts --out m.rtp --part 0/2", "--part takes"},
-    {"photons a.rts --out m.rtp --part 3/2", "--part takes"},
+    {"photons a.rts --out m.rtp --part 0/2", "--part 0/2: there is no part 0 of 2; they are counted from 1"},
+    {"photons a.rts --out m.rtp --part 3/2", "--part 3/2: there is no part 3 of 2"},
+    {"photons a.rts --out m.rtp --part 0/0", "--part takes"},
     {"photons a.rts --out m.rtp --part 1", "--part takes"},
     {"photons a.rts --out m.rtp --part 1/x", "--part takes"},
-    {"photons a.rts --out m.rtp --light-shares 1,,2", "--light-shares takes"},
+    {"photons a.rts --out m.rtp --light-shares 1,,2",
+     "--light-shares takes a number from 0 to 1e+15 for each light, with commas between them, as in 1,0.5,2; not '1,,2'"},
+    {"a.rts --mode photon --light-shares 1,2e15", "--light-shares takes"},
+    {"a.rts --mode photon --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
     {"photons a.rts --out m.rtp --light-shares 1,-2", "--light-shares takes"},
     {"photons a.rts --out m.rtp --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
     {"photons a.rts --out m.rtp --k 5", "`rtc photons` takes no option --k"},
@@ -449,7 +453,10 @@ static void each_field_is_an_option(const char *help, const rt_block *block)
     }
 }
 
-/* And each option of what to render is a field, but for two that are of one run: --accel and --photon-map. */
+/*
+ * And each option of what to render is a field, but for three that are of one run: --accel,
+ * --photon-map and --light-shares.
+ */
 static void options_and_fields_are_the_same(void **state)
 {
     const rt_block *film = &rt_blocks[RT_BLOCK_FILM], *render = &rt_blocks[RT_BLOCK_RENDER];
@@ -460,6 +467,7 @@ static void options_and_fields_are_the_same(void **state)
     each_field_is_an_option(run.out, render);
     expect_out(&run, "\n  --accel ");
     expect_out(&run, "\n  --photon-map ");
+    expect_out(&run, "\n  --light-shares ");
 
     /* What is behind is about the output, --aov and --variance among it. */
     char *end = strstr(run.out, "\nOutput:\n");
@@ -467,7 +475,7 @@ static void options_and_fields_are_the_same(void **state)
     *end = '\0';
     for (const char *at = run.out; (at = strstr(at, "\n  --")) != NULL; at++)
         options++;
-    assert_int_equal(options, film->field_count + render->field_count - 2 + 2);
+    assert_int_equal(options, film->field_count + render->field_count - 2 + 3);
     run_free(&run);
 }
 

@@ -1,5 +1,6 @@
 #include "lib/photon/emitted.h"
 
+#include "photon/map_file.h"
 #include "support.h"
 
 rt_renderer *renderer_on(rt_device *device, const char *text, rt_accel accel)
@@ -20,4 +21,16 @@ rt_photon_map *emit_map(rt_renderer *renderer, const rt_emit_options *options)
     rt_error error;
     expect_ok(rt_photon_map_emit(&map, renderer, options, &error), &error);
     return map;
+}
+
+void expect_same_maps(const rt_photon_map *a, const rt_photon_map *b)
+{
+    rt_bytes x = {0}, y = {0};
+    rt_error error;
+    expect_ok(rt_photon_map_encode(&x, a, &error), &error);
+    expect_ok(rt_photon_map_encode(&y, b, &error), &error);
+    assert_int_equal(x.size, y.size);
+    assert_memory_equal(x.data, y.data, x.size);
+    rt_bytes_free(&x);
+    rt_bytes_free(&y);
 }

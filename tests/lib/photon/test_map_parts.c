@@ -7,18 +7,6 @@
 #include "photon/map_file.h"
 
 /* The same files mean the same maps, to the bit. */
-static void expect_same(const rt_photon_map *a, const rt_photon_map *b)
-{
-    rt_bytes x = {0}, y = {0};
-    rt_error error;
-    expect_ok(rt_photon_map_encode(&x, a, &error), &error);
-    expect_ok(rt_photon_map_encode(&y, b, &error), &error);
-    assert_int_equal(x.size, y.size);
-    assert_memory_equal(x.data, y.data, x.size);
-    rt_bytes_free(&x);
-    rt_bytes_free(&y);
-}
-
 static rt_photon_map *merge(rt_photon_map *const *maps, size_t count)
 {
     rt_photon_map *map = NULL;
@@ -53,13 +41,13 @@ static void parts_join_to_the_map_of_all(void **state)
     for (int i = 0; i < 3; i++) {
         rt_photon_map *some[] = {parts[orders[i][0]], parts[orders[i][1]], parts[orders[i][2]]};
         rt_photon_map *joined = merge(some, 3);
-        expect_same(joined, whole);
+        expect_same_maps(joined, whole);
         rt_photon_map_destroy(joined);
         /* Two at a time comes to the same, with a gap in between or not. */
         rt_photon_map *pair = merge(some, 2);
         rt_photon_map *rest[] = {some[2], pair};
         joined = merge(rest, 2);
-        expect_same(joined, whole);
+        expect_same_maps(joined, whole);
         rt_photon_map_destroy(pair);
         rt_photon_map_destroy(joined);
     }
@@ -83,7 +71,7 @@ static void seeds_join_in_any_order(void **state)
         maps[i] = turned[1 - i] = emit_map(renderer, &options);
     }
     rt_photon_map *a = merge(maps, 2), *b = merge(turned, 2);
-    expect_same(a, b);
+    expect_same_maps(a, b);
     rt_photon_map_get_info(a, &info);
     assert_int_equal(info.paths[RT_PHOTONS_GLOBAL], 6000);
     const rt_path_range *ranges = rt_photon_map_ranges(a, RT_PHOTONS_GLOBAL, &range_count);
@@ -124,8 +112,8 @@ static void maps_that_do_not_fit_are_not_joined(void **state)
     odd[4] = emit_map(renderer, &others);
     expect_no_merge(map, odd[4], "samplers");
     other = (rt_render_options){.photons = 100, .seed = 1};
-    others.light_shares = shares;
-    others.light_share_count = 2;
+    other.light_shares = shares;
+    other.light_share_count = 2;
     odd[5] = emit_map(renderer, &others);
     expect_no_merge(map, odd[5], "shares");
     for (int i = 0; i < 6; i++)
@@ -150,7 +138,7 @@ static void maps_do_not_depend_on_threads_and_work_groups(void **state)
         expect_ok(rt_device_open(&device, devices + i, &error), &error);
         renderer = renderer_on(device, ROOM, RT_ACCEL_BVH);
         rt_photon_map *map = emit_map(renderer, &options);
-        expect_same(map, expected);
+        expect_same_maps(map, expected);
         rt_photon_map_destroy(map);
         rt_renderer_destroy(renderer);
         rt_device_close(device);
