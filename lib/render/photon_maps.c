@@ -67,7 +67,7 @@ static rt_status emit(emission *e, rt_error *error)
     if (status != RT_OK)
         return status;
     rt_emitter_warn_reach(e->emitter, o->hooks);
-    rt_photon_map_warn_starved(e->map, &e->map->ledger, o->k, o->caustic_k, o->hooks);
+    rt_photon_map_warn_starved(e->map, &e->map->ledger, 0, o->k, o->caustic_k, o->hooks);
     return rt_stage_end(&progress, NULL);
 }
 

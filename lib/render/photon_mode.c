@@ -140,7 +140,8 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
     if (status == RT_OK && r.emitter)
         rt_emitter_warn_reach(r.emitter, options->hooks);
     if (status == RT_OK)
-        rt_photon_map_warn_starved(r.in_use, &film->ledger, options->k, options->caustic_k, options->hooks);
+        rt_photon_map_warn_starved(r.in_use, &film->ledger, film->stats.passes, options->k, options->caustic_k,
+                                   options->hooks);
     if (status == RT_OK || (status == RT_CANCELLED && r.eye.pixels)) {
         rt_status read = rt_photon_eye_read(&r.eye, film, error);
         if (read == RT_OK)

@@ -180,7 +180,7 @@ static void maps_of_other_scenes_are_refused(void **state)
     expect_no_file("x.pfm");
     run merge = run_rtc("photons merge a.rtp b.rtp --out c.rtp");
     expect_status(&merge, 1);
-    expect_err(&merge, "different scenes");
+    expect_err(&merge, "a.rtp and b.rtp: the photon maps are of different scenes");
     expect_no_file("c.rtp");
     run_free(&render);
     run_free(&merge);
@@ -214,7 +214,7 @@ static void broken_maps_and_places_have_their_status(void **state)
         {"a.rts --photon-map . --out a.pfm", 1, "directory"},
         {"photons info none.rtp", 1, "none.rtp: No such file"},
         {"photons diff a.rtp a.rts", 1, "no photon map"},
-        {"photons merge a.rtp a.rtp --out c.rtp", 1, "the same paths"},
+        {"photons merge a.rtp a.rtp --out c.rtp", 1, "a.rtp and a.rtp: the photon maps hold the same paths"},
         {"photons export a.rtp --out nowhere/a.ply", 4, "nowhere/a.ply"},
         {"photons merge a.rtp --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
         {"photons a.rts --photons 10 --out nowhere/a.rtp", 4, "nowhere/a.rtp"},

@@ -66,6 +66,7 @@ static const struct {
     {"a.rts --progress yes", "--progress takes one of auto, plain, json, none"},
     {"a.rts --stats=1", "--stats takes no value"},
     {"a.rts --mdoe path", "did you mean --mode?"},
+    {"a.rts --photn 3", "did you mean --photons?"},
     {"a.rts --frobnicate", "unknown option '--frobnicate'"},
     {"a.rts -s 3", "unknown option '-s'"},
     {"a.rts --verbose --quiet", "exclude each other"},

@@ -216,6 +216,21 @@ static void starved_lights_and_maps_are_told(void **state)
     render.caustic_photons = 0;
     rt_photon_map_destroy(emit_map(renderer, &options));
     assert_string_equal(warnings, "the photon map is empty: none of 200 photon paths left a photon in it\n");
+    /* Why that is so is told where it is known, and of which pass it is. */
+    warnings[0] = '\0';
+    render.max_depth = 1;
+    rt_photon_map_destroy(emit_map(renderer, &options));
+    assert_string_equal(warnings, "the photon map is empty: none of 200 photon paths left a photon in it; with max_depth "
+                                  "1 all light is direct, which shadow rays bring\n");
+    warnings[0] = '\0';
+    rt_render_options passes = {.mode = RT_MODE_PHOTON, .width = 2, .height = 2, .photons = 10, .passes = 3,
+                                .radius = 0.1f, .hooks = &hooks};
+    rt_film *film = NULL;
+    rt_renderer *seen = test_renderer("camera { eye 0 0 1  look_at 0 0 0 }\nlight point { position 0 0 0  power 1 }\n");
+    expect_ok(rt_render(&film, seen, &passes, &error), &error);
+    assert_string_equal(warnings, "the photon map of pass 3 is empty: none of 10 photon paths left a photon in it\n");
+    rt_film_destroy(film);
+    rt_renderer_destroy(seen);
     hooks.progress = cancel;
     assert_int_equal(rt_photon_map_emit(&map, renderer, &options, &error), RT_CANCELLED);
     assert_null(map);
