@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "idle.h"
 #include "inputs.h"
 #include "message.h"
 #include "nearest.h"
@@ -73,55 +74,6 @@ static int is_switched_off(const render_job *job, option_id id)
     return option_table[id].kind == KIND_SWITCH && !value(job, id)->choice;
 }
 
-static int is_asked_for(const render_job *job, option_id id)
-{
-    return value(job, id)->given && !is_switched_off(job, id);
-}
-
-/* Options of the photon mode that this render has no use for. */
-static void warn_idle_photon_options(const render_job *job)
-{
-    if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
-        job->options.kernel != RT_DENSITY_CONE)
-        message_warning("--cone-k has no effect without --kernel cone");
-    if (job->photon_map && (value(job, OPTION_PHOTONS)->given || value(job, OPTION_CAUSTIC_PHOTONS)->given ||
-                            value(job, OPTION_LIGHT_SHARES)->given))
-        message_warning("--photons, --caustic-photons and --light-shares have no effect with --photon-map");
-    if (!job->photon_map && job->options.caustic_photons == 0 &&
-        (value(job, OPTION_CAUSTIC_K)->given || value(job, OPTION_CAUSTIC_RADIUS)->given ||
-         value(job, OPTION_CAUSTIC_KERNEL)->given))
-        message_warning("--caustic-k, --caustic-radius and --caustic-kernel have no effect without --caustic-photons");
-    if (value(job, OPTION_ALPHA)->given && job->options.mode == RT_MODE_PHOTON && job->options.passes < 2)
-        message_warning("--alpha has no effect without --passes");
-}
-
-/* What is asked for but has no place in the files. */
-static void warn_idle_output_options(const render_job *job)
-{
-    if (!outputs_have_8bit(&job->outputs) && (value(job, OPTION_EXPOSURE)->given || value(job, OPTION_TONEMAP)->given))
-        message_warning("--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
-    if (outputs_have_layers(&job->outputs))
-        return;
-    if (is_asked_for(job, OPTION_AOV))
-        message_warning("--aov has no effect without an .exr, which alone holds layers");
-    if (is_asked_for(job, OPTION_PHOTON_LAYERS) && job->options.mode == RT_MODE_PHOTON)
-        message_warning("--photon-layers has no effect without an .exr, which alone holds layers");
-    if (is_asked_for(job, OPTION_VARIANCE))
-        message_warning("--variance adds no layer without an .exr, which alone holds layers; the error is told all the "
-                        "same");
-}
-
-/* An option that cannot change anything in this render is probably a mistake. */
-static void warn_idle_options(const render_job *job)
-{
-    for (int i = 0; i < OPTION_COUNT; i++)
-        if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON && is_asked_for(job, (option_id)i))
-            message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
-                            option_table[i].name, rt_mode_name(job->options.mode));
-    warn_idle_photon_options(job);
-    warn_idle_output_options(job);
-}
-
 /* ---- The steps ------------------------------------------------------------ */
 
 static int load(render_job *job)
@@ -137,7 +89,7 @@ static int load(render_job *job)
     if (status != STATUS_DONE)
         return status;
     if (!job->session.quiet)
-        warn_idle_options(job);
+        idle_warn(job->session.arguments, &job->options, &job->outputs);
     /* Options that cannot be are told before any work. */
     status = session_check_options(&job->session, &job->own, &job->options);
     if (status != STATUS_DONE)

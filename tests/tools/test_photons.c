@@ -273,7 +273,7 @@ static void renders_share_paths_among_lights(void **state)
     run_free(&path);
     succeed("photons b.rts --photons 100 --quiet --out b.rtp");
     run map = run_rtc("b.rts --photon-map b.rtp --light-shares 1,1 --spp 1 --out b.pfm");
-    expect_err(&map, "warning: --photons, --caustic-photons and --light-shares have no effect with --photon-map");
+    expect_err(&map, "warning: --light-shares has no effect with --photon-map");
     run_free(&map);
 }
 
