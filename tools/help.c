@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "options.h"
+#include "photons.h"
 
 enum { LEFT = 26, WIDTH = 80 };
 
@@ -129,14 +130,22 @@ static void print_option(const option *option, command_id command)
     print_wrapped(text, (size_t)column);
 }
 
-void help_print(command_id command)
+/* Whether what is asked about, a command or a form of `rtc photons`, has this option. */
+static int takes(command_id command, const photons_form *form, option_id id)
 {
-    fputs(usages[command], stdout);
+    return (option_table[id].commands & (1u << command)) && (!form || photons_form_takes(form, id));
+}
+
+void help_print(const command_line *arguments)
+{
+    command_id command = arguments->command;
+    const photons_form *form = photons_find_form(arguments);
+    fputs(form ? form->usage : usages[command], stdout);
     for (int group = 0; group < GROUP_COUNT; group++) {
         int titled = 0;
         for (int i = 0; i < OPTION_COUNT; i++) {
             const option *option = &option_table[i];
-            if (option->group != (option_group)group || !(option->commands & (1u << command)))
+            if (option->group != (option_group)group || !takes(command, form, (option_id)i))
                 continue;
             if (!titled++)
                 printf("\n%s:\n", option_group_titles[group]);

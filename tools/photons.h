@@ -5,6 +5,20 @@
 #include "rtc.h"
 #include "rt.h"
 
+/* A form of the command that works on maps in files: the word that asks for it. */
+typedef struct photons_form {
+    const char *word;
+    int (*run)(const command_line *arguments);
+    int writes;        /* takes --out */
+    const char *usage; /* the start of its help */
+} photons_form;
+
+/* The form that a command line names, or NULL. */
+const photons_form *photons_find_form(const command_line *arguments);
+
+/* Whether a form has this option. */
+int photons_form_takes(const photons_form *form, option_id id);
+
 /* `rtc photons SCENE`: emits a map. */
 int photons_emit(const command_line *arguments);
 

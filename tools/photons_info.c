@@ -180,17 +180,19 @@ static int same_paths(const rt_photon_map *a, const rt_photon_map *b, rt_photon_
     return x == y;
 }
 
-/* Whether the ledgers are the same in all numbers; they may differ where the photons do not. */
-static int same_ledgers(const rt_photon_map *a, const rt_photon_map *b, size_t count)
+/* Prints where the ledgers differ; they may where the photons do not. Returns whether they do, or -1: out of memory. */
+static int print_ledger_difference(const rt_photon_map *a, const rt_photon_map *b, size_t count)
 {
     rt_light_ledger *rows = calloc(2 * count + 1, sizeof *rows);
     if (!rows)
         return -1;
     rt_photon_map_ledger(a, rows, count);
     rt_photon_map_ledger(b, rows + count, count);
-    int same = memcmp(rows, rows + count, count * sizeof *rows) == 0;
+    int differ = memcmp(rows, rows + count, count * sizeof *rows) != 0;
+    if (differ)
+        ledger_print_difference(rows, rows + count, count);
     free(rows);
-    return same;
+    return differ;
 }
 
 static int print_list_difference(const rt_photon_map *a, const rt_photon_map *b, const rt_photon_map_info info[2],
@@ -235,14 +237,12 @@ int photons_print_difference(const rt_photon_map *a, const rt_photon_map *b, int
     *differ |= print_setting("lights", info[0].lights, info[1].lights);
     *differ |= print_list_difference(a, b, info, RT_PHOTONS_GLOBAL);
     *differ |= print_list_difference(a, b, info, RT_PHOTONS_CAUSTIC);
-    int ledgers = info[0].lights == info[1].lights ? same_ledgers(a, b, info[0].lights) : 0;
+    int ledgers = info[0].lights == info[1].lights ? print_ledger_difference(a, b, info[0].lights) : 1;
     if (ledgers < 0) {
         message_error("out of memory");
         return STATUS_DEVICE;
     }
-    if (!ledgers)
-        printf("the energy ledgers differ\n");
-    *differ |= !ledgers;
+    *differ |= ledgers;
     if (!*differ)
         printf("the maps are equal\n");
     return STATUS_DONE;

@@ -76,6 +76,7 @@ static void diff_tells_equal_maps_from_others(void **state)
         const char *options, *says;
     } others[] = {
         {"--photons 999", "only in the first"},
+        {"--photons 999", "ledger light 0 (shape 2): 1000 and 999 paths, share 1 and 1, emitted 5 and 5, absorbed "},
         {"--photons 1000 --seed 1", "0 equal, 0 changed"},
         {"--photons 1000 --max-depth 4", "longest path: 16 and 4"},
         {"--photons 1000 --direct photons", "direct light in the map: 0 and 1"},

@@ -103,7 +103,8 @@ static const struct {
     {"photons a.rts --out m.rtp --part 1", "--part takes"},
     {"photons a.rts --out m.rtp --part 1/x", "--part takes"},
     {"photons a.rts --out m.rtp --light-shares 1,,2",
-     "--light-shares takes a number from 0 to 1e+15 for each light, with commas between them, as in 1,0.5,2; not '1,,2'"},
+     "--light-shares takes a number from 0 to 1e+15 for each light, with commas between them, as in 1,0.5,2; not "
+     "'1,,2'"},
     {"a.rts --mode photon --light-shares 1,2e15", "--light-shares takes"},
     {"a.rts --mode photon --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
     {"photons a.rts --out m.rtp --light-shares 1,-2", "--light-shares takes"},
@@ -334,6 +335,33 @@ static void each_command_has_its_help(void **state)
         expect_status(&run, 0);
         expect_out(&run, usage);
         assert_string_equal(run.out, same.out);
+        run_free(&run);
+        run_free(&same);
+    }
+}
+
+/* A form of `rtc photons` tells its own usage and the options that it takes, and no others. */
+static void each_form_of_photons_has_its_help(void **state)
+{
+    static const struct {
+        const char *form, *usage;
+        int writes;
+    } cases[] = {{"info", "usage: rtc photons info MAP...\n", 0},
+                 {"merge", "usage: rtc photons merge MAP... --out MAP\n", 1},
+                 {"diff", "usage: rtc photons diff MAP MAP\n", 0},
+                 {"export", "usage: rtc photons export MAP --out FILE.ply\n", 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        run run = run_rtc("help photons %s", cases[i].form), same = run_rtc("photons %s --help", cases[i].form);
+        expect_status(&run, 0);
+        assert_string_equal(run.out, same.out);
+        assert_memory_equal(run.out, cases[i].usage, strlen(cases[i].usage));
+        assert_int_equal(strstr(run.out, "\n  --out ") != NULL, cases[i].writes);
+        expect_out(&run, "\n  --quiet ");
+        assert_null(strstr(run.out, "--photons"));
+        assert_null(strstr(run.out, "--device"));
+        for (const char *line = run.out; *line; line += strcspn(line, "\n") + 1)
+            assert_true(strcspn(line, "\n") <= 80);
         run_free(&run);
         run_free(&same);
     }
@@ -604,6 +632,7 @@ int main(void)
         TEST(negative_value_is_a_value),
         TEST(help_describes_every_option),
         TEST(each_command_has_its_help),
+        TEST(each_form_of_photons_has_its_help),
         TEST(version_is_told),
         TEST(devices_are_listed),
         TEST(doctor_finds_all_well),
