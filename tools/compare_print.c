@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "compare.h"
+#include "json.h"
 
 static const char *const channel_names[3] = {"R", "G", "B"};
 
@@ -93,54 +94,14 @@ void compare_print_text(const rt_comparison *comparison, const command_line *arg
 
 /* ---- JSON ------------------------------------------------------------------- */
 
-static void put_string(const char *text)
-{
-    putchar('"');
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        if (*c == '"' || *c == '\\')
-            printf("\\%c", *c);
-        else if (*c < 0x20)
-            printf("\\u%04x", (unsigned)*c);
-        else
-            putchar(*c);
-    }
-    putchar('"');
-}
-
-/* JSON knows no infinity and no NaN. */
-static void put_number(double value)
-{
-    if (isfinite(value))
-        printf("%.10g", value);
-    else
-        fputs("null", stdout);
-}
-
-static void put_member(const char *name, double value)
-{
-    printf(",\"%s\":", name);
-    put_number(value);
-}
-
-static void put_triple(const char *name, const double values[3])
-{
-    printf(",\"%s\":[", name);
-    for (int c = 0; c < 3; c++) {
-        if (c)
-            putchar(',');
-        put_number(values[c]);
-    }
-    putchar(']');
-}
-
 static void put_block(const rt_image_block *b)
 {
     printf("{\"x\":%u,\"y\":%u,\"width\":%u,\"height\":%u", (unsigned)b->x, (unsigned)b->y, (unsigned)b->width,
            (unsigned)b->height);
-    put_triple("mean", b->mean);
-    put_triple("reference", b->reference);
-    put_triple("error", b->error);
-    put_triple("excess", b->excess);
+    json_triple("mean", b->mean);
+    json_triple("reference", b->reference);
+    json_triple("error", b->error);
+    json_triple("excess", b->excess);
     putchar('}');
 }
 
@@ -151,13 +112,13 @@ static void put_names(const command_line *arguments)
     for (size_t i = 0; i < count; i++) {
         if (i)
             putchar(',');
-        put_string(arguments->operands[i]);
+        json_string(arguments->operands[i]);
     }
     fputs("],\"reference\":", stdout);
-    put_string(arguments->operands[count]);
+    json_string(arguments->operands[count]);
     fputs(",\"layer\":", stdout);
     if (arguments->options[OPTION_LAYER].given)
-        put_string(arguments->options[OPTION_LAYER].text);
+        json_string(arguments->options[OPTION_LAYER].text);
     else
         fputs("null", stdout);
 }
@@ -171,8 +132,8 @@ static void put_limits(const command_line *arguments, const rt_comparison_info *
         if (!compare_given(limit, arguments))
             continue;
         printf("%s{\"option\":\"%s\"", first ? "" : ",", option_table[limit->option].name);
-        put_member("limit", compare_allowed(limit, arguments));
-        put_member("measured", compare_measured(limit, info));
+        json_member("limit", compare_allowed(limit, arguments));
+        json_member("measured", compare_measured(limit, info));
         printf(",\"kept\":%s}", compare_kept(limit, arguments, info) ? "true" : "false");
         first = 0;
     }
@@ -188,17 +149,17 @@ void compare_print_json(const rt_comparison *comparison, const command_line *arg
     put_names(arguments);
     printf(",\"width\":%u,\"height\":%u,\"not_finite\":[%llu,%llu]", (unsigned)info.width, (unsigned)info.height,
            (unsigned long long)info.not_finite[0], (unsigned long long)info.not_finite[1]);
-    put_member("mse", info.mse);
-    put_member("rmse", info.rmse);
-    put_member("relmse", info.relmse);
-    put_member("ratio", info.ratio);
-    put_member("ratio_error", info.ratio_error);
+    json_member("mse", info.mse);
+    json_member("rmse", info.rmse);
+    json_member("relmse", info.relmse);
+    json_member("ratio", info.ratio);
+    json_member("ratio_error", info.ratio_error);
     printf(",\"shares_photons\":[%s,%s]", info.shares_photons[0] ? "true" : "false",
            info.shares_photons[1] ? "true" : "false");
-    put_triple("ratio_rgb", info.ratio_rgb);
-    put_member("ssim", info.ssim);
-    put_member("flip", info.flip);
-    put_member("typical", info.typical);
+    json_triple("ratio_rgb", info.ratio_rgb);
+    json_member("ssim", info.ssim);
+    json_member("flip", info.flip);
+    json_member("typical", info.typical);
     printf(",\"blocks\":%zu,\"off\":%zu,\"worst_channel\":\"%s\",\"worst\":", info.blocks, info.off,
            channel_names[info.worst_channel]);
     put_block(&blocks[info.worst]);

@@ -71,7 +71,8 @@ static int info(const command_line *arguments)
         rt_photon_map *map = NULL;
         int now = photons_load(&map, arguments->operands[i]);
         if (now == STATUS_DONE)
-            now = photons_print_info(arguments->operands[i], map);
+            now = arguments->options[OPTION_JSON].given ? photons_print_info_json(arguments->operands[i], map)
+                                                        : photons_print_info(arguments->operands[i], map);
         rt_photon_map_destroy(map);
         status = status == STATUS_DONE ? now : status;
     }
@@ -121,7 +122,9 @@ static int diff(const command_line *arguments)
     if (status == STATUS_DONE)
         status = photons_load(&b, arguments->operands[2]);
     if (status == STATUS_DONE)
-        status = photons_print_difference(a, b, &differ);
+        status = arguments->options[OPTION_JSON].given
+                     ? photons_print_difference_json(arguments->operands + 1, a, b, &differ)
+                     : photons_print_difference(a, b, &differ);
     rt_photon_map_destroy(a);
     rt_photon_map_destroy(b);
     return status == STATUS_DONE && differ ? STATUS_INPUT : status;
@@ -185,7 +188,8 @@ const photons_form *photons_find_form(const command_line *arguments)
 
 int photons_form_takes(const photons_form *form, option_id id)
 {
-    return id == OPTION_QUIET || id == OPTION_VERBOSE || id == OPTION_HELP || (id == OPTION_OUT && form->writes);
+    return id == OPTION_QUIET || id == OPTION_VERBOSE || id == OPTION_HELP || (id == OPTION_OUT && form->writes) ||
+           (id == OPTION_JSON && !form->writes);
 }
 
 /* Emission has many options, the other forms few. */

@@ -113,9 +113,10 @@ static int save(const emit_job *job)
         message_note("wrote %s: %llu photons of %llu paths", job->map_path,
                      (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] + info.photons[RT_PHOTONS_CAUSTIC]),
                      (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
-    if (session_value(&job->session, OPTION_STATS)->given)
-        return photons_print_info(job->map_path, job->map);
-    return STATUS_DONE;
+    if (!session_value(&job->session, OPTION_STATS)->given)
+        return STATUS_DONE;
+    return session_value(&job->session, OPTION_JSON)->given ? photons_print_info_json(job->map_path, job->map)
+                                                            : photons_print_info(job->map_path, job->map);
 }
 
 int photons_emit(const command_line *arguments)
@@ -123,6 +124,8 @@ int photons_emit(const command_line *arguments)
     emit_job job = {0};
     job.scene_path = arguments->operands[0];
     session_begin(&job.session, arguments);
+    if (arguments->options[OPTION_JSON].given && !arguments->options[OPTION_STATS].given && !job.session.quiet)
+        message_warning("--json has no effect without --stats");
     int status = read_options(&job, arguments);
     if (status == STATUS_DONE)
         status = load(&job);

@@ -101,6 +101,38 @@ static void diff_tells_equal_maps_from_others(void **state)
     }
 }
 
+static void results_are_json_when_asked(void **state)
+{
+    (void)state;
+    run made = run_rtc("photons a.rts --photons 1000 --seed 9 --quiet --stats --json --out a.rtp");
+    run info = run_rtc("photons info a.rtp --json");
+    succeed("photons a.rts --photons 999 --seed 9 --quiet --out b.rtp");
+    run same = run_rtc("photons diff a.rtp a.rtp --json"), other = run_rtc("photons diff a.rtp b.rtp --json");
+    assert_memory_equal(info.out, "{\"map\":\"a.rtp\",\"scene\":\"", 24);
+    assert_string_equal(made.out, info.out);
+    expect_out(&info, ",\"direct\":\"nee\",\"sampler\":\"sobol\",\"max_depth\":16,\"rejected\":0,"
+                      "\"global\":{\"paths\":1000,");
+    expect_out(&info, ",\"ranges\":[{\"first\":0,\"count\":1000,\"photons\":");
+    expect_out(&info, ",\"seed\":9}]},"
+                      "\"ledger\":[{\"shape\":2,\"paths\":1000,\"share\":1,\"power\":[5,5,5],\"emitted\":[");
+    assert_null(strstr(info.out, "\"caustic\":{"));
+    expect_status(&same, 0);
+    expect_out(&same, "{\"maps\":[\"a.rtp\",\"a.rtp\"],\"same_scene\":true,\"same_settings\":true,"
+                      "\"same_rejected\":true,\"same_ledger\":true,\"global\":{\"equal\":");
+    expect_out(&same, ",\"equal\":true}\n");
+    expect_status(&other, 1);
+    expect_out(&other, "\"same_ledger\":false,");
+    expect_out(&other, "\"only_second\":0,\"same_paths\":false},");
+    expect_out(&other, ",\"equal\":false}\n");
+    run_free(&made);
+    run_free(&info);
+    run_free(&same);
+    run_free(&other);
+    made = run_rtc("photons a.rts --photons 10 --json --out a.rtp");
+    expect_err(&made, "warning: --json has no effect without --stats");
+    run_free(&made);
+}
+
 /* A difference that could not be told is a failure, not the answer that there is one. */
 static void full_stdout_is_status_4(void **state)
 {
@@ -298,6 +330,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(parts_merge_into_the_same_file),
         IN_SCRATCH(info_says_what_a_map_holds),
+        IN_SCRATCH(results_are_json_when_asked),
         IN_SCRATCH(diff_tells_equal_maps_from_others),
         IN_SCRATCH(full_stdout_is_status_4),
         IN_SCRATCH(maps_render_as_if_emitted),
