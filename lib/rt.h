@@ -524,9 +524,9 @@ typedef struct rt_render_options {
     uint32_t caustic_k;     /* nearest photons in the caustic map; 0 means k */
     float caustic_radius;   /* largest gather radius in the caustic map, metres; 0 means radius */
     rt_density caustic_kernel; /* density kernel of the caustic map */
-    const float *light_shares; /* [light_share_count]: what part of the photon paths each light gets, in proportion and in
-                                  the order of rt_photon_map_ledger, each from 0 to 1e15; flux is weighted so that the
-                                  mean stays the same. NULL: in proportion to power. Not kept in a scene */
+    const float *light_shares; /* [light_share_count]: what part of the photon paths each light gets, in proportion and
+                                  in the order of rt_photon_map_ledger, each from 0 to 1e15; flux is weighted so that
+                                  the mean stays the same. NULL: in proportion to power. Not kept in a scene */
     size_t light_share_count;
     const rt_photon_map *photon_map; /* use these photons and emit none; NULL: emit. Not kept in a scene */
     const rt_hooks *hooks;  /* NULL: none; not kept in a scene */
@@ -903,9 +903,9 @@ typedef struct rt_comparison_info {
     double ratio;           /* mean of a by mean of b; not a number where that of b is 0 */
     double ratio_error;     /* its standard error, from those of the blocks that are finite; noise is taken as common
                                to the channels; not a number where no block's is known */
-    int shares_photons[2];  /* whether the noise of the renders, and that of the reference, is understated: one .exr that
-                               says it was made in photon mode, of which the picture itself is compared. Pixels share
-                               photons, which only the scatter of several renders shows */
+    int shares_photons[2];  /* whether the noise of the renders, and that of the reference, is understated: one .exr
+                               that says it was made in photon mode, of which the picture itself is compared. Pixels
+                               share photons, which only the scatter of several renders shows */
     double ratio_rgb[3];    /* by channel */
     double ssim;            /* mean structural similarity of the luminance as an sRGB display shows it, Gaussian window
                                of 11x11 pixels (Wang et al. 2004); not a number when a picture is smaller */

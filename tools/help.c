@@ -112,6 +112,8 @@ static const char *help_of(const option *option, command_id command)
                "is; .exr .pfm: A - B as it is; may be repeated";
     if (command == COMMAND_PHOTONS && option == &option_table[OPTION_STATS])
         return "print what the map holds on stdout, as `rtc photons info` does";
+    if (command == COMMAND_RENDER && option == &option_table[OPTION_JSON])
+        return "print --stats as one JSON object; null stands for what is not a finite number";
     if (command == COMMAND_PHOTONS && option == &option_table[OPTION_JSON])
         return "print what maps hold, here with --stats, or how they differ, as a JSON object on a line for each";
     return option->help;

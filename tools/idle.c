@@ -132,5 +132,7 @@ void idle_warn(const command_line *arguments, const rt_render_options *options, 
             message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
                             option_table[i].name, rt_mode_name(options->mode));
     warn_needs(arguments, options);
+    if (is_asked_for(arguments, OPTION_JSON) && !is_asked_for(arguments, OPTION_STATS))
+        message_warning("--json has no effect without --stats");
     warn_outputs(arguments, options, outputs);
 }

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "json.h"
+
 enum { ROWS_MAX = 32 }; /* lights that are printed by themselves */
 
 static double mean(const double c[3])
@@ -73,4 +75,33 @@ void ledger_print_difference(const rt_light_ledger *a, const rt_light_ledger *b,
     }
     if (differ > ROWS_MAX)
         printf("ledger: %zu lights more differ\n", differ - ROWS_MAX);
+}
+
+static void put_light(const rt_light_ledger *l)
+{
+    fputs("{\"shape\":", stdout);
+    if (l->shape == RT_NONE)
+        fputs("null", stdout);
+    else
+        printf("%" PRIu32, l->shape);
+    printf(",\"paths\":%" PRIu64, l->paths);
+    json_member("share", l->share);
+    json_triple("power", l->power);
+    json_triple("emitted", l->emitted);
+    json_triple("absorbed", l->absorbed);
+    json_triple("escaped", l->escaped);
+    json_triple("cut_off", l->cut_off);
+    json_triple("roulette", l->roulette);
+    putchar('}');
+}
+
+void ledger_print_json(const rt_light_ledger *rows, size_t count)
+{
+    fputs(",\"ledger\":[", stdout);
+    for (size_t i = 0; i < count; i++) {
+        if (i)
+            putchar(',');
+        put_light(rows + i);
+    }
+    putchar(']');
 }

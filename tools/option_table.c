@@ -171,7 +171,7 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_BLOCKS] = {"blocks", NULL, KIND_FLAG, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, NULL,
                        "print of every block the ratio, its standard error, and the difference as a part of what "
                        "is allowed"},
-    [OPTION_JSON] = {"json", NULL, KIND_FLAG, GROUP_TALK, COMPARE | PHOTONS, 0, 0, NULL, 0, NULL,
+    [OPTION_JSON] = {"json", NULL, KIND_FLAG, GROUP_TALK, RENDER | COMPARE | PHOTONS, 0, 0, NULL, 0, NULL,
                      "print the results as one JSON object; null stands for what is not a finite number"},
 
     [OPTION_MAX_MSE] = {"max-mse", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1e15, NULL, 0, NULL,

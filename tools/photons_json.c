@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "json.h"
+#include "ledger.h"
 #include "message.h"
 #include "photons.h"
 
@@ -50,24 +51,6 @@ static void put_list(const char *name, const rt_photon_map *map, const rt_photon
     putchar('}');
 }
 
-static void put_light(const rt_light_ledger *l)
-{
-    fputs("{\"shape\":", stdout);
-    if (l->shape == RT_NONE)
-        fputs("null", stdout);
-    else
-        printf("%" PRIu32, l->shape);
-    printf(",\"paths\":%" PRIu64, l->paths);
-    json_member("share", l->share);
-    json_triple("power", l->power);
-    json_triple("emitted", l->emitted);
-    json_triple("absorbed", l->absorbed);
-    json_triple("escaped", l->escaped);
-    json_triple("cut_off", l->cut_off);
-    json_triple("roulette", l->roulette);
-    putchar('}');
-}
-
 int photons_print_info_json(const char *path, const rt_photon_map *map)
 {
     rt_photon_map_info info;
@@ -84,13 +67,8 @@ int photons_print_info_json(const char *path, const rt_photon_map *map)
     put_list("global", map, &info, RT_PHOTONS_GLOBAL);
     if (info.split)
         put_list("caustic", map, &info, RT_PHOTONS_CAUSTIC);
-    fputs(",\"ledger\":[", stdout);
-    for (size_t i = 0; i < info.lights; i++) {
-        if (i)
-            putchar(',');
-        put_light(rows + i);
-    }
-    puts("]}");
+    ledger_print_json(rows, info.lights);
+    puts("}");
     free(rows);
     return STATUS_DONE;
 }

@@ -212,7 +212,9 @@ static int write_images(const render_job *job, int status)
         say_what_was_written(job, status == STATUS_INTERRUPTED);
     if (!job->session.quiet)
         say_how_good_it_is(job);
-    if (value(job, OPTION_STATS)->given)
+    if (value(job, OPTION_STATS)->given && value(job, OPTION_JSON)->given)
+        stats_print_json(job->scene, job->device, &job->options, job->film);
+    else if (value(job, OPTION_STATS)->given)
         stats_print(job->scene, job->device, &job->options, job->film);
     return status;
 }

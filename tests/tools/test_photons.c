@@ -285,6 +285,31 @@ static void starved_lights_are_told_without_verbose(void **state)
 }
 
 /* Paths go to the lights as a render is told, and the picture says in its file that they did. */
+static void renders_print_stats_as_json(void **state)
+{
+    (void)state;
+    run photon = run_rtc("a.rts --mode photon --photons 1000 --spp 1 --quiet --stats --json --out a.pfm");
+    run path = run_rtc("a.rts --spp 3 --variance --quiet --stats --json --out a.exr");
+    run idle = run_rtc("a.rts --spp 1 --json --out a.pfm");
+    expect_status(&photon, 0);
+    assert_memory_equal(photon.out, "{\"device\":\"", 11);
+    expect_out(&photon, ",\"shapes\":3,");
+    expect_out(&photon, ",\"mode\":\"photon\",\"width\":16,\"height\":16,\"spp\":1,\"rejected\":0,\"replicates\":0,"
+                        "\"light_power\":5,");
+    expect_out(&photon, ",\"photons_emitted\":1000,");
+    expect_out(&photon, ",\"ledger\":[{\"shape\":2,\"paths\":1000,");
+    expect_out(&path, ",\"mode\":\"path\",\"width\":16,\"height\":16,\"spp\":3,");
+    expect_out(&path, ",\"relative_error_bound\":null,");
+    expect_out(&path, ",\"render_seconds\":");
+    assert_null(strstr(path.out, "ledger"));
+    assert_string_equal(strchr(path.out, '\n'), "\n");
+    expect_err(&idle, "warning: --json has no effect without --stats");
+    assert_string_equal(idle.out, "");
+    run_free(&photon);
+    run_free(&path);
+    run_free(&idle);
+}
+
 static void renders_share_paths_among_lights(void **state)
 {
     (void)state;
@@ -339,6 +364,7 @@ int main(void)
         IN_SCRATCH(exports_are_clouds_of_points),
         IN_SCRATCH(broken_maps_and_places_have_their_status),
         IN_SCRATCH(starved_lights_are_told_without_verbose),
+        IN_SCRATCH(renders_print_stats_as_json),
         IN_SCRATCH(renders_share_paths_among_lights),
         IN_SCRATCH(renders_print_the_ledger),
     };

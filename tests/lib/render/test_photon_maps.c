@@ -220,8 +220,8 @@ static void starved_lights_and_maps_are_told(void **state)
     warnings[0] = '\0';
     render.max_depth = 1;
     rt_photon_map_destroy(emit_map(renderer, &options));
-    assert_string_equal(warnings, "the photon map is empty: none of 200 photon paths left a photon in it; with max_depth "
-                                  "1 all light is direct, which shadow rays bring\n");
+    assert_string_equal(warnings, "the photon map is empty: none of 200 photon paths left a photon in it; with "
+                                  "max_depth 1 all light is direct, which shadow rays bring\n");
     warnings[0] = '\0';
     rt_render_options passes = {.mode = RT_MODE_PHOTON, .width = 2, .height = 2, .photons = 10, .passes = 3,
                                 .radius = 0.1f, .hooks = &hooks};
