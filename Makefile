@@ -86,7 +86,7 @@ KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
 
 # Quick tests, the slower ones of `check`, and shell tests. tests/X/test_y.c makes build/tests/X/test_y.
 TESTS_QUICK := \
-	tests/test_api.c \
+	tests/test_api.c tests/test_chance.c \
 	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c tests/dsl/test_number.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c tests/dsl/test_suggest.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
@@ -110,7 +110,8 @@ TESTS_QUICK := \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c tests/lib/photon/test_ledger.c \
 	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c tests/lib/photon/test_photon_list.c \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_search.c \
-	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/render/test_lights.c \
+	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/render/test_first_radius.c \
+	tests/lib/render/test_lights.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_modes.c tests/lib/render/test_photon_maps.c \
 	tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_findings.c tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c \
@@ -121,8 +122,8 @@ TESTS_QUICK := \
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c \
-	tests/lib/render/test_noise.c tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c \
-	tests/lib/render/test_progressive.c \
+	tests/lib/render/test_noise.c tests/lib/render/test_photon_film.c tests/lib/render/test_photon_glass.c \
+	tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
 	tests/render/test_samples.c \
 	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c \
 	tests/tools/test_compare.c tests/tools/test_determinism.c tests/tools/test_mesh.c \
@@ -139,7 +140,7 @@ TESTS_SHELL := \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \
-	tests/support.c \
+	tests/chance.c tests/support.c \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
 	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/rng_draw.c \
@@ -147,6 +148,7 @@ TEST_SUPPORT_SRC := \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
 	tests/lib/photon/emitted.c tests/lib/photon/points.c \
+	tests/lib/render/photon_room.c \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \
@@ -167,7 +169,7 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench check check-corpus check-mutation check-peers check-quick check-reference \
+.PHONY: all bench check check-corpus check-memory check-mutation check-peers check-quick check-reference \
 	check-samples check-sanitize clean demo deps help install need-deps proof run-all run-quick study \
 	uninstall
 .DELETE_ON_ERROR:
@@ -270,6 +272,10 @@ check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
 	 $(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
+# Small renders on Oclgrind, which sees reads and writes outside of buffers, races, and wrong calls of OpenCL.
+check-memory: all
+	RTC=$(B)/rtc tests/run.sh tests/memory/oclgrind.sh
+
 # Physical errors planted one at a time in a copy of the sources: the tests must see them; see tests/mutation/run.sh.
 check-mutation: deps
 	tests/mutation/run.sh
@@ -340,6 +346,7 @@ help:
 	@echo 'make check-peers     five scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, none infinite or not a number'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
+	@echo 'make check-memory    small renders in every mode on Oclgrind, a device that checks each access'
 	@echo 'make check-mutation  plants physical errors, one at a time, and counts those that the tests see'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'

@@ -4,6 +4,7 @@
  */
 #include "bsdf.h"
 #include "camera.h"
+#include "entry.h"
 #include "film.h"
 #include "surface_at.h"
 #include "traverse.h"
@@ -16,7 +17,7 @@ static float depth_of(global const rt_camera_data *camera, float3 position)
 }
 
 /* layers: RT_LAYER_COUNT films one after the other; see RT_LAYER_ALBEDO for what they sum. */
-kernel void aov(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *layers)
+KERNEL aov(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *layers)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

@@ -2,10 +2,11 @@
  * direct.cl - emission and direct light alone: each work-item takes the samples of one pixel, in order.
  */
 #include "camera.h"
+#include "entry.h"
 #include "film.h"
 #include "integrate.h"
 
-kernel void direct(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
+KERNEL direct(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

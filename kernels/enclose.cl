@@ -5,6 +5,7 @@
  * point. The solids are nested in the order in which the ray leaves them, the innermost first; what is opaque is
  * passed through.
  */
+#include "entry.h"
 #include "light_emit.h"
 #include "medium.h"
 #include "traverse.h"
@@ -60,7 +61,7 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
 }
 
 /* Item 0: the camera at `eye`; item i: light i - 1. Only scenes with solids that light enters need it. */
-kernel void enclose(const rt_params params, global rt_scene_header *header, const float4 eye)
+KERNEL enclose(const rt_params params, global rt_scene_header *header, const float4 eye)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

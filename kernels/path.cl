@@ -1,8 +1,9 @@
 /*
- * path.cl - path tracing: each work-item takes the samples of RT_PATH_PIXELS pixels, RT_PATH_BATCH at a time, those of
- * a pixel in order.
+ * path.cl - path tracing: each work-item takes the samples of a few pixels, RT_PATH_BATCH at a time, those of a pixel in
+ * order.
  */
 #include "camera.h"
+#include "entry.h"
 #include "film.h"
 #include "integrate.h"
 
@@ -61,11 +62,11 @@ INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *para
     }
 }
 
-kernel void path(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
+KERNEL path(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
 {
-    const uint item = (uint)get_global_id(0) * RT_PATH_PIXELS;
+    const uint item = (uint)get_global_id(0) * params.pixels_an_item;
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);
-    sample_pixels(&scene, &params, item, min(item + RT_PATH_PIXELS, params.item_count), film);
+    sample_pixels(&scene, &params, item, min(item + params.pixels_an_item, params.item_count), film);
 }

@@ -3,6 +3,7 @@
  * pixel to the places where photon maps are asked.
  */
 #include "camera.h"
+#include "entry.h"
 #include "film.h"
 #include "integrate.h"
 
@@ -26,8 +27,8 @@ static void clear_point(global rt_gather_point *point, uint pixel, uint sample, 
  * points: [item_count], in the order of items; caustics: [params.final_gather][stride], a row for each diffuse
  * event on the way there. The sample is params.first_sample.
  */
-kernel void photon_camera(const rt_params params, global const rt_scene_header *header, global rt_gather_point *points,
-                          global rt_gather_point *caustics, uint stride)
+KERNEL photon_camera(const rt_params params, global const rt_scene_header *header, global rt_gather_point *points,
+                     global rt_gather_point *caustics, uint stride)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

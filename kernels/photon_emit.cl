@@ -23,6 +23,7 @@
  */
 #include "aim.h"
 #include "bsdf.h"
+#include "entry.h"
 #include "light_emit.h"
 #include "medium.h"
 #include "rng.h"
@@ -235,8 +236,8 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
  * its account says: so neighbours write side by side, and rows that few paths reach stay untouched; accounts:
  * [item_count].
  */
-kernel void photon_emit(const rt_params params, global const rt_scene_header *header,
-                        global const rt_light_share *shares, global rt_photon *slots, global rt_path_account *accounts)
+KERNEL photon_emit(const rt_params params, global const rt_scene_header *header,
+                   global const rt_light_share *shares, global rt_photon *slots, global rt_path_account *accounts)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

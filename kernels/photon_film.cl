@@ -1,6 +1,7 @@
 /*
  * photon_film.cl - adds gather points to the film: one sample of the pixel of each.
  */
+#include "entry.h"
 #include "film.h"
 #include "frame.h"
 
@@ -14,8 +15,8 @@ static float3 radiance_of(global const rt_gather_point *point)
  * points: [item_count], no two of the same pixel; caustics: [params.final_gather][stride], points whose radiance
  * belongs to the same sample.
  */
-kernel void photon_film(const rt_params params, global const rt_gather_point *points,
-                        global const rt_gather_point *caustics, uint stride, global rt_film_pixel *film)
+KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
+                   global const rt_gather_point *caustics, uint stride, global rt_film_pixel *film)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

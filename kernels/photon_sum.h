@@ -69,12 +69,13 @@ INLINE_NEVER struct photon_sum sum_nearest(const struct photon_tree *tree, const
     return sum;
 }
 
-/* The estimate from all within the limit on the radius; start: that of a group which the point is in. */
+/* The estimate from all within a limit on the radius; start: that of a group which the point is in. */
 INLINE_NEVER struct photon_sum sum_within(const struct photon_tree *tree, const struct photon_start *start,
-                                          const struct photon_query *query, const rt_density_params *estimate)
+                                          const struct photon_query *query, const rt_density_params *estimate,
+                                          float squared_limit)
 {
     struct photon_sum sum;
-    sum.squared_radius = tree->shape.levels > 0u ? estimate->squared_limit : 0.0f;
+    sum.squared_radius = tree->shape.levels > 0u ? squared_limit : 0.0f;
     sum_disc(&sum, tree, start, query, estimate);
     return sum;
 }
@@ -85,17 +86,27 @@ static inline bool point_asks(global const rt_gather_point *point)
     return any(row3(point->weight) != 0.0f) && all(isfinite(row3(point->position)));
 }
 
+/* The limit on the squared radius at a point when all photons within it count; own_limits: of each pixel. */
+static inline float point_limit(global const rt_gather_point *point, const rt_density_params *estimate,
+                                global const float *own_limits)
+{
+    return estimate->own_limits > 0.0f ? estimate->own_limits * own_limits[point->pixel] : estimate->squared_limit;
+}
+
 /* Where the walks of a group of points begin when all photons within the limit count. */
 static inline struct photon_start start_of_points(const struct photon_tree *tree, global const rt_gather_point *points,
-                                                  uint count, const rt_density_params *estimate)
+                                                  uint count, const rt_density_params *estimate,
+                                                  global const float *own_limits)
 {
     float3 low = (float3)(INFINITY), high = -low;
+    float limit = 0.0f;
     for (uint i = 0u; i < count; i++)
         if (point_asks(points + i)) {
             low = min(low, row3(points[i].position));
             high = max(high, row3(points[i].position));
+            limit = max(limit, point_limit(points + i, estimate, own_limits));
         }
-    return start_near(tree, low, high, estimate->squared_limit);
+    return start_near(tree, low, high, limit);
 }
 
 #endif

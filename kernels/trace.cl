@@ -1,6 +1,7 @@
 /*
  * trace.cl - single rays for the public rt_trace.
  */
+#include "entry.h"
 #include "traverse.h"
 #include "types.h"
 
@@ -21,8 +22,8 @@ static rt_hit no_hit(void)
 }
 
 /* The nearest hit of each ray. */
-kernel void trace_closest(global const rt_scene_header *scene_data, global const rt_ray *rays, uint count,
-                          global rt_hit *hits)
+KERNEL trace_closest(global const rt_scene_header *scene_data, global const rt_ray *rays, uint count,
+                     global rt_hit *hits)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -47,8 +48,8 @@ kernel void trace_closest(global const rt_scene_header *scene_data, global const
 }
 
 /* Whether each ray hits anything: shape 0 if so, else RT_NONE. */
-kernel void trace_any(global const rt_scene_header *scene_data, global const rt_ray *rays, uint count,
-                      global rt_hit *hits)
+KERNEL trace_any(global const rt_scene_header *scene_data, global const rt_ray *rays, uint count,
+                 global rt_hit *hits)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

@@ -136,12 +136,6 @@ typedef struct rt_transform_data {
 } rt_transform_data;
 RT_SIZE(rt_transform_data, 96);
 
-/*
- * Below this roughness a surface is smooth. A lobe of it spreads light by a tenth of a degree, less than a pixel, so
- * no seam shows.
- */
-#define RT_SMOOTH_ALPHA 1e-3f
-
 #define RT_MATERIAL_FRESNEL 1u   /* flag: dielectric; ks + kt is split Fr : 1 - Fr */
 #define RT_MATERIAL_TWO_SIDED 2u /* flag: emits on both sides, else on the side of the normal */
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
@@ -338,8 +332,7 @@ RT_SIZE(rt_scene_header, 384);
 
 /* ---- Rendering ---------------------------------------------------------- */
 
-#define RT_PATH_BATCH 8u   /* paths that a work-item of path tracing follows together */
-#define RT_PATH_PIXELS 64u /* pixels that it takes */
+#define RT_PATH_BATCH 8u /* paths that a work-item of path tracing follows together */
 
 /* The parameters of a launch, for every kernel that makes paths. */
 typedef struct rt_params {
@@ -359,7 +352,8 @@ typedef struct rt_params {
     rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
     rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
     float roulette_threshold; /* throughput below which it may */
-    rt_u32 reserved[3];
+    rt_u32 pixels_an_item; /* path tracing: pixels that a work-item takes, at least 1; the film is the same for all */
+    rt_u32 reserved[2];
 } rt_params;
 RT_SIZE(rt_params, 80);
 
@@ -441,7 +435,7 @@ typedef struct rt_gather_disc {
     rt_u32 count;
     float squared_radius; /* of the disc that they lie in, m^2; 0 when there are none */
     rt_u32 asked;         /* 1 when photons were asked for */
-    rt_u32 reserved;
+    rt_u32 pixel;         /* that of the point */
 } rt_gather_disc;
 RT_SIZE(rt_gather_disc, 16);
 
@@ -456,7 +450,9 @@ typedef struct rt_density_params {
     rt_u32 points_an_item; /* device gather: gather points that a work-item takes, one after the other */
     float scale;         /* of the photons' flux: 1 / emitted paths */
     rt_u32 area;         /* rt_area; the device gather knows the disc only */
-    rt_u32 reserved[3];
+    float own_limits;    /* device gather, k = 0: factor of the squared limit of the point's pixel, which takes the place
+                            of squared_limit; 0: that holds for all */
+    rt_u32 reserved[2];
 } rt_density_params;
 RT_SIZE(rt_density_params, 48);
 

@@ -18,8 +18,8 @@ rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, co
     RT_PRINTF(4, 5);
 
 /*
- * Names the file that was worked on in *error (may be NULL) when status is a failure of that work, unless a file that it
- * names in turn is to blame. Returns status.
+ * Names the file that was worked on in *error (may be NULL) when status is a failure of that work, unless a file that
+ * it names in turn is to blame. Returns status.
  */
 rt_status rt_at_file(rt_status status, const char *path, rt_error *error);
 

@@ -509,8 +509,9 @@ typedef struct rt_render_options {
     uint32_t passes;        /* progressive photon mapping in so many passes, each with fresh photons and eye paths (spp
                                samples, 0 means 1), that gather all photons within a radius shrinking from pass to
                                pass: r_{i+1}^2 = r_i^2 (i + alpha)/(i + 1) (Knaus and Zwicker 2011). The film is the mean
-                               of the passes. r_1 is `radius`, or if that is 0 the mean distance of the k-th photon
-                               in the first pass. 0 and 1: no passes */
+                               of the passes. r_1 is `radius`, or if that is 0 each pixel's own: the distance of its
+                               k-th photon in the first pass, the median of 3 x 3 pixels and at most the mean of all;
+                               behind the final gather that mean. 0 and 1: no passes */
     float alpha;            /* between 0 and 1, the larger the slower the radius shrinks; 0 means 2/3 */
     int photon_layers;      /* 1: also the layers photon.count and the like, see rt_film_layer */
     rt_density kernel;      /* density kernel, see common.h */

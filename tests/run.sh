@@ -7,6 +7,9 @@
 # `not ok NAME` for each of its tests. A program that fails is shown whole. One that
 # crashes, runs past its time or runs no test counts as one failure more. The last line is
 # `N passed, N failed`; the status is 0 only when something ran and nothing failed.
+#
+# A program of statistical tests says in a line `[  CHANCE  ] P` how often it fails where nothing is wrong, were seeds
+# drawn afresh; see chance.h. More than one run of 10^4 for all programs together is a failure.
 # RT_TEST_TIMEOUT is the limit of one program in seconds (default 600).
 set -u
 
@@ -21,6 +24,7 @@ count() { sed -n "$1" "$log" | awk '{ n += $1 } END { print n + 0 }'; }
 passed=0
 failed=0
 skipped=0
+chance=0
 for program in "$@"; do
     started=$(date +%s)
     case $program in
@@ -63,8 +67,15 @@ for program in "$@"; do
     passed=$((passed + good))
     failed=$((failed + bad))
     skipped=$((skipped + skip))
+    chance=$(awk -v sum="$chance" '$2 == "CHANCE" { sum += $4 } END { printf "%.3g", sum }' "$log")
 done
 
 [ "$skipped" -eq 0 ] || printf '%d skipped\n' "$skipped"
+if awk -v sum="$chance" 'BEGIN { exit !(sum > 1e-4) }'; then
+    printf 'FAIL  with fresh seeds %s of all runs would fail by chance, more than 1e-4; see tests/chance.h\n' "$chance"
+    failed=$((failed + 1))
+elif [ "$chance" != 0 ]; then
+    printf 'with fresh seeds less than %s of all runs would fail by chance\n' "$chance"
+fi
 printf '%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]

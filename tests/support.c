@@ -15,11 +15,19 @@ static void close_device(void)
     rt_device_close(device);
 }
 
+rt_device *test_device_open(uint32_t threads, uint32_t work_group)
+{
+    rt_device_options options = {getenv("RT_TEST_DEVICE"), threads, work_group};
+    rt_device *opened = NULL;
+    rt_error error;
+    expect_ok(rt_device_open(&opened, &options, &error), &error);
+    return opened;
+}
+
 rt_device *test_device(void)
 {
     if (!device) {
-        rt_error error;
-        expect_ok(rt_device_open(&device, NULL, &error), &error);
+        device = test_device_open(0, 0);
         atexit(close_device);
     }
     return device;

@@ -21,11 +21,17 @@ extern const rt_kernel_source rt_test_kernel_sources[];
 /* Fails the running test with error's message unless status is RT_OK. */
 void expect_ok(rt_status status, const rt_error *error);
 
-/* The first OpenCL device with default options, opened once a test program and closed at its end. */
+/*
+ * The OpenCL device that the environment variable RT_TEST_DEVICE names as rtc's --device does, else the first, with
+ * default options; opened once a test program and closed at its end.
+ */
 rt_device *test_device(void);
 
 /* A renderer of the scene that a text describes, on test_device(). */
 rt_renderer *test_renderer(const char *text);
+
+/* The same device once more, with options as in rt_device_options. Close it with rt_device_close. */
+rt_device *test_device_open(uint32_t threads, uint32_t work_group);
 
 /* A kernel of rt_test_kernel_sources on test_device(). Release it with rt_kernel_release. */
 cl_kernel test_kernel(const char *program, const char *kernel);

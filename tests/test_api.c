@@ -36,9 +36,10 @@ static void expect_ok(rt_status status, const rt_error *error)
 static int setup(void **state)
 {
     static fixture fixture;
+    rt_device_options options = {.select = getenv("RT_TEST_DEVICE")};
     rt_error error;
     expect_ok(rt_scene_parse(&fixture.scene, text, "test", NULL, &error), &error);
-    expect_ok(rt_device_open(&fixture.device, NULL, &error), &error);
+    expect_ok(rt_device_open(&fixture.device, &options, &error), &error);
     expect_ok(rt_renderer_create(&fixture.renderer, fixture.scene, fixture.device, NULL, &error), &error);
     *state = &fixture;
     return 0;

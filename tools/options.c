@@ -116,7 +116,8 @@ static int read_number(option_value *value, const option *option, const char *te
         return STATUS_DONE;
     if (option->choices)
         option_join_choices(words, sizeof words, option->choices);
-    const char *limits = option->kind == KIND_BETWEEN ? "between %.10g and %.10g, both excluded" : "from %.10g to %.10g";
+    const char *limits =
+        option->kind == KIND_BETWEEN ? "between %.10g and %.10g, both excluded" : "from %.10g to %.10g";
     char range[96];
     snprintf(range, sizeof range, limits, option->min, option->max);
     message_error("--%s takes a %s %s%s%s; not '%s'", option->name, is_count ? "whole number" : "number", range,

@@ -35,8 +35,8 @@ int session_fail(const rt_error *error);
 int session_check_options(const session *session, const rt_render_options *own, const rt_render_options *options);
 
 /*
- * Opens the device that the command line names; from then on the first Ctrl-C stops the work by its hooks. Returns an exit
- * status; the caller owns *out.
+ * Opens the device that the command line names; from then on the first Ctrl-C stops the work by its hooks. Returns an
+ * exit status; the caller owns *out.
  */
 int session_open_device(const session *session, rt_device **out);
 

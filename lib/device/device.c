@@ -11,6 +11,9 @@
 
 enum { platforms_max = 16, devices_max = 64, default_work_group_cpu = 16, default_work_group_gpu = 64 };
 
+/* A core of a CPU keeps several paths of one work-item under way at once; a GPU wants as many work-items as there are. */
+enum { path_pixels_cpu = 64, path_pixels_gpu = 1 };
+
 typedef struct device_list {
     cl_platform_id platform[devices_max];
     cl_device_id id[devices_max];
@@ -121,14 +124,14 @@ static rt_status select_device(rt_device *device, const char *select, rt_error *
 }
 
 /*
- * Limits a CPU device to some of its compute units. The sub-device is kept until the process ends: PoCL's
+ * Limits a CPU device to so many of its compute units. The sub-device is kept until the process ends: PoCL's
  * threads may still read it after the last command is done, and clReleaseDevice would free it under them.
  */
-static rt_status limit_threads(rt_device *device, rt_error *error)
+static rt_status limit_units(rt_device *device, uint32_t units, rt_error *error)
 {
-    if (!device->info.is_cpu || device->threads >= device->info.compute_units)
+    if (!device->info.is_cpu || units >= device->info.compute_units)
         return RT_OK;
-    cl_device_partition_property how[] = {CL_DEVICE_PARTITION_BY_COUNTS, (cl_device_partition_property)device->threads,
+    cl_device_partition_property how[] = {CL_DEVICE_PARTITION_BY_COUNTS, (cl_device_partition_property)units,
                                           CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
     cl_device_id part;
     rt_status status = rt_cl_check(clCreateSubDevices(device->id, how, 1, &part, NULL),
@@ -142,13 +145,13 @@ static rt_status limit_threads(rt_device *device, rt_error *error)
 
 static rt_status choose_work_group(rt_device *device, uint32_t asked, rt_error *error)
 {
+    uint32_t usual = device->info.is_cpu ? default_work_group_cpu : default_work_group_gpu;
     size_t largest = 1;
     clGetDeviceInfo(device->id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof largest, &largest, NULL);
-    device->work_group = asked ? asked : device->info.is_cpu ? default_work_group_cpu : default_work_group_gpu;
-    if (device->work_group > largest)
+    if (asked > largest)
         return rt_fail_field(error, RT_ERROR_USAGE, "work_group",
-                             "a work-group of %u work-items is more than the device's %zu", device->work_group,
-                             largest);
+                             "a work-group of %u work-items is more than the device's %zu", asked, largest);
+    device->work_group = asked ? asked : usual < largest ? usual : (uint32_t)largest;
     return RT_OK;
 }
 
@@ -168,9 +171,10 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
 
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     device->threads = options->threads ? options->threads : cores > 0 ? (uint32_t)cores : 1;
-    if ((status = limit_threads(device, error)) != RT_OK ||
+    if ((options->threads && (status = limit_units(device, options->threads, error)) != RT_OK) ||
         (status = choose_work_group(device, options->work_group, error)) != RT_OK)
         goto out;
+    device->path_pixels = device->info.is_cpu ? path_pixels_cpu : path_pixels_gpu;
     device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
     if ((status = rt_cl_check(code, "creating an OpenCL context", error)) != RT_OK)
         goto out;

@@ -21,8 +21,9 @@ struct rt_device {
     cl_context context;
     cl_command_queue queue; /* in order */
     rt_device_info info;
-    uint32_t threads;    /* host threads to use, at least 1 */
-    uint32_t work_group; /* work-items a work-group, at least 1 */
+    uint32_t threads;     /* host threads to use, at least 1 */
+    uint32_t work_group;  /* work-items a work-group, at least 1 */
+    uint32_t path_pixels; /* pixels that a work-item of path tracing takes, at least 1 */
     struct {
         const rt_kernel_source *source;
         cl_program program;

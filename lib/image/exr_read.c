@@ -129,13 +129,9 @@ static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline, const
         return code;
     for (int i = 0; i < pipeline->channel_count; i++) {
         exr_coding_channel_info_t *channel = &pipeline->channels[i];
-        uint32_t index = rt_image_channel(image, channel->channel_name);
+        uint32_t index = rt_exr_lay_out(channel, image);
         if (index == RT_IMAGE_NO_CHANNEL)
             return EXR_ERR_INVALID_ARGUMENT;
-        channel->user_data_type = EXR_PIXEL_FLOAT;
-        channel->user_bytes_per_element = sizeof(float);
-        channel->user_pixel_stride = (int32_t)(image->channel_count * sizeof(float));
-        channel->user_line_stride = (int32_t)(image->width * image->channel_count * sizeof(float));
         channel->decode_to_ptr = (uint8_t *)(corner + index);
     }
     if (is_first)

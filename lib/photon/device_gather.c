@@ -78,8 +78,10 @@ rt_status rt_device_gather_launch(const rt_device_gather *g, rt_device *device, 
     memset(&params, 0, sizeof params);
     params.first_item = (rt_u32)first;
     params.item_count = (rt_u32)count;
+    cl_mem own_limits = g->own_limits ? g->own_limits : g->scratch; /* which is not read */
     rt_arg args[] = {RT_ARG(params),        RT_ARG(g->estimate), RT_ARG(points),    RT_ARG(g->discs),
-                     RT_ARG(g->tree.shape), RT_ARG(g->nodes),    RT_ARG(g->blocks), RT_ARG(g->scratch)};
+                     RT_ARG(g->tree.shape), RT_ARG(g->nodes),    RT_ARG(g->blocks), RT_ARG(g->scratch),
+                     RT_ARG(own_limits)};
     rt_status status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
     return status == RT_OK ? rt_launch(device, kernel, (count + each - 1) / each, error) : status;
 }

@@ -10,6 +10,7 @@ typedef struct rt_device_gather {
     cl_mem nodes, blocks;
     cl_mem scratch; /* float [items][stride] */
     cl_mem discs;   /* rt_gather_disc [capacity] */
+    cl_mem own_limits; /* the caller's, see estimate.own_limits; NULL without */
     rt_density_params estimate;
 } rt_device_gather;
 

@@ -1,5 +1,6 @@
 #include "photon/gather.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,7 +77,7 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
 {
     float max_radius = options->max_radius > 0 ? options->max_radius : HUGE_VALF;
     rt_density_params estimate = {options->density, options->cone_k, 0, options->k, max_radius * max_radius, 0, 0,
-                                  list->emitted ? (float)(1.0 / (double)list->emitted) : 0, options->area, {0}};
+                                  list->emitted ? (float)(1.0 / (double)list->emitted) : 0, options->area, 0, {0}};
     rt_gatherer *g = calloc(1, sizeof *g);
 
     if (!g)
@@ -107,6 +108,13 @@ void rt_gatherer_destroy(rt_gatherer *g)
     free(g->host.host_lists);
     rt_device_gather_release(&g->on);
     free(g);
+}
+
+void rt_gatherer_limit_pixels(rt_gatherer *g, cl_mem squared, float factor)
+{
+    assert(g->on_device && factor > 0);
+    g->on.own_limits = squared;
+    g->on.estimate.own_limits = factor;
 }
 
 size_t rt_gatherer_capacity(const rt_gatherer *g)

@@ -36,6 +36,12 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
                              const rt_photon_list *list, const rt_gather_options *options, rt_error *error);
 void rt_gatherer_destroy(rt_gatherer *gatherer);
 
+/*
+ * Gives each pixel a radius of its own in place of max_radius, for k = 0: its square, m^2, is factor > 0 times the
+ * pixel's float in `squared`, which stays the caller's and must outlive the gatherer.
+ */
+void rt_gatherer_limit_pixels(rt_gatherer *gatherer, cl_mem squared, float factor);
+
 /* The most points that rt_gatherer_add takes at once, at most RT_GATHER_POINTS_MAX. */
 size_t rt_gatherer_capacity(const rt_gatherer *gatherer);
 

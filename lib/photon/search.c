@@ -250,7 +250,8 @@ rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_
 
     if (!asked)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to ask for photons at %zu points", count);
-    memset(discs, 0, count * sizeof *discs);
+    for (size_t i = 0; i < count; i++)
+        discs[i] = (rt_gather_disc){.pixel = points[i].pixel};
     rt_status status = find_asked(asked, &left, points, count, search->threads, error);
     for (size_t i = 0; i < left && status == RT_OK; i++)
         discs[asked[i]].asked = 1;

@@ -21,15 +21,15 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *rendere
     memset(&tree, 0, sizeof tree);
     rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(stride)};
     rt_arg gather[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(any)};
-    rt_arg walk[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(any),
-                     RT_ARG(tree),   RT_ARG(any), RT_ARG(any),      RT_ARG(any)};
+    rt_arg walk[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(any), RT_ARG(tree),
+                     RT_ARG(any),    RT_ARG(any),      RT_ARG(any), RT_ARG(any)};
     rt_arg film[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(stride), RT_ARG(any)};
 
     memset(out, 0, sizeof *out);
     rt_status status =
         rt_kernel_prepare(device, &out->camera, "photon_camera", "photon_camera", camera, 5, progress, error);
     if (status == RT_OK)
-        status = rt_kernel_prepare(device, &out->gather, name, name, on_device ? walk : gather, on_device ? 8 : 6,
+        status = rt_kernel_prepare(device, &out->gather, name, name, on_device ? walk : gather, on_device ? 9 : 6,
                                    progress, error);
     if (status == RT_OK)
         status = rt_kernel_prepare(device, &out->film, "photon_film", "photon_film", film, 5, progress, error);
@@ -224,34 +224,29 @@ rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint
     return each_batch(eye, maps, sample, add_batch, &s, progress, error);
 }
 
-/* Of rt_photon_eye_mean_radius. */
+/* Of rt_photon_eye_radii. */
 typedef struct radii {
     rt_gatherer *gatherer;
-    double sum;
-    uint64_t count;
+    cl_mem points;
+    float *squared;
 } radii;
 
-/* Adds the radii of the discs at the ends of the paths. */
-static rt_status add_radii(rt_photon_eye *eye, const rt_params *params, void *data, rt_error *error)
+/* Notes the squared radii of the discs at the points of a batch, by pixel. */
+static rt_status note_radii(rt_photon_eye *eye, const rt_params *params, void *data, rt_error *error)
 {
-    radii *r = data;
-    rt_status status = rt_gatherer_add(r->gatherer, eye->points, 0, params->item_count, eye->discs, error);
+    const radii *r = data;
+    rt_status status = rt_gatherer_add(r->gatherer, r->points, 0, params->item_count, eye->discs, error);
     for (uint32_t i = 0; i < params->item_count && status == RT_OK; i++)
-        if (eye->discs[i].count > 0) {
-            r->sum += sqrt(eye->discs[i].squared_radius);
-            r->count++;
-        }
+        r->squared[eye->discs[i].pixel] = eye->discs[i].count > 0 ? eye->discs[i].squared_radius : 0;
     return status;
 }
 
-rt_status rt_photon_eye_mean_radius(rt_photon_eye *eye, rt_gatherer *gatherer, uint32_t sample, double *out,
-                                    rt_stage_progress *progress, rt_error *error)
+rt_status rt_photon_eye_radii(rt_photon_eye *eye, rt_gatherer *gatherer, int on_the_way, uint32_t sample,
+                              float *squared, rt_stage_progress *progress, rt_error *error)
 {
     rt_eye_maps maps = {gatherer, NULL, NULL};
-    radii r = {gatherer, 0, 0};
-    rt_status status = each_batch(eye, &maps, sample, add_radii, &r, progress, error);
-    *out = r.count ? r.sum / (double)r.count : 0;
-    return status;
+    radii r = {gatherer, on_the_way ? eye->caustics : eye->points, squared};
+    return each_batch(eye, &maps, sample, note_radii, &r, progress, error);
 }
 
 rt_status rt_photon_eye_read(const rt_photon_eye *eye, rt_film *film, rt_error *error)

@@ -60,11 +60,12 @@ rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint
                                rt_stage_progress *progress, rt_error *error);
 
 /*
- * The mean radius of the discs at the end of the paths of one sample, by this gatherer; 0 when no path ends
- * where photons are. The film is left alone.
+ * The squared radius of each pixel, [height][width], m^2, that one sample finds by this gatherer at the end of its path
+ * or, on the way, at its first diffuse bounce; 0 where there are no photons, or none are asked for. The film is left
+ * alone.
  */
-rt_status rt_photon_eye_mean_radius(rt_photon_eye *eye, rt_gatherer *gatherer, uint32_t sample, double *out,
-                                    rt_stage_progress *progress, rt_error *error);
+rt_status rt_photon_eye_radii(rt_photon_eye *eye, rt_gatherer *gatherer, int on_the_way, uint32_t sample,
+                              float *squared, rt_stage_progress *progress, rt_error *error);
 
 /* Reads the film, and makes its layers. */
 rt_status rt_photon_eye_read(const rt_photon_eye *eye, rt_film *film, rt_error *error);

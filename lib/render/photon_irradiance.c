@@ -113,7 +113,8 @@ static rt_status check_points(const float *positions, const float *normals, size
         for (int c = 0; c < 3; c++)
             if (!(fabsf(p[c]) <= RT_COORDINATE_MAX))
                 return rt_fail_field(error, RT_ERROR_USAGE, "positions",
-                                     "point %zu has the coordinate %g; it must lie within %g", i, p[c], RT_COORDINATE_MAX);
+                                     "point %zu has the coordinate %g; it must lie within %g", i, p[c],
+                                     RT_COORDINATE_MAX);
         if (!rt_is_unit(n))
             return rt_fail_field(error, RT_ERROR_USAGE, "normals",
                                  "the normal (%g, %g, %g) of point %zu is not of unit length", n[0], n[1], n[2], i);

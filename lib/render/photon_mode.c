@@ -149,6 +149,8 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
         status = read == RT_OK ? status : read;
     }
     rt_photon_render_close(&r);
+    for (rt_photon_way way = 0; way < RT_PHOTON_WAYS; way++)
+        rt_buffer_release(r.first_radii[way]);
     rt_photon_eye_release(&r.eye);
     rt_emitter_destroy(r.emitter);
     rt_photon_list_clear(&r.caustics);

@@ -7,7 +7,9 @@
  *     Graphics 30(3), 2011: the radii, equation 15.
  */
 #include <math.h>
+#include <stdlib.h>
 
+#include "error.h"
 #include "render/noise.h"
 #include "render/photon_render.h"
 
@@ -17,29 +19,97 @@ static double shrunk(double squared_factor, uint32_t pass, double alpha)
     return pass == 0 ? 1 : squared_factor * (pass + alpha) / (pass + 1.0);
 }
 
-/* Chooses the first radius of a way: the mean distance of the k-th photon, over one sample of the film. */
-static rt_status choose_radius(rt_photon_render *r, rt_photon_way way, uint32_t sample, rt_stage_progress *progress,
-                               rt_error *error)
+/* Whether a way's points lie on what the pixel sees, so that one sample tells where the others will be. */
+static int seen_by_pixels(const rt_photon_render *r, rt_photon_way way)
+{
+    return way == RT_WAY_ON_THE_WAY || r->options->final_gather == 0;
+}
+
+/* The mean distance, from squares; 0 when there are none. */
+static double mean_distance(const float *squared, size_t pixels)
+{
+    double sum = 0;
+    size_t found = 0;
+    for (size_t i = 0; i < pixels; i++) {
+        sum += sqrt(squared[i]);
+        found += squared[i] > 0;
+    }
+    return found ? sum / (double)found : 0;
+}
+
+/* The middle one of up to nine, which are sorted by it; of an even number the larger. */
+static float median(float *values, int count)
+{
+    for (int i = 1; i < count; i++)
+        for (int j = i; j > 0 && values[j] < values[j - 1]; j--) {
+            float smaller = values[j];
+            values[j] = values[j - 1];
+            values[j - 1] = smaller;
+        }
+    return values[count / 2];
+}
+
+/*
+ * Turns the squared distances of the k-th photon, of each pixel, into limits: the median of a pixel and its eight
+ * neighbours, for behind glass the samples of a pixel may lie far apart; and none above the mean, which also stands
+ * where a distance is missing.
+ */
+static void limit_radii(float *limits, const float *squared, uint32_t width, uint32_t height, double mean)
+{
+    const float most = (float)(mean * mean);
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            float around[9];
+            int count = 0;
+            for (uint32_t v = y - (y > 0); v <= y + (y + 1 < height); v++)
+                for (uint32_t u = x - (x > 0); u <= x + (x + 1 < width); u++) {
+                    const float near = squared[(size_t)v * width + u];
+                    around[count++] = near > 0 && near < most ? near : most;
+                }
+            limits[(size_t)y * width + x] = median(around, count);
+        }
+}
+
+/* Chooses the first radii of a way, from the distances of the k-th photon over one sample of the film. */
+static rt_status choose_radii(rt_photon_render *r, rt_photon_way way, uint32_t sample, rt_stage_progress *progress,
+                              rt_error *error)
 {
     rt_gather_options nearest = r->how[way];
+    uint32_t width = r->options->width, height = r->options->height;
+    size_t pixels = (size_t)width * height;
+    float *squared = calloc(2 * pixels, sizeof *squared), *limits = squared + pixels;
+    if (!squared)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the gather radii of %zu pixels", pixels);
+
+    /* Ask each pixel for its nearest photons. */
     nearest.max_radius = 0;
     nearest.k = way == RT_WAY_GLOBAL ? r->options->k : r->options->caustic_k;
-    if (nearest.k == RT_K_ALL)
-        nearest.k = 50;
     rt_status status = rt_photon_render_open(r, way, &nearest, error);
     if (status == RT_OK)
-        status = rt_photon_eye_mean_radius(&r->eye, r->gatherers[way], sample, r->first_radius + way, progress, error);
+        status = rt_photon_eye_radii(&r->eye, r->gatherers[way], way == RT_WAY_ON_THE_WAY, sample, squared, progress,
+                                     error);
     rt_gatherer_destroy(r->gatherers[way]);
     r->gatherers[way] = NULL;
-    if (status == RT_OK && r->first_radius[way] > 0)
-        rt_log(r->options->hooks, "first radius of the %s photons: %g m", way == RT_WAY_GLOBAL ? "global" : "caustic",
-               r->first_radius[way]);
+
+    /* Keep the mean, and the radii of the pixels where they mean something. */
+    const double mean = mean_distance(squared, pixels);
+    if (status == RT_OK && mean > 0 && seen_by_pixels(r, way)) {
+        limit_radii(limits, squared, width, height, mean);
+        status = rt_buffer_create(r->renderer->device, r->first_radii + way, CL_MEM_READ_ONLY,
+                                  pixels * sizeof *limits, limits, "the gather radii of pixels", error);
+    }
+    free(squared);
+    if (status == RT_OK && mean > 0) {
+        r->first_radius[way] = mean;
+        rt_log(r->options->hooks, "first radius of the %s photons: %s%g m", way == RT_WAY_GLOBAL ? "global" : "caustic",
+               r->first_radii[way] ? "each pixel's own, at most " : "", mean);
+    }
     return status;
 }
 
 /*
  * Makes the gatherers of a pass, for all photons within its radius; photons are left out while no radius is known for
- * them, and there are none.
+ * them, because nothing asks for them or there are none.
  */
 static rt_status aim_gatherers(rt_photon_render *r, uint32_t sample, double squared_factor, rt_stage_progress *progress,
                                rt_error *error)
@@ -48,16 +118,16 @@ static rt_status aim_gatherers(rt_photon_render *r, uint32_t sample, double squa
     for (rt_photon_way way = 0; way < RT_PHOTON_WAYS && status == RT_OK; way++) {
         if (!rt_photon_render_list(r, way) || rt_photon_render_list(r, way)->count == 0)
             continue;
-        if (r->first_radius[way] == 0 && way == RT_WAY_ON_THE_WAY)
-            r->first_radius[way] = r->first_radius[r->in_use->settings.split ? RT_WAY_CAUSTIC : RT_WAY_GLOBAL];
         if (r->first_radius[way] == 0)
-            status = choose_radius(r, way, sample, progress, error);
+            status = choose_radii(r, way, sample, progress, error);
         if (status != RT_OK || r->first_radius[way] == 0)
             continue;
         rt_gather_options within = r->how[way];
         within.k = 0;
         within.max_radius = (float)(r->first_radius[way] * sqrt(squared_factor));
         status = rt_photon_render_open(r, way, &within, error);
+        if (status == RT_OK && r->first_radii[way])
+            rt_gatherer_limit_pixels(r->gatherers[way], r->first_radii[way], (float)squared_factor);
     }
     return status;
 }

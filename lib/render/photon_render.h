@@ -28,7 +28,8 @@ typedef struct rt_photon_render {
     rt_aov aov;
     rt_photon_eye eye;
     rt_gather_options how[RT_PHOTON_WAYS]; /* without passes; each pass has a radius of its own */
-    double first_radius[RT_PHOTON_WAYS];   /* of the passes, 0 while unknown */
+    double first_radius[RT_PHOTON_WAYS];   /* of the passes, the largest; 0 while unknown */
+    cl_mem first_radii[RT_PHOTON_WAYS];    /* squared, of each pixel, float; NULL where one holds for all */
     rt_gatherer *gatherers[RT_PHOTON_WAYS];
     double began;   /* rt_clock() at the start of emission, for options->time */
     rt_error error; /* of the search tree's thread */

@@ -28,7 +28,7 @@ typedef struct sample_render {
     const rt_render_options *options;
     rt_film *film;
     cl_kernel kernel; /* NULL in the modes that show a layer */
-    uint32_t batch;   /* pixels that a work-item takes */
+    uint32_t batch;   /* pixels that a work-item of it takes */
     cl_mem pixels;    /* rt_film_pixel, the film on the device */
     rt_aov aov;
 } sample_render;
@@ -59,6 +59,7 @@ static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, u
     params->replicate = s->stretch.replicate;
     params->first_sample = s->sample;
     params->sample_count = samples;
+    params->pixels_an_item = r->batch;
 
     if (r->kernel) {
         rt_arg first = {sizeof *params, params};
@@ -182,7 +183,7 @@ rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *opti
     r.renderer = renderer;
     r.options = options;
     r.film = film;
-    r.batch = options->mode == RT_MODE_PATH ? RT_PATH_PIXELS : 1;
+    r.batch = options->mode == RT_MODE_PATH ? renderer->device->path_pixels : 1;
     rt_status status =
         rt_buffer_create(renderer->device, &r.pixels, CL_MEM_READ_WRITE, bytes, film->pixels, "the film", error);
     if (status == RT_OK)

@@ -122,7 +122,7 @@ typedef struct device_side {
 
 static void open_device(device_side *d, const problem *p)
 {
-    rt_density_params estimate = {RT_DENSITY_EPANECHNIKOV, 1.1f, 0, p->k, HUGE_VALF, 0, 0, 1, RT_AREA_DISC, {0}};
+    rt_density_params estimate = {RT_DENSITY_EPANECHNIKOV, 1.1f, 0, p->k, HUGE_VALF, 0, 0, 1, RT_AREA_DISC, 0, {0}};
     rt_error error;
     must(rt_device_open(&d->device, NULL, &error), &error);
     must(rt_device_kernel(d->device, &d->kernel, "photon_walk", "photon_walk", NULL, &error), &error);

@@ -101,7 +101,7 @@ kernel void evaluate(uint count, global const rt_scene_header *header, global co
  * Two rows an item, for situations[i]: mean and mean square of the part of the light that a sample keeps, with the
  * largest part of all samples.
  */
-kernel void albedo(uint count, global const rt_scene_header *header, global const struct situation *situations,
+kernel void albedo(uint seed, uint count, global const rt_scene_header *header, global const struct situation *situations,
                    uint samples, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
@@ -112,7 +112,7 @@ kernel void albedo(uint count, global const rt_scene_header *header, global cons
     float3 sum = (float3)(0.0f), squares = (float3)(0.0f);
     float most = 0.0f;
     for (uint k = 0u; k < samples; k++) {
-        const float4 u = convert_float4(pcg4d((uint4)(i, k, 8u, 6u)) >> 8) * 0x1p-24f;
+        const float4 u = convert_float4(pcg4d((uint4)(i, k, 8u, 6u + seed)) >> 8) * 0x1p-24f;
         const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
         if (event == EVENT_ABSORBED)
             continue;

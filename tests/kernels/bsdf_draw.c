@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "chance.h"
 #include "support.h"
 
 /* A scene of one shape and one material. */
@@ -26,6 +27,7 @@ static cl_mem scene_of(const rt_material_data *material)
 void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport, uint32_t seed,
                   uint32_t count, bsdf_draw *out)
 {
+    seed = test_seed(seed);
     cl_kernel kernel = test_kernel("bsdf", "scatter");
     cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
     cl_mem made = test_buffer(count * sizeof *out, NULL);
@@ -74,8 +76,9 @@ void measure_albedo(const rt_material_data *material, const situation *at, uint3
     cl_kernel kernel = test_kernel("bsdf", "albedo");
     cl_mem scene = scene_of(material), s = test_buffer(count * sizeof *at, at);
     cl_mem made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(samples), RT_ARG(made)};
-    test_run(kernel, args, 5, count);
+    uint32_t seed = test_seed(0);
+    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(samples), RT_ARG(made)};
+    test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(scene);
     rt_buffer_release(s);

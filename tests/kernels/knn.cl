@@ -7,7 +7,8 @@
 /* lists: [item_count][params.slots]; the arguments before them are those of photon_walk, in its order. */
 kernel void neighbours(const rt_params params, const rt_density_params estimate, global const rt_gather_point *points,
                        global rt_gather_disc *discs, const rt_photon_tree shape, global const rt_photon_node *nodes,
-                       global const rt_photon_block *blocks, global float *scratch, global uint *lists)
+                       global const rt_photon_block *blocks, global float *scratch,
+                       global const float *own_limits, global uint *lists)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
@@ -25,8 +26,9 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     if (estimate.k == 0u) {
         /* By turns as one of a group of up to four points. */
         const uint first = item - item % 4u;
-        start = start_of_points(&tree, points + first, min(1u + item % 4u, params.item_count - first), &estimate);
-        sum = sum_within(&tree, &start, &query, &estimate);
+        start = start_of_points(&tree, points + first, min(1u + item % 4u, params.item_count - first), &estimate,
+                                own_limits);
+        sum = sum_within(&tree, &start, &query, &estimate, point_limit(points + item, &estimate, own_limits));
     } else {
         /* By turns without a guess, with a good one, one much too large and one too small. */
         sum = sum_nearest(&tree, &query, &estimate, 0.0f, own);
@@ -39,7 +41,7 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     disc.count = 0u;
     disc.squared_radius = sum.squared_radius;
     disc.asked = sum.count;
-    disc.reserved = 0u;
+    disc.pixel = points[item].pixel;
     struct photon_walk walk;
     uint first, mask;
     walk_start(&walk, &start);

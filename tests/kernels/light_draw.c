@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "chance.h"
 #include "photon/sources.h"
 
 rt_scene *light_scene(void)
@@ -57,12 +58,12 @@ void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, e
 
 void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out)
 {
-    draw_many_lights(renderer, seed, from, light_draws, out);
+    draw_many_lights(renderer, test_seed(seed), from, light_draws, out);
 }
 
 void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out)
 {
-    draw_many_emissions(renderer, seed, light_draws, out);
+    draw_many_emissions(renderer, test_seed(seed), light_draws, out);
 }
 
 void light_chances(rt_renderer *renderer, const float from[3], size_t count, float *out)

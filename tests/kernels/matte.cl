@@ -1,10 +1,11 @@
 /* matte.cl - path tracing that takes each vertex by itself, for the test of those that are taken together. */
 #include "camera.h"
+#include "entry.h"
 #include "film.h"
 #include "integrate.h"
 
 /* One work-item a pixel. */
-kernel void path_singly(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
+KERNEL path_singly(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

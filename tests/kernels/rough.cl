@@ -15,14 +15,14 @@ static struct specular boundary_of(global const rt_material_data *material, floa
 }
 
 /* Three rows an item: wi and the density sampled, weight, light and density by evaluation at wi. */
-kernel void sample_rough(uint count, global const rt_material_data *material, const float4 numbers, const float4 wo,
-                         global float4 *out)
+kernel void sample_rough(uint seed, uint count, global const rt_material_data *material, const float4 numbers,
+                         const float4 wo, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
         return;
     const struct specular specular = boundary_of(material, numbers);
-    const float4 u = convert_float4(pcg4d((uint4)(i, 5u, 7u, 2u)) >> 8) * 0x1p-24f;
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 7u, 2u)) >> 8) * 0x1p-24f;
     float3 wi;
     float pdf_w;
     const float3 weight = rough_sample(&specular, wo.xyz, u.xyz, &wi, &pdf_w);

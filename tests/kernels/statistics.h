@@ -5,19 +5,35 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "chance.h"
+
 /*
  * Pearson's chi-square test, cells with fewer than 10 expected counts pooled: the chance that samples of the stated
  * density give counts as far from it as these, or farther.
  */
 double chance_of_counts(const uint32_t *counts, const double *expected, size_t cells);
 
-/* Fails the running test when that chance is below 4 in a million, or samples lie where none can be. */
+/*
+ * The chance that the mean of n independent values, by their own spread, is as far from their true mean as this or
+ * farther; `rounding` is excused.
+ */
+double chance_of_mean(const double *values, size_t n, double truth, double rounding);
+
+/* A chi-square value with so many degrees of freedom as a deviate of the standard normal distribution. */
+double chi_square_deviate(double chi_square, double freedom);
+
+/* Comparisons of a statistical test; see chance.h. */
+
+/* Samples that lie where none can be fail the test at once. */
 void expect_counts(const uint32_t *counts, const double *expected, size_t cells, const char *what);
 
-/* Fails when the mean of n values is more than 4.5 standard errors, and `rounding`, from the truth: 7 in a million. */
+/* By chance_of_mean. */
 void expect_mean(const double *values, size_t n, double truth, double rounding, const char *what);
 
-/* The same for one mean of hundreds: more than 5.5 standard errors, 4 in a hundred million. */
-void expect_mean_of_many(const double *values, size_t n, double truth, double rounding, const char *what);
+/* A number that should be of the standard normal distribution, or nearer to 0. */
+void expect_deviate(double deviate, const char *what);
+
+/* A random number held to a bound of five standard deviations or more, which the caller knows from elsewhere. */
+void expect_close(double found, double truth, double bound, const char *what);
 
 #endif

@@ -298,9 +298,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fresnel_agrees_with_the_closed_form),
-        cmocka_unit_test(energy_is_kept_without_bias),
-        cmocka_unit_test(events_come_as_often_as_the_coefficients_say),
-        cmocka_unit_test(diffuse_density_is_what_is_sampled),
+        statistical_test(energy_is_kept_without_bias),
+        statistical_test(events_come_as_often_as_the_coefficients_say),
+        statistical_test(diffuse_density_is_what_is_sampled),
         cmocka_unit_test(delta_directions_obey_the_laws_of_reflection_and_refraction),
         cmocka_unit_test(radiance_is_squeezed_by_refraction_and_flux_is_not),
         cmocka_unit_test(shading_normals_leak_no_light),

@@ -157,7 +157,8 @@ static void blades_make_an_even_polygon(void **state)
         }
         for (uint32_t i = 0; i < blades * rings; i++)
             expected[i] = (double)n / (blades * rings);
-        expect_counts(counts, expected, blades * rings, "points of the lens");
+        /* Hammersley points lie more evenly than random ones. */
+        assert_true(chance_of_counts(counts, expected, blades * rings) > 0.5);
     }
 }
 

@@ -13,6 +13,7 @@ static double values[n];
 static void draw(uint32_t filter, uint32_t seed)
 {
     uint32_t count = n;
+    seed = test_seed(seed);
     cl_kernel kernel = test_kernel("filter", "sample");
     cl_mem out = test_buffer(sizeof samples, NULL);
     rt_arg args[] = {RT_ARG(filter), RT_ARG(seed), RT_ARG(count), RT_ARG(out)};
@@ -81,7 +82,7 @@ static void weights_have_the_sign_of_the_filter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_have_the_sign_of_the_filter),
+        statistical_test(weights_have_the_sign_of_the_filter),
     };
     return cmocka_run_group_tests_name("kernels/filter", tests, NULL, NULL);
 }

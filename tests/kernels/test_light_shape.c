@@ -184,10 +184,10 @@ static void spots_fall_off_over_their_edge(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes_fill_their_solid_angle),
-        cmocka_unit_test(light_paths_of_shapes_carry_their_power),
-        cmocka_unit_test(textures_multiply_emission),
-        cmocka_unit_test(spots_fall_off_over_their_edge),
+        statistical_test(shapes_fill_their_solid_angle),
+        statistical_test(light_paths_of_shapes_carry_their_power),
+        statistical_test(textures_multiply_emission),
+        statistical_test(spots_fall_off_over_their_edge),
     };
     return cmocka_run_group_tests_name("kernels/light_shape", tests, NULL, NULL);
 }

@@ -190,11 +190,15 @@ static void distant_light_starts_beyond_all_planes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_bring_the_radiance_of_their_direction),
-        cmocka_unit_test(an_even_sky_is_sampled_evenly),
-        cmocka_unit_test(light_paths_of_the_sky_carry_its_irradiance),
-        cmocka_unit_test(light_paths_of_a_directional_light_carry_its_irradiance),
+        statistical_test(samples_bring_the_radiance_of_their_direction),
+        statistical_test(an_even_sky_is_sampled_evenly),
+        statistical_test(light_paths_of_the_sky_carry_its_irradiance),
+        statistical_test(light_paths_of_a_directional_light_carry_its_irradiance),
         cmocka_unit_test(distant_light_starts_beyond_all_planes),
     };
-    return cmocka_run_group_tests_name("kernels/light_sky", tests, scratch_enter, scratch_leave);
+    void *scratch = NULL;
+    if (scratch_enter(&scratch) != 0)
+        return 1;
+    const int failed = cmocka_run_group_tests_name("kernels/light_sky", tests, NULL, NULL);
+    return scratch_leave(&scratch) != 0 || failed != 0;
 }

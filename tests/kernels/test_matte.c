@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "render/renderer.h"
+#include "statistics.h"
 #include "types.h"
 
 enum { width = 36, height = 29, pixels = width * height, spp = 16 };
@@ -84,7 +85,7 @@ static rt_scene *new_scene(void)
 /* Renders by the library, which aims the camera, to means, and by the test's kernel to sums. */
 static void render_both(rt_scene *scene, rt_film_pixel *singly, float *together)
 {
-    rt_render_options options = {.width = width, .height = height, .spp = spp, .max_depth = 9, .seed = 5,
+    rt_render_options options = {.width = width, .height = height, .spp = spp, .max_depth = 9, .seed = test_seed(5),
                                  .roulette_depth = 2, .roulette_threshold = 0.5f};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
@@ -125,7 +126,7 @@ static void expect_equal_films(rt_scene *scene)
         lit += one > 0;
     }
     assert_true(lit > pixels);
-    assert_true(off <= 3 * pixels / 100);
+    expect_close(off, 0, 3 * pixels / 100, "values that differ");
 }
 
 static void all_surfaces_under_all_lights(void **state)
@@ -167,9 +168,9 @@ static void all_surfaces_under_a_sky_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(flat_surfaces_under_flat_lights),
-        cmocka_unit_test(all_surfaces_under_all_lights),
-        cmocka_unit_test(all_surfaces_under_a_sky_alone),
+        statistical_test(flat_surfaces_under_flat_lights),
+        statistical_test(all_surfaces_under_all_lights),
+        statistical_test(all_surfaces_under_a_sky_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "render/renderer.h"
+#include "statistics.h"
 #include "types.h"
 
 #define PI 3.14159265358979323846
@@ -52,7 +53,7 @@ static void look(rt_scene *scene, float x, float y, float z, float fov)
 /* Renders and destroys the scene; the caller destroys the film. */
 static rt_film *render(rt_scene *scene, uint32_t depth, uint32_t spp, rt_sampler sampler)
 {
-    rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = depth, .seed = 1,
+    rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = depth, .seed = test_seed(1),
                                  .sampler = sampler};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
@@ -88,7 +89,7 @@ static void a_furnace_sums_the_series_of_its_albedo(void **state)
         look(scene, 3, 2, 1, 90);
         rt_film *film = render(scene, depths[i], 64, RT_SAMPLER_SOBOL);
         /* 36864 paths whose sums deviate by less than 1 of each other: 5 standard errors. */
-        assert_float_equal(mean(film), (1 - pow(0.5, depths[i])) / 0.5, 5.0 / sqrt(64 * pixels));
+        expect_close(mean(film), (1 - pow(0.5, depths[i])) / 0.5, 5.0 / sqrt(64 * pixels), "furnace");
         rt_film_destroy(film);
     }
 }
@@ -210,7 +211,7 @@ static void a_rectangle_lights_a_floor_by_its_form_factor(void **state)
             add_quad(scene, corner, x, y, add_material(scene, &lamp));
             expect_ok(rt_scene_set_camera(scene, &beside, &error), &error);
             rt_film *film = render(scene, 1 + (uint32_t)two, 256, two == 1 ? RT_SAMPLER_SOBOL : RT_SAMPLER_INDEPENDENT);
-            assert_float_equal(mean(film) / (0.8 * 2 * 4 * corner_factor(1, 1, heights[i])), 1, 5e-3);
+            expect_close(mean(film) / (0.8 * 2 * 4 * corner_factor(1, 1, heights[i])), 1, 5e-3, "lamp over a floor");
             rt_film_destroy(film);
         }
 }
@@ -269,7 +270,7 @@ static void scale_does_not_matter(void **state)
     rt_film *metre = render(scaled_scene(1), 12, 256, RT_SAMPLER_SOBOL);
     for (int i = 0; i < 2; i++) {
         rt_film *film = render(scaled_scene(scales[i]), 12, 256, RT_SAMPLER_SOBOL);
-        assert_float_equal(mean(film) / mean(metre), 1, 1e-3);
+        expect_close(mean(film) / mean(metre), 1, 1e-3, "scaled scene");
         rt_film_destroy(film);
     }
     rt_film_destroy(metre);
@@ -281,24 +282,25 @@ static void samplers_agree(void **state)
     /* Caustics leave a standard error of 0.45 % of the mean in the difference. */
     rt_film *sobol = render(scaled_scene(1), 12, 1024, RT_SAMPLER_SOBOL);
     rt_film *independent = render(scaled_scene(1), 12, 1024, RT_SAMPLER_INDEPENDENT);
-    assert_float_equal(mean(sobol) / mean(independent), 1, 2e-2);
+    expect_close(mean(sobol) / mean(independent), 1, 2e-2, "samplers");
     rt_film_destroy(sobol);
     rt_film_destroy(independent);
 }
 
-/* Launches the kernel `launches` times, each with its share of 16 samples. */
-static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t group, rt_film_pixel *film)
+/* Launches the kernel `launches` times, each with its share of 16 samples, `each` pixels a work-item. */
+static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t group, uint32_t each, rt_film_pixel *film)
 {
     cl_kernel kernel = NULL;
     rt_error error;
     rt_render_options options = {.width = side, .height = side, .max_depth = 8, .seed = 3};
     rt_params params = rt_params_make(&options);
-    size_t bytes = pixels * sizeof *film, items = (pixels + group - 1) / group * group;
+    size_t bytes = pixels * sizeof *film, items = ((pixels + each - 1) / each + group - 1) / group * group;
     memset(film, 0, bytes);
     cl_mem buffer = test_buffer(bytes, film);
     expect_ok(rt_device_kernel(test_device(), &kernel, "path", "path", NULL, &error), &error);
     params.first_item = 0;
     params.item_count = pixels;
+    params.pixels_an_item = each;
     params.sample_count = 16 / launches;
     for (params.first_sample = 0; params.first_sample < 16; params.first_sample += params.sample_count) {
         rt_arg args[] = {RT_ARG(params), RT_ARG(renderer->scene), RT_ARG(buffer)};
@@ -320,12 +322,17 @@ static void the_film_does_not_depend_on_how_samples_are_shared_out(void **state)
     rt_error error;
     (void)state;
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    launch_in_parts(renderer, 1, 64, whole);
+    launch_in_parts(renderer, 1, 64, 64, whole);
     for (uint32_t launches = 2; launches <= 16; launches *= 2)
         for (size_t group = 1; group <= 64; group *= 8) {
-            launch_in_parts(renderer, launches, group, parts);
+            launch_in_parts(renderer, launches, group, 64, parts);
             assert_memory_equal(whole, parts, sizeof whole);
         }
+    static const uint32_t each[] = {1, 5, 8, 1000};
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
+        launch_in_parts(renderer, 1, 16, each[i], parts);
+        assert_memory_equal(whole, parts, sizeof whole);
+    }
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);
 }
@@ -413,16 +420,16 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_that_are_not_finite_are_counted_and_left_out),
         cmocka_unit_test(samples_that_gather_nowhere_are_rejected),
-        cmocka_unit_test(a_furnace_sums_the_series_of_its_albedo),
+        statistical_test(a_furnace_sums_the_series_of_its_albedo),
         cmocka_unit_test(glass_disappears_in_even_light),
         cmocka_unit_test(nested_and_overlapping_solids_disappear_in_even_light),
         cmocka_unit_test(radiance_inside_glass_is_the_index_squared),
         cmocka_unit_test(mirrors_reflect_what_they_should),
         cmocka_unit_test(a_point_light_lights_a_floor_by_the_inverse_square),
-        cmocka_unit_test(a_rectangle_lights_a_floor_by_its_form_factor),
+        statistical_test(a_rectangle_lights_a_floor_by_its_form_factor),
         cmocka_unit_test(depth_counts_the_segments_from_the_eye),
-        cmocka_unit_test(scale_does_not_matter),
-        cmocka_unit_test(samplers_agree),
+        statistical_test(scale_does_not_matter),
+        statistical_test(samplers_agree),
         cmocka_unit_test(the_film_does_not_depend_on_how_samples_are_shared_out),
         cmocka_unit_test(every_pixel_has_one_item),
     };

@@ -16,7 +16,7 @@ static void draw(rt_sampler kind, uint32_t seed, uint32_t stream, uint32_t set, 
     rt_params params;
     memset(&params, 0, sizeof params);
     params.sampler = kind;
-    params.seed = seed;
+    params.seed = test_seed(seed);
     params.first_sample = first;
     cl_kernel kernel = test_kernel("rng", "sets");
     cl_mem scene = rng_scene(), buffer = test_buffer(count * sizeof *out, NULL);
@@ -132,15 +132,18 @@ static void independent_numbers_fill_the_hypercube_evenly(void **state)
     }
 }
 
-/* Correlation of two coordinates over n samples; below 5 / sqrt(n) for all but 1 in a million unrelated pairs. */
-static void expect_unrelated(const float (*a)[4], const float (*b)[4], int n)
+/*
+ * Correlations of the coordinates over n samples. Of independent numbers they deviate by 1 / sqrt(n); of Sobol points,
+ * over 8 seeds, by 1.1 to 1.4 times that.
+ */
+static void expect_unrelated(int kind, const float (*a)[4], const float (*b)[4], int n)
 {
     for (int x = 0; x < 4; x++)
         for (int y = 0; y < 4; y++) {
             double sum = 0;
             for (int i = 0; i < n; i++)
                 sum += (a[i][x] - 0.5) * (b[i][y] - 0.5);
-            assert_true(fabs(12 * sum / n) < 5 / sqrt(n));
+            expect_deviate(12 * sum / sqrt(n) / (kind == RT_SAMPLER_SOBOL ? 1.5 : 1), "correlation");
         }
 }
 
@@ -152,11 +155,11 @@ static void streams_sets_and_seeds_are_unrelated(void **state)
     for (int kind = RT_SAMPLER_SOBOL; kind <= RT_SAMPLER_INDEPENDENT; kind++) {
         draw((rt_sampler)kind, 5, 100, 2, 0, n, base);
         draw((rt_sampler)kind, 5, 101, 2, 0, n, other);
-        expect_unrelated((const float(*)[4])base, (const float(*)[4])other, n);
+        expect_unrelated(kind, (const float(*)[4])base, (const float(*)[4])other, n);
         draw((rt_sampler)kind, 5, 100, 3, 0, n, other);
-        expect_unrelated((const float(*)[4])base, (const float(*)[4])other, n);
+        expect_unrelated(kind, (const float(*)[4])base, (const float(*)[4])other, n);
         draw((rt_sampler)kind, 6, 100, 2, 0, n, other);
-        expect_unrelated((const float(*)[4])base, (const float(*)[4])other, n);
+        expect_unrelated(kind, (const float(*)[4])base, (const float(*)[4])other, n);
     }
 }
 
@@ -171,7 +174,7 @@ static void one_sample_is_even_over_the_streams(void **state)
     for (int i = 0; i < cells; i++)
         expected[i] = (double)n / cells;
     for (int kind = RT_SAMPLER_SOBOL; kind <= RT_SAMPLER_INDEPENDENT; kind++) {
-        rng_draw_pairs((rt_sampler)kind, 3, 0, 2, n, numbers);
+        rng_draw_pairs((rt_sampler)kind, test_seed(3), 0, 2, n, numbers);
         for (int x = 0; x < 8; x++)
             for (int y = x + 1; y < 8; y++) {
                 memset(counts, 0, sizeof counts);
@@ -188,10 +191,10 @@ int main(void)
         cmocka_unit_test(the_table_holds_the_first_points_of_the_sobol_sequence),
         cmocka_unit_test(every_coordinate_of_sobol_sets_is_stratified),
         cmocka_unit_test(the_first_two_coordinates_fill_all_elementary_intervals),
-        cmocka_unit_test(numbers_lie_in_the_unit_interval_with_the_right_mean),
-        cmocka_unit_test(independent_numbers_fill_the_hypercube_evenly),
-        cmocka_unit_test(streams_sets_and_seeds_are_unrelated),
-        cmocka_unit_test(one_sample_is_even_over_the_streams),
+        statistical_test(numbers_lie_in_the_unit_interval_with_the_right_mean),
+        statistical_test(independent_numbers_fill_the_hypercube_evenly),
+        statistical_test(streams_sets_and_seeds_are_unrelated),
+        statistical_test(one_sample_is_even_over_the_streams),
     };
     return cmocka_run_group_tests_name("kernels/rng", tests, NULL, NULL);
 }

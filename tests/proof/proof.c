@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chance.h"
 #include "proof/page.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* ---- Renders ----------------------------------------------------------------- */
 
@@ -50,7 +49,7 @@ void proof_render(proof_films *out, const char *text, const rt_render_options *o
     for (uint32_t i = 0; i < proof_renders; i++) {
         rt_render_options one = *options;
         rt_film *film = NULL;
-        one.seed += i;
+        one.seed = test_seed(options->seed + i);
         expect_ok(rt_render(&film, renderer, &one, &error), &error);
         out->rgb[i] = keep(film, &out->width, &out->height);
         rt_film_destroy(film);
@@ -85,17 +84,6 @@ proof_values proof_mean(const proof_films *films, int channel)
 
 /* ---- Statistics ---------------------------------------------------------------- */
 
-/* Abramowitz and Stegun, "Handbook of Mathematical Functions", 26.7.3. */
-double proof_student(double t, int freedom)
-{
-    double angle = atan(fabs(t) / sqrt(freedom)), c = cos(angle), term = c, sum = 0;
-    for (int i = 1; i <= freedom - 2; i += 2) {
-        sum += term;
-        term *= c * c * (i + 1) / (i + 2);
-    }
-    return 1 - 2 / pi * (angle + sin(angle) * sum);
-}
-
 /* The mean of the values, its standard error with that of rounding, and how many of them it is off. */
 typedef struct estimate {
     double mean, error, off;
@@ -117,7 +105,8 @@ static estimate estimate_of(const proof_values *values, double expected, double 
 /* Whether chance would be that far off too seldom, in one of so many checks. */
 static int is_wrong(double off, double checks)
 {
-    return !(proof_student(off, proof_renders - 1) >= PROOF_FALSE_ALARM / checks);
+    chance_spend(PROOF_FALSE_ALARM);
+    return !(chance_of_student(off, proof_renders - 1) >= PROOF_FALSE_ALARM / checks);
 }
 
 void proof_check(proof_row row, double expected, const proof_values *values)

@@ -48,9 +48,6 @@ void proof_free(proof_films *films);
 proof_values proof_mean(const proof_films *films, int channel);
 proof_values proof_mean_of(const proof_films *films, int channel, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1);
 
-/* The chance that Student's t distribution gives |t| or more; freedom is odd. */
-double proof_student(double t, int freedom);
-
 /* Fails unless the mean of the values is as expected. */
 void proof_check(proof_row row, double expected, const proof_values *values);
 

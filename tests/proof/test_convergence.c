@@ -7,6 +7,7 @@
  */
 #include <math.h>
 
+#include "chance.h"
 #include "proof/page.h"
 #include "proof/proof.h"
 #include "proof/room.h"
@@ -78,6 +79,7 @@ static void expect_slope(const char *scene, const char *text, rt_sampler sampler
     proof_values slopes;
     measure(text, sampler, rmse, &slopes);
     mean_and_error(&slopes, &slope, &error);
+    chance_spend(PROOF_FALSE_ALARM);
     const int is_sobol = sampler == RT_SAMPLER_SOBOL;
     page_row(proof_text("%s | %s | %s%g", scene, is_sobol ? "Sobol" : "independent", is_sobol ? "below " : "", bound),
              proof_text("%.3f | %.3f | %.4f | %.4f | %.4f | %.4f | %.4f", slope, error, rmse[0], rmse[2], rmse[4],

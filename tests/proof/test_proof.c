@@ -1,6 +1,7 @@
 /* test_proof.c - the yardsticks: Student's distribution, and what boundaries reflect, where they are known. */
 #include <math.h>
 
+#include "chance.h"
 #include "proof/optics.h"
 #include "proof/proof.h"
 
@@ -8,11 +9,14 @@
 static void students_distribution(void **state)
 {
     (void)state;
-    assert_float_equal(proof_student(0, 31), 1, 1e-12);
-    assert_float_equal(proof_student(12.7062, 1), 0.05, 1e-6);
-    assert_float_equal(proof_student(2.0395134, 31), 0.05, 1e-7);
-    assert_float_equal(proof_student(-2.0395134, 31), 0.05, 1e-7);
-    assert_float_equal(proof_student(6.9, 31), 9.764e-8, 1e-11);
+    assert_float_equal(chance_of_student(0, 31), 1, 1e-12);
+    assert_float_equal(chance_of_student(12.7062, 1), 0.05, 1e-6);
+    assert_float_equal(chance_of_student(2.0395134, 31), 0.05, 1e-7);
+    assert_float_equal(chance_of_student(-2.0395134, 31), 0.05, 1e-7);
+    assert_float_equal(chance_of_student(6.9, 31), 9.764e-8, 1e-11);
+    assert_float_equal(chance_of_student(4.302653, 2), 0.05, 1e-7);
+    assert_float_equal(chance_of_student(2.228139, 10), 0.05, 1e-7);
+    assert_float_equal(chance_of_student(3.290527, 10001), 0.001, 1e-8);
 }
 
 static void boundaries(void **state)

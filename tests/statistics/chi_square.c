@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "accel/parallel.h"
+#include "chance.h"
 #include "kernels/statistics.h"
 #include "lib/image/scratch.h"
 #include "statistics/quadrature.h"
@@ -94,7 +95,7 @@ static double chance(const subject *s, uint32_t seed)
 {
     static double expected[most_cells + 1];
     const routine *r = s->routine;
-    r->method->draw(r->setup, seed, samples_a_test);
+    r->method->draw(r->setup, test_seed(seed), samples_a_test);
     rt_parallel(test_device()->threads, jobs, count_part, (void *)(uintptr_t)s);
     for (size_t i = 0; i <= s->cells + 1; i++)
         for (size_t j = 1; j < jobs; j++)
@@ -155,6 +156,7 @@ int test_routines(const char *group, uint32_t sample_count, uint32_t seeds)
     samples_a_test = sample_count;
     seeds_a_test = seeds;
     alpha = family_alpha / ((double)count * seeds);
+    chance_spend((double)count * seeds * alpha * alpha);
 
     /* Files go to a directory of their own. */
     void *scratch = NULL;

@@ -8,8 +8,8 @@
  *
  * False alarms. A family of tests is one run: every routine with every seed, T tests. A test raises suspicion when
  * counts as far off have a chance below 0.01 / T (Bonferroni), so that a run of true routines suspects one in 1 run
- * of 100. Then samples of a fresh seed must clear the routine, at the same level, or it fails: together less than
- * 0.01 * 0.01 = 1e-4 a run. As all seeds are fixed, the verdict on one machine is always the same as well.
+ * of 100. Then samples of a fresh seed must clear the routine, at the same level, or it fails: together
+ * T (0.01 / T)^2 = 1e-4 / T a run. As all seeds are fixed, the verdict on one machine is always the same as well.
  */
 #ifndef RT_TESTS_STATISTICS_CHI_SQUARE_H
 #define RT_TESTS_STATISTICS_CHI_SQUARE_H

@@ -1,9 +1,6 @@
 /*
  * test_scattering.c - for every kind of material: evaluation, sampling and density agree, light goes both ways
  * alike, densities are those of chances, and none gives back more light than it gets.
- *
- * Some 240 means are compared, by expect_mean_of_many: false alarms come in 1 run of 100 000, and as seeds are fixed
- * in none on a machine on which the tests once passed.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,8 +12,6 @@
 #include "support.h"
 
 enum { n = 1 << 17, rings = 256, sectors = 192, points = rings * sectors };
-
-static const double limit = 5.5; /* standard errors, as expect_mean_of_many has it */
 
 #define ALL(v) {v, v, v}
 #define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
@@ -126,7 +121,7 @@ static void sampled_light_is_the_light_that_is_evaluated(void **state)
             for (int c = 0; c < 3; c++) {
                 for (int i = 0; i < n; i++)
                     values[i] = spreads(draws + i) ? draws[i].weight[c] * draws[i].squeeze : 0;
-                expect_mean_of_many(values, n, truth.light[c], 2e-4, materials[m].name);
+                expect_mean(values, n, truth.light[c], 2e-4, materials[m].name);
             }
         }
 }
@@ -145,11 +140,12 @@ static void densities_are_of_what_happens(void **state)
                 values[i] = (int)draws[i].event == diffuse;
                 all_rough += (int)draws[i].event == rough;
             }
-            expect_mean_of_many(values, n, found.diffuse, 2e-4, materials[m].name);
+            expect_mean(values, n, found.diffuse, 2e-4, materials[m].name);
             for (int i = 0; i < n; i++)
                 values[i] = (int)draws[i].event == rough && draws[i].pdf_w > 0;
-            expect_mean_of_many(values, n, found.rough, 2e-4, materials[m].name);
-            assert_true(found.rough <= all_rough / n + limit * 0.5 / sqrt(n) + 2e-4);
+            expect_mean(values, n, found.rough, 2e-4, materials[m].name);
+            const double excess = fmax(0, found.rough - all_rough / n - 2e-4);
+            expect_deviate(excess / (0.5 / sqrt(n)), "rough density above the chance of it");
             assert_true(found.diffuse + found.rough <= 1 + 2e-4);
         }
 }
@@ -236,10 +232,12 @@ static void nothing_gives_back_more_than_it_gets(void **state)
                 for (int c = 0; c < 3; c++) {
                     const double mean = found[i].mean[c], variance = found[i].square[c] - mean * mean;
                     const double error = sqrt(fmax(0, variance) / samples);
-                    if (!(mean <= 1 + 1e-5 + limit * error) || (is_grey && !(found[i].most <= 1 + 1e-5)))
-                        fail_msg("material %zu, alpha %g, cosine %g, index %g: keeps %g +- %g, at most %g", w,
-                                 alphas[a], angles[i % angle_count], indices[i / angle_count], mean, error,
-                                 found[i].most);
+                    const double excess = mean - 1 - 1e-5;
+                    const double chance = excess > 0 ? chance_of_student(excess / error, samples - 1) : 1;
+                    chance_compare(is_grey && !(found[i].most <= 1 + 1e-5) ? 0 : chance,
+                                   "material %zu, alpha %g, cosine %g, index %g: keeps %g +- %g, at most %g", w,
+                                   alphas[a], angles[i % angle_count], indices[i / angle_count], mean, error,
+                                   found[i].most);
                 }
         }
 }
@@ -247,10 +245,10 @@ static void nothing_gives_back_more_than_it_gets(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sampled_light_is_the_light_that_is_evaluated),
-        cmocka_unit_test(densities_are_of_what_happens),
+        statistical_test(sampled_light_is_the_light_that_is_evaluated),
+        statistical_test(densities_are_of_what_happens),
         cmocka_unit_test(light_goes_both_ways_alike),
-        cmocka_unit_test(nothing_gives_back_more_than_it_gets),
+        statistical_test(nothing_gives_back_more_than_it_gets),
     };
     return cmocka_run_group_tests_name("statistics/scattering", tests, NULL, NULL);
 }

@@ -58,6 +58,19 @@ static void path_mode_gives_the_same_bytes(void **state)
     check_mode("--mode path");
 }
 
+/* PoCL is told to take no more than 4 work-items a work-group, less than are usual here. */
+static void a_device_of_small_work_groups_gives_the_same_bytes(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    render("--mode path", "", "first.exr");
+    run run = run_rtc("POCL_MAX_WORK_GROUP_SIZE=4 rtc a.rts --quiet --spp 5 --photons 20000 --final-gather 1 --seed 3 "
+                      "--mode path --out small.exr");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_same_files("first.exr", "small.exr");
+}
+
 static void photon_mode_gives_the_same_bytes(void **state)
 {
     (void)state;
@@ -97,6 +110,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(path_mode_gives_the_same_bytes),
+        TEST(a_device_of_small_work_groups_gives_the_same_bytes),
         TEST(photon_mode_gives_the_same_bytes),
         TEST(what_is_said_of_the_error_is_the_same_bytes),
         TEST(another_seed_gives_other_bytes),

@@ -60,6 +60,16 @@ echo '[  FAILED  ] 2 test(s), listed below:'
 echo '[  FAILED  ] some_name'
 exit 2
 END
+script cmocka_lucky <<'END'
+#!/bin/sh
+echo '[  PASSED  ] 1 test(s).'
+echo '[  CHANCE  ] 4e-05'
+END
+script cmocka_unlucky <<'END'
+#!/bin/sh
+echo '[  PASSED  ] 1 test(s).'
+echo '[  CHANCE  ] 7e-05'
+END
 
 expect sums_over_programs 0 '9 passed, 0 failed' "$work/good.sh" "$work/cmocka_good"
 expect counts_failed_script 1 '1 passed, 1 failed' "$work/bad.sh"
@@ -70,4 +80,6 @@ expect no_program_is_a_failure 1 '0 passed, 0 failed'
 expect missing_program_is_a_failure 1 '0 passed, 1 failed' "$work/none"
 expect timeout_is_a_failure 1 '1 passed, 1 failed' "$work/slow.sh"
 expect crash_is_a_failure 1 '1 passed, 1 failed' "$work/crash"
+expect false_alarms_have_a_budget 0 '2 passed, 0 failed' "$work/cmocka_lucky" "$work/cmocka_lucky"
+expect too_many_false_alarms_are_a_failure 1 '2 passed, 1 failed' "$work/cmocka_lucky" "$work/cmocka_unlucky"
 exit $bad

@@ -556,8 +556,8 @@ static void typed_range(const char *name, double limits[2], int *all)
 }
 
 /*
- * The language, the command line and the library each have a table of ranges. They agree, but that 0 takes back what the
- * scene says where a command line may say so, and means the default to the library.
+ * The language, the command line and the library each have a table of ranges. They agree, but that 0 takes back what
+ * the scene says where a command line may say so, and means the default to the library.
  */
 static void ranges_are_the_same_in_language_command_and_library(void **state)
 {
@@ -575,10 +575,11 @@ static void ranges_are_the_same_in_language_command_and_library(void **state)
             int same = fabs(limits[1] - high) <= 1e-9 * high &&
                        (limits[0] == low || (limits[0] == 0 && field->type == RT_FIELD_NUMBER));
             if (!same || all != (field->type == RT_FIELD_COUNT))
-                fail_msg("%s: %g to %g on the command line, %g to %g in a scene", field->name, limits[0], limits[1], low,
-                         high);
+                fail_msg("%s: %g to %g on the command line, %g to %g in a scene", field->name, limits[0], limits[1],
+                         low, high);
             int above = high < UINT32_MAX && library_takes(field, is_open ? high : high * 1.001 + 1);
-            int below = (low > 1 && library_takes(field, low - 1)) || (low > 0 && low < 1 && library_takes(field, low / 2));
+            int below = (low > 1 && library_takes(field, low - 1)) ||
+                        (low > 0 && low < 1 && library_takes(field, low / 2));
             if (!library_takes(field, is_open ? (low + high) / 2 : high) || above || below)
                 fail_msg("%s: the library has another range than %g to %g", field->name, low, high);
         }

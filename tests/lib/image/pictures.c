@@ -4,7 +4,7 @@
 
 #include "support.h"
 
-void expect_close(double found, double expected, double tolerance)
+void expect_measure(double found, double expected, double tolerance)
 {
     if (!(fabs(found - expected) <= tolerance))
         fail_msg("%.9g instead of %.9g", found, expected);

@@ -14,6 +14,6 @@ void picture_texture(float *rgb);
 void picture_changed(float *tint, float *dot, float *step);
 
 /* Fails the test unless what was found is that near. */
-void expect_close(double found, double expected, double tolerance);
+void expect_measure(double found, double expected, double tolerance);
 
 #endif

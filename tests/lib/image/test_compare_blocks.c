@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/statistics.h"
 #include "support.h"
 
 #define SIDE 128u
@@ -28,6 +29,7 @@ static float *picture(double scale, double deviation, uint64_t seed)
 {
     float *rgb = malloc(VALUES * sizeof *rgb);
     assert_non_null(rgb);
+    seed = test_seed((uint32_t)seed);
     for (uint32_t i = 0; i < VALUES; i++) {
         uint32_t x = i / 3 % SIDE, y = i / 3 / SIDE;
         double truth = (0.2 + 0.01 * y + (x > 37 ? 1.0 : 0.0)) * (1 + i % 3);
@@ -105,7 +107,8 @@ static void noise_alone_agrees_and_is_measured(void **state)
     (void)state;
     float *reference = picture(1.0, 0.3, 1), *render = picture(1.0, 0.4, 2);
     result result = compare(render, reference, TINY);
-    assert_int_equal(result.info.off, 0);
+    /* The noise has a tail: a block is off in one of 60 runs. */
+    expect_close(result.info.off, 0, 1, "blocks that noise puts off");
     /* Relative error of a block's difference: sqrt(0.3^2 + 0.4^2) / 16. */
     assert_true(result.error / result.reference > 0.7 * 0.5 / 16);
     assert_true(result.error / result.reference < 1.4 * 0.5 / 16);
@@ -173,6 +176,7 @@ static void black_agrees_with_black_alone(void **state)
 static float *blotchy(double scale, uint64_t seed)
 {
     float *rgb = picture(scale, 0.0, 1);
+    seed = test_seed((uint32_t)seed);
     for (uint32_t row = 0; row < SIDE / BLOCK; row++)
         for (uint32_t column = 0; column < SIDE / BLOCK; column++) {
             double factor = 1.0 + 0.02 * noise(&seed);
@@ -200,7 +204,8 @@ static void shared_noise_is_measured_from_several_renders(void **state)
     result several = compare_renders(renders, COUNT, reference, 0.005);
     result off = compare_renders(wrong, COUNT, reference, 0.005);
     assert_true(alone.info.off > alone.info.blocks / 4);
-    assert_int_equal(several.info.off, 0);
+    /* One is off in one of 6 runs: eight renders do not know their noise well. */
+    expect_close(several.info.off, 0, 3, "blocks that shared noise puts off");
     assert_true(off.info.off > off.info.blocks / 2);
     for (int i = 0; i < COUNT; i++) {
         free((void *)renders[i]);
@@ -214,12 +219,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_images_agree),
         cmocka_unit_test(the_tolerance_is_where_it_says),
-        cmocka_unit_test(noise_alone_agrees_and_is_measured),
+        statistical_test(noise_alone_agrees_and_is_measured),
         cmocka_unit_test(an_error_above_the_noise_is_caught),
         cmocka_unit_test(one_wrong_block_is_found),
         cmocka_unit_test(what_is_not_finite_fails),
         cmocka_unit_test(black_agrees_with_black_alone),
-        cmocka_unit_test(shared_noise_is_measured_from_several_renders),
+        statistical_test(shared_noise_is_measured_from_several_renders),
     };
     return cmocka_run_group_tests_name("lib/image/compare_blocks", tests, NULL, NULL);
 }

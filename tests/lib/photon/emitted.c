@@ -23,7 +23,7 @@ rt_photon_map *emit_map(rt_renderer *renderer, const rt_emit_options *options)
     return map;
 }
 
-void expect_same_maps(const rt_photon_map *a, const rt_photon_map *b)
+void expect_same_map(const rt_photon_map *a, const rt_photon_map *b)
 {
     rt_bytes x = {0}, y = {0};
     rt_error error;

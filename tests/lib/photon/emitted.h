@@ -19,7 +19,7 @@ rt_renderer *renderer_on(rt_device *device, const char *text, rt_accel accel);
 /* Emits a map, which must not fail. */
 rt_photon_map *emit_map(rt_renderer *renderer, const rt_emit_options *options);
 
-/* The maps are the same file, to the bit. */
-void expect_same_maps(const rt_photon_map *a, const rt_photon_map *b);
+/* The same files mean the same maps, to the bit. */
+void expect_same_map(const rt_photon_map *a, const rt_photon_map *b);
 
 #endif

@@ -3,10 +3,9 @@
  *
  * Caustic photons kept apart come from aimed paths. Without that, they are among those of all paths, flagged. The two
  * are independent estimates of the same flux in each cell of a grid over the scene, and the squared difference over
- * the sum of the variances is nearly chi-square with a degree of freedom a cell. A true map fails when that lies five
- * standard deviations off, once in a million and a half; with the total flux held to 4.5, once in 100 000 a scene.
- * Seeds are fixed.
+ * the sum of the variances is nearly chi-square with a degree of freedom a cell.
  */
+#include "kernels/statistics.h"
 #include "support.h"
 
 #include <math.h>
@@ -77,7 +76,7 @@ typedef struct flux_grid {
 
 static rt_photon_map *emit(rt_renderer *renderer, uint64_t photons, uint64_t caustic_photons, uint32_t seed)
 {
-    rt_render_options render = {.photons = photons, .caustic_photons = caustic_photons, .max_depth = 8, .seed = seed,
+    rt_render_options render = {.photons = photons, .caustic_photons = caustic_photons, .max_depth = 8, .seed = test_seed(seed),
                                 .sampler = RT_SAMPLER_INDEPENDENT};
     rt_emit_options options = {.render = &render};
     rt_photon_map *map = NULL;
@@ -140,14 +139,14 @@ static void aimed_paths_make_the_same_caustics(void **state)
             fail_msg("%s: cell %zu has %u photons of all paths and %u of aimed ones", scene->name, i, all.count[i],
                      aimed.count[i]);
         }
-    double off = (chi2 - freedom) / sqrt(2 * freedom);
+    double off = chi_square_deviate(chi2, freedom);
     double z = (aimed.total - all.total) / sqrt(all.total_squares + aimed.total_squares);
     print_message("%s: %.0f cells, %.2f deviations off; total %.4g W and %.4g W, %.2f; %.3f photons a path, %.3f aimed\n",
                   scene->name, freedom, off, all.total, aimed.total, z, (double)all.photons / all_paths,
                   (double)aimed.photons / aimed_paths);
     assert_true(freedom >= 5);
-    assert_true(fabs(off) < 5);
-    assert_true(fabs(z) < 4.5);
+    expect_deviate(off, "cells");
+    expect_deviate(z, "total flux");
     assert_true((double)aimed.photons / aimed_paths > scene->least);
 }
 
@@ -165,10 +164,12 @@ static void nothing_specular_makes_no_caustics(void **state)
 int main(void)
 {
     enum { count = sizeof scenes / sizeof *scenes };
+    static chance_test each[count];
     struct CMUnitTest tests[count + 1];
-    for (size_t i = 0; i < count; i++)
-        tests[i] = (struct CMUnitTest){scenes[i].name, aimed_paths_make_the_same_caustics, NULL, NULL,
-                                       (void *)(scenes + i)};
+    for (size_t i = 0; i < count; i++) {
+        each[i] = (chance_test){aimed_paths_make_the_same_caustics, (void *)(scenes + i)};
+        tests[i] = (struct CMUnitTest){scenes[i].name, chance_run, NULL, NULL, each + i};
+    }
     tests[count] = (struct CMUnitTest)cmocka_unit_test(nothing_specular_makes_no_caustics);
     return cmocka_run_group_tests_name("lib/photon/aim", tests, NULL, NULL);
 }

@@ -112,7 +112,8 @@ static void ask_device(answers *a, rt_device_gather *g, const uint64_t *order, c
     params.item_count = (rt_u32)part;
     params.slots = (rt_u32)a->stride;
     rt_arg args[] = {RT_ARG(params),   RT_ARG(g->estimate), RT_ARG(on),      RT_ARG(g->discs), RT_ARG(g->tree.shape),
-                     RT_ARG(g->nodes), RT_ARG(g->blocks),   RT_ARG(scratch), RT_ARG(lists)};
+                     RT_ARG(g->nodes), RT_ARG(g->blocks),   RT_ARG(scratch), RT_ARG(scratch),
+                     RT_ARG(lists)};
     test_run(kernel, args, sizeof args / sizeof *args, part);
     test_read(g->discs, part * sizeof *a->discs, a->discs);
     test_read(lists, part * a->stride * sizeof *a->lists, a->lists);
@@ -217,7 +218,7 @@ static void compete(const problem *p, size_t brute)
 {
     size_t stride = p->k ? p->k : p->list.count, part = ENTRIES / (stride ? stride : 1), ties = 0;
     float limit = p->limit < HUGE_VALF ? p->limit : HUGE_VALF;
-    rt_density_params estimate = {0, 1.1f, 0, p->k, limit * limit, 0, 0, 1, RT_AREA_DISC, {0}};
+    rt_density_params estimate = {0, 1.1f, 0, p->k, limit * limit, 0, 0, 1, RT_AREA_DISC, 0, {0}};
     rt_photon_search *search = NULL;
     rt_device_gather on;
     rt_error error;

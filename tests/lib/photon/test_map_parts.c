@@ -6,7 +6,6 @@
 #include "lib/photon/emitted.h"
 #include "photon/map_file.h"
 
-/* The same files mean the same maps, to the bit. */
 static rt_photon_map *merge(rt_photon_map *const *maps, size_t count)
 {
     rt_photon_map *map = NULL;
@@ -41,13 +40,13 @@ static void parts_join_to_the_map_of_all(void **state)
     for (int i = 0; i < 3; i++) {
         rt_photon_map *some[] = {parts[orders[i][0]], parts[orders[i][1]], parts[orders[i][2]]};
         rt_photon_map *joined = merge(some, 3);
-        expect_same_maps(joined, whole);
+        expect_same_map(joined, whole);
         rt_photon_map_destroy(joined);
         /* Two at a time comes to the same, with a gap in between or not. */
         rt_photon_map *pair = merge(some, 2);
         rt_photon_map *rest[] = {some[2], pair};
         joined = merge(rest, 2);
-        expect_same_maps(joined, whole);
+        expect_same_map(joined, whole);
         rt_photon_map_destroy(pair);
         rt_photon_map_destroy(joined);
     }
@@ -71,7 +70,7 @@ static void seeds_join_in_any_order(void **state)
         maps[i] = turned[1 - i] = emit_map(renderer, &options);
     }
     rt_photon_map *a = merge(maps, 2), *b = merge(turned, 2);
-    expect_same_maps(a, b);
+    expect_same_map(a, b);
     rt_photon_map_get_info(a, &info);
     assert_int_equal(info.paths[RT_PHOTONS_GLOBAL], 6000);
     const rt_path_range *ranges = rt_photon_map_ranges(a, RT_PHOTONS_GLOBAL, &range_count);
@@ -125,7 +124,7 @@ static void maps_that_do_not_fit_are_not_joined(void **state)
 
 static void maps_do_not_depend_on_threads_and_work_groups(void **state)
 {
-    static const rt_device_options devices[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 3, 64}};
+    static const uint32_t devices[][2] = {{1, 1}, {2, 16}, {3, 64}}; /* threads, work-group */
     rt_render_options render = {.photons = 20000, .caustic_photons = 5000};
     rt_emit_options options = {.render = &render};
     (void)state;
@@ -133,12 +132,10 @@ static void maps_do_not_depend_on_threads_and_work_groups(void **state)
     rt_photon_map *expected = emit_map(renderer, &options);
     rt_renderer_destroy(renderer);
     for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
-        rt_device *device = NULL;
-        rt_error error;
-        expect_ok(rt_device_open(&device, devices + i, &error), &error);
+        rt_device *device = test_device_open(devices[i][0], devices[i][1]);
         renderer = renderer_on(device, ROOM, RT_ACCEL_BVH);
         rt_photon_map *map = emit_map(renderer, &options);
-        expect_same_maps(map, expected);
+        expect_same_map(map, expected);
         rt_photon_map_destroy(map);
         rt_renderer_destroy(renderer);
         rt_device_close(device);

@@ -4,6 +4,7 @@
  * From a camera that sees all of a diffuse wall and nothing else, the flux is pi / kd times the mean radiance times
  * the area. The two share geometry and materials, but neither emission nor the way in which light is followed.
  */
+#include "kernels/statistics.h"
 #include "support.h"
 
 #include <math.h>
@@ -53,7 +54,7 @@ static rt_renderer *open_at(const char *text, int wall)
 /* The flux that reaches a wall, W, by path tracing. */
 static void flux_by_paths(double flux[3], const char *text, int wall, uint32_t seed)
 {
-    rt_render_options options = {.width = side, .height = side, .spp = 256, .max_depth = 12, .seed = seed};
+    rt_render_options options = {.width = side, .height = side, .spp = 512, .max_depth = 12, .seed = test_seed(seed)};
     rt_renderer *renderer = open_at(text, wall);
     rt_film *film = NULL;
     rt_error error;
@@ -71,7 +72,7 @@ static void flux_by_paths(double flux[3], const char *text, int wall, uint32_t s
 /* The same of all walls, by photons. */
 static void flux_by_photons(double flux[walls][3], const char *text, uint32_t seed)
 {
-    rt_render_options render = {.photons = 400000, .max_depth = 12, .direct = RT_DIRECT_PHOTONS, .seed = seed};
+    rt_render_options render = {.photons = 2000000, .max_depth = 12, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(seed)};
     rt_emit_options options = {.render = &render};
     rt_renderer *renderer = open_at(text, 0);
     rt_photon_map *map = NULL;
@@ -102,15 +103,13 @@ static void expect_same_flux(const char *text, const char *name, double close_ea
     for (int wall = 0; wall < walls - 1; wall++) {
         flux_by_paths(paths, text, wall, 2);
         for (int c = 0; c < 3; c++) {
-            if (!(fabs(photons[wall][c] / paths[c] - 1) <= close_each))
-                fail_msg("%s, wall %d, channel %d: %g W by photons, %g W by paths", name, wall, c, photons[wall][c],
-                         paths[c]);
+            expect_close(photons[wall][c] / paths[c], 1, close_each, "flux of a wall and channel");
             sums[0] += photons[wall][c];
             sums[1] += paths[c];
         }
     }
     print_message("%s: photons have %.4f of the flux by paths\n", name, sums[0] / sums[1]);
-    assert_float_equal(sums[0] / sums[1], 1, close_all);
+    expect_close(sums[0] / sums[1], 1, close_all, "flux of all walls");
 }
 
 static void in_a_closed_room_under_a_lamp(void **state)
@@ -128,8 +127,8 @@ static void in_a_room_open_to_the_sky(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(in_a_closed_room_under_a_lamp),
-        cmocka_unit_test(in_a_room_open_to_the_sky),
+        statistical_test(in_a_closed_room_under_a_lamp),
+        statistical_test(in_a_room_open_to_the_sky),
     };
     return cmocka_run_group_tests_name("lib/photon/stored_flux", tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
  * map. The mean over a field's gather points is one independent estimate, and the standard error comes
  * from the scatter of the fields. Where the radius is that of the k-th of n photons, the share of the
  * area inside has the distribution Beta(k, n - k + 1), so that (k - 1) / share has the mean n: the truth
- * is known exactly. Seeds are fixed; false alarms cannot come and go.
+ * is known exactly.
  */
 #include "support.h"
 
@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels/statistics.h"
 #include "lib/photon/points.h"
 #include "photon/gather.h"
 
@@ -23,7 +24,6 @@ enum { fields = 100, points_a_field = 1000, estimates = fields * points_a_field 
 static const float margin = 0.25f;       /* copies reach so far beyond the square; no disc is larger */
 static const float apart = 4;            /* distance of the fields */
 static const float cone_k = 1.1f;
-static const double standard_errors = 3; /* that a mean may be off */
 
 static const char *const kernel_names[] = {"epanechnikov", "box", "cone", "gaussian", "silverman"};
 enum { kernels = sizeof kernel_names / sizeof *kernel_names };
@@ -31,7 +31,7 @@ enum { kernels = sizeof kernel_names / sizeof *kernel_names };
 /* A map of all fields, n photons in each square, of which one in `facing` faces the gather points. */
 static void lay_down(rt_photon_list *map, int n, int facing)
 {
-    points_stream stream = {12};
+    points_stream stream = {test_seed(12)};
     map->emitted = 1;
     map->capacity = (size_t)fields * n * 9;
     map->photons = calloc(map->capacity, sizeof *map->photons);
@@ -66,7 +66,7 @@ static void cut_off(rt_photon_list *map)
 
 static rt_gather_point *make_points(int at_edge)
 {
-    points_stream stream = {99};
+    points_stream stream = {test_seed(99)};
     rt_gather_point *points = calloc(estimates, sizeof *points);
     assert_non_null(points);
     for (int i = 0; i < estimates; i++) {
@@ -132,9 +132,10 @@ static void check(const rt_photon_list *map, uint32_t k, float max_radius, int o
         print_message("%s, k %u, radius %g, %s: %.3f of %.0f, %+.2f standard errors of %.4f %%\n",
                       on_device ? "device" : "FLANN", (unsigned)k, max_radius, kernel_names[density], mean, truth,
                       (mean - truth) / sigma, 100 * sigma / truth);
-        assert_true(fabs(mean - truth) < standard_errors * sigma);
+        chance_compare(chance_of_student((mean - truth) / sigma, fields - 1), "%s, k %u: %g, should be %g, +- %g",
+                       kernel_names[density], (unsigned)k, mean, truth, sigma);
         if (k > 0 && max_radius == 0 && density == RT_DENSITY_BOX && truth > 1000)
-            assert_true(truth / (k - 1) > 2 * standard_errors * sigma);
+            assert_true(truth / (k - 1) > 6 * sigma);
     }
 }
 
@@ -187,15 +188,15 @@ static void the_hull_gives_the_true_density_at_edges_too(void **state)
     lay_down(&map, n, 1);
     estimate(&map, &hull, 0, &mean, &sigma);
     print_message("hull inside: %.4f of the truth, sigma %.4f\n", mean / n, sigma / n);
-    assert_true(fabs(mean / n - 1) < 0.01);
+    expect_close(mean / n, 1, 0.01, "hull inside");
     cut_off(&map);
     estimate(&map, &hull, 1, &mean, &sigma);
     print_message("hull at the edge: %.4f of the truth, sigma %.4f\n", mean / n, sigma / n);
-    assert_true(fabs(mean / n - 1) < 0.02);
+    expect_close(mean / n, 1, 0.03, "hull at the edge");
     disc.area = RT_AREA_DISC;
     estimate(&map, &disc, 1, &mean, &sigma);
     print_message("disc at the edge: %.4f of the truth\n", mean / n);
-    assert_true(fabs(mean / n - 0.5) < 0.02);
+    expect_close(mean / n, 0.5, 0.02, "disc at the edge");
     rt_photon_list_clear(&map);
 }
 
@@ -214,11 +215,11 @@ static void photons_that_face_elsewhere_leave_the_density_true(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nearest_photons_give_the_true_density),
-        cmocka_unit_test(a_limit_on_the_radius_gives_the_true_density),
-        cmocka_unit_test(a_fixed_radius_gives_the_true_density),
-        cmocka_unit_test(the_hull_gives_the_true_density_at_edges_too),
-        cmocka_unit_test(photons_that_face_elsewhere_leave_the_density_true),
+        statistical_test(nearest_photons_give_the_true_density),
+        statistical_test(a_limit_on_the_radius_gives_the_true_density),
+        statistical_test(a_fixed_radius_gives_the_true_density),
+        statistical_test(the_hull_gives_the_true_density_at_edges_too),
+        statistical_test(photons_that_face_elsewhere_leave_the_density_true),
     };
     return cmocka_run_group_tests_name("lib/photon/unbiased", tests, NULL, NULL);
 }

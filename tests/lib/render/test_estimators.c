@@ -66,7 +66,7 @@ static rt_renderer *ready(void)
 
 static rt_film *render(rt_renderer *renderer, rt_estimator estimator, uint32_t seed)
 {
-    rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = 3, .seed = seed,
+    rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = 3, .seed = test_seed(seed),
                                  .roulette_threshold = 1, .sampler = RT_SAMPLER_INDEPENDENT, .estimator = estimator};
     rt_film *film = NULL;
     rt_film_stats stats;
@@ -76,22 +76,29 @@ static rt_film *render(rt_renderer *renderer, rt_estimator estimator, uint32_t s
     return film;
 }
 
-/* Half the mean square of the difference of two renders: the variance of a pixel's mean. */
-static double variance(const rt_film *a, const rt_film *b)
+/* Half the square of the difference of two renders: the variance of a pixel's mean, if averaged over many. */
+static double variance(rt_film *const films[2], int pixel)
 {
-    double sum = 0;
+    double d = (double)rt_film_rgb(films[0])[3 * pixel + 1] - rt_film_rgb(films[1])[3 * pixel + 1];
+    return 0.5 * d * d;
+}
+
+/* The combination's variance is at most so many times that of one technique alone, but for chance. */
+static void expect_less_noise(rt_film *const both[2], rt_film *const alone[2], double most, const char *what)
+{
+    double excess = 0;
     for (int i = 0; i < pixels; i++) {
-        double d = (double)rt_film_rgb(a)[3 * i + 1] - rt_film_rgb(b)[3 * i + 1];
-        sum += 0.5 * d * d;
+        values[i] = variance(both, i) - most * variance(alone, i);
+        excess += values[i];
     }
-    return sum / pixels;
+    chance_compare(excess > 0 ? chance_of_mean(values, pixels, 0, 0) : 1, "%s: variance", what);
 }
 
 /*
- * All three have the same mean, to 4.5 standard errors of the difference over the film. Returns by how much the
- * combination lowers the variance of material sampling.
+ * All three have the same mean, to standard errors of the difference over the film. The variance of the combination
+ * is at most `most` times that of material sampling, and 1.3 times that of light sampling.
  */
-static double expect_same_mean(const char *what)
+static void expect_same_mean_and_less_noise(const char *what, double most)
 {
     rt_renderer *renderer = ready();
     rt_film *films[3][2];
@@ -104,16 +111,17 @@ static double expect_same_mean(const char *what)
                          rt_film_rgb(films[0][0])[3 * i] - rt_film_rgb(films[0][1])[3 * i]) / 2;
         expect_mean(values, pixels, 0, 1e-5, what);
     }
-    double mis = variance(films[0][0], films[0][1]), light = variance(films[1][0], films[1][1]),
-           bsdf = variance(films[2][0], films[2][1]);
-    print_message("%s: variance %.3g; light sampling alone %.2g times, material sampling alone %.2g times\n", what, mis,
-                  light / mis, bsdf / mis);
-    assert_true(mis < 1.3 * light && mis < 1.3 * bsdf);
+    expect_less_noise(films[0], films[1], 1.3, what);
+    expect_less_noise(films[0], films[2], most, what);
     for (int e = 0; e < 3; e++)
         for (int k = 0; k < 2; k++)
             rt_film_destroy(films[e][k]);
     rt_renderer_destroy(renderer);
-    return bsdf / mis;
+}
+
+static void expect_same_mean(const char *what)
+{
+    expect_same_mean_and_less_noise(what, 1.3);
 }
 
 static void lamps_of_every_shape(void **state)
@@ -197,8 +205,7 @@ static void environments(void **state)
     write_sky(picture.path);
     begin(0);
     expect_ok(rt_scene_set_environment(scene, &picture, &error), &error);
-    double factor = expect_same_mean("environment with a sun");
-    assert_true(factor > 20);
+    expect_same_mean_and_less_noise("environment with a sun", 0.05);
 }
 
 /* On a rough floor each technique is the better one somewhere. */
@@ -230,9 +237,13 @@ static void delta_lights_are_always_sampled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lamps_of_every_shape), cmocka_unit_test(lamps_of_meshes),
-        cmocka_unit_test(large_lamps),          cmocka_unit_test(environments),
-        cmocka_unit_test(rough_floors),         cmocka_unit_test(delta_lights_are_always_sampled),
+        statistical_test(lamps_of_every_shape), statistical_test(lamps_of_meshes),
+        statistical_test(large_lamps),          statistical_test(environments),
+        statistical_test(rough_floors),         statistical_test(delta_lights_are_always_sampled),
     };
-    return cmocka_run_group_tests_name("lib/render/estimators", tests, scratch_enter, scratch_leave);
+    void *scratch = NULL;
+    if (scratch_enter(&scratch) != 0)
+        return 1;
+    const int failed = cmocka_run_group_tests_name("lib/render/estimators", tests, NULL, NULL);
+    return scratch_leave(&scratch) != 0 || failed != 0;
 }

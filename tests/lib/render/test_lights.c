@@ -1,6 +1,7 @@
 /*
  * test_lights.c - lights over a floor against closed forms, by path tracing and from the photon map.
  */
+#include "kernels/statistics.h"
 #include "support.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static rt_scene *floor_scene(float width)
 static double irradiance(rt_scene *scene, rt_mode mode)
 {
     rt_render_options options = {.width = side, .height = side, .mode = mode, .spp = mode == RT_MODE_PHOTON ? 4 : 64,
-                                 .photons = 400000, .k = 400, .direct = RT_DIRECT_PHOTONS, .seed = 3};
+                                 .photons = 400000, .k = 400, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(3)};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
     double sum = 0;
@@ -50,9 +51,9 @@ static double irradiance(rt_scene *scene, rt_mode mode)
 /* Path tracing to `close` of the truth; the map, of which the film sees some 10^4 photons, to 3 %. */
 static void expect_irradiance(rt_scene *(*make)(void), double truth, double close)
 {
-    assert_float_equal(irradiance(make(), RT_MODE_PATH), truth, close * truth);
-    assert_float_equal(irradiance(make(), RT_MODE_DIRECT), truth, close * truth);
-    assert_float_equal(irradiance(make(), RT_MODE_PHOTON), truth, 0.03 * truth);
+    expect_close(irradiance(make(), RT_MODE_PATH), truth, close * truth, "irradiance");
+    expect_close(irradiance(make(), RT_MODE_DIRECT), truth, close * truth, "irradiance");
+    expect_close(irradiance(make(), RT_MODE_PHOTON), truth, 0.03 * truth, "irradiance");
 }
 
 /* Seen 0.4 m wide, so that the light is nearly even there. */
@@ -148,8 +149,8 @@ static rt_scene *sky_behind_pane(void)
 static void distant_light_comes_through_clear_planes(void **state)
 {
     (void)state;
-    assert_float_equal(irradiance(sky_behind_pane(), RT_MODE_PATH), 2 * pi, 5e-3 * 2 * pi);
-    assert_float_equal(irradiance(sky_behind_pane(), RT_MODE_PHOTON), 2 * pi, 0.03 * 2 * pi);
+    expect_close(irradiance(sky_behind_pane(), RT_MODE_PATH), 2 * pi, 5e-3 * 2 * pi, "irradiance");
+    expect_close(irradiance(sky_behind_pane(), RT_MODE_PHOTON), 2 * pi, 0.03 * 2 * pi, "irradiance");
 }
 
 /* A black disc over the middle of the floor, which shines down when it has radiance. */
@@ -186,7 +187,7 @@ static rt_scene *disc_lamp(void)
 static void discs_by_their_form_factor(void **state)
 {
     (void)state;
-    assert_float_equal(irradiance(disc_lamp(), RT_MODE_PATH), pi * 4 * 0.25 / 1.25, 3e-3 * pi * 0.8);
+    expect_close(irradiance(disc_lamp(), RT_MODE_PATH), pi * 4 * 0.25 / 1.25, 3e-3 * pi * 0.8, "irradiance");
 }
 
 /* The irradiance by a lamp of a metre's height and a disc that hides it, or does not, at another height. */
@@ -207,7 +208,7 @@ static void shadows_are_cast_by_what_is_before_the_lamp(void **state)
     (void)state;
     for (int is_point = 0; is_point < 2; is_point++) {
         double whole = is_point ? 1 : pi * 100 * 0.01 / 1.01;
-        assert_float_equal(past_disc(is_point, 1.001f), whole, 3e-3 * whole);
+        expect_close(past_disc(is_point, 1.001f), whole, 3e-3 * whole, "irradiance");
         assert_true(past_disc(is_point, 0.999f) == 0);
     }
 }
@@ -225,7 +226,7 @@ static void point_lights_add_up(void **state)
         expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
         whole += intensities[i] / (heights[i] * heights[i]);
     }
-    assert_float_equal(irradiance(scene, RT_MODE_DIRECT), whole, 0.03 * whole);
+    expect_close(irradiance(scene, RT_MODE_DIRECT), whole, 0.03 * whole, "irradiance");
 }
 
 /* What the camera, a mirror and a clear pane show of an environment is the environment. */
@@ -263,13 +264,13 @@ static void environments_are_seen(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spots_by_the_cosine_cubed_and_their_edge),
-        cmocka_unit_test(directional_lights_by_the_cosine),
-        cmocka_unit_test(even_environments_by_pi),
-        cmocka_unit_test(distant_light_comes_through_clear_planes),
-        cmocka_unit_test(discs_by_their_form_factor),
-        cmocka_unit_test(shadows_are_cast_by_what_is_before_the_lamp),
-        cmocka_unit_test(point_lights_add_up),
+        statistical_test(spots_by_the_cosine_cubed_and_their_edge),
+        statistical_test(directional_lights_by_the_cosine),
+        statistical_test(even_environments_by_pi),
+        statistical_test(distant_light_comes_through_clear_planes),
+        statistical_test(discs_by_their_form_factor),
+        statistical_test(shadows_are_cast_by_what_is_before_the_lamp),
+        statistical_test(point_lights_add_up),
         cmocka_unit_test(environments_are_seen),
     };
     return cmocka_run_group_tests_name("lib/render/lights", tests, NULL, NULL);

@@ -1,86 +1,19 @@
 /*
- * test_photon_mode.c - photon mapping makes the picture that path tracing makes, by each of its ways,
- * and the same bytes however the work is shared out.
+ * test_photon_mode.c - photon mapping makes the picture that path tracing makes, by each of its ways.
  */
+#include "kernels/statistics.h"
 #include "support.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { side = 48 };
+#include "lib/render/photon_room.h"
 
 /*
- * Means over the film may be off by so much: the estimate blurs light over edges of the room, and both
- * renders are noisy (path tracing 0.3 %, the map 0.5 %, one standard error each).
+ * Means over the film may be off by so much: the estimate blurs light over edges of the room, by 0.6 % at most, and
+ * both renders are noisy, together 0.2 % or less over 6 seeds.
  */
-static const double tolerance = 0.01;
-
-static uint32_t add(rt_scene *scene, float kd, float ks, float kt)
-{
-    rt_material material = {.kd = {kd, kd, kd}, .ks = {ks, ks, ks}, .kt = {kt, kt, kt}, .ior = 1.5f,
-                            .fresnel = kt > 0 ? RT_FRESNEL_DIELECTRIC : RT_FRESNEL_OFF};
-    uint32_t index = 0;
-    rt_error error;
-    expect_ok(rt_scene_add_material(scene, &index, NULL, &material, &error), &error);
-    return index;
-}
-
-static void add_quad(rt_scene *scene, uint32_t material, float radiance, const float c[3], const float a[3],
-                     const float b[3])
-{
-    rt_surface surface = {.material = material, .radiance = {radiance, radiance, radiance}};
-    rt_error error;
-    expect_ok(rt_scene_add_quad(scene, NULL, c, a, b, &surface, &error), &error);
-}
-
-/* A room of half-white walls, open to the camera, with a mirror and a glass sphere under a lamp. */
-static rt_renderer *make_renderer(rt_device *device)
-{
-    const float x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 2}, low[3] = {-1, -1, -1}, high[3] = {-1, 1, -1},
-                back[3] = {-1, -1, 1}, right[3] = {1, -1, -1}, lamp[3] = {-0.5f, 0.99f, -0.5f},
-                lamp_x[3] = {1, 0, 0}, lamp_z[3] = {0, 0, 1}, mirror[3] = {-0.5f, -0.6f, 0.3f},
-                glass[3] = {0.5f, -0.6f, 0};
-    rt_camera camera = {.eye = {0, 0, -4}, .fov = 40};
-    rt_renderer *renderer = NULL;
-    rt_scene *scene = NULL;
-    rt_error error;
-
-    expect_ok(rt_scene_create(&scene, &error), &error);
-    uint32_t walls = add(scene, 0.5f, 0, 0), black = add(scene, 0, 0, 0);
-    rt_surface silver = {.material = add(scene, 0, 0.9f, 0)}, clear = {.material = add(scene, 0, 0, 1)};
-    add_quad(scene, walls, 0, low, x, z);
-    add_quad(scene, walls, 0, high, x, z);
-    add_quad(scene, walls, 0, back, x, y);
-    add_quad(scene, walls, 0, low, y, z);
-    add_quad(scene, walls, 0, right, y, z);
-    add_quad(scene, black, 5, lamp, lamp_x, lamp_z);
-    expect_ok(rt_scene_add_sphere(scene, NULL, mirror, 0.4f, &silver, &error), &error);
-    expect_ok(rt_scene_add_sphere(scene, NULL, glass, 0.4f, &clear, &error), &error);
-    expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
-    expect_ok(rt_renderer_create(&renderer, scene, device, NULL, &error), &error);
-    rt_scene_destroy(scene);
-    return renderer;
-}
-
-static rt_render_options photon_options(void)
-{
-    rt_render_options options;
-    memset(&options, 0, sizeof options);
-    options.width = options.height = side;
-    options.mode = RT_MODE_PHOTON;
-    options.spp = 16;
-    options.photons = 300000;
-    options.seed = 4;
-    return options;
-}
-
-static rt_film *render(rt_renderer *renderer, const rt_render_options *options)
-{
-    rt_film *film = NULL;
-    rt_error error;
-    expect_ok(rt_render(&film, renderer, options, &error), &error);
-    return film;
-}
+static const double tolerance = 0.017;
 
 static double mean_of(const rt_film *film)
 {
@@ -116,15 +49,15 @@ static void every_way_agrees_with_path_tracing(void **state)
         {"passes, all light from the map", RT_DIRECT_PHOTONS, 0, RT_GATHER_AUTO, 50, 0.03f, 50, 1, 20000, 0},
         {"passes, final gather, caustics apart", RT_DIRECT_NEE, 1, RT_GATHER_AUTO, 20, 0, 50, 1, 20000, 5000},
     };
-    rt_render_options options = photon_options();
+    rt_render_options options = room_options();
     (void)state;
-    rt_renderer *renderer = make_renderer(test_device());
+    rt_renderer *renderer = room_renderer(test_device());
     options.mode = RT_MODE_PATH;
     options.spp = 512;
-    rt_film *path = render(renderer, &options);
+    rt_film *path = room_render(renderer, &options);
     double expected = mean_of(path);
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
-        options = photon_options();
+        options = room_options();
         options.direct = ways[i].direct;
         options.final_gather = ways[i].final_gather;
         options.gather = ways[i].gather;
@@ -134,10 +67,10 @@ static void every_way_agrees_with_path_tracing(void **state)
         options.spp = ways[i].spp;
         options.photons = ways[i].photons;
         options.caustic_photons = ways[i].caustic_photons;
-        rt_film *film = render(renderer, &options);
+        rt_film *film = room_render(renderer, &options);
         double ratio = mean_of(film) / expected;
         print_message("%s: %.4f of path tracing\n", ways[i].name, ratio);
-        assert_true(fabs(ratio - 1) < tolerance);
+        expect_close(ratio, 1, tolerance, ways[i].name);
         rt_film_destroy(film);
     }
     rt_film_destroy(path);
@@ -146,14 +79,14 @@ static void every_way_agrees_with_path_tracing(void **state)
 
 static void both_gathers_make_the_same_picture(void **state)
 {
-    rt_render_options options = photon_options();
+    rt_render_options options = room_options();
     (void)state;
-    rt_renderer *renderer = make_renderer(test_device());
+    rt_renderer *renderer = room_renderer(test_device());
     options.final_gather = 1;
     options.gather = RT_GATHER_FLANN;
-    rt_film *host = render(renderer, &options);
+    rt_film *host = room_render(renderer, &options);
     options.gather = RT_GATHER_DEVICE;
-    rt_film *device = render(renderer, &options);
+    rt_film *device = room_render(renderer, &options);
     for (int i = 0; i < side * side * 3; i++)
         assert_float_equal(rt_film_rgb(host)[i], rt_film_rgb(device)[i], 1e-5 * (1 + rt_film_rgb(host)[i]));
     rt_film_destroy(host);
@@ -172,8 +105,8 @@ static rt_renderer *make_point_caustic(void)
     rt_error error;
 
     expect_ok(rt_scene_create(&scene, &error), &error);
-    rt_surface clear = {.material = add(scene, 0, 0, 1)};
-    add_quad(scene, add(scene, 0.6f, 0, 0), 0, corner, z, x);
+    rt_surface clear = {.material = room_material(scene, 0, 0, 1)};
+    room_quad(scene, room_material(scene, 0.6f, 0, 0), 0, corner, z, x);
     expect_ok(rt_scene_add_sphere(scene, NULL, ball, 0.3f, &clear, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
@@ -184,16 +117,18 @@ static rt_renderer *make_point_caustic(void)
 
 static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
 {
-    rt_render_options options = photon_options();
+    rt_render_options options = room_options();
     (void)state;
     rt_renderer *renderer = make_point_caustic();
     options.k = RT_K_ALL; /* else the other photons would make the discs smaller where all are in one list */
-    options.radius = 0.03f;
-    rt_film *film = render(renderer, &options);
+    options.radius = 0.1f;
+    options.photons = 1000000;
+    options.spp = 64;
+    rt_film *film = room_render(renderer, &options);
     double plain = mean_of(film);
     rt_film_destroy(film);
     options.mode = RT_MODE_PATH;
-    film = render(renderer, &options);
+    film = room_render(renderer, &options);
     double without = mean_of(film);
     rt_film_destroy(film);
     options.mode = RT_MODE_PHOTON;
@@ -201,13 +136,13 @@ static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
         options.direct = i % 2 ? RT_DIRECT_PHOTONS : RT_DIRECT_NEE;
         options.caustic_photons = i / 2 ? options.photons : 0;
         options.final_gather = 1;
-        film = render(renderer, &options);
+        film = room_render(renderer, &options);
         print_message("way %d: %.4f of no final gather; path tracing, without caustics, %.4f\n", i,
                       mean_of(film) / plain, without / plain);
-        assert_true(fabs(mean_of(film) / plain - 1) < tolerance);
+        expect_close(mean_of(film) / plain, 1, tolerance, "final gather");
         rt_film_destroy(film);
     }
-    assert_true(without / plain < 1 - 5 * tolerance);
+    assert_true(without / plain < 1 - 3 * tolerance);
     rt_renderer_destroy(renderer);
 }
 
@@ -222,13 +157,14 @@ static rt_renderer *make_ball_in_glass(const float eye[3], float fov)
     rt_error error;
 
     expect_ok(rt_scene_create(&scene, &error), &error);
-    uint32_t walls = add(scene, 0.5f, 0, 0), black = add(scene, 0, 0, 0);
-    rt_surface clear = {.material = add(scene, 0, 0, 1)}, white = {.material = add(scene, 0.5f, 0, 0)};
-    add_quad(scene, walls, 0, low, z, x);
-    add_quad(scene, black, 1, high, x, z);
-    add_quad(scene, walls, 0, back, y, x);
-    add_quad(scene, walls, 0, low, y, z);
-    add_quad(scene, walls, 0, right, z, y);
+    uint32_t walls = room_material(scene, 0.5f, 0, 0), black = room_material(scene, 0, 0, 0);
+    rt_surface clear = {.material = room_material(scene, 0, 0, 1)};
+    rt_surface white = {.material = room_material(scene, 0.5f, 0, 0)};
+    room_quad(scene, walls, 0, low, z, x);
+    room_quad(scene, black, 1, high, x, z);
+    room_quad(scene, walls, 0, back, y, x);
+    room_quad(scene, walls, 0, low, y, z);
+    room_quad(scene, walls, 0, right, z, y);
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.6f, &clear, &error), &error);
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.3f, &white, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
@@ -247,7 +183,7 @@ static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
         const char *name;
         float eye[3], fov;
     } views[] = {{"from outside", {0, 0, -3}, 4}, {"from inside the glass", {0, 0, -0.5f}, 30}};
-    rt_render_options options = photon_options();
+    rt_render_options options = room_options();
     (void)state;
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
         rt_renderer *renderer = make_ball_in_glass(views[i].eye, views[i].fov);
@@ -255,13 +191,13 @@ static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
         options.photons = 3000000; /* of which some thousands come into the picture: noise of 2 % */
         options.mode = RT_MODE_PATH;
         options.spp = 256;
-        rt_film *path = render(renderer, &options);
+        rt_film *path = room_render(renderer, &options);
         options.mode = RT_MODE_PHOTON;
         options.spp = 16;
-        rt_film *photon = render(renderer, &options);
+        rt_film *photon = room_render(renderer, &options);
         double ratio = mean_of(photon) / mean_of(path);
         print_message("%s: %.4f of path tracing\n", views[i].name, ratio);
-        assert_true(fabs(ratio - 1) < 0.08);
+        expect_close(ratio, 1, 0.1, views[i].name);
         rt_film_destroy(path);
         rt_film_destroy(photon);
         rt_renderer_destroy(renderer);
@@ -276,7 +212,7 @@ static void every_eye_path_through_glass_comes_to_the_map(void **state)
     rt_point_light light = {{0, 0, 0.5f}, {1, 1, 1}, {0}};
     rt_camera camera = {.eye = {0, 0, -2}, .fov = 40};
     rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f};
-    rt_render_options options = photon_options();
+    rt_render_options options = room_options();
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
     rt_film_stats stats;
@@ -285,15 +221,15 @@ static void every_eye_path_through_glass_comes_to_the_map(void **state)
     (void)state;
     expect_ok(rt_scene_create(&scene, &error), &error);
     expect_ok(rt_scene_add_material(scene, &clear, NULL, &glass, &error), &error);
-    add_quad(scene, clear, 0, pane, y, x);
-    add_quad(scene, clear, 0, behind, x, y);
-    add_quad(scene, add(scene, 0.1f, 0, 0), 0, wall, y, x);
+    room_quad(scene, clear, 0, pane, y, x);
+    room_quad(scene, clear, 0, behind, x, y);
+    room_quad(scene, room_material(scene, 0.1f, 0, 0), 0, wall, y, x);
     expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
     rt_scene_destroy(scene);
     options.photons = 1000;
-    rt_film *film = render(renderer, &options);
+    rt_film *film = room_render(renderer, &options);
     rt_film_get_stats(film, &stats);
     assert_int_equal(stats.gathers, side * side * options.spp);
     rt_film_destroy(film);
@@ -313,7 +249,7 @@ static rt_renderer *make_smooth_floor(void)
     rt_error error;
 
     expect_ok(rt_scene_create(&scene, &error), &error);
-    rt_surface surface = {.material = add(scene, 0.8f, 0, 0)};
+    rt_surface surface = {.material = room_material(scene, 0.8f, 0, 0)};
     expect_ok(rt_scene_add_triangles(scene, NULL, positions, 4, indices, 2, normals, &surface, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
@@ -324,14 +260,14 @@ static rt_renderer *make_smooth_floor(void)
 
 static void smooth_surfaces_agree_with_path_tracing(void **state)
 {
-    rt_render_options options = photon_options();
+    rt_render_options options = room_options();
     (void)state;
     rt_renderer *renderer = make_smooth_floor();
     options.direct = RT_DIRECT_PHOTONS;
     options.photons = 1000000;
-    rt_film *photon = render(renderer, &options);
+    rt_film *photon = room_render(renderer, &options);
     options.mode = RT_MODE_PATH;
-    rt_film *path = render(renderer, &options);
+    rt_film *path = room_render(renderer, &options);
     print_message("smooth floor: %.4f of path tracing\n", mean_of(photon) / mean_of(path));
     for (int y = 0; y < side; y += 8)
         for (int x = 0; x < side; x += 8) {
@@ -342,101 +278,10 @@ static void smooth_surfaces_agree_with_path_tracing(void **state)
                 sums[1] += rt_film_rgb(path)[at];
             }
             /* Thousands of photons lie in a block: noise of about 1 %. */
-            assert_true(fabs(sums[0] / sums[1] - 1) < 0.05);
+            expect_close(sums[0] / sums[1], 1, 0.05, "block of a smooth floor");
         }
     rt_film_destroy(photon);
     rt_film_destroy(path);
-    rt_renderer_destroy(renderer);
-}
-
-static void films_are_the_same(const rt_render_options *how)
-{
-    static const rt_device_options devices[] = {{NULL, 1, 1}, {NULL, 2, 16}, {NULL, 2, 64}};
-    rt_render_options options = *how;
-    rt_film *first = NULL;
-    for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
-        rt_device *device = NULL;
-        rt_error error;
-        expect_ok(rt_device_open(&device, devices + i, &error), &error);
-        rt_renderer *renderer = make_renderer(device);
-        rt_film *film = render(renderer, &options);
-        if (first)
-            assert_memory_equal(rt_film_rgb(first), rt_film_rgb(film), side * side * 3 * sizeof(float));
-        rt_renderer_destroy(renderer);
-        rt_device_close(device);
-        if (first)
-            rt_film_destroy(film);
-        else
-            first = film;
-    }
-    rt_film_destroy(first);
-}
-
-static void films_do_not_depend_on_threads_and_work_groups(void **state)
-{
-    rt_render_options options = photon_options();
-    (void)state;
-    options.spp = 2;
-    options.photons = 50000;
-    films_are_the_same(&options);
-    options.final_gather = 1;
-    options.gather = RT_GATHER_DEVICE;
-    films_are_the_same(&options);
-    options.passes = 3;
-    options.final_gather = 0;
-    films_are_the_same(&options);
-}
-
-static void the_film_tells_what_was_done(void **state)
-{
-    rt_render_options options = photon_options();
-    rt_film_stats stats;
-    (void)state;
-    options.spp = 3;
-    rt_renderer *renderer = make_renderer(test_device());
-    rt_film *film = render(renderer, &options);
-    rt_film_get_stats(film, &stats);
-    assert_int_equal(stats.photons_emitted, options.photons);
-    assert_true(stats.photons_stored > options.photons / 4 && stats.photons_stored < options.photons);
-    assert_true(stats.gathers > 0 && stats.gathers <= 3 * side * side);
-    assert_int_equal(stats.spp, 3);
-    assert_int_equal(stats.rejected, 0);
-    rt_film_destroy(film);
-    rt_renderer_destroy(renderer);
-}
-
-static void layers_tell_what_was_gathered(void **state)
-{
-    const double pi = 3.14159265358979323846;
-    rt_render_options options = photon_options();
-    uint32_t channels = 0;
-    (void)state;
-    rt_renderer *renderer = make_renderer(test_device());
-    options.photon_layers = 1;
-    for (int on_device = 0; on_device < 2; on_device++) {
-        options.gather = on_device ? RT_GATHER_DEVICE : RT_GATHER_FLANN;
-        rt_film *film = render(renderer, &options);
-        const float *counts = rt_film_layer(film, "photon.count", &channels);
-        const float *radii = rt_film_layer(film, "photon.radius", NULL);
-        const float *densities = rt_film_layer(film, "photon.density", NULL);
-        const float *variances = rt_film_layer(film, "photon.variance", NULL);
-        assert_int_equal(channels, 1);
-        assert_null(rt_film_layer(film, "photon.flux", NULL));
-        int whole = 0;
-        for (int i = 0; i < side * side; i++) {
-            assert_true(counts[i] >= 0 && counts[i] <= 49 && radii[i] >= 0 && variances[i] >= 0);
-            if (counts[i] == 49) { /* the mean of 49 over the areas is at least that over the mean radius squared */
-                assert_true(densities[i] >= 0.999 * 49 / (pi * radii[i] * radii[i]));
-                whole++;
-            }
-        }
-        assert_true(whole > side * side / 2);
-        rt_film_destroy(film);
-    }
-    options.photon_layers = 0;
-    rt_film *film = render(renderer, &options);
-    assert_null(rt_film_layer(film, "photon.count", NULL));
-    rt_film_destroy(film);
     rt_renderer_destroy(renderer);
 }
 
@@ -455,7 +300,7 @@ static rt_renderer *make_sunny_floor(void)
     rt_scene *scene = NULL;
     rt_error error;
     expect_ok(rt_scene_create(&scene, &error), &error);
-    add_quad(scene, add(scene, (float)albedo, 0, 0), 0, corner, z, x);
+    room_quad(scene, room_material(scene, (float)albedo, 0, 0), 0, corner, z, x);
     expect_ok(rt_scene_add_directional_light(scene, &light, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
@@ -467,13 +312,13 @@ static rt_renderer *make_sunny_floor(void)
  * In passes, the variance layer is what theory says of counted photons, and foretells how far renders of two seeds
  * are apart. With n photons expected in a disc a pass, a box kernel's mean over P passes has the variance L^2 / (n P).
  * Over 20 pairs of seeds the layer was 0.3 % above, as the radius that shrinks a little has it, with a standard
- * deviation of 0.34 %, the squared difference 0.6 % with one of 3 %; both are held to five of them.
+ * deviation of 0.4 %, the squared difference 0.6 % with one of 3 %.
  */
 static void the_variance_layer_is_that_of_other_seeds(void **state)
 {
     enum { passes = 64 };
     const double radius = 0.05, pi = 3.14159265358979323846;
-    rt_render_options options = photon_options();
+    rt_render_options options = room_options();
     double foretold = 0, seen = 0;
     (void)state;
     rt_renderer *renderer = make_sunny_floor();
@@ -486,9 +331,9 @@ static void the_variance_layer_is_that_of_other_seeds(void **state)
     options.sampler = RT_SAMPLER_INDEPENDENT;
     options.alpha = 0.999f; /* all passes nearly alike */
     options.photon_layers = 1;
-    rt_film *a = render(renderer, &options);
-    options.seed = 77;
-    rt_film *b = render(renderer, &options);
+    rt_film *a = room_render(renderer, &options);
+    options.seed = test_seed(77);
+    rt_film *b = room_render(renderer, &options);
     for (int i = 0; i < side * side; i++) {
         double difference = (double)rt_film_rgb(a)[3 * i] - rt_film_rgb(b)[3 * i];
         seen += difference * difference / (2 * side * side);
@@ -498,59 +343,23 @@ static void the_variance_layer_is_that_of_other_seeds(void **state)
     double radiance = albedo / pi * irradiance, expected = (double)options.photons * pow(radius / floor_radius, 2);
     double truth = radiance * radiance / (expected * passes);
     print_message("variance %g; of the layer %.4f, of other seeds %.4f of it\n", truth, foretold / truth, seen / truth);
-    assert_float_equal(foretold, truth, 0.02 * truth);
-    assert_float_equal(seen, truth, 0.16 * truth);
+    expect_close(foretold, truth, 0.025 * truth, "variance of the layer");
+    expect_close(seen, truth, 0.16 * truth, "variance of other seeds");
     rt_film_destroy(a);
     rt_film_destroy(b);
-    rt_renderer_destroy(renderer);
-}
-
-static int cancel_in_stage(void *user, const rt_progress *progress)
-{
-    return progress->stage == *(const rt_stage *)user && progress->fraction > 0;
-}
-
-static void a_cancel_ends_the_render(void **state)
-{
-    static const rt_stage stages[] = {RT_STAGE_EMIT, RT_STAGE_GATHER};
-    (void)state;
-    rt_renderer *renderer = make_renderer(test_device());
-    for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
-        rt_stage stage = stages[i];
-        rt_hooks hooks = {.progress = cancel_in_stage, .user = &stage};
-        rt_render_options options = photon_options();
-        rt_film *film = NULL;
-        rt_error error;
-        options.spp = 10000;
-        options.hooks = &hooks;
-        assert_int_equal(rt_render(&film, renderer, &options, &error), RT_CANCELLED);
-        if (stage == RT_STAGE_EMIT)
-            assert_null(film);
-        if (stage == RT_STAGE_GATHER) {
-            assert_non_null(film);
-            rt_film_stats stats;
-            rt_film_get_stats(film, &stats);
-            assert_true(stats.spp >= 1 && stats.spp < 10000);
-        }
-        rt_film_destroy(film);
-    }
     rt_renderer_destroy(renderer);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_way_agrees_with_path_tracing),
+        statistical_test(every_way_agrees_with_path_tracing),
         cmocka_unit_test(both_gathers_make_the_same_picture),
-        cmocka_unit_test(a_final_gather_keeps_the_caustics_of_point_lights),
-        cmocka_unit_test(inside_glass_and_through_it_photons_agree_with_paths),
+        statistical_test(a_final_gather_keeps_the_caustics_of_point_lights),
+        statistical_test(inside_glass_and_through_it_photons_agree_with_paths),
         cmocka_unit_test(every_eye_path_through_glass_comes_to_the_map),
-        cmocka_unit_test(smooth_surfaces_agree_with_path_tracing),
-        cmocka_unit_test(films_do_not_depend_on_threads_and_work_groups),
-        cmocka_unit_test(the_film_tells_what_was_done),
-        cmocka_unit_test(layers_tell_what_was_gathered),
-        cmocka_unit_test(the_variance_layer_is_that_of_other_seeds),
-        cmocka_unit_test(a_cancel_ends_the_render),
+        statistical_test(smooth_surfaces_agree_with_path_tracing),
+        statistical_test(the_variance_layer_is_that_of_other_seeds),
     };
     return cmocka_run_group_tests_name("lib/render/photon_mode", tests, NULL, NULL);
 }
