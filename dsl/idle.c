@@ -60,6 +60,16 @@ static int is_no_image(const rt_block_fields *fields)
     return fields->texture.kind != RT_TEXTURE_IMAGE;
 }
 
+static int has_disc(const rt_block_fields *fields)
+{
+    return fields->options.area == RT_AREA_DISC;
+}
+
+static int has_cone(const rt_block_fields *fields)
+{
+    return fields->options.kernel == RT_DENSITY_CONE || fields->options.caustic_kernel == RT_DENSITY_CONE;
+}
+
 /* ---- The table ------------------------------------------------------------ */
 
 /* A field of a block, and what it does nothing without. */
@@ -85,6 +95,10 @@ static const struct {
     {RT_BLOCK_TEXTURE, "linear", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "a", is_no_image, "'pattern checker' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "b", is_no_image, "'pattern checker' or 'pattern gradient'"},
+    {RT_BLOCK_RENDER, "kernel", has_disc, "'area disc'"},
+    {RT_BLOCK_RENDER, "caustic_kernel", has_disc, "'area disc'"},
+    {RT_BLOCK_RENDER, "cone_k", has_disc, "'area disc'"},
+    {RT_BLOCK_RENDER, "cone_k", has_cone, "'kernel cone' or 'caustic_kernel cone'"},
 };
 
 /* The texture that stands for a colour of a material when that is black, or 0. */

@@ -112,12 +112,15 @@ rt_status rt_source_read(rt_sources *sources, rt_source *source, char *cause, si
     if (sources->count > RT_SOURCE_COUNT_MAX)
         return fail(cause, cause_size, RT_ERROR_INPUT, "the scene includes more than 10000 files");
 
+    /* A pipe that none writes to would not even open, and the name of one in a scene is hardly meant. */
+    struct stat info;
+    if (source->includer && stat(source->path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
+        return fail(cause, cause_size, RT_ERROR_INPUT, "it is not a regular file");
     FILE *file = fopen(source->path, "rb");
     if (!file)
         return fail_errno(cause, cause_size, errno);
 
     rt_status status;
-    struct stat info;
     if (fstat(fileno(file), &info) != 0) {
         status = fail_errno(cause, cause_size, errno);
         goto out;

@@ -526,6 +526,10 @@ typedef struct rt_render_options {
     uint32_t caustic_k;     /* nearest photons in the caustic map; 0 means k */
     float caustic_radius;   /* largest gather radius in the caustic map, metres; 0 means radius */
     rt_density caustic_kernel; /* density kernel of the caustic map */
+    const float *light_shares; /* [light_share_count]: what part of the photon paths each light gets, in proportion and
+                                  in the order of rt_photon_map_ledger, each from 0 to 1e15; flux is weighted so that
+                                  the mean stays the same. NULL: in proportion to power. Not kept in a scene */
+    size_t light_share_count;
     const rt_photon_map *photon_map; /* use these photons and emit none; NULL: emit. Not kept in a scene */
     const rt_hooks *hooks;  /* NULL: none; not kept in a scene */
 } rt_render_options;
@@ -635,13 +639,9 @@ typedef enum rt_photon_kind {
 } rt_photon_kind;
 
 typedef struct rt_emit_options {
-    const rt_render_options *render; /* of which photons, caustic_photons, max_depth, seed, sampler, direct and
-                                        hooks count; NULL: the scene's own */
+    const rt_render_options *render; /* of which photons, caustic_photons, light_shares, max_depth, seed, sampler,
+                                        direct and hooks count; NULL: the scene's own */
     uint32_t part, parts; /* make part `part`, counted from 0, of a map in `parts` parts; parts 0 means 1 */
-    const float *light_shares; /* [light_share_count]: what part of the paths each light gets, in proportion and in
-                                  the order of rt_photon_map_ledger; flux is weighted so that the mean stays the
-                                  same. NULL: in proportion to power */
-    size_t light_share_count;
 } rt_emit_options;
 
 /*
@@ -733,7 +733,8 @@ RT_API rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_er
 
 /*
  * Writes the photons as the points of a binary PLY file: position, normal, flux in W, direction of travel, segments
- * of the path, whether caustic, and an 8-bit colour (the flux by the brightest, sRGB) for viewers.
+ * of the path, whether caustic, and an 8-bit colour (the flux by the brightest, sRGB) for viewers; and the shape that
+ * it lies on, as rt_hit.shape, and the path and seed that it is of, which a path of a merged map is known by.
  */
 RT_API rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error);
 
@@ -875,6 +876,7 @@ typedef struct rt_compare_options {
     uint32_t block;    /* side of a block in pixels; 0 means 16 */
     double tolerance;  /* how far the mean of a block may be off, relative; 0 means 0.01 */
     double exposure;   /* stops by which SSIM and FLIP see the pictures brightened */
+    const char *const *names; /* [count + 1], what errors call the renders and, last, the reference; NULL: by number */
 } rt_compare_options;
 
 /*
@@ -885,14 +887,17 @@ typedef struct rt_compare_options {
  *      Else the variance of the n pixel differences about the plane that fits them best (n - 3 degrees of freedom):
  *      a pixel's true value cancels in the difference, edges and texture included, and the plane takes a smooth
  *      error away, so that it holds the noise of both images, as far as the pixels are independent of each other.
+ *      Of n <= 3 pixels it is not known.
  *   S  is for renders whose pixels are not, such as those of a photon map, where neighbours share photons: with
  *      several independent renders the squared standard error of their mean, from the scatter of the renders' block
  *      means, averaged over the block and its neighbours. With one render it is zero.
+ * Where V is not known, S stands alone; with one render the standard error is then unknown too, not a number, and the
+ * tolerance alone decides.
  */
 typedef struct rt_image_block {
     uint32_t x, y, width, height; /* pixels; at the right and lower border blocks may be smaller */
     double mean[3], reference[3]; /* of the renders and of the reference, by channel */
-    double error[3];              /* standard error of their difference */
+    double error[3];              /* standard error of their difference; not a number: unknown */
     double excess[3];             /* their difference by what it may be: off above 1; infinite where a value is not
                                      finite */
 } rt_image_block;
@@ -906,7 +911,10 @@ typedef struct rt_comparison_info {
     double relmse;          /* mean of (a - b)^2 / (b^2 + 0.01) */
     double ratio;           /* mean of a by mean of b; not a number where that of b is 0 */
     double ratio_error;     /* its standard error, from those of the blocks that are finite; noise is taken as common
-                               to the channels */
+                               to the channels; not a number where no block's is known */
+    int shares_photons[2];  /* whether the noise of the renders, and that of the reference, is understated: one .exr
+                               that says it was made in photon mode, of which the picture itself is compared. Pixels
+                               share photons, which only the scatter of several renders shows */
     double ratio_rgb[3];    /* by channel */
     double ssim;            /* mean structural similarity of the luminance as an sRGB display shows it, Gaussian window
                                of 11x11 pixels (Wang et al. 2004); not a number when a picture is smaller */

@@ -55,6 +55,18 @@ int compare_kept(const compare_limit *limit, const command_line *arguments, cons
     return limit->is_least ? measured >= allowed : measured <= allowed;
 }
 
+/* Says that a limit is not kept because what it is for is not known, and why. */
+static void say_unknown(const compare_limit *limit, const rt_comparison_info *info)
+{
+    const char *name = option_table[limit->option].name;
+    if (limit->option == OPTION_MIN_SSIM)
+        message_note("the pictures are too small for --%s: %ux%u pixels, and its window has 11x11", name,
+                     (unsigned)info->width, (unsigned)info->height);
+    else
+        message_note("%s is unknown, and not within --%s: %s", limit->measure, name,
+                     limit->option == OPTION_MAX_BIAS ? "the mean of the reference is 0" : "no pixel is finite");
+}
+
 /* Says which limits are broken; whether all are kept. Pixels that are not finite break any limit. */
 static int check_limits(const command_line *arguments, const rt_comparison_info *info)
 {
@@ -66,10 +78,14 @@ static int check_limits(const command_line *arguments, const rt_comparison_info 
         given = 1;
         if (compare_kept(limit, arguments, info))
             continue;
+        within = 0;
+        if (isnan(compare_measured(limit, info))) {
+            say_unknown(limit, info);
+            continue;
+        }
         message_note("%s %.6g is %s --%s %.6g", limit->measure, compare_measured(limit, info),
                      limit->is_least ? "not at least" : "over", option_table[limit->option].name,
                      compare_allowed(limit, arguments));
-        within = 0;
     }
     unsigned long long not_finite[2] = {info->not_finite[0], info->not_finite[1]};
     if (given && not_finite[0] + not_finite[1] > 0) {
@@ -123,6 +139,7 @@ static int compare_images(rt_comparison **out, rt_image **images, const command_
     options.block = (uint32_t)given[OPTION_BLOCK].count;
     options.tolerance = given[OPTION_TOLERANCE].real;
     options.exposure = given[OPTION_COMPARE_EXPOSURE].real;
+    options.names = arguments->operands;
     rt_status status = rt_image_compare(out, (const rt_image *const *)images, count, images[count], &options, &error);
     return status == RT_OK ? STATUS_DONE : session_fail(&error);
 }
@@ -140,11 +157,25 @@ static int write_differences(const output_list *outputs, const rt_comparison *co
     return status;
 }
 
+/* Where renders share photons, neighbouring blocks are off together, which one render does not show. */
+static void warn_shared_photons(const command_line *arguments, const rt_comparison_info *info)
+{
+    size_t last = arguments->operand_count - 1;
+    if (info->shares_photons[0])
+        message_warning("%s: the noise of one photon render is understated, for its pixels share photons; give several "
+                        "of other seeds",
+                        arguments->operands[0]);
+    if (info->shares_photons[1])
+        message_warning("%s: the noise of a reference of photon mode is understated, for its pixels share photons",
+                        arguments->operands[last]);
+}
+
 /* Prints the results and writes the difference pictures; images that differ too much are no success. */
 static int report(const rt_comparison *comparison, const command_line *arguments, const output_list *outputs)
 {
     rt_comparison_info info;
     rt_comparison_get_info(comparison, &info);
+    warn_shared_photons(arguments, &info);
     int within = check_limits(arguments, &info);
     if (arguments->options[OPTION_JSON].given)
         compare_print_json(comparison, arguments, within);
@@ -167,6 +198,19 @@ static int check_inputs(const command_line *arguments, const output_list *output
     return status;
 }
 
+/* Whether renders that are to be independent are different files. */
+static int check_renders(const command_line *arguments)
+{
+    for (size_t i = 0; i + 1 < arguments->operand_count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (inputs_are_same(arguments->operands[j], arguments->operands[i])) {
+                message_error("%s is given twice: several renders must be independent, of different seeds",
+                              arguments->operands[i]);
+                return STATUS_USAGE;
+            }
+    return STATUS_DONE;
+}
+
 int command_compare(const command_line *arguments)
 {
     rt_image **images = NULL;
@@ -179,6 +223,10 @@ int command_compare(const command_line *arguments)
     int status = outputs_plan(&outputs, arguments, NULL);
     if (status == STATUS_DONE)
         status = check_inputs(arguments, &outputs);
+    if (status == STATUS_DONE)
+        status = check_renders(arguments);
+    if (status == STATUS_DONE && arguments->options[OPTION_SCALE].given && !outputs_have_8bit(&outputs))
+        message_warning("--scale has no effect without --out to a .png or .ppm");
     if (status == STATUS_DONE)
         status = read_images(&images, arguments);
     if (status == STATUS_DONE)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "options.h"
+#include "photons.h"
 
 enum { LEFT = 26, WIDTH = 80 };
 
@@ -61,7 +62,8 @@ static const char *const usages[COMMAND_COUNT] = {
                         "  typical    difference that 95 % of the pixels do not exceed\n"
                         "  blocks     the same ratio block by block, and how many are off beyond noise\n"
                         "Several A are independent renders, of different seeds: their mean is compared,\n"
-                        "and their scatter is part of the noise. Images are EXR, PNG, PFM, PPM or PGM;\n"
+                        "and their scatter is part of the noise, which one render made in photon mode\n"
+                        "understates: pixels share photons. Images are EXR, PNG, PFM, PPM or PGM;\n"
                         "8 and 16 bit ones are decoded from sRGB.\n"
                         "\n"
                         "Exit status: 0 when every limit given is kept, 1 when one is not, with the\n"
@@ -110,6 +112,10 @@ static const char *help_of(const option *option, command_id command)
                "is; .exr .pfm: A - B as it is; may be repeated";
     if (command == COMMAND_PHOTONS && option == &option_table[OPTION_STATS])
         return "print what the map holds on stdout, as `rtc photons info` does";
+    if (command == COMMAND_RENDER && option == &option_table[OPTION_JSON])
+        return "print --stats as one JSON object; null stands for what is not a finite number";
+    if (command == COMMAND_PHOTONS && option == &option_table[OPTION_JSON])
+        return "print what maps hold, here with --stats, or how they differ, as a JSON object on a line for each";
     return option->help;
 }
 
@@ -128,14 +134,22 @@ static void print_option(const option *option, command_id command)
     print_wrapped(text, (size_t)column);
 }
 
-void help_print(command_id command)
+/* Whether what is asked about, a command or a form of `rtc photons`, has this option. */
+static int takes(command_id command, const photons_form *form, option_id id)
 {
-    fputs(usages[command], stdout);
+    return (option_table[id].commands & (1u << command)) && (!form || photons_form_takes(form, id));
+}
+
+void help_print(const command_line *arguments)
+{
+    command_id command = arguments->command;
+    const photons_form *form = photons_find_form(arguments);
+    fputs(form ? form->usage : usages[command], stdout);
     for (int group = 0; group < GROUP_COUNT; group++) {
         int titled = 0;
         for (int i = 0; i < OPTION_COUNT; i++) {
             const option *option = &option_table[i];
-            if (option->group != (option_group)group || !(option->commands & (1u << command)))
+            if (option->group != (option_group)group || !takes(command, form, (option_id)i))
                 continue;
             if (!titled++)
                 printf("\n%s:\n", option_group_titles[group]);

@@ -24,6 +24,9 @@ void inputs_add(input_list *inputs, const char *path);
 /* Says so when an output is one of the files that are read. Returns an exit status. */
 int inputs_check(const input_list *inputs, const char *output);
 
+/* Whether two paths lead to one regular file. */
+int inputs_are_same(const char *a, const char *b);
+
 void inputs_free(input_list *inputs);
 
 #endif

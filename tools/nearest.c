@@ -35,9 +35,9 @@ static size_t edit_distance(const char *a, const char *b)
 
 nearest nearest_begin(const char *wanted)
 {
-    /* A third of the letters may be wrong, and at least one. */
+    /* A third of the letters may be wrong, rounded to the nearest, and at least one. */
     size_t length = strlen(wanted);
-    nearest search = {wanted, NULL, length / 3 + 1 + (length < 3)};
+    nearest search = {wanted, NULL, (length + 1) / 3 + 1 + (length < 2)};
     return search;
 }
 

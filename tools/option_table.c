@@ -132,9 +132,10 @@ const option option_table[OPTION_COUNT] = {
                            "render with the photons of a map that `rtc photons` made of this scene, and emit none"},
     [OPTION_PART] = {"part", "I/N", KIND_TEXT, GROUP_PHOTON, PHOTONS, 0, 0, NULL, 0, "1/1",
                      "emit the I-th of N parts of the map, to be merged later"},
-    [OPTION_LIGHT_SHARES] = {"light-shares", "A,B,...", KIND_TEXT, GROUP_PHOTON, PHOTONS, 0, 0, NULL, 0,
+    [OPTION_LIGHT_SHARES] = {"light-shares", "A,B,...", KIND_TEXT, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, NULL, 1,
                              "in proportion to power",
-                             "what part of the paths each light gets, in proportion, in the order of `rtc photons info`"},
+                             "what part of the photon paths each light gets, in proportion, in the order of the ledger "
+                             "that --stats prints"},
 
     [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS | COMPARE, 0, 0, NULL, 0,
                     "NAME.png and NAME.exr in the current directory for NAME.rts",
@@ -170,7 +171,7 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_BLOCKS] = {"blocks", NULL, KIND_FLAG, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, NULL,
                        "print of every block the ratio, its standard error, and the difference as a part of what "
                        "is allowed"},
-    [OPTION_JSON] = {"json", NULL, KIND_FLAG, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, NULL,
+    [OPTION_JSON] = {"json", NULL, KIND_FLAG, GROUP_TALK, RENDER | COMPARE | PHOTONS, 0, 0, NULL, 0, NULL,
                      "print the results as one JSON object; null stands for what is not a finite number"},
 
     [OPTION_MAX_MSE] = {"max-mse", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1e15, NULL, 0, NULL,

@@ -169,7 +169,7 @@ void option_join_choices(char *out, size_t size, const option_choice *choices);
 /* Whether a value follows the option's name. */
 int option_takes_value(const option *option);
 
-/* Prints the help of a command on stdout. */
-void help_print(command_id command);
+/* Prints the help of a command, or of the form of it that is named, on stdout. */
+void help_print(const command_line *arguments);
 
 #endif

@@ -71,7 +71,8 @@ static int info(const command_line *arguments)
         rt_photon_map *map = NULL;
         int now = photons_load(&map, arguments->operands[i]);
         if (now == STATUS_DONE)
-            now = photons_print_info(arguments->operands[i], map);
+            now = arguments->options[OPTION_JSON].given ? photons_print_info_json(arguments->operands[i], map)
+                                                        : photons_print_info(arguments->operands[i], map);
         rt_photon_map_destroy(map);
         status = status == STATUS_DONE ? now : status;
     }
@@ -121,7 +122,9 @@ static int diff(const command_line *arguments)
     if (status == STATUS_DONE)
         status = photons_load(&b, arguments->operands[2]);
     if (status == STATUS_DONE)
-        status = photons_print_difference(a, b, &differ);
+        status = arguments->options[OPTION_JSON].given
+                     ? photons_print_difference_json(arguments->operands + 1, a, b, &differ)
+                     : photons_print_difference(a, b, &differ);
     rt_photon_map_destroy(a);
     rt_photon_map_destroy(b);
     return status == STATUS_DONE && differ ? STATUS_INPUT : status;
@@ -149,20 +152,53 @@ static int export(const command_line *arguments)
 
 /* ---- The command ------------------------------------------------------------------ */
 
-static const struct {
-    const char *word;
-    int (*run)(const command_line *arguments);
-    int writes; /* takes --out */
-} forms[] = {{"info", info, 0}, {"merge", merge, 1}, {"diff", diff, 0}, {"export", export, 1}};
+static const photons_form forms[] = {
+    {"info", info, 0,
+     "usage: rtc photons info MAP...\n"
+     "\n"
+     "Prints what maps hold on stdout: paths, photons, flux, bounds, and the energy\n"
+     "ledger of each light.\n"},
+    {"merge", merge, 1,
+     "usage: rtc photons merge MAP... --out MAP\n"
+     "\n"
+     "Joins parts of a map made by --part, or maps of different seeds, in any order,\n"
+     "into the map that would have been made at once, to the bit.\n"},
+    {"diff", diff, 0,
+     "usage: rtc photons diff MAP MAP\n"
+     "\n"
+     "Prints how two maps differ on stdout.\n"
+     "\n"
+     "Exit status: 0 when the maps are equal, 1 when they are not; 1 with an error and\n"
+     "nothing on stdout when one cannot be read.\n"},
+    {"export", export, 1,
+     "usage: rtc photons export MAP --out FILE.ply\n"
+     "\n"
+     "Writes the photons as the points of a PLY file for MeshLab or Blender.\n"},
+};
 
-/* Emission has many options; the other forms have --out, where they write, and --quiet. */
-static int check_options(const command_line *arguments, const char *form, int writes)
+const photons_form *photons_find_form(const command_line *arguments)
+{
+    if (arguments->command != COMMAND_PHOTONS || arguments->operand_count == 0)
+        return NULL;
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (strcmp(arguments->operands[0], forms[i].word) == 0)
+            return &forms[i];
+    return NULL;
+}
+
+int photons_form_takes(const photons_form *form, option_id id)
+{
+    return id == OPTION_QUIET || id == OPTION_VERBOSE || id == OPTION_HELP || (id == OPTION_OUT && form->writes) ||
+           (id == OPTION_JSON && !form->writes);
+}
+
+/* Emission has many options, the other forms few. */
+static int check_options(const command_line *arguments, const photons_form *form)
 {
     int status = STATUS_DONE;
     for (int i = 0; i < OPTION_COUNT; i++) {
-        int taken = i == OPTION_QUIET || i == OPTION_VERBOSE || (i == OPTION_OUT && writes);
-        if (arguments->options[i].given && !taken) {
-            message_error("`rtc photons %s` takes no option --%s", form, option_table[i].name);
+        if (arguments->options[i].given && !photons_form_takes(form, (option_id)i)) {
+            message_error("`rtc photons %s` takes no option --%s", form->word, option_table[i].name);
             status = STATUS_USAGE;
         }
     }
@@ -173,11 +209,11 @@ int command_photons(const command_line *arguments)
 {
     if (arguments->operand_count == 0)
         return fail_operands("SCENE.rts --out MAP.rtp");
-    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
-        if (strcmp(arguments->operands[0], forms[i].word) == 0) {
-            int status = check_options(arguments, forms[i].word, forms[i].writes);
-            return status == STATUS_DONE ? forms[i].run(arguments) : status;
-        }
+    const photons_form *form = photons_find_form(arguments);
+    if (form) {
+        int status = check_options(arguments, form);
+        return status == STATUS_DONE ? form->run(arguments) : status;
+    }
     if (arguments->operand_count > 1)
         return fail_operands("SCENE.rts --out MAP.rtp, or info, merge, diff or export");
     return photons_emit(arguments);

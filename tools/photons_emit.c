@@ -1,4 +1,5 @@
 /* photons_emit.c - `rtc photons SCENE`: emits the photons of a scene into a file. */
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #include "photons.h"
 #include "scene_file.h"
 #include "session.h"
+#include "shares.h"
 
 /* Everything that one emission holds. */
 typedef struct emit_job {
@@ -15,12 +17,26 @@ typedef struct emit_job {
     rt_render_options render;
     rt_emit_options options;
     float *shares;
+    size_t share_count;
     rt_scene *scene;
     rt_device *device;
     rt_renderer *renderer;
     rt_photon_map *map;
     input_list inputs;
 } emit_job;
+
+static int set_part(emit_job *job, uint64_t part, uint64_t parts)
+{
+    if (part < 1 || part > parts) {
+        message_error("--part %" PRIu64 "/%" PRIu64 ": there is no part %" PRIu64 " of %" PRIu64
+                      "; they are counted from 1",
+                      part, parts, part, parts);
+        return STATUS_USAGE;
+    }
+    job->options.part = (uint32_t)(part - 1);
+    job->options.parts = (uint32_t)parts;
+    return STATUS_DONE;
+}
 
 /* Reads "I/N", 1 <= I <= N. */
 static int read_part(emit_job *job)
@@ -35,55 +51,17 @@ static int read_part(emit_job *job)
     if (length < sizeof first) {
         memcpy(first, value->text, length);
         first[length] = '\0';
-        if (!number_count(&part, first) && !number_count(&parts, slash + 1) && part >= 1 && part <= parts &&
-            parts <= UINT32_MAX) {
-            job->options.part = (uint32_t)(part - 1);
-            job->options.parts = (uint32_t)parts;
-            return STATUS_DONE;
-        }
+        if (!number_count(&part, first) && !number_count(&parts, slash + 1) && parts >= 1 && parts <= UINT32_MAX)
+            return set_part(job, part, parts);
     }
     message_error("--part takes the number of a part and of all parts, as in 1/4; not '%s'", value->text);
     return STATUS_USAGE;
 }
 
-/* Reads "A,B,...". */
-static int read_shares(emit_job *job)
-{
-    const option_value *value = session_value(&job->session, OPTION_LIGHT_SHARES);
-    if (!value->given)
-        return STATUS_DONE;
-    size_t length = strlen(value->text), count = 0;
-    char *text = malloc(length + 1);
-    job->shares = calloc(length + 1, sizeof *job->shares);
-    if (!text || !job->shares) {
-        free(text);
-        message_error("out of memory");
-        return STATUS_DEVICE;
-    }
-    memcpy(text, value->text, length + 1);
-    int bad = 0;
-    for (char *at = text, *comma; at && !bad; at = comma ? comma + 1 : NULL) {
-        double share = 0;
-        comma = strchr(at, ',');
-        if (comma)
-            *comma = '\0';
-        bad = number_real(&share, at) != 0 || share < 0 || share > 1e15;
-        job->shares[count++] = (float)share;
-    }
-    free(text);
-    if (bad) {
-        message_error("--light-shares takes numbers from 0 on with commas between them; not '%s'", value->text);
-        return STATUS_USAGE;
-    }
-    job->options.light_shares = job->shares;
-    job->options.light_share_count = count;
-    return STATUS_DONE;
-}
-
 static int read_options(emit_job *job, const command_line *arguments)
 {
     int status = photons_output(&job->map_path, arguments, "the photon map", ".rtp");
-    int part = read_part(job), shares = read_shares(job);
+    int part = read_part(job), shares = light_shares_read(&job->shares, &job->share_count, arguments);
     status = status == STATUS_DONE ? part : status;
     return status == STATUS_DONE ? shares : status;
 }
@@ -99,6 +77,8 @@ static int load(emit_job *job)
         return status;
     rt_scene_get_options(job->scene, &job->render);
     session_merge_options(&job->session, &job->render);
+    job->render.light_shares = job->shares;
+    job->render.light_share_count = job->share_count;
     job->options.render = &job->render;
     /* Options out of range are told before any work. */
     return rt_scene_set_options(job->scene, &job->render, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
@@ -133,9 +113,10 @@ static int save(const emit_job *job)
         message_note("wrote %s: %llu photons of %llu paths", job->map_path,
                      (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] + info.photons[RT_PHOTONS_CAUSTIC]),
                      (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
-    if (session_value(&job->session, OPTION_STATS)->given)
-        return photons_print_info(job->map_path, job->map);
-    return STATUS_DONE;
+    if (!session_value(&job->session, OPTION_STATS)->given)
+        return STATUS_DONE;
+    return session_value(&job->session, OPTION_JSON)->given ? photons_print_info_json(job->map_path, job->map)
+                                                            : photons_print_info(job->map_path, job->map);
 }
 
 int photons_emit(const command_line *arguments)
@@ -143,6 +124,8 @@ int photons_emit(const command_line *arguments)
     emit_job job = {0};
     job.scene_path = arguments->operands[0];
     session_begin(&job.session, arguments);
+    if (arguments->options[OPTION_JSON].given && !arguments->options[OPTION_STATS].given && !job.session.quiet)
+        message_warning("--json has no effect without --stats");
     int status = read_options(&job, arguments);
     if (status == STATUS_DONE)
         status = load(&job);

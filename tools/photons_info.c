@@ -13,17 +13,12 @@ static const char *const kind_names[] = {[RT_PHOTONS_GLOBAL] = "global", [RT_PHO
 
 enum { RANGES_MAX = 16 }; /* ranges that are printed by themselves */
 
-/* What a list of photons adds up to. */
-typedef struct totals {
-    double flux[3]; /* W */
-    double lo[3], hi[3];
-    uint64_t caustic, segments;
-} totals;
-
-static totals add_up(const rt_photon_map *map, const rt_photon_map_info *info, rt_photon_kind kind)
+photon_totals photons_add_up(const rt_photon_map *map, rt_photon_kind kind)
 {
+    rt_photon_map_info info;
+    rt_photon_map_get_info(map, &info);
     const rt_photon *photons = rt_photon_map_photons(map, kind);
-    totals t = {.lo = {INFINITY, INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY, -INFINITY}};
+    photon_totals t = {.lo = {INFINITY, INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t i = 0; i < rt_photon_map_count(map, kind); i++) {
         for (int c = 0; c < 3; c++) {
             t.flux[c] += photons[i].flux[c];
@@ -33,8 +28,8 @@ static totals add_up(const rt_photon_map *map, const rt_photon_map_info *info, r
         t.caustic += photons[i].flags & RT_PHOTON_CAUSTIC;
         t.segments += photons[i].flags >> 8;
     }
-    for (int c = 0; c < 3 && info->paths[kind] > 0; c++)
-        t.flux[c] /= (double)info->paths[kind];
+    for (int c = 0; c < 3 && info.paths[kind] > 0; c++)
+        t.flux[c] /= (double)info.paths[kind];
     return t;
 }
 
@@ -53,7 +48,7 @@ static void print_list(const rt_photon_map *map, const rt_photon_map_info *info,
 {
     const char *name = kind_names[kind];
     size_t count = rt_photon_map_count(map, kind);
-    totals t = add_up(map, info, kind);
+    photon_totals t = photons_add_up(map, kind);
     printf("%s photon paths: %" PRIu64 "\n%s photons: %" PRIu64 "\n", name, info->paths[kind], name,
            info->photons[kind]);
     print_ranges(map, kind);
@@ -97,11 +92,6 @@ int photons_print_info(const char *path, const rt_photon_map *map)
 }
 
 /* ---- Differences ------------------------------------------------------------------- */
-
-/* Photons that both lists have and those of one alone; a photon is known by seed, path and segment. */
-typedef struct matches {
-    uint64_t equal, changed, only_a, only_b;
-} matches;
 
 /* A place in a list, and the range of paths that it is in. */
 typedef struct cursor {
@@ -148,10 +138,10 @@ static int compare_places(const cursor *a, const cursor *b)
 }
 
 /* Walks two lists in step; both are in the order of seed, path and segment. */
-static matches match(const rt_photon_map *map_a, const rt_photon_map *map_b, rt_photon_kind kind)
+photon_matches photons_match(const rt_photon_map *map_a, const rt_photon_map *map_b, rt_photon_kind kind)
 {
     cursor a = begin(map_a, kind), b = begin(map_b, kind);
-    matches m = {0};
+    photon_matches m = {0};
     while (a.at < a.count && b.at < b.count) {
         int order = compare_places(&a, &b);
         int same = order == 0 && memcmp(a.photons + a.at, b.photons + b.at, sizeof *a.photons) == 0;
@@ -169,8 +159,7 @@ static matches match(const rt_photon_map *map_a, const rt_photon_map *map_b, rt_
     return m;
 }
 
-/* Whether the lists are made of the same paths. */
-static int same_paths(const rt_photon_map *a, const rt_photon_map *b, rt_photon_kind kind)
+int photons_have_same_paths(const rt_photon_map *a, const rt_photon_map *b, rt_photon_kind kind)
 {
     size_t x, y;
     const rt_path_range *p = rt_photon_map_ranges(a, kind, &x), *q = rt_photon_map_ranges(b, kind, &y);
@@ -180,27 +169,29 @@ static int same_paths(const rt_photon_map *a, const rt_photon_map *b, rt_photon_
     return x == y;
 }
 
-/* Whether the ledgers are the same in all numbers; they may differ where the photons do not. */
-static int same_ledgers(const rt_photon_map *a, const rt_photon_map *b, size_t count)
+/* Prints where the ledgers differ; they may where the photons do not. Returns whether they do, or -1: out of memory. */
+static int print_ledger_difference(const rt_photon_map *a, const rt_photon_map *b, size_t count)
 {
     rt_light_ledger *rows = calloc(2 * count + 1, sizeof *rows);
     if (!rows)
         return -1;
     rt_photon_map_ledger(a, rows, count);
     rt_photon_map_ledger(b, rows + count, count);
-    int same = memcmp(rows, rows + count, count * sizeof *rows) == 0;
+    int differ = memcmp(rows, rows + count, count * sizeof *rows) != 0;
+    if (differ)
+        ledger_print_difference(rows, rows + count, count);
     free(rows);
-    return same;
+    return differ;
 }
 
 static int print_list_difference(const rt_photon_map *a, const rt_photon_map *b, const rt_photon_map_info info[2],
                                  rt_photon_kind kind)
 {
     const char *name = kind_names[kind];
-    matches m = match(a, b, kind);
-    if (same_paths(a, b, kind) && m.changed + m.only_a + m.only_b == 0)
+    photon_matches m = photons_match(a, b, kind);
+    if (photons_have_same_paths(a, b, kind) && m.changed + m.only_a + m.only_b == 0)
         return 0;
-    totals x = add_up(a, info, kind), y = add_up(b, info + 1, kind);
+    photon_totals x = photons_add_up(a, kind), y = photons_add_up(b, kind);
     printf("%s photon paths: %" PRIu64 " and %" PRIu64 "\n", name, info[0].paths[kind], info[1].paths[kind]);
     printf("%s photons: %" PRIu64 " equal, %" PRIu64 " changed, %" PRIu64 " only in the first, %" PRIu64
            " only in the second\n",
@@ -235,14 +226,12 @@ int photons_print_difference(const rt_photon_map *a, const rt_photon_map *b, int
     *differ |= print_setting("lights", info[0].lights, info[1].lights);
     *differ |= print_list_difference(a, b, info, RT_PHOTONS_GLOBAL);
     *differ |= print_list_difference(a, b, info, RT_PHOTONS_CAUSTIC);
-    int ledgers = info[0].lights == info[1].lights ? same_ledgers(a, b, info[0].lights) : 0;
+    int ledgers = info[0].lights == info[1].lights ? print_ledger_difference(a, b, info[0].lights) : 1;
     if (ledgers < 0) {
         message_error("out of memory");
         return STATUS_DEVICE;
     }
-    if (!ledgers)
-        printf("the energy ledgers differ\n");
-    *differ |= !ledgers;
+    *differ |= ledgers;
     if (!*differ)
         printf("the maps are equal\n");
     return STATUS_DONE;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "idle.h"
 #include "inputs.h"
 #include "message.h"
 #include "nearest.h"
@@ -11,6 +12,7 @@
 #include "rtc.h"
 #include "scene_file.h"
 #include "session.h"
+#include "shares.h"
 #include "stats.h"
 
 /* Everything that one render holds. */
@@ -22,6 +24,8 @@ typedef struct render_job {
     rt_render_options own;     /* of the scene, and of the photon map */
     rt_render_options options; /* and of the command line */
     rt_photon_map *photon_map;
+    float *shares; /* of the photon paths, one a light */
+    size_t share_count;
     rt_scene *scene;
     rt_device *device;
     rt_renderer *renderer;
@@ -60,61 +64,14 @@ static int set_options(render_job *job)
     int status = load_photon_map(job);
     job->options = job->own;
     session_merge_options(&job->session, &job->options);
+    job->options.light_shares = job->shares;
+    job->options.light_share_count = job->share_count;
     return status;
 }
 
 static int is_switched_off(const render_job *job, option_id id)
 {
     return option_table[id].kind == KIND_SWITCH && !value(job, id)->choice;
-}
-
-static int is_asked_for(const render_job *job, option_id id)
-{
-    return value(job, id)->given && !is_switched_off(job, id);
-}
-
-/* Options of the photon mode that this render has no use for. */
-static void warn_idle_photon_options(const render_job *job)
-{
-    if (value(job, OPTION_CONE_K)->given && job->options.mode == RT_MODE_PHOTON &&
-        job->options.kernel != RT_DENSITY_CONE)
-        message_warning("--cone-k has no effect without --kernel cone");
-    if (job->photon_map && (value(job, OPTION_PHOTONS)->given || value(job, OPTION_CAUSTIC_PHOTONS)->given))
-        message_warning("--photons and --caustic-photons have no effect with --photon-map");
-    if (!job->photon_map && job->options.caustic_photons == 0 &&
-        (value(job, OPTION_CAUSTIC_K)->given || value(job, OPTION_CAUSTIC_RADIUS)->given ||
-         value(job, OPTION_CAUSTIC_KERNEL)->given))
-        message_warning("--caustic-k, --caustic-radius and --caustic-kernel have no effect without --caustic-photons");
-    if (value(job, OPTION_ALPHA)->given && job->options.mode == RT_MODE_PHOTON && job->options.passes < 2)
-        message_warning("--alpha has no effect without --passes");
-}
-
-/* What is asked for but has no place in the files. */
-static void warn_idle_output_options(const render_job *job)
-{
-    if (!outputs_have_8bit(&job->outputs) && (value(job, OPTION_EXPOSURE)->given || value(job, OPTION_TONEMAP)->given))
-        message_warning("--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
-    if (outputs_have_layers(&job->outputs))
-        return;
-    if (is_asked_for(job, OPTION_AOV))
-        message_warning("--aov has no effect without an .exr, which alone holds layers");
-    if (is_asked_for(job, OPTION_PHOTON_LAYERS) && job->options.mode == RT_MODE_PHOTON)
-        message_warning("--photon-layers has no effect without an .exr, which alone holds layers");
-    if (is_asked_for(job, OPTION_VARIANCE))
-        message_warning("--variance adds no layer without an .exr, which alone holds layers; the error is told all the "
-                        "same");
-}
-
-/* An option that cannot change anything in this render is probably a mistake. */
-static void warn_idle_options(const render_job *job)
-{
-    for (int i = 0; i < OPTION_COUNT; i++)
-        if (option_table[i].group == GROUP_PHOTON && job->options.mode != RT_MODE_PHOTON &&
-            is_asked_for(job, (option_id)i))
-            message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
-                            option_table[i].name, rt_mode_name(job->options.mode));
-    warn_idle_photon_options(job);
-    warn_idle_output_options(job);
 }
 
 /* ---- The steps ------------------------------------------------------------ */
@@ -132,7 +89,7 @@ static int load(render_job *job)
     if (status != STATUS_DONE)
         return status;
     if (!job->session.quiet)
-        warn_idle_options(job);
+        idle_warn(job->session.arguments, &job->options, &job->outputs);
     /* Options that cannot be are told before any work. */
     status = session_check_options(&job->session, &job->own, &job->options);
     if (status != STATUS_DONE)
@@ -255,14 +212,18 @@ static int write_images(const render_job *job, int status)
         say_what_was_written(job, status == STATUS_INTERRUPTED);
     if (!job->session.quiet)
         say_how_good_it_is(job);
-    if (value(job, OPTION_STATS)->given)
+    if (value(job, OPTION_STATS)->given && value(job, OPTION_JSON)->given)
+        stats_print_json(job->scene, job->device, &job->options, job->film);
+    else if (value(job, OPTION_STATS)->given)
         stats_print(job->scene, job->device, &job->options, job->film);
     return status;
 }
 
 static int run(render_job *job)
 {
-    int status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path);
+    int status = light_shares_read(&job->shares, &job->share_count, job->session.arguments);
+    if (status == STATUS_DONE)
+        status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path);
     if (status == STATUS_DONE)
         status = load(job);
     if (status == STATUS_DONE)
@@ -304,6 +265,7 @@ int command_render(const command_line *arguments)
     rt_renderer_destroy(job.renderer);
     rt_device_close(job.device);
     rt_scene_destroy(job.scene);
+    free(job.shares);
     inputs_free(&job.inputs);
     outputs_free(&job.outputs);
     return status;

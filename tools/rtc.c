@@ -16,7 +16,7 @@ static int (*const commands[COMMAND_COUNT])(const command_line *) = {
 static int run(const command_line *arguments)
 {
     if (arguments->options[OPTION_HELP].given) {
-        help_print(arguments->command);
+        help_print(arguments);
         return STATUS_DONE;
     }
     if (arguments->options[OPTION_VERSION].given) {

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "json.h"
 #include "ledger.h"
 #include "message.h"
 
@@ -42,8 +43,8 @@ static void print_photons(const rt_film_stats *stats)
     print_seconds("gather time", stats->gather_seconds);
 }
 
-/* Where the flux of the photons went. */
-static void print_ledger(const rt_film *film)
+/* Where the flux of the photons went, by one way to print it. */
+static void print_ledger(const rt_film *film, void (*print)(const rt_light_ledger *rows, size_t count))
 {
     size_t count = rt_film_get_ledger(film, NULL, 0);
     rt_light_ledger *rows = calloc(count + 1, sizeof *rows);
@@ -52,7 +53,7 @@ static void print_ledger(const rt_film *film)
         return;
     }
     rt_film_get_ledger(film, rows, count);
-    ledger_print(rows, count);
+    print(rows, count);
     free(rows);
 }
 
@@ -87,10 +88,83 @@ void stats_print(const rt_scene *scene, const rt_device *device, const rt_render
     print_seconds("compile time", stats.compile_seconds);
     if (options->mode == RT_MODE_PHOTON) {
         print_photons(&stats);
-        print_ledger(film);
+        print_ledger(film, ledger_print);
         return;
     }
     print_seconds("render time", stats.render_seconds);
     if (stats.render_seconds > 0.0)
         printf("speed: %.3f Msamples/s\n", 1e-6 * stats.spp * width * height / stats.render_seconds);
+}
+
+/* ---- For programs ------------------------------------------------------------- */
+
+static void put_count(const char *name, uint64_t count)
+{
+    printf(",\"%s\":%" PRIu64, name, count);
+}
+
+static void put_scene(const rt_scene *scene)
+{
+    rt_scene_info info;
+    rt_scene_get_info(scene, &info);
+    put_count("shapes", info.shapes);
+    put_count("primitives", info.primitives);
+    put_count("triangles", info.triangles);
+    put_count("materials", info.materials);
+    put_count("lights", info.lights);
+}
+
+static void put_film(const rt_film_stats *stats)
+{
+    put_count("spp", stats->spp);
+    put_count("rejected", stats->rejected);
+    put_count("replicates", stats->replicates);
+    if (stats->replicates > 0) {
+        json_member("relative_error", stats->relative_error);
+        json_member("relative_error_bound", stats->relative_error_bound);
+        json_member("interval_factor", stats->interval_factor);
+    }
+    json_member("light_power", stats->light_power);
+    json_member("build_seconds", stats->build_seconds);
+    json_member("compile_seconds", stats->compile_seconds);
+}
+
+static void put_photons(const rt_film_stats *stats)
+{
+    put_count("photons_emitted", stats->photons_emitted);
+    put_count("photons_stored", stats->photons_stored);
+    put_count("photons_rejected", stats->photons_rejected);
+    put_count("gathers", stats->gathers);
+    put_count("passes", stats->passes);
+    json_member("emit_seconds", stats->emit_seconds);
+    json_member("gather_seconds", stats->gather_seconds);
+}
+
+void stats_print_json(const rt_scene *scene, const rt_device *device, const rt_render_options *options,
+                      const rt_film *film)
+{
+    rt_device_info info;
+    rt_film_stats stats;
+    uint32_t width, height;
+    rt_device_get_info(device, &info);
+    rt_film_get_stats(film, &stats);
+    rt_film_get_size(film, &width, &height);
+
+    fputs("{\"device\":", stdout);
+    json_string(info.name);
+    fputs(",\"platform\":", stdout);
+    json_string(info.platform);
+    put_scene(scene);
+    fputs(",\"mode\":", stdout);
+    json_string(rt_mode_name(options->mode));
+    put_count("width", width);
+    put_count("height", height);
+    put_film(&stats);
+    if (options->mode == RT_MODE_PHOTON) {
+        put_photons(&stats);
+        print_ledger(film, ledger_print_json);
+    } else {
+        json_member("render_seconds", stats.render_seconds);
+    }
+    puts("}");
 }

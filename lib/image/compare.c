@@ -2,7 +2,9 @@
 #include "image/compare.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "image/flip.h"
 #include "image/image.h"
@@ -12,6 +14,8 @@
 #define DEFAULT_TOLERANCE 0.01
 #define RELATIVE_FLOOR 0.01 /* keeps the relative error of black pixels finite */
 #define EXPOSURE_MAX 126.0
+
+enum { NAME_SIZE = 176 }; /* of an image in messages */
 
 static rt_status check_options(const rt_compare_options *options, rt_error *error)
 {
@@ -24,14 +28,30 @@ static rt_status check_options(const rt_compare_options *options, rt_error *erro
     return RT_OK;
 }
 
-static rt_status check_sizes(const rt_image *const *renders, size_t count, const rt_image *reference, rt_error *error)
+/* What an image is called in messages; index count is the reference. */
+static const char *name_image(char *out, size_t size, const rt_compare_options *options, size_t index, size_t count)
 {
+    if (options->names)
+        snprintf(out, size, "%.160s", options->names[index]);
+    else if (index == count)
+        snprintf(out, size, "the reference");
+    else
+        snprintf(out, size, "image %zu", index + 1);
+    return out;
+}
+
+static rt_status check_sizes(const rt_image *const *renders, size_t count, const rt_image *reference,
+                             const rt_compare_options *options, rt_error *error)
+{
+    char name[NAME_SIZE], reference_name[NAME_SIZE];
     if (count == 0)
         return rt_fail(error, RT_ERROR_USAGE, "there is no image to compare with the reference");
     for (size_t i = 0; i < count; i++)
         if (renders[i]->width != reference->width || renders[i]->height != reference->height)
-            return rt_fail(error, RT_ERROR_INPUT, "image %zu has %ux%u pixels but the reference %ux%u", i + 1,
-                           renders[i]->width, renders[i]->height, reference->width, reference->height);
+            return rt_fail(error, RT_ERROR_INPUT, "%s has %ux%u pixels but %s %ux%u",
+                           name_image(name, sizeof name, options, i, count), renders[i]->width, renders[i]->height,
+                           name_image(reference_name, sizeof reference_name, options, count, count), reference->width,
+                           reference->height);
     return RT_OK;
 }
 
@@ -69,16 +89,16 @@ static rt_status allocate_pictures(rt_pictures *p, rt_error *error)
     return RT_OK;
 }
 
-/* Reads a layer; says in which of the images it is missing. */
-static rt_status read_layer(float *rgb, const rt_image *image, const char *layer, size_t number, rt_error *error)
+/* Reads the layer of an image; says in which of them it is missing. */
+static rt_status read_layer(float *rgb, const rt_image *image, const rt_compare_options *options, size_t index,
+                            size_t count, rt_error *error)
 {
+    char name[NAME_SIZE];
     rt_error why;
-    rt_status status = rt_image_get_rgb(rgb, image, layer, &why);
+    rt_status status = rt_image_get_rgb(rgb, image, options->layer, &why);
     if (status == RT_OK)
         return RT_OK;
-    if (number == 0)
-        return rt_fail(error, status, "the reference has %s", why.message);
-    return rt_fail(error, status, "image %zu has %s", number, why.message);
+    return rt_fail(error, status, "%s has %s", name_image(name, sizeof name, options, index, count), why.message);
 }
 
 static void average_renders(rt_pictures *p)
@@ -93,13 +113,13 @@ static void average_renders(rt_pictures *p)
 }
 
 static rt_status read_pictures(rt_pictures *p, const rt_image *const *renders, const rt_image *reference,
-                               const char *layer, rt_error *error)
+                               const rt_compare_options *options, rt_error *error)
 {
     rt_status status = allocate_pictures(p, error);
     if (status == RT_OK)
-        status = read_layer(p->reference, reference, layer, 0, error);
+        status = read_layer(p->reference, reference, options, p->count, p->count, error);
     for (size_t i = 0; i < p->count && status == RT_OK; i++)
-        status = read_layer(p->renders[i], renders[i], layer, i + 1, error);
+        status = read_layer(p->renders[i], renders[i], options, i, p->count, error);
     if (status == RT_OK)
         average_renders(p);
     return status;
@@ -246,6 +266,13 @@ static rt_status measure(rt_comparison **out, const rt_pictures *p, const rt_com
 
 /* ---- The interface ----------------------------------------------------------- */
 
+/* Whether an image says that it was made in photon mode. */
+static int is_of_photons(const rt_image *image)
+{
+    const char *mode = rt_image_attribute_value(image, "librt.mode");
+    return mode && strcmp(mode, rt_mode_name(RT_MODE_PHOTON)) == 0;
+}
+
 rt_status rt_image_compare(rt_comparison **out, const rt_image *const *renders, size_t count,
                            const rt_image *reference, const rt_compare_options *options, rt_error *error)
 {
@@ -259,16 +286,20 @@ rt_status rt_image_compare(rt_comparison **out, const rt_image *const *renders, 
         options = &defaults;
     rt_status status = check_options(options, error);
     if (status == RT_OK)
-        status = check_sizes(renders, count, reference, error);
+        status = check_sizes(renders, count, reference, options, error);
     if (status != RT_OK)
         return status;
     rt_pictures pictures = {.width = reference->width, .height = reference->height, .count = count};
-    status = read_pictures(&pictures, renders, reference, options->layer, error);
+    status = read_pictures(&pictures, renders, reference, options, error);
     /* The variance is that of the picture, not of a layer beside it. */
     if (status == RT_OK && !options->layer)
         status = read_variance(&pictures, renders, reference, error);
     if (status == RT_OK)
         status = measure(out, &pictures, options, error);
+    if (status == RT_OK && !options->layer) {
+        (*out)->info.shares_photons[0] = count == 1 && is_of_photons(renders[0]);
+        (*out)->info.shares_photons[1] = is_of_photons(reference);
+    }
     free_pictures(&pictures);
     return status;
 }

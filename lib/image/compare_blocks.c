@@ -44,7 +44,7 @@ static double block_mean(const rt_pictures *p, const float *rgb, const rt_image_
 
 /*
  * V from the pixel differences: their variance about the plane that fits them best. On a full grid the constant
- * and the two centred coordinates are orthogonal, so that each is fitted by itself.
+ * and the two centred coordinates are orthogonal, so that each is fitted by itself. NaN of too few pixels.
  */
 static double variance_about_plane(const rt_pictures *p, const rt_image_block *b, uint32_t channel)
 {
@@ -52,7 +52,7 @@ static double variance_about_plane(const rt_pictures *p, const rt_image_block *b
     double centre_x = b->x + 0.5 * (b->width - 1), centre_y = b->y + 0.5 * (b->height - 1);
     double sum = 0.0, squares = 0.0, along_x = 0.0, along_y = 0.0, xx = 0.0, yy = 0.0;
     if (n <= PLANE_PARAMETERS)
-        return 0.0;
+        return NAN;
     for (uint32_t y = b->y; y < b->y + b->height; y++)
         for (uint32_t x = b->x; x < b->x + b->width; x++) {
             size_t index = value_index(p, x, y, channel);
@@ -110,10 +110,19 @@ static double scatter_around(double (*scatter)[3], uint32_t columns, uint32_t ro
 
 /* ---- The rule ----------------------------------------------------------------- */
 
+/* The standard error of a block's mean difference; NaN: unknown. */
+static double error_of_block(const rt_pictures *p, const rt_image_block *b, uint32_t channel, double scatter)
+{
+    double pixels = pixel_part(p, b, channel);
+    int too_few = !p->variance && (double)b->width * b->height <= PLANE_PARAMETERS;
+    return too_few && p->count > 1 ? sqrt(scatter) : sqrt(pixels + scatter);
+}
+
 static void judge(rt_image_block *b, const rt_pictures *p, uint32_t channel, double scatter, double tolerance)
 {
     double mean = block_mean(p, p->mean, b, channel), reference = block_mean(p, p->reference, b, channel);
-    double error = sqrt(pixel_part(p, b, channel) + scatter);
+    double error = error_of_block(p, b, channel, scatter);
+    /* An error that is not known allows nothing. */
     double allowed = fmax(tolerance * fabs(reference), ERRORS_ALLOWED * error);
     double difference = fabs(mean - reference);
     double excess = difference > 0.0 ? difference / allowed : 0.0;

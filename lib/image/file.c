@@ -69,6 +69,28 @@ rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *
     return rt_at_file(status, path, error);
 }
 
+rt_status rt_file_check_regular(const char *path, rt_error *error)
+{
+    struct stat info;
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
+        return rt_at_file(rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is not a regular file", path), path,
+                          error);
+    return RT_OK;
+}
+
+/* Says by how much a file is longer than its start tells, where that can be known without reading on. */
+static rt_status fail_longer(int fd, const char *path, uint64_t told, rt_error *error)
+{
+    struct stat info;
+    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && (uint64_t)info.st_size > told)
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "cannot read %.350s: it has %llu bytes more than the %llu that its header announces", path,
+                       (unsigned long long)((uint64_t)info.st_size - told), (unsigned long long)told);
+    return rt_fail(error, RT_ERROR_INPUT,
+                   "cannot read %.350s: it has more bytes than the %llu that its header announces", path,
+                   (unsigned long long)told);
+}
+
 rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell, rt_error *error)
 {
     if (rt_is_missing(path, "path", error))
@@ -82,7 +104,9 @@ rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_fi
     if (status == RT_OK)
         status = tell(&told, bytes.data, bytes.size, path, error);
     if (status == RT_OK)
-        status = read_all(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told : SIZE_MAX / 2, error);
+        status = read_up_to(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told + 1 : SIZE_MAX / 2, error);
+    if (status == RT_OK && bytes.size > told)
+        status = fail_longer(fd, path, told, error);
     close(fd);
     if (status == RT_OK)
         *out = bytes;

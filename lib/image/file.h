@@ -10,6 +10,12 @@
  */
 rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error);
 
+/*
+ * Whether what is at path, if there is anything, is a regular file: for names that stand in other files. A pipe or a
+ * device might never end, and a pipe that none writes to not even open. Fails with RT_ERROR_INPUT.
+ */
+rt_status rt_file_check_regular(const char *path, rt_error *error);
+
 /* What the first `size` bytes of a file say of the size of the whole. */
 typedef rt_status rt_file_size(uint64_t *out, const uint8_t *start, size_t size, const char *path, rt_error *error);
 

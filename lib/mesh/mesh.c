@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 #include "image/file.h"
 #include "mesh/canonical.h"
@@ -12,13 +11,10 @@
 #include "mesh/normals.h"
 #include "mesh/openmesh.h"
 
-/* Reads all of a regular file; a pipe or a device might never end. */
 static rt_status read_file(rt_bytes *bytes, const char *path, rt_error *error)
 {
-    struct stat info;
-    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
-        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is not a regular file", path);
-    return rt_file_read(bytes, path, SIZE_MAX / 4, error);
+    rt_status status = rt_file_check_regular(path, error);
+    return status == RT_OK ? rt_file_read(bytes, path, SIZE_MAX / 4, error) : status;
 }
 
 typedef rt_status reader(rt_canonical *mesh, const rt_mesh_source *source);

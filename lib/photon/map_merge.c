@@ -1,4 +1,6 @@
 /* map_merge.c - joins photon maps: their ranges of paths in ascending order, and the photons with them. */
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +11,7 @@
 typedef struct piece {
     const rt_path_range *range;
     const rt_photon *photons;
+    const rt_photon_map *map;
 } piece;
 
 static int compare_pieces(const void *a, const void *b)
@@ -19,23 +22,36 @@ static int compare_pieces(const void *a, const void *b)
     return x->first < y->first ? -1 : x->first > y->first;
 }
 
+/* Says why two maps cannot be parts of one, and which they are where they come from files. */
+static rt_status fail_pair(const rt_photon_map *a, const rt_photon_map *b, rt_error *error, const char *format, ...)
+{
+    char why[256];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(why, sizeof why, format, args);
+    va_end(args);
+    if (a->name[0] && b->name[0])
+        return rt_fail(error, RT_ERROR_INPUT, "%.120s and %.120s: %s", a->name, b->name, why);
+    return rt_fail(error, RT_ERROR_INPUT, "%s", why);
+}
+
 /* Whether two maps can be parts of one. */
 static rt_status check_pair(const rt_photon_map *a, const rt_photon_map *b, rt_error *error)
 {
     const rt_photon_settings *x = &a->settings, *y = &b->settings;
     if (x->scene != y->scene)
-        return rt_fail(error, RT_ERROR_INPUT, "the photon maps are of different scenes");
+        return fail_pair(a, b, error, "the photon maps are of different scenes");
     if (x->direct != y->direct)
-        return rt_fail(error, RT_ERROR_INPUT, "one photon map holds direct light, another does not");
+        return fail_pair(a, b, error, "one photon map holds direct light, another does not");
     if (x->split != y->split)
-        return rt_fail(error, RT_ERROR_INPUT, "one photon map keeps caustic photons apart, another does not");
+        return fail_pair(a, b, error, "one photon map keeps caustic photons apart, another does not");
     if (x->max_depth != y->max_depth)
-        return rt_fail(error, RT_ERROR_INPUT, "the photon maps have paths of %u and of %u segments at most",
-                       x->max_depth, y->max_depth);
+        return fail_pair(a, b, error, "the photon maps have paths of %u and of %u segments at most",
+                         x->max_depth, y->max_depth);
     if (x->sampler != y->sampler)
-        return rt_fail(error, RT_ERROR_INPUT, "the photon maps were made by different samplers");
+        return fail_pair(a, b, error, "the photon maps were made by different samplers");
     if (!rt_ledger_matches(&a->ledger, &b->ledger))
-        return rt_fail(error, RT_ERROR_INPUT, "the lights of the photon maps, or their shares, are different");
+        return fail_pair(a, b, error, "the lights of the photon maps, or their shares, are different");
     return RT_OK;
 }
 
@@ -54,7 +70,7 @@ static rt_status list_pieces(piece **out, size_t *piece_count, const rt_photon_m
         const rt_photon *photons = maps[i]->lists[kind].photons;
         for (size_t j = 0; j < maps[i]->ranges[kind].count; j++) {
             const rt_path_range *range = maps[i]->ranges[kind].ranges + j;
-            pieces[n++] = (piece){range, photons};
+            pieces[n++] = (piece){range, photons, maps[i]};
             photons = range->photons ? photons + range->photons : photons;
         }
     }
@@ -69,10 +85,10 @@ static rt_status check_overlap(const piece *pieces, size_t count, rt_error *erro
     for (size_t i = 1; i < count; i++) {
         const rt_path_range *a = pieces[i - 1].range, *b = pieces[i].range;
         if (a->seed == b->seed && b->first < a->first + a->count)
-            return rt_fail(error, RT_ERROR_INPUT,
-                           "the photon maps hold the same paths, %llu and more of seed %u; a different seed or part "
-                           "makes others",
-                           (unsigned long long)b->first, b->seed);
+            return fail_pair(pieces[i - 1].map, pieces[i].map, error,
+                             "the photon maps hold the same paths, %llu and more of seed %u; a different seed or part "
+                             "makes others",
+                             (unsigned long long)b->first, b->seed);
     }
     return RT_OK;
 }

@@ -11,6 +11,7 @@
 static const char header[] = "ply\n"
                              "format binary_little_endian 1.0\n"
                              "comment photons; flux in W, travel is the direction in which light came\n"
+                             "comment a path is known by seed and path; shapes are counted from 0\n"
                              "element vertex %llu\n"
                              "property float x\n"
                              "property float y\n"
@@ -24,7 +25,9 @@ static const char header[] = "ply\n"
                              "property float travel_x\n"
                              "property float travel_y\n"
                              "property float travel_z\n"
+                             "property uint seed\n"
                              "property uint path\n"
+                             "property uint shape\n"
                              "property ushort segments\n"
                              "property uchar caustic\n"
                              "property uchar red\n"
@@ -32,7 +35,7 @@ static const char header[] = "ply\n"
                              "property uchar blue\n"
                              "end_header\n";
 
-enum { POINT_BYTES = 12 * 4 + 4 + 2 + 1 + 3 };
+enum { POINT_BYTES = 12 * 4 + 3 * 4 + 2 + 1 + 3 };
 
 static void put_bytes(uint8_t **at, uint32_t value, int count)
 {
@@ -48,7 +51,7 @@ static void put_float(uint8_t **at, float value)
 }
 
 /* per_path: 1 / emitted paths; brightest: flux that is shown as white. */
-static void put_point(uint8_t **at, const rt_photon *p, double per_path, double brightest)
+static void put_point(uint8_t **at, const rt_photon *p, uint32_t seed, double per_path, double brightest)
 {
     uint32_t segments = p->flags >> 8;
     for (int c = 0; c < 3; c++)
@@ -59,7 +62,9 @@ static void put_point(uint8_t **at, const rt_photon *p, double per_path, double 
         put_float(at, (float)(p->flux[c] * per_path));
     for (int c = 0; c < 3; c++)
         put_float(at, -p->wi[c]);
+    put_bytes(at, seed, 4);
     put_bytes(at, p->path, 4);
+    put_bytes(at, p->shape, 4);
     put_bytes(at, segments < UINT16_MAX ? segments : UINT16_MAX, 2);
     put_bytes(at, p->flags & RT_PHOTON_CAUSTIC, 1);
     for (int c = 0; c < 3; c++)
@@ -84,6 +89,16 @@ static double find_brightest(const rt_photon_map *map)
     return brightest;
 }
 
+/* Writes a list; its photons lie range by range, each of a seed. */
+static void put_list(uint8_t **at, const rt_photon_map *map, int kind, double brightest)
+{
+    const rt_path_ranges *ranges = map->ranges + kind;
+    const rt_photon *p = map->lists[kind].photons;
+    for (size_t i = 0; i < ranges->count; i++)
+        for (uint64_t j = 0; j < ranges->ranges[i].photons; j++)
+            put_point(at, p++, ranges->ranges[i].seed, scale_of(map->lists + kind), brightest);
+}
+
 rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error)
 {
     if (rt_is_missing(map, "map", error))
@@ -100,8 +115,7 @@ rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_er
     memcpy(data, text, start);
     uint8_t *at = data + start;
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
-        for (size_t i = 0; i < map->lists[kind].count; i++)
-            put_point(&at, map->lists[kind].photons + i, scale_of(map->lists + kind), brightest);
+        put_list(&at, map, kind, brightest);
     rt_bytes bytes = {data, size, size};
     rt_status status = rt_file_replace(path, &bytes, error);
     free(data);

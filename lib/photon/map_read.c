@@ -5,6 +5,7 @@
  * passes the checksum is still checked number by number, because other programs write such files too.
  */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -291,10 +292,12 @@ rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t 
         status = read_photons(&r, map->lists + kind, map->ranges + kind, (size_t)n.photons[kind]);
     if (status == RT_OK && map->ledger.paths != map->lists[RT_PHOTONS_GLOBAL].emitted)
         status = fail_content(&r, "its ledger is not of its paths");
-    if (status == RT_OK)
+    if (status == RT_OK) {
+        snprintf(map->name, sizeof map->name, "%s", name);
         *out = map;
-    else
+    } else {
         rt_photon_map_destroy(map);
+    }
     return status;
 }
 

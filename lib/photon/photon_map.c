@@ -134,11 +134,21 @@ static void warn_lights(const rt_ledger *ledger, const rt_hooks *hooks)
                 starved == 1 ? "a light with power" : "each of some lights with power", names, more);
 }
 
-static void warn_list(const rt_photon_list *list, const char *name, uint32_t k, const rt_hooks *hooks)
+/* Why no path can leave a photon, or "". */
+static const char *why_empty(const rt_photon_settings *settings)
 {
+    if (settings->max_depth == 1 && settings->direct != RT_DIRECT_PHOTONS)
+        return "; with max_depth 1 all light is direct, which shadow rays bring";
+    return "";
+}
+
+static void warn_list(const rt_photon_map *map, rt_photon_kind kind, const char *name, uint32_t k,
+                      const rt_hooks *hooks)
+{
+    const rt_photon_list *list = map->lists + kind;
     if (list->count == 0)
-        rt_warn(hooks, "the %s is empty: none of %llu photon paths left a photon in it", name,
-                (unsigned long long)list->emitted);
+        rt_warn(hooks, "the %s is empty: none of %llu photon paths left a photon in it%s", name,
+                (unsigned long long)list->emitted, why_empty(&map->settings));
     else if (k != RT_K_ALL && list->count < k)
         rt_warn(hooks, "the %s has only %zu photon%s, fewer than the %u nearest that an estimate wants", name,
                 list->count, list->count == 1 ? "" : "s", (unsigned)k);
@@ -147,11 +157,16 @@ static void warn_list(const rt_photon_list *list, const char *name, uint32_t k, 
                 (unsigned long long)list->rejected, name);
 }
 
-void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t k, uint32_t caustic_k,
-                                const rt_hooks *hooks)
+void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass, uint32_t k,
+                                uint32_t caustic_k, const rt_hooks *hooks)
 {
+    char of_pass[32] = "", name[64];
+    if (pass > 0)
+        snprintf(of_pass, sizeof of_pass, " of pass %u", (unsigned)pass);
     warn_lights(ledger, hooks);
-    warn_list(map->lists + RT_PHOTONS_GLOBAL, map->settings.split ? "global photon map" : "photon map", k, hooks);
+    snprintf(name, sizeof name, "%sphoton map%s", map->settings.split ? "global " : "", of_pass);
+    warn_list(map, RT_PHOTONS_GLOBAL, name, k, hooks);
+    snprintf(name, sizeof name, "caustic photon map%s", of_pass);
     if (map->settings.split)
-        warn_list(map->lists + RT_PHOTONS_CAUSTIC, "caustic photon map", caustic_k, hooks);
+        warn_list(map, RT_PHOTONS_CAUSTIC, name, caustic_k, hooks);
 }

@@ -35,6 +35,7 @@ struct rt_photon_map {
     rt_photon_list lists[RT_PHOTON_KINDS]; /* [rt_photon_kind] */
     rt_path_ranges ranges[RT_PHOTON_KINDS];
     rt_ledger ledger; /* of the paths that filled the global list */
+    char name[256];   /* the file that it was read from, for messages; else empty */
 };
 
 /* Adds a range behind the last one, joining the two where they touch. */
@@ -48,9 +49,10 @@ void rt_photon_map_free(rt_photon_map *map);
 
 /*
  * Warns of lights with power that fewer than 100 paths came from, by the ledger of all paths, and of lists of the map
- * with fewer photons than an estimate wants: k of them, or caustic_k in the caustic list.
+ * with fewer photons than an estimate wants: k of them, or caustic_k in the caustic list. pass: the one that the map is
+ * of, from 1; 0: there are none.
  */
-void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t k, uint32_t caustic_k,
-                                const rt_hooks *hooks);
+void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass, uint32_t k,
+                                uint32_t caustic_k, const rt_hooks *hooks);
 
 #endif

@@ -16,6 +16,8 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_err
         film->options = *options;
         film->options.hooks = NULL;
         film->options.photon_map = NULL;
+        film->options.light_shares = NULL;
+        film->options.light_share_count = 0;
         film->pixels = calloc(count, sizeof *film->pixels);
         film->rgb = calloc(count, 3 * sizeof *film->rgb);
     }

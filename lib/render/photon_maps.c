@@ -57,7 +57,7 @@ static rt_status emit(emission *e, rt_error *error)
     rt_status status = rt_scene_fingerprint(&e->map->settings.scene, e->renderer->device, e->renderer->scene, error);
     if (status == RT_OK)
         status = rt_emitter_create(&e->emitter, e->renderer->device, e->kernel, e->renderer->scene,
-                                   e->how->light_shares, e->how->light_share_count, error);
+                                   o->light_shares, o->light_share_count, error);
     if (status == RT_OK)
         status = rt_stage_begin(&progress, o->hooks, RT_STAGE_EMIT);
     if (status == RT_OK)
@@ -67,7 +67,7 @@ static rt_status emit(emission *e, rt_error *error)
     if (status != RT_OK)
         return status;
     rt_emitter_warn_reach(e->emitter, o->hooks);
-    rt_photon_map_warn_starved(e->map, &e->map->ledger, o->k, o->caustic_k, o->hooks);
+    rt_photon_map_warn_starved(e->map, &e->map->ledger, 0, o->k, o->caustic_k, o->hooks);
     return rt_stage_end(&progress, NULL);
 }
 

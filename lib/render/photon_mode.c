@@ -63,7 +63,8 @@ static rt_status prepare(rt_photon_render *r, rt_error *error)
     }
     rt_status status = rt_photon_eye_create(&r->eye, r->renderer, o, &r->eye_kernels, &r->aov, r->film, error);
     if (status == RT_OK && !o->photon_map)
-        status = rt_emitter_create(&r->emitter, r->renderer->device, r->emit, r->renderer->scene, NULL, 0, error);
+        status = rt_emitter_create(&r->emitter, r->renderer->device, r->emit, r->renderer->scene, o->light_shares,
+                                   o->light_share_count, error);
     return status;
 }
 
@@ -149,7 +150,8 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
     if (status == RT_OK && r.emitter)
         rt_emitter_warn_reach(r.emitter, options->hooks);
     if (status == RT_OK)
-        rt_photon_map_warn_starved(r.in_use, &film->ledger, options->k, options->caustic_k, options->hooks);
+        rt_photon_map_warn_starved(r.in_use, &film->ledger, film->stats.passes, options->k, options->caustic_k,
+                                   options->hooks);
     if (status == RT_OK)
         warn_empty(&film->stats, options->hooks);
     if (status == RT_OK || (status == RT_CANCELLED && r.eye.pixels)) {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "error.h"
+#include "image/file.h"
 #include "image/image_file.h"
 #include "image/srgb.h"
 #include "light/environment.h"
@@ -128,7 +129,9 @@ static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, c
 static rt_status read_environment(rt_scene_environment *out, const char *path, rt_error *error)
 {
     rt_image *image = NULL;
-    rt_status status = rt_image_read(&image, path, error);
+    rt_status status = rt_file_check_regular(path, error);
+    if (status == RT_OK)
+        status = rt_image_read(&image, path, error);
     if (status == RT_OK)
         status = copy_texels(out, image, path, error);
     if (status == RT_OK)

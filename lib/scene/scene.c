@@ -43,6 +43,8 @@ rt_status rt_scene_set_options(rt_scene *scene, const rt_render_options *options
     scene->options = *options;
     scene->options.hooks = NULL;
     scene->options.photon_map = NULL;
+    scene->options.light_shares = NULL;
+    scene->options.light_share_count = 0;
     return RT_OK;
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "error.h"
+#include "image/file.h"
 #include "image/image_file.h"
 #include "image/srgb.h"
 #include "scene/check.h"
@@ -44,7 +45,9 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
     rt_image *image = NULL;
     if (!from->path)
         return rt_fail_field(error, RT_ERROR_INPUT, "path", "texture: an image needs a file");
-    rt_status status = rt_image_read(&image, from->path, error);
+    rt_status status = rt_file_check_regular(from->path, error);
+    if (status == RT_OK)
+        status = rt_image_read(&image, from->path, error);
     if (status == RT_OK)
         status = rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->path, error);
     if (status == RT_OK)

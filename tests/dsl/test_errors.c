@@ -367,6 +367,8 @@ static void fields_without_effect_are_warned_of(void **state)
          "'radiance' of 0 has no effect"},
         {"texture t { file \"scenes/textures/letter.png\" } material m { kd 0 kd_texture t }", 62,
          "'kd' of 0 has no effect"},
+        {"render { mode photon area hull kernel cone }", 32, "'kernel' has no effect without 'area disc'"},
+        {"render { mode photon kernel box cone_k 2 }", 33, "'cone_k' has no effect without 'kernel cone'"},
         {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37, "'ior' has no effect"},
     };
     static collected c;

@@ -28,7 +28,7 @@ static void every_field_reaches_the_scene(void **state)
         "film { width 640  height 480 }\n"
         "render { mode photon spp 7 max_depth 9 seed 4294967295 sampler independent time 2.5 photons 4000000000\n"
         "  roulette_depth 5 roulette_threshold 0.125 k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons final_gather 2\n"
-        "  caustic_photons 3000000000 caustic_k 40 caustic_radius 0.125 caustic_kernel silverman }\n"
+        "  caustic_photons 3000000000 caustic_k 40 caustic_radius 0.125 caustic_kernel cone }\n"
         "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel dielectric  two_sided true\n"
         "  priority 3 }\n"
         "material plain { kd 0.7 }\n"
@@ -58,7 +58,7 @@ static void every_field_reaches_the_scene(void **state)
     assert_true(o.photons == 4000000000u && o.k == 60 && o.radius == 0.25f && o.cone_k == 1.5f);
     assert_true(o.kernel == RT_DENSITY_GAUSSIAN_JENSEN && o.direct == RT_DIRECT_PHOTONS && o.final_gather == 2);
     assert_true(o.caustic_photons == 3000000000u && o.caustic_k == 40 && o.caustic_radius == 0.125f);
-    assert_true(o.caustic_kernel == RT_DENSITY_SILVERMAN);
+    assert_true(o.caustic_kernel == RT_DENSITY_CONE);
 
     const rt_material *m = &c.scene->materials[0];
     assert_vector(m->kd, 0.1f, 0.1f, 0.1f);

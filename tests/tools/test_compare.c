@@ -65,7 +65,7 @@ static void results_are_json_when_asked(void **state)
     expect_status(&run, 1);
     assert_memory_equal(run.out, "{\"images\":[\"a.exr\"],\"reference\":\"b.pfm\",\"layer\":null,\"width\":16,", 61);
     expect_out(&run, ",\"mse\":0.0625,\"rmse\":0.25,");
-    expect_out(&run, ",\"ratio\":1.5,\"ratio_error\":0,\"ratio_rgb\":[1.5,1.5,1.5],");
+    expect_out(&run, ",\"ratio\":1.5,\"ratio_error\":0,\"shares_photons\":[false,false],\"ratio_rgb\":[1.5,1.5,1.5],");
     expect_out(&run, ",\"limits\":[{\"option\":\"max-rmse\",\"limit\":0.2,\"measured\":0.25,\"kept\":false},"
                      "{\"option\":\"max-off\",\"limit\":1,\"measured\":1,\"kept\":true}],\"within\":false}\n");
     run_free(&run);
@@ -88,6 +88,57 @@ static void blocks_are_listed_when_asked(void **state)
     assert_true(stats_number(&run, "blocks") == 4);
     expect_out(&run, "\n8 8  1.5 0 50  1.5 0 50  1.5 0 50\n");
     run_free(&run);
+}
+
+/* A block of one pixel has no scatter within it, so that one render does not tell its noise; two do. */
+static void noise_that_is_not_known_is_called_so(void **state)
+{
+    (void)state;
+    write_picture("c.exr", 0.25f, 0.25f);
+    run text = run_rtc("compare a.exr b.pfm --block 1 --blocks");
+    run json = run_rtc("compare a.exr b.pfm --block 1 --json");
+    run two = run_rtc("compare a.exr c.exr b.pfm --block 1");
+    expect_out(&text, "\nratio: 1.5 +- unknown\n");
+    expect_out(&text, "channel R, 0.75 for 0.5, ratio 1.5 +- unknown, 50 of what is allowed\n");
+    expect_out(&text, "\n15 15  1.5 unknown 50  1.5 unknown 50  1.5 unknown 50\n");
+    expect_out(&json, "\"ratio_error\":null,");
+    expect_out(&json, "\"error\":[null,null,null]");
+    /* The mean of 0.75 and 0.25 has a standard error of 0.25 in each pixel, of 0.25 / 16 in all. */
+    expect_out(&two, "\nratio: 1 +- 0.031\n");
+    run_free(&text);
+    run_free(&json);
+    run_free(&two);
+}
+
+/* A photon render says in its file what it is; its noise is not in the scatter of its pixels. */
+static void photon_renders_by_themselves_are_warned_of(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", "camera { eye 0 0 -4  look_at 0 0 0 }\n"
+                           "film { width 16  height 16 }\n"
+                           "material white { kd 0.7 }\n"
+                           "sphere { centre 0 0 0  radius 1  material white }\n"
+                           "light point { position 2 4 -3  intensity 20 }\n");
+    run made[] = {run_rtc("a.rts --spp 1 --quiet --out path.exr"),
+                  run_rtc("a.rts --spp 1 --mode photon --photons 100 --quiet --aov --out 1.exr --out 1.pfm"),
+                  run_rtc("a.rts --spp 1 --mode photon --photons 100 --seed 1 --quiet --out 2.exr")};
+    run one = run_rtc("compare 1.exr path.exr --json"), two = run_rtc("compare 1.exr 2.exr path.exr --json");
+    run reference = run_rtc("compare path.exr 1.exr"), other = run_rtc("compare 1.pfm path.exr");
+    run layer = run_rtc("compare 1.exr 1.exr --layer albedo");
+    expect_err(&one, "warning: 1.exr: the noise of one photon render is understated");
+    expect_out(&one, "\"shares_photons\":[true,false]");
+    assert_string_equal(two.err, "");
+    expect_out(&two, "\"shares_photons\":[false,false]");
+    expect_err(&reference, "warning: 1.exr: the noise of a reference of photon mode is understated");
+    assert_string_equal(other.err, "");
+    assert_string_equal(layer.err, "");
+    for (int i = 0; i < 3; i++)
+        run_free(&made[i]);
+    run_free(&one);
+    run_free(&two);
+    run_free(&reference);
+    run_free(&other);
+    run_free(&layer);
 }
 
 static void renders_compare_as_their_mean(void **state)
@@ -171,6 +222,24 @@ static void limits_decide_the_status(void **state)
     }
 }
 
+/* What cannot be measured keeps no limit, and the reason is told. */
+static void limits_on_what_is_not_known_are_not_kept(void **state)
+{
+    (void)state;
+    scratch_write("small.pfm", "PF\n2 1\n-1.0\n012345678901234567890123");
+    write_picture("black.pfm", 0.0f, 0.0f);
+    run small = run_rtc("compare small.pfm small.pfm --min-ssim 0.5");
+    run black = run_rtc("compare a.exr black.pfm --max-bias 0.5");
+    expect_status(&small, 1);
+    expect_out(&small, "\nssim: unknown\n");
+    assert_string_equal(small.err, "the pictures are too small for --min-ssim: 2x1 pixels, and its window has 11x11\n");
+    expect_status(&black, 1);
+    expect_out(&black, "\nratio: unknown +- unknown\nratio by channel: unknown unknown unknown\n");
+    assert_string_equal(black.err, "bias is unknown, and not within --max-bias: the mean of the reference is 0\n");
+    run_free(&small);
+    run_free(&black);
+}
+
 static void pixels_that_are_not_finite_keep_no_limit(void **state)
 {
     (void)state;
@@ -208,6 +277,19 @@ static void differences_are_written(void **state)
     run_free(&run);
 }
 
+static void scales_that_nothing_shows_are_warned_of(void **state)
+{
+    (void)state;
+    run none = run_rtc("compare a.exr b.pfm --scale 1"), exr = run_rtc("compare a.exr b.pfm --scale 1 --out d.exr");
+    run png = run_rtc("compare a.exr b.pfm --scale 1 --out d.png");
+    expect_err(&none, "warning: --scale has no effect without --out to a .png or .ppm\n");
+    expect_err(&exr, "warning: --scale has no effect without --out to a .png or .ppm\n");
+    assert_string_equal(png.err, "");
+    run_free(&none);
+    run_free(&exr);
+    run_free(&png);
+}
+
 /* ---- Refusals ----------------------------------------------------------------------- */
 
 static void bad_images_give_an_error_and_no_results(void **state)
@@ -221,10 +303,11 @@ static void bad_images_give_an_error_and_no_results(void **state)
         {"text.exr b.pfm", 1, "text.exr: it is not an EXR"},
         {"empty.png b.pfm", 1, "empty.png: it is empty"},
         {"short.pfm b.pfm", 1, "short.pfm: "},
-        {"small.pfm b.pfm", 1, "image 1 has 2x1 pixels but the reference 16x16"},
-        {"a.exr b.pfm --layer albedo", 1, "the reference has no layer 'albedo'"},
+        {"small.pfm b.pfm", 1, "small.pfm has 2x1 pixels but b.pfm 16x16"},
+        {"a.exr b.pfm --layer albedo", 1, "b.pfm has no layer 'albedo'"},
         {"a.exr b.pfm --out nowhere/d.png", 4, "nowhere/d.png"},
         {"a.exr b.pfm --out d.jpg", 2, "the extension tells the format"},
+        {"a.exr ./a.exr b.pfm", 2, "./a.exr is given twice: several renders must be independent"},
         {"a.exr", 2, "which images?"},
         {"", 2, "which images?"},
         {"a.exr b.pfm --max-rmse -1", 2, "--max-rmse takes"},
@@ -288,11 +371,15 @@ int main(void)
         IN_SCRATCH(results_are_lines_on_stdout),
         IN_SCRATCH(results_are_json_when_asked),
         IN_SCRATCH(blocks_are_listed_when_asked),
+        IN_SCRATCH(noise_that_is_not_known_is_called_so),
+        IN_SCRATCH(photon_renders_by_themselves_are_warned_of),
         IN_SCRATCH(renders_compare_as_their_mean),
         IN_SCRATCH(formats_of_one_render_are_equal),
         IN_SCRATCH(limits_decide_the_status),
+        IN_SCRATCH(limits_on_what_is_not_known_are_not_kept),
         IN_SCRATCH(pixels_that_are_not_finite_keep_no_limit),
         IN_SCRATCH(differences_are_written),
+        IN_SCRATCH(scales_that_nothing_shows_are_warned_of),
         IN_SCRATCH(bad_images_give_an_error_and_no_results),
         IN_SCRATCH(damaged_images_never_crash),
         IN_SCRATCH(a_full_disk_is_status_4),

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "expect.h"
+#include "image/image.h"
 #include "lib/image/scratch.h"
 #include "spawn.h"
 
@@ -75,6 +76,7 @@ static void diff_tells_equal_maps_from_others(void **state)
         const char *options, *says;
     } others[] = {
         {"--photons 999", "only in the first"},
+        {"--photons 999", "ledger light 0 (shape 2): 1000 and 999 paths, share 1 and 1, emitted 5 and 5, absorbed "},
         {"--photons 1000 --seed 1", "0 equal, 0 changed"},
         {"--photons 1000 --max-depth 4", "longest path: 16 and 4"},
         {"--photons 1000 --direct photons", "direct light in the map: 0 and 1"},
@@ -97,6 +99,38 @@ static void diff_tells_equal_maps_from_others(void **state)
         expect_out(&run, others[i].says);
         run_free(&run);
     }
+}
+
+static void results_are_json_when_asked(void **state)
+{
+    (void)state;
+    run made = run_rtc("photons a.rts --photons 1000 --seed 9 --quiet --stats --json --out a.rtp");
+    run info = run_rtc("photons info a.rtp --json");
+    succeed("photons a.rts --photons 999 --seed 9 --quiet --out b.rtp");
+    run same = run_rtc("photons diff a.rtp a.rtp --json"), other = run_rtc("photons diff a.rtp b.rtp --json");
+    assert_memory_equal(info.out, "{\"map\":\"a.rtp\",\"scene\":\"", 24);
+    assert_string_equal(made.out, info.out);
+    expect_out(&info, ",\"direct\":\"nee\",\"sampler\":\"sobol\",\"max_depth\":16,\"rejected\":0,"
+                      "\"global\":{\"paths\":1000,");
+    expect_out(&info, ",\"ranges\":[{\"first\":0,\"count\":1000,\"photons\":");
+    expect_out(&info, ",\"seed\":9}]},"
+                      "\"ledger\":[{\"shape\":2,\"paths\":1000,\"share\":1,\"power\":[5,5,5],\"emitted\":[");
+    assert_null(strstr(info.out, "\"caustic\":{"));
+    expect_status(&same, 0);
+    expect_out(&same, "{\"maps\":[\"a.rtp\",\"a.rtp\"],\"same_scene\":true,\"same_settings\":true,"
+                      "\"same_rejected\":true,\"same_ledger\":true,\"global\":{\"equal\":");
+    expect_out(&same, ",\"equal\":true}\n");
+    expect_status(&other, 1);
+    expect_out(&other, "\"same_ledger\":false,");
+    expect_out(&other, "\"only_second\":0,\"same_paths\":false},");
+    expect_out(&other, ",\"equal\":false}\n");
+    run_free(&made);
+    run_free(&info);
+    run_free(&same);
+    run_free(&other);
+    made = run_rtc("photons a.rts --photons 10 --json --out a.rtp");
+    expect_err(&made, "warning: --json has no effect without --stats");
+    run_free(&made);
 }
 
 /* A difference that could not be told is a failure, not the answer that there is one. */
@@ -179,7 +213,7 @@ static void maps_of_other_scenes_are_refused(void **state)
     expect_no_file("x.pfm");
     run merge = run_rtc("photons merge a.rtp b.rtp --out c.rtp");
     expect_status(&merge, 1);
-    expect_err(&merge, "different scenes");
+    expect_err(&merge, "a.rtp and b.rtp: the photon maps are of different scenes");
     expect_no_file("c.rtp");
     run_free(&render);
     run_free(&merge);
@@ -213,7 +247,7 @@ static void broken_maps_and_places_have_their_status(void **state)
         {"a.rts --photon-map . --out a.pfm", 1, "directory"},
         {"photons info none.rtp", 1, "none.rtp: No such file"},
         {"photons diff a.rtp a.rts", 1, "no photon map"},
-        {"photons merge a.rtp a.rtp --out c.rtp", 1, "the same paths"},
+        {"photons merge a.rtp a.rtp --out c.rtp", 1, "a.rtp and a.rtp: the photon maps hold the same paths"},
         {"photons export a.rtp --out nowhere/a.ply", 4, "nowhere/a.ply"},
         {"photons merge a.rtp --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
         {"photons a.rts --photons 10 --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
@@ -251,6 +285,57 @@ static void starved_lights_are_told_without_verbose(void **state)
     run_free(&shared);
 }
 
+/* Paths go to the lights as a render is told, and the picture says in its file that they did. */
+static void renders_print_stats_as_json(void **state)
+{
+    (void)state;
+    run photon = run_rtc("a.rts --mode photon --photons 1000 --spp 1 --quiet --stats --json --out a.pfm");
+    run path = run_rtc("a.rts --spp 3 --variance --quiet --stats --json --out a.exr");
+    run idle = run_rtc("a.rts --spp 1 --json --out a.pfm");
+    expect_status(&photon, 0);
+    assert_memory_equal(photon.out, "{\"device\":\"", 11);
+    expect_out(&photon, ",\"shapes\":3,");
+    expect_out(&photon, ",\"mode\":\"photon\",\"width\":16,\"height\":16,\"spp\":1,\"rejected\":0,\"replicates\":0,"
+                        "\"light_power\":5,");
+    expect_out(&photon, ",\"photons_emitted\":1000,");
+    expect_out(&photon, ",\"ledger\":[{\"shape\":2,\"paths\":1000,");
+    expect_out(&path, ",\"mode\":\"path\",\"width\":16,\"height\":16,\"spp\":3,");
+    expect_out(&path, ",\"relative_error_bound\":null,");
+    expect_out(&path, ",\"render_seconds\":");
+    assert_null(strstr(path.out, "ledger"));
+    assert_string_equal(strchr(path.out, '\n'), "\n");
+    expect_err(&idle, "warning: --json has no effect without --stats");
+    assert_string_equal(idle.out, "");
+    run_free(&photon);
+    run_free(&path);
+    run_free(&idle);
+}
+
+static void renders_share_paths_among_lights(void **state)
+{
+    (void)state;
+    scratch_write("b.rts", SCENE "light point { position 0 0 0.5  power 5 }\n");
+    run told = run_rtc("b.rts --mode photon --photons 1000 --light-shares 0.25,0.75 --spp 1 --stats --out b.exr");
+    run path = run_rtc("b.rts --light-shares 1,1 --spp 1 --out b.pfm");
+    expect_status(&told, 0);
+    const char *line = strstr(told.out, "ledger light 0: ");
+    int paths = 0;
+    assert_non_null(line);
+    /* Of 1000 paths a quarter, within five standard errors of 14; but sobol draws them more evenly. */
+    assert_true(sscanf(line, "ledger light 0: %d paths", &paths) == 1 && paths > 180 && paths < 320);
+    rt_image *image = NULL;
+    assert_int_equal(rt_image_read(&image, "b.exr", NULL), RT_OK);
+    assert_non_null(strstr(rt_image_attribute_value(image, "librt.command"), "--light-shares 0.25,0.75"));
+    rt_image_destroy(image);
+    expect_err(&path, "warning: --light-shares has no effect in path mode");
+    run_free(&told);
+    run_free(&path);
+    succeed("photons b.rts --photons 100 --quiet --out b.rtp");
+    run map = run_rtc("b.rts --photon-map b.rtp --light-shares 1,1 --spp 1 --out b.pfm");
+    expect_err(&map, "warning: --light-shares has no effect with --photon-map");
+    run_free(&map);
+}
+
 static void renders_print_the_ledger(void **state)
 {
     (void)state;
@@ -271,6 +356,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(parts_merge_into_the_same_file),
         IN_SCRATCH(info_says_what_a_map_holds),
+        IN_SCRATCH(results_are_json_when_asked),
         IN_SCRATCH(diff_tells_equal_maps_from_others),
         IN_SCRATCH(full_stdout_is_status_4),
         IN_SCRATCH(maps_render_as_if_emitted),
@@ -279,6 +365,8 @@ int main(void)
         IN_SCRATCH(exports_are_clouds_of_points),
         IN_SCRATCH(broken_maps_and_places_have_their_status),
         IN_SCRATCH(starved_lights_are_told_without_verbose),
+        IN_SCRATCH(renders_print_stats_as_json),
+        IN_SCRATCH(renders_share_paths_among_lights),
         IN_SCRATCH(renders_print_the_ledger),
     };
     return cmocka_run_group_tests_name("tools/photons", tests, NULL, NULL);

@@ -30,10 +30,47 @@ static void idle_options_are_warned_of(void **state)
     expect_err(&run, "warning: --k has no effect in path mode");
     expect_err(&run, "warning: --exposure and --tonemap have no effect");
     run_free(&run);
+}
 
-    run = run_rtc("a.rts --spp 1 --mode photon --photons 1000 --cone-k 2 --out a.pfm");
-    expect_err(&run, "warning: --cone-k has no effect without --kernel cone");
-    run_free(&run);
+/* Each has an effect without the last option of the line, or with the one beside it. */
+static void options_idle_beside_others_are_warned_of(void **state)
+{
+    static const struct {
+        const char *idle, *says, *used;
+    } cases[] = {
+        {"--mode depth --max-depth 3", "--max-depth has no effect in a mode that shows no light", "--max-depth 3"},
+        {"--mode albedo --roulette-depth 3", "--roulette-depth has no effect in a mode that", "--roulette-depth 3"},
+        {"--mode normals --estimator light", "--estimator has no effect in a mode that", "--estimator light"},
+        {"--mode photon --estimator light", "--estimator has no effect in photon mode without --final-gather",
+         "--mode photon --estimator light --final-gather 1"},
+        {"--mode photon --roulette-threshold 1", "--roulette-threshold has no effect in photon mode without",
+         "--mode photon --roulette-threshold 1 --final-gather 1"},
+        {"--mode photon --caustic-k 9", "--caustic-k has no effect without --caustic-photons",
+         "--mode photon --caustic-k 9 --caustic-photons 500"},
+        {"--mode photon --kernel cone --area hull", "--kernel has no effect with --area hull",
+         "--mode photon --kernel cone"},
+        {"--mode photon --kernel cone --cone-k 2 --area hull", "--cone-k has no effect without --kernel cone, or with",
+         "--mode photon --kernel cone --cone-k 2"},
+        {"--mode photon --cone-k 2", "--cone-k has no effect without --kernel cone",
+         "--mode photon --cone-k 2 --caustic-photons 500 --caustic-kernel cone"},
+        {"--mode photon --alpha 0.5", "--alpha has no effect without --passes", "--mode photon --alpha 0.5 --passes 2"},
+        {"--mode photon --k 9 --passes 2 --radius 0.5", "--k has no effect with --passes and --radius",
+         "--mode photon --k 9 --passes 2"},
+    };
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *photons = strstr(cases[i].idle, "photon") ? " --photons 1000" : "";
+        run idle = run_rtc("a.rts --spp 1 %s%s --out a.pfm", cases[i].idle, photons);
+        run used = run_rtc("a.rts --spp 1 %s%s --out a.pfm", cases[i].used, photons);
+        expect_status(&idle, 0);
+        expect_err(&idle, "warning: ");
+        expect_err(&idle, cases[i].says);
+        expect_status(&used, 0);
+        expect_no_err(&used, "no effect");
+        run_free(&idle);
+        run_free(&used);
+    }
 }
 
 /* Layers go to an .exr; what the scene turns on by itself is no mistake of who types another name. */
@@ -350,6 +387,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(idle_options_are_warned_of),
+        TEST(options_idle_beside_others_are_warned_of),
         TEST(layers_without_a_place_are_warned_of),
         TEST(what_would_be_black_is_warned_of),
         TEST(quiet_says_nothing),

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -65,6 +66,7 @@ static const struct {
     {"a.rts --progress yes", "--progress takes one of auto, plain, json, none"},
     {"a.rts --stats=1", "--stats takes no value"},
     {"a.rts --mdoe path", "did you mean --mode?"},
+    {"a.rts --photn 3", "did you mean --photons?"},
     {"a.rts --frobnicate", "unknown option '--frobnicate'"},
     {"a.rts -s 3", "unknown option '-s'"},
     {"a.rts --verbose --quiet", "exclude each other"},
@@ -95,11 +97,16 @@ static const struct {
     {"photons a.rts", "--out FILE"},
     {"photons a.rts b.rts --out m.rtp", "usage: rtc photons"},
     {"photons a.rts --out m.rtp --out n.rtp", "--out FILE"},
-    {"photons a.rts --out m.rtp --part 0/2", "--part takes"},
-    {"photons a.rts --out m.rtp --part 3/2", "--part takes"},
+    {"photons a.rts --out m.rtp --part 0/2", "--part 0/2: there is no part 0 of 2; they are counted from 1"},
+    {"photons a.rts --out m.rtp --part 3/2", "--part 3/2: there is no part 3 of 2"},
+    {"photons a.rts --out m.rtp --part 0/0", "--part takes"},
     {"photons a.rts --out m.rtp --part 1", "--part takes"},
     {"photons a.rts --out m.rtp --part 1/x", "--part takes"},
-    {"photons a.rts --out m.rtp --light-shares 1,,2", "--light-shares takes"},
+    {"photons a.rts --out m.rtp --light-shares 1,,2",
+     "--light-shares takes a number from 0 to 1e+15 for each light, with commas between them, as in 1,0.5,2; not "
+     "'1,,2'"},
+    {"a.rts --mode photon --light-shares 1,2e15", "--light-shares takes"},
+    {"a.rts --mode photon --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
     {"photons a.rts --out m.rtp --light-shares 1,-2", "--light-shares takes"},
     {"photons a.rts --out m.rtp --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
     {"photons a.rts --out m.rtp --k 5", "`rtc photons` takes no option --k"},
@@ -333,6 +340,33 @@ static void each_command_has_its_help(void **state)
     }
 }
 
+/* A form of `rtc photons` tells its own usage and the options that it takes, and no others. */
+static void each_form_of_photons_has_its_help(void **state)
+{
+    static const struct {
+        const char *form, *usage;
+        int writes;
+    } cases[] = {{"info", "usage: rtc photons info MAP...\n", 0},
+                 {"merge", "usage: rtc photons merge MAP... --out MAP\n", 1},
+                 {"diff", "usage: rtc photons diff MAP MAP\n", 0},
+                 {"export", "usage: rtc photons export MAP --out FILE.ply\n", 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        run run = run_rtc("help photons %s", cases[i].form), same = run_rtc("photons %s --help", cases[i].form);
+        expect_status(&run, 0);
+        assert_string_equal(run.out, same.out);
+        assert_memory_equal(run.out, cases[i].usage, strlen(cases[i].usage));
+        assert_int_equal(strstr(run.out, "\n  --out ") != NULL, cases[i].writes);
+        expect_out(&run, "\n  --quiet ");
+        assert_null(strstr(run.out, "--photons"));
+        assert_null(strstr(run.out, "--device"));
+        for (const char *line = run.out; *line; line += strcspn(line, "\n") + 1)
+            assert_true(strcspn(line, "\n") <= 80);
+        run_free(&run);
+        run_free(&same);
+    }
+}
+
 static void version_is_told(void **state)
 {
     (void)state;
@@ -371,6 +405,24 @@ static void check_counts_what_a_scene_holds(void **state)
     expect_status(&run, 0);
     assert_string_equal(run.out, "a.rts: ok: 1 shape, 0 triangles, 1 material, 1 light\n");
     run_free(&run);
+}
+
+/* A pipe that none writes to would make rtc wait without end. */
+static void scenes_name_regular_files_only(void **state)
+{
+    static const char *const texts[] = {
+        "include \"pipe\"\n", "texture t { file \"pipe\" }\n", "light environment { file \"pipe\" }\n",
+        "mesh m { file \"pipe\" }\n"};
+    (void)state;
+    assert_int_equal(mkfifo("pipe", 0600), 0);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        scratch_write("b.rts", texts[i]);
+        run run = run_rtc("check b.rts");
+        expect_status(&run, 1);
+        expect_err(&run, "b.rts:");
+        expect_err(&run, "it is not a regular file");
+        run_free(&run);
+    }
 }
 
 static void only_the_first_errors_are_printed(void **state)
@@ -430,7 +482,10 @@ static void each_field_is_an_option(const char *help, const rt_block *block)
     }
 }
 
-/* And each option of what to render is a field, but for two that are of one run: --accel and --photon-map. */
+/*
+ * And each option of what to render is a field, but for three that are of one run: --accel,
+ * --photon-map and --light-shares.
+ */
 static void options_and_fields_are_the_same(void **state)
 {
     const rt_block *film = &rt_blocks[RT_BLOCK_FILM], *render = &rt_blocks[RT_BLOCK_RENDER];
@@ -441,6 +496,7 @@ static void options_and_fields_are_the_same(void **state)
     each_field_is_an_option(run.out, render);
     expect_out(&run, "\n  --accel ");
     expect_out(&run, "\n  --photon-map ");
+    expect_out(&run, "\n  --light-shares ");
 
     /* What is behind is about the output, --aov and --variance among it. */
     char *end = strstr(run.out, "\nOutput:\n");
@@ -448,7 +504,7 @@ static void options_and_fields_are_the_same(void **state)
     *end = '\0';
     for (const char *at = run.out; (at = strstr(at, "\n  --")) != NULL; at++)
         options++;
-    assert_int_equal(options, film->field_count + render->field_count - 2 + 2);
+    assert_int_equal(options, film->field_count + render->field_count - 2 + 3);
     run_free(&run);
 }
 
@@ -577,10 +633,12 @@ int main(void)
         TEST(negative_value_is_a_value),
         TEST(help_describes_every_option),
         TEST(each_command_has_its_help),
+        TEST(each_form_of_photons_has_its_help),
         TEST(version_is_told),
         TEST(devices_are_listed),
         TEST(doctor_finds_all_well),
         TEST(check_counts_what_a_scene_holds),
+        TEST(scenes_name_regular_files_only),
         TEST(only_the_first_errors_are_printed),
         TEST(check_of_several_scenes_goes_on_after_a_bad_one),
         TEST(no_platform_is_status_3_and_says_what_to_install),

@@ -269,10 +269,13 @@ static void a_file_that_grew_is_not_read_beyond_its_size(void **state)
     rt_bytes file = encode(map);
     rt_error error;
     (void)state;
-    expect_ok(rt_bytes_put(&file, file.size + 100000, "x", 1, &error), &error);
+    size_t size = file.size;
+    char says[128];
+    snprintf(says, sizeof says, "it has 100001 bytes more than the %zu that its header announces", size);
+    expect_ok(rt_bytes_put(&file, size + 100000, "x", 1, &error), &error);
     expect_ok(rt_file_replace("long.rtp", &file, &error), &error);
     assert_int_equal(rt_photon_map_load(&back, "long.rtp", &error), RT_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "larger"));
+    assert_non_null(strstr(error.message, says));
     rt_bytes_free(&file);
     rt_photon_map_destroy(map);
 }
@@ -289,10 +292,16 @@ static void maps_that_cannot_be_written_leave_no_file(void **state)
     rt_photon_map_destroy(map);
 }
 
+/* Little-endian bytes hold this number. */
+static void expect_word(const uint8_t *bytes, uint32_t value)
+{
+    assert_int_equal(bytes[0] | bytes[1] << 8 | bytes[2] << 16 | (uint32_t)bytes[3] << 24, value);
+}
+
 /* The points of an exported map, by the header that says so. */
 static void exports_hold_every_photon(void **state)
 {
-    enum { point_bytes = 58 };
+    enum { point_bytes = 66, seed_at = 48, path_at = 52, shape_at = 56, caustic_at = 62 };
     rt_photon_map *map = make_map();
     size_t count = map->lists[0].count + map->lists[1].count;
     const rt_photon *first = map->lists[0].photons, *last = map->lists[1].photons + map->lists[1].count - 1;
@@ -301,6 +310,8 @@ static void exports_hold_every_photon(void **state)
     rt_error error;
     float flux[3];
     (void)state;
+    assert_int_equal(map->ranges[0].ranges[0].seed, 3);
+    map->ranges[0].ranges[1].seed = 4;
     expect_ok(rt_photon_map_export(map, "map.ply", &error), &error);
     expect_ok(rt_file_read(&file, "map.ply", 1 << 20, &error), &error);
     assert_memory_equal(file.data, "ply\nformat binary_little_endian 1.0\n", 36);
@@ -317,7 +328,13 @@ static void exports_hold_every_photon(void **state)
         assert_float_equal(flux[c] * map->lists[0].emitted, first->flux[c], 1e-5 * first->flux[c]);
     const uint8_t *caustic = points + (count - 1) * point_bytes;
     assert_memory_equal(caustic, last->position, 12);
-    assert_true(points[54] == 0 && caustic[54] == 1);
+    assert_true(points[caustic_at] == 0 && caustic[caustic_at] == 1);
+    /* After a merge a path is known by its seed as well. */
+    expect_word(points + seed_at, map->ranges[0].ranges[0].seed);
+    expect_word(points + path_at, first->path);
+    expect_word(points + shape_at, first->shape);
+    const uint8_t *second = points + map->ranges[0].ranges[0].photons * point_bytes;
+    expect_word(second + seed_at, 4);
     rt_bytes_free(&file);
     rt_photon_map_destroy(map);
 }

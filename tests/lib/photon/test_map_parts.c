@@ -111,8 +111,8 @@ static void maps_that_do_not_fit_are_not_joined(void **state)
     odd[4] = emit_map(renderer, &others);
     expect_no_merge(map, odd[4], "samplers");
     other = (rt_render_options){.photons = 100, .seed = 1};
-    others.light_shares = shares;
-    others.light_share_count = 2;
+    other.light_shares = shares;
+    other.light_share_count = 2;
     odd[5] = emit_map(renderer, &others);
     expect_no_merge(map, odd[5], "shares");
     for (int i = 0; i < 6; i++)

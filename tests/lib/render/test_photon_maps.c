@@ -79,8 +79,8 @@ static void shares_move_paths_but_not_flux(void **state)
     (void)state;
     rt_renderer *renderer = test_renderer(ROOM);
     rt_photon_map *plain = emit_map(renderer, &options);
-    options.light_shares = shares;
-    options.light_share_count = 2;
+    render.light_shares = shares;
+    render.light_share_count = 2;
     rt_photon_map *shared = emit_map(renderer, &options);
     assert_int_equal(rt_photon_map_ledger(plain, by_power, 2), 2);
     assert_int_equal(rt_photon_map_ledger(shared, by_shares, 2), 2);
@@ -102,32 +102,73 @@ static void shares_move_paths_but_not_flux(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* The mean of a film and, for its two lights, the ledger. */
+static double render_shared(rt_light_ledger ledger[2], rt_renderer *renderer, const rt_render_options *options)
+{
+    rt_film *film = NULL;
+    rt_error error;
+    double sum = 0;
+    expect_ok(rt_render(&film, renderer, options, &error), &error);
+    assert_int_equal(rt_film_get_ledger(film, ledger, 2), 2);
+    for (uint32_t i = 0; i < 3 * options->width * options->height; i++)
+        sum += rt_film_rgb(film)[i];
+    rt_film_destroy(film);
+    return sum / (3.0 * options->width * options->height);
+}
+
+/* Shares move noise between the lights of a picture, and leave its mean alone; once and in passes. */
+static void shares_leave_the_mean_of_a_picture(void **state)
+{
+    static const float shares[] = {1, 9};
+    rt_render_options options = {.mode = RT_MODE_PHOTON, .width = 24, .height = 24, .photons = 100000, .spp = 2,
+                                 .radius = 0.1f, .direct = RT_DIRECT_PHOTONS};
+    (void)state;
+    rt_renderer *renderer = test_renderer("camera { eye 0 0 0.9  look_at 0 0 0  fov 80 }\n" ROOM);
+    for (options.passes = 1; options.passes <= 4; options.passes += 3) {
+        rt_light_ledger by_power[2], by_shares[2];
+        double paths = (double)options.photons * options.passes;
+        options.light_shares = NULL;
+        options.light_share_count = 0;
+        double expected = render_shared(by_power, renderer, &options);
+        options.light_shares = shares;
+        options.light_share_count = 2;
+        double mean = render_shared(by_shares, renderer, &options);
+        assert_float_equal((double)by_power[1].paths / paths, 0.375, 5 * 0.5 / sqrt(paths));
+        assert_float_equal((double)by_shares[1].paths / paths, 0.9, 5 * 0.3 / sqrt(paths));
+        assert_float_equal(by_shares[1].share, 0.9, 1e-6);
+        assert_true(expected > 0);
+        assert_float_equal(mean, expected, 0.02 * expected);
+    }
+    rt_renderer_destroy(renderer);
+}
+
 static void wrong_options_are_refused(void **state)
 {
     static const float zero[] = {1, 0}, negative[] = {1, -1}, nan[] = {1, NAN}, one[] = {1};
+    static const rt_emit_options cases[] = {{.part = 1}, {.part = 3, .parts = 3}};
     static const struct {
-        rt_emit_options options;
+        rt_render_options render;
         const char *field;
-    } cases[] = {
-        {{.part = 1}, "part"},
-        {{.part = 3, .parts = 3}, "part"},
+    } bad[] = {
+        {{.caustic_k = 1}, "caustic_k"},
         {{.light_shares = zero, .light_share_count = 2}, "light_shares"},
         {{.light_shares = negative, .light_share_count = 2}, "light_shares"},
         {{.light_shares = nan, .light_share_count = 2}, "light_shares"},
         {{.light_shares = one, .light_share_count = 1}, "light_shares"},
     };
-    rt_render_options bad = {.caustic_k = 1};
-    rt_emit_options options = {.render = &bad};
     rt_photon_map *map = NULL;
     rt_error error;
     (void)state;
     rt_renderer *renderer = test_renderer(ROOM "render { photons 100 }\n");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_int_equal(rt_photon_map_emit(&map, renderer, &cases[i].options, &error), RT_ERROR_USAGE);
-        assert_string_equal(error.field, cases[i].field);
+        assert_int_equal(rt_photon_map_emit(&map, renderer, &cases[i], &error), RT_ERROR_USAGE);
+        assert_string_equal(error.field, "part");
     }
-    assert_int_equal(rt_photon_map_emit(&map, renderer, &options, &error), RT_ERROR_USAGE);
-    assert_string_equal(error.field, "caustic_k");
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        rt_emit_options options = {.render = &bad[i].render};
+        assert_int_equal(rt_photon_map_emit(&map, renderer, &options, &error), RT_ERROR_USAGE);
+        assert_string_equal(error.field, bad[i].field);
+    }
     assert_null(map);
     /* Without options the scene's own count. */
     map = emit_map(renderer, NULL);
@@ -177,6 +218,21 @@ static void starved_lights_and_maps_are_told(void **state)
     render.caustic_photons = 0;
     rt_photon_map_destroy(emit_map(renderer, &options));
     assert_string_equal(warnings, "the photon map is empty: none of 2000 photon paths left a photon in it\n");
+    /* Why that is so is told where it is known, and of which pass it is. */
+    warnings[0] = '\0';
+    render.max_depth = 1;
+    rt_photon_map_destroy(emit_map(renderer, &options));
+    assert_string_equal(warnings, "the photon map is empty: none of 2000 photon paths left a photon in it; with "
+                                  "max_depth 1 all light is direct, which shadow rays bring\n");
+    warnings[0] = '\0';
+    rt_render_options passes = {.mode = RT_MODE_PHOTON, .width = 2, .height = 2, .photons = 100, .passes = 3,
+                                .radius = 0.1f, .hooks = &hooks};
+    rt_film *film = NULL;
+    rt_renderer *seen = test_renderer("camera { eye 0 0 1  look_at 0 0 0 }\nlight point { position 0 0 0  power 1 }\n");
+    expect_ok(rt_render(&film, seen, &passes, &error), &error);
+    assert_string_equal(warnings, "the photon map of pass 3 is empty: none of 100 photon paths left a photon in it\n");
+    rt_film_destroy(film);
+    rt_renderer_destroy(seen);
     hooks.progress = cancel;
     assert_int_equal(rt_photon_map_emit(&map, renderer, &options, &error), RT_CANCELLED);
     assert_null(map);
@@ -471,6 +527,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(caustic_photons_are_kept_apart_when_asked),
         statistical_test(shares_move_paths_but_not_flux),
+        cmocka_unit_test(shares_leave_the_mean_of_a_picture),
         cmocka_unit_test(wrong_options_are_refused),
         cmocka_unit_test(starved_lights_and_maps_are_told),
         cmocka_unit_test(many_starved_lights_are_told_in_one_line),
