@@ -120,7 +120,8 @@ TESTS_QUICK := \
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c \
-	tests/lib/render/test_noise.c tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_mode.c \
+	tests/lib/render/test_noise.c tests/lib/render/test_photon_glass.c \
+	tests/lib/render/test_photon_hull.c tests/lib/render/test_photon_mode.c \
 	tests/lib/render/test_progressive.c \
 	tests/render/test_samples.c \
 	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c \

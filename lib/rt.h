@@ -511,7 +511,8 @@ typedef struct rt_render_options {
     int photon_layers;      /* 1: also the layers photon.count and the like, see rt_film_layer */
     rt_density kernel;      /* density kernel, see common.h */
     rt_area area;           /* what the flux is divided by; RT_AREA_HULL leaves the density kernel out, and is for
-                               the k nearest by FLANN */
+                               the k nearest by FLANN. It supposes photons that are independent of each other: they
+                               are then emitted by RT_SAMPLER_INDEPENDENT, whatever the sampler of the eye paths */
     float cone_k;           /* constant of the cone kernel; 0 means 1.1 */
     rt_direct direct;
     uint32_t final_gather;  /* gather after so many diffuse bounces instead of at the first hit */
@@ -629,8 +630,8 @@ typedef enum rt_photon_kind {
 } rt_photon_kind;
 
 typedef struct rt_emit_options {
-    const rt_render_options *render; /* of which photons, caustic_photons, max_depth, seed, sampler, direct and
-                                        hooks count; NULL: the scene's own */
+    const rt_render_options *render; /* of which photons, caustic_photons, max_depth, seed, sampler, area (the
+                                        hull: RT_SAMPLER_INDEPENDENT), direct and hooks count; NULL: the scene's own */
     uint32_t part, parts; /* make part `part`, counted from 0, of a map in `parts` parts; parts 0 means 1 */
     const float *light_shares; /* [light_share_count]: what part of the paths each light gets, in proportion and in
                                   the order of rt_photon_map_ledger; flux is weighted so that the mean stays the
@@ -655,7 +656,7 @@ typedef struct rt_photon_map_info {
     uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
     int split;           /* caustic photons are kept apart */
     rt_direct direct;
-    rt_sampler sampler;
+    rt_sampler sampler;  /* that the photons were drawn by */
     uint32_t max_depth;
     size_t lights;      /* in the ledger */
 } rt_photon_map_info;

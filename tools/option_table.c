@@ -115,7 +115,8 @@ const option option_table[OPTION_COUNT] = {
                        "constant of the cone kernel, at least 1"},
     [OPTION_AREA] = {"area", "WHAT", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, areas, 1, "disc",
                      "area that photons are spread over: the disc around them, or their convex hull, which is true at the "
-                     "edges of surfaces too, and leaves the density kernel out"},
+                     "edges of surfaces too, leaves the density kernel out, and has the photons drawn by --sampler "
+                     "independent"},
     [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, directs, 1, "nee",
                        "direct light by shadow rays (nee) or from the photon map"},
     [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, 4096, NULL, 1, "0",

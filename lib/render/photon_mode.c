@@ -50,7 +50,7 @@ static rt_status compile(rt_photon_render *r, rt_error *error)
 static rt_status prepare(rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->options;
-    r->map.settings = (rt_photon_settings){0, o->max_depth, o->sampler, o->direct, o->caustic_photons > 0};
+    r->map.settings = rt_photon_settings_of(o);
     r->how[RT_WAY_GLOBAL] = (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->on_device};
     r->how[RT_WAY_CAUSTIC] =
         (rt_gather_options){o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, o->area, r->on_device};
