@@ -107,7 +107,9 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_ALPHA] = {"alpha", "A", KIND_REAL, GROUP_PHOTON, RENDER, 0, 1, NULL, 1, "2/3",
                       "how slowly the radius of --passes shrinks, between 0 and 1"},
     [OPTION_PHOTON_LAYERS] = {"photon-layers", NULL, KIND_SWITCH, GROUP_PHOTON, RENDER, 0, 0, NULL, 0, NULL,
-                              "add layers to an .exr: photon.count, photon.radius, photon.density, photon.variance; --no-photon-layers: do not"},
+                              "add layers to an .exr: photon.count, photon.radius, photon.density, photon.variance, "
+                              "photon.bias (how much too bright, estimated by gathering twice); --no-photon-layers: "
+                              "do not"},
     [OPTION_KERNEL] = {"kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1, "epanechnikov",
                        "density kernel; gaussian-jensen, for comparison only, keeps the often printed constant "
                        "that loses 47 % of the light"},

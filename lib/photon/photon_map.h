@@ -23,7 +23,7 @@ typedef struct rt_photon_settings {
     rt_u32 split;   /* 1: caustic photons are kept apart */
 } rt_photon_settings;
 
-/* Those of what a render with complete options emits, the scene apart. The hull wants photons independent of each other. */
+/* Those of what complete options emit, the scene apart. The hull wants photons that are independent of each other. */
 rt_photon_settings rt_photon_settings_of(const rt_render_options *options);
 
 /* Ranges in ascending order of seed and first; none overlaps or touches another. */

@@ -75,8 +75,11 @@ static rt_status create_gatherers(void *data)
     rt_photon_render *r = data;
     rt_status status = RT_OK;
     for (rt_photon_way way = 0; way < RT_PHOTON_WAYS && status == RT_OK; way++)
-        if (rt_photon_render_list(r, way))
+        if (rt_photon_render_list(r, way)) {
             status = rt_photon_render_open(r, way, r->how + way, &r->error);
+            if (status == RT_OK)
+                status = rt_photon_render_open_finer(r, way, r->how + way, &r->error);
+        }
     return status;
 }
 

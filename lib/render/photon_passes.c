@@ -58,6 +58,8 @@ static rt_status aim_gatherers(rt_photon_render *r, uint32_t sample, double squa
         within.k = 0;
         within.max_radius = (float)(r->first_radius[way] * sqrt(squared_factor));
         status = rt_photon_render_open(r, way, &within, error);
+        if (status == RT_OK)
+            status = rt_photon_render_open_finer(r, way, &within, error);
     }
     return status;
 }
