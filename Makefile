@@ -49,9 +49,9 @@ LIB_SRC := \
 	lib/photon/photon_map.c lib/photon/point_order.c lib/photon/search.c lib/photon/sources.c \
 	lib/photon/tree.c \
 	lib/render/aov.c lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c \
-	lib/render/noise.c lib/render/photon_eye.c lib/render/photon_irradiance.c lib/render/photon_layers.c \
-	lib/render/photon_maps.c lib/render/photon_mode.c lib/render/photon_pass.c lib/render/photon_passes.c \
-	lib/render/render.c lib/render/renderer.c lib/render/replicates.c lib/render/sample_mode.c \
+	lib/render/noise.c lib/render/photon_bias.c lib/render/photon_eye.c lib/render/photon_irradiance.c \
+	lib/render/photon_layers.c lib/render/photon_maps.c lib/render/photon_mode.c lib/render/photon_pass.c \
+	lib/render/photon_passes.c lib/render/render.c lib/render/renderer.c lib/render/replicates.c lib/render/sample_mode.c \
 	lib/render/sobol.c lib/render/student.c lib/render/trace.c \
 	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c \
 	lib/scene/light.c lib/scene/material.c lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c \
@@ -122,8 +122,9 @@ TESTS_QUICK := \
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c \
-	tests/lib/render/test_noise.c tests/lib/render/test_photon_film.c tests/lib/render/test_photon_glass.c \
-	tests/lib/render/test_photon_mode.c tests/lib/render/test_progressive.c \
+	tests/lib/render/test_noise.c tests/lib/render/test_photon_bias.c tests/lib/render/test_photon_film.c \
+	tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_hull.c tests/lib/render/test_photon_mode.c \
+	tests/lib/render/test_progressive.c \
 	tests/render/test_samples.c \
 	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c \
 	tests/tools/test_compare.c tests/tools/test_determinism.c tests/tools/test_mesh.c \

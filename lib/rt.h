@@ -514,10 +514,11 @@ typedef struct rt_render_options {
                                k-th photon in the first pass, the median of 3 x 3 pixels and at most the mean of all;
                                behind the final gather that mean. 0 and 1: no passes */
     float alpha;            /* between 0 and 1, the larger the slower the radius shrinks; 0 means 2/3 */
-    int photon_layers;      /* 1: also the layers photon.count and the like, see rt_film_layer */
+    int photon_layers;      /* 1: also the layers photon.count and the like, see rt_film_layer; gathers twice */
     rt_density kernel;      /* density kernel, see common.h */
     rt_area area;           /* what the flux is divided by; RT_AREA_HULL leaves the density kernel out, and is for
-                               the k nearest by FLANN */
+                               the k nearest by FLANN. It supposes photons that are independent of each other: they
+                               are then emitted by RT_SAMPLER_INDEPENDENT, whatever the sampler of the eye paths */
     float cone_k;           /* constant of the cone kernel; 0 means 1.1 */
     rt_direct direct;
     uint32_t final_gather;  /* gather after so many diffuse bounces instead of at the first hit */
@@ -639,8 +640,9 @@ typedef enum rt_photon_kind {
 } rt_photon_kind;
 
 typedef struct rt_emit_options {
-    const rt_render_options *render; /* of which photons, caustic_photons, light_shares, max_depth, seed, sampler,
-                                        direct and hooks count; NULL: the scene's own */
+    const rt_render_options *render; /* of which photons, caustic_photons, light_shares, max_depth, seed, sampler, area
+                                        (the hull: RT_SAMPLER_INDEPENDENT), direct and hooks count; NULL: the scene's
+                                        own */
     uint32_t part, parts; /* make part `part`, counted from 0, of a map in `parts` parts; parts 0 means 1 */
 } rt_emit_options;
 
@@ -663,7 +665,7 @@ typedef struct rt_photon_map_info {
     uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
     int split;           /* caustic photons are kept apart */
     rt_direct direct;
-    rt_sampler sampler;
+    rt_sampler sampler;  /* that the photons were drawn by */
     uint32_t max_depth;
     size_t lights;      /* in the ledger */
 } rt_photon_map_info;
@@ -779,6 +781,14 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  *   photon.density   1  mean of their number over the disc's area, 1/m^2
  *   photon.variance  1  variance of the pixel, the mean of its three channels, estimated from its samples. In passes
  *                       these are independent; in one pass they share their photons, whose part it leaves out
+ *   photon.bias      1  estimated bias of the pixel, the mean of its three channels, positive where gathering makes
+ *                       it too bright: 2 (L - L'), where L' gathers once more within half the squared radius, or
+ *                       k/(k - k') (L - L') with the k' = (k + 1)/2 nearest (Richardson's extrapolation). Of all lists
+ *                       and passes. As noisy as L', so to be looked at as a mean over pixels; at edges of light and of
+ *                       surfaces, where the bias grows as the radius and not as its square, it is 2 - sqrt 2 = 0.59 of
+ *                       it. Photons of the sampler sobol lie too evenly for few nearest ones, which is a bias of
+ *                       another kind, not in proportion to k, that comes in with the wrong sign. 0, which says nothing,
+ *                       for a list asked with k 2, and below k 9 with the hull. Gathering takes about twice as long
  */
 RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
 

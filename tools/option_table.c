@@ -107,7 +107,9 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_ALPHA] = {"alpha", "A", KIND_BETWEEN, GROUP_PHOTON, RENDER, 0, 1, NULL, 1, "2/3",
                       "how slowly the radius of --passes shrinks, between 0 and 1"},
     [OPTION_PHOTON_LAYERS] = {"photon-layers", NULL, KIND_SWITCH, GROUP_PHOTON, RENDER, 0, 0, NULL, 0, NULL,
-                              "add layers to an .exr: photon.count, photon.radius, photon.density, photon.variance; --no-photon-layers: do not"},
+                              "add layers to an .exr: photon.count, photon.radius, photon.density, photon.variance, "
+                              "photon.bias (how much too bright, estimated by gathering twice); --no-photon-layers: "
+                              "do not"},
     [OPTION_KERNEL] = {"kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1, "epanechnikov",
                        "density kernel; gaussian-jensen, for comparison only, keeps the often printed constant "
                        "that loses 47 % of the light"},
@@ -115,7 +117,8 @@ const option option_table[OPTION_COUNT] = {
                        "constant of the cone kernel, at least 1"},
     [OPTION_AREA] = {"area", "WHAT", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, areas, 1, "disc",
                      "area that photons are spread over: the disc around them, or their convex hull, which is true at the "
-                     "edges of surfaces too, and leaves the density kernel out"},
+                     "edges of surfaces too, leaves the density kernel out, and has the photons drawn by --sampler "
+                     "independent"},
     [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, directs, 1, "nee",
                        "direct light by shadow rays (nee) or from the photon map"},
     [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, 4096, NULL, 1, "0",

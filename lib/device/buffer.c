@@ -87,6 +87,14 @@ rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_
                        "writing to the device", error);
 }
 
+rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes, rt_error *error)
+{
+    if (bytes == 0)
+        return RT_OK;
+    return rt_cl_check(clEnqueueCopyBuffer(device->queue, from, to, 0, offset, bytes, 0, NULL, NULL),
+                       "copying on the device", error);
+}
+
 rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out, const char *what,
                         rt_error *error)
 {

@@ -61,6 +61,9 @@ rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t
 rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, const void *host,
                           rt_error *error);
 
+/* Copies the first bytes of a buffer to `offset` in another. */
+rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes, rt_error *error);
+
 /*
  * The first `bytes` of a buffer, 0 for all, in host memory, to be read until rt_buffer_unmap: no copy where
  * the device works on the host's memory. `what` names the content in messages.

@@ -7,6 +7,12 @@
 #include "error.h"
 #include "progress.h"
 
+rt_photon_settings rt_photon_settings_of(const rt_render_options *o)
+{
+    rt_sampler sampler = o->area == RT_AREA_HULL ? RT_SAMPLER_INDEPENDENT : o->sampler;
+    return (rt_photon_settings){0, o->max_depth, sampler, o->direct, o->caustic_photons > 0};
+}
+
 rt_status rt_path_ranges_add(rt_path_ranges *r, const rt_path_range *range, rt_error *error)
 {
     rt_path_range *last = r->count ? r->ranges + r->count - 1 : NULL;
@@ -169,4 +175,11 @@ void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledge
     snprintf(name, sizeof name, "caustic photon map%s", of_pass);
     if (map->settings.split)
         warn_list(map, RT_PHOTONS_CAUSTIC, name, caustic_k, hooks);
+}
+
+void rt_photon_map_warn_even(const rt_photon_map *map, rt_area area, const rt_hooks *hooks)
+{
+    if (area == RT_AREA_HULL && map->settings.sampler != RT_SAMPLER_INDEPENDENT)
+        rt_warn(hooks, "the photons of the map, by the sampler sobol, are spread more evenly than area hull supposes, "
+                       "and the light comes out too dark: emit the map with the sampler independent");
 }

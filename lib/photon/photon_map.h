@@ -23,6 +23,9 @@ typedef struct rt_photon_settings {
     rt_u32 split;   /* 1: caustic photons are kept apart */
 } rt_photon_settings;
 
+/* Those of what complete options emit, the scene apart. The hull wants photons that are independent of each other. */
+rt_photon_settings rt_photon_settings_of(const rt_render_options *options);
+
 /* Ranges in ascending order of seed and first; none overlaps or touches another. */
 typedef struct rt_path_ranges {
     rt_path_range *ranges; /* [count] */
@@ -54,5 +57,8 @@ void rt_photon_map_free(rt_photon_map *map);
  */
 void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass, uint32_t k,
                                 uint32_t caustic_k, const rt_hooks *hooks);
+
+/* Warns where the hull is asked of photons that are spread too evenly for it. */
+void rt_photon_map_warn_even(const rt_photon_map *map, rt_area area, const rt_hooks *hooks);
 
 #endif

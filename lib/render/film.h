@@ -16,6 +16,7 @@ typedef enum rt_film_layer_id {
     RT_FILM_PHOTON_RADIUS,
     RT_FILM_PHOTON_DENSITY,
     RT_FILM_PHOTON_VARIANCE,
+    RT_FILM_PHOTON_BIAS,
     RT_FILM_LAYERS
 } rt_film_layer_id;
 

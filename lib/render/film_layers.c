@@ -14,6 +14,7 @@ const rt_layer_kind rt_layer_kinds[RT_FILM_LAYERS] = {
     [RT_FILM_PHOTON_RADIUS] = {"photon.radius", 1, {"photon.radius"}},
     [RT_FILM_PHOTON_DENSITY] = {"photon.density", 1, {"photon.density"}},
     [RT_FILM_PHOTON_VARIANCE] = {"photon.variance", 1, {"photon.variance"}},
+    [RT_FILM_PHOTON_BIAS] = {"photon.bias", 1, {"photon.bias"}},
 };
 
 rt_status rt_film_add_layers(rt_film *film, rt_film_layer_id first, rt_film_layer_id last, rt_error *error)

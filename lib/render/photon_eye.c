@@ -51,7 +51,8 @@ static rt_status create_layers(rt_photon_eye *eye, size_t pixels, rt_error *erro
     eye->host_points = malloc((1 + eye->rows) * eye->capacity * sizeof *eye->host_points);
     if (!eye->host_points)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory for the layers of %zu points", eye->capacity);
-    return rt_photon_layers_create(&eye->layers, pixels, error);
+    rt_status status = rt_photon_bias_create(&eye->bias, eye->renderer->device, eye->capacity, eye->rows, error);
+    return status == RT_OK ? rt_photon_layers_create(&eye->layers, pixels, error) : status;
 }
 
 rt_status rt_photon_eye_create(rt_photon_eye *eye, rt_renderer *renderer, const rt_render_options *options,
@@ -95,6 +96,7 @@ void rt_photon_eye_release(rt_photon_eye *eye)
     free(eye->discs);
     free(eye->layers);
     free(eye->host_points);
+    rt_photon_bias_release(&eye->bias);
     memset(eye, 0, sizeof *eye);
 }
 
@@ -122,7 +124,8 @@ static rt_status add_to_layers(rt_photon_eye *eye, const rt_eye_maps *maps, size
     if (status == RT_OK)
         status = rt_buffer_read(eye->renderer->device, eye->caustics, 0, eye->rows * row, caustics, error);
     if (status == RT_OK)
-        rt_photon_layers_add(eye->layers, points, eye->discs, count, caustics, eye->rows, eye->capacity);
+        rt_photon_layers_add(eye->layers, points, eye->discs, eye->bias.sums, count, caustics, eye->rows,
+                             eye->capacity);
     return status;
 }
 
@@ -142,20 +145,41 @@ static void count_asked(const rt_gather_disc *discs, size_t count, uint64_t *ask
         *asked += discs[i].asked;
 }
 
-/* Asks all maps for the photons of a batch. A point counts as asked once, however many lists there are. */
-static rt_status ask(rt_photon_eye *eye, const rt_eye_maps *maps, size_t count, rt_film_stats *stats, rt_error *error)
+/* Asks one map at the points of a row, and for the layers a finer one as well. */
+static rt_status ask_map(rt_photon_eye *eye, rt_gatherer *map, const rt_finer *finer, cl_mem points, size_t first,
+                         size_t row, size_t count, rt_gather_disc *discs, rt_error *error)
 {
+    if (eye->layers)
+        return rt_photon_bias_add(&eye->bias, map, finer, points, first, row, count, discs, error);
+    return rt_gatherer_add(map, points, first, count, discs, error);
+}
+
+/* Of rt_photon_eye_sample. */
+typedef struct sampling {
+    const rt_eye_maps *maps;
+    const rt_finer_maps *finer;
+    rt_film_stats *stats;
+} sampling;
+
+/* Asks all maps for the photons of a batch. A point counts as asked once, however many lists there are. */
+static rt_status ask(rt_photon_eye *eye, const sampling *s, size_t count, rt_error *error)
+{
+    const rt_eye_maps *maps = s->maps;
+    const rt_finer_maps *finer = s->finer;
     rt_status status = RT_OK;
-    if (maps->global)
-        status = rt_gatherer_add(maps->global, eye->points, 0, count, eye->discs, error);
-    if (status == RT_OK && maps->caustic)
-        status = rt_gatherer_add(maps->caustic, eye->points, 0, count, eye->way_discs, error);
+    if (eye->layers)
+        status = rt_photon_bias_begin(&eye->bias, eye->points, eye->caustics, count, error);
     if (status == RT_OK && maps->global)
-        count_ends(eye->discs, maps->caustic ? eye->way_discs : NULL, count, stats);
+        status = ask_map(eye, maps->global, &finer->global, eye->points, 0, 0, count, eye->discs, error);
+    if (status == RT_OK && maps->caustic)
+        status = ask_map(eye, maps->caustic, &finer->caustic, eye->points, 0, 0, count, eye->way_discs, error);
+    if (status == RT_OK && maps->global)
+        count_ends(eye->discs, maps->caustic ? eye->way_discs : NULL, count, s->stats);
     for (rt_u32 row = 0; row < eye->rows && maps->on_the_way && status == RT_OK; row++) {
-        status = rt_gatherer_add(maps->on_the_way, eye->caustics, row * eye->capacity, count, eye->way_discs, error);
+        status = ask_map(eye, maps->on_the_way, &finer->on_the_way, eye->caustics, row * eye->capacity, 1 + row, count,
+                         eye->way_discs, error);
         if (status == RT_OK)
-            count_asked(eye->way_discs, count, &stats->gathers);
+            count_asked(eye->way_discs, count, &s->stats->gathers);
     }
     return status;
 }
@@ -207,17 +231,11 @@ static rt_status each_batch(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_
     return status;
 }
 
-/* Of rt_photon_eye_sample. */
-typedef struct sampling {
-    const rt_eye_maps *maps;
-    rt_film_stats *stats;
-} sampling;
-
 /* Asks the maps, and adds what comes of it to the film and its layers. */
 static rt_status add_batch(rt_photon_eye *eye, const rt_params *params, void *data, rt_error *error)
 {
-    sampling *s = data;
-    rt_status status = ask(eye, s->maps, params->item_count, s->stats, error);
+    const sampling *s = data;
+    rt_status status = ask(eye, s, params->item_count, error);
     if (status == RT_OK)
         status = add_to_layers(eye, s->maps, params->item_count, error);
     if (status == RT_OK)
@@ -227,10 +245,10 @@ static rt_status add_batch(rt_photon_eye *eye, const rt_params *params, void *da
     return status;
 }
 
-rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, rt_film_stats *stats,
-                               rt_stage_progress *progress, rt_error *error)
+rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, const rt_finer_maps *finer, uint32_t sample,
+                               rt_film_stats *stats, rt_stage_progress *progress, rt_error *error)
 {
-    sampling s = {maps, stats};
+    sampling s = {maps, finer, stats};
     return each_batch(eye, maps, sample, add_batch, &s, progress, error);
 }
 

@@ -7,6 +7,7 @@
 
 #include "photon/gather.h"
 #include "render/aov.h"
+#include "render/photon_bias.h"
 #include "render/photon_layers.h"
 #include "render/renderer.h"
 
@@ -33,6 +34,7 @@ typedef struct rt_photon_eye {
     rt_gather_disc *way_discs; /* [capacity], and at the caustic points, or in the caustic list */
     rt_photon_layer_sum *layers;  /* a pixel, or NULL when there are none */
     rt_gather_point *host_points; /* for them: [1 + rows][capacity] points and caustics */
+    rt_photon_bias bias;          /* likewise */
 } rt_photon_eye;
 
 /* What the eye asks: lists of photons made ready; each may be NULL. */
@@ -53,11 +55,11 @@ rt_status rt_photon_eye_create(rt_photon_eye *out, rt_renderer *renderer, const 
 void rt_photon_eye_release(rt_photon_eye *eye);
 
 /*
- * Gives each pixel the sample of this number. The gathers of *stats grow by the points that asked for photons.
- * Reports fractions of the part of the stage that progress is set to.
+ * Gives each pixel the sample of this number; `finer` is asked where there are layers. The gathers of *stats grow by the
+ * points that asked for photons. Reports fractions of the part of the stage that progress is set to.
  */
-rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, uint32_t sample, rt_film_stats *stats,
-                               rt_stage_progress *progress, rt_error *error);
+rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, const rt_finer_maps *finer, uint32_t sample,
+                               rt_film_stats *stats, rt_stage_progress *progress, rt_error *error);
 
 /*
  * The squared radius of each pixel, [height][width], m^2, that one sample finds by this gatherer at the end of its path

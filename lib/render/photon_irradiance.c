@@ -140,6 +140,7 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
     if (status != RT_OK || count == 0)
         return status;
     a.on_device = a.options.gather == RT_GATHER_DEVICE || a.options.k == RT_K_ALL || a.options.caustic_k == RT_K_ALL;
+    rt_photon_map_warn_even(map, a.options.area, a.options.hooks);
     status = prepare(&a, map, count, error);
     for (size_t done = 0, now; done < count && status == RT_OK; done += now) {
         now = count - done < a.capacity ? count - done : a.capacity;

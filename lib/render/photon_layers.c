@@ -23,15 +23,17 @@ static double mean3(const float rgb[3])
 }
 
 void rt_photon_layers_add(rt_photon_layer_sum *sums, const rt_gather_point *points, const rt_gather_disc *discs,
-                          size_t count, const rt_gather_point *caustics, size_t rows, size_t stride)
+                          const double *biases, size_t count, const rt_gather_point *caustics, size_t rows,
+                          size_t stride)
 {
     for (size_t i = 0; i < count; i++) {
         rt_photon_layer_sum *sum = sums + points[i].pixel;
         double value = mean3(points[i].radiance), area = pi * discs[i].squared_radius;
         for (size_t row = 0; row < rows; row++)
             value += mean3(caustics[row * stride + i].radiance);
-        if (isfinite(value)) {
+        if (isfinite(value) && isfinite(biases[i])) {
             sum->samples++;
+            sum->bias += biases[i];
             sum->value += value;
             sum->square += value * value;
         }
@@ -47,7 +49,7 @@ void rt_photon_layers_add(rt_photon_layer_sum *sums, const rt_gather_point *poin
 rt_status rt_photon_layers_resolve(rt_film *film, const rt_photon_layer_sum *sums, rt_error *error)
 {
     size_t pixels = (size_t)film->options.width * film->options.height;
-    rt_status status = rt_film_add_layers(film, RT_FILM_PHOTON_COUNT, RT_FILM_PHOTON_VARIANCE, error);
+    rt_status status = rt_film_add_layers(film, RT_FILM_PHOTON_COUNT, RT_FILM_PHOTON_BIAS, error);
     if (status != RT_OK)
         return status;
     for (size_t i = 0; i < pixels; i++) {
@@ -59,6 +61,7 @@ rt_status rt_photon_layers_resolve(rt_film *film, const rt_photon_layer_sum *sum
             film->layers[RT_FILM_PHOTON_DENSITY][i] = (float)(s->density / s->asked);
         }
         film->layers[RT_FILM_PHOTON_VARIANCE][i] = (float)(spread > 0 ? spread / n : 0);
+        film->layers[RT_FILM_PHOTON_BIAS][i] = (float)(n > 0 ? s->bias / n : 0);
     }
     return RT_OK;
 }

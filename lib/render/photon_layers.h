@@ -8,7 +8,7 @@
 /* Sums of a pixel. */
 typedef struct rt_photon_layer_sum {
     double asked, photons, radius, density; /* of the points that asked for photons */
-    double samples, value, square;          /* of all samples: mean of the three channels, and its square */
+    double samples, value, square, bias;    /* of all samples: mean of the three channels, its square and bias */
 } rt_photon_layer_sum;
 
 /* Sums for a film of so many pixels; the caller frees *out with free. */
@@ -16,10 +16,11 @@ rt_status rt_photon_layers_create(rt_photon_layer_sum **out, size_t pixels, rt_e
 
 /*
  * Adds a batch of points after they were gathered for, and what was found there; caustics [rows][stride] are points
- * whose radiance belongs to the same samples.
+ * whose radiance belongs to the same samples. biases [count] are theirs.
  */
 void rt_photon_layers_add(rt_photon_layer_sum *sums, const rt_gather_point *points, const rt_gather_disc *discs,
-                          size_t count, const rt_gather_point *caustics, size_t rows, size_t stride);
+                          const double *biases, size_t count, const rt_gather_point *caustics, size_t rows,
+                          size_t stride);
 
 /* Makes the film's layers from the sums. */
 rt_status rt_photon_layers_resolve(rt_film *film, const rt_photon_layer_sum *sums, rt_error *error);

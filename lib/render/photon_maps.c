@@ -53,7 +53,7 @@ static rt_status emit(emission *e, rt_error *error)
     const rt_render_options *o = &e->options;
     rt_stage_progress progress;
 
-    e->map->settings = (rt_photon_settings){0, o->max_depth, o->sampler, o->direct, o->caustic_photons > 0};
+    e->map->settings = rt_photon_settings_of(o);
     rt_status status = rt_scene_fingerprint(&e->map->settings.scene, e->renderer->device, e->renderer->scene, error);
     if (status == RT_OK)
         status = rt_emitter_create(&e->emitter, e->renderer->device, e->kernel, e->renderer->scene,
@@ -141,5 +141,6 @@ rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *rende
     if (map->settings.max_depth != options->max_depth)
         rt_warn(options->hooks, "the photon map holds paths of at most %u segments, and max_depth is %u",
                 map->settings.max_depth, options->max_depth);
+    rt_photon_map_warn_even(map, options->area, options->hooks);
     return check_shapes(map, renderer, error);
 }

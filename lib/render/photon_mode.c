@@ -50,7 +50,7 @@ static rt_status compile(rt_photon_render *r, rt_error *error)
 static rt_status prepare(rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->options;
-    r->map.settings = (rt_photon_settings){0, o->max_depth, o->sampler, o->direct, o->caustic_photons > 0};
+    r->map.settings = rt_photon_settings_of(o);
     r->how[RT_WAY_GLOBAL] = (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->on_device};
     r->how[RT_WAY_CAUSTIC] =
         (rt_gather_options){o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, o->area, r->on_device};
@@ -76,8 +76,11 @@ static rt_status create_gatherers(void *data)
     rt_photon_render *r = data;
     rt_status status = RT_OK;
     for (rt_photon_way way = 0; way < RT_PHOTON_WAYS && status == RT_OK; way++)
-        if (rt_photon_render_list(r, way))
+        if (rt_photon_render_list(r, way)) {
             status = rt_photon_render_open(r, way, r->how + way, &r->error);
+            if (status == RT_OK)
+                status = rt_photon_render_open_finer(r, way, r->how + way, &r->error);
+        }
     return status;
 }
 

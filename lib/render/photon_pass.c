@@ -86,11 +86,24 @@ rt_status rt_photon_render_open(rt_photon_render *r, rt_photon_way way, const rt
                               rt_photon_render_list(r, way), how, error);
 }
 
+rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_photon_way way, const rt_gather_options *how,
+                                      rt_error *error)
+{
+    rt_finer *finer = r->finer + way;
+    rt_gather_options narrow;
+    if (!r->options->photon_layers || !rt_photon_bias_finer(&narrow, &finer->factor, how))
+        return RT_OK;
+    return rt_gatherer_create(&finer->gatherer, r->renderer->device, r->eye_kernels.gather,
+                              rt_photon_render_list(r, way), &narrow, error);
+}
+
 void rt_photon_render_close(rt_photon_render *r)
 {
     for (rt_photon_way way = 0; way < RT_PHOTON_WAYS; way++) {
         rt_gatherer_destroy(r->gatherers[way]);
         r->gatherers[way] = NULL;
+        rt_gatherer_destroy(r->finer[way].gatherer);
+        r->finer[way].gatherer = NULL;
     }
 }
 
@@ -103,6 +116,7 @@ double rt_photon_render_elapsed(const rt_photon_render *r)
 rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_progress *progress, rt_error *error)
 {
     rt_eye_maps maps = {r->gatherers[RT_WAY_GLOBAL], r->gatherers[RT_WAY_CAUSTIC], r->gatherers[RT_WAY_ON_THE_WAY]};
+    rt_finer_maps finer = {r->finer[RT_WAY_GLOBAL], r->finer[RT_WAY_CAUSTIC], r->finer[RT_WAY_ON_THE_WAY]};
     double from = progress->from, span = progress->to - progress->from;
     uint32_t spp = r->options->spp;
     rt_status status = RT_OK;
@@ -113,7 +127,7 @@ rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_
             rt_stage_part(progress, by_time, by_time);
         else
             rt_stage_part(progress, by_samples, from + span * (i + 1) / spp);
-        status = rt_photon_eye_sample(&r->eye, &maps, first + i, &r->film->stats, progress, error);
+        status = rt_photon_eye_sample(&r->eye, &maps, &finer, first + i, &r->film->stats, progress, error);
         if (rt_photon_render_elapsed(r) >= 1)
             break;
     }

@@ -107,6 +107,14 @@ static rt_status choose_radii(rt_photon_render *r, rt_photon_way way, uint32_t s
     return status;
 }
 
+/* Gives the gatherers of a way the pixels' own radii; the finer one takes half the area. */
+static void limit_pixels(rt_photon_render *r, rt_photon_way way, float squared_factor)
+{
+    rt_gatherer_limit_pixels(r->gatherers[way], r->first_radii[way], squared_factor);
+    if (r->finer[way].gatherer)
+        rt_gatherer_limit_pixels(r->finer[way].gatherer, r->first_radii[way], 0.5f * squared_factor);
+}
+
 /*
  * Makes the gatherers of a pass, for all photons within its radius; photons are left out while no radius is known for
  * them, because nothing asks for them or there are none.
@@ -126,8 +134,10 @@ static rt_status aim_gatherers(rt_photon_render *r, uint32_t sample, double squa
         within.k = 0;
         within.max_radius = (float)(r->first_radius[way] * sqrt(squared_factor));
         status = rt_photon_render_open(r, way, &within, error);
+        if (status == RT_OK)
+            status = rt_photon_render_open_finer(r, way, &within, error);
         if (status == RT_OK && r->first_radii[way])
-            rt_gatherer_limit_pixels(r->gatherers[way], r->first_radii[way], (float)squared_factor);
+            limit_pixels(r, way, (float)squared_factor);
     }
     return status;
 }

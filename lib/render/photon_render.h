@@ -31,6 +31,7 @@ typedef struct rt_photon_render {
     double first_radius[RT_PHOTON_WAYS];   /* of the passes, the largest; 0 while unknown */
     cl_mem first_radii[RT_PHOTON_WAYS];    /* squared, of each pixel, float; NULL where one holds for all */
     rt_gatherer *gatherers[RT_PHOTON_WAYS];
+    rt_finer finer[RT_PHOTON_WAYS]; /* for the layer photon.bias */
     double began;   /* rt_clock() at the start of emission, for options->time */
     rt_error error; /* of the search tree's thread */
 } rt_photon_render;
@@ -46,6 +47,10 @@ const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_photon
 
 /* Makes a way's gatherer. */
 rt_status rt_photon_render_open(rt_photon_render *r, rt_photon_way way, const rt_gather_options *how, rt_error *error);
+
+/* Where layers are asked for, makes the finer gatherer beside that of a way. */
+rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_photon_way way, const rt_gather_options *how,
+                                      rt_error *error);
 
 /* Frees the gatherers of all ways. */
 void rt_photon_render_close(rt_photon_render *r);

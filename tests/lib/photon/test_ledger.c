@@ -60,7 +60,7 @@ static void closed_rooms_follow_the_geometric_series(void **state)
     rt_light_ledger l;
     (void)state;
     rt_renderer *renderer = test_renderer(box);
-    rt_photon_map *map = emit_map(renderer, &render);
+    rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
     assert_int_equal(l.paths, paths);
     assert_true(l.shape == RT_NONE && l.share == 1);
@@ -86,7 +86,7 @@ static void light_that_meets_nothing_escapes(void **state)
     rt_light_ledger l;
     (void)state;
     rt_renderer *renderer = test_renderer("light point { position 0 0 0  power 1 2 3 }\n");
-    rt_photon_map *map = emit_map(renderer, &render);
+    rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
     for (int c = 0; c < 3; c++) {
         assert_true(l.escaped[c] == l.emitted[c]);
@@ -106,7 +106,7 @@ static void what_a_solid_absorbs_is_booked(void **state)
     rt_renderer *renderer = test_renderer("material ink { kt 1  ior 1  absorption 0.5 1 2 }\n"
                                       "sphere { centre 0 0 0  radius 0.8  material ink }\n"
                                       "light point { position 0 0 0  power 1 }\n");
-    rt_photon_map *map = emit_map(renderer, &render);
+    rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
     expect_closed(&l, "ball of ink");
     for (int c = 0; c < 3; c++) {
@@ -146,7 +146,7 @@ static void expect_closed_scene(const char *path)
     rt_error error;
     expect_ok(rt_scene_load(&scene, path, NULL, &error), &error);
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
-    rt_photon_map *map = emit_map(renderer, &render);
+    rt_photon_map *map = emit(renderer, &render);
     size_t lights = rt_photon_map_ledger(map, NULL, 0);
     rt_light_ledger *rows = calloc(lights, sizeof *rows);
     assert_true(lights > 0 && rows);
@@ -180,7 +180,7 @@ static void stored_flux_agrees_with_what_is_absorbed(void **state)
     double stored[3] = {0};
     (void)state;
     rt_renderer *renderer = test_renderer(room);
-    rt_photon_map *map = emit_map(renderer, &render);
+    rt_photon_map *map = emit(renderer, &render);
     const rt_photon *photons = rt_photon_map_photons(map, RT_PHOTONS_GLOBAL);
     for (size_t i = 0; i < rt_photon_map_count(map, RT_PHOTONS_GLOBAL); i++)
         for (int c = 0; c < 3; c++)
@@ -198,7 +198,7 @@ static void lights_are_counted_apart(void **state)
     rt_light_ledger l[3];
     (void)state;
     rt_renderer *renderer = test_renderer(room);
-    rt_photon_map *map = emit_map(renderer, &render);
+    rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, l, 3), 2);
     assert_int_equal(l[0].shape, RT_NONE);
     assert_int_equal(l[1].shape, 7);
@@ -218,8 +218,8 @@ static void weak_lights_beside_strong_ones_are_booked(void **state)
     static const double powers[] = {1e-20, 1e-9, 1e-6, 1, 1e6};
     enum { lights = sizeof powers / sizeof *powers };
     const float shares[lights] = {1, 1, 1, 1, 1};
-    rt_render_options render = {.photons = 5000};
-    rt_emit_options options = {.render = &render, .light_shares = shares, .light_share_count = lights};
+    rt_render_options render = {.photons = 5000, .light_shares = shares, .light_share_count = lights};
+    rt_emit_options options = {.render = &render};
     rt_photon_map *map = NULL;
     rt_light_ledger l[lights];
     char text[2000] = "material wall { kd 0.2 0.5 0.8 }\nsphere { centre 0 0 0  radius 1  material wall }\n";

@@ -4,6 +4,8 @@
  */
 #include "support.h"
 
+#include <string.h>
+
 #include "lib/render/photon_room.h"
 
 static void films_are_the_same(const rt_render_options *how)

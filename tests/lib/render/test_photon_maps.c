@@ -257,8 +257,8 @@ static void many_starved_lights_are_told_in_one_line(void **state)
 
     /* A share of the paths is what they lack. */
     const float shares[] = {2, 1, 1, 1, 1, 1, 1, 2};
-    options.light_shares = shares;
-    options.light_share_count = 8;
+    render.light_shares = shares;
+    render.light_share_count = 8;
     warnings[0] = '\0';
     rt_photon_map_destroy(emit_map(renderer, &options));
     assert_string_equal(warnings, "");
