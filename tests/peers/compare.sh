@@ -5,14 +5,14 @@
 #
 # Run from the top directory after `make`. Needs `pip install mitsuba` for $PYTHON (default python3). Each scene is
 # written twice, as NAME.rts and in mitsuba_scenes.py. Pictures and signed differences stay in build/peers. SPP
-# (default 512) are the samples a pixel of both; the caustic gets four times as many. The status is 0 only when every
+# (default 1024) are the samples a pixel of both; the caustic gets four times as many. The status is 0 only when every
 # scene agrees: no 16x16 block has a mean off by more than 1 % (2 % for the caustic) and four standard errors. Where
 # RT_PROOF_ROWS names a file, the section on Mitsuba of the page of the proof is added to that file.
 set -eu
 
 rtc=${RTC:-build/rtc}
 python=${PYTHON:-python3}
-spp=${SPP:-512}
+spp=${SPP:-1024}
 out=build/peers
 here=tests/peers
 
