@@ -295,6 +295,7 @@ bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather $(B)/tests
 	$(B)/tests/bench/bench_gather
 	$(B)/tests/bench/bench_progressive scenes/cornell.rts 20
 	RTC=$(B)/rtc tests/bench/bench_render.sh
+	RTC=$(B)/rtc tests/bench/bench_error.sh
 
 # ---- Dependencies and demonstration -------------------------------------------
 
