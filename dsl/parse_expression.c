@@ -139,7 +139,8 @@ static int parse_call(rt_parser *parser, int *is_vector)
         return 0;
     if (function >= 0 && given != rt_functions[function].arguments) {
         rt_report_error(parser->reports, place, "'%s' takes %s, found %d", rt_functions[function].name,
-                        rt_functions[function].arguments == 1 ? "one value" : "two values, separated by a comma", given);
+                        rt_functions[function].arguments == 1 ? "one value" : "two values, separated by a comma",
+                        given);
         parser->value_broken = 1;
     }
     return add(parser, RT_OPERATION_CALL, place, 0, (size_t)(function < 0 ? 0 : function));

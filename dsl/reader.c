@@ -293,7 +293,8 @@ static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *stateme
     read_statements(reader, parser, statement, operations, &is_closed);
     reader->is_further_turn = was_further;
     if (!is_closed && !must_stop(reader))
-        rt_report_error(&reader->reports, variable, "this repeat is not closed: expected '}' before the end of the file");
+        rt_report_error(&reader->reports, variable,
+                        "this repeat is not closed: expected '}' before the end of the file");
     if (is_first && reader->reports.errors == 0)
         rt_scope_warn(&reader->scope, &before, &reader->reports);
     rt_scope_forget(&reader->scope, &before);
@@ -304,8 +305,8 @@ static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *stateme
 static void skip_empty(rt_reader *reader, rt_parser *parser, rt_place place, double first, double last)
 {
     if (reader->repeats == 0) {
-        rt_report_warning(&reader->reports, place, "this repeat makes no turns: it counts up from %.10g to %.10g", first,
-                          last);
+        rt_report_warning(&reader->reports, place, "this repeat makes no turns: it counts up from %.10g to %.10g",
+                          first, last);
         rt_report_hint(&reader->reports, "what its braces hold is not read");
     }
     rt_parser_skip_repeat(parser);

@@ -1,6 +1,6 @@
 /*
- * path.cl - path tracing: each work-item takes the samples of a few pixels, RT_PATH_BATCH at a time, those of a pixel in
- * order.
+ * path.cl - path tracing: each work-item takes the samples of a few pixels, RT_PATH_BATCH at a time, those of a pixel
+ * in order.
  */
 #include "camera.h"
 #include "entry.h"

@@ -450,8 +450,8 @@ typedef struct rt_density_params {
     rt_u32 points_an_item; /* device gather: gather points that a work-item takes, one after the other */
     float scale;         /* of the photons' flux: 1 / emitted paths */
     rt_u32 area;         /* rt_area; the device gather knows the disc only */
-    float own_limits;    /* device gather, k = 0: factor of the squared limit of the point's pixel, which takes the place
-                            of squared_limit; 0: that holds for all */
+    float own_limits; /* device gather, k = 0: factor of the squared limit of the point's pixel, which takes the place
+                         of squared_limit; 0: that holds for all */
     rt_u32 reserved[2];
 } rt_density_params;
 RT_SIZE(rt_density_params, 48);

@@ -302,7 +302,8 @@ typedef struct rt_surface {
 /*
  * Each call adds one shape and, if out is not NULL, writes its index, the one that rt_hit.shape
  * gives back. All fail with RT_ERROR_INPUT, error->field naming the parameter, when a value is not
- * finite, out of range, or the shape has no extent: a radius below 1e-15 m or an area below 1e-30 m^2. Every finite shape can emit; every closed one can be glass.
+ * finite, out of range, or the shape has no extent: a radius below 1e-15 m or an area below 1e-30 m^2. Every finite
+ * shape can emit; every closed one can be glass.
  */
 
 /* The infinite plane through `point`; normal need not be of unit length. u, v: metres along the plane. */
@@ -318,8 +319,8 @@ RT_API rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const fl
 RT_API rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3], const float edge1[3],
                                    const float edge2[3], const rt_surface *surface, rt_error *error);
 /*
- * A disc, with a hole when inner_radius > 0. u: angle in [0,1], clockwise seen from the side of the normal, v: from 0 at
- * the inner to 1 at the outer rim.
+ * A disc, with a hole when inner_radius > 0. u: angle in [0,1], clockwise seen from the side of the normal, v: from 0
+ * at the inner to 1 at the outer rim.
  */
 RT_API rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3], const float normal[3],
                                    float radius, float inner_radius, const rt_surface *surface, rt_error *error);
@@ -457,7 +458,8 @@ typedef enum rt_mode {
     RT_MODE_PHOTON,   /* photon mapping */
     RT_MODE_DIRECT,   /* emission and direct light at the first hit (mirrors and clear glass are followed) */
     RT_MODE_NORMALS,  /* shading normal n at the first hit as the colour (n + 1) / 2; black where nothing is hit */
-    RT_MODE_ALBEDO,   /* the part of the light that the first hit does not absorb: kd + ks + kt, ks of a metal by its reflectance */
+    RT_MODE_ALBEDO,   /* the part of the light that the first hit does not absorb: kd + ks + kt, ks of a metal by its
+                         reflectance */
     RT_MODE_DEPTH     /* distance along the view axis, metres, mean of the samples that hit; 0 where none does */
 } rt_mode;
 
@@ -509,10 +511,10 @@ typedef struct rt_render_options {
     rt_gather gather;
     uint32_t passes;        /* progressive photon mapping in so many passes, each with fresh photons and eye paths (spp
                                samples, 0 means 1), that gather all photons within a radius shrinking from pass to
-                               pass: r_{i+1}^2 = r_i^2 (i + alpha)/(i + 1) (Knaus and Zwicker 2011). The film is the mean
-                               of the passes. r_1 is `radius`, or if that is 0 each pixel's own: the distance of its
-                               k-th photon in the first pass, the median of 3 x 3 pixels and at most the mean of all;
-                               behind the final gather that mean. 0 and 1: no passes */
+                               pass: r_{i+1}^2 = r_i^2 (i + alpha)/(i + 1) (Knaus and Zwicker 2011). The film is the
+                               mean of the passes. r_1 is `radius`, or if that is 0 each pixel's own: the distance of
+                               its k-th photon in the first pass, the median of 3 x 3 pixels and at most the mean of
+                               all; behind the final gather that mean. 0 and 1: no passes */
     float alpha;            /* between 0 and 1, the larger the slower the radius shrinks; 0 means 2/3 */
     int photon_layers;      /* 1: also the layers photon.count and the like, see rt_film_layer; gathers twice */
     rt_density kernel;      /* density kernel, see common.h */
@@ -560,10 +562,10 @@ typedef struct rt_finding {
 
 /*
  * Tells a callback what makes the picture of a complete scene, with its own options, black or empty, and of glass
- * without an inside; returns how many warnings there were. There are no false alarms: solids are spheres, ellipsoids, tori, cylinders and cones with
- * caps, and closed meshes; what is inside of them is decided in double precision, and a light only counts as shut in
- * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights the first 256 are
- * looked at.
+ * without an inside; returns how many warnings there were. There are no false alarms: solids are spheres, ellipsoids,
+ * tori, cylinders and cones with caps, and closed meshes; what is inside of them is decided in double precision, and a
+ * light only counts as shut in when all of it is. Light that a room of several shapes shuts out is not found, and of
+ * many lights the first 256 are looked at.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding), void *user);
 
@@ -704,7 +706,7 @@ typedef struct rt_light_ledger {
     double roulette[3]; /* what Russian roulette took, less what it gave to the paths that went on: mean zero */
 } rt_light_ledger;
 
-/* Writes the first `capacity` rows of the ledger of the paths that filled the global list; returns how many there are. */
+/* Writes the first `capacity` rows of the ledger of the paths that filled the global list; returns how many it has. */
 RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *out, size_t capacity);
 
 /*

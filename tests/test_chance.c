@@ -131,7 +131,8 @@ static void chances_of_means_are_chances(void **state)
         for (int l = 0; l < 3; l++) {
             const double expected = trials * levels[l];
             print_message("kind %d: %d means have a chance below %g\n", kind, below[l], levels[l]);
-            assert_true(below[l] < 1.5 * expected + 5 * sqrt(expected) && below[l] > 0.5 * expected - 5 * sqrt(expected));
+            assert_true(below[l] < 1.5 * expected + 5 * sqrt(expected) &&
+                        below[l] > 0.5 * expected - 5 * sqrt(expected));
         }
     }
 }

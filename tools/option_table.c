@@ -65,8 +65,7 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_ROULETTE_DEPTH] = {"roulette-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 4096, NULL, 1, "2",
                                "segments from the eye after which Russian roulette may end a path; from --max-depth "
                                "on it ends none"},
-    [OPTION_ROULETTE_THRESHOLD] = {"roulette-threshold", "T", KIND_REAL, GROUP_RENDER, RENDER, 1e-6, 1, NULL, 1,
-                                   "0.5",
+    [OPTION_ROULETTE_THRESHOLD] = {"roulette-threshold", "T", KIND_REAL, GROUP_RENDER, RENDER, 1e-6, 1, NULL, 1, "0.5",
                                    "share of light left to a path below which it may, with the chance share / T to go "
                                    "on; 1 ends the most: more samples a second, each noisier"},
     [OPTION_TIME] = {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
@@ -88,8 +87,7 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, accels, 1, "bvh",
                       "a bounding volume hierarchy, or none: every primitive is tested"},
     [OPTION_WIDTH] = {"width", "W", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 65536, NULL, 1, "512", "width in pixels"},
-    [OPTION_HEIGHT] = {"height", "H", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 65536, NULL, 1, "512",
-                       "height in pixels"},
+    [OPTION_HEIGHT] = {"height", "H", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 65536, NULL, 1, "512", "height in pixels"},
 
     [OPTION_PHOTONS] = {"photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER | PHOTONS, 1, 4e9, NULL, 1, "1e6",
                         "photon paths emitted; with --passes in each pass, as many as pixels if not given"},
@@ -115,10 +113,11 @@ const option option_table[OPTION_COUNT] = {
                        "that loses 47 % of the light"},
     [OPTION_CONE_K] = {"cone-k", "C", KIND_REAL, GROUP_PHOTON, RENDER, 1, 1e6, NULL, 1, "1.1",
                        "constant of the cone kernel, at least 1"},
-    [OPTION_AREA] = {"area", "WHAT", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, areas, 1, "disc",
-                     "area that photons are spread over: the disc around them, or their convex hull, which is true at the "
-                     "edges of surfaces too, leaves the density kernel out, and has the photons drawn by --sampler "
-                     "independent"},
+    [OPTION_AREA] =
+        {"area", "WHAT", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, areas, 1, "disc",
+         "area that photons are spread over: the disc around them, or their convex hull, which is true at the "
+         "edges of surfaces too, leaves the density kernel out, and has the photons drawn by --sampler "
+         "independent"},
     [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, directs, 1, "nee",
                        "direct light by shadow rays (nee) or from the photon map"},
     [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, 4096, NULL, 1, "0",
@@ -145,9 +144,10 @@ const option option_table[OPTION_COUNT] = {
                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB); may be repeated"},
     [OPTION_AOV] = {"aov", NULL, KIND_SWITCH, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
                     "add the layers albedo, normal and depth to .exr; --no-aov: do not, whatever the scene says"},
-    [OPTION_VARIANCE] = {"variance", NULL, KIND_SWITCH, GROUP_OUTPUT, RENDER, 0, 0, NULL, 1, NULL,
-                         "estimate the error, and add the layer variance to .exr; --target-error does so too; --no-variance: do "
-                         "not"},
+    [OPTION_VARIANCE] =
+        {"variance", NULL, KIND_SWITCH, GROUP_OUTPUT, RENDER, 0, 0, NULL, 1, NULL,
+         "estimate the error, and add the layer variance to .exr; --target-error does so too; --no-variance: do "
+         "not"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER, -126, 126, NULL, 1, "0",
                          "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER, 0, 0, tonemaps, 1, "none",
@@ -194,10 +194,10 @@ const option option_table[OPTION_COUNT] = {
 
     [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 0, 0, NULL, 0, "0",
                        "a number of `rtc devices`, or part of a device's or platform's name"},
-    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1, UINT32_MAX, NULL, 0, "all",
-                        "host threads, and compute units used of a CPU device"},
-    [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1, UINT32_MAX, NULL, 0,
-                           "chosen for the device", "work-items a work-group"},
+    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1, UINT32_MAX, NULL, 0,
+                        "all", "host threads, and compute units used of a CPU device"},
+    [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1, UINT32_MAX, NULL,
+                           0, "chosen for the device", "work-items a work-group"},
 
     [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS, 0, 0, progress_styles, 0, "auto",
                          "progress on stderr; auto is one redrawn line on a terminal and plain lines elsewhere; with "

@@ -21,7 +21,8 @@ typedef struct output_list {
 int outputs_plan(output_list *out, const command_line *arguments, const char *scene);
 void outputs_free(output_list *outputs);
 
-/* Whether a file can be written, without writing it. Returns an exit status, with a message when it is not STATUS_DONE. */
+/* Whether a file can be written, without writing it. Returns an exit status, with a message when it is not STATUS_DONE.
+ */
 int outputs_check_writable(const char *path);
 
 /* Whether any of them has 8 bits a channel, so that exposure and tone curve matter. */

@@ -38,8 +38,9 @@ static void print_ranges(const rt_photon_map *map, rt_photon_kind kind)
     size_t count;
     const rt_path_range *ranges = rt_photon_map_ranges(map, kind, &count);
     for (size_t i = 0; i < count && i < RANGES_MAX; i++)
-        printf("%s range: paths %" PRIu64 " to %" PRIu64 " of seed %" PRIu32 ", %" PRIu64 " photons\n", kind_names[kind],
-               ranges[i].first, ranges[i].first + ranges[i].count - 1, ranges[i].seed, ranges[i].photons);
+        printf("%s range: paths %" PRIu64 " to %" PRIu64 " of seed %" PRIu32 ", %" PRIu64 " photons\n",
+               kind_names[kind], ranges[i].first, ranges[i].first + ranges[i].count - 1, ranges[i].seed,
+               ranges[i].photons);
     if (count > RANGES_MAX)
         printf("%s ranges: %zu more\n", kind_names[kind], count - RANGES_MAX);
 }

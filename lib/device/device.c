@@ -11,7 +11,7 @@
 
 enum { platforms_max = 16, devices_max = 64, default_work_group_cpu = 16, default_work_group_gpu = 64 };
 
-/* A core of a CPU keeps several paths of one work-item under way at once; a GPU wants as many work-items as there are. */
+/* A core of a CPU keeps several paths of one work-item under way at once; a GPU wants all the work-items it can get. */
 enum { path_pixels_cpu = 64, path_pixels_gpu = 1 };
 
 typedef struct device_list {

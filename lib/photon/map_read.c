@@ -98,8 +98,9 @@ static rt_status check_frame(const uint8_t *data, size_t size, const char *name,
     if (status != RT_OK)
         return status;
     if (told != size)
-        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map has %zu bytes instead of the %llu it was written with",
-                       name, size, (unsigned long long)told);
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "%.350s: the photon map has %zu bytes instead of the %llu it was written with", name, size,
+                       (unsigned long long)told);
     if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short", name);
     reader r = {data + size - RT_MAP_CHECKSUM, name, error};

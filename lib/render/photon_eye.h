@@ -55,8 +55,8 @@ rt_status rt_photon_eye_create(rt_photon_eye *out, rt_renderer *renderer, const 
 void rt_photon_eye_release(rt_photon_eye *eye);
 
 /*
- * Gives each pixel the sample of this number; `finer` is asked where there are layers. The gathers of *stats grow by the
- * points that asked for photons. Reports fractions of the part of the stage that progress is set to.
+ * Gives each pixel the sample of this number; `finer` is asked where there are layers. The gathers of *stats grow by
+ * the points that asked for photons. Reports fractions of the part of the stage that progress is set to.
  */
 rt_status rt_photon_eye_sample(rt_photon_eye *eye, const rt_eye_maps *maps, const rt_finer_maps *finer, uint32_t sample,
                                rt_film_stats *stats, rt_stage_progress *progress, rt_error *error);

@@ -10,9 +10,9 @@
 
 /*
  * Where roulette may end a path. Measured variance times time of thresholds 1, 1/2, 1/4 and 1/8, from the second
- * segment on: 1, 0.60, 0.53, 0.56 in a closed room under a point light, 1, 0.76, 0.76, 0.81 under an area lamp, 1, 0.72,
- * 0.78, 0.85 with a mirror and a glass ball, 1, 0.79, 0.83, 0.93 among shapes under a sky. Of the good ones 1/2 gives
- * the most samples a second.
+ * segment on: 1, 0.60, 0.53, 0.56 in a closed room under a point light, 1, 0.76, 0.76, 0.81 under an area lamp, 1,
+ * 0.72, 0.78, 0.85 with a mirror and a glass ball, 1, 0.79, 0.83, 0.93 among shapes under a sky. Of the good ones 1/2
+ * gives the most samples a second.
  */
 enum { roulette_depth_default = 2 };
 static const float roulette_threshold_default = 0.5f;

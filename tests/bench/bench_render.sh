@@ -3,8 +3,8 @@
 # it, in turn, the median of RUNS (default 5); and how long rtc takes to its first sample, with the driver's
 # kernel cache empty and filled. Run from the top directory after `make`.
 #
-# A sample is worth more or less by where Russian roulette may end it: Mitsuba's begins at the fifth segment, ours at the
-# second, below a threshold of the light that is left (by default one half; 1 is what gives the most samples a second).
+# A sample is worth more or less by where Russian roulette may end it: Mitsuba's begins at the fifth segment, ours at
+# the second, below a threshold of the light that is left (by default one half; 1 gives the most samples a second).
 # What counts is the time to equal error: bench_error.sh.
 set -eu
 
@@ -14,7 +14,9 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/librt-bench.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
 
-median() { sort -n "$1" | awk '{ v[NR] = $1 } END { print NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2 }'; }
+median() {
+    sort -n "$1" | awk '{ v[NR] = $1 } END { print NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2 }'
+}
 
 # Million camera samples a second of one render of ours, with these options.
 ours() {

@@ -101,8 +101,8 @@ kernel void evaluate(uint count, global const rt_scene_header *header, global co
  * Two rows an item, for situations[i]: mean and mean square of the part of the light that a sample keeps, with the
  * largest part of all samples.
  */
-kernel void albedo(uint seed, uint count, global const rt_scene_header *header, global const struct situation *situations,
-                   uint samples, global float4 *out)
+kernel void albedo(uint seed, uint count, global const rt_scene_header *header,
+                   global const struct situation *situations, uint samples, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

@@ -20,7 +20,7 @@
     "camera { eye 0 0 0.9  look_at 0 0 0  fov 80 }\n"                                                                  \
     "film { width 16  height 16 }\n"                                                                                   \
     "material wall { kd 0.6 }\n"                                                                                       \
-    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                                                 \
+    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                                           \
     "sphere { centre 0 0 0  radius 1  material wall }\n"                                                               \
     "sphere { centre 0 -0.3 0  radius 0.3  material glass }\n"                                                         \
     "quad { corner -0.2 0.7 -0.2  edge1 0.4 0 0  edge2 0 0 0.4  material wall  power 5 }\n"
@@ -61,7 +61,8 @@ static void info_says_what_a_map_holds(void **state)
     expect_status(&made, 0);
     expect_status(&info, 0);
     assert_string_equal(made.out, info.out);
-    assert_true(stats_number(&info, "global photon paths") == 3000 && stats_number(&info, "caustic photon paths") == 1000);
+    assert_true(stats_number(&info, "global photon paths") == 3000 &&
+                stats_number(&info, "caustic photon paths") == 1000);
     assert_true(stats_number(&info, "global photons") > 1000 && stats_number(&info, "caustic photons") > 50);
     expect_out(&info, "direct light: left to shadow rays");
     expect_out(&info, "global range: paths 0 to 2999 of seed 9, ");

@@ -49,21 +49,32 @@ static const caustic_scene scenes[] = {
     {"point", ROOM BALLS "light point { position 0.1 0.8 -0.2  power 3 4 5 }\n", 0.5},
     {"point and other shapes", ROOM SHAPES "light point { position 0.1 0.8 -0.2  power 3 4 5 }\n", 0.2},
     {"point in glass", ROOM BALLS "light point { position 0.3 -0.4 0.1  power 3 4 5 }\n", 0.3},
-    {"spot", ROOM BALLS "light spot { position 0.8 0.9 -0.6  target 0 -0.5 0  intensity 9  outer 35  inner 20 }\n", 0.5},
-    {"spot on one of them", ROOM BALLS "light spot { position 1 0.9 -0.9  target 0.3 -0.5 0  intensity 9  outer 8  inner 5 }\n", 0.8},
-    {"square", ROOM BALLS "quad { corner -0.2 0.9 -0.2  edge1 0.4 0 0  edge2 0 0 0.4  material white  power 3 4 5 }\n", 0.3},
-    {"square, both sides", ROOM BALLS "material sheet { emission 3 4 5  two_sided true }\n"
-                           "quad { corner 0.6 -0.9 -0.6  edge1 0.1 1 0  edge2 0 0 0.5  material sheet }\n", 0.3},
+    {"spot", ROOM BALLS "light spot { position 0.8 0.9 -0.6  target 0 -0.5 0  intensity 9  outer 35  inner 20 }\n",
+     0.5},
+    {"spot on one of them",
+     ROOM BALLS "light spot { position 1 0.9 -0.9  target 0.3 -0.5 0  intensity 9  outer 8  inner 5 }\n", 0.8},
+    {"square", ROOM BALLS "quad { corner -0.2 0.9 -0.2  edge1 0.4 0 0  edge2 0 0 0.4  material white  power 3 4 5 }\n",
+     0.3},
+    {"square, both sides",
+     ROOM BALLS "material sheet { emission 3 4 5  two_sided true }\n"
+                "quad { corner 0.6 -0.9 -0.6  edge1 0.1 1 0  edge2 0 0 0.5  material sheet }\n",
+     0.3},
     {"sphere", ROOM BALLS "sphere { centre 0.4 0.6 -0.4  radius 0.2  material white  power 3 4 5 }\n", 0.2},
     {"directional", ROOM BALLS "light directional { direction -0.4 -1 0.5  irradiance 2 3 4 }\n", 0.3},
     {"environment", ROOM BALLS "light environment { radiance 1 2 3 }\n", 0.1},
-    {"two lights", ROOM BALLS "light directional { direction -0.4 -1 0.5  irradiance 1 }\n"
-                   "light point { position 0.1 0.8 -0.2  power 3 }\n", 0.3},
-    {"mirror without end", ROOM BALLS "plane { point 0 0 1.5  normal 0 0 -1  material mirror }\n"
-                           "light spot { position 0.8 0.9 -0.6  target 0 -0.5 0  intensity 9  outer 35  inner 20 }\n", 0.1},
-    {"many", ROOM "repeat i from 0 to 99 { sphere { centre (random(i) - 0.5) (random(i + 100) - 0.9) (random(i + 200) - 0.5)"
-             "  radius 0.05  material glass } }\n"
-             "light point { position 0.1 0.9 -0.2  power 3 4 5 }\n", 0.1},
+    {"two lights",
+     ROOM BALLS "light directional { direction -0.4 -1 0.5  irradiance 1 }\n"
+                "light point { position 0.1 0.8 -0.2  power 3 }\n",
+     0.3},
+    {"mirror without end",
+     ROOM BALLS "plane { point 0 0 1.5  normal 0 0 -1  material mirror }\n"
+                "light spot { position 0.8 0.9 -0.6  target 0 -0.5 0  intensity 9  outer 35  inner 20 }\n",
+     0.1},
+    {"many",
+     ROOM "repeat i from 0 to 99 { sphere { centre (random(i) - 0.5) (random(i + 100) - 0.9) (random(i + 200) - 0.5)"
+          "  radius 0.05  material glass } }\n"
+          "light point { position 0.1 0.9 -0.2  power 3 4 5 }\n",
+     0.1},
 };
 
 /* The flux of each cell, and the square of a path's. */
@@ -76,7 +87,10 @@ typedef struct flux_grid {
 
 static rt_photon_map *emit(rt_renderer *renderer, uint64_t photons, uint64_t caustic_photons, uint32_t seed)
 {
-    rt_render_options render = {.photons = photons, .caustic_photons = caustic_photons, .max_depth = 8, .seed = test_seed(seed),
+    rt_render_options render = {.photons = photons,
+                                .caustic_photons = caustic_photons,
+                                .max_depth = 8,
+                                .seed = test_seed(seed),
                                 .sampler = RT_SAMPLER_INDEPENDENT};
     rt_emit_options options = {.render = &render};
     rt_photon_map *map = NULL;
@@ -141,9 +155,10 @@ static void aimed_paths_make_the_same_caustics(void **state)
         }
     double off = chi_square_deviate(chi2, freedom);
     double z = (aimed.total - all.total) / sqrt(all.total_squares + aimed.total_squares);
-    print_message("%s: %.0f cells, %.2f deviations off; total %.4g W and %.4g W, %.2f; %.3f photons a path, %.3f aimed\n",
-                  scene->name, freedom, off, all.total, aimed.total, z, (double)all.photons / all_paths,
-                  (double)aimed.photons / aimed_paths);
+    print_message(
+        "%s: %.0f cells, %.2f deviations off; total %.4g W and %.4g W, %.2f; %.3f photons a path, %.3f aimed\n",
+        scene->name, freedom, off, all.total, aimed.total, z, (double)all.photons / all_paths,
+        (double)aimed.photons / aimed_paths);
     assert_true(freedom >= 5);
     expect_deviate(off, "cells");
     expect_deviate(z, "total flux");

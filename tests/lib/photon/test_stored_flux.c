@@ -72,7 +72,8 @@ static void flux_by_paths(double flux[3], const char *text, int wall, uint32_t s
 /* The same of all walls, by photons. */
 static void flux_by_photons(double flux[walls][3], const char *text, uint32_t seed)
 {
-    rt_render_options render = {.photons = 2000000, .max_depth = 12, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(seed)};
+    rt_render_options render = {
+        .photons = 2000000, .max_depth = 12, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(seed)};
     rt_emit_options options = {.render = &render};
     rt_renderer *renderer = open_at(text, 0);
     rt_photon_map *map = NULL;

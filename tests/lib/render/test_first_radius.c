@@ -55,7 +55,8 @@ static void each_pixel_begins_with_its_own(void **state)
     rt_film_destroy(film);
 }
 
-/* All light comes through a pane that does not bend it; from the lone floor no path of the final gather meets anything. */
+/* All light comes through a pane that does not bend it; from the lone floor no path of the final gather meets anything.
+ */
 static void caustics_are_seen_where_the_final_gather_sees_nothing(void **state)
 {
     static const char pane[] = "camera { projection orthographic  eye 0 0.5 0  look_at 0 0 0  up 0 0 1  width 1 }\n"

@@ -35,8 +35,10 @@ typedef struct view {
 } view;
 
 static const view views[] = {
-    {"Fresnel glass, from outside", "material glass { kt 1  ior 1.5  fresnel dielectric }\n" IN_GLASS, 0.3, 1.5, 3, 4, 1},
-    {"Fresnel glass, from inside", "material glass { kt 1  ior 1.5  fresnel dielectric }\n" IN_GLASS, 0.3, 1.5, 0.5, 30, 1.5},
+    {"Fresnel glass, from outside", "material glass { kt 1  ior 1.5  fresnel dielectric }\n" IN_GLASS, 0.3, 1.5, 3, 4,
+     1},
+    {"Fresnel glass, from inside", "material glass { kt 1  ior 1.5  fresnel dielectric }\n" IN_GLASS, 0.3, 1.5, 0.5, 30,
+     1.5},
     {"plain glass, from outside", "material glass { kt 1  ior 1.5 }\n" IN_GLASS, 0.3, 1.5, 3, 4, 1},
     {"plain glass, from inside", "material glass { kt 1  ior 1.5 }\n" IN_GLASS, 0.3, 1.5, 0.5, 30, 1.5},
     {"water behind glass, from outside", BEHIND_GLASS_IN_WATER, 0.2, 1.33, 3, 3, 1},
@@ -105,7 +107,8 @@ static void radiance_is_the_index_squared(void **state)
     }
 }
 
-/* All flux that comes to the ball, from the map by itself, to five standard deviations: over 14 seeds, 0.2 % at most. */
+/* All flux that comes to the ball, from the map by itself, to five standard deviations: over 14 seeds, 0.2 % at most.
+ */
 static void flux_in_glass_is_that_of_the_index_squared(void **state)
 {
     (void)state;
