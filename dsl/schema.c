@@ -1,5 +1,6 @@
 #include "dsl/schema.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -114,7 +115,7 @@ int rt_range_holds(rt_range range, double value)
     case RT_RANGE_ABOVE:
         return value > range.low && value <= range.high;
     case RT_RANGE_CLOSED:
-        return value >= range.low && value <= range.high;
+        return value >= fmin(range.low, (float)range.low) && value <= range.high; /* it may be rounded to float */
     case RT_RANGE_BETWEEN:
         return value > range.low && value < range.high;
     case RT_RANGE_NOT_ZERO:

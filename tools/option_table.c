@@ -100,8 +100,8 @@ const option option_table[OPTION_COUNT] = {
                        "nearest, and device for all within a radius"},
     [OPTION_PASSES] = {"passes", "P", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, 16777216, NULL, 1, "1",
                        "progressive photon mapping: P passes of fresh photons and eye paths, gathered within a radius "
-                       "that shrinks from pass to pass; without --radius it begins with the mean distance of the K-th "
-                       "photon"},
+                       "that shrinks from pass to pass; without --radius it begins, for each pixel, with the distance of "
+                       "its K-th photon"},
     [OPTION_ALPHA] = {"alpha", "A", KIND_BETWEEN, GROUP_PHOTON, RENDER, 0, 1, NULL, 1, "2/3",
                       "how slowly the radius of --passes shrinks, between 0 and 1"},
     [OPTION_PHOTON_LAYERS] = {"photon-layers", NULL, KIND_SWITCH, GROUP_PHOTON, RENDER, 0, 0, NULL, 0, NULL,

@@ -230,6 +230,10 @@ int arguments_parse(command_line *out, int argc, char **argv)
     }
     if (argc > at)
         out->command = find_command(argv[at]);
+    if (at == 2 && argc > at && out->command == COMMAND_RENDER && strcmp(argv[at], "render") != 0) {
+        message_error("there is no command '%s' to help with; see `rtc --help`", argv[at]);
+        return STATUS_USAGE;
+    }
     if (out->command != COMMAND_RENDER)
         at++;
     /* Say all that is wrong, not only the first. */

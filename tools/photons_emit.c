@@ -95,7 +95,7 @@ static int emit(emit_job *job)
     if (result == RT_OK)
         result = rt_photon_map_emit(&job->map, job->renderer, &job->options, &error);
     progress_clear(&job->session.progress);
-    if (result == RT_CANCELLED) {
+    if (session_was_interrupted(result)) {
         message_note("interrupted; nothing was written");
         return STATUS_INTERRUPTED;
     }

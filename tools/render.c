@@ -108,7 +108,7 @@ static int make_film(render_job *job)
     if (result == RT_OK)
         result = rt_render(&job->film, job->renderer, &job->options, &error);
     progress_clear(&job->session.progress);
-    if (result == RT_CANCELLED)
+    if (session_was_interrupted(result))
         return STATUS_INTERRUPTED;
     return result == RT_OK ? STATUS_DONE : session_fail(&error);
 }

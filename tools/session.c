@@ -195,6 +195,11 @@ int session_fail(const rt_error *error)
     return STATUS_USAGE;
 }
 
+int session_was_interrupted(rt_status result)
+{
+    return result == RT_CANCELLED || (result == RT_ERROR_DEVICE && interrupt_pending());
+}
+
 int session_open_device(const session *s, rt_device **out)
 {
     rt_device_options options = {0};

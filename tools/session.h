@@ -35,6 +35,12 @@ int session_fail(const rt_error *error);
 int session_check_options(const session *session, const rt_render_options *own, const rt_render_options *options);
 
 /*
+ * Whether a call of the library ended by Ctrl-C: also when it says that a kernel does not build, because the compiler
+ * removes its files at the signal.
+ */
+int session_was_interrupted(rt_status result);
+
+/*
  * Opens the device that the command line names; from then on the first Ctrl-C stops the work by its hooks. Returns an
  * exit status; the caller owns *out.
  */

@@ -135,6 +135,8 @@ static void put_photons(const rt_film_stats *stats)
     put_count("photons_stored", stats->photons_stored);
     put_count("photons_rejected", stats->photons_rejected);
     put_count("gathers", stats->gathers);
+    put_count("gathers_at_ends", stats->gathers_at_ends);
+    put_count("gathers_empty", stats->gathers_empty);
     put_count("passes", stats->passes);
     json_member("emit_seconds", stats->emit_seconds);
     json_member("gather_seconds", stats->gather_seconds);

@@ -84,7 +84,8 @@ rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t si
     uint32_t version = get32(&r), header = get32(&r);
     if (version != RT_MAP_VERSION || header != RT_MAP_HEADER)
         return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: a photon map of version %u with a header of %u bytes; known is version %d with %d",
+                       "%.350s: a photon map of version %u with a header of %u bytes; known is version %d with %d: emit "
+                       "it anew",
                        name, version, header, RT_MAP_VERSION, RT_MAP_HEADER);
     *out = get64(&r);
     return RT_OK;

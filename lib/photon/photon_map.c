@@ -135,7 +135,7 @@ static void warn_lights(const rt_ledger *ledger, const rt_hooks *hooks)
     if (starved > 0)
         rt_warn(hooks,
                 "fewer than %d of %llu photon paths came from %s, whose light is noisy, or missing where there are "
-                "none: %s%s; more photons help, or a larger share of the paths (light_shares)",
+                "none: %s%s; more photons help, or a larger share of the paths for them",
                 PATHS_ENOUGH, (unsigned long long)ledger->paths,
                 starved == 1 ? "a light with power" : "each of some lights with power", names, more);
 }

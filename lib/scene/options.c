@@ -5,7 +5,8 @@
 #include "scene/check.h"
 #include "scene/scene.h"
 
-enum { film_side_max = 65536, film_pixels_max = 1 << 28, depth_max = 4096, k_max = 1 << 16, passes_max = 1 << 24 };
+enum { film_side_max = 65536, film_pixels_max = 1 << 28, depth_max = 4096, k_max = 1 << 16, k_hull_min = 5,
+       passes_max = 1 << 24 };
 static const double photons_max = 4e9;
 static const float cone_k_max = 1e6f;
 
@@ -70,6 +71,11 @@ static rt_status check_photons(const rt_render_options *o, rt_error *error)
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_radius",
                              "caustic_radius is %g m; it must lie between %g and %g, or be 0 for no limit",
                              o->caustic_radius, RT_LENGTH_MIN, RT_COORDINATE_MAX);
+    if (o->area == RT_AREA_HULL && ((o->k > 0 && o->k < k_hull_min) || (o->caustic_k > 0 && o->caustic_k < k_hull_min)))
+        return rt_fail_field(error, RT_ERROR_USAGE, o->k > 0 && o->k < k_hull_min ? "k" : "caustic_k",
+                             "with area hull at least %d photons must be looked at; four make the smallest hull with one "
+                             "inside",
+                             k_hull_min);
     if (o->final_gather > depth_max)
         return rt_fail_field(error, RT_ERROR_USAGE, "final_gather", "final_gather is %u; it must not exceed %d",
                              o->final_gather, depth_max);

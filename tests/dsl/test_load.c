@@ -27,7 +27,7 @@ static void every_field_reaches_the_scene(void **state)
         "camera { eye 0 1 -4  look_at 0 1 0  up 0 1 1  fov 40  aperture 0.02  focal_distance 3 }\n"
         "film { width 640  height 480 }\n"
         "render { mode photon spp 7 max_depth 9 seed 4294967295 sampler independent time 2.5 photons 4000000000\n"
-        "  roulette_depth 5 roulette_threshold 0.125 k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons "
+        "  roulette_depth 5 roulette_threshold 1e-6 k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons "
         "final_gather 2\n"
         "  caustic_photons 3000000000 caustic_k 40 caustic_radius 0.125 caustic_kernel cone }\n"
         "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel dielectric  two_sided "
@@ -55,7 +55,7 @@ static void every_field_reaches_the_scene(void **state)
     rt_render_options o;
     rt_scene_get_options(c.scene, &o);
     assert_true(o.width == 640 && o.height == 480 && o.mode == RT_MODE_PHOTON && o.spp == 7 && o.max_depth == 9);
-    assert_true(o.roulette_depth == 5 && o.roulette_threshold == 0.125f);
+    assert_true(o.roulette_depth == 5 && o.roulette_threshold == 1e-6f);
     assert_true(o.seed == 4294967295u && o.sampler == RT_SAMPLER_INDEPENDENT && o.time == 2.5);
     assert_true(o.photons == 4000000000u && o.k == 60 && o.radius == 0.25f && o.cone_k == 1.5f);
     assert_true(o.kernel == RT_DENSITY_GAUSSIAN_JENSEN && o.direct == RT_DIRECT_PHOTONS && o.final_gather == 2);

@@ -372,6 +372,10 @@ static void options_out_of_range_are_refused(void **state)
         const char *field;
     } cases[] = {
         {{.k = 1}, "k"},
+        {{.k = 4, .area = RT_AREA_HULL}, "k"},
+        {{.caustic_k = 3, .area = RT_AREA_HULL}, "caustic_k"},
+        {{.roulette_threshold = 1.5f}, "roulette_threshold"},
+        {{.roulette_threshold = 1e-7f}, "roulette_threshold"},
         {{.cone_k = 0.5f}, "cone_k"},
         {{.cone_k = 1e7f}, "cone_k"},
         {{.radius = -1}, "radius"},
