@@ -2,8 +2,8 @@
  * test_progressive.c - progressive passes come to the truth at the rate of theory, and stop when told to.
  *
  * The mean squared error against path tracing, over four seeds, is followed over passes that double; the slope of its
- * logarithm is to be -2/3, within 15 % (Knaus and Zwicker 2011, for alpha = 2/3). For the whole study
- * see tests/studies/study_consistency.c.
+ * logarithm is to be -2/3, within 15 % (Knaus and Zwicker 2011, for alpha = 2/3), of a caustic within 30 %. For the
+ * whole study see tests/studies/study_consistency.c.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -63,7 +63,7 @@ static void the_error_falls_as_theory_says(void **state)
     follow("scenes/box_point.rts", 0.1);
     follow("scenes/box_area.rts", 0.1);
     /* A caustic is narrower than the first discs: -0.72 over these passes, with a deviation of 0.033 over 6 seeds. */
-    follow("scenes/box_caustic.rts", 0.3);
+    follow("scenes/box_caustic.rts", 0.2);
 }
 
 static void one_pass_of_one_sample_is_an_ordinary_render(void **state)
