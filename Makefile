@@ -82,7 +82,7 @@ KERNEL_SRC := \
 	kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
-KERNEL_DEPS := $(wildcard kernels/*.h kernels/*.cl)
+KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
 
 # Quick tests, the slower ones of `check`, and shell tests. tests/X/test_y.c makes build/tests/X/test_y.
 TESTS_QUICK := \
@@ -191,7 +191,7 @@ $(B)/embed: tools/embed.c | need-deps
 	$(CC) -std=c99 $(WARNINGS) -D_POSIX_C_SOURCE=200809L -O1 -o $@ $<
 
 $(B)/kernels.c: $(B)/embed $(KERNEL_DEPS) Makefile
-	$(B)/embed $@ rt_kernel_sources $(KERNEL_SRC)
+	$(B)/embed $@ rt_kernel_sources -I kernels $(KERNEL_SRC)
 
 $(B)/kernels.o: $(B)/kernels.c
 	$(CC) $(ALL_CFLAGS) -c -o $@ $<
@@ -316,7 +316,9 @@ demo: deps
 REALNAME    := librt-render.so.$(VERSION)
 BINDIR      ?= $(PREFIX)/bin
 INCLUDEDIR  ?= $(PREFIX)/include
-INSTALLED    = $(BINDIR)/rtc $(INCLUDEDIR)/rt/rt.h $(INCLUDEDIR)/rt/common.h $(LIBDIR)/pkgconfig/librt-render.pc \
+PUBLIC_H    := $(addprefix lib/rt/,base.h device.h film.h image.h photon.h render.h scene.h)
+INSTALLED    = $(BINDIR)/rtc $(LIBDIR)/pkgconfig/librt-render.pc \
+               $(addprefix $(INCLUDEDIR)/rt/,rt.h common.h $(notdir $(PUBLIC_H))) \
                $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a)
 
 # glibc owns every librt.*, so nothing is installed under that name.
@@ -327,7 +329,7 @@ install: all
 	ln -sf $(REALNAME) $(DESTDIR)$(LIBDIR)/$(SONAME)
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/librt-render.so
 	install -m 644 $(B)/librt.a $(DESTDIR)$(LIBDIR)/librt-render.a
-	install -m 644 lib/rt.h kernels/common.h $(DESTDIR)$(INCLUDEDIR)/rt
+	install -m 644 lib/rt.h $(PUBLIC_H) kernels/common.h $(DESTDIR)$(INCLUDEDIR)/rt
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR)|' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' \
 	    -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(ALL_LIBS)|' lib/librt-render.pc.in \
 	    >$(DESTDIR)$(LIBDIR)/pkgconfig/librt-render.pc

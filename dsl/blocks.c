@@ -6,17 +6,38 @@
 
 /* ---- Ranges, choices ----------------------------------------------------- */
 
-#define ANY {RT_RANGE_ANY, 0, 0}
-#define ABOVE_TO(low, high) {RT_RANGE_ABOVE, low, high}
-#define FROM_TO(low, high) {RT_RANGE_CLOSED, low, high}
-#define BETWEEN(low, high) {RT_RANGE_BETWEEN, low, high}
+#define ANY                                                                                        \
+    {                                                                                              \
+        RT_RANGE_ANY, 0, 0                                                                         \
+    }
+#define ABOVE_TO(low, high)                                                                        \
+    {                                                                                              \
+        RT_RANGE_ABOVE, low, high                                                                  \
+    }
+#define FROM_TO(low, high)                                                                         \
+    {                                                                                              \
+        RT_RANGE_CLOSED, low, high                                                                 \
+    }
+#define BETWEEN(low, high)                                                                         \
+    {                                                                                              \
+        RT_RANGE_BETWEEN, low, high                                                                \
+    }
 #define UNIT FROM_TO(0, 1)
 #define LENGTH FROM_TO(1e-15, 1e15)
 #define LENGTH_OR_ZERO FROM_TO(0, 1e15)
 #define LIGHT FROM_TO(0, 1e28)
-#define HALF_TURN {RT_RANGE_CLOSED, 1e-3, 180}
-#define DIRECTION {RT_RANGE_DIRECTION, 0, 0}
-#define NOT_ZERO {RT_RANGE_NOT_ZERO, 0, 0}
+#define HALF_TURN                                                                                  \
+    {                                                                                              \
+        RT_RANGE_CLOSED, 1e-3, 180                                                                 \
+    }
+#define DIRECTION                                                                                  \
+    {                                                                                              \
+        RT_RANGE_DIRECTION, 0, 0                                                                   \
+    }
+#define NOT_ZERO                                                                                   \
+    {                                                                                              \
+        RT_RANGE_NOT_ZERO, 0, 0                                                                    \
+    }
 
 #define UINT32_LAST 4294967295.0
 #define INTEGER_LAST 2147483647.0
@@ -34,7 +55,8 @@ static const char *const estimators[] = {"mis", "light", "bsdf", NULL};
 static const char *const gathers[] = {"auto", "flann", "device", NULL};
 static const char *const areas[] = {"disc", "hull", NULL};
 static const char *const directs[] = {"nee", "photons", NULL};
-static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian", "silverman", "gaussian_jensen", NULL};
+static const char *const kernels[] = {"epanechnikov",    "box", "cone", "gaussian", "silverman",
+                                      "gaussian_jensen", NULL};
 
 /* ---- Fields -------------------------------------------------------------- */
 
@@ -57,17 +79,26 @@ static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian",
 #define ALL_OR_NONE_TOO RT_NEED_ALL_OR_NONE_TOO
 
 /* What every shape has, and what every finite shape has besides. */
-#define SURFACE(type)                                                                                                  \
-    {"material", RT_FIELD_MATERIAL, REQUIRED, ANY, "", "", NULL, AT(type, surface.material)},                          \
-    {"texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.texture)},                                  \
-    {"translate", RT_FIELD_TRANSLATE, OPTIONAL, ANY, "m", "none", NULL, AT(type, surface.transform)},                  \
-    {"rotate", RT_FIELD_ROTATE, OPTIONAL, DIRECTION, "degrees", "none", NULL, AT(type, surface.transform)},            \
-    {"scale", RT_FIELD_SCALE, OPTIONAL, NOT_ZERO, "", "none", NULL, AT(type, surface.transform)},                      \
-    {"matrix", RT_FIELD_MATRIX, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.transform)}
-#define LAMP(type)                                                                                                     \
-    {"radiance", COLOUR, AT_MOST_ONE, LIGHT, "W/(m^2 sr)", "that of the material", NULL,                        \
-     AT(type, surface.radiance)},                                                                                      \
-    {"power", COLOUR, AT_MOST_ONE, LIGHT, "W", "none", NULL, AT(type, surface.power)}
+#define SURFACE(type)                                                                              \
+    {"material", RT_FIELD_MATERIAL, REQUIRED, ANY, "", "", NULL, AT(type, surface.material)},      \
+        {"texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.texture)},          \
+        {"translate", RT_FIELD_TRANSLATE,         OPTIONAL, ANY, "m", "none",                      \
+         NULL,        AT(type, surface.transform)},                                                \
+        {"rotate",  RT_FIELD_ROTATE, OPTIONAL, DIRECTION,                                          \
+         "degrees", "none",          NULL,     AT(type, surface.transform)},                       \
+        {"scale", RT_FIELD_SCALE, OPTIONAL, NOT_ZERO,                                              \
+         "",      "none",         NULL,     AT(type, surface.transform)},                          \
+    {                                                                                              \
+        "matrix", RT_FIELD_MATRIX, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.transform)    \
+    }
+#define LAMP(type)                                                                                 \
+    {"radiance",   COLOUR,                                                                         \
+     AT_MOST_ONE,  LIGHT,                                                                          \
+     "W/(m^2 sr)", "that of the material",                                                         \
+     NULL,         AT(type, surface.radiance)},                                                    \
+    {                                                                                              \
+        "power", COLOUR, AT_MOST_ONE, LIGHT, "W", "none", NULL, AT(type, surface.power)            \
+    }
 
 static const rt_field camera_fields[] = {
     {"projection", CHOICE, OPTIONAL, ANY, "", "perspective", projections, AT(rt_camera, kind)},
@@ -77,14 +108,17 @@ static const rt_field camera_fields[] = {
     {"fov", NUMBER, OPTIONAL, BETWEEN(0, 180), "degrees", "45", NULL, AT(rt_camera, fov)},
     {"width", NUMBER, OPTIONAL, LENGTH, "m", "2", NULL, AT(rt_camera, width)},
     {"aperture", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_camera, aperture)},
-    {"focal_distance", NUMBER, OPTIONAL, LENGTH, "m", "that of look_at", NULL, AT(rt_camera, focal_distance)},
+    {"focal_distance", NUMBER, OPTIONAL, LENGTH, "m", "that of look_at", NULL,
+     AT(rt_camera, focal_distance)},
     {"blades", INTEGER, OPTIONAL, FROM_TO(3, 64), "", "round", NULL, AT(rt_camera, blades)},
     {"blade_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_camera, blade_rotation)},
 };
 
 static const rt_field film_fields[] = {
-    {"width", INTEGER, OPTIONAL, FROM_TO(1, 65536), "pixels", "512", NULL, AT(rt_render_options, width)},
-    {"height", INTEGER, OPTIONAL, FROM_TO(1, 65536), "pixels", "512", NULL, AT(rt_render_options, height)},
+    {"width", INTEGER, OPTIONAL, FROM_TO(1, 65536), "pixels", "512", NULL,
+     AT(rt_render_options, width)},
+    {"height", INTEGER, OPTIONAL, FROM_TO(1, 65536), "pixels", "512", NULL,
+     AT(rt_render_options, height)},
     {"filter", CHOICE, OPTIONAL, ANY, "", "box", filters, AT(rt_render_options, filter)},
 };
 
@@ -98,17 +132,21 @@ static const rt_field render_fields[] = {
      AT(rt_render_options, roulette_depth)},
     {"roulette_threshold", NUMBER, OPTIONAL, FROM_TO(1e-6, 1), "", "0.5", NULL,
      AT(rt_render_options, roulette_threshold)},
-    {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL, AT(rt_render_options, seed)},
+    {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL,
+     AT(rt_render_options, seed)},
     {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
     {"estimator", CHOICE, OPTIONAL, ANY, "", "mis", estimators, AT(rt_render_options, estimator)},
-    {"time", NUMBER, OPTIONAL, ABOVE_TO(0, 1e9), "s", "no limit", NULL, AT(rt_render_options, time)},
-    {"target_error", NUMBER, OPTIONAL, ABOVE_TO(0, 1), "", "none", NULL, AT(rt_render_options, target_error)},
+    {"time", NUMBER, OPTIONAL, ABOVE_TO(0, 1e9), "s", "no limit", NULL,
+     AT(rt_render_options, time)},
+    {"target_error", NUMBER, OPTIONAL, ABOVE_TO(0, 1), "", "none", NULL,
+     AT(rt_render_options, target_error)},
     {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000, in passes one a pixel", NULL,
      AT(rt_render_options, photons)},
     {"k", COUNT_OR_ALL, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
     {"radius", NUMBER, OPTIONAL, LENGTH, "m", "no limit", NULL, AT(rt_render_options, radius)},
     {"gather", CHOICE, OPTIONAL, ANY, "", "auto", gathers, AT(rt_render_options, gather)},
-    {"passes", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "1", NULL, AT(rt_render_options, passes)},
+    {"passes", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "1", NULL,
+     AT(rt_render_options, passes)},
     {"alpha", NUMBER, OPTIONAL, BETWEEN(0, 1), "", "2/3", NULL, AT(rt_render_options, alpha)},
     {"kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, kernel)},
     {"cone_k", NUMBER, OPTIONAL, FROM_TO(1, 1e6), "", "1.1", NULL, AT(rt_render_options, cone_k)},
@@ -116,12 +154,17 @@ static const rt_field render_fields[] = {
     {"direct", CHOICE, OPTIONAL, ANY, "", "nee", directs, AT(rt_render_options, direct)},
     {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL,
      AT(rt_render_options, final_gather)},
-    {"caustic_photons", INTEGER, OPTIONAL, FROM_TO(0, 4e9), "", "0", NULL, AT(rt_render_options, caustic_photons)},
-    {"caustic_k", COUNT_OR_ALL, OPTIONAL, FROM_TO(2, 65536), "", "that of k", NULL, AT(rt_render_options, caustic_k)},
-    {"caustic_radius", NUMBER, OPTIONAL, LENGTH, "m", "that of radius", NULL, AT(rt_render_options, caustic_radius)},
-    {"caustic_kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, caustic_kernel)},
+    {"caustic_photons", INTEGER, OPTIONAL, FROM_TO(0, 4e9), "", "0", NULL,
+     AT(rt_render_options, caustic_photons)},
+    {"caustic_k", COUNT_OR_ALL, OPTIONAL, FROM_TO(2, 65536), "", "that of k", NULL,
+     AT(rt_render_options, caustic_k)},
+    {"caustic_radius", NUMBER, OPTIONAL, LENGTH, "m", "that of radius", NULL,
+     AT(rt_render_options, caustic_radius)},
+    {"caustic_kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels,
+     AT(rt_render_options, caustic_kernel)},
     {"aov", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, aov)},
-    {"photon_layers", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, photon_layers)},
+    {"photon_layers", BOOLEAN, OPTIONAL, ANY, "", "false", NULL,
+     AT(rt_render_options, photon_layers)},
     {"variance", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, variance)},
 };
 
@@ -143,16 +186,19 @@ static const rt_field material_fields[] = {
     {"emission", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission)},
     {"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL, AT(rt_material, ior)},
     {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel)},
-    {"eta", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "required of a conductor", NULL, AT(rt_material, eta)},
+    {"eta", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "required of a conductor", NULL,
+     AT(rt_material, eta)},
     {"k", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "0", NULL, AT(rt_material, k)},
     {"roughness", NUMBER, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, roughness)},
     {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption)},
     {"two_sided", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, two_sided)},
-    {"priority", INTEGER, OPTIONAL, FROM_TO(0, INTEGER_LAST), "", "0", NULL, AT(rt_material, priority)},
+    {"priority", INTEGER, OPTIONAL, FROM_TO(0, INTEGER_LAST), "", "0", NULL,
+     AT(rt_material, priority)},
     {"kd_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kd_texture)},
     {"ks_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, ks_texture)},
     {"kt_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kt_texture)},
-    {"emission_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, emission_texture)},
+    {"emission_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL,
+     AT(rt_material, emission_texture)},
     {"bump_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, bump_texture)},
     {"bump_scale", NUMBER, OPTIONAL, NOT_ZERO, "m", "1", NULL, AT(rt_material, bump_scale)},
 };
@@ -175,7 +221,8 @@ static const rt_field spot_light_fields[] = {
 
 static const rt_field directional_light_fields[] = {
     {"direction", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_directional_light, direction)},
-    {"irradiance", COLOUR, REQUIRED, LIGHT, "W/m^2", "", NULL, AT(rt_directional_light, irradiance)},
+    {"irradiance", COLOUR, REQUIRED, LIGHT, "W/m^2", "", NULL,
+     AT(rt_directional_light, irradiance)},
 };
 
 static const rt_field environment_light_fields[] = {
@@ -224,7 +271,8 @@ static const rt_field disc_fields[] = {
     {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_disc_fields, centre)},
     {"normal", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_disc_fields, normal)},
     {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_disc_fields, radius)},
-    {"inner_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_disc_fields, inner_radius)},
+    {"inner_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL,
+     AT(rt_disc_fields, inner_radius)},
     SURFACE(rt_disc_fields),
     LAMP(rt_disc_fields),
 };
@@ -242,7 +290,8 @@ static const rt_field cone_fields[] = {
     {"base", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cone_fields, base)},
     {"apex", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cone_fields, apex)},
     {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_cone_fields, radius)},
-    {"apex_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_cone_fields, apex_radius)},
+    {"apex_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL,
+     AT(rt_cone_fields, apex_radius)},
     {"caps", BOOLEAN, OPTIONAL, ANY, "", "true", NULL, AT(rt_cone_fields, caps)},
     SURFACE(rt_cone_fields),
     LAMP(rt_cone_fields),
@@ -264,9 +313,11 @@ static const rt_field torus_fields[] = {
     LAMP(rt_torus_fields),
 };
 
-#define MESH_FILE(type)                                                                                                \
-    {"file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(type, path)},                                                  \
-    {"shading", CHOICE, OPTIONAL, ANY, "", "file", shadings, AT(type, shading)}
+#define MESH_FILE(type)                                                                            \
+    {"file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(type, path)},                              \
+    {                                                                                              \
+        "shading", CHOICE, OPTIONAL, ANY, "", "file", shadings, AT(type, shading)                  \
+    }
 
 static const rt_field mesh_fields[] = {
     MESH_FILE(rt_mesh_fields),
@@ -296,7 +347,8 @@ const rt_block rt_blocks[RT_BLOCK_COUNT] = {
     {RT_BLOCK_POINT_LIGHT, "light", "point", 0, FIELDS(point_light_fields)},
     {RT_BLOCK_SPOT_LIGHT, "light", "spot", 0, FIELDS(spot_light_fields)},
     {RT_BLOCK_DIRECTIONAL_LIGHT, "light", "directional", 0, FIELDS(directional_light_fields)},
-    {RT_BLOCK_ENVIRONMENT_LIGHT, "light", "environment", RT_BLOCK_ONCE, FIELDS(environment_light_fields)},
+    {RT_BLOCK_ENVIRONMENT_LIGHT, "light", "environment", RT_BLOCK_ONCE,
+     FIELDS(environment_light_fields)},
     {RT_BLOCK_PLANE, "plane", NULL, 0, FIELDS(plane_fields)},
     {RT_BLOCK_SPHERE, "sphere", NULL, 0, FIELDS(sphere_fields)},
     {RT_BLOCK_TRIANGLE, "triangle", NULL, 0, FIELDS(triangle_fields)},

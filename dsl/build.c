@@ -28,20 +28,25 @@ static rt_status build_render(rt_scene *scene, const rt_render_options *options,
     return status == RT_OK ? rt_scene_set_options(scene, options, error) : status;
 }
 
-static rt_status build_triangle(rt_scene *scene, const rt_triangle_fields *triangle, rt_error *error)
+static rt_status build_triangle(rt_scene *scene, const rt_triangle_fields *triangle,
+                                rt_error *error)
 {
     static const uint32_t indices[3] = {0, 1, 2};
     uint32_t mesh;
-    rt_mesh_data data = {.positions = triangle->corners[0], .indices = indices, .vertex_count = 3, .triangle_count = 1};
+    rt_mesh_data data = {.positions = triangle->corners[0],
+                         .indices = indices,
+                         .vertex_count = 3,
+                         .triangle_count = 1};
     data.normals = is_zero(triangle->normals[0], 3) ? NULL : triangle->normals[0];
     data.uv = is_zero(triangle->uv[0], 6) ? NULL : triangle->uv[0];
     rt_status status = rt_scene_add_mesh(scene, &mesh, &data, error);
-    return status == RT_OK ? rt_scene_add_instance(scene, NULL, mesh, &triangle->surface, error) : status;
+    return status == RT_OK ? rt_scene_add_instance(scene, NULL, mesh, &triangle->surface, error)
+                           : status;
 }
 
 /* Places a mesh; it has the texture of its file unless the block gives one. */
-static rt_status build_instance(rt_scene *scene, const rt_mesh_fields *fields, const rt_build_name *mesh,
-                                rt_error *error)
+static rt_status build_instance(rt_scene *scene, const rt_mesh_fields *fields,
+                                const rt_build_name *mesh, rt_error *error)
 {
     rt_surface surface = fields->surface;
     if (surface.texture == 0)
@@ -49,10 +54,12 @@ static rt_status build_instance(rt_scene *scene, const rt_mesh_fields *fields, c
     return rt_scene_add_instance(scene, NULL, mesh->index, &surface, error);
 }
 
-static rt_status build_mesh(rt_scene *scene, const rt_mesh_fields *fields, rt_build_name *name, rt_error *error)
+static rt_status build_mesh(rt_scene *scene, const rt_mesh_fields *fields, rt_build_name *name,
+                            rt_error *error)
 {
     rt_mesh_info info;
-    rt_status status = rt_scene_load_mesh(scene, &name->index, fields->path, (rt_shading)fields->shading, &info, error);
+    rt_status status = rt_scene_load_mesh(scene, &name->index, fields->path,
+                                          (rt_shading)fields->shading, &info, error);
     if (status == RT_OK)
         name->texture = info.texture;
     return status;
@@ -80,25 +87,28 @@ static rt_status build_shape(rt_scene *scene, const rt_block *block, const rt_bl
     case RT_BLOCK_PLANE:
         return rt_scene_add_plane(scene, NULL, plane->point, plane->normal, &plane->surface, error);
     case RT_BLOCK_SPHERE:
-        return rt_scene_add_sphere(scene, NULL, sphere->centre, sphere->radius, &sphere->surface, error);
+        return rt_scene_add_sphere(scene, NULL, sphere->centre, sphere->radius, &sphere->surface,
+                                   error);
     case RT_BLOCK_TRIANGLE:
         return build_triangle(scene, &fields->triangle, error);
     case RT_BLOCK_QUAD:
-        return rt_scene_add_quad(scene, NULL, quad->corner, quad->edge1, quad->edge2, &quad->surface, error);
+        return rt_scene_add_quad(scene, NULL, quad->corner, quad->edge1, quad->edge2,
+                                 &quad->surface, error);
     case RT_BLOCK_DISC:
-        return rt_scene_add_disc(scene, NULL, disc->centre, disc->normal, disc->radius, disc->inner_radius,
-                                 &disc->surface, error);
+        return rt_scene_add_disc(scene, NULL, disc->centre, disc->normal, disc->radius,
+                                 disc->inner_radius, &disc->surface, error);
     case RT_BLOCK_CYLINDER:
-        return rt_scene_add_cylinder(scene, NULL, cylinder->a, cylinder->b, cylinder->radius, cylinder->caps,
-                                     &cylinder->surface, error);
+        return rt_scene_add_cylinder(scene, NULL, cylinder->a, cylinder->b, cylinder->radius,
+                                     cylinder->caps, &cylinder->surface, error);
     case RT_BLOCK_CONE:
-        return rt_scene_add_cone(scene, NULL, cone->base, cone->apex, cone->radius, cone->apex_radius, cone->caps,
-                                 &cone->surface, error);
+        return rt_scene_add_cone(scene, NULL, cone->base, cone->apex, cone->radius,
+                                 cone->apex_radius, cone->caps, &cone->surface, error);
     case RT_BLOCK_ELLIPSOID:
-        return rt_scene_add_ellipsoid(scene, NULL, ellipsoid->centre, ellipsoid->radii, &ellipsoid->surface, error);
+        return rt_scene_add_ellipsoid(scene, NULL, ellipsoid->centre, ellipsoid->radii,
+                                      &ellipsoid->surface, error);
     case RT_BLOCK_TORUS:
-        return rt_scene_add_torus(scene, NULL, torus->centre, torus->axis, torus->major_radius, torus->minor_radius,
-                                  &torus->surface, error);
+        return rt_scene_add_torus(scene, NULL, torus->centre, torus->axis, torus->major_radius,
+                                  torus->minor_radius, &torus->surface, error);
     case RT_BLOCK_INSTANCE:
         return build_instance(scene, &fields->mesh, name, error);
     default:
@@ -106,8 +116,8 @@ static rt_status build_shape(rt_scene *scene, const rt_block *block, const rt_bl
     }
 }
 
-rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_fields *fields, rt_build_name *name,
-                         rt_error *error)
+rt_status rt_build_block(rt_scene *scene, const rt_block *block, const rt_block_fields *fields,
+                         rt_build_name *name, rt_error *error)
 {
     switch (block->id) {
     case RT_BLOCK_CAMERA:

@@ -16,13 +16,14 @@ static rt_place place_of_values(const rt_setting *setting)
 /* ---- Numbers ------------------------------------------------------------- */
 
 /* Evaluates the values of a setting to single numbers; one number alone is repeated to three. */
-static int evaluate(const rt_checker *checker, const rt_setting *setting, double out[RT_FIELD_VALUES_MAX])
+static int evaluate(const rt_checker *checker, const rt_setting *setting,
+                    double out[RT_FIELD_VALUES_MAX])
 {
     rt_value value;
     int count = 0;
     for (int i = 0; i < setting->value_count; i++) {
-        if (!rt_expression_evaluate(&value, &setting->values[i], checker->operations, &checker->scope->constants,
-                                    checker->reports))
+        if (!rt_expression_evaluate(&value, &setting->values[i], checker->operations,
+                                    &checker->scope->constants, checker->reports))
             return 0;
         int numbers = value.is_vector || setting->value_count == 1 ? 3 : 1;
         for (int c = 0; c < numbers && count < RT_FIELD_VALUES_MAX; c++)
@@ -37,25 +38,30 @@ static int is_integer(const rt_field *field)
 }
 
 /* A number as it will be stored: single precision, unless the member is a double. */
-static int check_number(const rt_checker *checker, const rt_setting *setting, rt_place place, double *number)
+static int check_number(const rt_checker *checker, const rt_setting *setting, rt_place place,
+                        double *number)
 {
     const rt_field *field = setting->field;
     const double written = *number;
     char phrase[RT_PHRASE_SIZE];
     if (is_integer(field)) {
         if (floor(*number) != *number) {
-            rt_report_error(checker->reports, place, "'%s' is %g; it must be a whole number", field->name, *number);
+            rt_report_error(checker->reports, place, "'%s' is %g; it must be a whole number",
+                            field->name, *number);
             return 0;
         }
     } else if (fabs(*number) > FLT_MAX) {
-        rt_report_error(checker->reports, place, "'%s' is %g; numbers must not exceed %g", field->name, *number,
-                        FLT_MAX);
+        rt_report_error(checker->reports, place, "'%s' is %g; numbers must not exceed %g",
+                        field->name, *number, FLT_MAX);
         return 0;
     } else if (field->size != sizeof(double)) {
         *number = (float)*number;
     }
     if (!rt_range_holds(field->range, *number)) {
-        /* Quote the number as written, unless only its rounding to float32 took it out of the range. */
+        /*
+         * Quote the number as written, unless only its rounding to float32 took it out of the
+         * range.
+         */
         rt_report_error(checker->reports, place, "'%s' is %.10g; it must be %s", field->name,
                         rt_range_holds(field->range, written) ? *number : written,
                         rt_range_phrase(phrase, field->range));
@@ -80,7 +86,8 @@ static void store_scalar(const rt_field *field, double number, unsigned char *me
     }
 }
 
-static int check_numbers(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+static int check_numbers(const rt_checker *checker, const rt_setting *setting,
+                         unsigned char *member)
 {
     const rt_field *field = setting->field;
     int is_scalar = field->type == RT_FIELD_NUMBER || is_integer(field);
@@ -99,8 +106,10 @@ static int check_numbers(const rt_checker *checker, const rt_setting *setting, u
         store_scalar(field, numbers[0], member);
         return 1;
     }
-    if (field->range.kind == RT_RANGE_DIRECTION && stored[0] == 0 && stored[1] == 0 && stored[2] == 0) {
-        rt_report_error(checker->reports, place_of_values(setting), "'%s' must not be zero", field->name);
+    if (field->range.kind == RT_RANGE_DIRECTION && stored[0] == 0 && stored[1] == 0 &&
+        stored[2] == 0) {
+        rt_report_error(checker->reports, place_of_values(setting), "'%s' must not be zero",
+                        field->name);
         return 0;
     }
     memcpy(member, stored, (size_t)count * sizeof *stored);
@@ -116,10 +125,14 @@ static int check_step(const rt_checker *checker, const rt_setting *setting, rt_s
     if (setting->is_broken || !evaluate(checker, setting, numbers))
         return 0;
     for (int i = 0; i < count; i++)
-        if (!check_number(checker, setting, setting->values[setting->value_count == count ? i : 0].place, &numbers[i]))
+        if (!check_number(checker, setting,
+                          setting->values[setting->value_count == count ? i : 0].place,
+                          &numbers[i]))
             return 0;
-    if (field->range.kind == RT_RANGE_DIRECTION && numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0) {
-        rt_report_error(checker->reports, place_of_values(setting), "the axis of '%s' must not be zero", field->name);
+    if (field->range.kind == RT_RANGE_DIRECTION && numbers[0] == 0 && numbers[1] == 0 &&
+        numbers[2] == 0) {
+        rt_report_error(checker->reports, place_of_values(setting),
+                        "the axis of '%s' must not be zero", field->name);
         return 0;
     }
     rt_steps_add(steps, field->type, numbers);
@@ -127,7 +140,8 @@ static int check_step(const rt_checker *checker, const rt_setting *setting, rt_s
 }
 
 /* Stores the steps of a transform, if there are any. */
-static void store_transform(const rt_steps *steps, const rt_statement *statement, rt_block_fields *fields)
+static void store_transform(const rt_steps *steps, const rt_statement *statement,
+                            rt_block_fields *fields)
 {
     rt_transform transform;
     for (int i = 0; i < 3; i++)
@@ -135,20 +149,23 @@ static void store_transform(const rt_steps *steps, const rt_statement *statement
             transform.m[i][j] = (float)steps->m[i][j];
     for (size_t i = 0; i < statement->block->field_count && steps->count > 0; i++)
         if (rt_field_is_transform(&statement->block->fields[i]))
-            memcpy((unsigned char *)fields + statement->block->fields[i].offset, &transform, sizeof transform);
+            memcpy((unsigned char *)fields + statement->block->fields[i].offset, &transform,
+                   sizeof transform);
 }
 
 /* ---- Words --------------------------------------------------------------- */
 
-static void report_choice(const rt_checker *checker, const rt_setting *setting, const char *const *choices)
+static void report_choice(const rt_checker *checker, const rt_setting *setting,
+                          const char *const *choices)
 {
     char quote[RT_QUOTE_SIZE], phrase[RT_PHRASE_SIZE];
     rt_text word = rt_place_text(&setting->word);
     rt_suggestion suggestion = rt_suggestion_begin(word);
     for (size_t i = 0; choices[i]; i++)
         rt_suggestion_offer_word(&suggestion, choices[i]);
-    rt_report_error(checker->reports, setting->word, "'%s' takes %s, found '%s'", setting->field->name,
-                    rt_field_phrase(phrase, setting->field), rt_text_quote(quote, word));
+    rt_report_error(checker->reports, setting->word, "'%s' takes %s, found '%s'",
+                    setting->field->name, rt_field_phrase(phrase, setting->field),
+                    rt_text_quote(quote, word));
     if (suggestion.best.at)
         rt_report_hint(checker->reports, "did you mean '%s'?", suggestion.best.at);
 }
@@ -156,7 +173,8 @@ static void report_choice(const rt_checker *checker, const rt_setting *setting, 
 static int check_choice(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
 {
     static const char *const booleans[] = {"false", "true", NULL};
-    const char *const *choices = setting->field->type == RT_FIELD_BOOLEAN ? booleans : setting->field->choices;
+    const char *const *choices =
+        setting->field->type == RT_FIELD_BOOLEAN ? booleans : setting->field->choices;
     for (int i = 0; choices[i]; i++)
         if (rt_text_equal(rt_place_text(&setting->word), choices[i])) {
             memcpy(member, &i, sizeof i);
@@ -166,7 +184,8 @@ static int check_choice(const rt_checker *checker, const rt_setting *setting, un
     return 0;
 }
 
-const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, rt_place place, const char *kind)
+const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, rt_place place,
+                              const char *kind)
 {
     char quote[RT_QUOTE_SIZE];
     rt_text word = rt_place_text(&place);
@@ -179,10 +198,11 @@ const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, 
     rt_suggestion_offer_names(&suggestion, names);
     rt_report_error(checker->reports, place, "unknown %s '%s'", kind, rt_text_quote(quote, word));
     if (suggestion.best.at)
-        rt_report_hint(checker->reports, "did you mean '%s'?", rt_text_quote(quote, suggestion.best));
+        rt_report_hint(checker->reports, "did you mean '%s'?",
+                       rt_text_quote(quote, suggestion.best));
     else
-        rt_report_hint(checker->reports, "%s%s are defined by '%s NAME { ... }' above their use", kind,
-                       strcmp(kind, "mesh") == 0 ? "es" : "s", kind);
+        rt_report_hint(checker->reports, "%s%s are defined by '%s NAME { ... }' above their use",
+                       kind, strcmp(kind, "mesh") == 0 ? "es" : "s", kind);
     rt_report_unknown(checker->reports, names);
     return NULL;
 }
@@ -225,7 +245,8 @@ static int check_count(const rt_checker *checker, const rt_setting *setting, uns
     return 1;
 }
 
-static int check_setting(const rt_checker *checker, const rt_setting *setting, rt_block_fields *fields)
+static int check_setting(const rt_checker *checker, const rt_setting *setting,
+                         rt_block_fields *fields)
 {
     unsigned char *member = (unsigned char *)fields + setting->field->offset;
     if (setting->is_broken)
@@ -249,7 +270,8 @@ static int check_setting(const rt_checker *checker, const rt_setting *setting, r
 /* ---- Completeness -------------------------------------------------------- */
 
 /* "'na', 'nb' and 'nc'": the fields of a block with this need. */
-static void join_group(char out[RT_PHRASE_SIZE], const rt_block *block, rt_field_need need, const char *conjunction)
+static void join_group(char out[RT_PHRASE_SIZE], const rt_block *block, rt_field_need need,
+                       const char *conjunction)
 {
     size_t used = 0, left = 0;
     for (size_t i = 0; i < block->field_count; i++)
@@ -258,7 +280,8 @@ static void join_group(char out[RT_PHRASE_SIZE], const rt_block *block, rt_field
         if (block->fields[i].need != need)
             continue;
         const char *after = --left == 0 ? "" : left == 1 ? conjunction : ", ";
-        used += (size_t)snprintf(out + used, RT_PHRASE_SIZE - used, "'%s'%s", block->fields[i].name, after);
+        used += (size_t)snprintf(out + used, RT_PHRASE_SIZE - used, "'%s'%s", block->fields[i].name,
+                                 after);
     }
 }
 
@@ -282,7 +305,8 @@ static int check_group(const rt_checker *checker, const rt_statement *statement,
         if (given == 0 || given == size || statement->is_incomplete)
             return 1;
         join_group(group, block, need, " and ");
-        rt_report_error(checker->reports, statement->place, "%s needs all of %s, or none", title, group);
+        rt_report_error(checker->reports, statement->place, "%s needs all of %s, or none", title,
+                        group);
         return 0;
     }
     join_group(group, block, need, " or ");
@@ -307,15 +331,18 @@ static int check_required(const rt_checker *checker, const rt_statement *stateme
     for (size_t i = 0; i < block->field_count && used < sizeof list; i++) {
         const rt_field *field = &block->fields[i];
         if (field->need == RT_NEED_REQUIRED && !rt_statement_setting(statement, field))
-            used += (size_t)snprintf(list + used, sizeof list - used, "%s'%s'", used ? ", " : "", field->name);
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s'%s'", used ? ", " : "",
+                                     field->name);
     }
     if (used == 0)
         return 1;
-    rt_report_error(checker->reports, statement->place, "%s needs %s", rt_block_title(title, block), list);
+    rt_report_error(checker->reports, statement->place, "%s needs %s", rt_block_title(title, block),
+                    list);
     return 0;
 }
 
-int rt_check_block(const rt_checker *checker, const rt_statement *statement, rt_block_fields *fields)
+int rt_check_block(const rt_checker *checker, const rt_statement *statement,
+                   rt_block_fields *fields)
 {
     int is_good = !statement->is_broken;
     rt_steps steps;

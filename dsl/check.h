@@ -1,4 +1,6 @@
-/* check.h - from a block as written to its fields' values: types, ranges, names and completeness. */
+/*
+ * check.h - from a block as written to its fields' values: types, ranges, names and completeness.
+ */
 #ifndef RT_DSL_CHECK_H
 #define RT_DSL_CHECK_H
 
@@ -12,13 +14,18 @@ typedef struct rt_checker {
     char **path; /* receives the path of the block's file, to be freed */
 } rt_checker;
 
-/* The name of this kind that a word means, marked as used; NULL when there is none, which is reported. */
-const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, rt_place place, const char *kind);
+/*
+ * The name of this kind that a word means, marked as used; NULL when there is none, which is
+ * reported.
+ */
+const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, rt_place place,
+                              const char *kind);
 
 /*
  * Stores the value of every setting of a block into *fields, which holds the defaults, and reports
  * what is wrong. Returns whether the block can be built.
  */
-int rt_check_block(const rt_checker *checker, const rt_statement *statement, rt_block_fields *fields);
+int rt_check_block(const rt_checker *checker, const rt_statement *statement,
+                   rt_block_fields *fields);
 
 #endif

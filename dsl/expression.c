@@ -104,8 +104,9 @@ static int apply_function(rt_value *top, const rt_operation *operation, rt_repor
     return 0;
 }
 
-int rt_expression_evaluate(rt_value *out, const rt_expression *expression, const rt_operations *operations,
-                           const rt_names *constants, rt_reports *reports)
+int rt_expression_evaluate(rt_value *out, const rt_expression *expression,
+                           const rt_operations *operations, const rt_names *constants,
+                           rt_reports *reports)
 {
     rt_value stack[STACK_SIZE], *top = stack;
     for (size_t i = 0; i < expression->count; i++) {

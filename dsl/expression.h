@@ -9,14 +9,14 @@
 
 #include "dsl/report.h"
 
-#define RT_NESTING_MAX 64     /* parentheses and brackets inside each other */
+#define RT_NESTING_MAX 64       /* parentheses and brackets inside each other */
 #define RT_OPERATIONS_MAX 65536 /* in one statement */
 
 typedef enum rt_operation_kind {
     RT_OPERATION_NUMBER,   /* push a number */
     RT_OPERATION_CONSTANT, /* push a constant's value */
     RT_OPERATION_VECTOR,   /* pop three numbers, push them as a vector */
-    RT_OPERATION_CALL,   /* pop a function's arguments, push its value, component by component */
+    RT_OPERATION_CALL,     /* pop a function's arguments, push its value, component by component */
     RT_OPERATION_NEGATE,
     RT_OPERATION_ADD, /* these four: pop two values, push the result, component by component */
     RT_OPERATION_SUBTRACT,
@@ -49,8 +49,12 @@ typedef struct rt_expression {
 int rt_operations_add(rt_operations *operations, rt_operation operation, rt_reports *reports);
 void rt_operations_free(rt_operations *operations);
 
-/* Evaluates an expression that is not broken. Returns 0 after reporting what went wrong (division by zero, ...). */
-int rt_expression_evaluate(rt_value *out, const rt_expression *expression, const rt_operations *operations,
-                           const rt_names *constants, rt_reports *reports);
+/*
+ * Evaluates an expression that is not broken. Returns 0 after reporting what went wrong (division
+ * by zero, ...).
+ */
+int rt_expression_evaluate(rt_value *out, const rt_expression *expression,
+                           const rt_operations *operations, const rt_names *constants,
+                           rt_reports *reports);
 
 #endif

@@ -117,7 +117,10 @@ static double logarithm(const double *a)
     return log(a[0]);
 }
 
-/* A number in [0, 1) that looks random but is the same for the same a: the mixer of SplitMix64 (Steele et al. 2014). */
+/*
+ * A number in [0, 1) that looks random but is the same for the same a: the mixer of SplitMix64
+ * (Steele et al. 2014).
+ */
 static double scatter(const double *a)
 {
     uint64_t x;
@@ -130,11 +133,13 @@ static double scatter(const double *a)
 }
 
 const rt_function rt_functions[RT_FUNCTION_COUNT] = {
-    {"sin", 1, sine},       {"cos", 1, cosine},       {"tan", 1, tangent},      {"asin", 1, arc_sine},
-    {"acos", 1, arc_cosine}, {"atan", 1, arc_tangent}, {"atan2", 2, angle_of},   {"sqrt", 1, root},
-    {"abs", 1, magnitude},  {"sign", 1, sign},        {"min", 2, least},        {"max", 2, greatest},
-    {"floor", 1, down},     {"ceil", 1, up},          {"round", 1, nearest},    {"mod", 2, remainder_of},
-    {"pow", 2, power},      {"exp", 1, exponential},  {"log", 1, logarithm},    {"random", 1, scatter},
+    {"sin", 1, sine},         {"cos", 1, cosine},      {"tan", 1, tangent},
+    {"asin", 1, arc_sine},    {"acos", 1, arc_cosine}, {"atan", 1, arc_tangent},
+    {"atan2", 2, angle_of},   {"sqrt", 1, root},       {"abs", 1, magnitude},
+    {"sign", 1, sign},        {"min", 2, least},       {"max", 2, greatest},
+    {"floor", 1, down},       {"ceil", 1, up},         {"round", 1, nearest},
+    {"mod", 2, remainder_of}, {"pow", 2, power},       {"exp", 1, exponential},
+    {"log", 1, logarithm},    {"random", 1, scatter},
 };
 
 int rt_function_find(rt_text name)

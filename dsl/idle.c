@@ -67,7 +67,8 @@ static int has_disc(const rt_block_fields *fields)
 
 static int has_cone(const rt_block_fields *fields)
 {
-    return fields->options.kernel == RT_DENSITY_CONE || fields->options.caustic_kernel == RT_DENSITY_CONE;
+    return fields->options.kernel == RT_DENSITY_CONE ||
+           fields->options.caustic_kernel == RT_DENSITY_CONE;
 }
 
 /* ---- The table ------------------------------------------------------------ */
@@ -111,15 +112,19 @@ static uint32_t texture_beside(const char *field, const rt_material *m)
                                             : 0;
 }
 
-/* Whether a setting is a colour for which 0 counts as left out: something else, which is not black, stands for it. */
-static int is_idle_black(const rt_statement *statement, const rt_setting *setting, const rt_block_fields *fields)
+/*
+ * Whether a setting is a colour for which 0 counts as left out: something else, which is not black,
+ * stands for it.
+ */
+static int is_idle_black(const rt_statement *statement, const rt_setting *setting,
+                         const rt_block_fields *fields)
 {
     const rt_field *field = rt_schema_field(statement->block, rt_place_text(&setting->name));
     float colour[3];
     int is_lamp = field->need == RT_NEED_AT_MOST_ONE;
     int is_sky = statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path;
-    int is_textured =
-        statement->block->id == RT_BLOCK_MATERIAL && texture_beside(field->name, &fields->material) != 0;
+    int is_textured = statement->block->id == RT_BLOCK_MATERIAL &&
+                      texture_beside(field->name, &fields->material) != 0;
     if (field->type != RT_FIELD_COLOUR || !(is_lamp || is_sky || is_textured))
         return 0;
     memcpy(colour, (const unsigned char *)fields + field->offset, sizeof colour);
@@ -133,13 +138,15 @@ void rt_idle_warn(const rt_statement *statement, const rt_block_fields *fields, 
             continue;
         for (int j = 0; j < statement->setting_count; j++)
             if (rt_text_equal(rt_place_text(&statement->settings[j].name), needs[i].field))
-                rt_report_warning(reports, statement->settings[j].name, "'%s' has no effect without %s",
-                                  needs[i].field, needs[i].without);
+                rt_report_warning(reports, statement->settings[j].name,
+                                  "'%s' has no effect without %s", needs[i].field,
+                                  needs[i].without);
     }
     for (int j = 0; j < statement->setting_count; j++) {
         char quote[RT_QUOTE_SIZE];
         if (is_idle_black(statement, &statement->settings[j], fields))
-            rt_report_warning(reports, statement->settings[j].name, "'%s' of 0 has no effect: it counts as left out",
+            rt_report_warning(reports, statement->settings[j].name,
+                              "'%s' of 0 has no effect: it counts as left out",
                               rt_text_quote(quote, rt_place_text(&statement->settings[j].name)));
     }
 }

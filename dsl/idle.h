@@ -5,6 +5,7 @@
 #include "dsl/parser.h"
 
 /* Warns of each such field of a sound block, whose values are in fields. */
-void rt_idle_warn(const rt_statement *statement, const rt_block_fields *fields, rt_reports *reports);
+void rt_idle_warn(const rt_statement *statement, const rt_block_fields *fields,
+                  rt_reports *reports);
 
 #endif

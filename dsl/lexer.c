@@ -28,14 +28,19 @@ static int is_punctuation(char c)
 static size_t utf8_length(const char *s, size_t left)
 {
     const unsigned char *u = (const unsigned char *)s;
-    size_t length = u[0] < 0x80 ? 1 : u[0] < 0xc2 ? 0 : u[0] < 0xe0 ? 2 : u[0] < 0xf0 ? 3 : u[0] < 0xf5 ? 4 : 0;
+    size_t length = u[0] < 0x80   ? 1
+                    : u[0] < 0xc2 ? 0
+                    : u[0] < 0xe0 ? 2
+                    : u[0] < 0xf0 ? 3
+                    : u[0] < 0xf5 ? 4
+                                  : 0;
     if (length == 0 || length > left)
         return 0;
     for (size_t i = 1; i < length; i++)
         if ((u[i] & 0xc0) != 0x80)
             return 0;
-    if ((u[0] == 0xe0 && u[1] < 0xa0) || (u[0] == 0xed && u[1] > 0x9f) || (u[0] == 0xf0 && u[1] < 0x90) ||
-        (u[0] == 0xf4 && u[1] > 0x8f))
+    if ((u[0] == 0xe0 && u[1] < 0xa0) || (u[0] == 0xed && u[1] > 0x9f) ||
+        (u[0] == 0xf0 && u[1] < 0x90) || (u[0] == 0xf4 && u[1] > 0x8f))
         return 0;
     return length;
 }
@@ -74,7 +79,8 @@ static void skip_invalid(rt_lexer *lexer)
 {
     const rt_source *source = lexer->source;
     size_t start = lexer->at;
-    while (lexer->at < source->size && !utf8_length(source->text + lexer->at, source->size - lexer->at))
+    while (lexer->at < source->size &&
+           !utf8_length(source->text + lexer->at, source->size - lexer->at))
         lexer->at++;
     rt_report_error(lexer->reports, place_of(lexer, start), "byte 0x%02x is not UTF-8",
                     (unsigned)(unsigned char)source->text[start]);
@@ -141,10 +147,14 @@ static void skip_stray(rt_lexer *lexer)
     if (first < 0x20 || first == 0x7f)
         rt_report_error(lexer->reports, place, "unexpected byte 0x%02x", (unsigned)first);
     else
-        rt_report_error(lexer->reports, place, "unexpected '%s'", rt_text_quote(quote, rt_place_text(&place)));
+        rt_report_error(lexer->reports, place, "unexpected '%s'",
+                        rt_text_quote(quote, rt_place_text(&place)));
 }
 
-/* A number takes every letter, digit and point that touches it, so that 1.2.3 or 12abc is one mistake. */
+/*
+ * A number takes every letter, digit and point that touches it, so that 1.2.3 or 12abc is one
+ * mistake.
+ */
 static void read_number(rt_lexer *lexer, rt_token *token)
 {
     size_t start = lexer->at;
@@ -163,14 +173,19 @@ static void read_number(rt_lexer *lexer, rt_token *token)
     rt_number_result result = rt_number_read(&token->number, text);
     token->is_broken = result != RT_NUMBER_OK;
     if (result == RT_NUMBER_MALFORMED) {
-        rt_report_error(lexer->reports, token->place, "'%s' is not a number", rt_text_quote(quote, text));
+        rt_report_error(lexer->reports, token->place, "'%s' is not a number",
+                        rt_text_quote(quote, text));
         rt_report_hint(lexer->reports, "numbers are written without units, like 2, 0.5 or 1e-3");
     } else if (result == RT_NUMBER_TOO_LARGE) {
-        rt_report_error(lexer->reports, token->place, "the number '%s' is too large", rt_text_quote(quote, text));
+        rt_report_error(lexer->reports, token->place, "the number '%s' is too large",
+                        rt_text_quote(quote, text));
     }
 }
 
-/* The last '}' of a line that an open string has run over hardly belongs to a file name: it closes the block. */
+/*
+ * The last '}' of a line that an open string has run over hardly belongs to a file name: it closes
+ * the block.
+ */
 static void give_back_brace(rt_lexer *lexer, size_t start)
 {
     for (size_t at = lexer->at; at > start; at--)
@@ -196,7 +211,8 @@ static void read_string(rt_lexer *lexer, rt_token *token)
     if (!closed) {
         rt_place quote = token->place;
         quote.length = 1;
-        rt_report_error(lexer->reports, quote, "the string is not closed: expected '\"' before the end of the line");
+        rt_report_error(lexer->reports, quote,
+                        "the string is not closed: expected '\"' before the end of the line");
     }
 }
 
@@ -242,7 +258,8 @@ int rt_lexer_check_text(const rt_source *source, rt_reports *reports, uint64_t *
 {
     rt_place place = {source, ++*order, 0, 1, 1, 1};
     const char *nul = memchr(source->text, '\0', source->size);
-    if (source->size >= 2 && (memcmp(source->text, "\xff\xfe", 2) == 0 || memcmp(source->text, "\xfe\xff", 2) == 0)) {
+    if (source->size >= 2 &&
+        (memcmp(source->text, "\xff\xfe", 2) == 0 || memcmp(source->text, "\xfe\xff", 2) == 0)) {
         rt_report_error(reports, place, "the file is UTF-16 text");
         rt_report_hint(reports, "save it as UTF-8");
         return 0;

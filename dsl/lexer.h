@@ -38,8 +38,8 @@ void rt_lexer_begin(rt_lexer *lexer, const rt_source *source, rt_reports *report
 rt_token rt_lexer_next(rt_lexer *lexer);
 
 /*
- * Reports what shows that a source is no UTF-8 text at all, such as a NUL byte; returns whether it is text.
- * Counts the place's order as a token.
+ * Reports what shows that a source is no UTF-8 text at all, such as a NUL byte; returns whether it
+ * is text. Counts the place's order as a token.
  */
 int rt_lexer_check_text(const rt_source *source, rt_reports *reports, uint64_t *order);
 

@@ -11,7 +11,8 @@ static void read_scene(rt_reader *reader, const rt_source *source)
     if (reader->blocks > 0 || reader->reports.errors > 0)
         return;
     rt_place start = {source, 0, 0, 1, 1, 1};
-    rt_report_error(&reader->reports, start, "the scene is empty: expected a block, such as camera { ... }");
+    rt_report_error(&reader->reports, start,
+                    "the scene is empty: expected a block, such as camera { ... }");
 }
 
 /* Reports a text that could not be read at all. */
@@ -22,8 +23,8 @@ static void report_unreadable(rt_reader *reader, const rt_source *source, const 
 }
 
 /* Reads the scene from text, or from the file `name` when text is NULL. */
-static rt_status read_into(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
-                           rt_error *error)
+static rt_status read_into(rt_scene **out, const char *text, const char *name,
+                           const rt_load_options *options, rt_error *error)
 {
     static const rt_load_options silent = {0};
     char cause[128] = "";
@@ -67,13 +68,15 @@ static rt_status fail_missing(rt_error *error, const char *name)
     return RT_ERROR_USAGE;
 }
 
-rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options, rt_error *error)
+rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options,
+                        rt_error *error)
 {
     return path ? read_into(out, NULL, path, options, error) : fail_missing(error, "path");
 }
 
-rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name, const rt_load_options *options,
-                         rt_error *error)
+rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name,
+                         const rt_load_options *options, rt_error *error)
 {
-    return text ? read_into(out, text, name ? name : "text", options, error) : fail_missing(error, "text");
+    return text ? read_into(out, text, name ? name : "text", options, error)
+                : fail_missing(error, "text");
 }

@@ -13,10 +13,10 @@ typedef struct rt_value {
 /* One name. */
 typedef struct rt_name {
     rt_text text;
-    rt_place place;  /* where it is defined */
+    rt_place place; /* where it is defined */
     int is_used;
-    int is_broken;   /* its definition is wrong; already reported, so its uses are not */
-    rt_value value;  /* of a constant */
+    int is_broken;    /* its definition is wrong; already reported, so its uses are not */
+    rt_value value;   /* of a constant */
     uint32_t index;   /* of a material, texture or mesh: what rt.h calls it by */
     uint32_t texture; /* of a mesh: the texture that its file names, or 0 */
 } rt_name;
@@ -34,7 +34,9 @@ typedef struct rt_names {
 /* The position of a name in items, or RT_NAME_NONE. */
 size_t rt_names_find(const rt_names *names, rt_text text);
 
-/* Adds a name that is not there yet, with zero content; NULL when memory is exhausted. Moves items. */
+/*
+ * Adds a name that is not there yet, with zero content; NULL when memory is exhausted. Moves items.
+ */
 rt_name *rt_names_add(rt_names *names, rt_place place);
 
 /* Takes the latest names away until `count` are left. */

@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define DIGITS_MAX 60        /* significant digits kept; a nonzero tail beyond them counts as one more digit */
+/* significant digits kept; a nonzero tail beyond them counts as one more digit */
+#define DIGITS_MAX 60
 #define EXPONENT_MAX 1000000 /* clamp: far beyond any double, far below overflow */
 
 static int is_digit(char c)

@@ -76,11 +76,14 @@ static void report(void *user, const rt_finding *finding)
     }
     rt_report_finding(r->reports, place, finding);
     if (finding->kind == RT_FINDING_OPEN_GLASS) {
-        rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; ior 1 makes a sheet that bends nothing");
+        rt_report_hint(
+            r->reports,
+            "glass is a closed shape, such as a sphere; ior 1 makes a sheet that bends nothing");
     } else if (finding->shape != RT_NONE) {
         const rt_place *solid = &r->origins->shapes.items[finding->shape];
         rt_text word = rt_place_text(solid);
-        rt_report_hint(r->reports, "the %.*s is at %s:%d", (int)word.length, word.at, solid->source->path, solid->line);
+        rt_report_hint(r->reports, "the %.*s is at %s:%d", (int)word.length, word.at,
+                       solid->source->path, solid->line);
     }
 }
 

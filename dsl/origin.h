@@ -1,4 +1,7 @@
-/* origin.h - where the camera, the shapes and the lights of a scene come from, to point at what is wrong with them. */
+/*
+ * origin.h - where the camera, the shapes and the lights of a scene come from, to point at what is
+ * wrong with them.
+ */
 #ifndef RT_DSL_ORIGIN_H
 #define RT_DSL_ORIGIN_H
 

@@ -77,7 +77,8 @@ static void parse_unknown_field(rt_parser *parser, rt_statement *statement)
 
     /* Skip its value: one word, or whatever no field begins with. */
     const rt_token *token = rt_parser_peek(parser, 0);
-    if (token->kind == RT_TOKEN_WORD && !token->first_on_line && !rt_schema_field(statement->block, text_of(token)))
+    if (token->kind == RT_TOKEN_WORD && !token->first_on_line &&
+        !rt_schema_field(statement->block, text_of(token)))
         rt_parser_take(parser);
     parser->depth = 0;
     rt_parser_skip_value(parser, statement->block);
@@ -96,16 +97,19 @@ static void parse_field(rt_parser *parser, rt_statement *statement)
     setting.name = rt_parser_take(parser).place;
     rt_parse_setting(parser, statement->block, &setting);
     statement->is_broken |= setting.is_broken;
-    statement->is_incomplete |= setting.is_broken && field->type == RT_FIELD_FILE; /* it may have run over others */
+    /* it may have run over others */
+    statement->is_incomplete |= setting.is_broken && field->type == RT_FIELD_FILE;
 
-    const rt_setting *earlier = rt_field_is_transform(field) ? NULL : rt_statement_setting(statement, field);
+    const rt_setting *earlier =
+        rt_field_is_transform(field) ? NULL : rt_statement_setting(statement, field);
     if (!earlier && statement->setting_count < RT_SETTINGS_MAX) {
         statement->settings[statement->setting_count++] = setting;
         return;
     }
     if (!earlier) {
         if (statement->setting_count == RT_SETTINGS_MAX && !statement->is_incomplete)
-            rt_report_error(parser->reports, setting.name, "a block holds at most %d fields", RT_SETTINGS_MAX);
+            rt_report_error(parser->reports, setting.name, "a block holds at most %d fields",
+                            RT_SETTINGS_MAX);
         statement->is_broken = statement->is_incomplete = 1;
         return;
     }
@@ -127,10 +131,12 @@ static void parse_body(rt_parser *parser, rt_statement *statement)
         }
         if (token->kind == RT_TOKEN_END || rt_parser_statement_follows(parser)) {
             token = rt_parser_peek(parser, 0);
-            rt_report_error(parser->reports, statement->place, "%s is not closed: expected '}' before %s",
+            rt_report_error(parser->reports, statement->place,
+                            "%s is not closed: expected '}' before %s",
                             rt_block_title(title, statement->block), rt_parser_found(found, token));
             if (token->kind != RT_TOKEN_END)
-                rt_report_hint(parser->reports, "the next statement begins at line %d", token->place.line);
+                rt_report_hint(parser->reports, "the next statement begins at line %d",
+                               token->place.line);
             statement->is_broken = statement->is_incomplete = 1;
             return;
         }
@@ -150,7 +156,9 @@ static void parse_body(rt_parser *parser, rt_statement *statement)
     }
 }
 
-/* The words before a block's '{'. Returns 0 when the block cannot be told; that is then reported. */
+/*
+ * The words before a block's '{'. Returns 0 when the block cannot be told; that is then reported.
+ */
 static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
 {
     char found[RT_FOUND_SIZE], quote[RT_QUOTE_SIZE];
@@ -211,7 +219,10 @@ static void parse_block_name(rt_parser *parser, rt_statement *statement)
     }
 }
 
-/* Whether what stands in place of the '{' is one sign before the first field, as in `sphere ( centre`. */
+/*
+ * Whether what stands in place of the '{' is one sign before the first field, as in `sphere (
+ * centre`.
+ */
 static int is_stray_opening(rt_parser *parser, const rt_block *block)
 {
     const rt_token *token = rt_parser_peek(parser, 0), *next = rt_parser_peek(parser, 1);
@@ -235,8 +246,9 @@ int rt_parse_block(rt_parser *parser, rt_statement *statement)
     if (token->kind == '{') {
         rt_parser_take(parser);
     } else {
-        rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '{' after %s, found %s",
-                        rt_block_title(title, statement->block), rt_parser_found(found, token));
+        rt_report_error(parser->reports, rt_parser_expected_place(parser),
+                        "expected '{' after %s, found %s", rt_block_title(title, statement->block),
+                        rt_parser_found(found, token));
         statement->is_broken = statement->is_incomplete = 1;
         if (is_stray_opening(parser, statement->block))
             rt_parser_take(parser);

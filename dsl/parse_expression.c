@@ -16,7 +16,8 @@
 
 static int parse_sum(rt_parser *parser, int *is_vector);
 
-static int add(rt_parser *parser, rt_operation_kind kind, rt_place place, double number, size_t constant)
+static int add(rt_parser *parser, rt_operation_kind kind, rt_place place, double number,
+               size_t constant)
 {
     rt_operation operation = {kind, place, number, constant};
     if (rt_operations_add(parser->operations, operation, parser->reports))
@@ -41,13 +42,16 @@ static void report_unknown_constant(rt_parser *parser, rt_place place)
     rt_suggestion suggestion = rt_suggestion_begin(text);
     rt_suggestion_offer_names(&suggestion, &parser->scope->constants);
     if (suggestion.best.at)
-        rt_report_hint(parser->reports, "did you mean '%s'?", rt_text_quote(quote, suggestion.best));
+        rt_report_hint(parser->reports, "did you mean '%s'?",
+                       rt_text_quote(quote, suggestion.best));
     else if (rt_text_is_unit(text))
         rt_report_hint(parser->reports, RT_UNIT_HINT);
-    else if (rt_text_equal(text, "nan") || rt_text_equal(text, "inf") || rt_text_equal(text, "infinity"))
+    else if (rt_text_equal(text, "nan") || rt_text_equal(text, "inf") ||
+             rt_text_equal(text, "infinity"))
         rt_report_hint(parser->reports, "every number is finite");
     else
-        rt_report_hint(parser->reports, "constants are defined by 'let NAME = VALUE' above their use");
+        rt_report_hint(parser->reports,
+                       "constants are defined by 'let NAME = VALUE' above their use");
     rt_report_unknown(parser->reports, &parser->scope->constants);
 }
 
@@ -75,7 +79,8 @@ static int open_bracket(rt_parser *parser, rt_place *open)
     *open = rt_parser_take(parser).place;
     if (++parser->depth <= RT_NESTING_MAX)
         return 1;
-    rt_report_error(parser->reports, *open, "parentheses are nested deeper than %d", RT_NESTING_MAX);
+    rt_report_error(parser->reports, *open, "parentheses are nested deeper than %d",
+                    RT_NESTING_MAX);
     return 0;
 }
 
@@ -88,18 +93,19 @@ static int close_bracket(rt_parser *parser, rt_place open, char bracket)
         parser->depth--;
         return 1;
     }
-    rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '%c', found %s", bracket,
-                    rt_parser_found(found, token));
+    rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '%c', found %s",
+                    bracket, rt_parser_found(found, token));
     if (!rt_parser_hint_operator(parser, token))
-        rt_report_hint(parser->reports, "it closes the '%c' at line %d, column %d", bracket == ')' ? '(' : '[',
-                       open.line, open.column);
+        rt_report_hint(parser->reports, "it closes the '%c' at line %d, column %d",
+                       bracket == ')' ? '(' : '[', open.line, open.column);
     return 0;
 }
 
 static int parse_parentheses(rt_parser *parser, int *is_vector)
 {
     rt_place open;
-    return open_bracket(parser, &open) && parse_sum(parser, is_vector) && close_bracket(parser, open, ')');
+    return open_bracket(parser, &open) && parse_sum(parser, is_vector) &&
+           close_bracket(parser, open, ')');
 }
 
 static void report_unknown_function(rt_parser *parser, rt_place place)
@@ -138,8 +144,10 @@ static int parse_call(rt_parser *parser, int *is_vector)
     if (!close_bracket(parser, open, ')'))
         return 0;
     if (function >= 0 && given != rt_functions[function].arguments) {
-        rt_report_error(parser->reports, place, "'%s' takes %s, found %d", rt_functions[function].name,
-                        rt_functions[function].arguments == 1 ? "one value" : "two values, separated by a comma",
+        rt_report_error(parser->reports, place, "'%s' takes %s, found %d",
+                        rt_functions[function].name,
+                        rt_functions[function].arguments == 1 ? "one value"
+                                                              : "two values, separated by a comma",
                         given);
         parser->value_broken = 1;
     }
@@ -151,10 +159,12 @@ static int call_follows_apart(rt_parser *parser)
 {
     rt_place place = rt_parser_peek(parser, 0)->place;
     rt_text name = rt_place_text(&place);
-    if (rt_function_find(name) < 0 || rt_parser_is_constant(parser, name) || rt_parser_peek(parser, 1)->kind != '(')
+    if (rt_function_find(name) < 0 || rt_parser_is_constant(parser, name) ||
+        rt_parser_peek(parser, 1)->kind != '(')
         return 0;
     char quote[RT_QUOTE_SIZE];
-    rt_report_error(parser->reports, place, "'%s' is apart from its '('", rt_text_quote(quote, name));
+    rt_report_error(parser->reports, place, "'%s' is apart from its '('",
+                    rt_text_quote(quote, name));
     rt_report_hint(parser->reports, "a function's name touches it: %s(...)", quote);
     parser->value_broken = 1;
     return 1;
@@ -200,8 +210,8 @@ static int parse_primary(rt_parser *parser, int *is_vector)
     case '[':
         return parse_vector(parser, is_vector);
     default:
-        rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected a number, found %s",
-                        rt_parser_found(found, token));
+        rt_report_error(parser->reports, rt_parser_expected_place(parser),
+                        "expected a number, found %s", rt_parser_found(found, token));
         if (token->kind == ',')
             rt_report_hint(parser->reports, "numbers are separated by spaces");
         return 0;
@@ -216,7 +226,8 @@ static int parse_factor(rt_parser *parser, int *is_vector)
         rt_parser_take(parser);
         negative = !negative;
     }
-    return parse_primary(parser, is_vector) && (!negative || add(parser, RT_OPERATION_NEGATE, minus, 0, 0));
+    return parse_primary(parser, is_vector) &&
+           (!negative || add(parser, RT_OPERATION_NEGATE, minus, 0, 0));
 }
 
 static int parse_product(rt_parser *parser, int *is_vector)
@@ -283,7 +294,8 @@ static int parse_signed_primary(rt_parser *parser, int *is_vector)
     int opens = parser->last_kind == '[';
     rt_token minus = rt_parser_take(parser);
     if ((!minus.space_before && !opens) || rt_parser_peek(parser, 0)->space_before) {
-        rt_report_error(parser->reports, minus.place, "this '-' is neither a sign nor inside parentheses");
+        rt_report_error(parser->reports, minus.place,
+                        "this '-' is neither a sign nor inside parentheses");
         rt_report_hint(parser->reports, "write (a - b) for a difference, -4 for a negative number");
         parser->value_broken = 1;
     }

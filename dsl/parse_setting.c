@@ -19,7 +19,8 @@ typedef struct rt_context {
 static const char *count_word(int count)
 {
     static const char *const words[RT_FIELD_VALUES_MAX + 1] = {
-        "none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"};
+        "none",  "one",   "two",  "three", "four",   "five",  "six",
+        "seven", "eight", "nine", "ten",   "eleven", "twelve"};
     return words[count];
 }
 
@@ -36,7 +37,8 @@ static int is_operator(const rt_token *token)
 
 static int is_constant(const rt_parser *parser, const rt_token *token)
 {
-    return token->kind == RT_TOKEN_WORD && rt_parser_is_constant(parser, rt_place_text(&token->place));
+    return token->kind == RT_TOKEN_WORD &&
+           rt_parser_is_constant(parser, rt_place_text(&token->place));
 }
 
 /* Whether the next token can only be the start of a value. */
@@ -45,8 +47,8 @@ static int is_value(rt_parser *parser, const rt_block *block)
     const rt_token *token = rt_parser_peek(parser, 0);
     if (rt_parser_call_follows(parser) && rt_function_find(rt_place_text(&token->place)) >= 0)
         return 1;
-    return token->kind == RT_TOKEN_NUMBER || token->kind == '(' || token->kind == '[' || token->kind == '-' ||
-           (is_constant(parser, token) && !is_field(block, token));
+    return token->kind == RT_TOKEN_NUMBER || token->kind == '(' || token->kind == '[' ||
+           token->kind == '-' || (is_constant(parser, token) && !is_field(block, token));
 }
 
 static int is_near_field(const rt_block *block, const rt_token *token)
@@ -82,7 +84,9 @@ static int takes_one(rt_field_type type)
     return type == RT_FIELD_COLOUR || type == RT_FIELD_SCALE;
 }
 
-/* Whether the field has the values it takes, as far as is known: a colour of one number may go on. */
+/*
+ * Whether the field has the values it takes, as far as is known: a colour of one number may go on.
+ */
 static int is_complete(const rt_setting *setting)
 {
     int numbers = 0;
@@ -119,7 +123,8 @@ static void skip_separators(rt_parser *parser, rt_context *context)
             rt_report_error(parser->reports, token->place, "unexpected '%c' in '%s'", kind,
                             context->setting->field->name);
             if (kind == '=' || kind == ':')
-                rt_report_hint(parser->reports, "the value follows the name of its field, without a sign");
+                rt_report_hint(parser->reports,
+                               "the value follows the name of its field, without a sign");
             else
                 rt_report_hint(parser->reports, "numbers and fields are separated by spaces");
         }
@@ -136,15 +141,17 @@ static void report_count(rt_parser *parser, const rt_context *context)
     if (token->kind == RT_TOKEN_END)
         return; /* the block is reported as not closed */
     if (setting->value_count > 0) {
-        rt_place place = rt_place_join(setting->name, setting->values[setting->value_count - 1].place);
-        rt_report_error(parser->reports, place, "'%s' takes %s, found %s", setting->field->name, context->phrase,
-                        count_word(setting->value_count));
+        rt_place place =
+            rt_place_join(setting->name, setting->values[setting->value_count - 1].place);
+        rt_report_error(parser->reports, place, "'%s' takes %s, found %s", setting->field->name,
+                        context->phrase, count_word(setting->value_count));
         return;
     }
-    rt_report_error(parser->reports, setting->name, "'%s' takes %s, found %s", setting->field->name, context->phrase,
-                    rt_parser_found(found, token));
+    rt_report_error(parser->reports, setting->name, "'%s' takes %s, found %s", setting->field->name,
+                    context->phrase, rt_parser_found(found, token));
     if (is_constant(parser, token)) {
-        rt_report_hint(parser->reports, "write the constant in parentheses to tell it from the field");
+        rt_report_hint(parser->reports,
+                       "write the constant in parentheses to tell it from the field");
         rt_parser_take(parser);
     }
 }
@@ -158,8 +165,9 @@ static void check_values(rt_parser *parser, const rt_context *context)
     for (int i = 0; i < setting->value_count; i++)
         if (setting->values[i].is_vector && !(is_triple && setting->value_count == 1) &&
             !(type == RT_FIELD_ROTATE && i == 0)) {
-            rt_report_error(parser->reports, setting->values[i].place, "'%s' takes %s, found a vector",
-                            setting->field->name, is_triple ? "three numbers or one vector" : context->phrase);
+            rt_report_error(parser->reports, setting->values[i].place,
+                            "'%s' takes %s, found a vector", setting->field->name,
+                            is_triple ? "three numbers or one vector" : context->phrase);
             setting->is_broken = 1;
             return;
         }
@@ -169,20 +177,22 @@ static void check_values(rt_parser *parser, const rt_context *context)
     }
 }
 
-/* What may not follow a value: one more than the field takes, or an operator outside parentheses. */
+/*
+ * What may not follow a value: one more than the field takes, or an operator outside parentheses.
+ */
 static void check_end(rt_parser *parser, const rt_context *context)
 {
     rt_setting *setting = context->setting;
     const rt_token *token = rt_parser_peek(parser, 0);
     char found[RT_FOUND_SIZE];
     if (is_operator(token)) {
-        rt_report_error(parser->reports, token->place, "unexpected '%c' after the value of '%s'", token->kind,
-                        setting->field->name);
+        rt_report_error(parser->reports, token->place, "unexpected '%c' after the value of '%s'",
+                        token->kind, setting->field->name);
         if (!rt_parser_hint_operator(parser, token))
             rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
     } else if (is_value(parser, context->block) || token->kind == RT_TOKEN_STRING) {
-        rt_report_error(parser->reports, token->place, "'%s' takes %s, found one more: %s", setting->field->name,
-                        context->phrase, rt_parser_found(found, token));
+        rt_report_error(parser->reports, token->place, "'%s' takes %s, found one more: %s",
+                        setting->field->name, context->phrase, rt_parser_found(found, token));
     } else {
         return;
     }
@@ -240,7 +250,8 @@ static void parse_word(rt_parser *parser, rt_context *context)
     const rt_token *token = rt_parser_peek(parser, 0);
     int is_known = token->kind == RT_TOKEN_WORD &&
                    is_known_word(parser, setting->field, rt_place_text(&token->place));
-    if (is_known || (token->kind == RT_TOKEN_WORD && !is_field(context->block, token) && !token->first_on_line)) {
+    if (is_known || (token->kind == RT_TOKEN_WORD && !is_field(context->block, token) &&
+                     !token->first_on_line)) {
         int is_broken = 0;
         setting->word = rt_parser_take_word(parser, &is_broken);
         setting->is_broken |= is_broken;
@@ -251,9 +262,11 @@ static void parse_word(rt_parser *parser, rt_context *context)
     }
     /* The mistake is where the value is missing, or the wrong value itself. */
     int is_missing = token->kind == RT_TOKEN_WORD || token->kind == '}';
-    if (!setting->is_broken && token->kind != RT_TOKEN_END) /* else the block is reported as not closed */
-        rt_report_error(parser->reports, is_missing ? setting->name : token->place, "'%s' takes %s, found %s",
-                        setting->field->name, context->phrase, rt_parser_found(found, token));
+    if (!setting->is_broken &&
+        token->kind != RT_TOKEN_END) /* else the block is reported as not closed */
+        rt_report_error(parser->reports, is_missing ? setting->name : token->place,
+                        "'%s' takes %s, found %s", setting->field->name, context->phrase,
+                        rt_parser_found(found, token));
     setting->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
 }
@@ -263,7 +276,8 @@ static void parse_count(rt_parser *parser, rt_context *context)
 {
     skip_separators(parser, context);
     const rt_token *token = rt_parser_peek(parser, 0);
-    if (token->kind == RT_TOKEN_WORD && is_known_word(parser, context->setting->field, rt_place_text(&token->place)))
+    if (token->kind == RT_TOKEN_WORD &&
+        is_known_word(parser, context->setting->field, rt_place_text(&token->place)))
         parse_word(parser, context);
     else
         parse_numbers(parser, context);
@@ -288,8 +302,9 @@ static void parse_string(rt_parser *parser, rt_context *context)
     }
     int is_missing = token->kind == '}' || is_field(context->block, token);
     if (!setting->is_broken && token->kind != RT_TOKEN_END)
-        rt_report_error(parser->reports, is_missing ? setting->name : token->place, "'%s' takes %s, found %s",
-                        setting->field->name, context->phrase, rt_parser_found(found, token));
+        rt_report_error(parser->reports, is_missing ? setting->name : token->place,
+                        "'%s' takes %s, found %s", setting->field->name, context->phrase,
+                        rt_parser_found(found, token));
     if (!setting->is_broken && !is_missing && token->kind == RT_TOKEN_WORD)
         rt_report_hint(parser->reports, "file names stand in double quotes");
     setting->is_broken = 1;
@@ -297,7 +312,8 @@ static void parse_string(rt_parser *parser, rt_context *context)
     if (token->kind == RT_TOKEN_WORD && !is_missing && !token->first_on_line)
         do
             rt_parser_take(parser);
-        while (!rt_parser_peek(parser, 0)->space_before && rt_parser_peek(parser, 0)->kind != RT_TOKEN_END &&
+        while (!rt_parser_peek(parser, 0)->space_before &&
+               rt_parser_peek(parser, 0)->kind != RT_TOKEN_END &&
                rt_parser_peek(parser, 0)->kind != '}');
     rt_parser_skip_value(parser, context->block);
 }

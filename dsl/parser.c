@@ -11,8 +11,8 @@
 
 /* ---- Tokens -------------------------------------------------------------- */
 
-void rt_parser_begin(rt_parser *parser, const rt_source *source, rt_reports *reports, uint64_t *order,
-                     rt_operations *operations, const rt_scope *scope)
+void rt_parser_begin(rt_parser *parser, const rt_source *source, rt_reports *reports,
+                     uint64_t *order, rt_operations *operations, const rt_scope *scope)
 {
     memset(parser, 0, sizeof *parser);
     rt_lexer_begin(&parser->lexer, source, reports, order);
@@ -90,7 +90,8 @@ rt_place rt_parser_take_word(rt_parser *parser, int *is_broken)
     }
     if (*is_broken) {
         char quote[RT_QUOTE_SIZE];
-        rt_report_error(parser->reports, place, "'%s' is not a name", rt_text_quote(quote, rt_place_text(&place)));
+        rt_report_error(parser->reports, place, "'%s' is not a name",
+                        rt_text_quote(quote, rt_place_text(&place)));
         rt_report_hint(parser->reports, "names hold letters, digits and '_', no '-'");
     }
     return place;
@@ -111,12 +112,15 @@ int rt_parser_call_follows(rt_parser *parser)
 
 int rt_parser_is_constant(const rt_parser *parser, rt_text word)
 {
-    return rt_names_find(&parser->scope->constants, word) != RT_NAME_NONE || rt_text_equal(word, "pi");
+    return rt_names_find(&parser->scope->constants, word) != RT_NAME_NONE ||
+           rt_text_equal(word, "pi");
 }
 
 const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type)
 {
-    return type == RT_FIELD_MATERIAL ? &scope->materials : type == RT_FIELD_TEXTURE ? &scope->textures : NULL;
+    return type == RT_FIELD_MATERIAL  ? &scope->materials
+           : type == RT_FIELD_TEXTURE ? &scope->textures
+                                      : NULL;
 }
 
 /* ---- Recovery ------------------------------------------------------------ */
@@ -135,7 +139,8 @@ void rt_parser_skip_value(rt_parser *parser, const rt_block *block)
                 (!rt_parser_is_constant(parser, rt_place_text(&token->place)) &&
                  rt_function_find(rt_place_text(&token->place)) < 0))
                 return;
-        depth += (token->kind == '(' || token->kind == '[') - (token->kind == ')' || token->kind == ']');
+        depth +=
+            (token->kind == '(' || token->kind == '[') - (token->kind == ')' || token->kind == ']');
         rt_parser_take(parser);
     }
 }
@@ -146,15 +151,18 @@ int rt_parser_statement_follows(rt_parser *parser)
     if (word->kind != RT_TOKEN_WORD)
         return 0;
     if (is_word(word, "let"))
-        return rt_parser_peek(parser, 1)->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 2)->kind == '=';
+        return rt_parser_peek(parser, 1)->kind == RT_TOKEN_WORD &&
+               rt_parser_peek(parser, 2)->kind == '=';
     if (is_word(word, "include"))
         return rt_parser_peek(parser, 1)->kind == RT_TOKEN_STRING;
     if (is_word(word, "repeat"))
-        return rt_parser_peek(parser, 1)->kind == RT_TOKEN_WORD && is_word(rt_parser_peek(parser, 2), "from");
+        return rt_parser_peek(parser, 1)->kind == RT_TOKEN_WORD &&
+               is_word(rt_parser_peek(parser, 2), "from");
     if (!rt_schema_is_block(rt_place_text(&word->place)))
         return 0;
     const rt_token *next = rt_parser_peek(parser, 1);
-    return next->kind == '{' || (next->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 2)->kind == '{');
+    return next->kind == '{' ||
+           (next->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 2)->kind == '{');
 }
 
 void rt_parser_skip_braces(rt_parser *parser)
@@ -163,7 +171,8 @@ void rt_parser_skip_braces(rt_parser *parser)
     do {
         const rt_token *token = rt_parser_peek(parser, 0);
         int kind = token->kind;
-        if (kind == RT_TOKEN_END || (depth == 1 && token->first_on_line && rt_parser_statement_follows(parser)))
+        if (kind == RT_TOKEN_END ||
+            (depth == 1 && token->first_on_line && rt_parser_statement_follows(parser)))
             return;
         depth += kind == '{';
         depth -= kind == '}';
@@ -206,8 +215,9 @@ static int parse_let(rt_parser *parser, rt_statement *statement)
 
     token = rt_parser_peek(parser, 0);
     if (token->kind != '=') {
-        rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '=' after 'let %s', found %s",
-                        quote, rt_parser_found(found, token));
+        rt_report_error(parser->reports, rt_parser_expected_place(parser),
+                        "expected '=' after 'let %s', found %s", quote,
+                        rt_parser_found(found, token));
         statement->is_broken = 1;
         parser->depth = 0;
         rt_parser_skip_value(parser, NULL);
@@ -240,7 +250,8 @@ static int parse_include(rt_parser *parser, rt_statement *statement)
     statement->place = rt_parser_take(parser).place;
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind != RT_TOKEN_STRING) {
-        rt_report_error(parser->reports, statement->place, "expected a file name in quotes after 'include', found %s",
+        rt_report_error(parser->reports, statement->place,
+                        "expected a file name in quotes after 'include', found %s",
                         rt_parser_found(found, token));
         rt_report_hint(parser->reports, "as in: include \"materials.rts\"");
         if (!token->first_on_line)
@@ -265,8 +276,8 @@ static int parse_bound(rt_parser *parser, const char *word, rt_expression *value
         rt_parser_take(parser);
         return rt_parse_value(parser, value);
     }
-    rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '%s', found %s", word,
-                    rt_parser_found(found, token));
+    rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '%s', found %s",
+                    word, rt_parser_found(found, token));
     rt_report_hint(parser->reports, "as in: repeat i from 1 to 10 { ... }");
     return 0;
 }
@@ -287,21 +298,22 @@ static int parse_repeat(rt_parser *parser, rt_statement *statement)
     statement->place = rt_parser_take(parser).place;
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind != RT_TOKEN_WORD || token->first_on_line) {
-        rt_report_error(parser->reports, statement->place, "expected a name after 'repeat', found %s",
-                        rt_parser_found(found, token));
+        rt_report_error(parser->reports, statement->place,
+                        "expected a name after 'repeat', found %s", rt_parser_found(found, token));
         rt_report_hint(parser->reports, "as in: repeat i from 1 to 10 { ... }");
         rt_parser_skip_statement(parser);
         return 0;
     }
     statement->name = rt_parser_take_word(parser, &statement->is_broken);
-    if (!parse_bound(parser, "from", &statement->value) || !parse_bound(parser, "to", &statement->last)) {
+    if (!parse_bound(parser, "from", &statement->value) ||
+        !parse_bound(parser, "to", &statement->last)) {
         statement->is_broken = 1;
         skip_to_brace(parser);
     }
     token = rt_parser_peek(parser, 0);
     if (token->kind != '{') {
-        rt_report_error(parser->reports, rt_parser_expected_place(parser), "expected '{' after repeat, found %s",
-                        rt_parser_found(found, token));
+        rt_report_error(parser->reports, rt_parser_expected_place(parser),
+                        "expected '{' after repeat, found %s", rt_parser_found(found, token));
         if (token->kind == '+' || token->kind == '-' || token->kind == '*' || token->kind == '/')
             rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (n - 1)");
         statement->is_broken = 1;
@@ -364,8 +376,8 @@ static void report_unknown_statement(rt_parser *parser, const rt_token *token)
         return;
     }
     if (token->kind != RT_TOKEN_WORD) {
-        rt_report_error(parser->reports, token->place, "expected a block, 'let', 'include' or 'repeat', found %s",
-                        found);
+        rt_report_error(parser->reports, token->place,
+                        "expected a block, 'let', 'include' or 'repeat', found %s", found);
         if (token->kind == '/')
             rt_report_hint(parser->reports, "a comment begins with '#'");
         return;
@@ -401,7 +413,8 @@ int rt_parser_next(rt_parser *parser, rt_statement *statement)
             statement->place = rt_parser_take(parser).place;
             parser->repeats--;
             understood = 1;
-        } else if (token->kind == RT_TOKEN_WORD && rt_schema_is_block(rt_place_text(&token->place))) {
+        } else if (token->kind == RT_TOKEN_WORD &&
+                   rt_schema_is_block(rt_place_text(&token->place))) {
             understood = rt_parse_block(parser, statement);
         } else {
             int kind = token->kind;

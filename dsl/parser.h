@@ -35,8 +35,9 @@ typedef enum rt_statement_kind {
 
 typedef struct rt_statement {
     rt_statement_kind kind;
-    rt_place place;      /* of its first word, or first two: `light point` */
-    rt_place name;       /* the word that names it or, of a repeat, its constant; length 0 when it is missing */
+    rt_place place; /* of its first word, or first two: `light point` */
+    /* the word that names it or, of a repeat, its constant; length 0 when it is missing */
+    rt_place name;
     rt_expression value; /* of a constant; of a repeat the first */
     rt_expression last;  /* of a repeat */
     rt_place path;       /* of an include, without the quotes */
@@ -64,16 +65,19 @@ typedef struct rt_parser {
     int value_broken; /* the expression being parsed has an error that does not stop parsing */
 } rt_parser;
 
-void rt_parser_begin(rt_parser *parser, const rt_source *source, rt_reports *reports, uint64_t *order,
-                     rt_operations *operations, const rt_scope *scope);
+void rt_parser_begin(rt_parser *parser, const rt_source *source, rt_reports *reports,
+                     uint64_t *order, rt_operations *operations, const rt_scope *scope);
 
 /*
- * Parses the next statement that can be understood, errors included; returns 0 at the end of the text.
- * Nothing past the statement's last token is read, but for the one that ends a `let`.
+ * Parses the next statement that can be understood, errors included; returns 0 at the end of the
+ * text. Nothing past the statement's last token is read, but for the one that ends a `let`.
  */
 int rt_parser_next(rt_parser *parser, rt_statement *statement);
 
-/* A place between two statements, to go back to; and going on behind the '}' of the repeat that the parser is in. */
+/*
+ * A place between two statements, to go back to; and going on behind the '}' of the repeat that the
+ * parser is in.
+ */
 typedef rt_lexer rt_parser_mark;
 rt_parser_mark rt_parser_remember(const rt_parser *parser);
 void rt_parser_return(rt_parser *parser, const rt_parser_mark *mark);
@@ -89,10 +93,16 @@ rt_token rt_parser_take(rt_parser *parser);
 #define RT_FOUND_SIZE (RT_QUOTE_SIZE + 8)
 const char *rt_parser_found(char out[RT_FOUND_SIZE], const rt_token *token);
 
-/* Where to point when something else was expected: at the next token, or behind the latest if that ended its line. */
+/*
+ * Where to point when something else was expected: at the next token, or behind the latest if that
+ * ended its line.
+ */
 rt_place rt_parser_expected_place(rt_parser *parser);
 
-/* Says which function does what a sign that is no operator here, ^ or %, does elsewhere. Returns whether it is one. */
+/*
+ * Says which function does what a sign that is no operator here, ^ or %, does elsewhere. Returns
+ * whether it is one.
+ */
 int rt_parser_hint_operator(rt_parser *parser, const rt_token *token);
 
 /* Takes a word, joining `red-wall` into one mistake; the next token must be a word. */
@@ -107,12 +117,15 @@ int rt_parser_is_constant(const rt_parser *parser, rt_text word);
 /* The table of the names that a field takes, or NULL. */
 const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type);
 
-/* Whether a statement begins at the next token: inside a block this shows that its '}' is missing. */
+/*
+ * Whether a statement begins at the next token: inside a block this shows that its '}' is missing.
+ */
 int rt_parser_statement_follows(rt_parser *parser);
 
 /*
- * Recovery after an error. They skip what is left of a field's value, or of a constant's (block NULL);
- * a '{' with what it holds, to its '}' or a statement that shows it missing; and the rest of a statement.
+ * Recovery after an error. They skip what is left of a field's value, or of a constant's (block
+ * NULL); a '{' with what it holds, to its '}' or a statement that shows it missing; and the rest of
+ * a statement.
  */
 void rt_parser_skip_value(rt_parser *parser, const rt_block *block);
 void rt_parser_skip_braces(rt_parser *parser);

@@ -54,7 +54,8 @@ static rt_name *define(rt_reader *reader, rt_names *names, rt_place place, const
     }
     if (found != RT_NAME_NONE) {
         const rt_place *first = &names->items[found].place;
-        rt_report_error(&reader->reports, place, "%s '%s' is defined twice", what, rt_text_quote(quote, text));
+        rt_report_error(&reader->reports, place, "%s '%s' is defined twice", what,
+                        rt_text_quote(quote, text));
         rt_report_hint(&reader->reports, "first at %s:%d", first->source->path, first->line);
         return NULL;
     }
@@ -64,11 +65,13 @@ static rt_name *define(rt_reader *reader, rt_names *names, rt_place place, const
     return name;
 }
 
-static void read_let(rt_reader *reader, const rt_statement *statement, const rt_operations *operations)
+static void read_let(rt_reader *reader, const rt_statement *statement,
+                     const rt_operations *operations)
 {
     rt_value value = {{0, 0, 0}, statement->value.is_vector};
-    int is_good = !statement->is_broken && rt_expression_evaluate(&value, &statement->value, operations,
-                                                                  &reader->scope.constants, &reader->reports);
+    int is_good =
+        !statement->is_broken && rt_expression_evaluate(&value, &statement->value, operations,
+                                                        &reader->scope.constants, &reader->reports);
     rt_name *name = define(reader, &reader->scope.constants, statement->name, "constant");
     if (name) {
         name->value = value;
@@ -95,7 +98,10 @@ static int check_once(rt_reader *reader, const rt_statement *statement)
     return 0;
 }
 
-/* The setting that a refusal is about: by its name, a step of the transform, or the file that was read. */
+/*
+ * The setting that a refusal is about: by its name, a step of the transform, or the file that was
+ * read.
+ */
 static const rt_setting *setting_at_fault(const rt_statement *statement, const rt_error *error)
 {
     const rt_setting *found = NULL;
@@ -116,11 +122,13 @@ static void report_refusal(rt_reader *reader, const rt_statement *statement, con
     const rt_setting *setting = setting_at_fault(statement, error);
     rt_place place = statement->place;
     if (setting && setting->value_count > 0)
-        place = rt_place_join(setting->values[0].place, setting->values[setting->value_count - 1].place);
+        place = rt_place_join(setting->values[0].place,
+                              setting->values[setting->value_count - 1].place);
     else if (setting)
         place = setting->word;
     if (error->file[0] && error->line > 0)
-        rt_report_error(&reader->reports, place, "%s:%d: %s", error->file, error->line, error->message);
+        rt_report_error(&reader->reports, place, "%s:%d: %s", error->file, error->line,
+                        error->message);
     else if (error->file[0] && !strstr(error->message, error->file))
         rt_report_error(&reader->reports, place, "%s: %s", error->file, error->message);
     else
@@ -128,7 +136,8 @@ static void report_refusal(rt_reader *reader, const rt_statement *statement, con
 }
 
 /* Builds a block; returns whether the scene took it. */
-static int build(rt_reader *reader, const rt_statement *statement, const rt_block_fields *fields, rt_build_name *as)
+static int build(rt_reader *reader, const rt_statement *statement, const rt_block_fields *fields,
+                 rt_build_name *as)
 {
     rt_text text = statement->name.source ? rt_place_text(&statement->name) : (rt_text){"", 0};
     char *name = malloc(text.length + 1);
@@ -181,7 +190,8 @@ static int find_mesh(const rt_checker *checker, const rt_statement *statement, r
     return !name->is_broken;
 }
 
-static void read_block(rt_reader *reader, const rt_statement *statement, const rt_operations *operations)
+static void read_block(rt_reader *reader, const rt_statement *statement,
+                       const rt_operations *operations)
 {
     const rt_block *block = statement->block;
     char *path = NULL;
@@ -200,13 +210,18 @@ static void read_block(rt_reader *reader, const rt_statement *statement, const r
         is_good = build(reader, statement, &fields, &as);
     if (is_good && !reader->is_further_turn)
         rt_idle_warn(statement, &fields, &reader->reports);
-    if (is_good && reader->options->check && !rt_origins_add(&reader->origins, block, statement->place))
+    if (is_good && reader->options->check &&
+        !rt_origins_add(&reader->origins, block, statement->place))
         reader->reports.out_of_memory = 1;
     free(path);
 
-    /* A material is known by its name even if it is wrong, so that its uses are no errors too; so are the others. */
+    /*
+     * A material is known by its name even if it is wrong, so that its uses are no errors too; so
+     * are the others.
+     */
     if ((block->flags & RT_BLOCK_NAMED) && statement->name.length > 0) {
-        rt_name *name = define(reader, table_of(&reader->scope, block), statement->name, block->word);
+        rt_name *name =
+            define(reader, table_of(&reader->scope, block), statement->name, block->word);
         if (name) {
             name->index = as.index;
             name->texture = as.texture;
@@ -224,20 +239,23 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
     if (statement->is_broken)
         return;
     if (name.length == 0) {
-        rt_report_error(&reader->reports, statement->path, "the name of the file to include is empty");
+        rt_report_error(&reader->reports, statement->path,
+                        "the name of the file to include is empty");
         return;
     }
     char *path = rt_source_resolve(statement->path.source, name);
-    rt_source *source = path ? rt_sources_add(&reader->sources, path, statement->path.source) : NULL;
+    rt_source *source =
+        path ? rt_sources_add(&reader->sources, path, statement->path.source) : NULL;
     free(path);
-    rt_status status = source ? rt_source_read(&reader->sources, source, cause, sizeof cause) : RT_ERROR_MEMORY;
+    rt_status status =
+        source ? rt_source_read(&reader->sources, source, cause, sizeof cause) : RT_ERROR_MEMORY;
     if (status == RT_ERROR_MEMORY) {
         reader->reports.out_of_memory = 1;
     } else if (status != RT_OK) {
         char quote[RT_QUOTE_SIZE];
         rt_text shown = {source->path, strlen(source->path)};
-        rt_report_error(&reader->reports, statement->path, "cannot include '%s': %s", rt_text_quote(quote, shown),
-                        cause);
+        rt_report_error(&reader->reports, statement->path, "cannot include '%s': %s",
+                        rt_text_quote(quote, shown), cause);
     } else {
         rt_reader_tell_file(reader, source->path);
         rt_reader_read(reader, source);
@@ -249,25 +267,30 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
 static void read_statements(rt_reader *reader, rt_parser *parser, rt_statement *statement,
                             rt_operations *operations, int *is_closed);
 
-/* What a repeat counts from and to. Where that is wrong, its body is read once for its own errors. */
-static int evaluate_range(rt_reader *reader, const rt_statement *statement, const rt_operations *operations,
-                          double *first, double *last)
+/*
+ * What a repeat counts from and to. Where that is wrong, its body is read once for its own errors.
+ */
+static int evaluate_range(rt_reader *reader, const rt_statement *statement,
+                          const rt_operations *operations, double *first, double *last)
 {
     rt_value from = {{0, 0, 0}, 0}, to = {{0, 0, 0}, 0};
     const rt_expression *bounds[] = {&statement->value, &statement->last};
     *first = *last = 0;
     if (statement->is_broken ||
-        !rt_expression_evaluate(&from, bounds[0], operations, &reader->scope.constants, &reader->reports) ||
-        !rt_expression_evaluate(&to, bounds[1], operations, &reader->scope.constants, &reader->reports))
+        !rt_expression_evaluate(&from, bounds[0], operations, &reader->scope.constants,
+                                &reader->reports) ||
+        !rt_expression_evaluate(&to, bounds[1], operations, &reader->scope.constants,
+                                &reader->reports))
         return 0;
     for (int i = 0; i < 2; i++)
         if (bounds[i]->is_vector) {
-            rt_report_error(&reader->reports, bounds[i]->place, "expected a number, found a vector");
+            rt_report_error(&reader->reports, bounds[i]->place,
+                            "expected a number, found a vector");
             return 0;
         }
     if (to.v[0] - from.v[0] >= TURNS_MAX) {
-        rt_report_error(&reader->reports, statement->place, "the repeats of a scene have more than %.0f turns",
-                        TURNS_MAX);
+        rt_report_error(&reader->reports, statement->place,
+                        "the repeats of a scene have more than %.0f turns", TURNS_MAX);
         return 0;
     }
     *first = from.v[0];
@@ -276,8 +299,9 @@ static int evaluate_range(rt_reader *reader, const rt_statement *statement, cons
 }
 
 /* Reads the body once; returns whether there may be another turn. */
-static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *statement, rt_operations *operations,
-                     rt_place variable, double number, int is_good, int is_first)
+static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *statement,
+                     rt_operations *operations, rt_place variable, double number, int is_good,
+                     int is_first)
 {
     size_t errors = reader->reports.errors;
     rt_scope_counts before = rt_scope_count(&reader->scope);
@@ -302,17 +326,20 @@ static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *stateme
 }
 
 /* A repeat without turns; one inside another may be meant to have none in some of the other's. */
-static void skip_empty(rt_reader *reader, rt_parser *parser, rt_place place, double first, double last)
+static void skip_empty(rt_reader *reader, rt_parser *parser, rt_place place, double first,
+                       double last)
 {
     if (reader->repeats == 0) {
-        rt_report_warning(&reader->reports, place, "this repeat makes no turns: it counts up from %.10g to %.10g",
-                          first, last);
+        rt_report_warning(&reader->reports, place,
+                          "this repeat makes no turns: it counts up from %.10g to %.10g", first,
+                          last);
         rt_report_hint(&reader->reports, "what its braces hold is not read");
     }
     rt_parser_skip_repeat(parser);
 }
 
-static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *statement, rt_operations *operations)
+static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *statement,
+                        rt_operations *operations)
 {
     double first, last;
     rt_place variable = statement->name, place = statement->place;
@@ -330,12 +357,14 @@ static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *stat
         if (turn > 0)
             rt_parser_return(parser, &body);
         if ((double)++reader->turns > TURNS_MAX) {
-            rt_report_error(&reader->reports, place, "the repeats of a scene have more than %.0f turns", TURNS_MAX);
+            rt_report_error(&reader->reports, place,
+                            "the repeats of a scene have more than %.0f turns", TURNS_MAX);
             rt_parser_skip_repeat(parser);
             break;
         }
         /* An error would be the same at every turn: report it once. */
-        if (!read_turn(reader, parser, statement, operations, variable, first + (double)turn, is_good, turn == 0))
+        if (!read_turn(reader, parser, statement, operations, variable, first + (double)turn,
+                       is_good, turn == 0))
             break;
     }
     reader->repeats--;

@@ -16,18 +16,24 @@ typedef struct rt_reader {
     rt_sources sources;
     rt_reports reports;
     rt_scope scope;
-    rt_place once[RT_BLOCK_COUNT]; /* the first block of each kind that may stand only once; length 0: none yet */
-    rt_origins origins;            /* of what is in the scene, when it is to be checked */
+    /* the first block of each kind that may stand only once; length 0: none yet */
+    rt_place once[RT_BLOCK_COUNT];
+    rt_origins origins;             /* of what is in the scene, when it is to be checked */
     const rt_load_options *options; /* never NULL */
-    uint64_t order;                /* tokens so far */
-    size_t blocks;                 /* blocks so far */
-    size_t turns;                  /* of all repeats so far */
-    int repeats;                   /* inside each other */
-    int is_further_turn;           /* the text was read before, in an earlier turn of a repeat around it */
-    rt_error fatal;                /* a failure that is no fault of the text; status RT_OK while there is none */
+    uint64_t order;                 /* tokens so far */
+    size_t blocks;                  /* blocks so far */
+    size_t turns;                   /* of all repeats so far */
+    int repeats;                    /* inside each other */
+    /* the text was read before, in an earlier turn of a repeat around it */
+    int is_further_turn;
+    /* a failure that is no fault of the text; status RT_OK while there is none */
+    rt_error fatal;
 } rt_reader;
 
-/* Starts with an empty scene; options, not NULL, must outlive the reader. Whatever it returns, free the reader. */
+/*
+ * Starts with an empty scene; options, not NULL, must outlive the reader. Whatever it returns, free
+ * the reader.
+ */
 rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_error *error);
 void rt_reader_free(rt_reader *reader);
 

@@ -94,15 +94,20 @@ static int compare_reports(const void *a, const void *b)
 /* A name that was unknown where it stood may be defined by now: say so. */
 static void hint_at_later_definition(rt_report *report)
 {
-    size_t found = report->table ? rt_names_find(report->table, rt_place_text(&report->place)) : RT_NAME_NONE;
+    size_t found =
+        report->table ? rt_names_find(report->table, rt_place_text(&report->place)) : RT_NAME_NONE;
     if (found == RT_NAME_NONE)
         return;
     const rt_place *place = &report->table->items[found].place;
-    snprintf(report->hint, sizeof report->hint, "it is defined further down, at %s:%d; define it before its use",
-             place->source->path, place->line);
+    snprintf(report->hint, sizeof report->hint,
+             "it is defined further down, at %s:%d; define it before its use", place->source->path,
+             place->line);
 }
 
-/* The line around a place, cut out of the text in place: *end is set to NUL and its byte returned in *kept. */
+/*
+ * The line around a place, cut out of the text in place: *end is set to NUL and its byte returned
+ * in *kept.
+ */
 static const char *cut_line(const rt_place *place, char **end, char *kept)
 {
     char *text = place->source->text;
@@ -144,7 +149,8 @@ static void fill_error(rt_error *error, const rt_report *first, size_t errors)
     error->column = first->place.column;
     snprintf(error->file, sizeof error->file, "%s", first->place.source->path);
     if (errors > 1)
-        snprintf(error->message, sizeof error->message, "%s (and %zu more)", first->message, errors - 1);
+        snprintf(error->message, sizeof error->message, "%s (and %zu more)", first->message,
+                 errors - 1);
     else
         snprintf(error->message, sizeof error->message, "%s", first->message);
 }
@@ -154,12 +160,14 @@ rt_status rt_reports_finish(rt_reports *reports, const rt_load_options *options,
     if (reports->count > 1)
         qsort(reports->items, reports->count, sizeof *reports->items, compare_reports);
     if (reports->errors >= RT_REPORTS_MAX)
-        rt_report_error(reports, reports->items[reports->count - 1].place, "too many errors: reading stopped here");
+        rt_report_error(reports, reports->items[reports->count - 1].place,
+                        "too many errors: reading stopped here");
     if (reports->out_of_memory) {
         if (error) {
             memset(error, 0, sizeof *error);
             error->status = RT_ERROR_MEMORY;
-            snprintf(error->message, sizeof error->message, "memory is exhausted while reading the scene");
+            snprintf(error->message, sizeof error->message,
+                     "memory is exhausted while reading the scene");
         }
         return RT_ERROR_MEMORY;
     }

@@ -32,8 +32,10 @@ typedef struct rt_reports {
 } rt_reports;
 
 /* Adds an error, or a warning, at a place. */
-void rt_report_error(rt_reports *reports, rt_place place, const char *format, ...) RT_REPORT_PRINTF(3, 4);
-void rt_report_warning(rt_reports *reports, rt_place place, const char *format, ...) RT_REPORT_PRINTF(3, 4);
+void rt_report_error(rt_reports *reports, rt_place place, const char *format, ...)
+    RT_REPORT_PRINTF(3, 4);
+void rt_report_warning(rt_reports *reports, rt_place place, const char *format, ...)
+    RT_REPORT_PRINTF(3, 4);
 
 /* Adds what rt_scene_check found. */
 void rt_report_finding(rt_reports *reports, rt_place place, const rt_finding *finding);
@@ -41,15 +43,18 @@ void rt_report_finding(rt_reports *reports, rt_place place, const rt_finding *fi
 /* Gives the latest report a hint: the nearest known name, or a way out. */
 void rt_report_hint(rt_reports *reports, const char *format, ...) RT_REPORT_PRINTF(2, 3);
 
-/* Says that the latest error is a name missing in this table, in case it is defined further down. */
+/*
+ * Says that the latest error is a name missing in this table, in case it is defined further down.
+ */
 void rt_report_unknown(rt_reports *reports, const rt_names *table);
 
 /* Whether reading must stop: too many errors, or no memory. */
 int rt_reports_full(const rt_reports *reports);
 
 /*
- * Orders the reports by place and passes each to the callback of options (may be NULL). Returns RT_OK
- * when there is no error; otherwise fills *error (may be NULL) with the first and the number of others.
+ * Orders the reports by place and passes each to the callback of options (may be NULL). Returns
+ * RT_OK when there is no error; otherwise fills *error (may be NULL) with the first and the number
+ * of others.
  */
 rt_status rt_reports_finish(rt_reports *reports, const rt_load_options *options, rt_error *error);
 

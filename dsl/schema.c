@@ -8,7 +8,8 @@ const rt_block *rt_schema_find(rt_text word, const rt_text *kind)
 {
     for (size_t i = 0; i < RT_BLOCK_COUNT; i++) {
         const rt_block *block = &rt_blocks[i];
-        if (rt_text_equal(word, block->word) && !block->kind == !kind && (!kind || rt_text_equal(*kind, block->kind)))
+        if (rt_text_equal(word, block->word) && !block->kind == !kind &&
+            (!kind || rt_text_equal(*kind, block->kind)))
             return block;
     }
     return NULL;
@@ -45,7 +46,8 @@ int rt_field_is_transform(const rt_field *field)
 
 const char *rt_block_title(char out[RT_BLOCK_TITLE_SIZE], const rt_block *block)
 {
-    snprintf(out, RT_BLOCK_TITLE_SIZE, "%s%s%s", block->word, block->kind ? " " : "", block->kind ? block->kind : "");
+    snprintf(out, RT_BLOCK_TITLE_SIZE, "%s%s%s", block->word, block->kind ? " " : "",
+             block->kind ? block->kind : "");
     return out;
 }
 
@@ -99,7 +101,8 @@ const char *rt_range_phrase(char out[RT_PHRASE_SIZE], rt_range range)
         snprintf(out, RT_PHRASE_SIZE, "from %.10g to %.10g", range.low, range.high);
         break;
     case RT_RANGE_BETWEEN:
-        snprintf(out, RT_PHRASE_SIZE, "between %.10g and %.10g, both excluded", range.low, range.high);
+        snprintf(out, RT_PHRASE_SIZE, "between %.10g and %.10g, both excluded", range.low,
+                 range.high);
         break;
     case RT_RANGE_DIRECTION:
     case RT_RANGE_NOT_ZERO:
@@ -115,7 +118,8 @@ int rt_range_holds(rt_range range, double value)
     case RT_RANGE_ABOVE:
         return value > range.low && value <= range.high;
     case RT_RANGE_CLOSED:
-        return value >= fmin(range.low, (float)range.low) && value <= range.high; /* it may be rounded to float */
+        /* it may be rounded to float */
+        return value >= fmin(range.low, (float)range.low) && value <= range.high;
     case RT_RANGE_BETWEEN:
         return value > range.low && value < range.high;
     case RT_RANGE_NOT_ZERO:

@@ -23,7 +23,10 @@ typedef enum rt_field_type {
     RT_FIELD_MATERIAL, /* uint32_t: index of the material of that name */
     RT_FIELD_TEXTURE,  /* uint32_t: handle of the texture of that name */
     RT_FIELD_FILE,     /* const char *: path; at most one a block */
-    /* Steps of a transform, all into one rt_transform, in the order in which they stand; each may stand often. */
+    /*
+     * Steps of a transform, all into one rt_transform, in the order in which they stand; each may
+     * stand often.
+     */
     RT_FIELD_TRANSLATE, /* three numbers */
     RT_FIELD_ROTATE,    /* axis and degrees */
     RT_FIELD_SCALE,     /* one or three numbers */
@@ -36,18 +39,18 @@ typedef enum rt_field_type {
 typedef enum rt_field_need {
     RT_NEED_OPTIONAL,
     RT_NEED_REQUIRED,
-    RT_NEED_ONE_OF,      /* group: exactly one */
-    RT_NEED_AT_MOST_ONE, /* group: one or none */
-    RT_NEED_ALL_OR_NONE, /* group: all or none */
+    RT_NEED_ONE_OF,         /* group: exactly one */
+    RT_NEED_AT_MOST_ONE,    /* group: one or none */
+    RT_NEED_ALL_OR_NONE,    /* group: all or none */
     RT_NEED_ALL_OR_NONE_TOO /* a second such group */
 } rt_field_need;
 
 /* Which numbers a field takes; of a vector or colour, each component. */
 typedef enum rt_range_kind {
     RT_RANGE_ANY,
-    RT_RANGE_ABOVE,    /* greater than low, at most high */
-    RT_RANGE_CLOSED,   /* low to high, both included */
-    RT_RANGE_BETWEEN,  /* low to high, both excluded */
+    RT_RANGE_ABOVE,     /* greater than low, at most high */
+    RT_RANGE_CLOSED,    /* low to high, both included */
+    RT_RANGE_BETWEEN,   /* low to high, both excluded */
     RT_RANGE_DIRECTION, /* any vector but zero; of a rotation, the axis */
     RT_RANGE_NOT_ZERO   /* each number */
 } rt_range_kind;
@@ -62,8 +65,9 @@ typedef struct rt_field {
     rt_field_type type;
     rt_field_need need;
     rt_range range;
-    const char *unit;           /* as the reference prints it; "" for none */
-    const char *fallback;       /* the value when the field is left out, as the reference prints it; "" for none */
+    const char *unit; /* as the reference prints it; "" for none */
+    /* the value when the field is left out, as the reference prints it; "" for none */
+    const char *fallback;
     const char *const *choices; /* of RT_FIELD_CHOICE, ended by NULL */
     size_t offset, size;        /* of the member in the block's struct */
 } rt_field;
@@ -93,8 +97,8 @@ typedef enum rt_block_id {
     RT_BLOCK_COUNT
 } rt_block_id;
 
-#define RT_BLOCK_ONCE 1u  /* a scene holds at most one */
-#define RT_BLOCK_NAMED 2u /* a name that the scene chooses follows the word */
+#define RT_BLOCK_ONCE 1u   /* a scene holds at most one */
+#define RT_BLOCK_NAMED 2u  /* a name that the scene chooses follows the word */
 #define RT_BLOCK_REFERS 4u /* the name of a mesh follows the word */
 
 #define RT_BLOCK_FIELDS_MAX 32

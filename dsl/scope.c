@@ -17,7 +17,8 @@ void rt_scope_forget(rt_scope *scope, const rt_scope_counts *counts)
     rt_names_truncate(&scope->meshes, counts->meshes);
 }
 
-static void warn_of_unused(rt_reports *reports, const rt_names *names, size_t first, const char *what)
+static void warn_of_unused(rt_reports *reports, const rt_names *names, size_t first,
+                           const char *what)
 {
     char quote[RT_QUOTE_SIZE];
     int warned = 0;

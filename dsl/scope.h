@@ -19,7 +19,10 @@ rt_scope_counts rt_scope_count(const rt_scope *scope);
 /* Takes the names away that were defined since they were counted. */
 void rt_scope_forget(rt_scope *scope, const rt_scope_counts *counts);
 
-/* Warns of names defined since that nothing uses: in the first text only, for included ones may be libraries. */
+/*
+ * Warns of names defined since that nothing uses: in the first text only, for included ones may be
+ * libraries.
+ */
 void rt_scope_warn(const rt_scope *scope, const rt_scope_counts *counts, rt_reports *reports);
 
 void rt_scope_free(rt_scope *scope);

@@ -39,7 +39,8 @@ rt_source *rt_sources_add(rt_sources *sources, const char *path, const rt_source
     return source;
 }
 
-rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *text, const char **cause)
+rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *text,
+                         const char **cause)
 {
     size_t size = strlen(text);
     if (size > RT_SOURCE_BYTES_MAX) {
@@ -72,7 +73,8 @@ static rt_status fail_errno(char *cause, size_t cause_size, int code)
 }
 
 /* Reads to the end of the file, at most `limit` bytes, growing the text as it comes. */
-static rt_status read_all(rt_source *source, FILE *file, size_t limit, char *cause, size_t cause_size)
+static rt_status read_all(rt_source *source, FILE *file, size_t limit, char *cause,
+                          size_t cause_size)
 {
     size_t capacity = 0;
     for (;;) {
@@ -88,7 +90,8 @@ static rt_status read_all(rt_source *source, FILE *file, size_t limit, char *cau
         source->size += count;
         source->text[source->size] = '\0';
         if (source->size > limit)
-            return fail(cause, cause_size, RT_ERROR_INPUT, "the scene's files are larger than 256 MiB together");
+            return fail(cause, cause_size, RT_ERROR_INPUT,
+                        "the scene's files are larger than 256 MiB together");
         if (ferror(file))
             return fail_errno(cause, cause_size, code);
         if (count == 0)
@@ -112,9 +115,13 @@ rt_status rt_source_read(rt_sources *sources, rt_source *source, char *cause, si
     if (sources->count > RT_SOURCE_COUNT_MAX)
         return fail(cause, cause_size, RT_ERROR_INPUT, "the scene includes more than 10000 files");
 
-    /* A pipe that none writes to would not even open, and the name of one in a scene is hardly meant. */
+    /*
+     * A pipe that none writes to would not even open, and the name of one in a scene is hardly
+     * meant.
+     */
     struct stat info;
-    if (source->includer && stat(source->path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
+    if (source->includer && stat(source->path, &info) == 0 && !S_ISREG(info.st_mode) &&
+        !S_ISDIR(info.st_mode))
         return fail(cause, cause_size, RT_ERROR_INPUT, "it is not a regular file");
     FILE *file = fopen(source->path, "rb");
     if (!file)
@@ -147,7 +154,8 @@ out:
 char *rt_source_resolve(const rt_source *source, rt_text name)
 {
     const char *slash = source->is_file ? strrchr(source->path, '/') : NULL;
-    size_t directory = slash && name.length && name.at[0] != '/' ? (size_t)(slash - source->path) + 1 : 0;
+    size_t directory =
+        slash && name.length && name.at[0] != '/' ? (size_t)(slash - source->path) + 1 : 0;
     char *path = malloc(directory + name.length + 1);
     if (!path)
         return NULL;

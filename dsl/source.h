@@ -13,14 +13,15 @@
 
 /* One text: a file, or a string that the caller gave. It lives until the scene has been read. */
 typedef struct rt_source {
-    char *path;                      /* as messages show it */
-    char *text;                      /* size bytes, then a NUL */
+    char *path; /* as messages show it */
+    char *text; /* size bytes, then a NUL */
     size_t size;
-    int is_file;                     /* what it names is relative to path; else to the current directory */
-    int depth;                       /* includes around it */
-    uint64_t device, inode;          /* identity of the file, to notice cycles */
+    /* what it names is relative to path; else to the current directory */
+    int is_file;
+    int depth;                        /* includes around it */
+    uint64_t device, inode;           /* identity of the file, to notice cycles */
     const struct rt_source *includer; /* NULL for the first text */
-    struct rt_source *next;          /* all texts of the scene, latest first */
+    struct rt_source *next;           /* all texts of the scene, latest first */
 } rt_source;
 
 /* All texts of a scene. All zero is none. */
@@ -47,7 +48,8 @@ typedef struct rt_text {
 rt_source *rt_sources_add(rt_sources *sources, const char *path, const rt_source *includer);
 
 /* Fills a source with a copy of text. On failure *cause says why, as a part of a sentence. */
-rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *text, const char **cause);
+rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *text,
+                         const char **cause);
 
 /*
  * Fills a source from the file of its path. Fails with RT_ERROR_INPUT or RT_ERROR_MEMORY;
@@ -55,7 +57,10 @@ rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *tex
  */
 rt_status rt_source_read(rt_sources *sources, rt_source *source, char *cause, size_t cause_size);
 
-/* The path of a file that `source` names, by the rules of relative paths; NULL without memory. To be freed. */
+/*
+ * The path of a file that `source` names, by the rules of relative paths; NULL without memory. To
+ * be freed.
+ */
 char *rt_source_resolve(const rt_source *source, rt_text name);
 
 void rt_sources_free(rt_sources *sources);
@@ -63,7 +68,10 @@ void rt_sources_free(rt_sources *sources);
 /* The text that a place covers. */
 rt_text rt_place_text(const rt_place *place);
 
-/* The place from the start of `first` to the end of `last`, or `first` alone when they are on different lines. */
+/*
+ * The place from the start of `first` to the end of `last`, or `first` alone when they are on
+ * different lines.
+ */
 rt_place rt_place_join(rt_place first, rt_place last);
 
 int rt_text_equal(rt_text text, const char *word);
@@ -71,7 +79,9 @@ int rt_text_equal(rt_text text, const char *word);
 /* Room for any text that a message quotes. */
 #define RT_QUOTE_SIZE 64
 
-/* Writes text as a message may show it: one line, bounded, without control characters. Returns out. */
+/*
+ * Writes text as a message may show it: one line, bounded, without control characters. Returns out.
+ */
 const char *rt_text_quote(char out[RT_QUOTE_SIZE], rt_text text);
 
 #endif

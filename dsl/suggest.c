@@ -75,7 +75,8 @@ void rt_suggestion_offer_names(rt_suggestion *suggestion, const rt_names *names)
 
 int rt_text_is_unit(rt_text text)
 {
-    static const char *const units[] = {"m", "mm", "cm", "km", "deg", "degrees", "rad", "px", "W", "s"};
+    static const char *const units[] = {"m",       "mm",  "cm", "km", "deg",
+                                        "degrees", "rad", "px", "W",  "s"};
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (rt_text_equal(text, units[i]))
             return 1;

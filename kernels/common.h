@@ -7,7 +7,10 @@
 
 #define RT_NONE 0xffffffffu /* "no such element", wherever an index is asked */
 
-/* A ray: origin + t direction, t in [t_min, t_max]; the direction need not be of unit length, see rt_trace. */
+/*
+ * A ray: origin + t direction, t in [t_min, t_max]; the direction need not be of unit length, see
+ * rt_trace.
+ */
 typedef struct rt_ray {
     float origin[3]; /* metres */
     float t_min;
@@ -25,18 +28,20 @@ typedef struct rt_hit {
 } rt_hit;
 
 /*
- * A photon: flux that a path from a light brought to a surface. To get the flux in watts that a map's
- * photons stand for, divide by the number of paths that were emitted for it.
+ * A photon: flux that a path from a light brought to a surface. To get the flux in watts that a
+ * map's photons stand for, divide by the number of paths that were emitted for it.
  */
-#define RT_PHOTON_CAUSTIC 1u /* flag: came from the light through specular reflections and refractions only */
+/* flag: came from the light through specular reflections and refractions only */
+#define RT_PHOTON_CAUSTIC 1u
 typedef struct rt_photon {
-    float position[3]; /* metres */
-    unsigned int path; /* index of the photon path that left it */
-    float wi[3];       /* unit, away from the surface, towards where it came from */
+    float position[3];  /* metres */
+    unsigned int path;  /* index of the photon path that left it */
+    float wi[3];        /* unit, away from the surface, towards where it came from */
     unsigned int flags; /* RT_PHOTON_CAUSTIC | segments of its path so far << 8 */
-    float flux[3];     /* of the path, W, not divided by the number of paths */
-    float shading;     /* cosine of wi to the shading normal / cosine to the geometric one: 1 on flat surfaces */
-    float normal[3];   /* unit geometric normal on the side of wi */
+    float flux[3];      /* of the path, W, not divided by the number of paths */
+    /* cosine of wi to the shading normal / cosine to the geometric one: 1 on flat surfaces */
+    float shading;
+    float normal[3];    /* unit geometric normal on the side of wi */
     unsigned int shape; /* index, as rt_scene_add_* returned it */
 } rt_photon;
 
@@ -73,7 +78,10 @@ typedef enum rt_texture_kind {
 /* How an image or gradient goes on outside the unit square; a checker has no end. */
 typedef enum rt_wrap { RT_WRAP_REPEAT = 0, RT_WRAP_MIRROR, RT_WRAP_CLAMP } rt_wrap;
 
-/* Reconstruction filters; each sample is placed by importance sampling of the filter, so pixels stay independent. */
+/*
+ * Reconstruction filters; each sample is placed by importance sampling of the filter, so pixels
+ * stay independent.
+ */
 typedef enum rt_filter {
     RT_FILTER_BOX = 0,  /* half a pixel to each side */
     RT_FILTER_TENT,     /* 1 pixel */
@@ -82,9 +90,9 @@ typedef enum rt_filter {
 } rt_filter;
 
 /*
- * How light that comes straight from a lamp is estimated where a surface scatters it. All have the same mean. Light
- * that no scattered ray can meet (point, spot, directional) is always sampled, and what is seen by way of mirrors
- * and clear glass always comes from the ray that meets it.
+ * How light that comes straight from a lamp is estimated where a surface scatters it. All have the
+ * same mean. Light that no scattered ray can meet (point, spot, directional) is always sampled, and
+ * what is seen by way of mirrors and clear glass always comes from the ray that meets it.
  */
 typedef enum rt_estimator {
     RT_ESTIMATOR_MIS = 0, /* both of the others, combined by the power heuristic */
@@ -98,15 +106,19 @@ typedef enum rt_accel {
 } rt_accel;
 
 typedef enum rt_direct {
-    RT_DIRECT_NEE = 0, /* direct light by shadow rays; photons straight from a light are not stored */
-    RT_DIRECT_PHOTONS  /* all light at a diffuse surface comes from the map */
+    /* direct light by shadow rays; photons straight from a light are not stored */
+    RT_DIRECT_NEE = 0,
+    RT_DIRECT_PHOTONS /* all light at a diffuse surface comes from the map */
 } rt_direct;
 
 /* The area that photons are taken to be spread over. */
 typedef enum rt_area {
     RT_AREA_DISC = 0, /* the disc that they lie in, photons weighted by the density kernel */
-    RT_AREA_HULL      /* their convex hull in the tangent plane, those at its corners left out: true at the edges of
-                         surfaces as well, a little noisier elsewhere */
+    /*
+     * their convex hull in the tangent plane, those at its corners left out: true at the edges of
+     * surfaces as well, a little noisier elsewhere
+     */
+    RT_AREA_HULL
 } rt_area;
 
 #endif

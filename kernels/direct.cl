@@ -1,12 +1,14 @@
 /*
- * direct.cl - emission and direct light alone: each work-item takes the samples of one pixel, in order.
+ * direct.cl - emission and direct light alone: each work-item takes the samples of one pixel, in
+ * order.
  */
-#include "camera.h"
+#include "camera/camera.h"
 #include "entry.h"
-#include "film.h"
-#include "integrate.h"
+#include "camera/film.h"
+#include "integrate/integrate.h"
 
-KERNEL direct(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
+KERNEL direct(const rt_params params, global const rt_scene_header *header,
+              global rt_film_pixel *film)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
@@ -17,7 +19,8 @@ KERNEL direct(const rt_params params, global const rt_scene_header *header, glob
     rt_film_pixel pixel = film[index];
 
     for (uint i = 0; i < params.sample_count; i++) {
-        const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample + i);
+        const struct sampler sampler =
+            sampler_start(&scene, &params, index, params.first_sample + i);
         float weight;
         const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
         film_add(&pixel, follow_path(&scene, &params, &sampler, ray, FOLLOW_DIRECT, 0), weight);

@@ -1,14 +1,14 @@
 /*
  * enclose.cl - which solids paths start in: those around the camera and around each light.
  *
- * A ray is followed from the point to infinity. A solid that it leaves without having entered it is around the
- * point. The solids are nested in the order in which the ray leaves them, the innermost first; what is opaque is
- * passed through.
+ * A ray is followed from the point to infinity. A solid that it leaves without having entered it is
+ * around the point. The solids are nested in the order in which the ray leaves them, the innermost
+ * first; what is opaque is passed through.
  */
 #include "entry.h"
-#include "light_emit.h"
-#include "medium.h"
-#include "traverse.h"
+#include "light/emit.h"
+#include "material/medium.h"
+#include "accel/traverse.h"
 
 #define RT_WALK_LENGTH 1024 /* surfaces that a ray is followed through */
 
@@ -60,7 +60,10 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
     }
 }
 
-/* Item 0: the camera at `eye`; item i: light i - 1. Only scenes with solids that light enters need it. */
+/*
+ * Item 0: the camera at `eye`; item i: light i - 1. Only scenes with solids that light enters need
+ * it.
+ */
 KERNEL enclose(const rt_params params, global rt_scene_header *header, const float4 eye)
 {
     const uint item = (uint)get_global_id(0);

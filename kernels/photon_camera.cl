@@ -2,10 +2,10 @@
  * photon_camera.cl - photon mapping, seen from the eye: each work-item follows one sample of one
  * pixel to the places where photon maps are asked.
  */
-#include "camera.h"
+#include "camera/camera.h"
 #include "entry.h"
-#include "film.h"
-#include "integrate.h"
+#include "camera/film.h"
+#include "integrate/integrate.h"
 
 /* A point that asks for nothing. */
 static void clear_point(global rt_gather_point *point, uint pixel, uint sample, float film_weight)
@@ -24,11 +24,11 @@ static void clear_point(global rt_gather_point *point, uint pixel, uint sample, 
 }
 
 /*
- * points: [item_count], in the order of items; caustics: [params.final_gather][stride], a row for each diffuse
- * event on the way there. The sample is params.first_sample.
+ * points: [item_count], in the order of items; caustics: [params.final_gather][stride], a row for
+ * each diffuse event on the way there. The sample is params.first_sample.
  */
-KERNEL photon_camera(const rt_params params, global const rt_scene_header *header, global rt_gather_point *points,
-                     global rt_gather_point *caustics, uint stride)
+KERNEL photon_camera(const rt_params params, global const rt_scene_header *header,
+                     global rt_gather_point *points, global rt_gather_point *caustics, uint stride)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

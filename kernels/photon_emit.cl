@@ -2,10 +2,10 @@
  * photon_emit.cl - photon tracing: each work-item follows one path from a light.
  *
  * A path starts with the flux of all lights, in the colour of the light that was chosen, and leaves
- * a photon at each surface that reflects diffusely; specular events, perfect or rough, are followed,
- * here and from the eye, and are no part of what a photon stands for. The division by the number of paths is left to
- * those who use the photons, so that maps can be joined. Its photons go to slots of its own, so that
- * the map does not depend on the order in which paths are followed.
+ * a photon at each surface that reflects diffusely; specular events, perfect or rough, are
+ * followed, here and from the eye, and are no part of what a photon stands for. The division by the
+ * number of paths is left to those who use the photons, so that maps can be joined. Its photons go
+ * to slots of its own, so that the map does not depend on the order in which paths are followed.
  *
  * Paths for a caustic map alone start towards specular shapes (aim.h).
  *
@@ -21,13 +21,13 @@
  *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, chapter 5
  *     (flux is not scaled at refraction, radiance is).
  */
-#include "aim.h"
-#include "bsdf.h"
+#include "photon/aim.h"
+#include "bsdf/bsdf.h"
 #include "entry.h"
-#include "light_emit.h"
-#include "medium.h"
-#include "rng.h"
-#include "traverse.h"
+#include "light/emit.h"
+#include "material/medium.h"
+#include "sample/rng.h"
+#include "accel/traverse.h"
 
 /* A path under way. */
 struct light_path {
@@ -35,17 +35,20 @@ struct light_path {
     float3 flux;
     float3 absorbed, roulette; /* as rt_path_account says */
     uint4 media;
-    uint depth;    /* segments, the one under way included */
-    uint hidden;   /* boundaries crossed that a stronger medium hides */
-    bool straight; /* nothing was met yet: a shadow ray would find the light */
+    uint depth;     /* segments, the one under way included */
+    uint hidden;    /* boundaries crossed that a stronger medium hides */
+    bool straight;  /* nothing was met yet: a shadow ray would find the light */
     bool scattered; /* by some event other than a delta one */
     uint photons;   /* that it stored */
     uint rejected;  /* and that it did not, because they were not finite */
 };
 
-/* Starts a path and its account, aimed when it is for caustics alone; false when there is no light. */
-static bool start_path(struct light_path *path, const struct scene *scene, global const rt_light_share *shares,
-                       const struct sampler *sampler, bool for_caustics, rt_path_account *account)
+/*
+ * Starts a path and its account, aimed when it is for caustics alone; false when there is no light.
+ */
+static bool start_path(struct light_path *path, const struct scene *scene,
+                       global const rt_light_share *shares, const struct sampler *sampler,
+                       bool for_caustics, rt_path_account *account)
 {
     struct emission emission;
     const float8 u = sampler_pair(sampler, SET_START); /* and SET_EMISSION, the set after it */
@@ -59,7 +62,8 @@ static bool start_path(struct light_path *path, const struct scene *scene, globa
         lit = largest3(emission.flux) > 0.0f;
     }
     if (lit) {
-        path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f, INFINITY);
+        path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction,
+                             0.0f, INFINITY);
         path->flux = emission.flux;
         path->media = (uint4)(vload3(0, scene->lights[emission.light].media), 0u) - 1u;
         account->light = emission.light;
@@ -86,7 +90,8 @@ static void end_path(const struct light_path *path, uint end, rt_path_account *a
 /* Loses what the medium absorbs over a distance; false when nothing is left. */
 static bool cross_medium(struct light_path *path, const struct scene *scene, float distance)
 {
-    const float3 passed = path->flux * medium_transmittance(scene->materials, path->media.x, distance);
+    const float3 passed =
+        path->flux * medium_transmittance(scene->materials, path->media.x, distance);
     path->absorbed += path->flux - passed;
     path->flux = passed;
     return largest3(path->flux) > 0.0f;
@@ -97,7 +102,10 @@ static bool is_caustic(const struct light_path *path)
     return !path->straight && !path->scattered;
 }
 
-/* Whether the map under way takes a photon here; what comes straight from a light may be left to shadow rays. */
+/*
+ * Whether the map under way takes a photon here; what comes straight from a light may be left to
+ * shadow rays.
+ */
 static bool is_stored(const struct light_path *path, const rt_params *params)
 {
     if (params->store == RT_STORE_CAUSTIC)
@@ -107,8 +115,8 @@ static bool is_stored(const struct light_path *path, const rt_params *params)
     return !(path->straight && params->direct == RT_DIRECT_NEE);
 }
 
-static rt_photon make_photon(const struct light_path *path, const struct surface *surface, const struct bsdf *bsdf,
-                             uint index)
+static rt_photon make_photon(const struct light_path *path, const struct surface *surface,
+                             const struct bsdf *bsdf, uint index)
 {
     rt_photon photon;
     vstore3(surface->position, 0, photon.position);
@@ -124,14 +132,15 @@ static rt_photon make_photon(const struct light_path *path, const struct surface
 
 static bool photon_is_sound(const rt_photon *photon)
 {
-    return all(fabs(vload3(0, photon->position)) <= RT_COORDINATE_MAX) && all(isfinite(vload3(0, photon->wi))) &&
-           all(isfinite(vload3(0, photon->flux))) && all(isfinite(vload3(0, photon->normal))) &&
-           isfinite(photon->shading);
+    return all(fabs(vload3(0, photon->position)) <= RT_COORDINATE_MAX) &&
+           all(isfinite(vload3(0, photon->wi))) && all(isfinite(vload3(0, photon->flux))) &&
+           all(isfinite(vload3(0, photon->normal))) && isfinite(photon->shading);
 }
 
 /* Leaves a photon at a surface, in the next slot of the path's column. */
-static void leave_photon(struct light_path *path, const rt_params *params, const struct surface *surface,
-                         const struct bsdf *bsdf, uint index, global rt_photon *slots)
+static void leave_photon(struct light_path *path, const rt_params *params,
+                         const struct surface *surface, const struct bsdf *bsdf, uint index,
+                         global rt_photon *slots)
 {
     const rt_photon photon = make_photon(path, surface, bsdf, index);
     if (photon_is_sound(&photon))
@@ -144,8 +153,8 @@ static void leave_photon(struct light_path *path, const rt_params *params, const
  * Scatters the path at a surface; false when it ends. Survival keeps the flux of all photons alike:
  * it is the share of the strongest channel that the surface leaves.
  */
-static bool scatter_path(struct light_path *path, const struct surface *surface, const struct bsdf *bsdf, uint4 beyond,
-                         float4 u)
+static bool scatter_path(struct light_path *path, const struct surface *surface,
+                         const struct bsdf *bsdf, uint4 beyond, float4 u)
 {
     const float3 arrived = path->flux;
     const float3 kept = arrived * bsdf_albedo(bsdf);
@@ -173,20 +182,25 @@ static bool scatter_path(struct light_path *path, const struct surface *surface,
 }
 
 /*
- * Follows a path from its start to its end: photons go to the slots of its column, from the first row on, and what
- * became of the flux to the account.
+ * Follows a path from its start to its end: photons go to the slots of its column, from the first
+ * row on, and what became of the flux to the account.
  */
-INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *params, const struct sampler *sampler,
-                                    global const rt_light_share *shares, uint index, global rt_photon *slots,
-                                    rt_path_account *account)
+INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *params,
+                                    const struct sampler *sampler,
+                                    global const rt_light_share *shares, uint index,
+                                    global rt_photon *slots, rt_path_account *account)
 {
     const bool for_caustics = params->store == RT_STORE_CAUSTIC;
     struct light_path path;
     uint end = RT_END_CUT_OFF;
 
-    bool alive = start_path(&path, scene, shares, sampler, for_caustics, account) && can_follow(&path.ray);
+    bool alive =
+        start_path(&path, scene, shares, sampler, for_caustics, account) && can_follow(&path.ray);
     while (alive && path.depth < params->max_depth) {
-        /* Draw the numbers of the next event: they hang on nothing, so a processor makes them while it waits below. */
+        /*
+         * Draw the numbers of the next event: they hang on nothing, so a processor makes them while
+         * it waits below.
+         */
         const float4 u = sampler_set(sampler, set_scatter(path.depth - 1u));
 
         /* Find the nearest surface. */
@@ -207,7 +221,8 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         }
 
         /* Go straight on through a boundary that a stronger medium hides. */
-        const struct boundary boundary = media_meet(scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
+        const struct boundary boundary =
+            media_meet(scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
         if (!boundary.exists) {
             path.straight = false;
             alive = pass_boundary(&path.ray, &path.media, &path.hidden, &surface, boundary.beyond);
@@ -232,12 +247,13 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
 }
 
 /*
- * shares: [light_count]; slots: [params.max_depth - 1][params.slots], a column a path, of which each fills as many as
- * its account says: so neighbours write side by side, and rows that few paths reach stay untouched; accounts:
- * [item_count].
+ * shares: [light_count]; slots: [params.max_depth - 1][params.slots], a column a path, of which
+ * each fills as many as its account says: so neighbours write side by side, and rows that few paths
+ * reach stay untouched; accounts: [item_count].
  */
 KERNEL photon_emit(const rt_params params, global const rt_scene_header *header,
-                   global const rt_light_share *shares, global rt_photon *slots, global rt_path_account *accounts)
+                   global const rt_light_share *shares, global rt_photon *slots,
+                   global rt_path_account *accounts)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
@@ -245,7 +261,8 @@ KERNEL photon_emit(const rt_params params, global const rt_scene_header *header,
     const struct scene scene = scene_open(header);
     const uint index = params.first_item + item;
     const struct sampler sampler = sampler_start(
-        &scene, &params, params.store == RT_STORE_CAUSTIC ? RT_STREAM_CAUSTIC : RT_STREAM_PHOTONS, index);
+        &scene, &params, params.store == RT_STORE_CAUSTIC ? RT_STREAM_CAUSTIC : RT_STREAM_PHOTONS,
+        index);
     rt_path_account account;
     follow_light_path(&scene, &params, &sampler, shares, index, slots + item, &account);
     accounts[item] = account;

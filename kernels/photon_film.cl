@@ -2,18 +2,21 @@
  * photon_film.cl - adds gather points to the film: one sample of the pixel of each.
  */
 #include "entry.h"
-#include "film.h"
-#include "frame.h"
+#include "camera/film.h"
+#include "math/frame.h"
 
-/* The radiance that came to a point; of one at no finite place, where photons are not asked for, no finite one. */
+/*
+ * The radiance that came to a point; of one at no finite place, where photons are not asked for, no
+ * finite one.
+ */
 static float3 radiance_of(global const rt_gather_point *point)
 {
     return all(isfinite(row3(point->position))) ? row3(point->radiance) : (float3)(NAN);
 }
 
 /*
- * points: [item_count], no two of the same pixel; caustics: [params.final_gather][stride], points whose radiance
- * belongs to the same sample.
+ * points: [item_count], no two of the same pixel; caustics: [params.final_gather][stride], points
+ * whose radiance belongs to the same sample.
  */
 KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
                    global const rt_gather_point *caustics, uint stride, global rt_film_pixel *film)

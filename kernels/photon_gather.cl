@@ -1,20 +1,22 @@
 /*
- * photon_gather.cl - the density sum over the neighbours that the host found: each work-item adds to a
- * gather point's radiance what the point makes of the photons around it.
+ * photon_gather.cl - the density sum over the neighbours that the host found: each work-item adds
+ * to a gather point's radiance what the point makes of the photons around it.
  */
-#include "density.h"
+#include "photon/density.h"
 #include "entry.h"
-#include "hull.h"
-#include "reflect.h"
+#include "photon/hull.h"
+#include "photon/reflect.h"
 
-static inline float3 disc_density(const rt_density_params *estimate, float3 position, global const rt_photon *photons,
-                                  global const uint *list, rt_gather_disc disc)
+static inline float3 disc_density(const rt_density_params *estimate, float3 position,
+                                  global const rt_photon *photons, global const uint *list,
+                                  rt_gather_disc disc)
 {
     float3 flux_density = (float3)(0.0f);
     for (uint i = 0; i < disc.count; i++) {
         global const rt_photon *photon = photons + list[i];
         const float3 away = row3(photon->position) - position;
-        const float k = density_kernel(estimate->density, estimate->cone_k, dot(away, away), disc.squared_radius);
+        const float k = density_kernel(estimate->density, estimate->cone_k, dot(away, away),
+                                       disc.squared_radius);
         flux_density += (k * photon->shading) * row3(photon->flux);
     }
     return flux_density;
@@ -24,8 +26,9 @@ static inline float3 disc_density(const rt_density_params *estimate, float3 posi
  * points: those from params.first_item on; lists: rows of estimate.stride photon
  * indices, one a point, nearest first, which also is the order of summing.
  */
-KERNEL photon_gather(const rt_params params, const rt_density_params estimate, global rt_gather_point *points,
-                     global const rt_gather_disc *discs, global const uint *lists, global const rt_photon *photons)
+KERNEL photon_gather(const rt_params params, const rt_density_params estimate,
+                     global rt_gather_point *points, global const rt_gather_disc *discs,
+                     global const uint *lists, global const rt_photon *photons)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count || discs[item].count == 0u)

@@ -1,28 +1,32 @@
 /*
- * photon_walk.cl - the gather on the device: each work-item finds the photons around a few gather points in the
- * tree, and adds to their radiance what the points make of them.
+ * photon_walk.cl - the gather on the device: each work-item finds the photons around a few gather
+ * points in the tree, and adds to their radiance what the points make of them.
  */
 #include "entry.h"
-#include "photon_sum.h"
-#include "reflect.h"
+#include "photon/sum.h"
+#include "photon/reflect.h"
 
 /*
- * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found at each point,
- * without the lists; own_limits: of each pixel, not read where estimate.own_limits is 0.
+ * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found
+ * at each point, without the lists; own_limits: of each pixel, not read where estimate.own_limits
+ * is 0.
  */
 KERNEL photon_walk(const rt_params params, const rt_density_params estimate,
-                   global rt_gather_point *points, global rt_gather_disc *discs, const rt_photon_tree shape,
-                   global const rt_photon_node *nodes, global const rt_photon_block *blocks,
-                   global float *scratch, global const float *own_limits)
+                   global rt_gather_point *points, global rt_gather_disc *discs,
+                   const rt_photon_tree shape, global const rt_photon_node *nodes,
+                   global const rt_photon_block *blocks, global float *scratch,
+                   global const float *own_limits)
 {
     const uint item = (uint)get_global_id(0);
-    const uint begin = item * estimate.points_an_item, end = min(begin + estimate.points_an_item, params.item_count);
+    const uint begin = item * estimate.points_an_item,
+               end = min(begin + estimate.points_an_item, params.item_count);
     struct photon_tree tree;
     points += params.first_item;
     tree.shape = shape;
     tree.nodes = nodes;
     tree.blocks = blocks;
-    float guess = 0.0f; /* from the point before, with some to spare: k photons lie inside more often than not */
+    /* from the point before, with some to spare: k photons lie inside more often than not */
+    float guess = 0.0f;
     struct photon_start start;
     if (estimate.k == 0u && begin < end)
         start = start_of_points(&tree, points + begin, end - begin, &estimate, own_limits);
@@ -38,9 +42,10 @@ KERNEL photon_walk(const rt_params params, const rt_density_params estimate,
         disc.pixel = points[i].pixel;
         if (disc.asked) {
             const struct photon_sum sum =
-                estimate.k == 0u
-                    ? sum_within(&tree, &start, &query, &estimate, point_limit(points + i, &estimate, own_limits))
-                    : sum_nearest(&tree, &query, &estimate, guess, scratch + (size_t)item * estimate.stride);
+                estimate.k == 0u ? sum_within(&tree, &start, &query, &estimate,
+                                              point_limit(points + i, &estimate, own_limits))
+                                 : sum_nearest(&tree, &query, &estimate, guess,
+                                               scratch + (size_t)item * estimate.stride);
             guess = 1.3f * sum.squared_radius;
             disc.count = sum.count;
             disc.squared_radius = sum.squared_radius;

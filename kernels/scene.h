@@ -14,8 +14,8 @@ struct scene {
     global const rt_scene_header *header;
     global const rt_bvh_node *nodes;
     global const rt_tri_block *blocks;
-    global const uint *analytic;   /* shape of each analytic entry */
-    global const uint *planes;     /* shape of each plane */
+    global const uint *analytic; /* shape of each analytic entry */
+    global const uint *planes;   /* shape of each plane */
     global const rt_shape *shapes;
     global const uint *prim_shape; /* shape of each primitive */
     global const rt_material_data *materials;
@@ -43,16 +43,20 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     scene.planes = (global const uint *)(base + (size_t)header->planes * RT_SCENE_ROW);
     scene.shapes = (global const rt_shape *)(base + (size_t)header->shapes * RT_SCENE_ROW);
     scene.prim_shape = (global const uint *)(base + (size_t)header->prim_shape * RT_SCENE_ROW);
-    scene.materials = (global const rt_material_data *)(base + (size_t)header->materials * RT_SCENE_ROW);
+    scene.materials =
+        (global const rt_material_data *)(base + (size_t)header->materials * RT_SCENE_ROW);
     scene.lights = (global const rt_light_data *)(base + (size_t)header->lights * RT_SCENE_ROW);
-    scene.light_nodes = (global const rt_light_node *)(base + (size_t)header->light_nodes * RT_SCENE_ROW);
+    scene.light_nodes =
+        (global const rt_light_node *)(base + (size_t)header->light_nodes * RT_SCENE_ROW);
     scene.targets = (global const rt_target *)(base + (size_t)header->targets * RT_SCENE_ROW);
-    scene.transforms = (global const rt_transform_data *)(base + (size_t)header->transforms * RT_SCENE_ROW);
+    scene.transforms =
+        (global const rt_transform_data *)(base + (size_t)header->transforms * RT_SCENE_ROW);
     scene.indices = (global const uint *)(base + (size_t)header->indices * RT_SCENE_ROW);
     scene.normals = (global const float4 *)(base + (size_t)header->normals * RT_SCENE_ROW);
     scene.uvs = (global const float2 *)(base + (size_t)header->uvs * RT_SCENE_ROW);
     scene.colours = (global const float4 *)(base + (size_t)header->colours * RT_SCENE_ROW);
-    scene.textures = (global const rt_texture_data *)(base + (size_t)header->textures * RT_SCENE_ROW);
+    scene.textures =
+        (global const rt_texture_data *)(base + (size_t)header->textures * RT_SCENE_ROW);
     scene.texels = base + (size_t)header->texels * RT_SCENE_ROW;
     scene.sobol = (global const uint4 *)(base + (size_t)header->sobol * RT_SCENE_ROW);
     return scene;

@@ -2,7 +2,7 @@
  * trace.cl - single rays for the public rt_trace.
  */
 #include "entry.h"
-#include "traverse.h"
+#include "accel/traverse.h"
 #include "types.h"
 
 static struct ray load_ray(global const rt_ray *ray)
@@ -22,8 +22,8 @@ static rt_hit no_hit(void)
 }
 
 /* The nearest hit of each ray. */
-KERNEL trace_closest(global const rt_scene_header *scene_data, global const rt_ray *rays, uint count,
-                     global rt_hit *hits)
+KERNEL trace_closest(global const rt_scene_header *scene_data, global const rt_ray *rays,
+                     uint count, global rt_hit *hits)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

@@ -46,7 +46,8 @@ typedef int32_t rt_i32;
 
 /* Eight-wide inner node; children as structure of arrays, 256 bytes, 64-byte aligned. */
 typedef struct rt_bvh_node {
-    float bounds[6][RT_BVH_WIDTH]; /* lo x, lo y, lo z, hi x, hi y, hi z; an unused lane holds lo = +inf, hi = -inf */
+    /* lo x, lo y, lo z, hi x, hi y, hi z; an unused lane holds lo = +inf, hi = -inf */
+    float bounds[6][RT_BVH_WIDTH];
     rt_u32 child[RT_BVH_WIDTH];    /* child reference as above */
     rt_u32 reserved[RT_BVH_WIDTH]; /* zero */
 } rt_bvh_node;
@@ -83,30 +84,39 @@ RT_SIZE(rt_hit, 32);
 /* ---- Shapes and materials ---------------------------------------------- */
 
 /*
- * Kinds of shape. Sphere and plane are in world space; the other analytic shapes are given in a space of
- * their own, where they are as simple as below, and their transform places them there. A transform maps
- * normals by the transpose of its inverse, so that what is outside stays outside even when it mirrors.
+ * Kinds of shape. Sphere and plane are in world space; the other analytic shapes are given in a
+ * space of their own, where they are as simple as below, and their transform places them there. A
+ * transform maps normals by the transpose of its inverse, so that what is outside stays outside
+ * even when it mirrors.
  */
 #define RT_SHAPE_TRIANGLES 0u /* a mesh in world space, geometry in rt_tri_block */
 #define RT_SHAPE_QUAD 1u      /* one parallelogram, geometry in rt_tri_block */
-#define RT_SHAPE_SPHERE 2u    /* p[0..2] centre, p[3] radius; a transform turns the normal to that of u and v */
-#define RT_SHAPE_PLANE 3u     /* p[0..2] a point, p[4..6] unit normal; infinite, kept beside the tree; a transform
-                                 maps the point to x = u, y = v */
+/* p[0..2] centre, p[3] radius; a transform turns the normal to that of u and v */
+#define RT_SHAPE_SPHERE 2u
+/*
+ * p[0..2] a point, p[4..6] unit normal; infinite, kept beside the tree; a transform maps the point
+ * to x = u, y = v
+ */
+#define RT_SHAPE_PLANE 3u
 #define RT_SHAPE_ELLIPSOID 4u /* the unit sphere */
 #define RT_SHAPE_DISC 5u      /* z = 0, p[0] <= radius <= 1, normal +z */
 #define RT_SHAPE_CYLINDER 6u  /* radius 1 about z, z in [0, 1] */
 #define RT_SHAPE_CONE 7u      /* about z, radius 1 at z = 0 and p[0] <= 1 at z = 1 */
 #define RT_SHAPE_TORUS 8u     /* about z, major radius 1, minor radius p[0] < 1 */
-#define RT_SHAPE_INSTANCE 9u  /* a mesh with a tree of its own, placed by the transform; one primitive */
+/* a mesh with a tree of its own, placed by the transform; one primitive */
+#define RT_SHAPE_INSTANCE 9u
 
-#define RT_SHAPE_SMOOTH 1u    /* flag: its vertices have normals */
-#define RT_SHAPE_UV 2u        /* flag: its vertices have texture coordinates */
-#define RT_SHAPE_COLOUR 4u    /* flag: its vertices have colours */
-#define RT_SHAPE_CAPS 8u      /* flag: cylinder and cone are closed */
-#define RT_SHAPE_MIRRORED 16u /* flag of triangles and quads: in world space the normal is (v2 - v0) x (v1 - v0) */
-#define RT_SHAPE_VARIED 32u   /* flag: textures, vertex colours or bumps make the material differ from point to point */
-#define RT_SHAPE_MATTE 64u    /* flag: only diffuse, and does not shine */
-#define RT_SHAPE_FLAT 128u    /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
+#define RT_SHAPE_SMOOTH 1u /* flag: its vertices have normals */
+#define RT_SHAPE_UV 2u     /* flag: its vertices have texture coordinates */
+#define RT_SHAPE_COLOUR 4u /* flag: its vertices have colours */
+#define RT_SHAPE_CAPS 8u   /* flag: cylinder and cone are closed */
+/* flag of triangles and quads: in world space the normal is (v2 - v0) x (v1 - v0) */
+#define RT_SHAPE_MIRRORED 16u
+/* flag: textures, vertex colours or bumps make the material differ from point to point */
+#define RT_SHAPE_VARIED 32u
+#define RT_SHAPE_MATTE 64u /* flag: only diffuse, and does not shine */
+/* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
+#define RT_SHAPE_FLAT 128u
 
 typedef struct rt_shape {
     rt_u32 kind;       /* RT_SHAPE_* */
@@ -114,11 +124,14 @@ typedef struct rt_shape {
     rt_u32 material;   /* index in materials */
     rt_u32 first_prim; /* its primitives are first_prim .. first_prim + prim_count - 1 */
     rt_u32 prim_count;
-    rt_u32 first_light;  /* its primitive i is light first_light + i; RT_NONE when it does not emit */
-    rt_u32 transform;    /* index in transforms; RT_NONE: none */
-    rt_u32 texture;      /* index in textures, of the texture that multiplies kd; RT_NONE: none */
-    rt_u32 root;         /* instance: root node of the mesh's tree; its blocks name triangles of the mesh, from 0 */
-    rt_u32 first_index;  /* mesh with vertex data: corner c of triangle i is indices[first_index + 3 i + c] ... */
+    /* its primitive i is light first_light + i; RT_NONE when it does not emit */
+    rt_u32 first_light;
+    rt_u32 transform; /* index in transforms; RT_NONE: none */
+    rt_u32 texture;   /* index in textures, of the texture that multiplies kd; RT_NONE: none */
+    /* instance: root node of the mesh's tree; its blocks name triangles of the mesh, from 0 */
+    rt_u32 root;
+    /* mesh with vertex data: corner c of triangle i is indices[first_index + 3 i + c] ... */
+    rt_u32 first_index;
     rt_u32 first_normal; /* ... of those that begin here in normals, ... */
     rt_u32 first_uv;     /* ... in uvs ... */
     rt_u32 first_colour; /* ... and in colours */
@@ -129,7 +142,9 @@ typedef struct rt_shape {
 } rt_shape;
 RT_SIZE(rt_shape, 96);
 
-/* An affine placement: the upper three rows of its matrix and of the inverse, for column vectors. */
+/*
+ * An affine placement: the upper three rows of its matrix and of the inverse, for column vectors.
+ */
 typedef struct rt_transform_data {
     float to_world[3][4];
     float to_object[3][4];
@@ -141,8 +156,8 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
 
 /*
- * Below this roughness a surface is smooth. A lobe of it spreads light by a tenth of a degree, less than a pixel, so
- * no seam shows.
+ * Below this roughness a surface is smooth. A lobe of it spreads light by a tenth of a degree, less
+ * than a pixel, so no seam shows.
  */
 #define RT_SMOOTH_ALPHA 1e-3f
 
@@ -167,18 +182,19 @@ RT_SIZE(rt_material_data, 112);
 /* ---- Textures ---------------------------------------------------------- */
 
 /*
- * A texture is a colour at each point (s, t) = scale (u, v) + offset. An image fills the unit square
- * upright: s = 0 is its left edge, t = 0 its bottom edge.
+ * A texture is a colour at each point (s, t) = scale (u, v) + offset. An image fills the unit
+ * square upright: s = 0 is its left edge, t = 0 its bottom edge.
  */
 /* How texels are kept, rows from the bottom up. */
-#define RT_TEXELS_CODE8 0u /* float decode[256], then uchar[4] a texel: codes of red, green and blue, 0 */
-#define RT_TEXELS_GREY 1u  /* float a texel */
-#define RT_TEXELS_HALF 2u  /* half[4] a texel: red, green and blue over `unit`, 0 */
+/* float decode[256], then uchar[4] a texel: codes of red, green and blue, 0 */
+#define RT_TEXELS_CODE8 0u
+#define RT_TEXELS_GREY 1u /* float a texel */
+#define RT_TEXELS_HALF 2u /* half[4] a texel: red, green and blue over `unit`, 0 */
 
 typedef struct rt_texture_data {
-    rt_u32 kind; /* rt_texture_kind */
-    rt_u32 wrap; /* rt_wrap */
-    rt_u32 axis; /* gradient: 0 along s, 1 along t */
+    rt_u32 kind;   /* rt_texture_kind */
+    rt_u32 wrap;   /* rt_wrap */
+    rt_u32 axis;   /* gradient: 0 along s, 1 along t */
     rt_u32 format; /* image: RT_TEXELS_* */
     float scale[2];
     float offset[2];
@@ -194,19 +210,26 @@ RT_SIZE(rt_texture_data, 80);
 
 /* ---- Lights ------------------------------------------------------------ */
 
-#define RT_LIGHT_POINT 0u       /* a: position; emission: intensity, W/sr */
-#define RT_LIGHT_QUAD 1u        /* a: corner, b, c: edges; emission: radiance */
-#define RT_LIGHT_TRIANGLE 2u    /* a: vertex, b, c: edges; emission: radiance */
-#define RT_LIGHT_SPHERE 3u      /* a: centre, width: radius; emission: radiance */
-#define RT_LIGHT_SHAPE 4u       /* the analytic shape of prim, sampled by its parameters; emission: radiance */
-#define RT_LIGHT_SPOT 5u        /* a: position, b: unit axis, c[0] > c[1]: cosines of inner and outer angle; emission:
-                                   intensity on the axis, W/sr */
-#define RT_LIGHT_DIRECTIONAL 6u /* b: unit direction of travel; emission: irradiance on a facing surface, W/m^2 */
-#define RT_LIGHT_ENVIRONMENT 7u /* from all around; emission: radiance, which multiplies the environment's image */
+#define RT_LIGHT_POINT 0u    /* a: position; emission: intensity, W/sr */
+#define RT_LIGHT_QUAD 1u     /* a: corner, b, c: edges; emission: radiance */
+#define RT_LIGHT_TRIANGLE 2u /* a: vertex, b, c: edges; emission: radiance */
+#define RT_LIGHT_SPHERE 3u   /* a: centre, width: radius; emission: radiance */
+/* the analytic shape of prim, sampled by its parameters; emission: radiance */
+#define RT_LIGHT_SHAPE 4u
+/*
+ * a: position, b: unit axis, c[0] > c[1]: cosines of inner and outer angle; emission: intensity on
+ * the axis, W/sr
+ */
+#define RT_LIGHT_SPOT 5u
+/* b: unit direction of travel; emission: irradiance on a facing surface, W/m^2 */
+#define RT_LIGHT_DIRECTIONAL 6u
+/* from all around; emission: radiance, which multiplies the environment's image */
+#define RT_LIGHT_ENVIRONMENT 7u
 
 #define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
-#define RT_LIGHT_BY_AREA 4u   /* flag: a triangle or skewed quad without a texture: sampled by area from everywhere */
+/* flag: a triangle or skewed quad without a texture: sampled by area from everywhere */
+#define RT_LIGHT_BY_AREA 4u
 
 typedef struct rt_light_data {
     float a[3];
@@ -224,27 +247,30 @@ typedef struct rt_light_data {
     rt_u32 prim;    /* primitive that emits, RT_NONE for lights without */
     rt_u32 flags;   /* RT_LIGHT_* flags */
     rt_u32 texture; /* multiplies the emission at the primitive's u and v; RT_NONE: none */
-    rt_u32 media[3]; /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */
+    /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */
+    rt_u32 media[3];
 } rt_light_data;
 RT_SIZE(rt_light_data, 112);
 
 /*
- * The tree by which lights are chosen: node 1 is the root, the children of node i are 2 i and 2 i + 1, and the
- * leaves are the last `light_leaves` nodes, those without a light of no power.
+ * The tree by which lights are chosen: node 1 is the root, the children of node i are 2 i and 2 i +
+ * 1, and the leaves are the last `light_leaves` nodes, those without a light of no power.
  */
 typedef struct rt_light_node {
-    float centre[3];      /* of the bounds of its lights, or of the scene for those from infinitely far */
-    float power;          /* of its lights, as a part of all */
-    float falloff;        /* factor of the squared distance: 1; 0 for lights from infinitely far */
-    float spread;         /* added to it for the extent of the bounds, m^2, above 0 */
-    rt_u32 light;         /* of a leaf: index in lights */
-    rt_u32 leaf;          /* of the light whose index is this node's: the node that is its leaf */
+    /* of the bounds of its lights, or of the scene for those from infinitely far */
+    float centre[3];
+    float power;   /* of its lights, as a part of all */
+    float falloff; /* factor of the squared distance: 1; 0 for lights from infinitely far */
+    float spread;  /* added to it for the extent of the bounds, m^2, above 0 */
+    rt_u32 light;  /* of a leaf: index in lights */
+    rt_u32 leaf;   /* of the light whose index is this node's: the node that is its leaf */
 } rt_light_node;
 RT_SIZE(rt_light_node, 32);
 
 /*
- * The environment: an image of latitude and longitude and the distribution that samples it, in proportion to
- * radiance and the sine of the polar angle. Offsets count 64-byte rows from the start of the scene buffer.
+ * The environment: an image of latitude and longitude and the distribution that samples it, in
+ * proportion to radiance and the sine of the polar angle. Offsets count 64-byte rows from the start
+ * of the scene buffer.
  */
 typedef struct rt_environment_data {
     rt_u32 width, height; /* pixels of the image; 0: constant */
@@ -257,7 +283,10 @@ typedef struct rt_environment_data {
 } rt_environment_data;
 RT_SIZE(rt_environment_data, 32);
 
-/* A ball that holds a specular shape: paths aimed at caustics start towards it. Infinite around a plane. */
+/*
+ * A ball that holds a specular shape: paths aimed at caustics start towards it. Infinite around a
+ * plane.
+ */
 typedef struct rt_target {
     float centre[3];
     float radius;
@@ -271,10 +300,10 @@ RT_SIZE(rt_target, 16);
 #define RT_CAMERA_KIND_ENVIRONMENT 2u
 
 /*
- * The film point (s, t), s to the right, t down, both in [0,1]. Perspective: seen along corner + s across + t down,
- * relative to the eye, which is the point at the focal distance. Orthographic: from the eye moved by
- * corner + s across + t down, along axis. Environment: longitude 2 pi s, latitude pi t about lens_v, axis in the
- * centre.
+ * The film point (s, t), s to the right, t down, both in [0,1]. Perspective: seen along corner + s
+ * across + t down, relative to the eye, which is the point at the focal distance. Orthographic:
+ * from the eye moved by corner + s across + t down, along axis. Environment: longitude 2 pi s,
+ * latitude pi t about lens_v, axis in the centre.
  */
 typedef struct rt_camera_data {
     float eye[3];
@@ -302,29 +331,38 @@ RT_SIZE(rt_camera_data, 112);
  */
 #define RT_SCENE_ROW 64u
 typedef struct rt_scene_header {
-    rt_u32 nodes, node_count;           /* rt_bvh_node; node 0 is the root, the trees of meshes follow */
-    rt_u32 blocks, block_count;         /* rt_tri_block of the tree at the root; those of meshes follow */
-    rt_u32 analytic, analytic_count;    /* u32: index of an analytic shape or an instance, one an entry */
-    rt_u32 planes, plane_count;         /* u32: index of a plane's shape; planes are tested beside the tree */
+    /* rt_bvh_node; node 0 is the root, the trees of meshes follow */
+    rt_u32 nodes, node_count;
+    /* rt_tri_block of the tree at the root; those of meshes follow */
+    rt_u32 blocks, block_count;
+    /* u32: index of an analytic shape or an instance, one an entry */
+    rt_u32 analytic, analytic_count;
+    /* u32: index of a plane's shape; planes are tested beside the tree */
+    rt_u32 planes, plane_count;
     rt_u32 shapes, shape_count;         /* rt_shape */
     rt_u32 prim_shape, prim_count;      /* u32: the shape of each primitive */
     rt_u32 materials, material_count;   /* rt_material_data */
     rt_u32 lights, light_count;         /* rt_light_data */
     rt_u32 transforms, transform_count; /* rt_transform_data */
     rt_u32 indices, index_count;        /* u32: vertices of the corners of meshes with attributes */
-    rt_u32 normals, normal_count;       /* float[4]: normals of vertices, at most of unit length, w = 0 */
-    rt_u32 uvs, uv_count;               /* float[2]: texture coordinates of vertices */
-    rt_u32 colours, colour_count;       /* float[4]: colours of vertices, w = 0 */
-    rt_u32 textures, texture_count;     /* rt_texture_data */
-    rt_u32 texels, texel_rows;          /* texels of all images, 64-byte rows */
-    rt_u32 sobol, sobol_count;          /* uint4[4][256]: XOR of four Sobol matrices' columns, by byte of the index */
-    float bounds_lo[3], radius;         /* lowest corner and bounding-sphere radius of all finite shapes */
+    /* float[4]: normals of vertices, at most of unit length, w = 0 */
+    rt_u32 normals, normal_count;
+    rt_u32 uvs, uv_count;           /* float[2]: texture coordinates of vertices */
+    rt_u32 colours, colour_count;   /* float[4]: colours of vertices, w = 0 */
+    rt_u32 textures, texture_count; /* rt_texture_data */
+    rt_u32 texels, texel_rows;      /* texels of all images, 64-byte rows */
+    /* uint4[4][256]: XOR of four Sobol matrices' columns, by byte of the index */
+    rt_u32 sobol, sobol_count;
+    /* lowest corner and bounding-sphere radius of all finite shapes */
+    float bounds_lo[3], radius;
     float bounds_hi[3];
     rt_u32 accel; /* rt_accel */
     rt_environment_data environment;
     rt_camera_data camera;
-    rt_u32 eye_media[4]; /* the solids around the eye, as paths list them (medium.h): material + 1, 0: none */
-    rt_u32 light_nodes, light_leaves; /* rt_light_node, twice as many as leaves, which are a power of two */
+    /* the solids around the eye, as paths list them (medium.h): material + 1, 0: none */
+    rt_u32 eye_media[4];
+    /* rt_light_node, twice as many as leaves, which are a power of two */
+    rt_u32 light_nodes, light_leaves;
     rt_u32 targets, target_count; /* rt_target */
     rt_u32 reserved[12];
 } rt_scene_header;
@@ -342,33 +380,39 @@ typedef struct rt_params {
     rt_u32 first_sample; /* samples of each pixel in this launch */
     rt_u32 sample_count;
     rt_u32 seed;
-    rt_u32 sampler;   /* rt_sampler */
-    rt_u32 max_depth; /* longest path: number of segments from the eye or the light */
-    rt_u32 final_gather; /* photon mode: diffuse bounces before the map is asked */
-    rt_u32 slots;        /* photon emission: photons in a row of slots, one a path */
-    rt_u32 direct;       /* photon mode: rt_direct */
-    rt_u32 estimator;    /* rt_estimator */
-    rt_u32 store;        /* photon emission: RT_STORE_* */
-    rt_u32 roulette_depth; /* segments from the eye after which roulette may end a path */
-    rt_u32 replicate;    /* each has a sequence of samples scrambled on its own */
+    rt_u32 sampler;           /* rt_sampler */
+    rt_u32 max_depth;         /* longest path: number of segments from the eye or the light */
+    rt_u32 final_gather;      /* photon mode: diffuse bounces before the map is asked */
+    rt_u32 slots;             /* photon emission: photons in a row of slots, one a path */
+    rt_u32 direct;            /* photon mode: rt_direct */
+    rt_u32 estimator;         /* rt_estimator */
+    rt_u32 store;             /* photon emission: RT_STORE_* */
+    rt_u32 roulette_depth;    /* segments from the eye after which roulette may end a path */
+    rt_u32 replicate;         /* each has a sequence of samples scrambled on its own */
     float roulette_threshold; /* throughput below which it may */
-    rt_u32 pixels_an_item; /* path tracing: pixels that a work-item takes, at least 1; the film is the same for all */
+    /* path tracing: pixels that a work-item takes, at least 1; the film is the same for all */
+    rt_u32 pixels_an_item;
     rt_u32 reserved[2];
 } rt_params;
 RT_SIZE(rt_params, 80);
 
-/* A pixel of the film: compensated (Kahan) sum of weight times radiance, in order of the samples. */
+/*
+ * A pixel of the film: compensated (Kahan) sum of weight times radiance, in order of the samples.
+ */
 typedef struct rt_film_pixel {
     float sum[3];
-    float weight;  /* sum of the samples' weights, which are 1 or -1: see filter.h */
-    float lost[3]; /* what rounding lost from sum */
-    rt_u32 count;  /* samples */
+    float weight;    /* sum of the samples' weights, which are 1 or -1: see filter.h */
+    float lost[3];   /* what rounding lost from sum */
+    rt_u32 count;    /* samples */
     rt_u32 rejected; /* samples that were not finite, left out */
     rt_u32 reserved[3];
 } rt_film_pixel;
 RT_SIZE(rt_film_pixel, 48);
 
-/* Layers beside the radiance. A sample that meets nothing adds 0 to all; w is the weight of the film's filter. */
+/*
+ * Layers beside the radiance. A sample that meets nothing adds 0 to all; w is the weight of the
+ * film's filter.
+ */
 #define RT_LAYER_ALBEDO 0u /* w times albedo */
 #define RT_LAYER_NORMAL 1u /* w times shading normal */
 #define RT_LAYER_DEPTH 2u  /* depth, 1 and w of samples that meet something, with the weight 1 */
@@ -378,13 +422,17 @@ RT_SIZE(rt_film_pixel, 48);
 
 RT_SIZE(rt_photon, 64);
 
-/* Photons whose normal is farther than 60 degrees from a point's lie on another surface, or on its other side. */
+/*
+ * Photons whose normal is farther than 60 degrees from a point's lie on another surface, or on its
+ * other side.
+ */
 #define RT_PHOTON_NORMAL_COSINE 0.5f
 
 /* Which photons a path stores. */
-#define RT_STORE_ALL 0u     /* all: one map holds them */
-#define RT_STORE_GLOBAL 1u  /* all but those flagged RT_PHOTON_CAUSTIC, which another map holds */
-#define RT_STORE_CAUSTIC 2u /* only those; a path is aimed at specular shapes, and ends at its first diffuse event */
+#define RT_STORE_ALL 0u    /* all: one map holds them */
+#define RT_STORE_GLOBAL 1u /* all but those flagged RT_PHOTON_CAUSTIC, which another map holds */
+/* only those; a path is aimed at specular shapes, and ends at its first diffuse event */
+#define RT_STORE_CAUSTIC 2u
 
 /* How a photon path ended. */
 #define RT_END_ABSORBED 0u /* by roulette or by a surface: no flux is left */
@@ -392,8 +440,8 @@ RT_SIZE(rt_photon, 64);
 #define RT_END_CUT_OFF 2u  /* it had its longest length */
 
 /*
- * Where the flux of one photon path went: emitted = absorbed + left + roulette, but for rounding. W of
- * the path, not divided by the number of paths.
+ * Where the flux of one photon path went: emitted = absorbed + left + roulette, but for rounding. W
+ * of the path, not divided by the number of paths.
  */
 typedef struct rt_path_account {
     float emitted[3];
@@ -402,8 +450,9 @@ typedef struct rt_path_account {
     rt_u32 photons;    /* how many it stored */
     float left[3];     /* flux at its end */
     rt_u32 end;        /* RT_END_* */
-    float roulette[3]; /* what the choices of events took, less what they gave to the paths that went on */
-    rt_u32 rejected;   /* photons that it did not store: not finite, or beyond RT_COORDINATE_MAX */
+    /* what the choices of events took, less what they gave to the paths that went on */
+    float roulette[3];
+    rt_u32 rejected; /* photons that it did not store: not finite, or beyond RT_COORDINATE_MAX */
 } rt_path_account;
 RT_SIZE(rt_path_account, 64);
 
@@ -418,10 +467,13 @@ RT_SIZE(rt_light_share, 16);
 /* Where a camera path asks the photon map. */
 typedef struct rt_gather_point {
     float position[3];
-    rt_u32 pixel; /* film index */
+    rt_u32 pixel;    /* film index */
     float normal[3]; /* unit, on the side of wo */
     rt_u32 material;
-    float weight[3]; /* of the radiance reflected diffusely on its way to the film, kd included; 0: nothing to gather */
+    /*
+     * of the radiance reflected diffusely on its way to the film, kd included; 0: nothing to gather
+     */
+    float weight[3];
     rt_u32 sample;
     float wo[3];
     float film_weight; /* 1 or -1, of the sample in its pixel */
@@ -430,7 +482,10 @@ typedef struct rt_gather_point {
 } rt_gather_point;
 RT_SIZE(rt_gather_point, 80);
 
-/* The photons that count at a gather point, nearest first in the point's row of the neighbour lists. */
+/*
+ * The photons that count at a gather point, nearest first in the point's row of the neighbour
+ * lists.
+ */
 typedef struct rt_gather_disc {
     rt_u32 count;
     float squared_radius; /* of the disc that they lie in, m^2; 0 when there are none */
@@ -441,31 +496,39 @@ RT_SIZE(rt_gather_disc, 16);
 
 /* Parameters of the density estimate. */
 typedef struct rt_density_params {
-    rt_u32 density;      /* rt_density */
-    float cone_k;        /* constant of the cone kernel */
-    rt_u32 stride;       /* entries of a row of the neighbour lists, or of a work-item's share of scratch memory */
-    rt_u32 k;            /* device gather: the k-th photon gives the radius; 0: all within the limit count */
+    rt_u32 density; /* rt_density */
+    float cone_k;   /* constant of the cone kernel */
+    /* entries of a row of the neighbour lists, or of a work-item's share of scratch memory */
+    rt_u32 stride;
+    /* device gather: the k-th photon gives the radius; 0: all within the limit count */
+    rt_u32 k;
     float squared_limit; /* device gather: of the radius, m^2; infinite for no limit */
     rt_u32 look;         /* device gather: photons looked at, accepted or not, at most */
-    rt_u32 points_an_item; /* device gather: gather points that a work-item takes, one after the other */
-    float scale;         /* of the photons' flux: 1 / emitted paths */
-    rt_u32 area;         /* rt_area; the device gather knows the disc only */
-    float own_limits; /* device gather, k = 0: factor of the squared limit of the point's pixel, which takes the place
-                         of squared_limit; 0: that holds for all */
+    /* device gather: gather points that a work-item takes, one after the other */
+    rt_u32 points_an_item;
+    float scale; /* of the photons' flux: 1 / emitted paths */
+    rt_u32 area; /* rt_area; the device gather knows the disc only */
+    /*
+     * device gather, k = 0: factor of the squared limit of the point's pixel, which takes the place
+     * of squared_limit; 0: that holds for all
+     */
+    float own_limits;
     rt_u32 reserved[2];
 } rt_density_params;
 RT_SIZE(rt_density_params, 48);
 
 /*
- * The tree of photons that the device gathers from. Photons in the order of a space-filling curve are cut into
- * blocks of eight, eight blocks make a node, eight nodes one of the next level, up to one root. All but the last
- * of each level are full, so that no index need be stored: child i of node n is 8 n + i of the level below, and
- * of level 0 it is a block.
+ * The tree of photons that the device gathers from. Photons in the order of a space-filling curve
+ * are cut into blocks of eight, eight blocks make a node, eight nodes one of the next level, up to
+ * one root. All but the last of each level are full, so that no index need be stored: child i of
+ * node n is 8 n + i of the level below, and of level 0 it is a block.
  */
 #define RT_PHOTON_LEVELS 10
 #define RT_PHOTON_STACK 80 /* entries a walk may push: 7 a level, and the root */
 
-/* The boxes of eight children, as structure of arrays; an unused lane holds lo = +inf, hi = -inf. */
+/*
+ * The boxes of eight children, as structure of arrays; an unused lane holds lo = +inf, hi = -inf.
+ */
 typedef struct rt_photon_node {
     float bounds[6][8]; /* lo x, lo y, lo z, hi x, hi y, hi z */
 } rt_photon_node;
@@ -484,7 +547,8 @@ typedef struct rt_photon_tree {
     rt_u32 photon_count;
     rt_u32 block_count;
     rt_u32 reserved0;
-    rt_u32 first_node[RT_PHOTON_LEVELS]; /* of each level in the table of nodes; the root is that of level levels - 1 */
+    /* of each level in the table of nodes; the root is that of level levels - 1 */
+    rt_u32 first_node[RT_PHOTON_LEVELS];
     rt_u32 reserved1[2];
 } rt_photon_tree;
 RT_SIZE(rt_photon_tree, 64);

@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static void fill(rt_error *error, rt_status status, const char *field, const char *format, va_list args)
+static void fill(rt_error *error, rt_status status, const char *field, const char *format,
+                 va_list args)
 {
     memset(error, 0, sizeof *error);
     error->status = status;
@@ -27,7 +28,8 @@ rt_status rt_fail(rt_error *error, rt_status status, const char *format, ...)
     return status;
 }
 
-rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, const char *format, ...)
+rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, const char *format,
+                        ...)
 {
     va_list args;
     va_start(args, format);

@@ -27,7 +27,8 @@ static rt_status report(rt_stage_progress *progress, double fraction, double now
     if (hooks && hooks->progress) {
         double elapsed = now - progress->began;
         rt_progress info = {progress->stage, fraction, elapsed,
-                            fraction > 0 ? elapsed * (1 - fraction) / fraction : -1, progress->error};
+                            fraction > 0 ? elapsed * (1 - fraction) / fraction : -1,
+                            progress->error};
         if (hooks->progress(hooks->user, &info))
             progress->cancelled = 1;
     }
@@ -95,7 +96,8 @@ rt_status rt_stage_run(rt_stage_progress *progress, rt_status (*work)(void *data
     job j = {work, data, RT_OK, 0, PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER};
     pthread_t thread;
 
-    if (!progress->hooks || !progress->hooks->progress || pthread_create(&thread, NULL, run_job, &j))
+    if (!progress->hooks || !progress->hooks->progress ||
+        pthread_create(&thread, NULL, run_job, &j))
         return work(data);
     pthread_mutex_lock(&j.lock);
     while (!j.done) {

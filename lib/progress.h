@@ -18,16 +18,22 @@ typedef struct rt_stage_progress {
 /* Seconds on a monotonic clock. */
 double rt_clock(void);
 
-/* Each reports to the progress callback and returns RT_OK, or RT_CANCELLED once the callback asked for it. */
+/*
+ * Each reports to the progress callback and returns RT_OK, or RT_CANCELLED once the callback asked
+ * for it.
+ */
 rt_status rt_stage_begin(rt_stage_progress *progress, const rt_hooks *hooks, rt_stage stage);
-rt_status rt_stage_update(rt_stage_progress *progress, double fraction); /* at most ten reports a second */
-void rt_stage_part(rt_stage_progress *progress, double from, double to); /* what the next updates are fractions of */
-rt_status rt_stage_end(rt_stage_progress *progress, double *seconds);    /* seconds: the stage's length, or NULL */
+/* at most ten reports a second */
+rt_status rt_stage_update(rt_stage_progress *progress, double fraction);
+/* what the next updates are fractions of */
+void rt_stage_part(rt_stage_progress *progress, double from, double to);
+/* seconds: the stage's length, or NULL */
+rt_status rt_stage_end(rt_stage_progress *progress, double *seconds);
 
 /*
- * Runs work(data) on a thread of its own while this one keeps the progress callback informed, for calls
- * into other libraries that cannot report by themselves. A cancel is noted and takes effect when work is done.
- * Returns what work returned, else RT_CANCELLED.
+ * Runs work(data) on a thread of its own while this one keeps the progress callback informed, for
+ * calls into other libraries that cannot report by themselves. A cancel is noted and takes effect
+ * when work is done. Returns what work returned, else RT_CANCELLED.
  */
 rt_status rt_stage_run(rt_stage_progress *progress, rt_status (*work)(void *data), void *data);
 

@@ -70,8 +70,8 @@ static int is_suspect(const chance_test *test, uint32_t round)
     assert_true(trial.comparisons > 0);
     if (trial.least * trial.comparisons >= CHANCE_SUSPECT)
         return 0;
-    print_message("suspect: %s; a chance of %.2g in one of %d comparisons\n", trial.what, trial.least,
-                  trial.comparisons);
+    print_message("suspect: %s; a chance of %.2g in one of %d comparisons\n", trial.what,
+                  trial.least, trial.comparisons);
     return 1;
 }
 
@@ -80,12 +80,16 @@ void chance_run(void **state)
     const chance_test *test = *state;
     chance_spend(CHANCE_TEST);
     if (is_suspect(test, 0) && is_suspect(test, 1))
-        fail_msg("%s; a chance of %.2g, and suspect with other seeds as well", trial.what, trial.least);
+        fail_msg("%s; a chance of %.2g, and suspect with other seeds as well", trial.what,
+                 trial.least);
 }
 
 /* ---- Student's t ---------------------------------------------------------------------- */
 
-/* Abramowitz and Stegun, "Handbook of Mathematical Functions", 26.7.3 and 26.7.4; in the limit it is normal. */
+/*
+ * Abramowitz and Stegun, "Handbook of Mathematical Functions", 26.7.3 and 26.7.4; in the limit it
+ * is normal.
+ */
 double chance_of_student(double t, double freedom)
 {
     if (freedom > 10000)

@@ -1,15 +1,18 @@
 /*
- * chance.h - how often tests of random numbers may fail where nothing is wrong: all of `make check` together in fewer
- * than one of 10^4 runs, were seeds drawn afresh for each. As they are fixed, the verdict on one machine never changes.
+ * chance.h - how often tests of random numbers may fail where nothing is wrong: all of `make check`
+ * together in fewer than one of 10^4 runs, were seeds drawn afresh for each. As they are fixed, the
+ * verdict on one machine never changes.
  *
- * A statistical test makes comparisons, T of them, each with the chance that what is right is as far off or farther.
- * The test is suspect when one of these is below CHANCE_SUSPECT / T, which by Bonferroni's inequality happens in fewer
- * than CHANCE_SUSPECT of all runs, whatever T is and however the comparisons hang together. Then the whole test runs
- * again with other seeds, and only one that is suspect again has failed: CHANCE_TEST of all runs. What is wrong is so
- * with any seed: a limit of 3.5 standard errors for one comparison, and 4.9 for 500, is enough.
+ * A statistical test makes comparisons, T of them, each with the chance that what is right is as
+ * far off or farther. The test is suspect when one of these is below CHANCE_SUSPECT / T, which by
+ * Bonferroni's inequality happens in fewer than CHANCE_SUSPECT of all runs, whatever T is and
+ * however the comparisons hang together. Then the whole test runs again with other seeds, and only
+ * one that is suspect again has failed: CHANCE_TEST of all runs. What is wrong is so with any seed:
+ * a limit of 3.5 standard errors for one comparison, and 4.9 for 500, is enough.
  *
- * Where the standard error is known only from other seeds, a bound is stated, of 5 standard deviations over 14 seeds or
- * 7 over 8: Student's t of as many degrees of freedom less one is beyond that in fewer than CHANCE_SUSPECT of all runs.
+ * Where the standard error is known only from other seeds, a bound is stated, of 5 standard
+ * deviations over 14 seeds or 7 over 8: Student's t of as many degrees of freedom less one is
+ * beyond that in fewer than CHANCE_SUSPECT of all runs.
  *
  *   what                                         how many       a false alarm of each     together
  *   statistical tests: kernels/, lib/,
@@ -19,8 +22,8 @@
  *     T' tests, each suspect and again so        2              T' (0.01 / T')^2          1.2e-6
  *                                                                                           5.3e-5
  *
- * Nobody has to keep this table true: each program adds up its own part as it runs, and tests/run.sh all of them, which
- * fails when they are more than 1e-4.
+ * Nobody has to keep this table true: each program adds up its own part as it runs, and
+ * tests/run.sh all of them, which fails when they are more than 1e-4.
  */
 #ifndef RT_TESTS_CHANCE_H
 #define RT_TESTS_CHANCE_H
@@ -31,30 +34,42 @@
 #define CHANCE_TEST (CHANCE_SUSPECT * CHANCE_SUSPECT)
 
 /*
- * The seed of random numbers: as given, another one when a suspect runs again, and others yet for each number in the
- * environment variable RT_TEST_SEED, for whoever wants to see the false alarms.
+ * The seed of random numbers: as given, another one when a suspect runs again, and others yet for
+ * each number in the environment variable RT_TEST_SEED, for whoever wants to see the false alarms.
  */
 uint32_t test_seed(uint32_t seed);
 
 /*
- * A test that compares by chance_compare or by what kernels/statistics.h has of it: an entry of a cmocka group, which
- * has no state of its own, as that would take the place of the entry's.
+ * A test that compares by chance_compare or by what kernels/statistics.h has of it: an entry of a
+ * cmocka group, which has no state of its own, as that would take the place of the entry's.
  */
 typedef struct chance_test {
     void (*test)(void **state);
     void *state;
 } chance_test;
 #define statistical_test(f) statistical_test_of(#f, f, NULL)
-#define statistical_test_of(name, f, state) {name, chance_run, NULL, NULL, &(chance_test){f, state}}
+#define statistical_test_of(name, f, state)                                                        \
+    {                                                                                              \
+        name, chance_run, NULL, NULL, &(chance_test)                                               \
+        {                                                                                          \
+            f, state                                                                               \
+        }                                                                                          \
+    }
 void chance_run(void **state);
 
 /* One comparison of a statistical test, with its chance and what it compared. */
 void chance_compare(double chance, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The chance that Student's t with that many degrees of freedom, a whole number, is as far from 0 as t or farther. */
+/*
+ * The chance that Student's t with that many degrees of freedom, a whole number, is as far from 0
+ * as t or farther.
+ */
 double chance_of_student(double t, double freedom);
 
-/* Adds to the chance that this program fails where nothing is wrong; a statistical test has done so itself. */
+/*
+ * Adds to the chance that this program fails where nothing is wrong; a statistical test has done so
+ * itself.
+ */
 void chance_spend(double chance);
 
 #endif

@@ -48,7 +48,8 @@ cl_kernel test_kernel(const char *program, const char *kernel)
 {
     rt_error error;
     cl_kernel made = NULL;
-    expect_ok(rt_device_kernel_from(test_device(), &made, rt_test_kernel_sources, program, kernel, NULL, &error),
+    expect_ok(rt_device_kernel_from(test_device(), &made, rt_test_kernel_sources, program, kernel,
+                                    NULL, &error),
               &error);
     return made;
 }
@@ -57,7 +58,8 @@ cl_mem test_buffer(size_t bytes, const void *host)
 {
     rt_error error;
     cl_mem buffer = NULL;
-    expect_ok(rt_buffer_create(test_device(), &buffer, CL_MEM_READ_WRITE, bytes, (void *)host, "test data", &error),
+    expect_ok(rt_buffer_create(test_device(), &buffer, CL_MEM_READ_WRITE, bytes, (void *)host,
+                               "test data", &error),
               &error);
     return buffer;
 }

@@ -1,6 +1,6 @@
 /*
- * support.h - what many tests need: a device, kernels of the tests' own, and errors that fail the test.
- * Includes cmocka.h and what that needs.
+ * support.h - what many tests need: a device, kernels of the tests' own, and errors that fail the
+ * test. Includes cmocka.h and what that needs.
  */
 #ifndef RT_TESTS_SUPPORT_H
 #define RT_TESTS_SUPPORT_H
@@ -22,21 +22,26 @@ extern const rt_kernel_source rt_test_kernel_sources[];
 void expect_ok(rt_status status, const rt_error *error);
 
 /*
- * The OpenCL device that the environment variable RT_TEST_DEVICE names as rtc's --device does, else the first, with
- * default options; opened once a test program and closed at its end.
+ * The OpenCL device that the environment variable RT_TEST_DEVICE names as rtc's --device does, else
+ * the first, with default options; opened once a test program and closed at its end.
  */
 rt_device *test_device(void);
 
 /* A renderer of the scene that a text describes, on test_device(). */
 rt_renderer *test_renderer(const char *text);
 
-/* The same device once more, with options as in rt_device_options. Close it with rt_device_close. */
+/*
+ * The same device once more, with options as in rt_device_options. Close it with rt_device_close.
+ */
 rt_device *test_device_open(uint32_t threads, uint32_t work_group);
 
 /* A kernel of rt_test_kernel_sources on test_device(). Release it with rt_kernel_release. */
 cl_kernel test_kernel(const char *program, const char *kernel);
 
-/* A buffer on test_device(), copied from host when that is not NULL. Release it with rt_buffer_release. */
+/*
+ * A buffer on test_device(), copied from host when that is not NULL. Release it with
+ * rt_buffer_release.
+ */
 cl_mem test_buffer(size_t bytes, const void *host);
 
 /* Sets the arguments, launches `items` work-items and waits. */

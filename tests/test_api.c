@@ -40,7 +40,8 @@ static int setup(void **state)
     rt_error error;
     expect_ok(rt_scene_parse(&fixture.scene, text, "test", NULL, &error), &error);
     expect_ok(rt_device_open(&fixture.device, &options, &error), &error);
-    expect_ok(rt_renderer_create(&fixture.renderer, fixture.scene, fixture.device, NULL, &error), &error);
+    expect_ok(rt_renderer_create(&fixture.renderer, fixture.scene, fixture.device, NULL, &error),
+              &error);
     *state = &fixture;
     return 0;
 }
@@ -60,7 +61,8 @@ static void version_is_that_of_the_header(void **state)
 {
     (void)state;
     char version[32];
-    snprintf(version, sizeof version, "%d.%d.%d", RT_VERSION_MAJOR, RT_VERSION_MINOR, RT_VERSION_PATCH);
+    snprintf(version, sizeof version, "%d.%d.%d", RT_VERSION_MAJOR, RT_VERSION_MINOR,
+             RT_VERSION_PATCH);
     assert_string_equal(rt_version(), version);
 }
 
@@ -88,7 +90,8 @@ static void failure_fills_the_error_and_leaves_the_result(void **state)
     rt_scene *untouched = (rt_scene *)&untouched, *scene = untouched;
     rt_error error;
     memset(&error, 0xff, sizeof error);
-    assert_int_equal(rt_scene_parse(&scene, "film {\n  widht 3 }\n", "name", NULL, &error), RT_ERROR_INPUT);
+    assert_int_equal(rt_scene_parse(&scene, "film {\n  widht 3 }\n", "name", NULL, &error),
+                     RT_ERROR_INPUT);
     assert_ptr_equal(scene, untouched);
     assert_int_equal(error.status, RT_ERROR_INPUT);
     assert_string_equal(error.file, "name");
@@ -143,14 +146,16 @@ static void missing_objects_and_paths_are_refused(void **state)
     rt_error e;
     expect_missing(rt_scene_load(&scene, NULL, NULL, &e), "path", &e);
     expect_missing(rt_scene_parse(&scene, NULL, "name", NULL, &e), "text", &e);
-    expect_missing(rt_scene_load_mesh(fixture->scene, &mesh, NULL, RT_SHADING_FILE, NULL, &e), "path", &e);
+    expect_missing(rt_scene_load_mesh(fixture->scene, &mesh, NULL, RT_SHADING_FILE, NULL, &e),
+                   "path", &e);
     expect_missing(rt_renderer_create(&renderer, NULL, fixture->device, NULL, &e), "scene", &e);
     expect_missing(rt_renderer_create(&renderer, fixture->scene, NULL, NULL, &e), "device", &e);
     expect_missing(rt_trace(NULL, RT_TRACE_ANY, NULL, 0, NULL, &e), "renderer", &e);
     expect_missing(rt_render(&film, NULL, NULL, &e), "renderer", &e);
     expect_missing(rt_render_options_check(NULL, &e), "options", &e);
     expect_missing(rt_photon_map_emit(&map, NULL, NULL, &e), "renderer", &e);
-    expect_missing(rt_photon_map_irradiance(v, NULL, fixture->device, v, v, 1, NULL, &e), "map", &e);
+    expect_missing(rt_photon_map_irradiance(v, NULL, fixture->device, v, v, 1, NULL, &e), "map",
+                   &e);
     expect_missing(rt_photon_map_merge(&map, maps, 1, &e), "map", &e);
     expect_missing(rt_photon_map_save(NULL, "a.rtp", &e), "map", &e);
     expect_missing(rt_photon_map_export(NULL, "a.ply", &e), "map", &e);
@@ -169,7 +174,9 @@ static void missing_objects_and_paths_are_refused(void **state)
     assert_true(!scene && !renderer && !map && !film && !comparison);
 }
 
-/* A file that is not there, is no file, or holds something else; and places that cannot be written. */
+/*
+ * A file that is not there, is no file, or holds something else; and places that cannot be written.
+ */
 static void errors_name_the_file_at_fault(void **state)
 {
     const fixture *fixture = *state;
@@ -187,12 +194,16 @@ static void errors_name_the_file_at_fault(void **state)
         assert_string_equal(e.file, path);
         assert_int_equal(rt_photon_map_load(&map, path, &e), RT_ERROR_INPUT);
         assert_string_equal(e.file, path);
-        assert_int_equal(rt_scene_load_mesh(fixture->scene, &handle, path, RT_SHADING_FILE, NULL, &e), RT_ERROR_INPUT);
+        assert_int_equal(
+            rt_scene_load_mesh(fixture->scene, &handle, path, RT_SHADING_FILE, NULL, &e),
+            RT_ERROR_INPUT);
         assert_string_equal(e.file, path);
-        assert_int_equal(rt_scene_add_texture(fixture->scene, &handle, &texture, &e), RT_ERROR_INPUT);
+        assert_int_equal(rt_scene_add_texture(fixture->scene, &handle, &texture, &e),
+                         RT_ERROR_INPUT);
         assert_string_equal(e.file, path);
         assert_string_equal(e.field, "path");
-        assert_int_equal(rt_scene_set_environment(fixture->scene, &environment, &e), RT_ERROR_INPUT);
+        assert_int_equal(rt_scene_set_environment(fixture->scene, &environment, &e),
+                         RT_ERROR_INPUT);
         assert_string_equal(e.file, path);
     }
     expect_ok(rt_image_from_rgb(&image, grey, 1, 1, &e), &e);
@@ -306,11 +317,13 @@ static void wrong_shape_names_its_parameter_and_adds_nothing(void **state)
     rt_error error;
     rt_scene_info info;
     const float centre[3] = {0, 0, 0}, broken[3] = {0, NAN, 0};
-    assert_int_equal(rt_scene_add_sphere(scene, NULL, centre, -1, &surface, &error), RT_ERROR_INPUT);
+    assert_int_equal(rt_scene_add_sphere(scene, NULL, centre, -1, &surface, &error),
+                     RT_ERROR_INPUT);
     assert_string_equal(error.field, "radius");
     assert_int_equal(rt_scene_add_sphere(scene, NULL, broken, 1, &surface, &error), RT_ERROR_INPUT);
     assert_string_equal(error.field, "centre");
-    assert_int_equal(rt_scene_add_plane(scene, NULL, centre, centre, &surface, &error), RT_ERROR_INPUT);
+    assert_int_equal(rt_scene_add_plane(scene, NULL, centre, centre, &surface, &error),
+                     RT_ERROR_INPUT);
     assert_string_equal(error.field, "normal");
     surface.material = 7;
     assert_int_equal(rt_scene_add_sphere(scene, NULL, centre, 1, &surface, &error), RT_ERROR_INPUT);
@@ -390,11 +403,13 @@ static void ray_that_is_no_ray_is_refused(void **state)
     for (size_t i = 0; i < sizeof rays / sizeof *rays; i++) {
         const rt_ray pair[] = {{{0, 1, -4}, 0, {0, 0, 1}, INFINITY}, rays[i]};
         rt_hit hits[2];
-        assert_int_equal(rt_trace(fixture->renderer, RT_TRACE_CLOSEST, pair, 2, hits, &error), RT_ERROR_USAGE);
+        assert_int_equal(rt_trace(fixture->renderer, RT_TRACE_CLOSEST, pair, 2, hits, &error),
+                         RT_ERROR_USAGE);
         assert_non_null(strstr(error.message, "ray 1 "));
     }
     const rt_ray good = {{0, 1, -4}, 0, {0, 0, 1}, INFINITY};
-    assert_int_equal(rt_trace(fixture->renderer, (rt_trace_kind)2, &good, 1, &hit, &error), RT_ERROR_USAGE);
+    assert_int_equal(rt_trace(fixture->renderer, (rt_trace_kind)2, &good, 1, &hit, &error),
+                     RT_ERROR_USAGE);
     assert_string_equal(error.field, "kind");
 }
 
@@ -402,7 +417,8 @@ static void ray_that_is_no_ray_is_refused(void **state)
 static void a_direction_may_be_short_or_long(void **state)
 {
     fixture *fixture = *state;
-    const rt_ray rays[] = {{{0, 1, -4}, 0, {0, 0, 1e-15f}, INFINITY}, {{0, 1, -4}, 0, {0, 0, 9.9e14f}, INFINITY}};
+    const rt_ray rays[] = {{{0, 1, -4}, 0, {0, 0, 1e-15f}, INFINITY},
+                           {{0, 1, -4}, 0, {0, 0, 9.9e14f}, INFINITY}};
     rt_hit hits[2];
     rt_error error;
     expect_ok(rt_trace(fixture->renderer, RT_TRACE_CLOSEST, rays, 2, hits, &error), &error);
@@ -446,8 +462,12 @@ static void progress_shows_each_stage_from_start_to_end(void **state)
     rt_error error;
     watch watch = {0};
     rt_hooks hooks = {.progress = watch_progress, .user = &watch};
-    rt_render_options options = {
-        .width = 16, .height = 12, .spp = 4, .mode = RT_MODE_PHOTON, .photons = 1000, .hooks = &hooks};
+    rt_render_options options = {.width = 16,
+                                 .height = 12,
+                                 .spp = 4,
+                                 .mode = RT_MODE_PHOTON,
+                                 .photons = 1000,
+                                 .hooks = &hooks};
     expect_ok(rt_render(&film, fixture->renderer, &options, &error), &error);
     /* Kernels, emission, gathering. */
     assert_int_equal(watch.begun, 3);
@@ -517,8 +537,9 @@ static void cancelled_before_the_first_sample_gives_no_film(void **state)
     rt_renderer_options renderer_options = {RT_ACCEL_BVH, &hooks};
     assert_int_equal(rt_render(&film, fixture->renderer, &options, &error), RT_CANCELLED);
     assert_null(film);
-    assert_int_equal(rt_renderer_create(&renderer, fixture->scene, fixture->device, &renderer_options, &error),
-                     RT_CANCELLED);
+    assert_int_equal(
+        rt_renderer_create(&renderer, fixture->scene, fixture->device, &renderer_options, &error),
+        RT_CANCELLED);
     assert_null(renderer);
 }
 

@@ -1,4 +1,7 @@
-/* test_chance.c - statistical tests fail by chance as seldom as they say, and what is wrong fails them. */
+/*
+ * test_chance.c - statistical tests fail by chance as seldom as they say, and what is wrong fails
+ * them.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -97,7 +100,9 @@ static void seeds_are_as_given_unless_others_are_asked_for(void **state)
 
 /* ---- Chances ------------------------------------------------------------------------- */
 
-/* Values of mean 1: of two even numbers, exponential, and mostly none, so that few carry the sum. */
+/*
+ * Values of mean 1: of two even numbers, exponential, and mostly none, so that few carry the sum.
+ */
 static double draw(int kind, rays_stream *stream)
 {
     const double u = rays_uniform(stream);
@@ -111,7 +116,10 @@ static double draw(int kind, rays_stream *stream)
     }
 }
 
-/* Of true means a share p, or less, has a chance below p: 20 000 means each, to five standard deviations and a half. */
+/*
+ * Of true means a share p, or less, has a chance below p: 20 000 means each, to five standard
+ * deviations and a half.
+ */
 static void chances_of_means_are_chances(void **state)
 {
     enum { n = 500, trials = 20000, kinds = 3 };

@@ -1,4 +1,7 @@
-/* compare.c - `rtc compare`: how much images differ from a reference, and whether by more than is allowed. */
+/*
+ * compare.c - `rtc compare`: how much images differ from a reference, and whether by more than is
+ * allowed.
+ */
 #include "compare.h"
 
 #include <math.h>
@@ -13,8 +16,9 @@
 /* ---- Limits --------------------------------------------------------------- */
 
 const compare_limit compare_limits[COMPARE_LIMITS] = {
-    {OPTION_MAX_MSE, "mse", 0},   {OPTION_MAX_RMSE, "rmse", 0}, {OPTION_MAX_RELMSE, "relmse", 0},
-    {OPTION_MAX_BIAS, "bias", 0}, {OPTION_MIN_SSIM, "ssim", 1}, {OPTION_MAX_FLIP, "flip", 0},
+    {OPTION_MAX_MSE, "mse", 0},        {OPTION_MAX_RMSE, "rmse", 0},
+    {OPTION_MAX_RELMSE, "relmse", 0},  {OPTION_MAX_BIAS, "bias", 0},
+    {OPTION_MIN_SSIM, "ssim", 1},      {OPTION_MAX_FLIP, "flip", 0},
     {OPTION_MAX_OFF, "blocks off", 0},
 };
 
@@ -49,7 +53,8 @@ double compare_allowed(const compare_limit *limit, const command_line *arguments
     return option_table[limit->option].kind == KIND_WHOLE ? (double)value->count : value->real;
 }
 
-int compare_kept(const compare_limit *limit, const command_line *arguments, const rt_comparison_info *info)
+int compare_kept(const compare_limit *limit, const command_line *arguments,
+                 const rt_comparison_info *info)
 {
     double measured = compare_measured(limit, info), allowed = compare_allowed(limit, arguments);
     return limit->is_least ? measured >= allowed : measured <= allowed;
@@ -60,14 +65,17 @@ static void say_unknown(const compare_limit *limit, const rt_comparison_info *in
 {
     const char *name = option_table[limit->option].name;
     if (limit->option == OPTION_MIN_SSIM)
-        message_note("the pictures are too small for --%s: %ux%u pixels, and its window has 11x11", name,
-                     (unsigned)info->width, (unsigned)info->height);
+        message_note("the pictures are too small for --%s: %ux%u pixels, and its window has 11x11",
+                     name, (unsigned)info->width, (unsigned)info->height);
     else
         message_note("%s is unknown, and not within --%s: %s", limit->measure, name,
-                     limit->option == OPTION_MAX_BIAS ? "the mean of the reference is 0" : "no pixel is finite");
+                     limit->option == OPTION_MAX_BIAS ? "the mean of the reference is 0"
+                                                      : "no pixel is finite");
 }
 
-/* Says which limits are broken; whether all are kept. Pixels that are not finite break any limit. */
+/*
+ * Says which limits are broken; whether all are kept. Pixels that are not finite break any limit.
+ */
 static int check_limits(const command_line *arguments, const rt_comparison_info *info)
 {
     int given = 0, within = 1;
@@ -89,8 +97,8 @@ static int check_limits(const command_line *arguments, const rt_comparison_info 
     }
     unsigned long long not_finite[2] = {info->not_finite[0], info->not_finite[1]};
     if (given && not_finite[0] + not_finite[1] > 0) {
-        message_note("%llu pixels, and %llu of the reference, are not finite: within no limit", not_finite[0],
-                     not_finite[1]);
+        message_note("%llu pixels, and %llu of the reference, are not finite: within no limit",
+                     not_finite[0], not_finite[1]);
         within = 0;
     }
     return within;
@@ -140,11 +148,13 @@ static int compare_images(rt_comparison **out, rt_image **images, const command_
     options.tolerance = given[OPTION_TOLERANCE].real;
     options.exposure = given[OPTION_COMPARE_EXPOSURE].real;
     options.names = arguments->operands;
-    rt_status status = rt_image_compare(out, (const rt_image *const *)images, count, images[count], &options, &error);
+    rt_status status = rt_image_compare(out, (const rt_image *const *)images, count, images[count],
+                                        &options, &error);
     return status == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
-static int write_differences(const output_list *outputs, const rt_comparison *comparison, double scale)
+static int write_differences(const output_list *outputs, const rt_comparison *comparison,
+                             double scale)
 {
     int status = STATUS_DONE;
     for (size_t i = 0; i < outputs->count; i++) {
@@ -157,21 +167,30 @@ static int write_differences(const output_list *outputs, const rt_comparison *co
     return status;
 }
 
-/* Where renders share photons, neighbouring blocks are off together, which one render does not show. */
+/*
+ * Where renders share photons, neighbouring blocks are off together, which one render does not
+ * show.
+ */
 static void warn_shared_photons(const command_line *arguments, const rt_comparison_info *info)
 {
     size_t last = arguments->operand_count - 1;
     if (info->shares_photons[0])
-        message_warning("%s: the noise of one photon render is understated, for its pixels share photons; give several "
+        message_warning("%s: the noise of one photon render is understated, for its pixels share "
+                        "photons; give several "
                         "of other seeds",
                         arguments->operands[0]);
     if (info->shares_photons[1])
-        message_warning("%s: the noise of a reference of photon mode is understated, for its pixels share photons",
+        message_warning("%s: the noise of a reference of photon mode is understated, for its "
+                        "pixels share photons",
                         arguments->operands[last]);
 }
 
-/* Prints the results and writes the difference pictures; images that differ too much are no success. */
-static int report(const rt_comparison *comparison, const command_line *arguments, const output_list *outputs)
+/*
+ * Prints the results and writes the difference pictures; images that differ too much are no
+ * success.
+ */
+static int report(const rt_comparison *comparison, const command_line *arguments,
+                  const output_list *outputs)
 {
     rt_comparison_info info;
     rt_comparison_get_info(comparison, &info);
@@ -204,8 +223,9 @@ static int check_renders(const command_line *arguments)
     for (size_t i = 0; i + 1 < arguments->operand_count; i++)
         for (size_t j = 0; j < i; j++)
             if (inputs_are_same(arguments->operands[j], arguments->operands[i])) {
-                message_error("%s is given twice: several renders must be independent, of different seeds",
-                              arguments->operands[i]);
+                message_error(
+                    "%s is given twice: several renders must be independent, of different seeds",
+                    arguments->operands[i]);
                 return STATUS_USAGE;
             }
     return STATUS_DONE;
@@ -225,7 +245,8 @@ int command_compare(const command_line *arguments)
         status = check_inputs(arguments, &outputs);
     if (status == STATUS_DONE)
         status = check_renders(arguments);
-    if (status == STATUS_DONE && arguments->options[OPTION_SCALE].given && !outputs_have_8bit(&outputs))
+    if (status == STATUS_DONE && arguments->options[OPTION_SCALE].given &&
+        !outputs_have_8bit(&outputs))
         message_warning("--scale has no effect without --out to a .png or .ppm");
     if (status == STATUS_DONE)
         status = read_images(&images, arguments);

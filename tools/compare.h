@@ -21,9 +21,13 @@ double compare_measured(const compare_limit *limit, const rt_comparison_info *in
 /* Whether a limit is given, and whether it is kept; what is not a number keeps none. */
 int compare_given(const compare_limit *limit, const command_line *arguments);
 double compare_allowed(const compare_limit *limit, const command_line *arguments);
-int compare_kept(const compare_limit *limit, const command_line *arguments, const rt_comparison_info *info);
+int compare_kept(const compare_limit *limit, const command_line *arguments,
+                 const rt_comparison_info *info);
 
-/* Prints what was measured: a line for each, or one JSON object; within is whether all limits are kept. */
+/*
+ * Prints what was measured: a line for each, or one JSON object; within is whether all limits are
+ * kept.
+ */
 void compare_print_text(const rt_comparison *comparison, const command_line *arguments);
 void compare_print_json(const rt_comparison *comparison, const command_line *arguments, int within);
 

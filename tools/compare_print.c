@@ -1,4 +1,7 @@
-/* compare_print.c - the results of `rtc compare` on stdout: lines for a person, or JSON for a program. */
+/*
+ * compare_print.c - the results of `rtc compare` on stdout: lines for a person, or JSON for a
+ * program.
+ */
 #include <math.h>
 #include <stdio.h>
 
@@ -52,7 +55,10 @@ static void print_worst(const rt_comparison_info *info, const rt_image_block *bl
            show_ratio(text, ratio(b, c), ratio_error(b, c)), b->excess[c]);
 }
 
-/* Each block on a line: its place, and by channel the ratio, its standard error and the part of what is allowed. */
+/*
+ * Each block on a line: its place, and by channel the ratio, its standard error and the part of
+ * what is allowed.
+ */
 static void print_blocks(const rt_image_block *blocks, size_t count)
 {
     char a[SHOWN], b[SHOWN];
@@ -96,8 +102,8 @@ void compare_print_text(const rt_comparison *comparison, const command_line *arg
 
 static void put_block(const rt_image_block *b)
 {
-    printf("{\"x\":%u,\"y\":%u,\"width\":%u,\"height\":%u", (unsigned)b->x, (unsigned)b->y, (unsigned)b->width,
-           (unsigned)b->height);
+    printf("{\"x\":%u,\"y\":%u,\"width\":%u,\"height\":%u", (unsigned)b->x, (unsigned)b->y,
+           (unsigned)b->width, (unsigned)b->height);
     json_triple("mean", b->mean);
     json_triple("reference", b->reference);
     json_triple("error", b->error);
@@ -147,8 +153,9 @@ void compare_print_json(const rt_comparison *comparison, const command_line *arg
     const rt_image_block *blocks = rt_comparison_blocks(comparison, &count);
     rt_comparison_get_info(comparison, &info);
     put_names(arguments);
-    printf(",\"width\":%u,\"height\":%u,\"not_finite\":[%llu,%llu]", (unsigned)info.width, (unsigned)info.height,
-           (unsigned long long)info.not_finite[0], (unsigned long long)info.not_finite[1]);
+    printf(",\"width\":%u,\"height\":%u,\"not_finite\":[%llu,%llu]", (unsigned)info.width,
+           (unsigned)info.height, (unsigned long long)info.not_finite[0],
+           (unsigned long long)info.not_finite[1]);
     json_member("mse", info.mse);
     json_member("rmse", info.rmse);
     json_member("relmse", info.relmse);

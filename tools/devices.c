@@ -18,10 +18,12 @@ int command_devices(const command_line *arguments)
         return message_failure(&error);
     for (size_t i = 0; i < count; i++) {
         const rt_device_info *device = &devices[i];
-        printf("%zu  %s\n   %s, %s, driver %s\n   %s, %u compute unit%s, %.1f GiB memory, largest buffer %.1f GiB\n", i,
-               device->name, device->platform, device->version, device->driver, device->is_cpu ? "CPU" : "not a CPU",
-               (unsigned)device->compute_units, device->compute_units == 1 ? "" : "s",
-               (double)device->memory / (1u << 30), (double)device->largest_buffer / (1u << 30));
+        printf("%zu  %s\n   %s, %s, driver %s\n   %s, %u compute unit%s, %.1f GiB memory, largest "
+               "buffer %.1f GiB\n",
+               i, device->name, device->platform, device->version, device->driver,
+               device->is_cpu ? "CPU" : "not a CPU", (unsigned)device->compute_units,
+               device->compute_units == 1 ? "" : "s", (double)device->memory / (1u << 30),
+               (double)device->largest_buffer / (1u << 30));
     }
     rt_devices_free(devices);
     return STATUS_DONE;

@@ -77,7 +77,8 @@ static rt_status check_device(doctor_visit *visit, char *said, rt_error *error)
     if (status != RT_OK)
         return status;
     rt_device_get_info(visit->device, &info);
-    snprintf(said, SAID, "opened %s (%s, %s, driver %s)", info.name, info.platform, info.version, info.driver);
+    snprintf(said, SAID, "opened %s (%s, %s, driver %s)", info.name, info.platform, info.version,
+             info.driver);
     return RT_OK;
 }
 
@@ -87,7 +88,8 @@ static rt_status check_build(doctor_visit *visit, char *said, rt_error *error)
     rt_renderer_options options = {0};
     hooks.log = visit->verbose ? on_log : NULL;
     options.hooks = &hooks;
-    rt_status status = rt_renderer_create(&visit->renderer, visit->scene, visit->device, &options, error);
+    rt_status status =
+        rt_renderer_create(&visit->renderer, visit->scene, visit->device, &options, error);
     snprintf(said, SAID, "the scene is on the device");
     return status;
 }
@@ -103,11 +105,13 @@ static rt_status check_trace(doctor_visit *visit, char *said, rt_error *error)
     snprintf(said, SAID, "a ray hits the sphere at %.4f m", hit.t);
     if (hit.shape == 1 && fabsf(hit.t - 3.0f) < 1e-4f)
         return RT_OK;
-    return fail(error, RT_ERROR_DEVICE, "a ray goes wrong on this device: it should hit the sphere at 3 m");
+    return fail(error, RT_ERROR_DEVICE,
+                "a ray goes wrong on this device: it should hit the sphere at 3 m");
 }
 
 /* Renders in one mode; every pixel of the lower half sees the lit sphere or floor. */
-static rt_status check_mode(doctor_visit *visit, char *said, rt_mode mode, const char *name, rt_error *error)
+static rt_status check_mode(doctor_visit *visit, char *said, rt_mode mode, const char *name,
+                            rt_error *error)
 {
     rt_hooks hooks = {0};
     rt_render_options options;
@@ -126,7 +130,8 @@ static rt_status check_mode(doctor_visit *visit, char *said, rt_mode mode, const
     float middle = rgb[3 * (8 * 16 + 8)], corner = rgb[3 * (15 * 16 + 15)];
     rt_film_stats stats;
     rt_film_get_stats(visit->film, &stats);
-    snprintf(said, SAID, "%s mode renders; its kernels took %.2f s to compile", name, stats.compile_seconds);
+    snprintf(said, SAID, "%s mode renders; its kernels took %.2f s to compile", name,
+             stats.compile_seconds);
     if (middle > 0.0f && corner > 0.0f && isfinite(middle) && isfinite(corner))
         return RT_OK;
     return fail(error, RT_ERROR_DEVICE, "the picture is black where it should be lit");
@@ -169,8 +174,9 @@ static const struct {
     const char *remedy; /* what to do when it fails */
 } checks[] = {
     {check_language, "this build of rtc is broken; build it anew"},
-    {check_platform, "for the CPU: apt-get install pocl-opencl-icd; for a GPU: its vendor's OpenCL driver. "
-                     "OCL_ICD_VENDORS, if set, must name a directory of .icd files"},
+    {check_platform,
+     "for the CPU: apt-get install pocl-opencl-icd; for a GPU: its vendor's OpenCL driver. "
+     "OCL_ICD_VENDORS, if set, must name a directory of .icd files"},
     {check_device, "`rtc devices` lists the devices that --device can name"},
     {check_build, "--verbose shows the compiler's log; another --device may do"},
     {check_trace, "the driver computes wrongly; another --device may do"},
@@ -182,7 +188,8 @@ static const struct {
 int command_doctor(const command_line *arguments)
 {
     if (arguments->operand_count != 0) {
-        message_error("`rtc doctor` takes no argument but options; not '%s'", arguments->operands[0]);
+        message_error("`rtc doctor` takes no argument but options; not '%s'",
+                      arguments->operands[0]);
         return STATUS_USAGE;
     }
     doctor_visit visit = {0};

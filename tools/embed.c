@@ -3,12 +3,13 @@
  *
  *     embed OUT.c SYMBOL [-I DIR]... KERNEL.cl...
  *
- * Each #include "name" is replaced by the file, looked up beside the including file and then in
- * the -I folders, and only the first time it is met within one kernel (all have include guards). #line directives
- * keep the driver's messages true to the files. Bytes rather than string literals, because C99
- * promises only 4095 characters of those. OUT.c defines
+ * Each #include "name" is replaced by the file, looked up beside the including file and then in the
+ * -I folders, and only the first time it is met within one kernel (all have include guards). #line
+ * directives keep the driver's messages true to the files. Bytes rather than string literals,
+ * because C99 promises only 4095 characters of those. OUT.c defines
  *
- *     const rt_kernel_source SYMBOL[];    (declared in device/program.h; the last entry has a NULL name)
+ *     const rt_kernel_source SYMBOL[];    (declared in device/program.h; the last entry has a NULL
+ *                                         name)
  */
 #include <libgen.h>
 #include <stdio.h>

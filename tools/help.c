@@ -8,23 +8,25 @@
 enum { LEFT = 26, WIDTH = 80 };
 
 static const char *const usages[COMMAND_COUNT] = {
-    [COMMAND_RENDER] = "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
-                       "       rtc check SCENE.rts...      say all that is wrong with scenes\n"
-                       "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
-                       "       rtc devices                 list the OpenCL devices\n"
-                       "       rtc doctor [OPTION]...      check that everything works here\n"
-                       "       rtc photons ...             make, join, look at and export photon maps\n"
-                       "       rtc compare A B [OPTION]... measure how an image differs from another\n"
-                       "       rtc help COMMAND            the options of one command\n"
-                       "       rtc --version               the version\n"
-                       "\n"
-                       "Renders a scene of the .rts language by path tracing or photon mapping. The\n"
-                       "name - stands for stdin, whose images are stdin.png and stdin.exr. An option is\n"
-                       "written --name value or --name=value; of one given twice the last counts.\n",
-    [COMMAND_CHECK] = "usage: rtc check SCENE.rts...\n"
-                      "\n"
-                      "Reads scenes without rendering them and says all that is wrong, each with its\n"
-                      "place. SCENE - reads from stdin.\n",
+    [COMMAND_RENDER] =
+        "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
+        "       rtc check SCENE.rts...      say all that is wrong with scenes\n"
+        "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
+        "       rtc devices                 list the OpenCL devices\n"
+        "       rtc doctor [OPTION]...      check that everything works here\n"
+        "       rtc photons ...             make, join, look at and export photon maps\n"
+        "       rtc compare A B [OPTION]... measure how an image differs from another\n"
+        "       rtc help COMMAND            the options of one command\n"
+        "       rtc --version               the version\n"
+        "\n"
+        "Renders a scene of the .rts language by path tracing or photon mapping. The\n"
+        "name - stands for stdin, whose images are stdin.png and stdin.exr. An option is\n"
+        "written --name value or --name=value; of one given twice the last counts.\n",
+    [COMMAND_CHECK] =
+        "usage: rtc check SCENE.rts...\n"
+        "\n"
+        "Reads scenes without rendering them and says all that is wrong, each with its\n"
+        "place. SCENE - reads from stdin.\n",
     [COMMAND_MESH] = "usage: rtc mesh KIND [OPTION]...\n"
                      "\n"
                      "Writes a mesh made from a formula, with normals and texture coordinates.\n"
@@ -34,49 +36,54 @@ static const char *const usages[COMMAND_COUNT] = {
                      "  knot     a tube along the trefoil\n"
                      "  terrain  hills over a square, y up\n"
                      "Each is centred in the origin and fits in the cube from -1 to 1.\n",
-    [COMMAND_DEVICES] = "usage: rtc devices\n"
-                        "\n"
-                        "Lists the OpenCL devices of this machine; the number selects one by --device.\n",
-    [COMMAND_DOCTOR] = "usage: rtc doctor [OPTION]...\n"
-                       "\n"
-                       "Checks step by step that OpenCL, the kernels, both render modes and the image\n"
-                       "writers work on this machine, and says what to do about what does not.\n",
-    [COMMAND_PHOTONS] = "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
-                        "       rtc photons info MAP...                          what maps hold\n"
-                        "       rtc photons merge MAP... --out MAP               join maps into one\n"
-                        "       rtc photons diff MAP MAP                         say how two maps differ\n"
-                        "       rtc photons export MAP --out FILE.ply            points for MeshLab or Blender\n"
-                        "\n"
-                        "`rtc SCENE.rts --photon-map MAP.rtp` renders with a map. Parts made by --part, or\n"
-                        "maps of different seeds, merge in any order into the map that would have been\n"
-                        "made at once, to the bit. `diff` exits with 0 for equal maps and 1 for others.\n"
-                        "A scene called like one of these words is written ./info.\n",
-    [COMMAND_COMPARE] = "usage: rtc compare A... B [OPTION]...\n"
-                        "\n"
-                        "Measures on stdout how image A differs from the reference B, of the same size:\n"
-                        "  mse, rmse  mean of (a - b)^2 over pixels and channels, linear; its square root\n"
-                        "  relmse     mean of (a - b)^2 / (b^2 + 0.01)\n"
-                        "  ratio      mean of a by mean of b, with its standard error\n"
-                        "  ssim       structural similarity of the luminance as a display shows it\n"
-                        "  flip       what a person sees of the difference, 0 to 1\n"
-                        "  typical    difference that 95 % of the pixels do not exceed\n"
-                        "  blocks     the same ratio block by block, and how many are off beyond noise\n"
-                        "Several A are independent renders, of different seeds: their mean is compared,\n"
-                        "and their scatter is part of the noise, which one render made in photon mode\n"
-                        "understates: pixels share photons. Images are EXR, PNG, PFM, PPM or PGM;\n"
-                        "8 and 16 bit ones are decoded from sRGB.\n"
-                        "\n"
-                        "Exit status: 0 when every limit given is kept, 1 when one is not, with the\n"
-                        "results on stdout all the same; 1 with an error and no results when an image\n"
-                        "cannot be read or the sizes differ. Pixels that are not finite keep no limit.\n",
+    [COMMAND_DEVICES] =
+        "usage: rtc devices\n"
+        "\n"
+        "Lists the OpenCL devices of this machine; the number selects one by --device.\n",
+    [COMMAND_DOCTOR] =
+        "usage: rtc doctor [OPTION]...\n"
+        "\n"
+        "Checks step by step that OpenCL, the kernels, both render modes and the image\n"
+        "writers work on this machine, and says what to do about what does not.\n",
+    [COMMAND_PHOTONS] =
+        "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
+        "       rtc photons info MAP...                          what maps hold\n"
+        "       rtc photons merge MAP... --out MAP               join maps into one\n"
+        "       rtc photons diff MAP MAP                         say how two maps differ\n"
+        "       rtc photons export MAP --out FILE.ply            points for MeshLab or Blender\n"
+        "\n"
+        "`rtc SCENE.rts --photon-map MAP.rtp` renders with a map. Parts made by --part, or\n"
+        "maps of different seeds, merge in any order into the map that would have been\n"
+        "made at once, to the bit. `diff` exits with 0 for equal maps and 1 for others.\n"
+        "A scene called like one of these words is written ./info.\n",
+    [COMMAND_COMPARE] =
+        "usage: rtc compare A... B [OPTION]...\n"
+        "\n"
+        "Measures on stdout how image A differs from the reference B, of the same size:\n"
+        "  mse, rmse  mean of (a - b)^2 over pixels and channels, linear; its square root\n"
+        "  relmse     mean of (a - b)^2 / (b^2 + 0.01)\n"
+        "  ratio      mean of a by mean of b, with its standard error\n"
+        "  ssim       structural similarity of the luminance as a display shows it\n"
+        "  flip       what a person sees of the difference, 0 to 1\n"
+        "  typical    difference that 95 % of the pixels do not exceed\n"
+        "  blocks     the same ratio block by block, and how many are off beyond noise\n"
+        "Several A are independent renders, of different seeds: their mean is compared,\n"
+        "and their scatter is part of the noise, which one render made in photon mode\n"
+        "understates: pixels share photons. Images are EXR, PNG, PFM, PPM or PGM;\n"
+        "8 and 16 bit ones are decoded from sRGB.\n"
+        "\n"
+        "Exit status: 0 when every limit given is kept, 1 when one is not, with the\n"
+        "results on stdout all the same; 1 with an error and no results when an image\n"
+        "cannot be read or the sizes differ. Pixels that are not finite keep no limit.\n",
 };
 
-static const char footer[] = "\n"
-                             "Exit status: 0 done, 1 the scene or an input file is wrong, 2 usage, 3 device,\n"
-                             "OpenCL or memory, 4 an output could not be written, 130 interrupted. On Ctrl-C\n"
-                             "the samples so far are written; a second one stops at once.\n"
-                             "\n"
-                             "Example: rtc scenes/cornell.rts --mode photon --k 50 --kernel epanechnikov\n";
+static const char footer[] =
+    "\n"
+    "Exit status: 0 done, 1 the scene or an input file is wrong, 2 usage, 3 device,\n"
+    "OpenCL or memory, 4 an output could not be written, 130 interrupted. On Ctrl-C\n"
+    "the samples so far are written; a second one stops at once.\n"
+    "\n"
+    "Example: rtc scenes/cornell.rts --mode photon --k 50 --kernel epanechnikov\n";
 
 /* Prints text from column LEFT on, broken between words, on lines of at most WIDTH columns. */
 static void print_wrapped(const char *text, size_t column)
@@ -108,14 +115,16 @@ static const char *help_of(const option *option, command_id command)
     if (command == COMMAND_PHOTONS && option == &option_table[OPTION_OUT])
         return "where the map, or the file of points, goes";
     if (command == COMMAND_COMPARE && option == &option_table[OPTION_OUT])
-        return "where the signed difference goes; .png .ppm: white where equal, red where A is brighter, blue where B "
+        return "where the signed difference goes; .png .ppm: white where equal, red where A is "
+               "brighter, blue where B "
                "is; .exr .pfm: A - B as it is; may be repeated";
     if (command == COMMAND_PHOTONS && option == &option_table[OPTION_STATS])
         return "print what the map holds on stdout, as `rtc photons info` does";
     if (command == COMMAND_RENDER && option == &option_table[OPTION_JSON])
         return "print --stats as one JSON object; null stands for what is not a finite number";
     if (command == COMMAND_PHOTONS && option == &option_table[OPTION_JSON])
-        return "print what maps hold, here with --stats, or how they differ, as a JSON object on a line for each";
+        return "print what maps hold, here with --stats, or how they differ, as a JSON object on a "
+               "line for each";
     return option->help;
 }
 
@@ -123,14 +132,17 @@ static const char *help_of(const option *option, command_id command)
 static void print_option(const option *option, command_id command)
 {
     char text[512], choices[128] = "";
-    const char *help = help_of(option, command), *fallback = help == option->help ? option->fallback : NULL;
+    const char *help = help_of(option, command),
+               *fallback = help == option->help ? option->fallback : NULL;
     if (option->choices)
         option_join_choices(choices, sizeof choices, option->choices);
     if (fallback)
-        snprintf(text, sizeof text, "%s (%s%sdefault %s)", help, choices, choices[0] ? "; " : "", fallback);
+        snprintf(text, sizeof text, "%s (%s%sdefault %s)", help, choices, choices[0] ? "; " : "",
+                 fallback);
     else
         snprintf(text, sizeof text, "%s", help);
-    int column = printf("  --%s%s%s", option->name, option->value ? " " : "", option->value ? option->value : "");
+    int column = printf("  --%s%s%s", option->name, option->value ? " " : "",
+                        option->value ? option->value : "");
     print_wrapped(text, (size_t)column);
 }
 

@@ -21,7 +21,10 @@ static int follows_light(const rt_render_options *o)
     return o->mode == RT_MODE_PATH || o->mode == RT_MODE_DIRECT || o->mode == RT_MODE_PHOTON;
 }
 
-/* Whether paths from the eye are followed through diffuse bounces, as the map is asked at the first one. */
+/*
+ * Whether paths from the eye are followed through diffuse bounces, as the map is asked at the first
+ * one.
+ */
 static int bounces(const rt_render_options *o)
 {
     return !is_photon(o) || o->final_gather > 0;
@@ -49,7 +52,8 @@ static int weighs(const rt_render_options *o)
 
 static int has_cone(const rt_render_options *o)
 {
-    return weighs(o) && (o->kernel == RT_DENSITY_CONE || (splits(o) && o->caustic_kernel == RT_DENSITY_CONE));
+    return weighs(o) &&
+           (o->kernel == RT_DENSITY_CONE || (splits(o) && o->caustic_kernel == RT_DENSITY_CONE));
 }
 
 static int has_passes(const rt_render_options *o)
@@ -57,7 +61,10 @@ static int has_passes(const rt_render_options *o)
     return o->passes > 1;
 }
 
-/* Whether k photons are looked for: passes gather within a radius, and ask for the k-th where none is given. */
+/*
+ * Whether k photons are looked for: passes gather within a radius, and ask for the k-th where none
+ * is given.
+ */
 static int counts_photons(const rt_render_options *o)
 {
     return !has_passes(o) || o->radius == 0;
@@ -70,7 +77,10 @@ static int counts_caustics(const rt_render_options *o)
 
 /* ---- The table -------------------------------------------------------------- */
 
-/* An option, what it does nothing without, and how that is said. Those of photon mode are looked at in that mode. */
+/*
+ * An option, what it does nothing without, and how that is said. Those of photon mode are looked at
+ * in that mode.
+ */
 static const struct {
     option_id option;
     int (*has_effect)(const rt_render_options *options);
@@ -109,11 +119,13 @@ static void warn_needs(const command_line *arguments, const rt_render_options *o
 }
 
 /* What is asked for but has no place in the files. */
-static void warn_outputs(const command_line *arguments, const rt_render_options *options, const output_list *outputs)
+static void warn_outputs(const command_line *arguments, const rt_render_options *options,
+                         const output_list *outputs)
 {
     if (!outputs_have_8bit(outputs) &&
         (is_asked_for(arguments, OPTION_EXPOSURE) || is_asked_for(arguments, OPTION_TONEMAP)))
-        message_warning("--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
+        message_warning(
+            "--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
     if (outputs_have_layers(outputs))
         return;
     if (is_asked_for(arguments, OPTION_AOV))
@@ -121,14 +133,17 @@ static void warn_outputs(const command_line *arguments, const rt_render_options 
     if (is_asked_for(arguments, OPTION_PHOTON_LAYERS) && is_photon(options))
         message_warning("--photon-layers has no effect without an .exr, which alone holds layers");
     if (is_asked_for(arguments, OPTION_VARIANCE))
-        message_warning("--variance adds no layer without an .exr, which alone holds layers; the error is told all the "
+        message_warning("--variance adds no layer without an .exr, which alone holds layers; the "
+                        "error is told all the "
                         "same");
 }
 
-void idle_warn(const command_line *arguments, const rt_render_options *options, const output_list *outputs)
+void idle_warn(const command_line *arguments, const rt_render_options *options,
+               const output_list *outputs)
 {
     for (int i = 0; i < OPTION_COUNT; i++)
-        if (option_table[i].group == GROUP_PHOTON && !is_photon(options) && is_asked_for(arguments, (option_id)i))
+        if (option_table[i].group == GROUP_PHOTON && !is_photon(options) &&
+            is_asked_for(arguments, (option_id)i))
             message_warning("--%s has no effect in %s mode; --mode photon asks for photon mapping",
                             option_table[i].name, rt_mode_name(options->mode));
     warn_needs(arguments, options);

@@ -7,6 +7,7 @@
 #include "rt.h"
 
 /* options: those of the command line and of the scene; photon_map in them, if there is one. */
-void idle_warn(const command_line *arguments, const rt_render_options *options, const output_list *outputs);
+void idle_warn(const command_line *arguments, const rt_render_options *options,
+               const output_list *outputs);
 
 #endif

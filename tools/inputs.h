@@ -1,4 +1,6 @@
-/* inputs.h - the files that a command reads, so that none of them is overwritten by what it makes. */
+/*
+ * inputs.h - the files that a command reads, so that none of them is overwritten by what it makes.
+ */
 #ifndef RTC_INPUTS_H
 #define RTC_INPUTS_H
 

@@ -1,15 +1,21 @@
-/* interrupt.h - Ctrl-C and SIGTERM: at once while nothing is lost by it; later the first asks, the second kills. */
+/*
+ * interrupt.h - Ctrl-C and SIGTERM: at once while nothing is lost by it; later the first asks, the
+ * second kills.
+ */
 #ifndef RTC_INTERRUPT_H
 #define RTC_INTERRUPT_H
 
 /*
- * From now on SIGINT and SIGTERM end the program at once with STATUS_INTERRUPTED, also where it waits for a file or
- * for stdin. A signal that was ignored when the program began stays ignored. What is said of it is JSON
- * if asked for.
+ * From now on SIGINT and SIGTERM end the program at once with STATUS_INTERRUPTED, also where it
+ * waits for a file or for stdin. A signal that was ignored when the program began stays ignored.
+ * What is said of it is JSON if asked for.
  */
 void interrupt_catch(int in_json);
 
-/* From now on the first of them only sets a flag, and the next one ends the program by its default action. */
+/*
+ * From now on the first of them only sets a flag, and the next one ends the program by its default
+ * action.
+ */
 void interrupt_defer(void);
 
 /* Whether one came. */

@@ -15,11 +15,13 @@ static double mean(const double c[3])
 
 static void print_row(const char *name, const rt_light_ledger *l)
 {
-    double missing = mean(l->emitted) - mean(l->absorbed) - mean(l->escaped) - mean(l->cut_off) - mean(l->roulette);
-    printf("ledger %s: %" PRIu64 " paths, power %.6g, emitted %.6g = absorbed %.6g + escaped %.6g + cut off %.6g + "
+    double missing = mean(l->emitted) - mean(l->absorbed) - mean(l->escaped) - mean(l->cut_off) -
+                     mean(l->roulette);
+    printf("ledger %s: %" PRIu64
+           " paths, power %.6g, emitted %.6g = absorbed %.6g + escaped %.6g + cut off %.6g + "
            "roulette %.3g, missing %.1e W\n",
-           name, l->paths, mean(l->power), mean(l->emitted), mean(l->absorbed), mean(l->escaped), mean(l->cut_off),
-           mean(l->roulette), missing);
+           name, l->paths, mean(l->power), mean(l->emitted), mean(l->absorbed), mean(l->escaped),
+           mean(l->cut_off), mean(l->roulette), missing);
 }
 
 static void add(rt_light_ledger *sum, const rt_light_ledger *l)
@@ -67,11 +69,14 @@ void ledger_print_difference(const rt_light_ledger *a, const rt_light_ledger *b,
         if (memcmp(a + i, b + i, sizeof *a) == 0 || ++differ > ROWS_MAX)
             continue;
         name_light(name, sizeof name, a, i);
-        printf("ledger %s: %" PRIu64 " and %" PRIu64 " paths, share %.6g and %.6g, emitted %.6g and %.6g, "
-               "absorbed %.6g and %.6g, escaped %.6g and %.6g, cut off %.6g and %.6g, roulette %.3g and %.3g W\n",
-               name, a[i].paths, b[i].paths, a[i].share, b[i].share, mean(a[i].emitted), mean(b[i].emitted),
-               mean(a[i].absorbed), mean(b[i].absorbed), mean(a[i].escaped), mean(b[i].escaped), mean(a[i].cut_off),
-               mean(b[i].cut_off), mean(a[i].roulette), mean(b[i].roulette));
+        printf("ledger %s: %" PRIu64 " and %" PRIu64
+               " paths, share %.6g and %.6g, emitted %.6g and %.6g, "
+               "absorbed %.6g and %.6g, escaped %.6g and %.6g, cut off %.6g and %.6g, roulette "
+               "%.3g and %.3g W\n",
+               name, a[i].paths, b[i].paths, a[i].share, b[i].share, mean(a[i].emitted),
+               mean(b[i].emitted), mean(a[i].absorbed), mean(b[i].absorbed), mean(a[i].escaped),
+               mean(b[i].escaped), mean(a[i].cut_off), mean(b[i].cut_off), mean(a[i].roulette),
+               mean(b[i].roulette));
     }
     if (differ > ROWS_MAX)
         printf("ledger: %zu lights more differ\n", differ - ROWS_MAX);

@@ -53,14 +53,15 @@ static void put_float(mesh_bytes *out, double value)
 
 static void put_header(mesh_bytes *out, const mesh_grid *grid)
 {
-    int length = snprintf((char *)out->data, HEADER_SIZE,
-                          "ply\nformat binary_little_endian 1.0\ncomment %s made by rtc mesh\n"
-                          "element vertex %llu\nproperty float x\nproperty float y\nproperty float z\n"
-                          "property float nx\nproperty float ny\nproperty float nz\n"
-                          "property float u\nproperty float v\n"
-                          "element face %llu\nproperty list uchar int vertex_indices\nend_header\n",
-                          mesh_kind_names[grid->kind], (unsigned long long)grid->vertices,
-                          (unsigned long long)grid->triangles);
+    int length =
+        snprintf((char *)out->data, HEADER_SIZE,
+                 "ply\nformat binary_little_endian 1.0\ncomment %s made by rtc mesh\n"
+                 "element vertex %llu\nproperty float x\nproperty float y\nproperty float z\n"
+                 "property float nx\nproperty float ny\nproperty float nz\n"
+                 "property float u\nproperty float v\n"
+                 "element face %llu\nproperty list uchar int vertex_indices\nend_header\n",
+                 mesh_kind_names[grid->kind], (unsigned long long)grid->vertices,
+                 (unsigned long long)grid->triangles);
     out->size = (size_t)length;
 }
 
@@ -129,7 +130,8 @@ static int check_extension(const char *path)
 
 int command_mesh(const command_line *arguments)
 {
-    const option_value *triangles = &arguments->options[OPTION_TRIANGLES], *file = &arguments->options[OPTION_MESH_OUT];
+    const option_value *triangles = &arguments->options[OPTION_TRIANGLES],
+                       *file = &arguments->options[OPTION_MESH_OUT];
     char name[64];
     mesh_kind kind;
     if (arguments->operand_count != 1) {

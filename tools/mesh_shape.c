@@ -5,8 +5,10 @@
 
 static const double pi = 3.14159265358979323846;
 
-const char *const mesh_kind_names[MESH_KIND_COUNT] = {
-    [MESH_SPHERE] = "sphere", [MESH_TORUS] = "torus", [MESH_KNOT] = "knot", [MESH_TERRAIN] = "terrain"};
+const char *const mesh_kind_names[MESH_KIND_COUNT] = {[MESH_SPHERE] = "sphere",
+                                                      [MESH_TORUS] = "torus",
+                                                      [MESH_KNOT] = "knot",
+                                                      [MESH_TERRAIN] = "terrain"};
 
 /* The angle of a round, exactly that of its beginning at its end: the surface closes to the bit. */
 static double round_angle(double turn)
@@ -24,7 +26,10 @@ static mesh_point sphere(double u, double v)
     return p;
 }
 
-/* A torus around the y axis, of radii major and minor, at the angles around the axis and around the tube. */
+/*
+ * A torus around the y axis, of radii major and minor, at the angles around the axis and around the
+ * tube.
+ */
 static mesh_point torus_at(double major, double minor, double around, double tube)
 {
     double radius = major + minor * cos(tube);
@@ -39,8 +44,9 @@ static mesh_point torus(double u, double v)
 }
 
 /*
- * The curve lies on a torus, whose normal is thus at right angles to the curve's direction T. N, that normal,
- * and B = T x N are a frame that closes after one round; the tube is the curve + r (cos N + sin B).
+ * The curve lies on a torus, whose normal is thus at right angles to the curve's direction T. N,
+ * that normal, and B = T x N are a frame that closes after one round; the tube is the curve + r
+ * (cos N + sin B).
  */
 static mesh_point knot(double u, double v)
 {
@@ -51,7 +57,8 @@ static mesh_point knot(double u, double v)
 
     /* T = dc/dt. */
     double radius = major + minor * cos(winding), shrink = -windings * minor * sin(winding);
-    double T[3] = {shrink * cos(around) - turns * radius * sin(around), windings * minor * cos(winding),
+    double T[3] = {shrink * cos(around) - turns * radius * sin(around),
+                   windings * minor * cos(winding),
                    shrink * sin(around) + turns * radius * cos(around)};
     double length = sqrt(T[0] * T[0] + T[1] * T[1] + T[2] * T[2]);
     const double *N = c.normal;
@@ -66,13 +73,17 @@ static mesh_point knot(double u, double v)
     return p;
 }
 
-/* A sum of plane waves, each shorter and lower than the one before, in directions a golden angle apart. */
+/*
+ * A sum of plane waves, each shorter and lower than the one before, in directions a golden angle
+ * apart.
+ */
 static mesh_point terrain(double u, double v)
 {
     double x = 2 * u - 1, z = 1 - 2 * v, height = 0, slope_x = 0, slope_z = 0;
     double amplitude = 0.16, frequency = 2.3;
     for (int i = 0; i < 6; i++) {
-        double direction = 2.39996322972865332 * i, along_x = cos(direction), along_z = sin(direction);
+        double direction = 2.39996322972865332 * i, along_x = cos(direction),
+               along_z = sin(direction);
         double phase = frequency * (x * along_x + z * along_z) + 1.7 * i;
         height += amplitude * sin(phase);
         slope_x += amplitude * frequency * along_x * cos(phase);
@@ -128,7 +139,8 @@ int mesh_grid_cell(const mesh_grid *grid, uint64_t column, uint64_t row, uint32_
 {
     uint32_t a = (uint32_t)(row * (grid->columns + 1) + column), b = a + 1;
     uint32_t c = a + (uint32_t)grid->columns + 1, d = c + 1;
-    int south = grid->kind == MESH_SPHERE && row == 0, north = grid->kind == MESH_SPHERE && row + 1 == grid->rows;
+    int south = grid->kind == MESH_SPHERE && row == 0,
+        north = grid->kind == MESH_SPHERE && row + 1 == grid->rows;
     /* Of the sphere, torus and knot, u x v points inwards; of the terrain, up. */
     int turned = grid->kind != MESH_TERRAIN, count = 0;
     if (!south) {

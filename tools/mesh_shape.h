@@ -4,7 +4,13 @@
 
 #include <stdint.h>
 
-typedef enum mesh_kind { MESH_SPHERE, MESH_TORUS, MESH_KNOT, MESH_TERRAIN, MESH_KIND_COUNT } mesh_kind;
+typedef enum mesh_kind {
+    MESH_SPHERE,
+    MESH_TORUS,
+    MESH_KNOT,
+    MESH_TERRAIN,
+    MESH_KIND_COUNT
+} mesh_kind;
 
 /* The word for each kind. */
 extern const char *const mesh_kind_names[MESH_KIND_COUNT];
@@ -34,8 +40,8 @@ typedef struct mesh_grid {
 mesh_grid mesh_grid_plan(mesh_kind kind, uint64_t triangles);
 
 /*
- * The triangles of a cell, counter-clockwise from outside, as vertices counted row by row. Returns how many:
- * two, or one at the poles of the sphere, where the other has no area.
+ * The triangles of a cell, counter-clockwise from outside, as vertices counted row by row. Returns
+ * how many: two, or one at the poles of the sphere, where the other has no area.
  */
 int mesh_grid_cell(const mesh_grid *grid, uint64_t column, uint64_t row, uint32_t triangles[2][3]);
 

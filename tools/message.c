@@ -22,13 +22,14 @@ enum { EXCERPT = 110, EXCERPT_BEFORE = 70 };
 static const char *colour(const char *escape)
 {
     const char *no_color = getenv("NO_COLOR"), *term = getenv("TERM");
-    int plain = (no_color && no_color[0]) || !term || strcmp(term, "dumb") == 0 || !isatty(STDERR_FILENO);
+    int plain =
+        (no_color && no_color[0]) || !term || strcmp(term, "dumb") == 0 || !isatty(STDERR_FILENO);
     return plain ? "" : escape;
 }
 
 /*
- * Bytes of the character at text, where `length` bytes are left, or 0 when it must not reach a terminal: a
- * control character other than tab, or what is no UTF-8.
+ * Bytes of the character at text, where `length` bytes are left, or 0 when it must not reach a
+ * terminal: a control character other than tab, or what is no UTF-8.
  */
 static size_t character_size(const char *text, size_t length)
 {
@@ -209,17 +210,19 @@ static void put_json_diagnostic(const rt_diagnostic *diagnostic)
 
 static void put_text_diagnostic(const rt_diagnostic *diagnostic)
 {
-    static const char *const labels[] = {"error: ", "warning: ", "note: "}, *const colours[] = {RED, YELLOW, CYAN};
+    static const char *const labels[] = {"error: ", "warning: ", "note: "}, *const colours[] = {
+                                                                                RED, YELLOW, CYAN};
     fputs(colour(BOLD), stderr);
     put_safe(diagnostic->file, strlen(diagnostic->file));
     if (diagnostic->line > 0)
         fprintf(stderr, ":%d:%d", diagnostic->line, diagnostic->column);
-    fprintf(stderr, ": %s%s%s%s", colour(PLAIN), colour(colours[diagnostic->severity]), labels[diagnostic->severity],
-            colour(PLAIN));
+    fprintf(stderr, ": %s%s%s%s", colour(PLAIN), colour(colours[diagnostic->severity]),
+            labels[diagnostic->severity], colour(PLAIN));
     put_safe(diagnostic->message, strlen(diagnostic->message));
     fputc('\n', stderr);
     if (diagnostic->line > 0 && diagnostic->source_line)
-        put_excerpt(diagnostic->source_line, diagnostic->column > 0 ? (size_t)diagnostic->column - 1 : 0,
+        put_excerpt(diagnostic->source_line,
+                    diagnostic->column > 0 ? (size_t)diagnostic->column - 1 : 0,
                     diagnostic->length > 0 ? (size_t)diagnostic->length : 1);
 }
 

@@ -13,12 +13,16 @@
 #endif
 
 /*
- * From now on every line on stderr is a JSON object: {"severity": "error", "message": ...}, with "warning", "hint" and
- * "note" likewise, and "file", "line" and "column" before the message where a scene is at fault.
+ * From now on every line on stderr is a JSON object: {"severity": "error", "message": ...}, with
+ * "warning", "hint" and "note" likewise, and "file", "line" and "column" before the message where a
+ * scene is at fault.
  */
 void message_as_json(void);
 
-/* "rtc: error: ...", "rtc: warning: ...", "  hint: ..." and, without a prefix, a note; each one line. */
+/*
+ * "rtc: error: ...", "rtc: warning: ...", "  hint: ..." and, without a prefix, a note; each one
+ *                                            line.
+ */
 void message_error(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_warning(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_hint(const char *format, ...) PRINTF_LIKE(1, 2);
@@ -33,7 +37,10 @@ int message_status(rt_status status);
 /* Prints what the library failed with; returns the exit status that stands for it. */
 int message_failure(const rt_error *error);
 
-/* Ends output on stdout: returns STATUS_DONE, or STATUS_OUTPUT after saying that it could not be written. */
+/*
+ * Ends output on stdout: returns STATUS_DONE, or STATUS_OUTPUT after saying that it could not be
+ * written.
+ */
 int message_finish_stdout(void);
 
 #endif

@@ -32,7 +32,8 @@ int number_real(double *out, const char *text)
 int number_count(uint64_t *out, const char *text)
 {
     double value;
-    if (number_real(&value, text) != 0 || value < 0.0 || value > LARGEST_EXACT || floor(value) != value)
+    if (number_real(&value, text) != 0 || value < 0.0 || value > LARGEST_EXACT ||
+        floor(value) != value)
         return -1;
     *out = (uint64_t)value;
     return 0;

@@ -4,7 +4,9 @@
 
 #include <stdint.h>
 
-/* A finite decimal number and nothing else: no spaces, hexadecimal, inf or nan. Returns 0, or -1. */
+/*
+ * A finite decimal number and nothing else: no spaces, hexadecimal, inf or nan. Returns 0, or -1.
+ */
 int number_real(double *out, const char *text);
 
 /* A whole number from 0 to 2^53, which may be written as 1e6 or 2.5e5. Returns 0, or -1. */

@@ -28,7 +28,9 @@ static command_id find_command(const char *word)
     return COMMAND_RENDER;
 }
 
-/* The option whose name is name[0] to name[length - 1], the command's own if it has one, or NULL. */
+/*
+ * The option whose name is name[0] to name[length - 1], the command's own if it has one, or NULL.
+ */
 static const option *find_option(const char *name, size_t length, command_id command)
 {
     const option *found = NULL;
@@ -53,7 +55,8 @@ static int fail_unknown_option(const char *name, size_t length, command_id comma
     if (search.best)
         message_hint("did you mean --%s?", search.best);
     else
-        message_hint("`rtc %s%s--help` lists the options", command_name(command), command == COMMAND_RENDER ? "" : " ");
+        message_hint("`rtc %s%s--help` lists the options", command_name(command),
+                     command == COMMAND_RENDER ? "" : " ");
     return STATUS_USAGE;
 }
 
@@ -116,12 +119,13 @@ static int read_number(option_value *value, const option *option, const char *te
         return STATUS_DONE;
     if (option->choices)
         option_join_choices(words, sizeof words, option->choices);
-    const char *limits =
-        option->kind == KIND_BETWEEN ? "between %.10g and %.10g, both excluded" : "from %.10g to %.10g";
+    const char *limits = option->kind == KIND_BETWEEN ? "between %.10g and %.10g, both excluded"
+                                                      : "from %.10g to %.10g";
     char range[96];
     snprintf(range, sizeof range, limits, option->min, option->max);
-    message_error("--%s takes a %s %s%s%s; not '%s'", option->name, is_count ? "whole number" : "number", range,
-                  words[0] ? ", or " : "", words, text);
+    message_error("--%s takes a %s %s%s%s; not '%s'", option->name,
+                  is_count ? "whole number" : "number", range, words[0] ? ", or " : "", words,
+                  text);
     return STATUS_USAGE;
 }
 
@@ -145,7 +149,8 @@ static int read_value(command_line *out, const option *option, const char *text)
     int status = STATUS_DONE;
     if (option->kind == KIND_CHOICE)
         status = read_choice(value, option, text);
-    else if (option->kind == KIND_WHOLE || option->kind == KIND_REAL || option->kind == KIND_BETWEEN)
+    else if (option->kind == KIND_WHOLE || option->kind == KIND_REAL ||
+             option->kind == KIND_BETWEEN)
         status = read_number(value, option, text);
     else if (option->kind == KIND_SWITCH)
         value->choice = 1;
@@ -184,7 +189,8 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     }
     const char *text = equals ? equals + 1 : NULL;
     /* A word that starts with two dashes is the next option, not a value that was forgotten. */
-    if (!text && option_takes_value(option) && *at + 1 < argc && strncmp(argv[*at + 1], "--", 2) != 0)
+    if (!text && option_takes_value(option) && *at + 1 < argc &&
+        strncmp(argv[*at + 1], "--", 2) != 0)
         text = argv[++*at];
     int status = read_value(out, option, text);
     if (off)
@@ -241,7 +247,8 @@ int arguments_parse(command_line *out, int argc, char **argv)
         int now = read_argument(out, argc, argv, &at, &options_end);
         status = status == STATUS_DONE ? now : status;
     }
-    if (status == STATUS_DONE && out->options[OPTION_VERBOSE].given && out->options[OPTION_QUIET].given) {
+    if (status == STATUS_DONE && out->options[OPTION_VERBOSE].given &&
+        out->options[OPTION_QUIET].given) {
         message_error("--verbose and --quiet exclude each other");
         status = STATUS_USAGE;
     }

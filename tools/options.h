@@ -93,8 +93,8 @@ typedef enum option_kind {
     KIND_WHOLE,  /* a whole number, 1e6 allowed */
     KIND_REAL,   /* a finite number */
     KIND_BETWEEN, /* one that is neither min nor max: 0 would mean the default to the library */
-    KIND_CHOICE, /* one of a list of words */
-    KIND_TEXT    /* any text that is not empty */
+    KIND_CHOICE,  /* one of a list of words */
+    KIND_TEXT     /* any text that is not empty */
 } option_kind;
 
 typedef struct option_choice {
@@ -120,18 +120,25 @@ typedef struct option {
     const char *value; /* the value's name in the help; NULL for a flag */
     option_kind kind;
     option_group group;
-    unsigned commands;            /* bit 1 << command_id for each that takes it */
-    double min, max;              /* KIND_WHOLE, KIND_REAL, KIND_BETWEEN; the library checks what is narrower */
-    const option_choice *choices; /* KIND_CHOICE; KIND_WHOLE: words that may stand for a number, or NULL */
-    int decides_pixels;           /* part of the command line recorded in an image */
-    const char *fallback;         /* the default, in words; NULL when there is none */
+    unsigned commands; /* bit 1 << command_id for each that takes it */
+    /* KIND_WHOLE, KIND_REAL, KIND_BETWEEN; the library checks what is narrower */
+    double min, max;
+    /* KIND_CHOICE; KIND_WHOLE: words that may stand for a number, or NULL */
+    const option_choice *choices;
+    int decides_pixels;   /* part of the command line recorded in an image */
+    const char *fallback; /* the default, in words; NULL when there is none */
     const char *help;
 } option;
 
 extern const option option_table[OPTION_COUNT];
 extern const char *const option_group_titles[GROUP_COUNT];
 
-typedef enum progress_style { PROGRESS_AUTO, PROGRESS_PLAIN, PROGRESS_JSON, PROGRESS_NONE } progress_style;
+typedef enum progress_style {
+    PROGRESS_AUTO,
+    PROGRESS_PLAIN,
+    PROGRESS_JSON,
+    PROGRESS_NONE
+} progress_style;
 
 /* The value of an option; the member that its kind names is valid when given. */
 typedef struct option_value {

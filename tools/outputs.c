@@ -130,7 +130,8 @@ int outputs_plan(output_list *out, const command_line *arguments, const char *sc
         message_error("out of memory");
         return STATUS_DEVICE;
     }
-    int status = arguments->output_count || !scene ? add_given(out, arguments) : add_defaults(out, scene);
+    int status =
+        arguments->output_count || !scene ? add_given(out, arguments) : add_defaults(out, scene);
     for (size_t i = 0; i < out->count && status == STATUS_DONE; i++)
         status = outputs_check_writable(out->paths[i]);
     return status;

@@ -14,14 +14,17 @@ typedef struct output_list {
 } output_list;
 
 /*
- * The files of --out, or NAME.png and NAME.exr in the current directory for the scene NAME.rts; none for NULL.
- * Fails, before any time is spent on rendering, when an extension is unknown, a name is given twice
- * or a file cannot be written. Returns an exit status. Free *out with outputs_free in either case.
+ * The files of --out, or NAME.png and NAME.exr in the current directory for the scene NAME.rts;
+ * none for NULL. Fails, before any time is spent on rendering, when an extension is unknown, a name
+ * is given twice or a file cannot be written. Returns an exit status. Free *out with outputs_free
+ * in either case.
  */
 int outputs_plan(output_list *out, const command_line *arguments, const char *scene);
 void outputs_free(output_list *outputs);
 
-/* Whether a file can be written, without writing it. Returns an exit status, with a message when it is not STATUS_DONE.
+/*
+ * Whether a file can be written, without writing it. Returns an exit status, with a message when it
+ * is not STATUS_DONE.
  */
 int outputs_check_writable(const char *path);
 

@@ -16,7 +16,8 @@ int photons_load(rt_photon_map **out, const char *path)
     return rt_photon_map_load(out, path, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
-int photons_output(const char **out, const command_line *arguments, const char *what, const char *extension)
+int photons_output(const char **out, const command_line *arguments, const char *what,
+                   const char *extension)
 {
     if (arguments->output_count != 1) {
         message_error("%s goes to one file: --out FILE", what);
@@ -55,9 +56,11 @@ static void say_written(const command_line *arguments, const char *path, const r
     rt_photon_map_info info;
     rt_photon_map_get_info(map, &info);
     if (!arguments->options[OPTION_QUIET].given)
-        message_note("wrote %s: %llu photons of %llu paths", path,
-                     (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] + info.photons[RT_PHOTONS_CAUSTIC]),
-                     (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
+        message_note(
+            "wrote %s: %llu photons of %llu paths", path,
+            (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] +
+                                 info.photons[RT_PHOTONS_CAUSTIC]),
+            (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
 }
 
 /* ---- Forms that work on files -------------------------------------------------- */
@@ -71,8 +74,9 @@ static int info(const command_line *arguments)
         rt_photon_map *map = NULL;
         int now = photons_load(&map, arguments->operands[i]);
         if (now == STATUS_DONE)
-            now = arguments->options[OPTION_JSON].given ? photons_print_info_json(arguments->operands[i], map)
-                                                        : photons_print_info(arguments->operands[i], map);
+            now = arguments->options[OPTION_JSON].given
+                      ? photons_print_info_json(arguments->operands[i], map)
+                      : photons_print_info(arguments->operands[i], map);
         rt_photon_map_destroy(map);
         status = status == STATUS_DONE ? now : status;
     }
@@ -188,8 +192,8 @@ const photons_form *photons_find_form(const command_line *arguments)
 
 int photons_form_takes(const photons_form *form, option_id id)
 {
-    return id == OPTION_QUIET || id == OPTION_VERBOSE || id == OPTION_HELP || (id == OPTION_OUT && form->writes) ||
-           (id == OPTION_JSON && !form->writes);
+    return id == OPTION_QUIET || id == OPTION_VERBOSE || id == OPTION_HELP ||
+           (id == OPTION_OUT && form->writes) || (id == OPTION_JSON && !form->writes);
 }
 
 /* Emission has many options, the other forms few. */
@@ -198,7 +202,8 @@ static int check_options(const command_line *arguments, const photons_form *form
     int status = STATUS_DONE;
     for (int i = 0; i < OPTION_COUNT; i++) {
         if (arguments->options[i].given && !photons_form_takes(form, (option_id)i)) {
-            message_error("`rtc photons %s` takes no option --%s", form->word, option_table[i].name);
+            message_error("`rtc photons %s` takes no option --%s", form->word,
+                          option_table[i].name);
             status = STATUS_USAGE;
         }
     }

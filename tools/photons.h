@@ -26,7 +26,8 @@ int photons_emit(const command_line *arguments);
 int photons_load(rt_photon_map **out, const char *path);
 
 /* The one file of --out, which has this extension. */
-int photons_output(const char **out, const command_line *arguments, const char *what, const char *extension);
+int photons_output(const char **out, const command_line *arguments, const char *what,
+                   const char *extension);
 
 /* Prints what a map holds on stdout, as lines or as JSON. */
 int photons_print_info(const char *path, const rt_photon_map *map);
@@ -34,8 +35,8 @@ int photons_print_info_json(const char *path, const rt_photon_map *map);
 
 /* Prints how two maps differ; *differ is whether they do. */
 int photons_print_difference(const rt_photon_map *a, const rt_photon_map *b, int *differ);
-int photons_print_difference_json(const char *const paths[2], const rt_photon_map *a, const rt_photon_map *b,
-                                  int *differ);
+int photons_print_difference_json(const char *const paths[2], const rt_photon_map *a,
+                                  const rt_photon_map *b, int *differ);
 
 /* What a list of photons adds up to. */
 typedef struct photon_totals {
@@ -45,7 +46,9 @@ typedef struct photon_totals {
 } photon_totals;
 photon_totals photons_add_up(const rt_photon_map *map, rt_photon_kind kind);
 
-/* Photons that both lists have and those of one alone; a photon is known by seed, path and segment. */
+/*
+ * Photons that both lists have and those of one alone; a photon is known by seed, path and segment.
+ */
 typedef struct photon_matches {
     uint64_t equal, changed, only_a, only_b;
 } photon_matches;

@@ -51,17 +51,20 @@ static int read_part(emit_job *job)
     if (length < sizeof first) {
         memcpy(first, value->text, length);
         first[length] = '\0';
-        if (!number_count(&part, first) && !number_count(&parts, slash + 1) && parts >= 1 && parts <= UINT32_MAX)
+        if (!number_count(&part, first) && !number_count(&parts, slash + 1) && parts >= 1 &&
+            parts <= UINT32_MAX)
             return set_part(job, part, parts);
     }
-    message_error("--part takes the number of a part and of all parts, as in 1/4; not '%s'", value->text);
+    message_error("--part takes the number of a part and of all parts, as in 1/4; not '%s'",
+                  value->text);
     return STATUS_USAGE;
 }
 
 static int read_options(emit_job *job, const command_line *arguments)
 {
     int status = photons_output(&job->map_path, arguments, "the photon map", ".rtp");
-    int part = read_part(job), shares = light_shares_read(&job->shares, &job->share_count, arguments);
+    int part = read_part(job),
+        shares = light_shares_read(&job->shares, &job->share_count, arguments);
     status = status == STATUS_DONE ? part : status;
     return status == STATUS_DONE ? shares : status;
 }
@@ -69,8 +72,9 @@ static int read_options(emit_job *job, const command_line *arguments)
 static int load(emit_job *job)
 {
     rt_error error;
-    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet ? SCENE_QUIETLY : SCENE_TO_EMIT,
-                                 NULL, &job->inputs);
+    int status =
+        scene_file_load(&job->scene, job->scene_path,
+                        job->session.quiet ? SCENE_QUIETLY : SCENE_TO_EMIT, NULL, &job->inputs);
     if (status == STATUS_DONE)
         status = inputs_check(&job->inputs, job->map_path);
     if (status != STATUS_DONE)
@@ -81,7 +85,8 @@ static int load(emit_job *job)
     job->render.light_share_count = job->share_count;
     job->options.render = &job->render;
     /* Options out of range are told before any work. */
-    return rt_scene_set_options(job->scene, &job->render, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
+    return rt_scene_set_options(job->scene, &job->render, &error) == RT_OK ? STATUS_DONE
+                                                                           : session_fail(&error);
 }
 
 static int emit(emit_job *job)
@@ -91,7 +96,8 @@ static int emit(emit_job *job)
     rt_error error;
     if (accel->given)
         options.accel = (rt_accel)accel->choice;
-    rt_status result = rt_renderer_create(&job->renderer, job->scene, job->device, &options, &error);
+    rt_status result =
+        rt_renderer_create(&job->renderer, job->scene, job->device, &options, &error);
     if (result == RT_OK)
         result = rt_photon_map_emit(&job->map, job->renderer, &job->options, &error);
     progress_clear(&job->session.progress);
@@ -110,13 +116,16 @@ static int save(const emit_job *job)
         return session_fail(&error);
     rt_photon_map_get_info(job->map, &info);
     if (!job->session.quiet)
-        message_note("wrote %s: %llu photons of %llu paths", job->map_path,
-                     (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] + info.photons[RT_PHOTONS_CAUSTIC]),
-                     (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
+        message_note(
+            "wrote %s: %llu photons of %llu paths", job->map_path,
+            (unsigned long long)(info.photons[RT_PHOTONS_GLOBAL] +
+                                 info.photons[RT_PHOTONS_CAUSTIC]),
+            (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
     if (!session_value(&job->session, OPTION_STATS)->given)
         return STATUS_DONE;
-    return session_value(&job->session, OPTION_JSON)->given ? photons_print_info_json(job->map_path, job->map)
-                                                            : photons_print_info(job->map_path, job->map);
+    return session_value(&job->session, OPTION_JSON)->given
+               ? photons_print_info_json(job->map_path, job->map)
+               : photons_print_info(job->map_path, job->map);
 }
 
 int photons_emit(const command_line *arguments)
@@ -124,7 +133,8 @@ int photons_emit(const command_line *arguments)
     emit_job job = {0};
     job.scene_path = arguments->operands[0];
     session_begin(&job.session, arguments);
-    if (arguments->options[OPTION_JSON].given && !arguments->options[OPTION_STATS].given && !job.session.quiet)
+    if (arguments->options[OPTION_JSON].given && !arguments->options[OPTION_STATS].given &&
+        !job.session.quiet)
         message_warning("--json has no effect without --stats");
     int status = read_options(&job, arguments);
     if (status == STATUS_DONE)

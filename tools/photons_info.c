@@ -9,7 +9,8 @@
 #include "message.h"
 #include "photons.h"
 
-static const char *const kind_names[] = {[RT_PHOTONS_GLOBAL] = "global", [RT_PHOTONS_CAUSTIC] = "caustic"};
+static const char *const kind_names[] = {
+    [RT_PHOTONS_GLOBAL] = "global", [RT_PHOTONS_CAUSTIC] = "caustic"};
 
 enum { RANGES_MAX = 16 }; /* ranges that are printed by themselves */
 
@@ -18,7 +19,8 @@ photon_totals photons_add_up(const rt_photon_map *map, rt_photon_kind kind)
     rt_photon_map_info info;
     rt_photon_map_get_info(map, &info);
     const rt_photon *photons = rt_photon_map_photons(map, kind);
-    photon_totals t = {.lo = {INFINITY, INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY, -INFINITY}};
+    photon_totals t = {.lo = {INFINITY, INFINITY, INFINITY},
+                       .hi = {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t i = 0; i < rt_photon_map_count(map, kind); i++) {
         for (int c = 0; c < 3; c++) {
             t.flux[c] += photons[i].flux[c];
@@ -38,14 +40,16 @@ static void print_ranges(const rt_photon_map *map, rt_photon_kind kind)
     size_t count;
     const rt_path_range *ranges = rt_photon_map_ranges(map, kind, &count);
     for (size_t i = 0; i < count && i < RANGES_MAX; i++)
-        printf("%s range: paths %" PRIu64 " to %" PRIu64 " of seed %" PRIu32 ", %" PRIu64 " photons\n",
-               kind_names[kind], ranges[i].first, ranges[i].first + ranges[i].count - 1, ranges[i].seed,
-               ranges[i].photons);
+        printf("%s range: paths %" PRIu64 " to %" PRIu64 " of seed %" PRIu32 ", %" PRIu64
+               " photons\n",
+               kind_names[kind], ranges[i].first, ranges[i].first + ranges[i].count - 1,
+               ranges[i].seed, ranges[i].photons);
     if (count > RANGES_MAX)
         printf("%s ranges: %zu more\n", kind_names[kind], count - RANGES_MAX);
 }
 
-static void print_list(const rt_photon_map *map, const rt_photon_map_info *info, rt_photon_kind kind)
+static void print_list(const rt_photon_map *map, const rt_photon_map_info *info,
+                       rt_photon_kind kind)
 {
     const char *name = kind_names[kind];
     size_t count = rt_photon_map_count(map, kind);
@@ -57,8 +61,8 @@ static void print_list(const rt_photon_map *map, const rt_photon_map_info *info,
         return;
     printf("%s flux: %.6g %.6g %.6g W\n", name, t.flux[0], t.flux[1], t.flux[2]);
     printf("%s segments: %.4g in the mean\n", name, (double)t.segments / (double)count);
-    printf("%s bounds: %.6g %.6g %.6g to %.6g %.6g %.6g m\n", name, t.lo[0], t.lo[1], t.lo[2], t.hi[0], t.hi[1],
-           t.hi[2]);
+    printf("%s bounds: %.6g %.6g %.6g to %.6g %.6g %.6g m\n", name, t.lo[0], t.lo[1], t.lo[2],
+           t.hi[0], t.hi[1], t.hi[2]);
     if (kind == RT_PHOTONS_GLOBAL && !info->split)
         printf("caustic among them: %" PRIu64 "\n", t.caustic);
 }
@@ -82,7 +86,8 @@ int photons_print_info(const char *path, const rt_photon_map *map)
     rt_photon_map_get_info(map, &info);
     printf("map: %s\n", path);
     printf("scene: %016" PRIx64 "\n", info.scene);
-    printf("direct light: %s\n", info.direct == RT_DIRECT_PHOTONS ? "in the map" : "left to shadow rays");
+    printf("direct light: %s\n",
+           info.direct == RT_DIRECT_PHOTONS ? "in the map" : "left to shadow rays");
     printf("sampler: %s\n", info.sampler == RT_SAMPLER_SOBOL ? "sobol" : "independent");
     printf("longest path: %u segments\n", (unsigned)info.max_depth);
     print_list(map, &info, RT_PHOTONS_GLOBAL);
@@ -139,7 +144,8 @@ static int compare_places(const cursor *a, const cursor *b)
 }
 
 /* Walks two lists in step; both are in the order of seed, path and segment. */
-photon_matches photons_match(const rt_photon_map *map_a, const rt_photon_map *map_b, rt_photon_kind kind)
+photon_matches photons_match(const rt_photon_map *map_a, const rt_photon_map *map_b,
+                             rt_photon_kind kind)
 {
     cursor a = begin(map_a, kind), b = begin(map_b, kind);
     photon_matches m = {0};
@@ -163,14 +169,18 @@ photon_matches photons_match(const rt_photon_map *map_a, const rt_photon_map *ma
 int photons_have_same_paths(const rt_photon_map *a, const rt_photon_map *b, rt_photon_kind kind)
 {
     size_t x, y;
-    const rt_path_range *p = rt_photon_map_ranges(a, kind, &x), *q = rt_photon_map_ranges(b, kind, &y);
+    const rt_path_range *p = rt_photon_map_ranges(a, kind, &x),
+                        *q = rt_photon_map_ranges(b, kind, &y);
     for (size_t i = 0; i < x && x == y; i++)
         if (p[i].seed != q[i].seed || p[i].first != q[i].first || p[i].count != q[i].count)
             return 0;
     return x == y;
 }
 
-/* Prints where the ledgers differ; they may where the photons do not. Returns whether they do, or -1: out of memory. */
+/*
+ * Prints where the ledgers differ; they may where the photons do not. Returns whether they do, or
+ * -1: out of memory.
+ */
 static int print_ledger_difference(const rt_photon_map *a, const rt_photon_map *b, size_t count)
 {
     rt_light_ledger *rows = calloc(2 * count + 1, sizeof *rows);
@@ -185,20 +195,21 @@ static int print_ledger_difference(const rt_photon_map *a, const rt_photon_map *
     return differ;
 }
 
-static int print_list_difference(const rt_photon_map *a, const rt_photon_map *b, const rt_photon_map_info info[2],
-                                 rt_photon_kind kind)
+static int print_list_difference(const rt_photon_map *a, const rt_photon_map *b,
+                                 const rt_photon_map_info info[2], rt_photon_kind kind)
 {
     const char *name = kind_names[kind];
     photon_matches m = photons_match(a, b, kind);
     if (photons_have_same_paths(a, b, kind) && m.changed + m.only_a + m.only_b == 0)
         return 0;
     photon_totals x = photons_add_up(a, kind), y = photons_add_up(b, kind);
-    printf("%s photon paths: %" PRIu64 " and %" PRIu64 "\n", name, info[0].paths[kind], info[1].paths[kind]);
-    printf("%s photons: %" PRIu64 " equal, %" PRIu64 " changed, %" PRIu64 " only in the first, %" PRIu64
-           " only in the second\n",
+    printf("%s photon paths: %" PRIu64 " and %" PRIu64 "\n", name, info[0].paths[kind],
+           info[1].paths[kind]);
+    printf("%s photons: %" PRIu64 " equal, %" PRIu64 " changed, %" PRIu64
+           " only in the first, %" PRIu64 " only in the second\n",
            name, m.equal, m.changed, m.only_a, m.only_b);
-    printf("%s flux: %.6g %.6g %.6g and %.6g %.6g %.6g W\n", name, x.flux[0], x.flux[1], x.flux[2], y.flux[0],
-           y.flux[1], y.flux[2]);
+    printf("%s flux: %.6g %.6g %.6g and %.6g %.6g %.6g W\n", name, x.flux[0], x.flux[1], x.flux[2],
+           y.flux[0], y.flux[1], y.flux[2]);
     return 1;
 }
 
@@ -222,12 +233,14 @@ int photons_print_difference(const rt_photon_map *a, const rt_photon_map *b, int
     *differ |= print_setting("direct light in the map", info[0].direct, info[1].direct);
     *differ |= print_setting("sampler", info[0].sampler, info[1].sampler);
     *differ |= print_setting("longest path", info[0].max_depth, info[1].max_depth);
-    *differ |= print_setting("caustic photons apart", (uint64_t)info[0].split, (uint64_t)info[1].split);
+    *differ |=
+        print_setting("caustic photons apart", (uint64_t)info[0].split, (uint64_t)info[1].split);
     *differ |= print_setting("photons rejected", info[0].rejected, info[1].rejected);
     *differ |= print_setting("lights", info[0].lights, info[1].lights);
     *differ |= print_list_difference(a, b, info, RT_PHOTONS_GLOBAL);
     *differ |= print_list_difference(a, b, info, RT_PHOTONS_CAUSTIC);
-    int ledgers = info[0].lights == info[1].lights ? print_ledger_difference(a, b, info[0].lights) : 1;
+    int ledgers =
+        info[0].lights == info[1].lights ? print_ledger_difference(a, b, info[0].lights) : 1;
     if (ledgers < 0) {
         message_error("out of memory");
         return STATUS_DEVICE;

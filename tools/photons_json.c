@@ -34,16 +34,19 @@ static void put_ranges(const rt_photon_map *map, rt_photon_kind kind)
     const rt_path_range *ranges = rt_photon_map_ranges(map, kind, &count);
     fputs(",\"ranges\":[", stdout);
     for (size_t i = 0; i < count; i++)
-        printf("%s{\"first\":%" PRIu64 ",\"count\":%" PRIu64 ",\"photons\":%" PRIu64 ",\"seed\":%" PRIu32 "}",
+        printf("%s{\"first\":%" PRIu64 ",\"count\":%" PRIu64 ",\"photons\":%" PRIu64
+               ",\"seed\":%" PRIu32 "}",
                i ? "," : "", ranges[i].first, ranges[i].count, ranges[i].photons, ranges[i].seed);
     putchar(']');
 }
 
-static void put_list(const char *name, const rt_photon_map *map, const rt_photon_map_info *info, rt_photon_kind kind)
+static void put_list(const char *name, const rt_photon_map *map, const rt_photon_map_info *info,
+                     rt_photon_kind kind)
 {
     photon_totals t = photons_add_up(map, kind);
-    printf(",\"%s\":{\"paths\":%" PRIu64 ",\"photons\":%" PRIu64 ",\"caustic\":%" PRIu64 ",\"segments\":%" PRIu64, name,
-           info->paths[kind], info->photons[kind], t.caustic, t.segments);
+    printf(",\"%s\":{\"paths\":%" PRIu64 ",\"photons\":%" PRIu64 ",\"caustic\":%" PRIu64
+           ",\"segments\":%" PRIu64,
+           name, info->paths[kind], info->photons[kind], t.caustic, t.segments);
     json_triple("flux", t.flux);
     json_triple("lo", t.lo);
     json_triple("hi", t.hi);
@@ -60,8 +63,8 @@ int photons_print_info_json(const char *path, const rt_photon_map *map)
         return STATUS_DEVICE;
     fputs("{\"map\":", stdout);
     json_string(path);
-    printf(",\"scene\":\"%016" PRIx64 "\",\"direct\":\"%s\",\"sampler\":\"%s\",\"max_depth\":%u", info.scene,
-           info.direct == RT_DIRECT_PHOTONS ? "photons" : "nee",
+    printf(",\"scene\":\"%016" PRIx64 "\",\"direct\":\"%s\",\"sampler\":\"%s\",\"max_depth\":%u",
+           info.scene, info.direct == RT_DIRECT_PHOTONS ? "photons" : "nee",
            info.sampler == RT_SAMPLER_SOBOL ? "sobol" : "independent", (unsigned)info.max_depth);
     printf(",\"rejected\":%" PRIu64, info.rejected);
     put_list("global", map, &info, RT_PHOTONS_GLOBAL);
@@ -76,7 +79,8 @@ int photons_print_info_json(const char *path, const rt_photon_map *map)
 /* ---- How two differ ------------------------------------------------------------- */
 
 /* Whether the lists differ. */
-static int put_matches(const char *name, const rt_photon_map *a, const rt_photon_map *b, rt_photon_kind kind)
+static int put_matches(const char *name, const rt_photon_map *a, const rt_photon_map *b,
+                       rt_photon_kind kind)
 {
     photon_matches m = photons_match(a, b, kind);
     int paths = photons_have_same_paths(a, b, kind);
@@ -91,11 +95,12 @@ static int put_matches(const char *name, const rt_photon_map *a, const rt_photon
 /* Whether all settings are the same. */
 static int are_settings_same(const rt_photon_map_info *a, const rt_photon_map_info *b)
 {
-    return a->direct == b->direct && a->sampler == b->sampler && a->max_depth == b->max_depth && a->split == b->split;
+    return a->direct == b->direct && a->sampler == b->sampler && a->max_depth == b->max_depth &&
+           a->split == b->split;
 }
 
-int photons_print_difference_json(const char *const paths[2], const rt_photon_map *a, const rt_photon_map *b,
-                                  int *differ)
+int photons_print_difference_json(const char *const paths[2], const rt_photon_map *a,
+                                  const rt_photon_map *b, int *differ)
 {
     rt_photon_map_info x, y;
     rt_photon_map_get_info(a, &x);
@@ -103,7 +108,8 @@ int photons_print_difference_json(const char *const paths[2], const rt_photon_ma
     rt_light_ledger *p = read_ledger(a, x.lights), *q = p ? read_ledger(b, y.lights) : NULL;
     int status = p && q ? STATUS_DONE : STATUS_DEVICE;
     if (status == STATUS_DONE) {
-        int scene = x.scene == y.scene, settings = are_settings_same(&x, &y), rejected = x.rejected == y.rejected;
+        int scene = x.scene == y.scene, settings = are_settings_same(&x, &y),
+            rejected = x.rejected == y.rejected;
         int ledger = x.lights == y.lights && memcmp(p, q, x.lights * sizeof *p) == 0;
         fputs("{\"maps\":[", stdout);
         json_string(paths[0]);

@@ -46,8 +46,8 @@ static void show_text(progress_display *progress, const rt_progress *report)
     progress_format_time(elapsed, sizeof elapsed, report->elapsed);
     if (report->remaining >= 0.0)
         progress_format_time(remaining, sizeof remaining, report->remaining);
-    fprintf(stderr, "%s%-7s %3d %%  elapsed %s", progress->redraw ? "\r" : "", rt_stage_name(report->stage),
-            (int)(report->fraction * 100.0), elapsed);
+    fprintf(stderr, "%s%-7s %3d %%  elapsed %s", progress->redraw ? "\r" : "",
+            rt_stage_name(report->stage), (int)(report->fraction * 100.0), elapsed);
     if (report->fraction < 1.0)
         fprintf(stderr, "  remaining %s", remaining);
     if (report->error >= 0.0)
@@ -62,8 +62,8 @@ static void show_text(progress_display *progress, const rt_progress *report)
 
 static void show_json(const rt_progress *report)
 {
-    fprintf(stderr, "{\"stage\":\"%s\",\"fraction\":%.4f,\"elapsed\":%.3f,\"remaining\":", rt_stage_name(report->stage),
-            report->fraction, report->elapsed);
+    fprintf(stderr, "{\"stage\":\"%s\",\"fraction\":%.4f,\"elapsed\":%.3f,\"remaining\":",
+            rt_stage_name(report->stage), report->fraction, report->elapsed);
     if (report->remaining >= 0.0)
         fprintf(stderr, "%.3f", report->remaining);
     else
@@ -74,7 +74,10 @@ static void show_json(const rt_progress *report)
         fputs(",\"error\":null}\n", stderr);
 }
 
-/* Whether a report is to be shown: the end of a stage, its start, or enough time since the last one. */
+/*
+ * Whether a report is to be shown: the end of a stage, its start, or enough time since the last
+ * one.
+ */
 static int is_due(const progress_display *progress, const rt_progress *report, int is_new)
 {
     int is_json = progress->style == PROGRESS_JSON;
@@ -91,7 +94,8 @@ void progress_show(progress_display *progress, const rt_progress *report)
 {
     if (progress->style == PROGRESS_NONE)
         return;
-    int is_new = !progress->started || report->stage != progress->stage || report->elapsed < progress->shown_at;
+    int is_new = !progress->started || report->stage != progress->stage ||
+                 report->elapsed < progress->shown_at;
     if (is_new) {
         progress->started = 1;
         progress->stage = report->stage;

@@ -79,8 +79,9 @@ static int is_switched_off(const render_job *job, option_id id)
 static int load(render_job *job)
 {
     rt_error error;
-    int status = scene_file_load(&job->scene, job->scene_path, job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER,
-                                 NULL, &job->inputs);
+    int status =
+        scene_file_load(&job->scene, job->scene_path,
+                        job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER, NULL, &job->inputs);
     if (status != STATUS_DONE)
         return status;
     status = set_options(job);
@@ -94,7 +95,8 @@ static int load(render_job *job)
     status = session_check_options(&job->session, &job->own, &job->options);
     if (status != STATUS_DONE)
         return status;
-    return rt_scene_set_options(job->scene, &job->options, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
+    return rt_scene_set_options(job->scene, &job->options, &error) == RT_OK ? STATUS_DONE
+                                                                            : session_fail(&error);
 }
 
 static int make_film(render_job *job)
@@ -104,7 +106,8 @@ static int make_film(render_job *job)
     options.hooks = &job->session.hooks;
     if (value(job, OPTION_ACCEL)->given)
         options.accel = (rt_accel)value(job, OPTION_ACCEL)->choice;
-    rt_status result = rt_renderer_create(&job->renderer, job->scene, job->device, &options, &error);
+    rt_status result =
+        rt_renderer_create(&job->renderer, job->scene, job->device, &options, &error);
     if (result == RT_OK)
         result = rt_render(&job->film, job->renderer, &job->options, &error);
     progress_clear(&job->session.progress);
@@ -132,9 +135,11 @@ static void say_what_was_written(const render_job *job, int interrupted)
     rt_film_get_stats(job->film, &stats);
     rt_film_get_size(job->film, &width, &height);
     join_outputs(names, sizeof names, &job->outputs);
-    progress_format_time(seconds, sizeof seconds, stats.emit_seconds + stats.gather_seconds + stats.render_seconds);
-    message_note("%swrote %s: %u x %u, %u sample%s a pixel, rendered in %s", interrupted ? "interrupted; " : "", names,
-                 (unsigned)width, (unsigned)height, (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
+    progress_format_time(seconds, sizeof seconds,
+                         stats.emit_seconds + stats.gather_seconds + stats.render_seconds);
+    message_note("%swrote %s: %u x %u, %u sample%s a pixel, rendered in %s",
+                 interrupted ? "interrupted; " : "", names, (unsigned)width, (unsigned)height,
+                 (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
 }
 
 /* The relative error, and what it is below, if that is known. */
@@ -143,11 +148,14 @@ static void say_error(const rt_film_stats *stats, rt_mode mode)
     int is_photon = mode == RT_MODE_PHOTON;
     char bound[64];
     if (isfinite(stats->relative_error_bound))
-        snprintf(bound, sizeof bound, "below %.3g %% with 95 %% confidence", 100.0 * stats->relative_error_bound);
+        snprintf(bound, sizeof bound, "below %.3g %% with 95 %% confidence",
+                 100.0 * stats->relative_error_bound);
     else
-        snprintf(bound, sizeof bound, "without a bound, which takes 8 %s", is_photon ? "passes" : "samples a pixel");
-    message_note("relative error %.3g %%, %s (root mean square over mean radiance%s)", 100.0 * stats->relative_error,
-                 bound, is_photon ? "; of the noise alone, not of the bias of gathering" : "");
+        snprintf(bound, sizeof bound, "without a bound, which takes 8 %s",
+                 is_photon ? "passes" : "samples a pixel");
+    message_note("relative error %.3g %%, %s (root mean square over mean radiance%s)",
+                 100.0 * stats->relative_error, bound,
+                 is_photon ? "; of the noise alone, not of the bias of gathering" : "");
 }
 
 /* What is known of the picture's error, and whether it is what was asked for. */
@@ -157,20 +165,25 @@ static void say_how_good_it_is(const render_job *job)
     rt_film_stats stats;
     rt_film_get_stats(job->film, &stats);
     if (stats.rejected > 0)
-        message_warning("samples left out because they were not finite: %llu", (unsigned long long)stats.rejected);
+        message_warning("samples left out because they were not finite: %llu",
+                        (unsigned long long)stats.rejected);
     if (stats.replicates > 0)
         say_error(&stats, job->options.mode);
     if (target > 0.0 && !(stats.replicates > 0 && stats.relative_error_bound <= target))
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);
 }
 
-/* An option as the command line has it, "--spp 16" or "--no-variance". Returns its length, which may exceed size. */
+/*
+ * An option as the command line has it, "--spp 16" or "--no-variance". Returns its length, which
+ * may exceed size.
+ */
 static size_t write_option(char *out, size_t size, const render_job *job, option_id id)
 {
     const option *option = &option_table[id];
     if (option_takes_value(option))
         return (size_t)snprintf(out, size, " --%s %s", option->name, value(job, id)->text);
-    return (size_t)snprintf(out, size, " --%s%s", is_switched_off(job, id) ? "no-" : "", option->name);
+    return (size_t)snprintf(out, size, " --%s%s", is_switched_off(job, id) ? "no-" : "",
+                            option->name);
 }
 
 /* The command line as far as it decides the pixels, so that two equal images are equal files. */
@@ -198,9 +211,11 @@ static int write_images(const render_job *job, int status)
         return STATUS_INTERRUPTED;
     }
     rt_image_options options = {0};
-    options.exposure = value(job, OPTION_EXPOSURE)->given ? (float)value(job, OPTION_EXPOSURE)->real : 0.0f;
-    options.tonemap =
-        value(job, OPTION_TONEMAP)->given ? (rt_tonemap)value(job, OPTION_TONEMAP)->choice : RT_TONEMAP_NONE;
+    options.exposure =
+        value(job, OPTION_EXPOSURE)->given ? (float)value(job, OPTION_EXPOSURE)->real : 0.0f;
+    options.tonemap = value(job, OPTION_TONEMAP)->given
+                          ? (rt_tonemap)value(job, OPTION_TONEMAP)->choice
+                          : RT_TONEMAP_NONE;
     options.scene = job->scene_path;
     char *command = recorded_command(job);
     options.command = command;
@@ -243,7 +258,8 @@ static int fail_operands(const command_line *arguments)
         message_hint("`rtc --help` lists the options");
         return STATUS_USAGE;
     }
-    message_error("one scene at a time: '%s' and '%s'", arguments->operands[0], arguments->operands[1]);
+    message_error("one scene at a time: '%s' and '%s'", arguments->operands[0],
+                  arguments->operands[1]);
     nearest search = nearest_begin(arguments->operands[0]);
     for (int i = COMMAND_RENDER + 1; i < COMMAND_COUNT; i++)
         nearest_offer(&search, command_name((command_id)i));

@@ -8,8 +8,9 @@
 #include "rt.h"
 
 static int (*const commands[COMMAND_COUNT])(const command_line *) = {
-    [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,   [COMMAND_MESH] = command_mesh,
-    [COMMAND_DEVICES] = command_devices, [COMMAND_DOCTOR] = command_doctor, [COMMAND_PHOTONS] = command_photons,
+    [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,
+    [COMMAND_MESH] = command_mesh,       [COMMAND_DEVICES] = command_devices,
+    [COMMAND_DOCTOR] = command_doctor,   [COMMAND_PHOTONS] = command_photons,
     [COMMAND_COMPARE] = command_compare,
 };
 
@@ -38,5 +39,6 @@ int main(int argc, char **argv)
     arguments_free(&arguments);
     int written = message_finish_stdout();
     /* That things differ, which is status 1 too, is no result while what differs is lost. */
-    return status == STATUS_DONE || (status == STATUS_INPUT && written != STATUS_DONE) ? written : status;
+    return status == STATUS_DONE || (status == STATUS_INPUT && written != STATUS_DONE) ? written
+                                                                                       : status;
 }

@@ -54,7 +54,8 @@ static char *read_stdin(int *status)
     do {
         char *grown = used < STDIN_LIMIT ? realloc(text, used + STDIN_CHUNK + 1) : NULL;
         if (!grown) {
-            message_error("stdin: %s", used < STDIN_LIMIT ? "out of memory" : "a scene of more than 64 MiB");
+            message_error("stdin: %s",
+                          used < STDIN_LIMIT ? "out of memory" : "a scene of more than 64 MiB");
             *status = used < STDIN_LIMIT ? STATUS_DEVICE : STATUS_INPUT;
             free(text);
             return NULL;
@@ -66,13 +67,15 @@ static char *read_stdin(int *status)
     text[used] = '\0';
     if (!ferror(stdin) && strlen(text) == used)
         return text;
-    message_error("stdin: %s", ferror(stdin) ? strerror(errno) : "not a text: it holds a zero byte");
+    message_error("stdin: %s",
+                  ferror(stdin) ? strerror(errno) : "not a text: it holds a zero byte");
     *status = STATUS_INPUT;
     free(text);
     return NULL;
 }
 
-static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status *result, rt_error *error)
+static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status *result,
+                       rt_error *error)
 {
     int status = STATUS_DONE;
     char *text = read_stdin(&status);
@@ -83,8 +86,8 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     return STATUS_DONE;
 }
 
-int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings,
-                    input_list *inputs)
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
+                    scene_findings *findings, input_list *inputs)
 {
     scene_reading reading = {{0, 0}, purpose, inputs};
     rt_load_options options = {.diagnostic = on_diagnostic, .user = &reading, .file = on_file};

@@ -19,11 +19,11 @@ typedef enum scene_purpose {
 } scene_purpose;
 
 /*
- * Reads the scene at path, "-" for stdin, and prints every error and what else its purpose asks for.
- * Returns an exit status; the caller owns *out, written only on STATUS_DONE. findings may be
+ * Reads the scene at path, "-" for stdin, and prints every error and what else its purpose asks
+ * for. Returns an exit status; the caller owns *out, written only on STATUS_DONE. findings may be
  * NULL; inputs receives the files that were read, and may be NULL.
  */
-int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose, scene_findings *findings,
-                    input_list *inputs);
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
+                    scene_findings *findings, input_list *inputs);
 
 #endif

@@ -126,7 +126,8 @@ static void merge_photons(const session *s, rt_render_options *options)
     set_u64(&options->caustic_photons, session_value(s, OPTION_CAUSTIC_PHOTONS));
     set_u32(&options->caustic_k, session_value(s, OPTION_CAUSTIC_K));
     set_float(&options->caustic_radius, session_value(s, OPTION_CAUSTIC_RADIUS));
-    options->caustic_kernel = (rt_density)choice_or(s, OPTION_CAUSTIC_KERNEL, options->caustic_kernel);
+    options->caustic_kernel =
+        (rt_density)choice_or(s, OPTION_CAUSTIC_KERNEL, options->caustic_kernel);
 }
 
 void session_merge_options(const session *s, rt_render_options *options)
@@ -163,13 +164,15 @@ static const char *option_at_fault(const session *s, const rt_render_options *ow
         trial.arguments = &others;
         others.options[i].given = 0;
         session_merge_options(&trial, &options);
-        if (session_value(s, (option_id)i)->given && rt_render_options_check(&options, NULL) == RT_OK)
+        if (session_value(s, (option_id)i)->given &&
+            rt_render_options_check(&options, NULL) == RT_OK)
             return option_table[i].name;
     }
     return NULL;
 }
 
-int session_check_options(const session *s, const rt_render_options *own, const rt_render_options *options)
+int session_check_options(const session *s, const rt_render_options *own,
+                          const rt_render_options *options)
 {
     char name[sizeof((rt_error *)0)->field];
     rt_error error;
@@ -213,9 +216,8 @@ int session_open_device(const session *s, rt_device **out)
     if (session_value(s, OPTION_VERBOSE)->given) {
         rt_device_info info;
         rt_device_get_info(*out, &info);
-        message_note("device %s, %s, %u compute unit%s", info.name, info.platform, (unsigned)info.compute_units,
-                     info.compute_units == 1 ? "" : "s");
+        message_note("device %s, %s, %u compute unit%s", info.name, info.platform,
+                     (unsigned)info.compute_units, info.compute_units == 1 ? "" : "s");
     }
     return STATUS_DONE;
 }
-

@@ -14,7 +14,10 @@ typedef struct session {
     rt_hooks hooks;
 } session;
 
-/* Begins to show progress, the log and warnings, as the command line wants them, and to catch Ctrl-C. */
+/*
+ * Begins to show progress, the log and warnings, as the command line wants them, and to catch
+ * Ctrl-C.
+ */
 void session_begin(session *session, const command_line *arguments);
 
 const option_value *session_value(const session *session, option_id id);
@@ -23,26 +26,27 @@ const option_value *session_value(const session *session, option_id id);
 void session_merge_options(const session *session, rt_render_options *options);
 
 /*
- * Prints a failure of the library; where an option is at fault, by its name on the command line. Returns the exit
- * status.
+ * Prints a failure of the library; where an option is at fault, by its name on the command line.
+ * Returns the exit status.
  */
 int session_fail(const rt_error *error);
 
 /*
- * Whether the options, merged from the scene's own, go together. Says what does not by the option that was typed.
- * Returns an exit status.
+ * Whether the options, merged from the scene's own, go together. Says what does not by the option
+ * that was typed. Returns an exit status.
  */
-int session_check_options(const session *session, const rt_render_options *own, const rt_render_options *options);
+int session_check_options(const session *session, const rt_render_options *own,
+                          const rt_render_options *options);
 
 /*
- * Whether a call of the library ended by Ctrl-C: also when it says that a kernel does not build, because the compiler
- * removes its files at the signal.
+ * Whether a call of the library ended by Ctrl-C: also when it says that a kernel does not build,
+ * because the compiler removes its files at the signal.
  */
 int session_was_interrupted(rt_status result);
 
 /*
- * Opens the device that the command line names; from then on the first Ctrl-C stops the work by its hooks. Returns an
- * exit status; the caller owns *out.
+ * Opens the device that the command line names; from then on the first Ctrl-C stops the work by its
+ * hooks. Returns an exit status; the caller owns *out.
  */
 int session_open_device(const session *session, rt_device **out);
 

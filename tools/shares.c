@@ -38,7 +38,8 @@ int light_shares_read(float **out, size_t *count, const command_line *arguments)
         message_error("out of memory");
         status = STATUS_DEVICE;
     } else if (!read_list(shares, count, memcpy(text, value->text, size))) {
-        message_error("--light-shares takes a number from 0 to %g for each light, with commas between them, as in "
+        message_error("--light-shares takes a number from 0 to %g for each light, with commas "
+                      "between them, as in "
                       "1,0.5,2; not '%s'",
                       SHARE_MAX, value->text);
         status = STATUS_USAGE;

@@ -7,8 +7,8 @@
 #include "options.h"
 
 /*
- * Reads "A,B,..."; *out stays NULL when the option is not given. Says what is wrong with it and returns the exit
- * status. The caller frees *out.
+ * Reads "A,B,..."; *out stays NULL when the option is not given. Says what is wrong with it and
+ * returns the exit status. The caller frees *out.
  */
 int light_shares_read(float **out, size_t *count, const command_line *arguments);
 

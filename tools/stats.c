@@ -44,7 +44,8 @@ static void print_photons(const rt_film_stats *stats)
 }
 
 /* Where the flux of the photons went, by one way to print it. */
-static void print_ledger(const rt_film *film, void (*print)(const rt_light_ledger *rows, size_t count))
+static void print_ledger(const rt_film *film,
+                         void (*print)(const rt_light_ledger *rows, size_t count))
 {
     size_t count = rt_film_get_ledger(film, NULL, 0);
     rt_light_ledger *rows = calloc(count + 1, sizeof *rows);
@@ -67,7 +68,8 @@ static void print_error(const rt_film_stats *stats)
     printf("95 %% interval of a pixel: +- %.4g sqrt(variance)\n", stats->interval_factor);
 }
 
-void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options, const rt_film *film)
+void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options,
+                 const rt_film *film)
 {
     rt_device_info info;
     rt_film_stats stats;
@@ -93,7 +95,8 @@ void stats_print(const rt_scene *scene, const rt_device *device, const rt_render
     }
     print_seconds("render time", stats.render_seconds);
     if (stats.render_seconds > 0.0)
-        printf("speed: %.3f Msamples/s\n", 1e-6 * stats.spp * width * height / stats.render_seconds);
+        printf("speed: %.3f Msamples/s\n",
+               1e-6 * stats.spp * width * height / stats.render_seconds);
 }
 
 /* ---- For programs ------------------------------------------------------------- */
@@ -142,8 +145,8 @@ static void put_photons(const rt_film_stats *stats)
     json_member("gather_seconds", stats->gather_seconds);
 }
 
-void stats_print_json(const rt_scene *scene, const rt_device *device, const rt_render_options *options,
-                      const rt_film *film)
+void stats_print_json(const rt_scene *scene, const rt_device *device,
+                      const rt_render_options *options, const rt_film *film)
 {
     rt_device_info info;
     rt_film_stats stats;

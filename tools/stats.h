@@ -5,10 +5,11 @@
 #include "rt.h"
 
 /* Prints it on stdout, one `name: value unit` a line. */
-void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options, const rt_film *film);
+void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options,
+                 const rt_film *film);
 
 /* The same as one JSON object; null stands for what is not a finite number. */
-void stats_print_json(const rt_scene *scene, const rt_device *device, const rt_render_options *options,
-                      const rt_film *film);
+void stats_print_json(const rt_scene *scene, const rt_device *device,
+                      const rt_render_options *options, const rt_film *film);
 
 #endif

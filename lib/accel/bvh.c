@@ -26,10 +26,11 @@ static rt_status no_memory(rt_error *error, uint32_t count)
 }
 
 /*
- * Builds by cost; should the tree be so unbalanced that a traversal's stack would not hold it, builds again
- * by halves. Then each of fewer than 2^30 references' sets of blocks is halved at most 27 times, and a set that
- * mixes kinds three times more: 30 binary levels, three of which make a wide one. Ten wide levels of seven
- * waiting children and the last one's eight are below RT_BVH_STACK.
+ * Builds by cost; should the tree be so unbalanced that a traversal's stack would not hold it,
+ * builds again by halves. Then each of fewer than 2^30 references' sets of blocks is halved at most
+ * 27 times, and a set that mixes kinds three times more: 30 binary levels, three of which make a
+ * wide one. Ten wide levels of seven waiting children and the last one's eight are below
+ * RT_BVH_STACK.
  */
 static rt_status build_tree(rt_bvh *bvh, rt_ref *refs, rt_stage_progress *progress, rt_error *error)
 {
@@ -77,12 +78,13 @@ static rt_status build(rt_bvh *bvh, rt_stage_progress *progress, rt_error *error
     return RT_OK;
 }
 
-rt_status rt_bvh_build(rt_bvh **out, const rt_bvh_input *input, uint32_t threads, rt_stage_progress *progress,
-                       rt_error *error)
+rt_status rt_bvh_build(rt_bvh **out, const rt_bvh_input *input, uint32_t threads,
+                       rt_stage_progress *progress, rt_error *error)
 {
     const uint64_t count = rt_refs_count(input);
     if (count >= RT_CHILD_INDEX)
-        return rt_fail(error, RT_ERROR_INPUT, "%llu primitives are more than the %lu that a hierarchy can hold",
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "%llu primitives are more than the %lu that a hierarchy can hold",
                        (unsigned long long)count, (unsigned long)RT_CHILD_INDEX);
     rt_bvh *bvh = calloc(1, sizeof *bvh);
     if (bvh == NULL)
@@ -115,7 +117,8 @@ void rt_bvh_get_bounds(const rt_bvh *bvh, float lo[3], float hi[3])
 void rt_bvh_write(const rt_bvh *bvh, rt_bvh_node *nodes, rt_tri_block *blocks, uint32_t *analytic,
                   uint32_t first_node, uint32_t first_block)
 {
-    const rt_wide_output output = {&bvh->input, bvh->origins, nodes, blocks, analytic, first_node, first_block};
+    const rt_wide_output output = {&bvh->input, bvh->origins, nodes,      blocks,
+                                   analytic,    first_node,   first_block};
     if (bvh->count)
         rt_wide_write(&bvh->plan, &bvh->tree, &output, bvh->threads);
     else

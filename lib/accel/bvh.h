@@ -42,7 +42,10 @@ typedef struct rt_bvh_analytic {
     uint32_t shape;     /* what rt_bvh_write puts in the table of analytic entries */
 } rt_bvh_analytic;
 
-/* What the tree holds; any count may be 0. Their sum stays below 2^30. Kept until rt_bvh_write returns. */
+/*
+ * What the tree holds; any count may be 0. Their sum stays below 2^30. Kept until rt_bvh_write
+ * returns.
+ */
 typedef struct rt_bvh_input {
     const rt_bvh_mesh *meshes;
     uint32_t mesh_count;
@@ -53,7 +56,7 @@ typedef struct rt_bvh_input {
 } rt_bvh_input;
 
 typedef struct rt_bvh_counts {
-    uint32_t nodes;    /* at least 1: the root is there even when the scene is empty */
+    uint32_t nodes; /* at least 1: the root is there even when the scene is empty */
     uint32_t blocks;
     uint32_t analytic; /* equals the input's analytic_count */
 } rt_bvh_counts;
@@ -61,11 +64,12 @@ typedef struct rt_bvh_counts {
 typedef struct rt_bvh rt_bvh;
 
 /*
- * Builds the tree with at least one thread. progress may be NULL; it is told of the fraction done and can
- * cancel. Fails with RT_ERROR_MEMORY, RT_CANCELLED, or RT_ERROR_INPUT when there are too many primitives.
+ * Builds the tree with at least one thread. progress may be NULL; it is told of the fraction done
+ * and can cancel. Fails with RT_ERROR_MEMORY, RT_CANCELLED, or RT_ERROR_INPUT when there are too
+ * many primitives.
  */
-rt_status rt_bvh_build(rt_bvh **out, const rt_bvh_input *input, uint32_t threads, rt_stage_progress *progress,
-                       rt_error *error);
+rt_status rt_bvh_build(rt_bvh **out, const rt_bvh_input *input, uint32_t threads,
+                       rt_stage_progress *progress, rt_error *error);
 
 void rt_bvh_get_counts(const rt_bvh *bvh, rt_bvh_counts *out);
 
@@ -73,9 +77,9 @@ void rt_bvh_get_counts(const rt_bvh *bvh, rt_bvh_counts *out);
 void rt_bvh_get_bounds(const rt_bvh *bvh, float lo[3], float hi[3]);
 
 /*
- * Writes the tree into arrays as long as the counts say. Pointers of empty arrays may be NULL. Where the arrays
- * are parts of tables that hold more trees, child references count from the start of the tables: first_node and
- * first_block say where in them nodes and blocks begin.
+ * Writes the tree into arrays as long as the counts say. Pointers of empty arrays may be NULL.
+ * Where the arrays are parts of tables that hold more trees, child references count from the start
+ * of the tables: first_node and first_block say where in them nodes and blocks begin.
  */
 void rt_bvh_write(const rt_bvh *bvh, rt_bvh_node *nodes, rt_tri_block *blocks, uint32_t *analytic,
                   uint32_t first_node, uint32_t first_block);

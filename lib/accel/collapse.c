@@ -6,15 +6,17 @@
 #include "accel/tree.h"
 
 /*
- * Costs of a visit: a node's eight boxes with the sorting of those met, and a leaf's eight triangles, took about as
- * long where this was tuned. The leaves are given, so only the node's cost decides.
+ * Costs of a visit: a node's eight boxes with the sorting of those met, and a leaf's eight
+ * triangles, took about as long where this was tuned. The leaves are given, so only the node's cost
+ * decides.
  */
 static const float node_cost = 1.0f;
 static const float leaf_cost = 1.0f;
 
 static float area(const rt_tree_node *node)
 {
-    const float x = node->hi[0] - node->lo[0], y = node->hi[1] - node->lo[1], z = node->hi[2] - node->lo[2];
+    const float x = node->hi[0] - node->lo[0], y = node->hi[1] - node->lo[1],
+                z = node->hi[2] - node->lo[2];
     return x * (y + z) + y * z;
 }
 
@@ -28,7 +30,8 @@ rt_collapse_cost rt_collapse_leaf(rt_tree_node *node)
     return cost;
 }
 
-rt_collapse_cost rt_collapse_inner(rt_tree_node *node, const rt_collapse_cost *left, const rt_collapse_cost *right)
+rt_collapse_cost rt_collapse_inner(rt_tree_node *node, const rt_collapse_cost *left,
+                                   const rt_collapse_cost *right)
 {
     rt_collapse_cost cost;
     for (int j = 1; j < RT_BVH_WIDTH; j++) {

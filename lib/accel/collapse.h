@@ -1,10 +1,11 @@
 /*
  * collapse.h - which nodes of the binary tree become the eight-wide ones.
  *
- * The expected cost of a ray is the sum over wide nodes of their area times the cost of a node, plus that
- * over leaves. Dynamic programming from the leaves up finds for each subtree the least cost of representing
- * it by at most j roots, j = 1 .. 8 (Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs
- * Through Compressed Wide BVHs", High Performance Graphics 2017, section 3).
+ * The expected cost of a ray is the sum over wide nodes of their area times the cost of a node,
+ * plus that over leaves. Dynamic programming from the leaves up finds for each subtree the least
+ * cost of representing it by at most j roots, j = 1 .. 8 (Ylitie, Karras and Laine, "Efficient
+ * Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", High Performance Graphics 2017,
+ * section 3).
  */
 #ifndef RT_ACCEL_COLLAPSE_H
 #define RT_ACCEL_COLLAPSE_H
@@ -16,8 +17,8 @@
 struct rt_tree_node;
 
 /*
- * How a node of the binary tree is represented by at most j roots: left[j] of them in its left child and
- * the others in the right one, or, where left[j] is 0, by j - 1 roots.
+ * How a node of the binary tree is represented by at most j roots: left[j] of them in its left
+ * child and the others in the right one, or, where left[j] is 0, by j - 1 roots.
  */
 typedef struct rt_collapse_choice {
     uint8_t left[RT_BVH_WIDTH]; /* of j = index + 1; left[0] has no meaning */
@@ -35,13 +36,17 @@ rt_collapse_cost rt_collapse_leaf(struct rt_tree_node *node);
 rt_collapse_cost rt_collapse_inner(struct rt_tree_node *node, const rt_collapse_cost *left,
                                    const rt_collapse_cost *right);
 
-/* The same with roots divided evenly whatever their cost, so that three binary levels make a wide one. */
+/*
+ * The same with roots divided evenly whatever their cost, so that three binary levels make a wide
+ * one.
+ */
 rt_collapse_cost rt_collapse_even(struct rt_tree_node *node);
 
 /*
- * The nodes that are the children of the wide node made of `node`, the largest area first: a ray that asks
- * only whether anything is hit tries them in this order. Returns their number, 1 to 8.
+ * The nodes that are the children of the wide node made of `node`, the largest area first: a ray
+ * that asks only whether anything is hit tries them in this order. Returns their number, 1 to 8.
  */
-int rt_collapse_children(const struct rt_tree_node *node, const struct rt_tree_node *out[RT_BVH_WIDTH]);
+int rt_collapse_children(const struct rt_tree_node *node,
+                         const struct rt_tree_node *out[RT_BVH_WIDTH]);
 
 #endif

@@ -1,8 +1,8 @@
 /*
  * partition.c - in place, in parallel, and in an order that does not depend on the threads.
  *
- * First each chunk of fixed length is partitioned by itself. Then the left references that lie behind
- * the boundary are exchanged with the right ones that lie before it, both counted in order.
+ * First each chunk of fixed length is partitioned by itself. Then the left references that lie
+ * behind the boundary are exchanged with the right ones that lie before it, both counted in order.
  */
 #include "accel/partition.h"
 
@@ -17,7 +17,7 @@ typedef struct partition_job {
     rt_ref *refs;
     uint32_t count;
     const rt_plane_split *plane;
-    uint32_t *lefts;    /* left references of each chunk */
+    uint32_t *lefts; /* left references of each chunk */
     uint32_t chunks;
     uint32_t boundary;  /* all lefts */
     uint32_t misplaced; /* references to exchange */
@@ -123,9 +123,11 @@ static void exchange(void *user, uint32_t index)
     }
 }
 
-uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads, uint32_t *scratch)
+uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads,
+                      uint32_t *scratch)
 {
-    partition_job job = {refs, count, plane, scratch, (count + RT_SPLIT_CHUNK - 1) / RT_SPLIT_CHUNK, 0, 0};
+    partition_job job = {refs, count, plane, scratch, (count + RT_SPLIT_CHUNK - 1) / RT_SPLIT_CHUNK,
+                         0,    0};
     if (job.chunks <= 1)
         return partition_chunk(refs, count, plane);
 

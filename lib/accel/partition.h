@@ -14,7 +14,11 @@ typedef struct rt_plane_split {
     int bin;
 } rt_plane_split;
 
-/* Moves the left references before the others; returns their number. The order does not depend on threads. */
-uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads, uint32_t *scratch);
+/*
+ * Moves the left references before the others; returns their number. The order does not depend on
+ * threads.
+ */
+uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads,
+                      uint32_t *scratch);
 
 #endif

@@ -53,12 +53,16 @@ static void fill_triangles(void *user, uint32_t chunk)
     }
 }
 
-/* A parallelogram's box, with room for the 1e-6 by which the intersection moves its far edges, and for rounding. */
+/*
+ * A parallelogram's box, with room for the 1e-6 by which the intersection moves its far edges, and
+ * for rounding.
+ */
 static box4 quad_box(const rt_bvh_quad *quad)
 {
     const vec4 corner = load3(quad->corner), e1 = load3(quad->edge1), e2 = load3(quad->edge2);
     const vec4 b = corner + e1, c = corner + e2, d = corner + (e1 + e2);
-    box4 box = {vec4_min(vec4_min(corner, b), vec4_min(c, d)), vec4_max(vec4_max(corner, b), vec4_max(c, d))};
+    box4 box = {vec4_min(vec4_min(corner, b), vec4_min(c, d)),
+                vec4_max(vec4_max(corner, b), vec4_max(c, d))};
     const vec4 edges = vec4_max(e1, -e1) + vec4_max(e2, -e2), reach = vec4_max(-box.lo, box.hi);
     const vec4 room = vec4_all(4e-6f) * edges + vec4_all(0x1p-22f) * reach;
     box.lo -= room;

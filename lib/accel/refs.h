@@ -38,7 +38,10 @@ uint64_t rt_refs_count(const rt_bvh_input *input);
 /* Fills refs[rt_refs_count(input)], in the order meshes, quads, analytic entries. */
 void rt_refs_fill(rt_ref *refs, const rt_bvh_input *input, uint32_t threads);
 
-/* The reference's vertices v0, v1, v2 as rt_tri_block holds them; not for analytic entries. Returns its prim word. */
+/*
+ * The reference's vertices v0, v1, v2 as rt_tri_block holds them; not for analytic entries. Returns
+ * its prim word.
+ */
 uint32_t rt_ref_vertices(const rt_bvh_input *input, uint32_t source, uint32_t index, float v[3][3]);
 
 #endif

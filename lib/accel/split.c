@@ -27,7 +27,8 @@ typedef struct set_job {
 static rt_set part_of(const rt_set *set, uint32_t index)
 {
     const uint64_t all = set->count;
-    const uint32_t first = (uint32_t)(all * index / JOBS), end = (uint32_t)(all * (index + 1) / JOBS);
+    const uint32_t first = (uint32_t)(all * index / JOBS),
+                   end = (uint32_t)(all * (index + 1) / JOBS);
     rt_set part = *set;
     part.refs += first;
     part.count = end - first;
@@ -103,8 +104,8 @@ static void join_bins(bins *into, const bins *from, int count)
 }
 
 /*
- * Fills b[0]; b[1] is for its own use. Neighbours mostly share a bin, so in long sets every second one goes to b[1]
- * until the end: none then waits for the one before it.
+ * Fills b[0]; b[1] is for its own use. Neighbours mostly share a bin, so in long sets every second
+ * one goes to b[1] until the end: none then waits for the one before it.
  */
 static void fill_bins(bins b[2], const rt_set *set, const binning *map)
 {
@@ -153,7 +154,9 @@ static float side_cost(box4 box, uint32_t count)
     return box4_area(box) * (float)((count + RT_BVH_WIDTH - 1) / RT_BVH_WIDTH);
 }
 
-/* The cheapest plane along one axis; returns its bin, or 0 when none has references on both sides. */
+/*
+ * The cheapest plane along one axis; returns its bin, or 0 when none has references on both sides.
+ */
 static int best_plane(const box4 *box, const uint32_t *count, int n, float *cost)
 {
     float right_cost[BINS];
@@ -246,7 +249,8 @@ static void select_nth(rt_ref *refs, uint32_t count, uint32_t nth, int axis)
 uint32_t rt_split_median(const rt_set *set)
 {
     const vec4 extent = set->centres.hi - set->centres.lo;
-    const int axis = extent[0] >= extent[1] ? (extent[0] >= extent[2] ? 0 : 2) : (extent[1] >= extent[2] ? 1 : 2);
+    const int axis = extent[0] >= extent[1] ? (extent[0] >= extent[2] ? 0 : 2)
+                                            : (extent[1] >= extent[2] ? 1 : 2);
     const uint32_t blocks = (set->count + RT_BVH_WIDTH - 1) / RT_BVH_WIDTH;
     const uint32_t left = blocks > 1 ? (blocks + 1) / 2 * RT_BVH_WIDTH : set->count / 2;
     select_nth(set->refs, set->count, left, axis);

@@ -1,9 +1,10 @@
 /*
  * split.h - divides a set of references in two.
  *
- * By the surface area heuristic over binned centres (Wald, "On fast Construction of SAH-based Bounding
- * Volume Hierarchies", IEEE Symposium on Interactive Ray Tracing, 2007), the cost of a side being its area
- * times the blocks of eight that it fills; or at the median, where depth must be bounded.
+ * By the surface area heuristic over binned centres (Wald, "On fast Construction of SAH-based
+ * Bounding Volume Hierarchies", IEEE Symposium on Interactive Ray Tracing, 2007), the cost of a
+ * side being its area times the blocks of eight that it fills; or at the median, where depth must
+ * be bounded.
  */
 #ifndef RT_ACCEL_SPLIT_H
 #define RT_ACCEL_SPLIT_H
@@ -12,7 +13,10 @@
 
 #include "accel/refs.h"
 
-/* Sets longer than this are split by all threads together, shorter ones by the thread that has them. */
+/*
+ * Sets longer than this are split by all threads together, shorter ones by the thread that has
+ * them.
+ */
 #define RT_SPLIT_PARALLEL 65536u
 
 /* References are partitioned by chunks of this length, then exchanged between chunks. */
@@ -29,8 +33,8 @@ typedef struct rt_set {
 rt_set rt_set_make(rt_ref *refs, uint32_t count, uint32_t threads);
 
 /*
- * Reorders the set, which has at least two references, and returns how many of them, at least one and not
- * all, make the left side. scratch has room for count / RT_SPLIT_CHUNK + 1 numbers.
+ * Reorders the set, which has at least two references, and returns how many of them, at least one
+ * and not all, make the left side. scratch has room for count / RT_SPLIT_CHUNK + 1 numbers.
  */
 uint32_t rt_split_sah(const rt_set *set, uint32_t threads, uint32_t *scratch);
 uint32_t rt_split_median(const rt_set *set);

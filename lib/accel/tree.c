@@ -43,9 +43,10 @@ typedef struct builder {
     uint32_t *order;   /* their indices, the longest first */
     uint32_t subtree_count, subtree_room;
     rt_stage_progress *progress;
-    pthread_t caller; /* the only thread that reports progress */
+    pthread_t caller;     /* the only thread that reports progress */
     pthread_mutex_t lock; /* of the following */
-    uint64_t done, work;  /* references split, once for each level of the top and once for the subtrees */
+    /* references split, once for each level of the top and once for the subtrees */
+    uint64_t done, work;
     rt_status status;
 } builder;
 
@@ -125,8 +126,8 @@ static rt_set open_node(builder *b, rt_tree_node *node, uint32_t threads)
 }
 
 /* Splits the node's references between two new children; false when there is no memory. */
-static int divide(builder *b, rt_tree_node *node, const rt_set *set, int depth, rt_tree_arena *arena,
-                  uint32_t threads, uint32_t *scratch)
+static int divide(builder *b, rt_tree_node *node, const rt_set *set, int depth,
+                  rt_tree_arena *arena, uint32_t threads, uint32_t *scratch)
 {
     rt_tree_node *pair = new_pair(arena);
     if (pair == NULL) {
@@ -144,10 +145,11 @@ static int divide(builder *b, rt_tree_node *node, const rt_set *set, int depth, 
     return 1;
 }
 
-static rt_collapse_cost close_node(const builder *b, rt_tree_node *node, const rt_collapse_cost *left,
-                                   const rt_collapse_cost *right)
+static rt_collapse_cost close_node(const builder *b, rt_tree_node *node,
+                                   const rt_collapse_cost *left, const rt_collapse_cost *right)
 {
-    return b->rule == RT_SPLIT_RULE_SAH ? rt_collapse_inner(node, left, right) : rt_collapse_even(node);
+    return b->rule == RT_SPLIT_RULE_SAH ? rt_collapse_inner(node, left, right)
+                                        : rt_collapse_even(node);
 }
 
 static rt_collapse_cost grow(builder *b, rt_tree_node *node, int depth, rt_tree_arena *arena)
@@ -223,14 +225,18 @@ static rt_status order_subtrees(builder *b)
         return RT_ERROR_MEMORY;
     for (uint32_t i = 0; i < b->subtree_count; i++) {
         uint32_t at = i;
-        for (; at > 0 && b->subtrees[b->order[at - 1]].node->count < b->subtrees[i].node->count; at--)
+        for (; at > 0 && b->subtrees[b->order[at - 1]].node->count < b->subtrees[i].node->count;
+             at--)
             b->order[at] = b->order[at - 1];
         b->order[at] = i;
     }
     return RT_OK;
 }
 
-/* References to be split in all, for progress: once for each halving of the top and once for the subtrees. */
+/*
+ * References to be split in all, for progress: once for each halving of the top and once for the
+ * subtrees.
+ */
 static uint64_t estimate_work(uint32_t count)
 {
     uint64_t work = count;
@@ -260,8 +266,8 @@ static rt_status build(builder *b, rt_tree *tree)
     return RT_OK;
 }
 
-rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rule rule, uint32_t threads,
-                        rt_stage_progress *progress, rt_error *error)
+rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rule rule,
+                        uint32_t threads, rt_stage_progress *progress, rt_error *error)
 {
     builder b = {0};
     b.refs = refs;
@@ -286,7 +292,8 @@ rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rul
     rt_tree_destroy(out);
     return status == RT_CANCELLED
                ? rt_fail(error, RT_CANCELLED, "cancelled while the hierarchy was built")
-               : rt_fail(error, RT_ERROR_MEMORY, "not enough memory to build a hierarchy of %lu primitives",
+               : rt_fail(error, RT_ERROR_MEMORY,
+                         "not enough memory to build a hierarchy of %lu primitives",
                          (unsigned long)count);
 }
 

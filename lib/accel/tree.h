@@ -34,9 +34,11 @@ typedef struct rt_tree {
     uint32_t arena_count;
 } rt_tree;
 
-/* Reorders refs and builds a tree over them; count > 0. Fails with RT_ERROR_MEMORY or RT_CANCELLED. */
-rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rule rule, uint32_t threads,
-                        rt_stage_progress *progress, rt_error *error);
+/*
+ * Reorders refs and builds a tree over them; count > 0. Fails with RT_ERROR_MEMORY or RT_CANCELLED.
+ */
+rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rule rule,
+                        uint32_t threads, rt_stage_progress *progress, rt_error *error);
 void rt_tree_destroy(rt_tree *tree);
 
 #endif

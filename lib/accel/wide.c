@@ -15,7 +15,8 @@ static int starts_part(const rt_tree_node *node)
     return node->count <= PART_REFS;
 }
 
-static int add_part(rt_wide_plan *plan, const rt_tree_node *node, rt_wide_cursor begin, rt_wide_cursor end)
+static int add_part(rt_wide_plan *plan, const rt_tree_node *node, rt_wide_cursor begin,
+                    rt_wide_cursor end)
 {
     if (plan->part_count == plan->part_room) {
         const uint32_t room = plan->part_room ? 2 * plan->part_room : 64;
@@ -30,10 +31,12 @@ static int add_part(rt_wide_plan *plan, const rt_tree_node *node, rt_wide_cursor
 }
 
 /*
- * Numbers the wide node made of `node` and all below it. Returns the most entries that its traversal adds to
- * a stack: its k children are pushed at once, and while one is visited the other k - 1 wait. 0: no memory.
+ * Numbers the wide node made of `node` and all below it. Returns the most entries that its
+ * traversal adds to a stack: its k children are pushed at once, and while one is visited the other
+ * k - 1 wait. 0: no memory.
  */
-static uint32_t number(rt_wide_plan *plan, const rt_ref *refs, const rt_tree_node *node, int in_part)
+static uint32_t number(rt_wide_plan *plan, const rt_ref *refs, const rt_tree_node *node,
+                       int in_part)
 {
     const rt_tree_node *children[RT_BVH_WIDTH];
     const int k = rt_collapse_children(node, children);
@@ -156,7 +159,8 @@ static void write_part(void *user, uint32_t index)
     write_node(&w, part->root);
 }
 
-void rt_wide_write(const rt_wide_plan *plan, const rt_tree *tree, const rt_wide_output *output, uint32_t threads)
+void rt_wide_write(const rt_wide_plan *plan, const rt_tree *tree, const rt_wide_output *output,
+                   uint32_t threads)
 {
     write_job job = {plan, output};
     rt_parallel(threads, plan->part_count, write_part, &job);

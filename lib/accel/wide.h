@@ -1,4 +1,7 @@
-/* wide.h - numbers and writes the eight-wide nodes and leaves that a collapsed binary tree stands for. */
+/*
+ * wide.h - numbers and writes the eight-wide nodes and leaves that a collapsed binary tree stands
+ * for.
+ */
 #ifndef RT_ACCEL_WIDE_H
 #define RT_ACCEL_WIDE_H
 
@@ -40,12 +43,16 @@ typedef struct rt_wide_output {
     uint32_t first_node, first_block; /* added to references */
 } rt_wide_output;
 
-/* Numbers nodes and leaves depth first. Returns 0 when there is no memory; plan is to be freed either way. */
+/*
+ * Numbers nodes and leaves depth first. Returns 0 when there is no memory; plan is to be freed
+ * either way.
+ */
 int rt_wide_plan_make(rt_wide_plan *plan, const rt_tree *tree, const rt_ref *refs);
 void rt_wide_plan_free(rt_wide_plan *plan);
 
 /* Writes what was planned. */
-void rt_wide_write(const rt_wide_plan *plan, const rt_tree *tree, const rt_wide_output *output, uint32_t threads);
+void rt_wide_write(const rt_wide_plan *plan, const rt_tree *tree, const rt_wide_output *output,
+                   uint32_t threads);
 
 /* Writes a root without children. */
 void rt_wide_write_empty(rt_bvh_node *root);

@@ -49,59 +49,68 @@ rt_status rt_cl_check(cl_int code, const char *what, rt_error *error)
     if (code == CL_SUCCESS)
         return RT_OK;
     int memory = code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY;
-    return rt_fail(error, memory ? RT_ERROR_MEMORY : RT_ERROR_DEVICE, "%s: %s (%d)", what, rt_cl_error_name(code),
-                   (int)code);
+    return rt_fail(error, memory ? RT_ERROR_MEMORY : RT_ERROR_DEVICE, "%s: %s (%d)", what,
+                   rt_cl_error_name(code), (int)code);
 }
 
-rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes, void *host,
-                           const char *what, rt_error *error)
+rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
+                           void *host, const char *what, rt_error *error)
 {
     cl_int code;
     /* Asked here, because some drivers abort instead of refusing. */
     if (bytes > device->info.largest_buffer)
-        return rt_fail(error, RT_ERROR_MEMORY, "%s takes %zu bytes, more than the %llu of a buffer on %s", what, bytes,
+        return rt_fail(error, RT_ERROR_MEMORY,
+                       "%s takes %zu bytes, more than the %llu of a buffer on %s", what, bytes,
                        (unsigned long long)device->info.largest_buffer, device->info.name);
     if (host && !(flags & CL_MEM_USE_HOST_PTR))
         flags |= CL_MEM_COPY_HOST_PTR;
-    cl_mem buffer = clCreateBuffer(device->context, flags, bytes ? bytes : 1, bytes ? host : NULL, &code);
+    cl_mem buffer =
+        clCreateBuffer(device->context, flags, bytes ? bytes : 1, bytes ? host : NULL, &code);
     rt_status status = rt_cl_check(code, what, error);
     if (status == RT_OK)
         *out = buffer;
     return status;
 }
 
-rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host, rt_error *error)
+rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host,
+                         rt_error *error)
 {
     if (bytes == 0)
         return RT_OK;
-    return rt_cl_check(clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
-                       "reading from the device", error);
+    return rt_cl_check(
+        clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
+        "reading from the device", error);
 }
 
-rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, const void *host,
-                          rt_error *error)
+rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes,
+                          const void *host, rt_error *error)
 {
     if (bytes == 0)
         return RT_OK;
-    return rt_cl_check(clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
-                       "writing to the device", error);
+    return rt_cl_check(
+        clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
+        "writing to the device", error);
 }
 
-rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes, rt_error *error)
+rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes,
+                         rt_error *error)
 {
     if (bytes == 0)
         return RT_OK;
-    return rt_cl_check(clEnqueueCopyBuffer(device->queue, from, to, 0, offset, bytes, 0, NULL, NULL),
-                       "copying on the device", error);
+    return rt_cl_check(
+        clEnqueueCopyBuffer(device->queue, from, to, 0, offset, bytes, 0, NULL, NULL),
+        "copying on the device", error);
 }
 
-rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out, const char *what,
-                        rt_error *error)
+rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out,
+                        const char *what, rt_error *error)
 {
     void *mapped = NULL;
-    cl_int code = bytes ? CL_SUCCESS : clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof bytes, &bytes, NULL);
+    cl_int code =
+        bytes ? CL_SUCCESS : clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof bytes, &bytes, NULL);
     if (code == CL_SUCCESS)
-        mapped = clEnqueueMapBuffer(device->queue, buffer, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL, &code);
+        mapped = clEnqueueMapBuffer(device->queue, buffer, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL,
+                                    NULL, &code);
     if (code != CL_SUCCESS) {
         char text[128];
         snprintf(text, sizeof text, "reading %s from the device", what);
@@ -115,8 +124,9 @@ rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, 
 {
     if (!mapped)
         return RT_OK;
-    return rt_cl_check(clEnqueueUnmapMemObject(device->queue, buffer, (void *)mapped, 0, NULL, NULL),
-                       "returning memory to the device", error);
+    return rt_cl_check(
+        clEnqueueUnmapMemObject(device->queue, buffer, (void *)mapped, 0, NULL, NULL),
+        "returning memory to the device", error);
 }
 
 void rt_buffer_release(cl_mem buffer)
@@ -136,7 +146,8 @@ rt_status rt_kernel_args(cl_kernel kernel, const rt_arg *args, cl_uint count, rt
     for (cl_uint i = 0; i < count; i++) {
         cl_int code = clSetKernelArg(kernel, i, args[i].size, args[i].value);
         if (code != CL_SUCCESS)
-            return rt_fail(error, RT_ERROR_DEVICE, "kernel argument %u: %s", i, rt_cl_error_name(code));
+            return rt_fail(error, RT_ERROR_DEVICE, "kernel argument %u: %s", i,
+                           rt_cl_error_name(code));
     }
     return RT_OK;
 }
@@ -147,13 +158,14 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
     if (items == 0)
         return RT_OK;
     /* A kernel that needs much of a compute unit takes fewer items than the device allows. */
-    if (clGetKernelWorkGroupInfo(kernel, device->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof largest, &largest, NULL) ==
-            CL_SUCCESS && largest > 0 && largest < local)
+    if (clGetKernelWorkGroupInfo(kernel, device->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof largest,
+                                 &largest, NULL) == CL_SUCCESS &&
+        largest > 0 && largest < local)
         local = largest;
     size_t global = (items + local - 1) / local * local;
-    rt_status status =
-        rt_cl_check(clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
-                    "launching a kernel", error);
+    rt_status status = rt_cl_check(
+        clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
+        "launching a kernel", error);
     if (status == RT_OK)
         status = rt_cl_check(clFlush(device->queue), "launching a kernel", error);
     return status;

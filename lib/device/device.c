@@ -9,9 +9,17 @@
 
 #include "error.h"
 
-enum { platforms_max = 16, devices_max = 64, default_work_group_cpu = 16, default_work_group_gpu = 64 };
+enum {
+    platforms_max = 16,
+    devices_max = 64,
+    default_work_group_cpu = 16,
+    default_work_group_gpu = 64
+};
 
-/* A core of a CPU keeps several paths of one work-item under way at once; a GPU wants all the work-items it can get. */
+/*
+ * A core of a CPU keeps several paths of one work-item under way at once; a GPU wants all the
+ * work-items it can get.
+ */
 enum { path_pixels_cpu = 64, path_pixels_gpu = 1 };
 
 typedef struct device_list {
@@ -29,13 +37,15 @@ static rt_status list_devices(device_list *list, rt_error *error)
     list->count = 0;
     cl_int code = clGetPlatformIDs(platforms_max, platforms, &platform_count);
     if (code != CL_SUCCESS || platform_count == 0)
-        return rt_fail(error, RT_ERROR_DEVICE,
-                       "no OpenCL platform is installed (on Debian: pocl-opencl-icd gives one for the CPU)");
+        return rt_fail(
+            error, RT_ERROR_DEVICE,
+            "no OpenCL platform is installed (on Debian: pocl-opencl-icd gives one for the CPU)");
     if (platform_count > platforms_max)
         platform_count = platforms_max;
     for (cl_uint p = 0; p < platform_count && list->count < devices_max; p++) {
         cl_uint found = 0, room = devices_max - list->count;
-        code = clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, room, list->id + list->count, &found);
+        code =
+            clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, room, list->id + list->count, &found);
         if (code != CL_SUCCESS)
             continue; /* a platform without devices */
         if (found > room)
@@ -113,25 +123,29 @@ static rt_status select_device(rt_device *device, const char *select, rt_error *
     int by_number = !select || !*select || (*end == '\0' && select[0] >= '0' && select[0] <= '9');
     for (cl_uint i = 0; i < list.count; i++) {
         describe(&device->info, list.platform[i], list.id[i]);
-        if (by_number ? i == number : contains(device->info.name, select) || contains(device->info.platform, select)) {
+        if (by_number
+                ? i == number
+                : contains(device->info.name, select) || contains(device->info.platform, select)) {
             device->platform = list.platform[i];
             device->id = list.id[i];
             return RT_OK;
         }
     }
-    return rt_fail_field(error, RT_ERROR_DEVICE, "device", "no OpenCL device '%s' among the %u of this machine", select,
-                         list.count);
+    return rt_fail_field(error, RT_ERROR_DEVICE, "device",
+                         "no OpenCL device '%s' among the %u of this machine", select, list.count);
 }
 
 /*
- * Limits a CPU device to so many of its compute units. The sub-device is kept until the process ends: PoCL's
- * threads may still read it after the last command is done, and clReleaseDevice would free it under them.
+ * Limits a CPU device to so many of its compute units. The sub-device is kept until the process
+ * ends: PoCL's threads may still read it after the last command is done, and clReleaseDevice would
+ * free it under them.
  */
 static rt_status limit_units(rt_device *device, uint32_t units, rt_error *error)
 {
     if (!device->info.is_cpu || units >= device->info.compute_units)
         return RT_OK;
-    cl_device_partition_property how[] = {CL_DEVICE_PARTITION_BY_COUNTS, (cl_device_partition_property)units,
+    cl_device_partition_property how[] = {CL_DEVICE_PARTITION_BY_COUNTS,
+                                          (cl_device_partition_property)units,
                                           CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
     cl_device_id part;
     rt_status status = rt_cl_check(clCreateSubDevices(device->id, how, 1, &part, NULL),
@@ -150,7 +164,8 @@ static rt_status choose_work_group(rt_device *device, uint32_t asked, rt_error *
     clGetDeviceInfo(device->id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof largest, &largest, NULL);
     if (asked > largest)
         return rt_fail_field(error, RT_ERROR_USAGE, "work_group",
-                             "a work-group of %u work-items is more than the device's %zu", asked, largest);
+                             "a work-group of %u work-items is more than the device's %zu", asked,
+                             largest);
     device->work_group = asked ? asked : usual < largest ? usual : (uint32_t)largest;
     return RT_OK;
 }

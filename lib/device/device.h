@@ -34,42 +34,48 @@ struct rt_device {
 /* The name of an OpenCL error code; static storage. */
 const char *rt_cl_error_name(cl_int code);
 
-/* RT_OK for CL_SUCCESS; else fails with RT_ERROR_DEVICE, or RT_ERROR_MEMORY when that is the cause. */
+/*
+ * RT_OK for CL_SUCCESS; else fails with RT_ERROR_DEVICE, or RT_ERROR_MEMORY when that is the cause.
+ */
 rt_status rt_cl_check(cl_int code, const char *what, rt_error *error);
 
 /*
- * Makes a kernel of one of the library's programs, building the program when it is the first. The caller
- * releases *out. When a program does not build, the message holds the first error of the compiler's log
- * and the hooks' log callback gets all of it.
+ * Makes a kernel of one of the library's programs, building the program when it is the first. The
+ * caller releases *out. When a program does not build, the message holds the first error of the
+ * compiler's log and the hooks' log callback gets all of it.
  */
-rt_status rt_device_kernel(rt_device *device, cl_kernel *out, const char *program, const char *kernel,
-                           const rt_hooks *hooks, rt_error *error);
+rt_status rt_device_kernel(rt_device *device, cl_kernel *out, const char *program,
+                           const char *kernel, const rt_hooks *hooks, rt_error *error);
 
 /* The same from any table of sources that ends with a NULL name, such as the tests' own. */
 rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kernel_source *sources,
-                                const char *program, const char *kernel, const rt_hooks *hooks, rt_error *error);
+                                const char *program, const char *kernel, const rt_hooks *hooks,
+                                rt_error *error);
 
 /*
- * A buffer of `bytes` (at least one is allocated). host, if not NULL, is copied in, or used in place when
- * flags has CL_MEM_USE_HOST_PTR. `what` names the content in messages. The caller releases *out.
+ * A buffer of `bytes` (at least one is allocated). host, if not NULL, is copied in, or used in
+ * place when flags has CL_MEM_USE_HOST_PTR. `what` names the content in messages. The caller
+ * releases *out.
  */
-rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes, void *host,
-                           const char *what, rt_error *error);
+rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
+                           void *host, const char *what, rt_error *error);
 
 /* Blocking copies between host memory and a buffer. */
-rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host, rt_error *error);
-rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, const void *host,
-                          rt_error *error);
+rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host,
+                         rt_error *error);
+rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes,
+                          const void *host, rt_error *error);
 
 /* Copies the first bytes of a buffer to `offset` in another. */
-rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes, rt_error *error);
+rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes,
+                         rt_error *error);
 
 /*
- * The first `bytes` of a buffer, 0 for all, in host memory, to be read until rt_buffer_unmap: no copy where
- * the device works on the host's memory. `what` names the content in messages.
+ * The first `bytes` of a buffer, 0 for all, in host memory, to be read until rt_buffer_unmap: no
+ * copy where the device works on the host's memory. `what` names the content in messages.
  */
-rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out, const char *what,
-                        rt_error *error);
+rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out,
+                        const char *what, rt_error *error);
 /* Ends that; NULL is allowed. */
 rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, rt_error *error);
 
@@ -82,14 +88,17 @@ typedef struct rt_arg {
     size_t size;
     const void *value;
 } rt_arg;
-#define RT_ARG(variable) {sizeof(variable), &(variable)}
+#define RT_ARG(variable)                                                                           \
+    {                                                                                              \
+        sizeof(variable), &(variable)                                                              \
+    }
 
 /* Sets the arguments 0 .. count - 1. */
 rt_status rt_kernel_args(cl_kernel kernel, const rt_arg *args, cl_uint count, rt_error *error);
 
 /*
- * Enqueues `items` work-items in work-groups of the device's size, rounded up: the kernel is told the
- * true number and ignores the rest. Does not wait; rt_device_finish does.
+ * Enqueues `items` work-items in work-groups of the device's size, rounded up: the kernel is told
+ * the true number and ignores the rest. Does not wait; rt_device_finish does.
  */
 rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error *error);
 rt_status rt_device_finish(rt_device *device, rt_error *error);

@@ -39,28 +39,30 @@ static rt_status report_build(rt_device *device, cl_program program, const char 
             rt_log(hooks, "%s", at);
         free(log);
     }
-    return rt_fail(error, RT_ERROR_DEVICE, "kernel program '%s' does not build on %s (%s): %s", name,
-                   device->info.name, rt_cl_error_name(code), line);
+    return rt_fail(error, RT_ERROR_DEVICE, "kernel program '%s' does not build on %s (%s): %s",
+                   name, device->info.name, rt_cl_error_name(code), line);
 }
 
 /*
- * Bounds on rounding in the kernels take quotients and roots to be correctly rounded, which OpenCL 1.2 promises on
- * demand alone, where a device can do it.
+ * Bounds on rounding in the kernels take quotients and roots to be correctly rounded, which OpenCL
+ * 1.2 promises on demand alone, where a device can do it.
  */
 static const char *build_options(const rt_device *device)
 {
     cl_device_fp_config can = 0;
     clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof can, &can, NULL);
-    return can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
-                                                     : "-cl-std=CL1.2";
+    return can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
+               ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
+               : "-cl-std=CL1.2";
 }
 
-static rt_status build(rt_device *device, cl_program *out, const rt_kernel_source *source, const rt_hooks *hooks,
-                       rt_error *error)
+static rt_status build(rt_device *device, cl_program *out, const rt_kernel_source *source,
+                       const rt_hooks *hooks, rt_error *error)
 {
     cl_int code;
     const char *text = (const char *)source->text;
-    cl_program program = clCreateProgramWithSource(device->context, 1, &text, &source->length, &code);
+    cl_program program =
+        clCreateProgramWithSource(device->context, 1, &text, &source->length, &code);
     rt_status status = rt_cl_check(code, "creating an OpenCL program", error);
     if (status != RT_OK)
         return status;
@@ -84,7 +86,8 @@ static rt_status find_program(rt_device *device, cl_program *out, const rt_kerne
             return RT_OK;
         }
     if (device->program_count == RT_PROGRAMS_MAX)
-        return rt_fail(error, RT_ERROR_DEVICE, "more than %d OpenCL programs on one device", RT_PROGRAMS_MAX);
+        return rt_fail(error, RT_ERROR_DEVICE, "more than %d OpenCL programs on one device",
+                       RT_PROGRAMS_MAX);
     double began = rt_clock();
     rt_status status = build(device, out, source, hooks, error);
     if (status != RT_OK)
@@ -96,7 +99,8 @@ static rt_status find_program(rt_device *device, cl_program *out, const rt_kerne
 }
 
 rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kernel_source *sources,
-                                const char *program, const char *kernel, const rt_hooks *hooks, rt_error *error)
+                                const char *program, const char *kernel, const rt_hooks *hooks,
+                                rt_error *error)
 {
     cl_program built = NULL;
     cl_int code;
@@ -114,8 +118,8 @@ rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kern
     return status;
 }
 
-rt_status rt_device_kernel(rt_device *device, cl_kernel *out, const char *program, const char *kernel,
-                           const rt_hooks *hooks, rt_error *error)
+rt_status rt_device_kernel(rt_device *device, cl_kernel *out, const char *program,
+                           const char *kernel, const rt_hooks *hooks, rt_error *error)
 {
     return rt_device_kernel_from(device, out, rt_kernel_sources, program, kernel, hooks, error);
 }

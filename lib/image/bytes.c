@@ -19,10 +19,12 @@ static rt_status reserve(rt_bytes *bytes, size_t capacity, rt_error *error)
     return RT_OK;
 }
 
-rt_status rt_bytes_put(rt_bytes *bytes, uint64_t offset, const void *source, size_t count, rt_error *error)
+rt_status rt_bytes_put(rt_bytes *bytes, uint64_t offset, const void *source, size_t count,
+                       rt_error *error)
 {
     if (offset > SIZE_MAX / 2 || count > SIZE_MAX / 2)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: a file of more than %zu bytes", SIZE_MAX / 2);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: a file of more than %zu bytes",
+                       SIZE_MAX / 2);
     if (count == 0)
         return RT_OK;
     size_t end = (size_t)offset + count;

@@ -17,7 +17,8 @@ typedef struct rt_bytes {
  * Writes count bytes at offset, growing the array as needed; a gap before offset is zero.
  * Fails with RT_ERROR_MEMORY and then leaves the array as it was.
  */
-rt_status rt_bytes_put(rt_bytes *bytes, uint64_t offset, const void *source, size_t count, rt_error *error);
+rt_status rt_bytes_put(rt_bytes *bytes, uint64_t offset, const void *source, size_t count,
+                       rt_error *error);
 
 /* Frees the content; the array is empty afterwards. */
 void rt_bytes_free(rt_bytes *bytes);

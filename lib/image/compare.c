@@ -20,16 +20,18 @@ enum { NAME_SIZE = 176 }; /* of an image in messages */
 static rt_status check_options(const rt_compare_options *options, rt_error *error)
 {
     if (!(options->tolerance >= 0.0 && options->tolerance <= 1.0))
-        return rt_fail_field(error, RT_ERROR_USAGE, "tolerance", "a tolerance is from 0 to 1, not %g",
-                             options->tolerance);
+        return rt_fail_field(error, RT_ERROR_USAGE, "tolerance",
+                             "a tolerance is from 0 to 1, not %g", options->tolerance);
     if (!(fabs(options->exposure) <= EXPOSURE_MAX))
-        return rt_fail_field(error, RT_ERROR_USAGE, "exposure", "an exposure is from %g to %g stops, not %g",
-                             -EXPOSURE_MAX, EXPOSURE_MAX, options->exposure);
+        return rt_fail_field(error, RT_ERROR_USAGE, "exposure",
+                             "an exposure is from %g to %g stops, not %g", -EXPOSURE_MAX,
+                             EXPOSURE_MAX, options->exposure);
     return RT_OK;
 }
 
 /* What an image is called in messages; index count is the reference. */
-static const char *name_image(char *out, size_t size, const rt_compare_options *options, size_t index, size_t count)
+static const char *name_image(char *out, size_t size, const rt_compare_options *options,
+                              size_t index, size_t count)
 {
     if (options->names)
         snprintf(out, size, "%.160s", options->names[index]);
@@ -40,8 +42,9 @@ static const char *name_image(char *out, size_t size, const rt_compare_options *
     return out;
 }
 
-static rt_status check_sizes(const rt_image *const *renders, size_t count, const rt_image *reference,
-                             const rt_compare_options *options, rt_error *error)
+static rt_status check_sizes(const rt_image *const *renders, size_t count,
+                             const rt_image *reference, const rt_compare_options *options,
+                             rt_error *error)
 {
     char name[NAME_SIZE], reference_name[NAME_SIZE];
     if (count == 0)
@@ -49,9 +52,10 @@ static rt_status check_sizes(const rt_image *const *renders, size_t count, const
     for (size_t i = 0; i < count; i++)
         if (renders[i]->width != reference->width || renders[i]->height != reference->height)
             return rt_fail(error, RT_ERROR_INPUT, "%s has %ux%u pixels but %s %ux%u",
-                           name_image(name, sizeof name, options, i, count), renders[i]->width, renders[i]->height,
-                           name_image(reference_name, sizeof reference_name, options, count, count), reference->width,
-                           reference->height);
+                           name_image(name, sizeof name, options, i, count), renders[i]->width,
+                           renders[i]->height,
+                           name_image(reference_name, sizeof reference_name, options, count, count),
+                           reference->width, reference->height);
     return RT_OK;
 }
 
@@ -84,21 +88,22 @@ static rt_status allocate_pictures(rt_pictures *p, rt_error *error)
         complete = p->renders[i] != NULL;
     }
     if (!complete)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %zu pictures of %ux%u pixels", p->count + 2, p->width,
-                       p->height);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %zu pictures of %ux%u pixels",
+                       p->count + 2, p->width, p->height);
     return RT_OK;
 }
 
 /* Reads the layer of an image; says in which of them it is missing. */
-static rt_status read_layer(float *rgb, const rt_image *image, const rt_compare_options *options, size_t index,
-                            size_t count, rt_error *error)
+static rt_status read_layer(float *rgb, const rt_image *image, const rt_compare_options *options,
+                            size_t index, size_t count, rt_error *error)
 {
     char name[NAME_SIZE];
     rt_error why;
     rt_status status = rt_image_get_rgb(rgb, image, options->layer, &why);
     if (status == RT_OK)
         return RT_OK;
-    return rt_fail(error, status, "%s has %s", name_image(name, sizeof name, options, index, count), why.message);
+    return rt_fail(error, status, "%s has %s", name_image(name, sizeof name, options, index, count),
+                   why.message);
 }
 
 static void average_renders(rt_pictures *p)
@@ -112,8 +117,9 @@ static void average_renders(rt_pictures *p)
     }
 }
 
-static rt_status read_pictures(rt_pictures *p, const rt_image *const *renders, const rt_image *reference,
-                               const rt_compare_options *options, rt_error *error)
+static rt_status read_pictures(rt_pictures *p, const rt_image *const *renders,
+                               const rt_image *reference, const rt_compare_options *options,
+                               rt_error *error)
 {
     rt_status status = allocate_pictures(p, error);
     if (status == RT_OK)
@@ -126,7 +132,8 @@ static rt_status read_pictures(rt_pictures *p, const rt_image *const *renders, c
 }
 
 /* Adds share times the variance layer of an image to that of the difference. */
-static rt_status add_variance(rt_pictures *p, float *layer, const rt_image *image, double share, rt_error *error)
+static rt_status add_variance(rt_pictures *p, float *layer, const rt_image *image, double share,
+                              rt_error *error)
 {
     size_t values = 3 * (size_t)p->width * p->height;
     rt_status status = rt_image_get_rgb(layer, image, "variance", error);
@@ -136,8 +143,8 @@ static rt_status add_variance(rt_pictures *p, float *layer, const rt_image *imag
 }
 
 /* Where every image says how noisy its picture is: the variance of the difference. */
-static rt_status read_variance(rt_pictures *p, const rt_image *const *renders, const rt_image *reference,
-                               rt_error *error)
+static rt_status read_variance(rt_pictures *p, const rt_image *const *renders,
+                               const rt_image *reference, rt_error *error)
 {
     int known = rt_image_has_layer(reference, "variance");
     for (size_t i = 0; i < p->count; i++)
@@ -148,7 +155,8 @@ static rt_status read_variance(rt_pictures *p, const rt_image *const *renders, c
     p->variance = calloc(3 * (size_t)p->width, p->height * sizeof *p->variance);
     if (!layer || !p->variance) {
         free(layer);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: a picture of %ux%u pixels", p->width, p->height);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: a picture of %ux%u pixels", p->width,
+                       p->height);
     }
     double share = 1.0 / ((double)p->count * (double)p->count);
     rt_status status = add_variance(p, layer, reference, 1.0, error);
@@ -165,7 +173,9 @@ static int is_finite(const float rgb[3])
     return isfinite(rgb[0]) && isfinite(rgb[1]) && isfinite(rgb[2]);
 }
 
-/* Errors and means over all pixels that are finite in both pictures; keeps the difference of each. */
+/*
+ * Errors and means over all pixels that are finite in both pictures; keeps the difference of each.
+ */
 static void measure_pixels(rt_comparison *c, const rt_pictures *p)
 {
     rt_comparison_info *info = &c->info;
@@ -229,7 +239,8 @@ static double ratio_error(const rt_comparison *c)
     return total == 0.0 ? NAN : sqrt(variance) / fabs(total);
 }
 
-static rt_status measure(rt_comparison **out, const rt_pictures *p, const rt_compare_options *options, rt_error *error)
+static rt_status measure(rt_comparison **out, const rt_pictures *p,
+                         const rt_compare_options *options, rt_error *error)
 {
     uint32_t side = options->block ? options->block : DEFAULT_BLOCK;
     size_t blocks = rt_block_count(p, side);
@@ -240,20 +251,25 @@ static rt_status measure(rt_comparison **out, const rt_pictures *p, const rt_com
     }
     if (!c || !c->blocks || !c->difference) {
         rt_comparison_destroy(c);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: a comparison of %ux%u pixels", p->width, p->height);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: a comparison of %ux%u pixels",
+                       p->width, p->height);
     }
     c->info.width = p->width;
     c->info.height = p->height;
     c->info.blocks = blocks;
     measure_pixels(c, p);
-    rt_status status = rt_compare_blocks(c->blocks, p, side,
-                                         options->tolerance > 0.0 ? options->tolerance : DEFAULT_TOLERANCE, error);
+    rt_status status =
+        rt_compare_blocks(c->blocks, p, side,
+                          options->tolerance > 0.0 ? options->tolerance : DEFAULT_TOLERANCE, error);
     if (status == RT_OK)
-        status = rt_typical_difference(&c->info.typical, c->difference, (size_t)p->width * p->height, error);
+        status = rt_typical_difference(&c->info.typical, c->difference,
+                                       (size_t)p->width * p->height, error);
     if (status == RT_OK)
-        status = rt_ssim(&c->info.ssim, p->mean, p->reference, p->width, p->height, options->exposure, error);
+        status = rt_ssim(&c->info.ssim, p->mean, p->reference, p->width, p->height,
+                         options->exposure, error);
     if (status == RT_OK)
-        status = rt_flip(&c->info.flip, p->mean, p->reference, p->width, p->height, options->exposure, error);
+        status = rt_flip(&c->info.flip, p->mean, p->reference, p->width, p->height,
+                         options->exposure, error);
     if (status == RT_OK) {
         judge_blocks(c);
         c->info.ratio_error = ratio_error(c);
@@ -274,7 +290,8 @@ static int is_of_photons(const rt_image *image)
 }
 
 rt_status rt_image_compare(rt_comparison **out, const rt_image *const *renders, size_t count,
-                           const rt_image *reference, const rt_compare_options *options, rt_error *error)
+                           const rt_image *reference, const rt_compare_options *options,
+                           rt_error *error)
 {
     static const rt_compare_options defaults;
     for (size_t i = 0; i < count; i++)

@@ -19,8 +19,8 @@ typedef struct rt_pictures {
 
 struct rt_comparison {
     rt_comparison_info info;
-    rt_image_block *blocks;  /* [info.blocks], row by row */
-    float *difference; /* mean - reference, [height][width][3] */
+    rt_image_block *blocks; /* [info.blocks], row by row */
+    float *difference;      /* mean - reference, [height][width][3] */
 };
 
 /* How many blocks of that side cover the pictures, across and in all. */
@@ -28,13 +28,14 @@ uint32_t rt_block_columns(const rt_pictures *pictures, uint32_t side);
 size_t rt_block_count(const rt_pictures *pictures, uint32_t side);
 
 /* Fills blocks [rt_block_count]; the rule is rt_image_block's. Fails with RT_ERROR_MEMORY. */
-rt_status rt_compare_blocks(rt_image_block *blocks, const rt_pictures *pictures, uint32_t side, double tolerance,
-                            rt_error *error);
+rt_status rt_compare_blocks(rt_image_block *blocks, const rt_pictures *pictures, uint32_t side,
+                            double tolerance, rt_error *error);
 
 /*
- * The difference [pixel_count][3] that 95 % of the pixels do not exceed in the channel that differs most, to 1 %;
- * where that is 0, the largest. Fails with RT_ERROR_MEMORY.
+ * The difference [pixel_count][3] that 95 % of the pixels do not exceed in the channel that differs
+ * most, to 1 %; where that is 0, the largest. Fails with RT_ERROR_MEMORY.
  */
-rt_status rt_typical_difference(double *out, const float *difference, size_t pixel_count, rt_error *error);
+rt_status rt_typical_difference(double *out, const float *difference, size_t pixel_count,
+                                rt_error *error);
 
 #endif

@@ -1,4 +1,7 @@
-/* compare_blocks.c - whether pictures agree block by block within their noise, by the rule of rt_image_block. */
+/*
+ * compare_blocks.c - whether pictures agree block by block within their noise, by the rule of
+ * rt_image_block.
+ */
 #include <math.h>
 #include <stdlib.h>
 
@@ -18,7 +21,8 @@ size_t rt_block_count(const rt_pictures *pictures, uint32_t side)
 }
 
 /* The place and the size of a block. */
-static rt_image_block place_block(const rt_pictures *p, uint32_t side, uint32_t column, uint32_t row)
+static rt_image_block place_block(const rt_pictures *p, uint32_t side, uint32_t column,
+                                  uint32_t row)
 {
     rt_image_block b = {.x = column * side, .y = row * side, .width = side, .height = side};
     if (b.width > p->width - b.x)
@@ -33,7 +37,8 @@ static size_t value_index(const rt_pictures *p, uint32_t x, uint32_t y, uint32_t
     return 3 * ((size_t)y * p->width + x) + channel;
 }
 
-static double block_mean(const rt_pictures *p, const float *rgb, const rt_image_block *b, uint32_t channel)
+static double block_mean(const rt_pictures *p, const float *rgb, const rt_image_block *b,
+                         uint32_t channel)
 {
     double sum = 0.0;
     for (uint32_t y = b->y; y < b->y + b->height; y++)
@@ -43,8 +48,9 @@ static double block_mean(const rt_pictures *p, const float *rgb, const rt_image_
 }
 
 /*
- * V from the pixel differences: their variance about the plane that fits them best. On a full grid the constant
- * and the two centred coordinates are orthogonal, so that each is fitted by itself. NaN of too few pixels.
+ * V from the pixel differences: their variance about the plane that fits them best. On a full grid
+ * the constant and the two centred coordinates are orthogonal, so that each is fitted by itself.
+ * NaN of too few pixels.
  */
 static double variance_about_plane(const rt_pictures *p, const rt_image_block *b, uint32_t channel)
 {
@@ -78,7 +84,9 @@ static double variance_about_plane(const rt_pictures *p, const rt_image_block *b
 static double pixel_part(const rt_pictures *p, const rt_image_block *b, uint32_t channel)
 {
     double n = (double)b->width * b->height;
-    return (p->variance ? block_mean(p, p->variance, b, channel) : variance_about_plane(p, b, channel)) / n;
+    return (p->variance ? block_mean(p, p->variance, b, channel)
+                        : variance_about_plane(p, b, channel)) /
+           n;
 }
 
 /* ---- The scatter of several renders ------------------------------------------ */
@@ -111,16 +119,19 @@ static double scatter_around(double (*scatter)[3], uint32_t columns, uint32_t ro
 /* ---- The rule ----------------------------------------------------------------- */
 
 /* The standard error of a block's mean difference; NaN: unknown. */
-static double error_of_block(const rt_pictures *p, const rt_image_block *b, uint32_t channel, double scatter)
+static double error_of_block(const rt_pictures *p, const rt_image_block *b, uint32_t channel,
+                             double scatter)
 {
     double pixels = pixel_part(p, b, channel);
     int too_few = !p->variance && (double)b->width * b->height <= PLANE_PARAMETERS;
     return too_few && p->count > 1 ? sqrt(scatter) : sqrt(pixels + scatter);
 }
 
-static void judge(rt_image_block *b, const rt_pictures *p, uint32_t channel, double scatter, double tolerance)
+static void judge(rt_image_block *b, const rt_pictures *p, uint32_t channel, double scatter,
+                  double tolerance)
 {
-    double mean = block_mean(p, p->mean, b, channel), reference = block_mean(p, p->reference, b, channel);
+    double mean = block_mean(p, p->mean, b, channel),
+           reference = block_mean(p, p->reference, b, channel);
     double error = error_of_block(p, b, channel, scatter);
     /* An error that is not known allows nothing. */
     double allowed = fmax(tolerance * fabs(reference), ERRORS_ALLOWED * error);
@@ -135,8 +146,8 @@ static void judge(rt_image_block *b, const rt_pictures *p, uint32_t channel, dou
     b->excess[channel] = excess;
 }
 
-rt_status rt_compare_blocks(rt_image_block *blocks, const rt_pictures *p, uint32_t side, double tolerance,
-                            rt_error *error)
+rt_status rt_compare_blocks(rt_image_block *blocks, const rt_pictures *p, uint32_t side,
+                            double tolerance, rt_error *error)
 {
     size_t count = rt_block_count(p, side);
     uint32_t columns = rt_block_columns(p, side), rows = (uint32_t)(count / columns);
@@ -151,7 +162,8 @@ rt_status rt_compare_blocks(rt_image_block *blocks, const rt_pictures *p, uint32
     for (size_t i = 0; i < count; i++)
         for (uint32_t c = 0; c < 3; c++) {
             uint32_t column = (uint32_t)(i % columns), row = (uint32_t)(i / columns);
-            judge(&blocks[i], p, c, scatter_around(scatter, columns, rows, column, row, c), tolerance);
+            judge(&blocks[i], p, c, scatter_around(scatter, columns, rows, column, row, c),
+                  tolerance);
         }
     free(scatter);
     return RT_OK;

@@ -1,4 +1,7 @@
-/* difference.c - rt_comparison_write_difference: the signed difference of two pictures, as numbers or for the eye. */
+/*
+ * difference.c - rt_comparison_write_difference: the signed difference of two pictures, as numbers
+ * or for the eye.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +26,8 @@ static double largest(const float d[3])
     return found;
 }
 
-rt_status rt_typical_difference(double *out, const float *difference, size_t pixel_count, rt_error *error)
+rt_status rt_typical_difference(double *out, const float *difference, size_t pixel_count,
+                                rt_error *error)
 {
     size_t *counts = calloc(BINS, sizeof *counts), below = 0, finite = 0;
     if (!counts)
@@ -53,7 +57,10 @@ rt_status rt_typical_difference(double *out, const float *difference, size_t pix
     return RT_OK;
 }
 
-/* From white to red for a positive difference and to blue for a negative one, even steps of it in even sRGB steps. */
+/*
+ * From white to red for a positive difference and to blue for a negative one, even steps of it in
+ * even sRGB steps.
+ */
 static void colour_of(float rgb[3], double difference, double scale)
 {
     double share = difference == 0.0 ? 0.0 : fmin(fabs(difference) / scale, 1.0);
@@ -65,8 +72,8 @@ static void colour_of(float rgb[3], double difference, double scale)
         rgb[0] = rgb[1] = rgb[2] = 0.0f;
 }
 
-rt_status rt_comparison_write_difference(const rt_comparison *comparison, const char *path, double scale,
-                                         rt_error *error)
+rt_status rt_comparison_write_difference(const rt_comparison *comparison, const char *path,
+                                         double scale, rt_error *error)
 {
     if (rt_is_missing(comparison, "comparison", error))
         return RT_ERROR_USAGE;
@@ -74,10 +81,12 @@ rt_status rt_comparison_write_difference(const rt_comparison *comparison, const 
     rt_image_format format;
     rt_image *image = NULL;
     if (!isfinite(scale) || scale < 0.0)
-        return rt_fail_field(error, RT_ERROR_USAGE, "scale", "a difference of %g cannot be the full scale", scale);
+        return rt_fail_field(error, RT_ERROR_USAGE, "scale",
+                             "a difference of %g cannot be the full scale", scale);
     rt_status status = rt_image_format_of(&format, path, error);
     if (status == RT_OK)
-        status = rt_image_from_rgb(&image, comparison->difference, info->width, info->height, error);
+        status =
+            rt_image_from_rgb(&image, comparison->difference, info->width, info->height, error);
     if (status != RT_OK)
         return status;
     size_t pixel_count = (size_t)info->width * info->height;

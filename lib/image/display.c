@@ -39,14 +39,17 @@ static void aces(double rgb[3])
 static rt_status check_options(const rt_image_options *options, rt_error *error)
 {
     if (!isfinite(options->exposure))
-        return rt_fail_field(error, RT_ERROR_USAGE, "exposure", "the exposure is not a finite number");
+        return rt_fail_field(error, RT_ERROR_USAGE, "exposure",
+                             "the exposure is not a finite number");
     if (options->tonemap != RT_TONEMAP_NONE && options->tonemap != RT_TONEMAP_REINHARD &&
         options->tonemap != RT_TONEMAP_ACES)
-        return rt_fail_field(error, RT_ERROR_USAGE, "tonemap", "%d is no tone map", (int)options->tonemap);
+        return rt_fail_field(error, RT_ERROR_USAGE, "tonemap", "%d is no tone map",
+                             (int)options->tonemap);
     return RT_OK;
 }
 
-rt_status rt_display_rgb8(uint8_t **out, const rt_image *image, const rt_image_options *options, rt_error *error)
+rt_status rt_display_rgb8(uint8_t **out, const rt_image *image, const rt_image_options *options,
+                          rt_error *error)
 {
     uint32_t channels[3];
     rt_status status = check_options(options, error);
@@ -57,8 +60,8 @@ rt_status rt_display_rgb8(uint8_t **out, const rt_image *image, const rt_image_o
     size_t pixel_count = (size_t)image->width * image->height;
     uint8_t *rgb8 = pixel_count <= SIZE_MAX / 3 ? malloc(3 * pixel_count) : NULL;
     if (!rgb8)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: a picture of %ux%u pixels", image->width,
-                       image->height);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: a picture of %ux%u pixels",
+                       image->width, image->height);
 
     double scale = exp2(options->exposure);
     for (size_t i = 0; i < pixel_count; i++) {

@@ -9,6 +9,7 @@
  * first; the caller frees it. NaN and negative values are black, infinity is as bright as the
  * tone map gets. Fails with RT_ERROR_USAGE when a channel is missing or an option is out of range.
  */
-rt_status rt_display_rgb8(uint8_t **out, const rt_image *image, const rt_image_options *options, rt_error *error);
+rt_status rt_display_rgb8(uint8_t **out, const rt_image *image, const rt_image_options *options,
+                          rt_error *error);
 
 #endif

@@ -1,4 +1,7 @@
-/* exr_core.h - the header of OpenEXRCore, what it complains of, which it would print otherwise, and channels. */
+/*
+ * exr_core.h - the header of OpenEXRCore, what it complains of, which it would print otherwise, and
+ * channels.
+ */
 #ifndef RT_LIB_IMAGE_EXR_CORE_H
 #define RT_LIB_IMAGE_EXR_CORE_H
 
@@ -26,8 +29,8 @@ void rt_exr_on_error(exr_const_context_t context, exr_result_t code, const char 
 const char *rt_exr_reason(const rt_exr_message *message, exr_result_t code);
 
 /*
- * Tells a pipeline's channel how the image holds it; returns which one of the image's it is, by its name, or
- * RT_IMAGE_NO_CHANNEL.
+ * Tells a pipeline's channel how the image holds it; returns which one of the image's it is, by its
+ * name, or RT_IMAGE_NO_CHANNEL.
  */
 uint32_t rt_exr_lay_out(exr_coding_channel_info_t *channel, const rt_image *image);
 

@@ -20,8 +20,8 @@ typedef struct reader {
     rt_image *image;
 } reader;
 
-static int64_t on_read(exr_const_context_t context, void *user, void *buffer, uint64_t size, uint64_t offset,
-                       exr_stream_error_func_ptr_t fail)
+static int64_t on_read(exr_const_context_t context, void *user, void *buffer, uint64_t size,
+                       uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
     const rt_bytes *file = ((source *)user)->file;
     if (offset > file->size) {
@@ -99,12 +99,14 @@ static rt_status read_attributes(reader *r, rt_error *error)
         return fail_input(r, "the header has no attributes", error);
     for (int32_t i = 0; i < count; i++) {
         const exr_attribute_t *attribute = NULL;
-        if (exr_get_attribute_by_index(r->context, 0, EXR_ATTR_LIST_FILE_ORDER, i, &attribute) != EXR_ERR_SUCCESS)
+        if (exr_get_attribute_by_index(r->context, 0, EXR_ATTR_LIST_FILE_ORDER, i, &attribute) !=
+            EXR_ERR_SUCCESS)
             return fail_input(r, "an attribute cannot be read", error);
-        if (attribute->type != EXR_ATTR_STRING || !attribute->string->str || strcmp(attribute->name, "type") == 0 ||
-            strcmp(attribute->name, "name") == 0)
+        if (attribute->type != EXR_ATTR_STRING || !attribute->string->str ||
+            strcmp(attribute->name, "type") == 0 || strcmp(attribute->name, "name") == 0)
             continue;
-        rt_status status = rt_image_set_attribute(r->image, attribute->name, attribute->string->str, error);
+        rt_status status =
+            rt_image_set_attribute(r->image, attribute->name, attribute->string->str, error);
         if (status != RT_OK)
             return status;
     }
@@ -115,8 +117,8 @@ static rt_status read_attributes(reader *r, rt_error *error)
  * Decodes one chunk to the image, from pixel (x, y) on. The library sorts channels by name, so
  * each is found by its name and never by its place.
  */
-static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline, const exr_chunk_info_t *chunk, uint32_t x,
-                               uint32_t y, int is_first)
+static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline,
+                               const exr_chunk_info_t *chunk, uint32_t x, uint32_t y, int is_first)
 {
     rt_image *image = r->image;
     float *corner = image->data + ((size_t)y * image->width + x) * image->channel_count;
@@ -165,7 +167,8 @@ static exr_result_t read_tiles(reader *r, exr_decode_pipeline_t *pipeline)
     for (int64_t y = 0; code == EXR_ERR_SUCCESS && y < height; y += tile_height)
         for (int64_t x = 0; code == EXR_ERR_SUCCESS && x < width; x += tile_width) {
             exr_chunk_info_t chunk;
-            code = exr_read_tile_chunk_info(r->context, 0, (int)(x / tile_width), (int)(y / tile_height), 0, 0, &chunk);
+            code = exr_read_tile_chunk_info(r->context, 0, (int)(x / tile_width),
+                                            (int)(y / tile_height), 0, 0, &chunk);
             if (code == EXR_ERR_SUCCESS)
                 code = read_chunk(r, pipeline, &chunk, (uint32_t)x, (uint32_t)y, x == 0 && y == 0);
         }
@@ -183,7 +186,8 @@ static rt_status read_image(reader *r, const source *s, rt_error *error)
     if (status != RT_OK)
         return status;
     exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
-    exr_result_t code = storage == EXR_STORAGE_TILED ? read_tiles(r, &pipeline) : read_scanlines(r, &pipeline);
+    exr_result_t code =
+        storage == EXR_STORAGE_TILED ? read_tiles(r, &pipeline) : read_scanlines(r, &pipeline);
     exr_decoding_destroy(r->context, &pipeline);
     if (code == EXR_ERR_SUCCESS)
         return RT_OK;

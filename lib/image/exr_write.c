@@ -13,8 +13,8 @@ typedef struct sink {
     rt_bytes bytes;
 } sink;
 
-static int64_t on_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
-                        exr_stream_error_func_ptr_t fail)
+static int64_t on_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size,
+                        uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
     sink *s = user;
     if (size <= SIZE_MAX && rt_bytes_put(&s->bytes, offset, buffer, (size_t)size, NULL) == RT_OK)
@@ -41,12 +41,14 @@ static exr_result_t write_header(exr_context_t context, const rt_image *image)
     if (code == EXR_ERR_SUCCESS)
         code = exr_add_part(context, NULL, EXR_STORAGE_SCANLINE, &part);
     if (code == EXR_ERR_SUCCESS)
-        code = exr_initialize_required_attr_simple(context, part, (int32_t)image->width, (int32_t)image->height,
-                                                   EXR_COMPRESSION_ZIP);
+        code = exr_initialize_required_attr_simple(context, part, (int32_t)image->width,
+                                                   (int32_t)image->height, EXR_COMPRESSION_ZIP);
     for (uint32_t i = 0; code == EXR_ERR_SUCCESS && i < image->channel_count; i++)
-        code = exr_add_channel(context, part, image->names[i], EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+        code = exr_add_channel(context, part, image->names[i], EXR_PIXEL_FLOAT,
+                               EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     for (size_t i = 0; code == EXR_ERR_SUCCESS && i < image->attribute_count; i++)
-        code = exr_attr_set_string(context, part, image->attributes[i].name, image->attributes[i].value);
+        code = exr_attr_set_string(context, part, image->attributes[i].name,
+                                   image->attributes[i].value);
     return code == EXR_ERR_SUCCESS ? exr_write_header(context) : code;
 }
 
@@ -54,7 +56,8 @@ static exr_result_t write_header(exr_context_t context, const rt_image *image)
  * Points every channel of the pipeline to row y of the image. The library sorts channels by
  * name, so each is found by its name and never by its place.
  */
-static exr_result_t bind_channels(exr_encode_pipeline_t *pipeline, const rt_image *image, uint32_t y)
+static exr_result_t bind_channels(exr_encode_pipeline_t *pipeline, const rt_image *image,
+                                  uint32_t y)
 {
     const float *row = image->data + (size_t)y * image->width * image->channel_count;
     for (int i = 0; i < pipeline->channel_count; i++) {
@@ -72,8 +75,9 @@ typedef struct compressor {
 } compressor;
 
 /*
- * The compression that OpenEXRCore chose, and one fault of it mended: where what it made is exactly as long as the
- * pixels, the file must hold the pixels, for equal lengths tell a reader that a chunk is not compressed.
+ * The compression that OpenEXRCore chose, and one fault of it mended: where what it made is exactly
+ * as long as the pixels, the file must hold the pixels, for equal lengths tell a reader that a
+ * chunk is not compressed.
  */
 static exr_result_t compress(exr_encode_pipeline_t *pipeline)
 {
@@ -84,8 +88,8 @@ static exr_result_t compress(exr_encode_pipeline_t *pipeline)
     return code;
 }
 
-static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *pipeline, const rt_image *image,
-                                uint32_t y, compressor *chosen)
+static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *pipeline,
+                                const rt_image *image, uint32_t y, compressor *chosen)
 {
     exr_chunk_info_t chunk;
     exr_result_t code = exr_write_scanline_chunk_info(context, 0, (int)y, &chunk);
@@ -140,6 +144,6 @@ rt_status rt_exr_encode(rt_bytes *out, const rt_image *image, rt_error *error)
         return RT_OK;
     }
     rt_bytes_free(&s.bytes);
-    return rt_fail(error, code == EXR_ERR_OUT_OF_MEMORY ? RT_ERROR_MEMORY : RT_ERROR_OUTPUT, "cannot encode EXR: %s",
-                   rt_exr_reason(&s.message, code));
+    return rt_fail(error, code == EXR_ERR_OUT_OF_MEMORY ? RT_ERROR_MEMORY : RT_ERROR_OUTPUT,
+                   "cannot encode EXR: %s", rt_exr_reason(&s.message, code));
 }

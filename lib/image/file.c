@@ -15,12 +15,14 @@
 #define NAME_TRIES 1000u
 
 /* Reports errno for path. The precision keeps the cause in the message, however long the path. */
-static rt_status fail_errno(rt_error *error, rt_status status, const char *verb, const char *path, int code)
+static rt_status fail_errno(rt_error *error, rt_status status, const char *verb, const char *path,
+                            int code)
 {
     char cause[128];
     if (strerror_r(code, cause, sizeof cause) != 0)
         snprintf(cause, sizeof cause, "error %d", code);
-    return rt_at_file(rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause), path, error);
+    return rt_at_file(rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause), path,
+                      error);
 }
 
 /* Reads on until there are `most` bytes, or to the end of the file. */
@@ -48,7 +50,8 @@ static rt_status read_all(rt_bytes *bytes, int fd, const char *path, size_t limi
 {
     rt_status status = read_up_to(bytes, fd, path, limit + 1, error);
     if (status == RT_OK && bytes->size > limit)
-        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is larger than %zu bytes", path, limit);
+        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is larger than %zu bytes",
+                       path, limit);
     return status;
 }
 
@@ -73,25 +76,31 @@ rt_status rt_file_check_regular(const char *path, rt_error *error)
 {
     struct stat info;
     if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
-        return rt_at_file(rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is not a regular file", path), path,
-                          error);
+        return rt_at_file(
+            rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is not a regular file", path),
+            path, error);
     return RT_OK;
 }
 
-/* Says by how much a file is longer than its start tells, where that can be known without reading on. */
+/*
+ * Says by how much a file is longer than its start tells, where that can be known without reading
+ * on.
+ */
 static rt_status fail_longer(int fd, const char *path, uint64_t told, rt_error *error)
 {
     struct stat info;
     if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && (uint64_t)info.st_size > told)
-        return rt_fail(error, RT_ERROR_INPUT,
-                       "cannot read %.350s: it has %llu bytes more than the %llu that its header announces", path,
-                       (unsigned long long)((uint64_t)info.st_size - told), (unsigned long long)told);
+        return rt_fail(
+            error, RT_ERROR_INPUT,
+            "cannot read %.350s: it has %llu bytes more than the %llu that its header announces",
+            path, (unsigned long long)((uint64_t)info.st_size - told), (unsigned long long)told);
     return rt_fail(error, RT_ERROR_INPUT,
-                   "cannot read %.350s: it has more bytes than the %llu that its header announces", path,
-                   (unsigned long long)told);
+                   "cannot read %.350s: it has more bytes than the %llu that its header announces",
+                   path, (unsigned long long)told);
 }
 
-rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell, rt_error *error)
+rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell,
+                            rt_error *error)
 {
     if (rt_is_missing(path, "path", error))
         return RT_ERROR_USAGE;
@@ -104,7 +113,8 @@ rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_fi
     if (status == RT_OK)
         status = tell(&told, bytes.data, bytes.size, path, error);
     if (status == RT_OK)
-        status = read_up_to(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told + 1 : SIZE_MAX / 2, error);
+        status = read_up_to(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told + 1 : SIZE_MAX / 2,
+                            error);
     if (status == RT_OK && bytes.size > told)
         status = fail_longer(fd, path, told, error);
     close(fd);
@@ -133,7 +143,9 @@ static int write_all(int fd, const rt_bytes *bytes)
 
 static int close_file(int fd)
 {
-    /* After EINTR the descriptor is gone on Linux, and fsync already told whether the data is safe. */
+    /*
+     * After EINTR the descriptor is gone on Linux, and fsync already told whether the data is safe.
+     */
     return close(fd) != 0 && errno != EINTR ? errno : 0;
 }
 
@@ -156,7 +168,8 @@ static int open_temporary(int *fd, char *name, size_t name_size, const char *tar
     const char *slash = strrchr(target, '/');
     int directory_length = slash ? (int)(slash - target) + 1 : 0;
     for (unsigned i = 0; i < NAME_TRIES; i++) {
-        int length = snprintf(name, name_size, "%.*s.rt-%ld-%u.tmp", directory_length, target, (long)getpid(), i);
+        int length = snprintf(name, name_size, "%.*s.rt-%ld-%u.tmp", directory_length, target,
+                              (long)getpid(), i);
         if (length < 0 || (size_t)length >= name_size)
             return ENAMETOOLONG;
         *fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -168,7 +181,10 @@ static int open_temporary(int *fd, char *name, size_t name_size, const char *tar
     return EEXIST;
 }
 
-/* Writes a temporary file and renames it to target; `old` is target's status or NULL when it is new. */
+/*
+ * Writes a temporary file and renames it to target; `old` is target's status or NULL when it is
+ * new.
+ */
 static int replace(const char *target, const struct stat *old, const rt_bytes *bytes)
 {
     char name[PATH_MAX];

@@ -1,12 +1,15 @@
 /*
- * References:
- * P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. Fairchild, "FLIP: A Difference
- *   Evaluator for Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2),
- *   2020. The sections named below are the paper's; so is the viewer, 0.7 m before a display 0.7 m and 3840 pixels
+ * References: P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. Fairchild,
+ * "FLIP: A Difference
+ *   Evaluator for Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive
+ *     Techniques 3(2),
+ *   2020. The sections named below are the paper's; so is the viewer, 0.7 m before a display 0.7 m
+ *     and 3840 pixels
  *   wide.
  * IEC 61966-2-1:1999, for the primaries of sRGB; CIE 15, for L*a*b*.
  *
- * The picture is worked on in tiles, so that memory is bounded: each is read with a margin as wide as the filters.
+ * The picture is worked on in tiles, so that memory is bounded: each is read with a margin as wide
+ * as the filters.
  */
 #include "image/flip.h"
 
@@ -24,7 +27,10 @@ enum {
     WIDE = TILE + 2 * RADIUS /* a tile with its margin */
 };
 
-/* A filter along one axis; weights sum to 1, of the derivatives the positive ones to 1 and the negative to -1. */
+/*
+ * A filter along one axis; weights sum to 1, of the derivatives the positive ones to 1 and the
+ * negative to -1.
+ */
 typedef struct taps {
     double weight[TAPS];
 } taps;
@@ -36,18 +42,24 @@ typedef struct filters {
     taps smooth, edge, point; /* feature detection, section 4.2: a Gaussian and its derivatives */
 } filters;
 
-/* What is made of one of the pictures in a tile; in double, for the root of a small difference of features counts. */
+/*
+ * What is made of one of the pictures in a tile; in double, for the root of a small difference of
+ * features counts.
+ */
 typedef struct view {
     double opponent[3][WIDE * WIDE]; /* YCxCz */
     double rows[WIDE * TILE];        /* filtered across, not yet down */
     double part[TILE * TILE];
-    double colour[3][TILE * TILE];   /* filtered; then L*a*b* with the Hunt effect */
+    double colour[3][TILE * TILE]; /* filtered; then L*a*b* with the Hunt effect */
     double edge[2][TILE * TILE], point[2][TILE * TILE]; /* derivatives across and down */
 } view;
 
 /* ---- Filters ------------------------------------------------------------------ */
 
-/* exp(-x^2 / (2 deviation^2)), x and deviation in pixels, with weights that sum to 1; returns their sum before. */
+/*
+ * exp(-x^2 / (2 deviation^2)), x and deviation in pixels, with weights that sum to 1; returns their
+ * sum before.
+ */
 static double set_gaussian(taps *out, double deviation)
 {
     double weights[TAPS], sum = 0.0;
@@ -66,7 +78,9 @@ static void set_derivative(taps *out, double deviation, int order)
     double weights[TAPS], positive = 0.0, negative = 0.0;
     for (int i = 0; i < TAPS; i++) {
         double x = (i - RADIUS) / deviation, g = exp(-0.5 * x * x);
-        weights[i] = abs(i - RADIUS) > ceil(3.0 * deviation) ? 0.0 : order == 1 ? -x * g : (x * x - 1.0) * g;
+        weights[i] = abs(i - RADIUS) > ceil(3.0 * deviation) ? 0.0
+                     : order == 1                            ? -x * g
+                                                             : (x * x - 1.0) * g;
         positive += fmax(weights[i], 0.0);
         negative -= fmin(weights[i], 0.0);
     }
@@ -80,7 +94,9 @@ static double deviation_of(double b)
     return sqrt(b / 2.0) / PI * PIXELS_PER_DEGREE;
 }
 
-/* Table 1 of the paper: a sqrt(pi / b) exp(-pi^2 d^2 / b); of blue and yellow the sum of two such. */
+/*
+ * Table 1 of the paper: a sqrt(pi / b) exp(-pi^2 d^2 / b); of blue and yellow the sum of two such.
+ */
 static void set_filters(filters *f)
 {
     static const double a[2] = {34.1, 13.5}, b[2] = {0.04, 0.025};
@@ -99,8 +115,8 @@ static void set_filters(filters *f)
 }
 
 /* Filters a tile with its margin across and down. */
-static void convolve(double out[TILE * TILE], const double in[WIDE * WIDE], const taps *across, const taps *down,
-                     double rows[WIDE * TILE])
+static void convolve(double out[TILE * TILE], const double in[WIDE * WIDE], const taps *across,
+                     const taps *down, double rows[WIDE * TILE])
 {
     for (int y = 0; y < WIDE; y++) {
         double *row = rows + y * TILE;
@@ -161,7 +177,8 @@ static void rgb_of_opponent(double out[3], const double opponent[3])
     for (int i = 0; i < 3; i++)
         xyz[i] *= xyz_of_rgb[i][0] + xyz_of_rgb[i][1] + xyz_of_rgb[i][2];
     for (int i = 0; i < 3; i++)
-        out[i] = clamp(rgb_of_xyz[i][0] * xyz[0] + rgb_of_xyz[i][1] * xyz[1] + rgb_of_xyz[i][2] * xyz[2]);
+        out[i] = clamp(rgb_of_xyz[i][0] * xyz[0] + rgb_of_xyz[i][1] * xyz[1] +
+                       rgb_of_xyz[i][2] * xyz[2]);
 }
 
 static double lab_root(double t)
@@ -190,8 +207,8 @@ static double colour_distance(const double a[3], const double b[3])
 /* ---- A tile ------------------------------------------------------------------------ */
 
 /* Reads a tile at (x0, y0) with its margin; over the border the picture goes on as its edge is. */
-static void read_tile(view *v, const float *rgb, uint32_t width, uint32_t height, uint32_t x0, uint32_t y0,
-                      double scale)
+static void read_tile(view *v, const float *rgb, uint32_t width, uint32_t height, uint32_t x0,
+                      uint32_t y0, double scale)
 {
     for (int j = 0; j < WIDE; j++)
         for (int i = 0; i < WIDE; i++) {
@@ -199,7 +216,9 @@ static void read_tile(view *v, const float *rgb, uint32_t width, uint32_t height
             x = x < 0 ? 0 : x < width ? x : (int64_t)width - 1;
             y = y < 0 ? 0 : y < height ? y : (int64_t)height - 1;
             const float *pixel = rgb + 3 * ((size_t)y * width + (size_t)x);
-            double shown[3] = {clamp(scale * pixel[0]), clamp(scale * pixel[1]), clamp(scale * pixel[2])}, opponent[3];
+            double shown[3] = {clamp(scale * pixel[0]), clamp(scale * pixel[1]),
+                               clamp(scale * pixel[2])},
+                   opponent[3];
             opponent_of_rgb(opponent, shown);
             for (int c = 0; c < 3; c++)
                 v->opponent[c][j * WIDE + i] = opponent[c];
@@ -214,7 +233,8 @@ static void see_colours(view *v, const filters *f)
     convolve(v->colour[2], v->opponent[2], &f->blue_yellow[0], &f->blue_yellow[0], v->rows);
     convolve(v->part, v->opponent[2], &f->blue_yellow[1], &f->blue_yellow[1], v->rows);
     for (int i = 0; i < TILE * TILE; i++) {
-        double mixed = f->blue_yellow_share[0] * v->colour[2][i] + f->blue_yellow_share[1] * v->part[i];
+        double mixed =
+            f->blue_yellow_share[0] * v->colour[2][i] + f->blue_yellow_share[1] * v->part[i];
         double opponent[3] = {v->colour[0][i], v->colour[1][i], mixed}, rgb[3], lab[3];
         rgb_of_opponent(rgb, opponent);
         hunt_lab_of_rgb(lab, rgb);
@@ -223,7 +243,10 @@ static void see_colours(view *v, const filters *f)
     }
 }
 
-/* Edges and points of the achromatic channel; that it is 116 times too large is undone where they are compared. */
+/*
+ * Edges and points of the achromatic channel; that it is 116 times too large is undone where they
+ * are compared.
+ */
 static void see_features(view *v, const filters *f)
 {
     convolve(v->edge[0], v->opponent[0], &f->edge, &f->smooth, v->rows);
@@ -246,7 +269,8 @@ static double pixel_difference(view v[2], int i, double largest)
     double distance = colour_distance(a, b), knee = 0.4 * largest;
     double colour = distance < knee ? 0.95 * distance / knee
                                     : 0.95 + 0.05 * (distance - knee) / (largest - knee);
-    double edge = feature_difference(v[0].edge, v[1].edge, i), point = feature_difference(v[0].point, v[1].point, i);
+    double edge = feature_difference(v[0].edge, v[1].edge, i),
+           point = feature_difference(v[0].point, v[1].point, i);
     return pow(colour, 1.0 - sqrt(fmax(edge, point) / sqrt(2.0)));
 }
 
@@ -260,15 +284,16 @@ static double largest_distance(void)
     return colour_distance(a, b);
 }
 
-rt_status rt_flip(double *out, const float *a, const float *b, uint32_t width, uint32_t height, double exposure,
-                  rt_error *error)
+rt_status rt_flip(double *out, const float *a, const float *b, uint32_t width, uint32_t height,
+                  double exposure, rt_error *error)
 {
     const float *pictures[2] = {a, b};
     double sum = 0.0, scale = exp2(exposure), largest = largest_distance();
     filters f;
     view *views = malloc(2 * sizeof *views);
     if (!views)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: two tiles of %dx%d pixels", WIDE, WIDE);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: two tiles of %dx%d pixels", WIDE,
+                       WIDE);
     set_filters(&f);
     for (uint32_t y0 = 0; y0 < height; y0 += TILE)
         for (uint32_t x0 = 0; x0 < width; x0 += TILE) {

@@ -3,16 +3,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static rt_status check_size(uint32_t width, uint32_t height, uint32_t channel_count, rt_error *error)
+static rt_status check_size(uint32_t width, uint32_t height, uint32_t channel_count,
+                            rt_error *error)
 {
     if (width == 0 || height == 0)
-        return rt_fail(error, RT_ERROR_USAGE, "an image of %ux%u pixels has no pixels", width, height);
+        return rt_fail(error, RT_ERROR_USAGE, "an image of %ux%u pixels has no pixels", width,
+                       height);
     if (width > RT_IMAGE_SIDE_MAX || height > RT_IMAGE_SIDE_MAX)
-        return rt_fail(error, RT_ERROR_USAGE, "an image of %ux%u pixels is too large: at most %u a side", width,
-                       height, RT_IMAGE_SIDE_MAX);
+        return rt_fail(error, RT_ERROR_USAGE,
+                       "an image of %ux%u pixels is too large: at most %u a side", width, height,
+                       RT_IMAGE_SIDE_MAX);
     if (channel_count == 0 || channel_count > RT_IMAGE_CHANNELS_MAX)
-        return rt_fail(error, RT_ERROR_USAGE, "an image has 1 to %u channels, not %u", RT_IMAGE_CHANNELS_MAX,
-                       channel_count);
+        return rt_fail(error, RT_ERROR_USAGE, "an image has 1 to %u channels, not %u",
+                       RT_IMAGE_CHANNELS_MAX, channel_count);
     return RT_OK;
 }
 
@@ -24,7 +27,8 @@ static rt_status check_names(const char *const *names, uint32_t count, rt_error 
                            RT_IMAGE_NAME_SIZE - 1, names[i]);
         for (uint32_t j = 0; j < i; j++)
             if (strcmp(names[i], names[j]) == 0)
-                return rt_fail(error, RT_ERROR_USAGE, "two channels have the name '%.40s'", names[i]);
+                return rt_fail(error, RT_ERROR_USAGE, "two channels have the name '%.40s'",
+                               names[i]);
     }
     return RT_OK;
 }
@@ -42,12 +46,14 @@ rt_status rt_image_create(rt_image **out, uint32_t width, uint32_t height, const
     rt_image *image = calloc(1, sizeof *image);
     if (image) {
         image->names = calloc(channel_count, sizeof *image->names);
-        image->data = values <= SIZE_MAX / sizeof(float) ? calloc((size_t)values, sizeof(float)) : NULL;
+        image->data =
+            values <= SIZE_MAX / sizeof(float) ? calloc((size_t)values, sizeof(float)) : NULL;
     }
     if (!image || !image->names || !image->data) {
         rt_image_destroy(image);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: an image of %ux%u pixels and %u channels", width,
-                       height, channel_count);
+        return rt_fail(error, RT_ERROR_MEMORY,
+                       "out of memory: an image of %ux%u pixels and %u channels", width, height,
+                       channel_count);
     }
     image->width = width;
     image->height = height;
@@ -99,7 +105,8 @@ static rt_image_attribute *find_attribute(const rt_image *image, const char *nam
 
 static rt_image_attribute *add_attribute(rt_image *image, const char *name)
 {
-    rt_image_attribute *grown = realloc(image->attributes, (image->attribute_count + 1) * sizeof *grown);
+    rt_image_attribute *grown =
+        realloc(image->attributes, (image->attribute_count + 1) * sizeof *grown);
     if (!grown)
         return NULL;
     image->attributes = grown;
@@ -109,7 +116,8 @@ static rt_image_attribute *add_attribute(rt_image *image, const char *name)
     return attribute;
 }
 
-rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *value, rt_error *error)
+rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *value,
+                                 rt_error *error)
 {
     if (name[0] == '\0' || strlen(name) >= RT_IMAGE_NAME_SIZE)
         return rt_fail(error, RT_ERROR_USAGE, "an attribute's name has 1 to %u bytes: '%.40s'",

@@ -1,9 +1,9 @@
 /*
  * image.h - the inside of an rt_image: named float channels and text attributes.
  *
- * Colour channels are named R, G, B and hold linear sRGB, or codes of the sRGB transfer function where
- * is_srgb says so; grey alone is named Y. A channel of a further layer is named LAYER.CHANNEL, such as
- * albedo.R or depth.Z.
+ * Colour channels are named R, G, B and hold linear sRGB, or codes of the sRGB transfer function
+ * where is_srgb says so; grey alone is named Y. A channel of a further layer is named
+ * LAYER.CHANNEL, such as albedo.R or depth.Z.
  */
 #ifndef RT_LIB_IMAGE_IMAGE_H
 #define RT_LIB_IMAGE_IMAGE_H
@@ -15,7 +15,8 @@
 
 #define RT_IMAGE_SIDE_MAX 65536u
 #define RT_IMAGE_CHANNELS_MAX 256u
-#define RT_IMAGE_VALUES_MAX (UINT64_C(1) << 30) /* most pixels times channels that are read: 4 GiB of floats */
+#define RT_IMAGE_VALUES_MAX                                                                        \
+    (UINT64_C(1) << 30)         /* most pixels times channels that are read: 4 GiB of floats */
 #define RT_IMAGE_NAME_SIZE 256u /* with the closing zero; what the EXR format allows */
 #define RT_IMAGE_NO_CHANNEL UINT32_MAX
 
@@ -26,10 +27,12 @@ typedef struct rt_image_attribute {
 
 struct rt_image {
     uint32_t width, height, channel_count;
-    char (*names)[RT_IMAGE_NAME_SIZE]; /* [channel_count], all different, in the order of the data */
-    int is_srgb;                       /* values are sRGB codes from 0 to 1, as 8- and 16-bit files hold */
-    float *data;                       /* [height][width][channel_count], top row first */
-    rt_image_attribute *attributes;    /* [attribute_count], in the order in which they were set */
+    /* [channel_count], all different, in the order of the data */
+    char (*names)[RT_IMAGE_NAME_SIZE];
+    /* values are sRGB codes from 0 to 1, as 8- and 16-bit files hold */
+    int is_srgb;
+    float *data;                    /* [height][width][channel_count], top row first */
+    rt_image_attribute *attributes; /* [attribute_count], in the order in which they were set */
     size_t attribute_count;
 };
 
@@ -50,7 +53,8 @@ rt_status rt_image_rgb_channels(uint32_t rgb[3], const rt_image *image, rt_error
 int rt_image_has_layer(const rt_image *image, const char *layer);
 
 /* Sets a text attribute, replacing one of that name; value is copied. */
-rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *value, rt_error *error);
+rt_status rt_image_set_attribute(rt_image *image, const char *name, const char *value,
+                                 rt_error *error);
 
 /* The value of a text attribute, owned by the image, or NULL. */
 const char *rt_image_attribute_value(const rt_image *image, const char *name);

@@ -17,7 +17,10 @@ rt_status rt_image_format_of(rt_image_format *out, const char *path, rt_error *e
     static const struct {
         const char *extension;
         rt_image_format format;
-    } known[] = {{".exr", RT_IMAGE_EXR}, {".png", RT_IMAGE_PNG}, {".ppm", RT_IMAGE_PPM}, {".pfm", RT_IMAGE_PFM}};
+    } known[] = {{".exr", RT_IMAGE_EXR},
+                 {".png", RT_IMAGE_PNG},
+                 {".ppm", RT_IMAGE_PPM},
+                 {".pfm", RT_IMAGE_PFM}};
     const char *slash = strrchr(path, '/');
     const char *dot = strrchr(slash ? slash : path, '.');
     for (size_t i = 0; dot && i < sizeof known / sizeof known[0]; i++)
@@ -25,22 +28,28 @@ rt_status rt_image_format_of(rt_image_format *out, const char *path, rt_error *e
             *out = known[i].format;
             return RT_OK;
         }
-    return rt_fail(error, RT_ERROR_USAGE, "'%.350s' does not end in .exr, .png, .ppm or .pfm", path);
+    return rt_fail(error, RT_ERROR_USAGE, "'%.350s' does not end in .exr, .png, .ppm or .pfm",
+                   path);
 }
 
-static rt_status encode(rt_bytes *out, const rt_image *image, rt_image_format format, const rt_image_options *options,
-                        rt_error *error)
+static rt_status encode(rt_bytes *out, const rt_image *image, rt_image_format format,
+                        const rt_image_options *options, rt_error *error)
 {
     switch (format) {
-    case RT_IMAGE_EXR: return rt_exr_encode(out, image, error);
-    case RT_IMAGE_PNG: return rt_png_encode(out, image, options, error);
-    case RT_IMAGE_PPM: return rt_ppm_encode(out, image, options, error);
-    case RT_IMAGE_PFM: return rt_pfm_encode(out, image, error);
+    case RT_IMAGE_EXR:
+        return rt_exr_encode(out, image, error);
+    case RT_IMAGE_PNG:
+        return rt_png_encode(out, image, options, error);
+    case RT_IMAGE_PPM:
+        return rt_ppm_encode(out, image, options, error);
+    case RT_IMAGE_PFM:
+        return rt_pfm_encode(out, image, error);
     }
     return rt_fail(error, RT_ERROR_USAGE, "%d is no image format", (int)format);
 }
 
-rt_status rt_image_write(const rt_image *image, const char *path, const rt_image_options *options, rt_error *error)
+rt_status rt_image_write(const rt_image *image, const char *path, const rt_image_options *options,
+                         rt_error *error)
 {
     if (rt_is_missing(image, "image", error))
         return RT_ERROR_USAGE;

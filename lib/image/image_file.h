@@ -4,9 +4,16 @@
 
 #include "image/image.h"
 
-typedef enum rt_image_format { RT_IMAGE_EXR, RT_IMAGE_PNG, RT_IMAGE_PPM, RT_IMAGE_PFM } rt_image_format;
+typedef enum rt_image_format {
+    RT_IMAGE_EXR,
+    RT_IMAGE_PNG,
+    RT_IMAGE_PPM,
+    RT_IMAGE_PFM
+} rt_image_format;
 
-/* The format of a file by its extension, in either case. Fails with RT_ERROR_USAGE for any other. */
+/*
+ * The format of a file by its extension, in either case. Fails with RT_ERROR_USAGE for any other.
+ */
 rt_status rt_image_format_of(rt_image_format *out, const char *path, rt_error *error);
 
 #endif

@@ -5,7 +5,8 @@
 #include "image/image.h"
 #include "image/srgb.h"
 
-rt_status rt_image_from_rgb(rt_image **out, const float *rgb, uint32_t width, uint32_t height, rt_error *error)
+rt_status rt_image_from_rgb(rt_image **out, const float *rgb, uint32_t width, uint32_t height,
+                            rt_error *error)
 {
     static const char *const names[3] = {"R", "G", "B"};
     rt_image *image = NULL;
@@ -44,7 +45,10 @@ static uint32_t find_in_layer(const rt_image *image, const char *layer, const ch
     return RT_IMAGE_NO_CHANNEL;
 }
 
-/* The channel called as the layer, or its grey channel Y, or the only one that it has, or RT_IMAGE_NO_CHANNEL. */
+/*
+ * The channel called as the layer, or its grey channel Y, or the only one that it has, or
+ * RT_IMAGE_NO_CHANNEL.
+ */
 static uint32_t find_single(const rt_image *image, const char *layer)
 {
     uint32_t found = layer ? rt_image_channel(image, layer) : RT_IMAGE_NO_CHANNEL;
@@ -85,9 +89,11 @@ static rt_status fail_layer(const rt_image *image, const char *layer, rt_error *
         snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", image->names[i]);
     }
     if (layer)
-        return rt_fail_field(error, RT_ERROR_INPUT, "layer", "no layer '%.60s' of colours or of one channel among %s",
-                             layer, names);
-    return rt_fail(error, RT_ERROR_INPUT, "no picture, of R, G and B or of one channel, among %s", names);
+        return rt_fail_field(error, RT_ERROR_INPUT, "layer",
+                             "no layer '%.60s' of colours or of one channel among %s", layer,
+                             names);
+    return rt_fail(error, RT_ERROR_INPUT, "no picture, of R, G and B or of one channel, among %s",
+                   names);
 }
 
 int rt_image_has_layer(const rt_image *image, const char *layer)

@@ -24,7 +24,8 @@ static float load(const uint8_t bytes[4], int is_little_endian)
     return value;
 }
 
-static rt_status put_rows(rt_bytes *bytes, const rt_image *image, const uint32_t rgb[3], uint8_t *row, rt_error *error)
+static rt_status put_rows(rt_bytes *bytes, const rt_image *image, const uint32_t rgb[3],
+                          uint8_t *row, rt_error *error)
 {
     rt_status status = RT_OK;
     /* The bottom row comes first. */
@@ -73,7 +74,10 @@ static int is_space(uint8_t c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/* Reads the next word at *at and the one white space behind it; 0 when there is none or it is too long. */
+/*
+ * Reads the next word at *at and the one white space behind it; 0 when there is none or it is too
+ * long.
+ */
 static int next_token(char token[TOKEN_SIZE], size_t *at, const rt_bytes *file)
 {
     size_t length = 0, i = *at;
@@ -124,8 +128,9 @@ static int parse_header(header *h, const rt_bytes *file)
         h->channel_count = 1;
     else
         return 0;
-    if (!next_token(token, &at, file) || !parse_side(&h->width, token) || !next_token(token, &at, file) ||
-        !parse_side(&h->height, token) || !next_token(token, &at, file) || !parse_scale(&h->is_little_endian, token))
+    if (!next_token(token, &at, file) || !parse_side(&h->width, token) ||
+        !next_token(token, &at, file) || !parse_side(&h->height, token) ||
+        !next_token(token, &at, file) || !parse_scale(&h->is_little_endian, token))
         return 0;
     h->size = at;
     return 1;
@@ -136,15 +141,18 @@ rt_status rt_pfm_decode(rt_image **out, const rt_bytes *file, const char *name, 
     static const char *const rgb[3] = {"R", "G", "B"}, *const grey[1] = {"Y"};
     header h;
     if (!parse_header(&h, file))
-        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: its PFM header is damaged", name);
-    uint64_t expected = (uint64_t)h.width * h.height * h.channel_count * 4, found = file->size - h.size;
+        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: its PFM header is damaged",
+                       name);
+    uint64_t expected = (uint64_t)h.width * h.height * h.channel_count * 4,
+             found = file->size - h.size;
     if (found != expected)
-        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: %llu bytes of pixels instead of %llu", name,
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "cannot read %.350s: %llu bytes of pixels instead of %llu", name,
                        (unsigned long long)found, (unsigned long long)expected);
 
     rt_image *image = NULL;
-    rt_status status =
-        rt_image_create(&image, h.width, h.height, h.channel_count == 3 ? rgb : grey, h.channel_count, error);
+    rt_status status = rt_image_create(&image, h.width, h.height, h.channel_count == 3 ? rgb : grey,
+                                       h.channel_count, error);
     if (status != RT_OK)
         return status;
     const uint8_t *source = file->data + h.size;

@@ -11,8 +11,12 @@
 #include "image/png.h"
 
 #define CHUNK_MEMORY_MAX 65536 /* bytes that libpng may allocate for one chunk */
-#define DEFLATE_RATIO_MAX 1032 /* most bytes out of one: a match of 258 bytes takes at least two bits */
-/* Beyond 2^28 values, 1 GiB of floats, a file must have a byte for so many: a picture has, a bomb has not. */
+/* most bytes out of one: a match of 258 bytes takes at least two bits */
+#define DEFLATE_RATIO_MAX 1032
+/*
+ * Beyond 2^28 values, 1 GiB of floats, a file must have a byte for so many: a picture has, a bomb
+ * has not.
+ */
 #define VALUES_UNASKED (UINT64_C(1) << 28)
 #define VALUES_PER_BYTE 64
 
@@ -63,18 +67,23 @@ static void create_image(png_structp png, png_infop info, reader *r)
     uint32_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
     int is_colour = (png_get_color_type(png, info) & PNG_COLOR_MASK_COLOR) != 0;
     uint64_t values = (uint64_t)width * height * (is_colour ? 3 : 1);
-    uint64_t bits = (uint64_t)width * height * png_get_channels(png, info) * png_get_bit_depth(png, info);
+    uint64_t bits =
+        (uint64_t)width * height * png_get_channels(png, info) * png_get_bit_depth(png, info);
     if (values > RT_IMAGE_VALUES_MAX)
         png_error(png, "it holds more than 2^30 values");
     if (bits / 8 / DEFLATE_RATIO_MAX > r->file->size)
         png_error(png, "it is too short for the size that it states");
     if (values > VALUES_UNASKED && values / VALUES_PER_BYTE > r->file->size)
         png_error(png, "it is too large for its length: more than 64 values a byte");
-    if (rt_image_create(&r->image, width, height, is_colour ? rgb : grey, is_colour ? 3 : 1, &r->error) != RT_OK)
+    if (rt_image_create(&r->image, width, height, is_colour ? rgb : grey, is_colour ? 3 : 1,
+                        &r->error) != RT_OK)
         leave(png, r);
 }
 
-/* Has libpng hand over whole bytes, without alpha; a palette stays as indices, which are checked here. */
+/*
+ * Has libpng hand over whole bytes, without alpha; a palette stays as indices, which are checked
+ * here.
+ */
 static int choose_transformations(png_structp png, png_infop info)
 {
     if (png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE)
@@ -87,7 +96,8 @@ static int choose_transformations(png_structp png, png_infop info)
     return passes;
 }
 
-static void convert_palette(png_structp png, png_infop info, reader *r, const uint8_t *row, float *out)
+static void convert_palette(png_structp png, png_infop info, reader *r, const uint8_t *row,
+                            float *out)
 {
     png_colorp palette = NULL;
     int count = 0;
@@ -134,7 +144,10 @@ static void read_rows(png_structp png, png_infop info, reader *r, int passes)
         }
 }
 
-/* Runs libpng. No local variable changes after setjmp, so nothing is lost when it leaves by longjmp. */
+/*
+ * Runs libpng. No local variable changes after setjmp, so nothing is lost when it leaves by
+ * longjmp.
+ */
 static int decode(png_structp png, png_infop info, reader *r)
 {
     if (setjmp(png_jmpbuf(png)))
@@ -142,7 +155,10 @@ static int decode(png_structp png, png_infop info, reader *r)
     png_set_read_fn(png, r, on_read);
     png_set_user_limits(png, RT_IMAGE_SIDE_MAX, RT_IMAGE_SIDE_MAX);
     png_set_chunk_malloc_max(png, CHUNK_MEMORY_MAX);
-    /* No chunk matters that pixels can do without: texts, profiles and the like are passed over unread. */
+    /*
+     * No chunk matters that pixels can do without: texts, profiles and the like are passed over
+     * unread.
+     */
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     png_read_info(png, info);
     create_image(png, info, r);

@@ -43,12 +43,13 @@ static void on_flush(png_structp png)
  * Runs libpng, which leaves by longjmp when it fails. Everything that must be freed belongs to the
  * caller, and no local variable changes after setjmp, so nothing leaks or is lost.
  */
-static int encode(png_structp png, png_infop info, const uint8_t *rgb8, uint32_t width, uint32_t height)
+static int encode(png_structp png, png_infop info, const uint8_t *rgb8, uint32_t width,
+                  uint32_t height)
 {
     if (setjmp(png_jmpbuf(png)))
         return 0;
-    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
     for (uint32_t y = 0; y < height; y++)
@@ -57,7 +58,8 @@ static int encode(png_structp png, png_infop info, const uint8_t *rgb8, uint32_t
     return 1;
 }
 
-rt_status rt_png_encode(rt_bytes *out, const rt_image *image, const rt_image_options *options, rt_error *error)
+rt_status rt_png_encode(rt_bytes *out, const rt_image *image, const rt_image_options *options,
+                        rt_error *error)
 {
     uint8_t *rgb8 = NULL;
     rt_status status = rt_display_rgb8(&rgb8, image, options, error);

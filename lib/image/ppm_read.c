@@ -30,8 +30,8 @@ static int is_space(int c)
 }
 
 /*
- * The next character, or -1 at the end. A comment runs from '#' through the end of its line and counts
- * as if it were not there, even in the middle of a number: so says the manual.
+ * The next character, or -1 at the end. A comment runs from '#' through the end of its line and
+ * counts as if it were not there, even in the middle of a number: so says the manual.
  */
 static int peek(reader *r)
 {
@@ -46,7 +46,10 @@ static int peek(reader *r)
     return r->at < size ? data[r->at] : -1;
 }
 
-/* Reads a decimal number of at most `most` behind at least one white space; stops at what follows it. */
+/*
+ * Reads a decimal number of at most `most` behind at least one white space; stops at what follows
+ * it.
+ */
 static int read_number(reader *r, uint32_t most, uint32_t *out)
 {
     uint32_t value = 0, digits = 0;
@@ -71,12 +74,14 @@ static rt_status read_header(reader *r, rt_error *error)
     r->is_plain = kind == '2' || kind == '3';
     r->channel_count = kind == '2' || kind == '5' ? 1 : 3;
     r->at = 2;
-    if (!read_number(r, RT_IMAGE_SIDE_MAX, &r->width) || !read_number(r, RT_IMAGE_SIDE_MAX, &r->height) ||
-        r->width == 0 || r->height == 0)
-        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: its sides are not two numbers from 1 to %u",
-                       r->name, RT_IMAGE_SIDE_MAX);
+    if (!read_number(r, RT_IMAGE_SIDE_MAX, &r->width) ||
+        !read_number(r, RT_IMAGE_SIDE_MAX, &r->height) || r->width == 0 || r->height == 0)
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "cannot read %.350s: its sides are not two numbers from 1 to %u", r->name,
+                       RT_IMAGE_SIDE_MAX);
     if (!read_number(r, CODE_MAX, &r->top) || r->top == 0)
-        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: its greatest code is not a number from 1 to %u",
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "cannot read %.350s: its greatest code is not a number from 1 to %u",
                        r->name, CODE_MAX);
     if (!is_space(peek(r)))
         return fail_input(r, "no white space ends its header", error);
@@ -87,12 +92,16 @@ static rt_status read_header(reader *r, rt_error *error)
 static rt_status check_size(reader *r, uint64_t values, rt_error *error)
 {
     uint64_t found = r->file->size - r->at;
-    /* A plain code takes a white space and a digit at least; the one behind the header is the first. */
+    /*
+     * A plain code takes a white space and a digit at least; the one behind the header is the
+     * first.
+     */
     uint64_t expected = r->is_plain ? 2 * values : 1 + values * (r->top > 255 ? 2 : 1);
     if (values > RT_IMAGE_VALUES_MAX)
         return fail_input(r, "it holds more than 2^30 values", error);
     if (found < expected)
-        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: cut short: %llu bytes of pixels instead of %s%llu",
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "cannot read %.350s: cut short: %llu bytes of pixels instead of %s%llu",
                        r->name, (unsigned long long)found, r->is_plain ? "at least " : "",
                        (unsigned long long)expected);
     return RT_OK;
@@ -118,8 +127,8 @@ static rt_status read_codes(reader *r, rt_image *image, uint64_t values, rt_erro
         uint32_t code;
         if (!read_code(r, &code))
             return rt_fail(error, RT_ERROR_INPUT,
-                           "cannot read %.350s: value %llu is missing or not a number from 0 to %u", r->name,
-                           (unsigned long long)i + 1, r->top);
+                           "cannot read %.350s: value %llu is missing or not a number from 0 to %u",
+                           r->name, (unsigned long long)i + 1, r->top);
         image->data[i] = (float)code / (float)r->top;
     }
     /* White space may end the file; a further picture, or anything else, may not. */
@@ -138,7 +147,8 @@ rt_status rt_ppm_decode(rt_image **out, const rt_bytes *file, const char *name, 
     if (status == RT_OK)
         status = check_size(&r, values, error);
     if (status == RT_OK)
-        status = rt_image_create(&image, r.width, r.height, r.channel_count == 3 ? rgb : grey, r.channel_count, error);
+        status = rt_image_create(&image, r.width, r.height, r.channel_count == 3 ? rgb : grey,
+                                 r.channel_count, error);
     if (status == RT_OK)
         status = read_codes(&r, image, values, error);
     if (status != RT_OK) {

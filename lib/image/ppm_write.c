@@ -4,7 +4,8 @@
 #include "image/display.h"
 #include "image/netpbm.h"
 
-rt_status rt_ppm_encode(rt_bytes *out, const rt_image *image, const rt_image_options *options, rt_error *error)
+rt_status rt_ppm_encode(rt_bytes *out, const rt_image *image, const rt_image_options *options,
+                        rt_error *error)
 {
     uint8_t *rgb8 = NULL;
     rt_status status = rt_display_rgb8(&rgb8, image, options, error);
@@ -15,7 +16,8 @@ rt_status rt_ppm_encode(rt_bytes *out, const rt_image *image, const rt_image_opt
     rt_bytes bytes = {0};
     status = rt_bytes_put(&bytes, 0, header, (size_t)length, error);
     if (status == RT_OK)
-        status = rt_bytes_put(&bytes, bytes.size, rgb8, (size_t)image->width * image->height * 3, error);
+        status =
+            rt_bytes_put(&bytes, bytes.size, rgb8, (size_t)image->width * image->height * 3, error);
     free(rgb8);
     if (status == RT_OK)
         *out = bytes;

@@ -1,7 +1,10 @@
 /*
- * Reference: Z. Wang, A. Bovik, H. Sheikh, E. Simoncelli, "Image Quality Assessment: From Error Visibility to
- *   Structural Similarity", IEEE Transactions on Image Processing 13(4), 2004, equations 13 to 16. The window is the
- *   paper's, a circular Gaussian of 11x11 pixels and deviation 1.5 whose weights sum to 1; windows that reach over
+ * Reference: Z. Wang, A. Bovik, H. Sheikh, E. Simoncelli, "Image Quality Assessment: From Error
+ * Visibility to
+ *   Structural Similarity", IEEE Transactions on Image Processing 13(4), 2004, equations 13 to 16.
+ *     The window is the
+ *   paper's, a circular Gaussian of 11x11 pixels and deviation 1.5 whose weights sum to 1; windows
+ *     that reach over
  *   the border are left out of the mean.
  */
 #include "image/ssim.h"
@@ -76,7 +79,8 @@ static double similarity(const filter *f, uint32_t x, uint32_t y)
            ((m[MEAN_A] * m[MEAN_A] + m[MEAN_B] * m[MEAN_B] + C1) * (variances + C2));
 }
 
-static double mean_similarity(const filter *f, const float *a, const float *b, uint32_t height, double scale)
+static double mean_similarity(const filter *f, const float *a, const float *b, uint32_t height,
+                              double scale)
 {
     double sum = 0.0;
     for (uint32_t y = 0; y < height; y++) {
@@ -89,15 +93,16 @@ static double mean_similarity(const filter *f, const float *a, const float *b, u
     return sum / ((double)f->columns * (height - WINDOW + 1));
 }
 
-rt_status rt_ssim(double *out, const float *a, const float *b, uint32_t width, uint32_t height, double exposure,
-                  rt_error *error)
+rt_status rt_ssim(double *out, const float *a, const float *b, uint32_t width, uint32_t height,
+                  double exposure, rt_error *error)
 {
     if (width < WINDOW || height < WINDOW) {
         *out = NAN;
         return RT_OK;
     }
     filter f = {.width = width, .columns = width - WINDOW + 1};
-    double *memory = malloc((2 * (size_t)width + (size_t)WINDOW * f.columns * MOMENTS) * sizeof *memory);
+    double *memory =
+        malloc((2 * (size_t)width + (size_t)WINDOW * f.columns * MOMENTS) * sizeof *memory);
     if (!memory)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory: rows of %u pixels", width);
     f.values[0] = memory;

@@ -37,8 +37,8 @@ static void normalise(float *cdf, uint32_t count, double total)
         cdf[i] = 1;
 }
 
-double rt_environment_tabulate(float *conditional, float *marginal, const float *texels, uint32_t width,
-                               uint32_t height)
+double rt_environment_tabulate(float *conditional, float *marginal, const float *texels,
+                               uint32_t width, uint32_t height)
 {
     double total = 0;
     marginal[0] = 0;

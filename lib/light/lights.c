@@ -25,9 +25,10 @@ size_t rt_lights_count(const rt_scene *scene)
 }
 
 /*
- * The power of a light that is no shape, W, mean of the channels. What comes from infinitely far is counted where
- * it meets a disc of the scene's radius: pi r^2 of it from a direction, the same from every one of 4 pi sr from an
- * environment. A spot's falloff 3x^2 - 2x^3 is 1/2 in the mean over its edge.
+ * The power of a light that is no shape, W, mean of the channels. What comes from infinitely far is
+ * counted where it meets a disc of the scene's radius: pi r^2 of it from a direction, the same from
+ * every one of 4 pi sr from an environment. A spot's falloff 3x^2 - 2x^3 is 1/2 in the mean over
+ * its edge.
  */
 static double light_power(const rt_scene *scene, const rt_scene_light *light, double radius)
 {
@@ -41,12 +42,14 @@ static double light_power(const rt_scene *scene, const rt_scene_light *light, do
     case RT_LIGHT_DIRECTIONAL:
         return disc * mean(light->emission);
     default:
-        return 4 * pi * disc * mean((const float[3]){light->emission[0] * sky[0], light->emission[1] * sky[1],
-                                                     light->emission[2] * sky[2]});
+        return 4 * pi * disc *
+               mean((const float[3]){light->emission[0] * sky[0], light->emission[1] * sky[1],
+                                     light->emission[2] * sky[2]});
     }
 }
 
-static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_scene_light *from, double radius)
+static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_scene_light *from,
+                       double radius)
 {
     memset(light, 0, sizeof *light);
     light->kind = from->kind;
@@ -65,7 +68,8 @@ static void fill_edges(rt_light_data *light, const double b[3], const double c[3
 {
     double width = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
     double height = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
-    double normal[3] = {b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]};
+    double normal[3] = {b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2],
+                        b[0] * c[1] - b[1] * c[0]};
     double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     double cosine = (b[0] * c[0] + b[1] * c[1] + b[2] * c[2]) / (width * height);
 
@@ -83,7 +87,8 @@ static void fill_edges(rt_light_data *light, const double b[3], const double c[3
         light->flags |= RT_LIGHT_BY_AREA;
 }
 
-static void fill_triangle(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape, size_t primitive)
+static void fill_triangle(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
+                          size_t primitive)
 {
     const uint32_t *corner = scene->meshes[shape->mesh].indices + 3 * primitive;
     float v[3][3];
@@ -97,7 +102,8 @@ static void fill_triangle(rt_light_data *light, const rt_scene *scene, const rt_
     fill_edges(light, b, c);
 }
 
-static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape, size_t primitive)
+static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
+                          size_t primitive)
 {
     static const float zero[3];
     double b[3], c[3];
@@ -124,9 +130,12 @@ static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_
         light->normal[i] = -light->normal[i];
 }
 
-/* One emitting primitive: power = pi radiance area, on one side or both; a texture counts by its mean. */
-static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape, size_t primitive,
-                      const float radiance[3])
+/*
+ * One emitting primitive: power = pi radiance area, on one side or both; a texture counts by its
+ * mean.
+ */
+static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
+                      size_t primitive, const float radiance[3])
 {
     int two_sided = scene->materials[shape->surface.material].two_sided;
     double area = rt_scene_primitive_area(scene, shape, primitive);
@@ -164,8 +173,8 @@ static double normalise(rt_light_data *lights, size_t count)
     return total;
 }
 
-double rt_lights_fill(const rt_scene *scene, const rt_u32 *first_prim, double radius, rt_light_data *lights,
-                      rt_u32 *first_light)
+double rt_lights_fill(const rt_scene *scene, const rt_u32 *first_prim, double radius,
+                      rt_light_data *lights, rt_u32 *first_light)
 {
     size_t count = 0;
     for (size_t i = 0; i < scene->light_count; i++)

@@ -1,8 +1,9 @@
 /*
  * tree.c - builds the tree of lights.
  *
- * Lights are halved at the median along the axis in which they lie farthest apart, again and again, so all levels
- * are full and the parent of node i is i / 2. Those from infinitely far have the root's second half to themselves.
+ * Lights are halved at the median along the axis in which they lie farthest apart, again and again,
+ * so all levels are full and the parent of node i is i / 2. Those from infinitely far have the
+ * root's second half to themselves.
  */
 #include "light/tree.h"
 
@@ -14,8 +15,9 @@
 #include "light/lights.h"
 
 /*
- * What lights in a ball add to their squared distance, as a part of the ball's squared radius. Their mean is farther
- * than the middle, by 0.5 for a disc, but the nearest bring the most; 0.1 to 0.3 made the least noise, 1 twice that.
+ * What lights in a ball add to their squared distance, as a part of the ball's squared radius.
+ * Their mean is farther than the middle, by 0.5 for a disc, but the nearest bring the most; 0.1 to
+ * 0.3 made the least noise, 1 twice that.
  */
 static const double spread_of_ball = 0.3;
 
@@ -111,7 +113,8 @@ static cluster cluster_of(const planting *p, rt_u32 index)
     c.is_distant = is_distant(light->kind);
     if (c.is_distant) {
         for (int i = 0; i < 3; i++)
-            c.lo[i] = c.hi[i] = h->radius > 0 ? 0.5 * ((double)h->bounds_lo[i] + h->bounds_hi[i]) : 0;
+            c.lo[i] = c.hi[i] =
+                h->radius > 0 ? 0.5 * ((double)h->bounds_lo[i] + h->bounds_hi[i]) : 0;
     } else if (light->kind == RT_LIGHT_QUAD || light->kind == RT_LIGHT_TRIANGLE) {
         include_edges(&c, light);
     } else if (light->kind == RT_LIGHT_SHAPE) {
@@ -140,7 +143,10 @@ static void swap(spot *a, spot *b)
     *b = kept;
 }
 
-/* Moves the `half` spots that come first along the axis before the others (Hoare, "Find", CACM 4(7), 1961). */
+/*
+ * Moves the `half` spots that come first along the axis before the others (Hoare, "Find", CACM
+ * 4(7), 1961).
+ */
 static void select_first(spot *spots, size_t count, size_t half, int axis)
 {
     while (count > 1) {
@@ -191,7 +197,8 @@ static void fill_node(const planting *p, rt_light_node *node, const cluster *c)
     radius = fmax(radius, p->least_radius);
     node->falloff = c->is_distant ? 0 : 1;
     node->spread = (float)fmax(spread_of_ball * radius * radius, FLT_MIN);
-    if (c->is_distant) /* The power of what comes from there was counted through a disc of the scene's radius. */
+    /* The power of what comes from there was counted through a disc of the scene's radius. */
+    if (c->is_distant)
         node->spread = p->header->radius > 0 ? p->header->radius * p->header->radius : 1;
     node->power = (float)c->power;
 }
@@ -237,10 +244,15 @@ static size_t list_spots(planting *p, spot *spots, size_t count)
     return nearby;
 }
 
-rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene, const rt_scene_header *header,
-                             const rt_light_data *lights, const rt_u32 *prim_shape, rt_error *error)
+rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene,
+                             const rt_scene_header *header, const rt_light_data *lights,
+                             const rt_u32 *prim_shape, rt_error *error)
 {
-    planting p = {.nodes = nodes, .scene = scene, .header = header, .lights = lights, .prim_shape = prim_shape};
+    planting p = {.nodes = nodes,
+                  .scene = scene,
+                  .header = header,
+                  .lights = lights,
+                  .prim_shape = prim_shape};
     size_t count = rt_lights_count(scene);
     p.leaves = rt_light_tree_leaves(scene);
     for (size_t i = 0; i < count; i++)

@@ -3,14 +3,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Makes room for `count` elements of `size` bytes, zeroed; at least one byte, so that NULL means failure. */
+/*
+ * Makes room for `count` elements of `size` bytes, zeroed; at least one byte, so that NULL means
+ * failure.
+ */
 static void *zeroed(uint64_t count, size_t size)
 {
     return count <= SIZE_MAX / size ? calloc(count ? (size_t)count : 1, size) : NULL;
 }
 
-rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source, uint64_t count, int normals, int uv,
-                                int colours)
+rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source, uint64_t count,
+                                int normals, int uv, int colours)
 {
     if (count > RT_CANONICAL_MAX)
         return rt_mesh_fail(source, 0, "%llu vertices are more than the %d that a mesh can have",
@@ -21,7 +24,9 @@ rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source
     mesh->row = 3u + (normals ? 3u : 0u) + (uv ? 2u : 0u);
     mesh->vertices = zeroed(count, mesh->row * sizeof *mesh->vertices);
     mesh->colours = colours ? zeroed(count, 3 * sizeof *mesh->colours) : NULL;
-    return mesh->vertices && (!colours || mesh->colours) ? RT_OK : rt_mesh_fail_memory(source, count, "vertices");
+    return mesh->vertices && (!colours || mesh->colours)
+               ? RT_OK
+               : rt_mesh_fail_memory(source, count, "vertices");
 }
 
 float *rt_canonical_position(const rt_canonical *mesh, uint32_t vertex)
@@ -46,8 +51,9 @@ rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source,
     if (triangles > RT_CANONICAL_MAX)
         return rt_mesh_fail(source, 0, "%llu triangles are more than the %d that a mesh can have",
                             (unsigned long long)triangles, RT_CANONICAL_MAX);
-    uint8_t *faces =
-        triangles <= SIZE_MAX / RT_CANONICAL_FACE ? realloc(mesh->faces, (size_t)triangles * RT_CANONICAL_FACE) : NULL;
+    uint8_t *faces = triangles <= SIZE_MAX / RT_CANONICAL_FACE
+                         ? realloc(mesh->faces, (size_t)triangles * RT_CANONICAL_FACE)
+                         : NULL;
     if (!faces)
         return rt_mesh_fail_memory(source, triangles, "triangles");
     mesh->faces = faces;
@@ -55,10 +61,13 @@ rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source,
     return RT_OK;
 }
 
-/* Makes room for `more` triangles, growing by at least a half so that adding stays linear in time. */
+/*
+ * Makes room for `more` triangles, growing by at least a half so that adding stays linear in time.
+ */
 static rt_status grow(rt_canonical *mesh, const rt_mesh_source *source, uint64_t more)
 {
-    uint64_t needed = mesh->triangle_count + more, roomy = mesh->triangle_room + (uint64_t)mesh->triangle_room / 2;
+    uint64_t needed = mesh->triangle_count + more,
+             roomy = mesh->triangle_room + (uint64_t)mesh->triangle_room / 2;
     if (needed <= mesh->triangle_room)
         return RT_OK;
     if (roomy > RT_CANONICAL_MAX)
@@ -74,7 +83,8 @@ static void put(rt_canonical *mesh, uint32_t a, uint32_t b, uint32_t c)
     memcpy(face + 1, corners, sizeof corners);
 }
 
-rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source, uint32_t a, uint32_t b, uint32_t c)
+rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source, uint32_t a,
+                                uint32_t b, uint32_t c)
 {
     rt_status status = grow(mesh, source, 1);
     if (status == RT_OK)
@@ -82,8 +92,8 @@ rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source
     return status;
 }
 
-rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source, const uint32_t *corners,
-                               uint64_t count)
+rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source,
+                               const uint32_t *corners, uint64_t count)
 {
     uint64_t face = mesh->file_faces++;
     if (count < 3) {

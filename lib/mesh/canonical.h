@@ -1,9 +1,10 @@
 /*
  * canonical.h - a mesh in the one plain form that OpenMesh is given to read.
  *
- * OpenMesh's own readers hang, overflow or lose faces on files that are damaged or merely unusual. So a
- * reader of ours goes through each file first, trusts nothing in it, and writes what it found as a binary
- * PLY of one fixed layout: float vertices, then triangles of `list uchar uint`, in the byte order of the host.
+ * OpenMesh's own readers hang, overflow or lose faces on files that are damaged or merely unusual.
+ * So a reader of ours goes through each file first, trusts nothing in it, and writes what it found
+ * as a binary PLY of one fixed layout: float vertices, then triangles of `list uchar uint`, in the
+ * byte order of the host.
  */
 #ifndef RT_LIB_MESH_CANONICAL_H
 #define RT_LIB_MESH_CANONICAL_H
@@ -24,16 +25,17 @@ typedef struct rt_canonical {
     uint32_t row;    /* floats a vertex: position, then normal, then texture coordinates */
     float *vertices; /* [vertex_count][row] */
     uint8_t *faces;  /* [triangle_count][RT_CANONICAL_FACE] */
-    float *colours;  /* [vertex_count][3] or NULL; kept aside, because OpenMesh rounds them to bytes */
-    char *texture;   /* or NULL */
+    /* [vertex_count][3] or NULL; kept aside, because OpenMesh rounds them to bytes */
+    float *colours;
+    char *texture; /* or NULL */
 
     uint64_t file_vertices, file_faces, skipped_faces;
     uint64_t first_skipped; /* number of the first face left out, from 0 */
 } rt_canonical;
 
 /* Makes room for all vertices; they are zero until filled in. */
-rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source, uint64_t count, int normals, int uv,
-                                int colours);
+rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source, uint64_t count,
+                                int normals, int uv, int colours);
 
 /* Where the parts of a vertex stand. Only those that the mesh has. */
 float *rt_canonical_position(const rt_canonical *mesh, uint32_t vertex);
@@ -41,17 +43,19 @@ float *rt_canonical_normal(const rt_canonical *mesh, uint32_t vertex);
 float *rt_canonical_uv(const rt_canonical *mesh, uint32_t vertex);
 
 /* Makes room for so many triangles in all, ahead of adding them. */
-rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source, uint64_t triangles);
+rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source,
+                               uint64_t triangles);
 
 /* Adds a triangle. The corners must be below vertex_count by the time OpenMesh reads. */
-rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source, uint32_t a, uint32_t b, uint32_t c);
+rt_status rt_canonical_triangle(rt_canonical *mesh, const rt_mesh_source *source, uint32_t a,
+                                uint32_t b, uint32_t c);
 
 /*
- * Counts one face of the file and adds it as a fan around its first corner; one of fewer than three corners
- * counts as skipped.
+ * Counts one face of the file and adds it as a fan around its first corner; one of fewer than three
+ * corners counts as skipped.
  */
-rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source, const uint32_t *corners,
-                               uint64_t count);
+rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source,
+                               const uint32_t *corners, uint64_t count);
 
 void rt_canonical_free(rt_canonical *mesh);
 

@@ -6,7 +6,8 @@
 #include <string.h>
 
 /* Makes room for `more` elements after count, growing by at least a half. */
-static rt_status grow(void **data, size_t *room, size_t count, size_t more, size_t size, const rt_mesh_source *source)
+static rt_status grow(void **data, size_t *room, size_t count, size_t more, size_t size,
+                      const rt_mesh_source *source)
 {
     if (more <= *room - count)
         return RT_OK;
@@ -19,9 +20,11 @@ static rt_status grow(void **data, size_t *room, size_t count, size_t more, size
     return RT_OK;
 }
 
-rt_status rt_floats_add(rt_floats *list, const rt_mesh_source *source, const float *values, size_t count)
+rt_status rt_floats_add(rt_floats *list, const rt_mesh_source *source, const float *values,
+                        size_t count)
 {
-    rt_status status = grow((void **)&list->data, &list->room, list->count, count, sizeof *list->data, source);
+    rt_status status =
+        grow((void **)&list->data, &list->room, list->count, count, sizeof *list->data, source);
     if (status != RT_OK)
         return status;
     memcpy(list->data + list->count, values, count * sizeof *values);
@@ -37,7 +40,8 @@ void rt_floats_free(rt_floats *list)
 
 rt_status rt_indices_add(rt_indices *list, const rt_mesh_source *source, uint32_t index)
 {
-    rt_status status = grow((void **)&list->data, &list->room, list->count, 1, sizeof *list->data, source);
+    rt_status status =
+        grow((void **)&list->data, &list->room, list->count, 1, sizeof *list->data, source);
     if (status == RT_OK)
         list->data[list->count++] = index;
     return status;
@@ -49,21 +53,23 @@ void rt_indices_free(rt_indices *list)
     memset(list, 0, sizeof *list);
 }
 
-rt_status rt_field_float(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token, const char *what,
-                         float *out)
+rt_status rt_field_float(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
+                         const char *what, float *out)
 {
     char quote[RT_QUOTE];
     double value;
     if (!rt_token_real(token, &value))
-        return rt_mesh_fail(source, text->line, "%s: '%s' is not a number", what, rt_token_quote(token, quote));
+        return rt_mesh_fail(source, text->line, "%s: '%s' is not a number", what,
+                            rt_token_quote(token, quote));
     if (!(fabs(value) <= FLT_MAX))
-        return rt_mesh_fail(source, text->line, "%s: '%s' is not a finite float", what, rt_token_quote(token, quote));
+        return rt_mesh_fail(source, text->line, "%s: '%s' is not a finite float", what,
+                            rt_token_quote(token, quote));
     *out = (float)value;
     return RT_OK;
 }
 
-rt_status rt_field_floats(const rt_mesh_source *source, rt_mesh_text *text, const char *what, float *out, int least,
-                          int most, int *count)
+rt_status rt_field_floats(const rt_mesh_source *source, rt_mesh_text *text, const char *what,
+                          float *out, int least, int most, int *count)
 {
     rt_token token;
     rt_status status = RT_OK;
@@ -74,18 +80,19 @@ rt_status rt_field_floats(const rt_mesh_source *source, rt_mesh_text *text, cons
         status = rt_field_float(source, text, token, what, &out[(*count)++]);
     }
     if (status == RT_OK && *count < least)
-        return rt_mesh_fail(source, text->line, "%s: %d values; at least %d are needed", what, *count, least);
+        return rt_mesh_fail(source, text->line, "%s: %d values; at least %d are needed", what,
+                            *count, least);
     return status;
 }
 
-rt_status rt_field_count(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token, const char *what,
-                         uint64_t most, uint64_t *out)
+rt_status rt_field_count(const rt_mesh_source *source, const rt_mesh_text *text, rt_token token,
+                         const char *what, uint64_t most, uint64_t *out)
 {
     char quote[RT_QUOTE];
     int64_t value;
     if (!rt_token_integer(token, &value) || value < 0 || (uint64_t)value > most)
-        return rt_mesh_fail(source, text->line, "%s: '%s' is not a whole number from 0 to %llu", what,
-                            rt_token_quote(token, quote), (unsigned long long)most);
+        return rt_mesh_fail(source, text->line, "%s: '%s' is not a whole number from 0 to %llu",
+                            what, rt_token_quote(token, quote), (unsigned long long)most);
     *out = (uint64_t)value;
     return RT_OK;
 }

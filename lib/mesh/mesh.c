@@ -22,7 +22,8 @@ typedef rt_status reader(rt_canonical *mesh, const rt_mesh_source *source);
 static const struct {
     const char *ending;
     reader *read;
-} formats[] = {{".ply", rt_ply_read}, {".obj", rt_obj_read}, {".off", rt_off_read}, {".stl", rt_stl_read}};
+} formats[] = {
+    {".ply", rt_ply_read}, {".obj", rt_obj_read}, {".off", rt_off_read}, {".stl", rt_stl_read}};
 
 /* By the content where it says so, else by the ending of the name. */
 static reader *find_reader(const rt_mesh_source *source)
@@ -37,7 +38,8 @@ static reader *find_reader(const rt_mesh_source *source)
 }
 
 /* Our own reader goes through the file; nothing is left of it afterwards but the canonical form. */
-static rt_status read_canonical(rt_canonical *canonical, const char *path, rt_stage_progress *progress, rt_error *error)
+static rt_status read_canonical(rt_canonical *canonical, const char *path,
+                                rt_stage_progress *progress, rt_error *error)
 {
     rt_bytes bytes = {0};
     rt_status status = read_file(&bytes, path, error);
@@ -45,14 +47,16 @@ static rt_status read_canonical(rt_canonical *canonical, const char *path, rt_st
         return status;
     rt_mesh_source source = {path, bytes.data, bytes.size, progress, error};
     reader *read = find_reader(&source);
-    status = read ? read(canonical, &source)
-                  : rt_mesh_fail(&source, 0, "unknown mesh format; PLY, OBJ, OFF and STL can be read");
+    status =
+        read ? read(canonical, &source)
+             : rt_mesh_fail(&source, 0, "unknown mesh format; PLY, OBJ, OFF and STL can be read");
     if (status == RT_OK && canonical->skipped_faces)
-        rt_mesh_log(&source,
-                    "%llu of %llu faces have fewer than three corners, thus no area, and are left out; "
-                    "the first is face %llu, counted from 0",
-                    (unsigned long long)canonical->skipped_faces, (unsigned long long)canonical->file_faces,
-                    (unsigned long long)canonical->first_skipped);
+        rt_mesh_log(
+            &source,
+            "%llu of %llu faces have fewer than three corners, thus no area, and are left out; "
+            "the first is face %llu, counted from 0",
+            (unsigned long long)canonical->skipped_faces, (unsigned long long)canonical->file_faces,
+            (unsigned long long)canonical->first_skipped);
     rt_bytes_free(&bytes);
     return status;
 }
@@ -67,11 +71,12 @@ static rt_status finish(rt_mesh *mesh, const char *path, const rt_hooks *hooks, 
                (unsigned long long)replaced);
     mesh->zero_area = rt_normals_zero_area(mesh);
     if (mesh->zero_area)
-        rt_log(hooks, "%s: %llu of %u triangles have no area", path, (unsigned long long)mesh->zero_area,
-               mesh->triangle_count);
-    rt_log(hooks, "%s: %llu vertices and %llu faces in the file, %u vertices and %u triangles in the mesh", path,
-           (unsigned long long)mesh->file_vertices, (unsigned long long)mesh->file_faces, mesh->vertex_count,
-           mesh->triangle_count);
+        rt_log(hooks, "%s: %llu of %u triangles have no area", path,
+               (unsigned long long)mesh->zero_area, mesh->triangle_count);
+    rt_log(hooks,
+           "%s: %llu vertices and %llu faces in the file, %u vertices and %u triangles in the mesh",
+           path, (unsigned long long)mesh->file_vertices, (unsigned long long)mesh->file_faces,
+           mesh->vertex_count, mesh->triangle_count);
     return status;
 }
 

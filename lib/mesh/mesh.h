@@ -11,27 +11,34 @@
 typedef struct rt_mesh {
     uint32_t vertex_count, triangle_count; /* both may be 0: a file may hold points only */
     float *positions;                      /* [vertex_count][3] */
-    float *normals;                        /* [vertex_count][3], of length 1, or NULL when the file has none */
-    float *uv;                             /* [vertex_count][2], as in the file, or NULL */
-    float *colours;    /* [vertex_count][3], as in the file: integers scaled to 0..1, floats as they are, never
-                          sRGB-decoded; or NULL */
+    /* [vertex_count][3], of length 1, or NULL when the file has none */
+    float *normals;
+    float *uv; /* [vertex_count][2], as in the file, or NULL */
+    /*
+     * [vertex_count][3], as in the file: integers scaled to 0..1, floats as they are, never
+     * sRGB-decoded; or NULL
+     */
+    float *colours;
     uint32_t *indices; /* [triangle_count][3] */
-    char *texture;     /* the file that `comment TextureFile NAME` of a PLY names, as written, or NULL */
+    /* the file that `comment TextureFile NAME` of a PLY names, as written, or NULL */
+    char *texture;
 
     /*
-     * What the file holds. Its vertices become more where one has several normals or texture coordinates
-     * (OBJ, texture coordinates by face) and fewer where an STL repeats them. A polygon of n corners
-     * becomes n - 2 triangles, and so does a strip.
+     * What the file holds. Its vertices become more where one has several normals or texture
+     * coordinates (OBJ, texture coordinates by face) and fewer where an STL repeats them. A polygon
+     * of n corners becomes n - 2 triangles, and so does a strip.
      */
     uint64_t file_vertices, file_faces;
-    uint64_t skipped_faces; /* of fewer than three corners, thus without area; the log names the first */
-    uint64_t zero_area;     /* triangles without area; they are kept in indices */
+    /* of fewer than three corners, thus without area; the log names the first */
+    uint64_t skipped_faces;
+    uint64_t zero_area; /* triangles without area; they are kept in indices */
 } rt_mesh;
 
 /*
- * Reads a mesh. The format is told by the content, else by the name's ending. Reports RT_STAGE_LOAD to the
- * hooks (may be NULL), and to the log what was left out or made up. Fails with RT_ERROR_INPUT, error->file
- * and, in a text file, error->line set; RT_ERROR_MEMORY; or RT_CANCELLED. The caller destroys *out.
+ * Reads a mesh. The format is told by the content, else by the name's ending. Reports RT_STAGE_LOAD
+ * to the hooks (may be NULL), and to the log what was left out or made up. Fails with
+ * RT_ERROR_INPUT, error->file and, in a text file, error->line set; RT_ERROR_MEMORY; or
+ * RT_CANCELLED. The caller destroys *out.
  */
 rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, rt_error *error);
 void rt_mesh_destroy(rt_mesh *mesh);

@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Twice the area of a triangle times its normal, in double: float coordinates cannot overflow it. */
+/*
+ * Twice the area of a triangle times its normal, in double: float coordinates cannot overflow it.
+ */
 static void area_vector(const rt_mesh *mesh, uint32_t triangle, double out[3])
 {
     const uint32_t *v = mesh->indices + 3 * (size_t)triangle;
@@ -52,7 +54,8 @@ static double *sum_faces(const rt_mesh *mesh)
         area_vector(mesh, i, n);
         for (int corner = 0; corner < 3; corner++)
             for (int axis = 0; axis < 3; axis++)
-                sums[3 * (size_t)mesh->indices[3 * (size_t)i + (size_t)corner] + (size_t)axis] += n[axis];
+                sums[3 * (size_t)mesh->indices[3 * (size_t)i + (size_t)corner] + (size_t)axis] +=
+                    n[axis];
     }
     return sums;
 }
@@ -74,7 +77,8 @@ rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error)
         if (normalise(wide, mesh->normals + 3 * i))
             continue;
         if (!sums && !(sums = sum_faces(mesh)))
-            return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the normals of %u vertices", mesh->vertex_count);
+            return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the normals of %u vertices",
+                           mesh->vertex_count);
         set_from(sums, i, mesh->normals);
         ++*replaced;
     }
@@ -89,7 +93,8 @@ rt_status rt_mesh_smooth(rt_mesh *mesh, rt_error *error)
     if (!sums || !normals) {
         free(sums);
         free(normals);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the normals of %u vertices", mesh->vertex_count);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the normals of %u vertices",
+                       mesh->vertex_count);
     }
     for (size_t i = 0; i < mesh->vertex_count; i++)
         set_from(sums, i, normals);

@@ -1,8 +1,8 @@
 /*
  * obj.c - Wavefront OBJ.
  *
- * Reference: Wavefront Technologies, "Advanced Visualizer" manual, appendix B1, object files (.obj).
- * Beyond it: a colour after the coordinates of a vertex.
+ * Reference: Wavefront Technologies, "Advanced Visualizer" manual, appendix B1, object files
+ * (.obj). Beyond it: a colour after the coordinates of a vertex.
  */
 #include <string.h>
 
@@ -16,15 +16,20 @@ typedef struct obj {
     rt_floats positions, colours, uv, normals; /* three, three, two, three a row */
     uint64_t position_count, uv_count, normal_count;
 
-    /* Of the faces: each different corner, as indices from 1 of position, uv and normal; 0 for none. */
+    /*
+     * Of the faces: each different corner, as indices from 1 of position, uv and normal; 0 for
+     * none.
+     */
     rt_unique corners;
     rt_indices polygon;
     int some_uv, some_normals;
 } obj;
 
 /* Statements without which the mesh is the same, and those whose loss the log tells. */
-static const char *const silent[] = {"g", "o", "s", "mg", "vp", "bevel", "c_interp", "d_interp", "lod", NULL};
-static const char *const materials[] = {"usemtl", "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", NULL};
+static const char *const silent[] = {"g",     "o",        "s",        "mg",  "vp",
+                                     "bevel", "c_interp", "d_interp", "lod", NULL};
+static const char *const materials[] = {"usemtl",     "mtllib",    "usemap", "maplib",
+                                        "shadow_obj", "trace_obj", NULL};
 static const char *const shapes[] = {"p",    "l",    "curv",  "curv2", "surf", "cstype", "deg",
                                      "bmat", "step", "parm",  "trim",  "hole", "scrv",   "sp",
                                      "end",  "con",  "ctech", "stech", NULL};
@@ -43,7 +48,10 @@ static rt_status read_vertex(obj *o, rt_mesh_text *text)
     rt_status status = rt_field_floats(o->source, text, "v", v, 3, 7, &count);
     if (status == RT_OK)
         status = rt_floats_add(&o->positions, o->source, v, 3);
-    /* x y z r g b; a single value more is the weight of rational curves. Colours count from the first vertex on. */
+    /*
+     * x y z r g b; a single value more is the weight of rational curves. Colours count from the
+     * first vertex on.
+     */
     if (status == RT_OK && count >= 6 && o->colours.count == 3 * o->position_count)
         status = rt_floats_add(&o->colours, o->source, v + 3, 3);
     o->position_count++;
@@ -69,13 +77,14 @@ static rt_status read_normal(obj *o, rt_mesh_text *text)
 }
 
 /* One index of a corner: from 1 on, or negative, back from those that stand above this line. */
-static rt_status read_index(const obj *o, const rt_mesh_text *text, rt_token token, const char *what, uint64_t all,
-                            uint64_t above, uint32_t *out)
+static rt_status read_index(const obj *o, const rt_mesh_text *text, rt_token token,
+                            const char *what, uint64_t all, uint64_t above, uint32_t *out)
 {
     char quote[RT_QUOTE];
     int64_t index;
     if (!rt_token_integer(token, &index))
-        return rt_mesh_fail(o->source, text->line, "f: '%s' is not an index", rt_token_quote(token, quote));
+        return rt_mesh_fail(o->source, text->line, "f: '%s' is not an index",
+                            rt_token_quote(token, quote));
     if (index < 0)
         index += (int64_t)above + 1;
     if (index < 1 || (uint64_t)index > all || index > RT_CANONICAL_MAX)
@@ -86,7 +95,8 @@ static rt_status read_index(const obj *o, const rt_mesh_text *text, rt_token tok
 }
 
 /* A corner: v, v/vt, v//vn or v/vt/vn. `above` counts the v, vt and vn above this line. */
-static rt_status read_corner(obj *o, const rt_mesh_text *text, rt_token token, const uint64_t above[3])
+static rt_status read_corner(obj *o, const rt_mesh_text *text, rt_token token,
+                             const uint64_t above[3])
 {
     static const char *const names[3] = {"vertex", "texture coordinate", "normal"};
     const uint64_t all[3] = {o->position_count, o->uv_count, o->normal_count};
@@ -119,7 +129,9 @@ static rt_status read_face(obj *o, rt_mesh_text *text, const uint64_t above[3])
     o->polygon.count = 0;
     while (status == RT_OK && rt_mesh_text_token(text, &token))
         status = read_corner(o, text, token, above);
-    return status == RT_OK ? rt_canonical_polygon(o->mesh, o->source, o->polygon.data, o->polygon.count) : status;
+    return status == RT_OK
+               ? rt_canonical_polygon(o->mesh, o->source, o->polygon.data, o->polygon.count)
+               : status;
 }
 
 static rt_mesh_text begin(const rt_mesh_source *source)
@@ -136,7 +148,8 @@ static rt_status step(const obj *o, const rt_mesh_text *text, int pass)
     if (text->line & 0xfff)
         return RT_OK;
     size_t done = (size_t)(text->at - (const char *)o->source->data);
-    return rt_mesh_step(o->source, done + (pass ? o->source->size : 0), 2 * (uint64_t)o->source->size);
+    return rt_mesh_step(o->source, done + (pass ? o->source->size : 0),
+                        2 * (uint64_t)o->source->size);
 }
 
 /* First pass: all that faces refer to, and what is no statement of the format. */
@@ -194,24 +207,31 @@ static rt_status read_faces(obj *o)
     return status;
 }
 
-/* One vertex for each different corner. Where a corner has no normal, it is zero and made from the faces later. */
+/*
+ * One vertex for each different corner. Where a corner has no normal, it is zero and made from the
+ * faces later.
+ */
 static rt_status make_vertices(obj *o)
 {
     int coloured = o->position_count && o->colours.count == 3 * o->position_count;
     uint32_t bare = 0;
     rt_canonical *mesh = o->mesh;
-    rt_status status = rt_canonical_vertices(mesh, o->source, o->corners.count, o->some_normals, o->some_uv, coloured);
+    rt_status status = rt_canonical_vertices(mesh, o->source, o->corners.count, o->some_normals,
+                                             o->some_uv, coloured);
     for (uint32_t i = 0; i < o->corners.count && status == RT_OK; i++) {
         const uint32_t *key = o->corners.keys[i];
         size_t position = key[0] - 1;
         bare += key[1] == 0;
         memcpy(rt_canonical_position(mesh, i), o->positions.data + 3 * position, 3 * sizeof(float));
         if (key[1])
-            memcpy(rt_canonical_uv(mesh, i), o->uv.data + 2 * (size_t)(key[1] - 1), 2 * sizeof(float));
+            memcpy(rt_canonical_uv(mesh, i), o->uv.data + 2 * (size_t)(key[1] - 1),
+                   2 * sizeof(float));
         if (key[2])
-            memcpy(rt_canonical_normal(mesh, i), o->normals.data + 3 * (size_t)(key[2] - 1), 3 * sizeof(float));
+            memcpy(rt_canonical_normal(mesh, i), o->normals.data + 3 * (size_t)(key[2] - 1),
+                   3 * sizeof(float));
         if (coloured)
-            memcpy(mesh->colours + 3 * (size_t)i, o->colours.data + 3 * position, 3 * sizeof(float));
+            memcpy(mesh->colours + 3 * (size_t)i, o->colours.data + 3 * position,
+                   3 * sizeof(float));
     }
     mesh->file_vertices = o->position_count;
     if (status == RT_OK && o->some_uv && bare)

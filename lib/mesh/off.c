@@ -51,17 +51,23 @@ static rt_status read_keyword(off *o, rt_token *first)
                             rt_token_quote(*first, quote));
     rt_mesh_text ahead = o->text;
     if (rt_mesh_text_token(&ahead, &next) && rt_token_is(next, "BINARY"))
-        return rt_mesh_fail(o->source, o->text.line, "binary OFF cannot be read; convert it to ascii OFF or to PLY");
-    return rt_mesh_text_any(&o->text, first) ? RT_OK
-                                             : rt_mesh_fail(o->source, o->text.line, "the file ends before its counts");
+        return rt_mesh_fail(o->source, o->text.line,
+                            "binary OFF cannot be read; convert it to ascii OFF or to PLY");
+    return rt_mesh_text_any(&o->text, first)
+               ? RT_OK
+               : rt_mesh_fail(o->source, o->text.line, "the file ends before its counts");
 }
 
-/* Vertices, faces and, of no use, edges. The shortest vertex is "0 0 0", the shortest face "0", and a line end. */
+/*
+ * Vertices, faces and, of no use, edges. The shortest vertex is "0 0 0", the shortest face "0", and
+ * a line end.
+ */
 static rt_status read_counts(off *o, rt_token first)
 {
     rt_token token = {"", 0};
     uint64_t left = (uint64_t)(o->text.end - o->text.at) + 1, edges;
-    rt_status status = rt_field_count(o->source, &o->text, first, "count of vertices", left / 6, &o->vertex_count);
+    rt_status status =
+        rt_field_count(o->source, &o->text, first, "count of vertices", left / 6, &o->vertex_count);
     if (status != RT_OK)
         return status;
     rt_mesh_text_token(&o->text, &token);
@@ -105,8 +111,8 @@ static rt_status read_vertex(off *o, uint32_t vertex)
         count++;
     int colour_count = count - fixed;
     if (o->colours ? colour_count != 3 && colour_count != 4 : colour_count != 0)
-        return rt_mesh_fail(o->source, o->text.line, "vertex %u has %s%d values; expected %d%s", vertex,
-                            count > VERTEX_MAX ? "at least " : "", count, fixed,
+        return rt_mesh_fail(o->source, o->text.line, "vertex %u has %s%d values; expected %d%s",
+                            vertex, count > VERTEX_MAX ? "at least " : "", count, fixed,
                             o->colours ? " and 3 or 4 of colour" : "");
     for (int i = 0; i < count && status == RT_OK; i++)
         status = i >= colour_at && i < colour_at + colour_count
@@ -132,16 +138,18 @@ static rt_status read_face(off *o, uint64_t face)
     o->polygon.count = 0;
     for (uint64_t i = 0; i < count && status == RT_OK; i++) {
         if (!rt_mesh_text_any(&o->text, &token))
-            return rt_mesh_fail(o->source, o->text.line, "the file ends in face %llu of %llu", (unsigned long long)face,
-                                (unsigned long long)o->face_count);
+            return rt_mesh_fail(o->source, o->text.line, "the file ends in face %llu of %llu",
+                                (unsigned long long)face, (unsigned long long)o->face_count);
         if (o->vertex_count == 0)
             return rt_mesh_fail(o->source, o->text.line, "a face, but no vertices");
-        status = rt_field_count(o->source, &o->text, token, "vertex of a face", o->vertex_count - 1, &index);
+        status = rt_field_count(o->source, &o->text, token, "vertex of a face", o->vertex_count - 1,
+                                &index);
         if (status == RT_OK)
             status = rt_indices_add(&o->polygon, o->source, (uint32_t)index);
     }
     /* What is left of the line is the face's colour. */
-    return status == RT_OK ? rt_canonical_polygon(o->mesh, o->source, o->polygon.data, count) : status;
+    return status == RT_OK ? rt_canonical_polygon(o->mesh, o->source, o->polygon.data, count)
+                           : status;
 }
 
 static rt_status read_rows(off *o)
@@ -149,22 +157,28 @@ static rt_status read_rows(off *o)
     rt_status status = RT_OK;
     for (uint64_t i = 0; i < o->vertex_count + o->face_count && status == RT_OK; i++) {
         if (!next_line(o))
-            return rt_mesh_fail(
-                o->source, o->text.line, "the file ends after %llu of %llu vertices and %llu of %llu faces",
-                (unsigned long long)(i < o->vertex_count ? i : o->vertex_count), (unsigned long long)o->vertex_count,
-                (unsigned long long)(i < o->vertex_count ? 0 : i - o->vertex_count), (unsigned long long)o->face_count);
-        status = i < o->vertex_count ? read_vertex(o, (uint32_t)i) : read_face(o, i - o->vertex_count);
+            return rt_mesh_fail(o->source, o->text.line,
+                                "the file ends after %llu of %llu vertices and %llu of %llu faces",
+                                (unsigned long long)(i < o->vertex_count ? i : o->vertex_count),
+                                (unsigned long long)o->vertex_count,
+                                (unsigned long long)(i < o->vertex_count ? 0 : i - o->vertex_count),
+                                (unsigned long long)o->face_count);
+        status =
+            i < o->vertex_count ? read_vertex(o, (uint32_t)i) : read_face(o, i - o->vertex_count);
         if (status == RT_OK && (i & 0xfff) == 0)
-            status = rt_mesh_step(o->source, (uint64_t)(o->text.at - (const char *)o->source->data), o->source->size);
+            status = rt_mesh_step(o->source, (uint64_t)(o->text.at - (const char *)o->source->data),
+                                  o->source->size);
     }
     if (status == RT_OK && next_line(o))
-        rt_mesh_log(o->source, "what follows the last face, from line %zu on, is ignored", o->text.line);
+        rt_mesh_log(o->source, "what follows the last face, from line %zu on, is ignored",
+                    o->text.line);
     return status;
 }
 
 rt_status rt_off_read(rt_canonical *mesh, const rt_mesh_source *source)
 {
-    off o = {.source = source, .mesh = mesh, .text = rt_mesh_text_begin(source->data, source->size)};
+    off o = {
+        .source = source, .mesh = mesh, .text = rt_mesh_text_begin(source->data, source->size)};
     rt_token first;
     o.text.comments = 1;
     rt_status status = read_keyword(&o, &first);

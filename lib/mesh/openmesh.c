@@ -12,18 +12,22 @@
 /* The header that describes the canonical form. */
 static size_t write_header(const rt_canonical *mesh, char header[HEADER_MAX])
 {
-    int length = snprintf(header, HEADER_MAX,
-                          "ply\nformat %s 1.0\n"
-                          "element vertex %u\nproperty float x\nproperty float y\nproperty float z\n%s%s"
-                          "element face %u\nproperty list uchar uint vertex_index\nend_header\n",
-                          rt_ply_is_native(RT_PLY_LITTLE_ENDIAN) ? "binary_little_endian" : "binary_big_endian",
-                          mesh->vertex_count,
-                          mesh->has_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
-                          mesh->has_uv ? "property float u\nproperty float v\n" : "", mesh->triangle_count);
+    int length = snprintf(
+        header, HEADER_MAX,
+        "ply\nformat %s 1.0\n"
+        "element vertex %u\nproperty float x\nproperty float y\nproperty float z\n%s%s"
+        "element face %u\nproperty list uchar uint vertex_index\nend_header\n",
+        rt_ply_is_native(RT_PLY_LITTLE_ENDIAN) ? "binary_little_endian" : "binary_big_endian",
+        mesh->vertex_count,
+        mesh->has_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+        mesh->has_uv ? "property float u\nproperty float v\n" : "", mesh->triangle_count);
     return (size_t)length;
 }
 
-/* Room for `count` rows of `width` values of 4 bytes; at least one byte, so that NULL means failure. */
+/*
+ * Room for `count` rows of `width` values of 4 bytes; at least one byte, so that NULL means
+ * failure.
+ */
 static void *allocate(uint32_t count, size_t width)
 {
     return calloc(count ? count : 1, width * 4);
@@ -64,7 +68,8 @@ static rt_status read_through(rt_mesh *mesh, const rt_canonical *canonical, cons
     stage s = {progress, (uint64_t)canonical->vertex_count + canonical->triangle_count};
     rt_openmesh_file file = {
         {header, canonical->vertices, canonical->faces},
-        {write_header(canonical, header), (size_t)canonical->vertex_count * canonical->row * sizeof(float),
+        {write_header(canonical, header),
+         (size_t)canonical->vertex_count * canonical->row * sizeof(float),
          (size_t)canonical->triangle_count * RT_CANONICAL_FACE},
     };
     rt_openmesh_sink sink = {
@@ -88,21 +93,24 @@ static rt_status read_through(rt_mesh *mesh, const rt_canonical *canonical, cons
         break;
     }
     /* Nothing may be lost on the way. */
-    if (sink.vertex_count != canonical->vertex_count || sink.triangle_count != canonical->triangle_count)
-        return rt_fail(error, RT_ERROR_INPUT, "OpenMesh read %u of %u vertices and %u of %u triangles of %.300s",
-                       sink.vertex_count, canonical->vertex_count, sink.triangle_count, canonical->triangle_count,
-                       path);
+    if (sink.vertex_count != canonical->vertex_count ||
+        sink.triangle_count != canonical->triangle_count)
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "OpenMesh read %u of %u vertices and %u of %u triangles of %.300s",
+                       sink.vertex_count, canonical->vertex_count, sink.triangle_count,
+                       canonical->triangle_count, path);
     mesh->vertex_count = sink.vertex_count;
     mesh->triangle_count = sink.triangle_count;
     return RT_OK;
 }
 
-rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const char *path, rt_stage_progress *progress,
-                                 rt_error *error)
+rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const char *path,
+                                 rt_stage_progress *progress, rt_error *error)
 {
     rt_mesh *mesh = create(canonical);
     if (!mesh)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a mesh of %u vertices and %u triangles",
+        return rt_fail(error, RT_ERROR_MEMORY,
+                       "out of memory for a mesh of %u vertices and %u triangles",
                        canonical->vertex_count, canonical->triangle_count);
     rt_status status = read_through(mesh, canonical, path, progress, error);
     if (status != RT_OK) {

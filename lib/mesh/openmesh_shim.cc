@@ -23,7 +23,10 @@ namespace
 
 using namespace OpenMesh;
 
-/* The pieces of the file as one stream. Seeking works within the first piece, the header, where OpenMesh needs it. */
+/*
+ * The pieces of the file as one stream. Seeking works within the first piece, the header, where
+ * OpenMesh needs it.
+ */
 class PieceBuffer : public std::streambuf
 {
   public:
@@ -46,8 +49,9 @@ class PieceBuffer : public std::streambuf
     pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override
     {
         const off_type here = gptr() - eback();
-        return from == std::ios_base::end ? pos_type(off_type(-1))
-                                          : seek(from == std::ios_base::cur ? here + offset : offset);
+        return from == std::ios_base::end
+                   ? pos_type(off_type(-1))
+                   : seek(from == std::ios_base::cur ? here + offset : offset);
     }
 
     pos_type seekpos(pos_type position, std::ios_base::openmode) override
@@ -64,7 +68,10 @@ class PieceBuffer : public std::streambuf
         piece_ = piece;
     }
 
-    /* The end of the header is also the beginning of what follows; nothing goes back once that is entered. */
+    /*
+     * The end of the header is also the beginning of what follows; nothing goes back once that is
+     * entered.
+     */
     pos_type seek(off_type position)
     {
         if (piece_ != 0 || position < 0 || position > egptr() - eback())
@@ -77,9 +84,13 @@ class PieceBuffer : public std::streambuf
     int piece_ = 0;
 };
 
-struct Stopped : std::exception {};
+struct Stopped : std::exception {
+};
 
-/* Takes vertices and faces as they come. What a triangle file has no use for is refused, not dropped. */
+/*
+ * Takes vertices and faces as they come. What a triangle file has no use for is refused, not
+ * dropped.
+ */
 class RawImporter : public IO::BaseImporter
 {
   public:
@@ -152,8 +163,14 @@ class RawImporter : public IO::BaseImporter
     // clang-format off
     HalfedgeHandle add_edge(VertexHandle, VertexHandle) override { refuse(); }
     FaceHandle add_face(HalfedgeHandle) override { refuse(); }
-    void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec2f> &) override { refuse(); }
-    void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec3f> &) override { refuse(); }
+    void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec2f> &) override
+    {
+        refuse();
+    }
+    void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<Vec3f> &) override
+    {
+        refuse();
+    }
     void set_face_texindex(FaceHandle, int) override { refuse(); }
     void set_halfedge(VertexHandle, HalfedgeHandle) override { refuse(); }
     void set_color(VertexHandle, const Vec3uc &) override { refuse(); }
@@ -235,7 +252,8 @@ void read(rt_openmesh_sink &sink, const rt_openmesh_file &file)
     std::istream stream(&buffer);
     stream.imbue(std::locale::classic());
     RawImporter importer(sink);
-    IO::Options options = IO::Options::Binary | IO::Options::VertexNormal | IO::Options::VertexTexCoord;
+    IO::Options options =
+        IO::Options::Binary | IO::Options::VertexNormal | IO::Options::VertexTexCoord;
     if (!IO::PLYReader().read(stream, importer, options))
         throw std::runtime_error("OpenMesh refuses the file");
     if (!stream)
@@ -244,7 +262,8 @@ void read(rt_openmesh_sink &sink, const rt_openmesh_file &file)
 
 } // namespace
 
-rt_openmesh_result rt_openmesh_read(rt_openmesh_sink *sink, const rt_openmesh_file *file, char *why, size_t why_size)
+rt_openmesh_result rt_openmesh_read(rt_openmesh_sink *sink, const rt_openmesh_file *file, char *why,
+                                    size_t why_size)
 {
     try {
         sink->vertex_count = sink->triangle_count = 0;

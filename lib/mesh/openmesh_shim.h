@@ -1,4 +1,6 @@
-/* openmesh_shim.h - the way to OpenMesh, which is C++: the only C++ in the library lies behind it. */
+/*
+ * openmesh_shim.h - the way to OpenMesh, which is C++: the only C++ in the library lies behind it.
+ */
 #ifndef RT_LIB_MESH_OPENMESH_SHIM_H
 #define RT_LIB_MESH_OPENMESH_SHIM_H
 
@@ -17,15 +19,16 @@ typedef struct rt_openmesh_file {
 } rt_openmesh_file;
 
 /*
- * Where OpenMesh puts what it reads. The caller gives the arrays, with room for vertex_room vertices and
- * triangle_room triangles; normals and uv may be NULL when the file has none.
+ * Where OpenMesh puts what it reads. The caller gives the arrays, with room for vertex_room
+ * vertices and triangle_room triangles; normals and uv may be NULL when the file has none.
  */
 typedef struct rt_openmesh_sink {
     float *positions, *normals, *uv; /* [vertex_room][3], [vertex_room][3], [vertex_room][2] */
     uint32_t *indices;               /* [triangle_room][3] */
     uint32_t vertex_room, triangle_room;
-    uint32_t vertex_count, triangle_count;  /* how many OpenMesh handed over */
-    int (*step)(void *user, uint64_t done); /* now and then, after so many vertices and triangles; non-zero stops */
+    uint32_t vertex_count, triangle_count; /* how many OpenMesh handed over */
+    /* now and then, after so many vertices and triangles; non-zero stops */
+    int (*step)(void *user, uint64_t done);
     void *user;
 } rt_openmesh_sink;
 
@@ -37,11 +40,13 @@ typedef enum rt_openmesh_result {
 } rt_openmesh_result;
 
 /*
- * Reads a PLY file through OpenMesh's reader, face by face as they stand in the file: no half-edge mesh is
- * built, so edges shared by three faces lose none. OpenMesh's readers are global and mutable; one call at a
- * time gets through. No exception leaves it. `why` gets the cause of a failure, at most why_size - 1 characters.
+ * Reads a PLY file through OpenMesh's reader, face by face as they stand in the file: no half-edge
+ * mesh is built, so edges shared by three faces lose none. OpenMesh's readers are global and
+ * mutable; one call at a time gets through. No exception leaves it. `why` gets the cause of a
+ * failure, at most why_size - 1 characters.
  */
-rt_openmesh_result rt_openmesh_read(rt_openmesh_sink *sink, const rt_openmesh_file *file, char *why, size_t why_size);
+rt_openmesh_result rt_openmesh_read(rt_openmesh_sink *sink, const rt_openmesh_file *file, char *why,
+                                    size_t why_size);
 
 #ifdef __cplusplus
 }

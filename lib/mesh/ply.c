@@ -20,7 +20,8 @@ static rt_status skip_rows(rt_ply_reader *reader)
     return status;
 }
 
-static rt_status read_elements(rt_ply_faces *faces, rt_ply_reader *reader, const rt_ply_header *header)
+static rt_status read_elements(rt_ply_faces *faces, rt_ply_reader *reader,
+                               const rt_ply_header *header)
 {
     rt_status status = RT_OK;
     for (size_t i = 0; i < header->element_count && status == RT_OK; i++) {
@@ -40,20 +41,25 @@ static rt_status read_elements(rt_ply_faces *faces, rt_ply_reader *reader, const
     return status;
 }
 
-/* Replaces the vertices of the file by the corners, each a copy with texture coordinates of its own. */
+/*
+ * Replaces the vertices of the file by the corners, each a copy with texture coordinates of its
+ * own.
+ */
 static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *source)
 {
     rt_canonical *mesh = faces->mesh;
     rt_canonical split = {0};
     const rt_unique *corners = &faces->corners;
-    rt_status status =
-        rt_canonical_vertices(&split, source, corners->count, mesh->has_normals, 1, mesh->colours != NULL);
+    rt_status status = rt_canonical_vertices(&split, source, corners->count, mesh->has_normals, 1,
+                                             mesh->colours != NULL);
     for (uint32_t i = 0; i < corners->count && status == RT_OK; i++) {
         uint32_t vertex = corners->keys[i][0];
-        memcpy(rt_canonical_position(&split, i), rt_canonical_position(mesh, vertex), mesh->row * sizeof(float));
+        memcpy(rt_canonical_position(&split, i), rt_canonical_position(mesh, vertex),
+               mesh->row * sizeof(float));
         memcpy(rt_canonical_uv(&split, i), corners->keys[i] + 1, 2 * sizeof(float));
         if (mesh->colours)
-            memcpy(split.colours + 3 * (size_t)i, mesh->colours + 3 * (size_t)vertex, 3 * sizeof(float));
+            memcpy(split.colours + 3 * (size_t)i, mesh->colours + 3 * (size_t)vertex,
+                   3 * sizeof(float));
     }
     if (status != RT_OK) {
         rt_canonical_free(&split);
@@ -74,10 +80,12 @@ static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *sourc
 static int has_corners(const rt_ply_header *header)
 {
     const rt_ply_element *face = rt_ply_find_element(header, "face");
-    return face && face->count && rt_ply_faces_texcoord(face) && !rt_ply_find_element(header, "tristrips");
+    return face && face->count && rt_ply_faces_texcoord(face) &&
+           !rt_ply_find_element(header, "tristrips");
 }
 
-static rt_status keep_texture(rt_canonical *mesh, const rt_ply_header *header, const rt_mesh_source *source)
+static rt_status keep_texture(rt_canonical *mesh, const rt_ply_header *header,
+                              const rt_mesh_source *source)
 {
     if (header->texture.length == 0)
         return RT_OK;
@@ -89,17 +97,22 @@ static rt_status keep_texture(rt_canonical *mesh, const rt_ply_header *header, c
     return RT_OK;
 }
 
-static rt_status read_body(rt_canonical *mesh, const rt_mesh_source *source, const rt_ply_header *header)
+static rt_status read_body(rt_canonical *mesh, const rt_mesh_source *source,
+                           const rt_ply_header *header)
 {
     static const rt_ply_element no_vertices = {.count = 0};
     const rt_ply_element *vertex = rt_ply_find_element(header, "vertex");
     rt_ply_faces faces = {.mesh = mesh, .by_corner = has_corners(header)};
     rt_ply_reader reader = rt_ply_reader_begin(source, header);
 
-    /* The number of vertices bounds the indices, also of faces that come first; check it before trusting it. */
+    /*
+     * The number of vertices bounds the indices, also of faces that come first; check it before
+     * trusting it.
+     */
     rt_status status = rt_ply_enter(&reader, vertex ? vertex : &no_vertices);
     if (status == RT_OK)
-        status = rt_ply_vertices_prepare(mesh, &reader, vertex ? vertex : &no_vertices, faces.by_corner);
+        status =
+            rt_ply_vertices_prepare(mesh, &reader, vertex ? vertex : &no_vertices, faces.by_corner);
     faces.vertex_count = mesh->file_vertices;
     if (status == RT_OK)
         status = read_elements(&faces, &reader, header);

@@ -16,7 +16,8 @@ const rt_ply_property *rt_ply_faces_texcoord(const rt_ply_element *element)
 }
 
 /* Makes room for a list whose values are known to be in the file. */
-static rt_status grow(void **array, size_t *room, uint64_t count, size_t size, const rt_mesh_source *source)
+static rt_status grow(void **array, size_t *room, uint64_t count, size_t size,
+                      const rt_mesh_source *source)
 {
     if (count <= *room)
         return RT_OK;
@@ -29,8 +30,8 @@ static rt_status grow(void **array, size_t *room, uint64_t count, size_t size, c
 }
 
 /* Reads a list of vertices; in a strip, -1 stands for UINT32_MAX. */
-static rt_status read_vertices(rt_ply_faces *f, rt_ply_reader *reader, const rt_ply_property *property, int strips,
-                               uint64_t *count)
+static rt_status read_vertices(rt_ply_faces *f, rt_ply_reader *reader,
+                               const rt_ply_property *property, int strips, uint64_t *count)
 {
     rt_status status = rt_ply_list(reader, property, count);
     if (status == RT_OK)
@@ -42,14 +43,15 @@ static rt_status read_vertices(rt_ply_faces *f, rt_ply_reader *reader, const rt_
             return status;
         int restart = strips && index == -1;
         if (!restart && (index < 0 || index >= (double)f->vertex_count))
-            return rt_ply_fail(reader, "vertex %.0f is out of range; the file has %llu vertices", index,
-                               (unsigned long long)f->vertex_count);
+            return rt_ply_fail(reader, "vertex %.0f is out of range; the file has %llu vertices",
+                               index, (unsigned long long)f->vertex_count);
         f->list[i] = restart ? UINT32_MAX : (uint32_t)index;
     }
     return status;
 }
 
-static rt_status read_texcoord(rt_ply_faces *f, rt_ply_reader *reader, const rt_ply_property *property, uint64_t *count)
+static rt_status read_texcoord(rt_ply_faces *f, rt_ply_reader *reader,
+                               const rt_ply_property *property, uint64_t *count)
 {
     rt_status status = rt_ply_list(reader, property, count);
     if (status == RT_OK)
@@ -60,12 +62,14 @@ static rt_status read_texcoord(rt_ply_faces *f, rt_ply_reader *reader, const rt_
 }
 
 /* Turns vertices of the file into corners, each with its own texture coordinates. */
-static rt_status number_corners(rt_ply_faces *f, rt_ply_reader *reader, uint64_t count, uint64_t uv_count)
+static rt_status number_corners(rt_ply_faces *f, rt_ply_reader *reader, uint64_t count,
+                                uint64_t uv_count)
 {
     static const float none[2] = {0, 0};
     if (uv_count != 0 && uv_count != 2 * count) {
         reader->property = NULL;
-        return rt_ply_fail(reader, "texcoord has %llu values for %llu corners; expected two for each",
+        return rt_ply_fail(reader,
+                           "texcoord has %llu values for %llu corners; expected two for each",
                            (unsigned long long)uv_count, (unsigned long long)count);
     }
     f->bare_faces += uv_count == 0;
@@ -118,10 +122,12 @@ static rt_status read_row(rt_ply_faces *f, rt_ply_reader *reader, const rt_ply_p
 }
 
 /* Whether the rows of triangles are those of the canonical form. */
-static int is_canonical(const rt_ply_faces *f, const rt_ply_reader *reader, const rt_ply_property *list, int strips)
+static int is_canonical(const rt_ply_faces *f, const rt_ply_reader *reader,
+                        const rt_ply_property *list, int strips)
 {
-    return !strips && !f->by_corner && reader->element->property_count == 1 && rt_ply_is_native(reader->format) &&
-           rt_ply_size(list->count_type) == 1 && (list->type == RT_PLY_INT32 || list->type == RT_PLY_UINT32);
+    return !strips && !f->by_corner && reader->element->property_count == 1 &&
+           rt_ply_is_native(reader->format) && rt_ply_size(list->count_type) == 1 &&
+           (list->type == RT_PLY_INT32 || list->type == RT_PLY_UINT32);
 }
 
 /* Copies triangles as they stand in the file, up to the first row that is anything else. */
@@ -135,7 +141,8 @@ static void copy_triangles(rt_ply_faces *f, rt_ply_reader *reader)
         /* A negative index is far too large as an unsigned one. */
         if (v[0] >= f->vertex_count || v[1] >= f->vertex_count || v[2] >= f->vertex_count)
             return;
-        memcpy(mesh->faces + (size_t)mesh->triangle_count++ * RT_CANONICAL_FACE, reader->at, RT_CANONICAL_FACE);
+        memcpy(mesh->faces + (size_t)mesh->triangle_count++ * RT_CANONICAL_FACE, reader->at,
+               RT_CANONICAL_FACE);
         mesh->file_faces++;
         reader->at += RT_CANONICAL_FACE;
         reader->row++;
@@ -150,11 +157,13 @@ rt_status rt_ply_faces_read(rt_ply_faces *f, rt_ply_reader *reader, int strips)
     if (element->count == 0)
         return RT_OK;
     if (!list || !list->is_list || rt_ply_is_float(list->type))
-        return rt_mesh_fail(reader->source, element->line, "element %s has no list vertex_indices of an integer type",
+        return rt_mesh_fail(reader->source, element->line,
+                            "element %s has no list vertex_indices of an integer type",
                             strips ? "tristrips" : "face");
     int direct = is_canonical(f, reader, list, strips);
-    rt_status status =
-        strips ? RT_OK : rt_canonical_reserve(f->mesh, reader->source, f->mesh->triangle_count + element->count);
+    rt_status status = strips ? RT_OK
+                              : rt_canonical_reserve(f->mesh, reader->source,
+                                                     f->mesh->triangle_count + element->count);
     while (reader->row < element->count && status == RT_OK) {
         if (direct)
             copy_triangles(f, reader);

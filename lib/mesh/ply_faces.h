@@ -11,9 +11,9 @@ typedef struct rt_ply_faces {
     rt_canonical *mesh;
     uint64_t vertex_count; /* of the file */
     /*
-     * Whether faces bring texture coordinates for their corners (`property list uchar float texcoord`, two
-     * for each corner). If so, the corners of the triangles are numbers in `corners`, whose keys are a
-     * vertex of the file and the bits of its u and v.
+     * Whether faces bring texture coordinates for their corners (`property list uchar float
+     * texcoord`, two for each corner). If so, the corners of the triangles are numbers in
+     * `corners`, whose keys are a vertex of the file and the bits of its u and v.
      */
     int by_corner;
     rt_unique corners;

@@ -51,11 +51,13 @@ static rt_status bad_line(const parser *p, const char *expected)
     char quote[RT_QUOTE];
     rt_token line = p->words[0];
     if (p->word_count)
-        line.length = (size_t)(p->words[p->word_count - 1].at + p->words[p->word_count - 1].length - line.at);
+        line.length =
+            (size_t)(p->words[p->word_count - 1].at + p->words[p->word_count - 1].length - line.at);
     if (p->word_count == 0)
-        return rt_mesh_fail(p->source, p->text.line, "PLY header: an empty line; expected %s", expected);
-    return rt_mesh_fail(p->source, p->text.line, "PLY header: '%s'; expected %s", rt_token_quote(line, quote),
-                        expected);
+        return rt_mesh_fail(p->source, p->text.line, "PLY header: an empty line; expected %s",
+                            expected);
+    return rt_mesh_fail(p->source, p->text.line, "PLY header: '%s'; expected %s",
+                        rt_token_quote(line, quote), expected);
 }
 
 static rt_status read_type(const parser *p, rt_token word, rt_ply_type *out)
@@ -86,7 +88,9 @@ static rt_status read_format(parser *p)
                 p->header->format = (rt_ply_format)i;
                 return RT_OK;
             }
-    return bad_line(p, "'format ascii 1.0', 'format binary_little_endian 1.0' or 'format binary_big_endian 1.0'");
+    return bad_line(
+        p,
+        "'format ascii 1.0', 'format binary_little_endian 1.0' or 'format binary_big_endian 1.0'");
 }
 
 static rt_status read_element(parser *p)
@@ -100,7 +104,8 @@ static rt_status read_element(parser *p)
             return rt_mesh_fail(p->source, p->text.line, "PLY header: element '%s' is there twice",
                                 rt_token_quote(p->words[1], quote));
     if (p->header->element_count == RT_PLY_ELEMENTS)
-        return rt_mesh_fail(p->source, p->text.line, "PLY header: more than %d elements", RT_PLY_ELEMENTS);
+        return rt_mesh_fail(p->source, p->text.line, "PLY header: more than %d elements",
+                            RT_PLY_ELEMENTS);
     rt_ply_element *element = &p->header->elements[p->header->element_count++];
     memset(element, 0, sizeof *element);
     element->name = p->words[1];
@@ -114,7 +119,8 @@ static rt_status grow_properties(const parser *p, rt_ply_element *element)
 {
     size_t count = element->property_count;
     if (count == RT_PLY_PROPERTIES)
-        return rt_mesh_fail(p->source, p->text.line, "PLY header: more than %d properties", RT_PLY_PROPERTIES);
+        return rt_mesh_fail(p->source, p->text.line, "PLY header: more than %d properties",
+                            RT_PLY_PROPERTIES);
     if (count & (count - 1))
         return RT_OK;
     rt_ply_property *grown = realloc(element->properties, (count ? 2 * count : 1) * sizeof *grown);
@@ -157,7 +163,8 @@ static rt_status read_property(parser *p)
 static void read_comment(parser *p)
 {
     rt_token word;
-    if (rt_mesh_text_token(&p->text, &word) && rt_token_is(word, "TextureFile") && p->header->texture.length == 0)
+    if (rt_mesh_text_token(&p->text, &word) && rt_token_is(word, "TextureFile") &&
+        p->header->texture.length == 0)
         p->header->texture = rt_mesh_text_rest(&p->text);
 }
 
@@ -215,12 +222,14 @@ int rt_ply_is(const uint8_t *data, size_t size)
 
 rt_status rt_ply_header_read(rt_ply_header *out, const rt_mesh_source *source)
 {
-    parser p = {.source = source, .header = out, .text = rt_mesh_text_begin(source->data, source->size)};
+    parser p = {
+        .source = source, .header = out, .text = rt_mesh_text_begin(source->data, source->size)};
     out->element_count = 0;
     out->texture = (rt_token){NULL, 0};
     if (!rt_ply_is(source->data, source->size))
         return rt_mesh_fail(source, 1,
-                            source->size ? "not a PLY file: its first line is not 'ply'" : "the file is empty");
+                            source->size ? "not a PLY file: its first line is not 'ply'"
+                                         : "the file is empty");
     split_line(&p);
     if (p.word_count != 1)
         return bad_line(&p, "'ply' alone on the first line");

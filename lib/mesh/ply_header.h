@@ -1,8 +1,8 @@
 /*
  * ply_header.h - the header of a PLY file.
  *
- * Reference: G. Turk, "The PLY Polygon File Format", 1994. Beyond it: the type names int8 .. float64,
- * obj_info lines, and comments before the format line.
+ * Reference: G. Turk, "The PLY Polygon File Format", 1994. Beyond it: the type names int8 ..
+ * float64, obj_info lines, and comments before the format line.
  */
 #ifndef RT_LIB_MESH_PLY_HEADER_H
 #define RT_LIB_MESH_PLY_HEADER_H

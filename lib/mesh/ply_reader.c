@@ -67,22 +67,25 @@ rt_status rt_ply_fail(const rt_ply_reader *r, const char *format, ...)
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    return rt_mesh_fail(r->source, r->format == RT_PLY_ASCII ? r->text.line : 0, "%s %llu of %llu%s%s: %s",
-                        rt_token_quote(r->element->name, element), (unsigned long long)r->row,
-                        (unsigned long long)r->element->count, r->property ? ", " : "",
+    return rt_mesh_fail(r->source, r->format == RT_PLY_ASCII ? r->text.line : 0,
+                        "%s %llu of %llu%s%s: %s", rt_token_quote(r->element->name, element),
+                        (unsigned long long)r->row, (unsigned long long)r->element->count,
+                        r->property ? ", " : "",
                         r->property ? rt_token_quote(r->property->name, property) : "", message);
 }
 
 /* The least bytes that a value takes in the file. */
 static uint64_t least_size(const rt_ply_reader *r, rt_ply_type type)
 {
-    return r->format == RT_PLY_ASCII ? 2 : rt_ply_size(type); /* in ascii, a digit and white space */
+    /* in ascii, a digit and white space */
+    return r->format == RT_PLY_ASCII ? 2 : rt_ply_size(type);
 }
 
 /* Bytes left, with one more for the white space that the last line of an ascii file may lack. */
 static uint64_t bytes_left(const rt_ply_reader *r)
 {
-    return r->format == RT_PLY_ASCII ? (uint64_t)(r->text.end - r->text.at) + 1 : (uint64_t)(r->end - r->at);
+    return r->format == RT_PLY_ASCII ? (uint64_t)(r->text.end - r->text.at) + 1
+                                     : (uint64_t)(r->end - r->at);
 }
 
 rt_status rt_ply_enter(rt_ply_reader *r, const rt_ply_element *element)
@@ -99,8 +102,8 @@ rt_status rt_ply_enter(rt_ply_reader *r, const rt_ply_element *element)
     if (least && element->count > bytes_left(r) / least)
         return rt_mesh_fail(r->source, element->line,
                             "element %s: %llu of them do not fit in the %llu bytes that follow",
-                            rt_token_quote(element->name, quote), (unsigned long long)element->count,
-                            (unsigned long long)bytes_left(r));
+                            rt_token_quote(element->name, quote),
+                            (unsigned long long)element->count, (unsigned long long)bytes_left(r));
     return RT_OK;
 }
 
@@ -116,11 +119,15 @@ static rt_status ascii_value(rt_ply_reader *r, rt_ply_type type, double *out)
     if (!rt_mesh_text_any(&r->text, &token))
         return cut_short(r);
     if (rt_ply_is_float(type))
-        return rt_token_real(token, out) ? RT_OK : rt_ply_fail(r, "'%s' is not a number", rt_token_quote(token, quote));
+        return rt_token_real(token, out)
+                   ? RT_OK
+                   : rt_ply_fail(r, "'%s' is not a number", rt_token_quote(token, quote));
     int64_t value;
-    if (!rt_token_integer(token, &value) || value < rt_ply_least(type) || value > rt_ply_greatest(type))
-        return rt_ply_fail(r, "'%s' is not a whole number from %lld to %lld", rt_token_quote(token, quote),
-                           (long long)rt_ply_least(type), (long long)rt_ply_greatest(type));
+    if (!rt_token_integer(token, &value) || value < rt_ply_least(type) ||
+        value > rt_ply_greatest(type))
+        return rt_ply_fail(r, "'%s' is not a whole number from %lld to %lld",
+                           rt_token_quote(token, quote), (long long)rt_ply_least(type),
+                           (long long)rt_ply_greatest(type));
     *out = (double)value;
     return RT_OK;
 }
@@ -186,8 +193,10 @@ rt_status rt_ply_end_row(rt_ply_reader *r)
     char quote[RT_QUOTE];
     rt_token extra;
     r->property = NULL;
-    if (r->format == RT_PLY_ASCII && r->element->property_count && rt_mesh_text_token(&r->text, &extra))
-        return rt_ply_fail(r, "'%s' is one value more than the header announces", rt_token_quote(extra, quote));
+    if (r->format == RT_PLY_ASCII && r->element->property_count &&
+        rt_mesh_text_token(&r->text, &extra))
+        return rt_ply_fail(r, "'%s' is one value more than the header announces",
+                           rt_token_quote(extra, quote));
     /* Report now and then. */
     if ((++r->row & 0xffff) == 0) {
         const uint8_t *at = r->format == RT_PLY_ASCII ? (const uint8_t *)r->text.at : r->at;
@@ -200,7 +209,9 @@ void rt_ply_end(rt_ply_reader *r)
 {
     rt_token token;
     if (r->format != RT_PLY_ASCII && r->at < r->end)
-        rt_mesh_log(r->source, "%zu bytes after the last element are ignored", (size_t)(r->end - r->at));
+        rt_mesh_log(r->source, "%zu bytes after the last element are ignored",
+                    (size_t)(r->end - r->at));
     else if (r->format == RT_PLY_ASCII && rt_mesh_text_any(&r->text, &token))
-        rt_mesh_log(r->source, "what follows the last element, from line %zu on, is ignored", r->text.line);
+        rt_mesh_log(r->source, "what follows the last element, from line %zu on, is ignored",
+                    r->text.line);
 }

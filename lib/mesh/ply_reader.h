@@ -30,7 +30,10 @@ rt_status rt_ply_fail(const rt_ply_reader *reader, const char *format, ...) RT_P
 /* Enters an element: its rows must fit in what is left of the file, however short they are. */
 rt_status rt_ply_enter(rt_ply_reader *reader, const rt_ply_element *element);
 
-/* The next value. In ascii an integer must lie in the range of its type. May be infinite or not a number. */
+/*
+ * The next value. In ascii an integer must lie in the range of its type. May be infinite or not a
+ * number.
+ */
 rt_status rt_ply_value(rt_ply_reader *reader, rt_ply_type type, double *out);
 
 /* The same, finite as a float. */
@@ -39,7 +42,9 @@ rt_status rt_ply_finite(rt_ply_reader *reader, rt_ply_type type, float *out);
 /* The length of the list that comes next; all its values fit in what is left of the file. */
 rt_status rt_ply_list(rt_ply_reader *reader, const rt_ply_property *property, uint64_t *count);
 
-/* Passes over a scalar or a list. In ascii, the values skipped must still be numbers of their type. */
+/*
+ * Passes over a scalar or a list. In ascii, the values skipped must still be numbers of their type.
+ */
 rt_status rt_ply_skip(rt_ply_reader *reader, const rt_ply_property *property);
 
 /* Ends a row: in ascii nothing may be left on its line. */

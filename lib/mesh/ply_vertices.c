@@ -22,8 +22,8 @@ typedef struct attributes {
     attribute position, normal, uv, colour;
 } attributes;
 
-static attribute find(const rt_ply_element *element, const char *const (*groups)[PARTS_MAX], size_t group_count,
-                      int parts)
+static attribute find(const rt_ply_element *element, const char *const (*groups)[PARTS_MAX],
+                      size_t group_count, int parts)
 {
     attribute found = {{NULL, NULL, NULL}, 0};
     for (size_t g = 0; g < group_count; g++) {
@@ -54,11 +54,13 @@ static attributes find_all(const rt_ply_element *element)
     return found;
 }
 
-rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader, const rt_ply_element *element, int with_uv)
+rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader,
+                                  const rt_ply_element *element, int with_uv)
 {
     attributes found = find_all(element);
     if (element->count && !found.position.count)
-        return rt_mesh_fail(reader->source, element->line, "element vertex has not all of the properties x, y and z");
+        return rt_mesh_fail(reader->source, element->line,
+                            "element vertex has not all of the properties x, y and z");
     mesh->file_vertices = element->count;
     return rt_canonical_vertices(mesh, reader->source, element->count, found.normal.count != 0,
                                  found.uv.count != 0 || with_uv, found.colour.count != 0);
@@ -84,7 +86,8 @@ static int part_of(const attribute *attribute, const rt_ply_property *property)
     return -1;
 }
 
-static target find_target(const rt_canonical *mesh, const attributes *found, const rt_ply_property *property)
+static target find_target(const rt_canonical *mesh, const attributes *found,
+                          const rt_ply_property *property)
 {
     target to = {NULL, mesh->row, 1.0f};
     int part;
@@ -119,7 +122,8 @@ static rt_status read_rows(rt_ply_reader *reader, const target *targets)
             reader->property = property;
             status = rt_ply_finite(reader, property->type, &value);
             if (status == RT_OK)
-                targets[i].first[(size_t)reader->row * targets[i].stride] = value * targets[i].scale;
+                targets[i].first[(size_t)reader->row * targets[i].stride] =
+                    value * targets[i].scale;
         }
         if (status == RT_OK)
             status = rt_ply_end_row(reader);
@@ -157,14 +161,16 @@ static rt_status read_columns(rt_ply_reader *reader, const target *targets, size
             if (!isfinite(value)) {
                 reader->row = row;
                 reader->property = &element->properties[i];
-                return rt_ply_fail(reader, "%g is not a finite float", rt_ply_decode(at, type, native));
+                return rt_ply_fail(reader, "%g is not a finite float",
+                                   rt_ply_decode(at, type, native));
             }
             targets[i].first[(size_t)row * targets[i].stride] = value * targets[i].scale;
         }
         from += rt_ply_size(type);
     }
     reader->at += (size_t)element->count * size;
-    return rt_mesh_step(reader->source, (uint64_t)(reader->at - reader->source->data), reader->source->size);
+    return rt_mesh_step(reader->source, (uint64_t)(reader->at - reader->source->data),
+                        reader->source->size);
 }
 
 rt_status rt_ply_vertices_read(rt_canonical *mesh, rt_ply_reader *reader)
@@ -175,5 +181,6 @@ rt_status rt_ply_vertices_read(rt_canonical *mesh, rt_ply_reader *reader)
     for (size_t i = 0; i < element->property_count; i++)
         targets[i] = find_target(mesh, &found, &element->properties[i]);
     size_t size = fixed_size(element);
-    return reader->format != RT_PLY_ASCII && size ? read_columns(reader, targets, size) : read_rows(reader, targets);
+    return reader->format != RT_PLY_ASCII && size ? read_columns(reader, targets, size)
+                                                  : read_rows(reader, targets);
 }

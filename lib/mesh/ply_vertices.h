@@ -6,16 +6,17 @@
 #include "mesh/ply_reader.h"
 
 /*
- * Makes room in mesh for the vertices and what the header gives them: position, normal (nx ny nz), texture
- * coordinates (u v, s t, texture_u texture_v, texture_s texture_t) and colour (red green blue,
- * diffuse_red ..., r g b). with_uv asks for texture coordinates also where the vertices have none.
+ * Makes room in mesh for the vertices and what the header gives them: position, normal (nx ny nz),
+ * texture coordinates (u v, s t, texture_u texture_v, texture_s texture_t) and colour (red green
+ * blue, diffuse_red ..., r g b). with_uv asks for texture coordinates also where the vertices have
+ * none.
  */
-rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader, const rt_ply_element *element,
-                                  int with_uv);
+rt_status rt_ply_vertices_prepare(rt_canonical *mesh, rt_ply_reader *reader,
+                                  const rt_ply_element *element, int with_uv);
 
 /*
- * Reads the vertices, which the reader has entered. Integer texture coordinates and colours are scaled by
- * the greatest value of their type.
+ * Reads the vertices, which the reader has entered. Integer texture coordinates and colours are
+ * scaled by the greatest value of their type.
  */
 rt_status rt_ply_vertices_read(rt_canonical *mesh, rt_ply_reader *reader);
 

@@ -19,7 +19,8 @@ rt_status rt_mesh_fail(const rt_mesh_source *source, size_t line, const char *fo
 
 rt_status rt_mesh_fail_memory(const rt_mesh_source *source, uint64_t count, const char *what)
 {
-    return rt_fail(source->error, RT_ERROR_MEMORY, "out of memory for %llu %s", (unsigned long long)count, what);
+    return rt_fail(source->error, RT_ERROR_MEMORY, "out of memory for %llu %s",
+                   (unsigned long long)count, what);
 }
 
 void rt_mesh_log(const rt_mesh_source *source, const char *format, ...)

@@ -41,17 +41,19 @@ static rt_status add_facet(stl *s, float corners[9])
 
 static uint64_t announced(const rt_mesh_source *source)
 {
-    return (uint64_t)rt_ply_decode(source->data + HEADER_SIZE, RT_PLY_UINT32, rt_ply_is_native(RT_PLY_LITTLE_ENDIAN));
+    return (uint64_t)rt_ply_decode(source->data + HEADER_SIZE, RT_PLY_UINT32,
+                                   rt_ply_is_native(RT_PLY_LITTLE_ENDIAN));
 }
 
 static rt_status read_binary(stl *s)
 {
     const rt_mesh_source *source = s->source;
     if (source->size < HEADER_SIZE + 4)
-        return rt_mesh_fail(source, 0,
-                            "not an STL file: it neither begins with 'solid' nor has the %d bytes of a binary "
-                            "header",
-                            HEADER_SIZE + 4);
+        return rt_mesh_fail(
+            source, 0,
+            "not an STL file: it neither begins with 'solid' nor has the %d bytes of a binary "
+            "header",
+            HEADER_SIZE + 4);
     uint64_t count = announced(source), room = (source->size - HEADER_SIZE - 4) / FACET_SIZE;
     int native = rt_ply_is_native(RT_PLY_LITTLE_ENDIAN);
     if (count > room)
@@ -64,14 +66,15 @@ static rt_status read_binary(stl *s)
         for (int k = 0; k < 9; k++) {
             corners[k] = (float)rt_ply_decode(at + 4 * k, RT_PLY_FLOAT32, native);
             if (!isfinite(corners[k]))
-                return rt_mesh_fail(source, 0, "facet %llu of %llu: %g is not a finite float", (unsigned long long)i,
-                                    (unsigned long long)count, corners[k]);
+                return rt_mesh_fail(source, 0, "facet %llu of %llu: %g is not a finite float",
+                                    (unsigned long long)i, (unsigned long long)count, corners[k]);
         }
         status = add_facet(s, corners);
     }
     uint64_t used = HEADER_SIZE + 4 + count * FACET_SIZE;
     if (status == RT_OK && used < source->size)
-        rt_mesh_log(source, "%llu bytes after the last facet are ignored", (unsigned long long)(source->size - used));
+        rt_mesh_log(source, "%llu bytes after the last facet are ignored",
+                    (unsigned long long)(source->size - used));
     return status;
 }
 
@@ -94,9 +97,11 @@ static rt_status expect(const stl *s, rt_mesh_text *text, const char *const *wor
     rt_token token;
     for (; *words; words++) {
         if (!rt_mesh_text_any(text, &token))
-            return rt_mesh_fail(s->source, text->line, "the file ends where '%s' is expected", *words);
+            return rt_mesh_fail(s->source, text->line, "the file ends where '%s' is expected",
+                                *words);
         if (!is_word(token, *words))
-            return rt_mesh_fail(s->source, text->line, "'%s'; expected '%s'", rt_token_quote(token, quote), *words);
+            return rt_mesh_fail(s->source, text->line, "'%s'; expected '%s'",
+                                rt_token_quote(token, quote), *words);
     }
     return RT_OK;
 }
@@ -106,16 +111,20 @@ static rt_status read_point(const stl *s, rt_mesh_text *text, float point[3])
     rt_token token;
     rt_status status = RT_OK;
     for (int i = 0; i < 3 && status == RT_OK; i++)
-        status = rt_mesh_text_any(text, &token) ? rt_field_float(s->source, text, token, "vertex", &point[i])
-                                                : rt_mesh_fail(s->source, text->line, "the file ends in a vertex");
+        status = rt_mesh_text_any(text, &token)
+                     ? rt_field_float(s->source, text, token, "vertex", &point[i])
+                     : rt_mesh_fail(s->source, text->line, "the file ends in a vertex");
     return status;
 }
 
-/* A facet, after the word `facet`. Its normal may be anything, even nan: the corners say it better. */
+/*
+ * A facet, after the word `facet`. Its normal may be anything, even nan: the corners say it better.
+ */
 static rt_status read_facet(stl *s, rt_mesh_text *text)
 {
     static const char *const normal[] = {"normal", NULL}, *const loop[] = {"outer", "loop", NULL};
-    static const char *const vertex[] = {"vertex", NULL}, *const end[] = {"endloop", "endfacet", NULL};
+    static const char *const vertex[] = {"vertex", NULL}, *const end[] = {"endloop", "endfacet",
+                                                                          NULL};
     char quote[RT_QUOTE];
     float corners[9];
     rt_token token = {"", 0};
@@ -123,7 +132,8 @@ static rt_status read_facet(stl *s, rt_mesh_text *text)
     rt_status status = expect(s, text, normal);
     for (int i = 0; i < 3 && status == RT_OK; i++)
         if (!rt_mesh_text_any(text, &token) || !rt_token_real(token, &ignored))
-            return rt_mesh_fail(s->source, text->line, "normal: '%s' is not a number", rt_token_quote(token, quote));
+            return rt_mesh_fail(s->source, text->line, "normal: '%s' is not a number",
+                                rt_token_quote(token, quote));
     if (status == RT_OK)
         status = expect(s, text, loop);
     for (int i = 0; i < 3 && status == RT_OK; i++) {
@@ -151,12 +161,14 @@ static rt_status read_ascii(stl *s)
         } else if (inside && is_word(token, "facet")) {
             status = read_facet(s, &text);
         } else {
-            status = rt_mesh_fail(s->source, text.line, "'%s'; expected '%s'", rt_token_quote(token, quote),
+            status = rt_mesh_fail(s->source, text.line, "'%s'; expected '%s'",
+                                  rt_token_quote(token, quote),
                                   inside ? "facet' or 'endsolid" : "solid");
         }
     }
     if (status == RT_OK && inside)
-        return rt_mesh_fail(s->source, text.line, "the file ends where 'facet' or 'endsolid' is expected");
+        return rt_mesh_fail(s->source, text.line,
+                            "the file ends where 'facet' or 'endsolid' is expected");
     return status;
 }
 
@@ -165,7 +177,8 @@ static int is_ascii(const rt_mesh_source *source)
 {
     static const char word[] = "solid";
     size_t length = sizeof word - 1;
-    if (source->size >= HEADER_SIZE + 4 && source->size == HEADER_SIZE + 4 + announced(source) * FACET_SIZE)
+    if (source->size >= HEADER_SIZE + 4 &&
+        source->size == HEADER_SIZE + 4 + announced(source) * FACET_SIZE)
         return 0;
     rt_token start = {(const char *)source->data, source->size < length ? source->size : length};
     return is_word(start, word);

@@ -72,7 +72,8 @@ static const char *line_end(rt_mesh_text *text)
             text->line++;
         text->at = next;
     }
-    return text->at < text->end ? memchr(text->at, text->newline, (size_t)(text->end - text->at)) : NULL;
+    return text->at < text->end ? memchr(text->at, text->newline, (size_t)(text->end - text->at))
+                                : NULL;
 }
 
 int rt_mesh_text_line(rt_mesh_text *text)

@@ -1,4 +1,6 @@
-/* text.h - bounded reading of a text file in memory: lines, tokens, numbers; whatever the locale. */
+/*
+ * text.h - bounded reading of a text file in memory: lines, tokens, numbers; whatever the locale.
+ */
 #ifndef RT_LIB_MESH_TEXT_H
 #define RT_LIB_MESH_TEXT_H
 
@@ -15,12 +17,16 @@ typedef struct rt_token {
 typedef struct rt_mesh_text {
     const char *at, *end;
     size_t line;
-    char newline;  /* the byte that ends a line; a carriage return before a line feed is white space */
+    /* the byte that ends a line; a carriage return before a line feed is white space */
+    char newline;
     int comments;  /* a # hides the rest of its line */
     int continued; /* a backslash at the end of a line joins the next one */
 } rt_mesh_text;
 
-/* Starts at the beginning of the text. Files of the classic Macintosh, with carriage returns alone, are seen. */
+/*
+ * Starts at the beginning of the text. Files of the classic Macintosh, with carriage returns alone,
+ * are seen.
+ */
 rt_mesh_text rt_mesh_text_begin(const void *data, size_t size);
 
 /* The next token of this line; 0 at its end. */
@@ -37,7 +43,9 @@ rt_token rt_mesh_text_rest(rt_mesh_text *text);
 
 int rt_token_is(rt_token token, const char *word);
 
-/* The token for a message: printable, shortened, in a buffer of RT_QUOTE bytes. Returns the buffer. */
+/*
+ * The token for a message: printable, shortened, in a buffer of RT_QUOTE bytes. Returns the buffer.
+ */
 #define RT_QUOTE 44
 const char *rt_token_quote(rt_token token, char buffer[RT_QUOTE]);
 
@@ -45,9 +53,9 @@ const char *rt_token_quote(rt_token token, char buffer[RT_QUOTE]);
 int rt_token_integer(rt_token token, int64_t *out);
 
 /*
- * A decimal number, or inf or nan in any case. Returns 0 when the token is none. What is beyond double
- * becomes infinite or 0. Right to two units in the last place of a double, thus for all but a few of 10^8
- * numbers the nearest float.
+ * A decimal number, or inf or nan in any case. Returns 0 when the token is none. What is beyond
+ * double becomes infinite or 0. Right to two units in the last place of a double, thus for all but
+ * a few of 10^8 numbers the nearest float.
  */
 int rt_token_real(rt_token token, double *out);
 

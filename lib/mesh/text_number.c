@@ -44,11 +44,15 @@ static int spells(const char *c, const char *end, const char *word)
     return c == end && !*word;
 }
 
-/* value * 10^exponent, by factors of at most 10^22, the last power of ten that a double holds exactly. */
+/*
+ * value * 10^exponent, by factors of at most 10^22, the last power of ten that a double holds
+ * exactly.
+ */
 static double scale(double value, long exponent)
 {
-    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     while (exponent > 0 && value != 0 && !isinf(value)) {
         long part = exponent > 22 ? 22 : exponent;
         value *= powers[part];
@@ -62,7 +66,10 @@ static double scale(double value, long exponent)
     return value;
 }
 
-/* The digits as an integer, at most 19 of them, with the power of ten that it wants; 0 when there is no digit. */
+/*
+ * The digits as an integer, at most 19 of them, with the power of ten that it wants; 0 when there
+ * is no digit.
+ */
 static int take_digits(const char **c, const char *end, uint64_t *digits, long *exponent)
 {
     int seen = 0, point = 0;
@@ -115,7 +122,8 @@ int rt_token_real(rt_token token, double *out)
     } else if (spells(c, end, "nan")) {
         value = NAN;
     } else {
-        if (!take_digits(&c, end, &digits, &exponent) || !take_exponent(&c, end, &exponent) || c != end)
+        if (!take_digits(&c, end, &digits, &exponent) || !take_exponent(&c, end, &exponent) ||
+            c != end)
             return 0;
         value = scale((double)digits, exponent);
     }

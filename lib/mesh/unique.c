@@ -7,7 +7,10 @@
 
 static uint64_t mix(uint64_t h)
 {
-    /* The finaliser of MurmurHash3 (A. Appleby): every bit of the input reaches every bit of the output. */
+    /*
+     * The finaliser of MurmurHash3 (A. Appleby): every bit of the input reaches every bit of the
+     * output.
+     */
     h ^= h >> 33;
     h *= 0xff51afd7ed558ccdu;
     h ^= h >> 33;
@@ -29,7 +32,7 @@ static uint32_t *find(const rt_unique *set, const uint32_t key[3])
 static rt_status grow(rt_unique *set, const rt_mesh_source *source)
 {
     uint32_t room = set->room ? 2 * set->room : 1024;
-    uint32_t (*keys)[3] = room <= COUNT_MAX ? realloc(set->keys, room * sizeof *keys) : NULL;
+    uint32_t(*keys)[3] = room <= COUNT_MAX ? realloc(set->keys, room * sizeof *keys) : NULL;
     if (!keys)
         return rt_mesh_fail_memory(source, room, "vertices");
     set->keys = keys;
@@ -45,7 +48,8 @@ static rt_status grow(rt_unique *set, const rt_mesh_source *source)
     return RT_OK;
 }
 
-rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint32_t key[3], uint32_t *number)
+rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint32_t key[3],
+                        uint32_t *number)
 {
     rt_status status;
     if (set->count == set->room && (status = grow(set, source)) != RT_OK)

@@ -15,7 +15,8 @@ typedef struct rt_unique {
 } rt_unique;
 
 /* The number of the key, a new one if it has not come yet. */
-rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint32_t key[3], uint32_t *number);
+rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint32_t key[3],
+                        uint32_t *number);
 void rt_unique_free(rt_unique *set);
 
 #endif

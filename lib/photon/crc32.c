@@ -2,8 +2,8 @@
  * crc32.c - four bytes a step, by four tables made at each call.
  *
  * Reference:
- *   Kounavis, Berry: "A Systematic Approach to Building High Performance Software-Based CRC Generators",
- *     ISCC 2005 (slicing).
+ *   Kounavis, Berry: "A Systematic Approach to Building High Performance Software-Based CRC
+ *     Generators", ISCC 2005 (slicing).
  */
 #include "photon/crc32.h"
 
@@ -27,7 +27,8 @@ uint32_t rt_crc32(const void *data, size_t size)
     make_tables(table);
     for (; size >= 4; size -= 4, at += 4) {
         c ^= at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
-        c = table[3][c & 255] ^ table[2][(c >> 8) & 255] ^ table[1][(c >> 16) & 255] ^ table[0][c >> 24];
+        c = table[3][c & 255] ^ table[2][(c >> 8) & 255] ^ table[1][(c >> 16) & 255] ^
+            table[0][c >> 24];
     }
     for (; size > 0; size--, at++)
         c = (c >> 8) ^ table[0][(c ^ *at) & 255];

@@ -1,4 +1,7 @@
-/* device_gather.h - the gather on the device: the tree of photons uploaded, and the kernel that walks it. */
+/*
+ * device_gather.h - the gather on the device: the tree of photons uploaded, and the kernel that
+ * walks it.
+ */
 #ifndef RT_LIB_PHOTON_DEVICE_GATHER_H
 #define RT_LIB_PHOTON_DEVICE_GATHER_H
 
@@ -8,22 +11,27 @@
 typedef struct rt_device_gather {
     rt_photon_tree_data tree; /* on the host; freed when the device has its copy */
     cl_mem nodes, blocks;
-    cl_mem scratch; /* float [items][stride] */
-    cl_mem discs;   /* rt_gather_disc [capacity] */
+    cl_mem scratch;    /* float [items][stride] */
+    cl_mem discs;      /* rt_gather_disc [capacity] */
     cl_mem own_limits; /* the caller's, see estimate.own_limits; NULL without */
     rt_density_params estimate;
 } rt_device_gather;
 
 /*
- * Builds and uploads the tree of a list, for gathers of up to `capacity` points; estimate: density, cone_k, k,
- * squared_limit and scale. rt_device_gather_release undoes it, also after a failure.
+ * Builds and uploads the tree of a list, for gathers of up to `capacity` points; estimate: density,
+ * cone_k, k, squared_limit and scale. rt_device_gather_release undoes it, also after a failure.
  */
-rt_status rt_device_gather_prepare(rt_device_gather *out, rt_device *device, const rt_photon_list *list,
-                                   const rt_density_params *estimate, size_t capacity, rt_error *error);
+rt_status rt_device_gather_prepare(rt_device_gather *out, rt_device *device,
+                                   const rt_photon_list *list, const rt_density_params *estimate,
+                                   size_t capacity, rt_error *error);
 void rt_device_gather_release(rt_device_gather *gather);
 
-/* Enqueues the kernel photon_walk, or one of the same arguments, for points first .. first + count - 1. */
-rt_status rt_device_gather_launch(const rt_device_gather *gather, rt_device *device, cl_kernel kernel, cl_mem points,
-                                  size_t first, size_t count, rt_error *error);
+/*
+ * Enqueues the kernel photon_walk, or one of the same arguments, for points first .. first + count
+ * - 1.
+ */
+rt_status rt_device_gather_launch(const rt_device_gather *gather, rt_device *device,
+                                  cl_kernel kernel, cl_mem points, size_t first, size_t count,
+                                  rt_error *error);
 
 #endif

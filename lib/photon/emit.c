@@ -22,8 +22,8 @@ struct rt_emitter {
     uint64_t memory; /* bytes that the photons of a map must fit into; 0: any */
 };
 
-rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene, const float *shares,
-                            size_t share_count, rt_error *error)
+rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene,
+                            const float *shares, size_t share_count, rt_error *error)
 {
     rt_emitter *e = calloc(1, sizeof *e);
     if (!e)
@@ -34,9 +34,9 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
     e->memory = rt_physical_memory();
     rt_status status = rt_light_sources_read(&e->lights, device, scene, shares, share_count, error);
     if (status == RT_OK)
-        status = rt_buffer_create(device, &e->shares, CL_MEM_READ_ONLY,
-                                  e->lights.light_count * sizeof *e->lights.shares,
-                                  e->lights.light_count ? e->lights.shares : NULL, "the lights' shares", error);
+        status = rt_buffer_create(
+            device, &e->shares, CL_MEM_READ_ONLY, e->lights.light_count * sizeof *e->lights.shares,
+            e->lights.light_count ? e->lights.shares : NULL, "the lights' shares", error);
     if (status == RT_OK)
         *out = e;
     else
@@ -71,10 +71,13 @@ void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
 {
     if (e->lights.reach > 0)
         rt_warn(hooks,
-                "photons of the sky and of directional lights fall on planes only within %.3g m of the %s: what planes "
-                "reflect from farther out is missing; a final gather lessens the loss, quads in their place end it",
+                "photons of the sky and of directional lights fall on planes only within %.3g m of "
+                "the %s: what planes "
+                "reflect from farther out is missing; a final gather lessens the loss, quads in "
+                "their place end it",
                 e->lights.reach,
-                e->lights.planes_alone ? "origin, for want of other shapes" : "middle of the other shapes");
+                e->lights.planes_alone ? "origin, for want of other shapes"
+                                       : "middle of the other shapes");
 }
 
 /* Makes memory for batches of at most `count` paths, unless there is enough. */
@@ -87,11 +90,13 @@ static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_e
     if (e->slots == slots && e->paths >= paths)
         return RT_OK;
     release_batch(e);
-    rt_status status = rt_buffer_create(e->device, &e->photons, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                                        paths * slots * sizeof(rt_photon), NULL, "photon slots", error);
+    rt_status status =
+        rt_buffer_create(e->device, &e->photons, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                         paths * slots * sizeof(rt_photon), NULL, "photon slots", error);
     if (status == RT_OK)
-        status = rt_buffer_create(e->device, &e->accounts, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                                  paths * sizeof(rt_path_account), NULL, "the accounts of photon paths", error);
+        status = rt_buffer_create(
+            e->device, &e->accounts, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+            paths * sizeof(rt_path_account), NULL, "the accounts of photon paths", error);
     if (status == RT_OK) {
         e->slots = slots;
         e->paths = paths;
@@ -100,27 +105,31 @@ static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_e
 }
 
 /* Takes what a batch of paths left into the map; mapped memory is not copied where it is shared. */
-static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, size_t paths, rt_error *error)
+static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, size_t paths,
+                            rt_error *error)
 {
     const void *photons = NULL, *accounts = NULL;
-    rt_status status = rt_buffer_map(e->device, e->accounts, paths * sizeof(rt_path_account), &accounts,
-                                     "the accounts of photon paths", error);
+    rt_status status = rt_buffer_map(e->device, e->accounts, paths * sizeof(rt_path_account),
+                                     &accounts, "the accounts of photon paths", error);
     if (status == RT_OK)
-        status =
-            rt_buffer_map(e->device, e->photons, paths * e->slots * sizeof(rt_photon), &photons, "photons", error);
+        status = rt_buffer_map(e->device, e->photons, paths * e->slots * sizeof(rt_photon),
+                               &photons, "photons", error);
     if (status == RT_OK)
-        status =
-            rt_photon_list_append(map->lists + kind, photons, e->paths, accounts, paths, e->device->threads, error);
+        status = rt_photon_list_append(map->lists + kind, photons, e->paths, accounts, paths,
+                                       e->device->threads, error);
     if (status == RT_OK && kind == RT_PHOTONS_GLOBAL)
-        status = rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads, error);
-    rt_status first = rt_buffer_unmap(e->device, e->photons, photons, status == RT_OK ? error : NULL);
+        status =
+            rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads, error);
+    rt_status first =
+        rt_buffer_unmap(e->device, e->photons, photons, status == RT_OK ? error : NULL);
     status = status == RT_OK ? first : status;
-    rt_status second = rt_buffer_unmap(e->device, e->accounts, accounts, status == RT_OK ? error : NULL);
+    rt_status second =
+        rt_buffer_unmap(e->device, e->accounts, accounts, status == RT_OK ? error : NULL);
     return status == RT_OK ? second : status;
 }
 
-static rt_params make_params(const rt_emitter *e, const rt_photon_settings *settings, rt_photon_kind kind,
-                             uint32_t seed)
+static rt_params make_params(const rt_emitter *e, const rt_photon_settings *settings,
+                             rt_photon_kind kind, uint32_t seed)
 {
     rt_params p;
     memset(&p, 0, sizeof p);
@@ -129,15 +138,21 @@ static rt_params make_params(const rt_emitter *e, const rt_photon_settings *sett
     p.max_depth = settings->max_depth;
     p.direct = settings->direct;
     p.slots = (rt_u32)e->paths;
-    p.store = kind == RT_PHOTONS_CAUSTIC ? RT_STORE_CAUSTIC : settings->split ? RT_STORE_GLOBAL : RT_STORE_ALL;
+    p.store = kind == RT_PHOTONS_CAUSTIC ? RT_STORE_CAUSTIC
+              : settings->split          ? RT_STORE_GLOBAL
+                                         : RT_STORE_ALL;
     return p;
 }
 
 /* Runs the batches of a range one after the other. */
-static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, rt_params *p, uint64_t first,
-                              uint64_t count, rt_stage_progress *progress, rt_error *error)
+static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, rt_params *p,
+                              uint64_t first, uint64_t count, rt_stage_progress *progress,
+                              rt_error *error)
 {
-    rt_arg args[RT_EMIT_ARGUMENTS] = {{sizeof *p, p}, RT_ARG(e->scene), RT_ARG(e->shares), RT_ARG(e->photons),
+    rt_arg args[RT_EMIT_ARGUMENTS] = {{sizeof *p, p},
+                                      RT_ARG(e->scene),
+                                      RT_ARG(e->shares),
+                                      RT_ARG(e->photons),
                                       RT_ARG(e->accounts)};
     const rt_photon_list *list = map->lists + kind;
     size_t before = list->count, others = before + map->lists[!kind].count;
@@ -151,24 +166,28 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
         if (status == RT_OK)
             status = take_batch(e, map, kind, p->item_count, error);
         if (status == RT_OK)
-            status = rt_photon_forecast(others, list->count - before, done + p->item_count, count, e->memory, error);
+            status = rt_photon_forecast(others, list->count - before, done + p->item_count, count,
+                                        e->memory, error);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + p->item_count) / (double)count);
     }
     return status;
 }
 
-rt_status rt_emitter_emit(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, uint32_t seed, uint64_t first,
-                          uint64_t count, rt_stage_progress *progress, rt_error *error)
+rt_status rt_emitter_emit(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, uint32_t seed,
+                          uint64_t first, uint64_t count, rt_stage_progress *progress,
+                          rt_error *error)
 {
     static const uint64_t indices = (uint64_t)UINT32_MAX + 1;
-    size_t slots = map->settings.max_depth > 1 ? map->settings.max_depth - 1 : 1; /* one photon a segment at most */
+    /* one photon a segment at most */
+    size_t slots = map->settings.max_depth > 1 ? map->settings.max_depth - 1 : 1;
     size_t before = map->lists[kind].count;
 
     if (count > indices || first > indices - count)
         return rt_fail_field(error, RT_ERROR_USAGE, "photons",
-                             "photon paths %llu to %llu are beyond the %llu of a seed", (unsigned long long)first,
-                             (unsigned long long)(first + count), (unsigned long long)indices);
+                             "photon paths %llu to %llu are beyond the %llu of a seed",
+                             (unsigned long long)first, (unsigned long long)(first + count),
+                             (unsigned long long)indices);
     rt_status status = map->ledger.rows ? RT_OK : rt_ledger_create(&map->ledger, &e->lights, error);
     if (status == RT_OK && count > 0)
         status = prepare_batch(e, slots, count, error);

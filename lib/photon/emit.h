@@ -14,28 +14,33 @@ typedef struct rt_emitter rt_emitter;
 enum { RT_EMIT_ARGUMENTS = 5 };
 
 /*
- * Makes ready to emit from a scene on a device. kernel: photon_emit of the program of that name; shares:
- * [share_count], as rt_light_sources_read takes them. Scene and kernel must outlive the emitter. The caller
- * owns *out.
+ * Makes ready to emit from a scene on a device. kernel: photon_emit of the program of that name;
+ * shares: [share_count], as rt_light_sources_read takes them. Scene and kernel must outlive the
+ * emitter. The caller owns *out.
  */
-rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene, const float *shares,
-                            size_t share_count, rt_error *error);
+rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene,
+                            const float *shares, size_t share_count, rt_error *error);
 void rt_emitter_destroy(rt_emitter *emitter);
 
 /* The memory that the photons of a map must fit into, in bytes; at first this machine's. 0: any. */
 void rt_emitter_limit_memory(rt_emitter *emitter, uint64_t bytes);
 
-/* Warns of light that photon paths leave out: that of the sky and of directional lights on far parts of planes. */
+/*
+ * Warns of light that photon paths leave out: that of the sky and of directional lights on far
+ * parts of planes.
+ */
 void rt_emitter_warn_reach(const rt_emitter *emitter, const rt_hooks *hooks);
 
 /*
- * Emits paths first .. first + count - 1 of a seed into one list of the map, behind what it holds, in batches of
- * bounded memory. The map's settings say how (`scene` apart); its ledger is made for the lights when it has none.
- * Path i of a seed is always the same path, whatever the batches; the paths of the caustic list are others than
- * those of the global one. Ranges must come in ascending order. Fails with RT_ERROR_USAGE when an index is above
- * 2^32 - 1, and with RT_ERROR_MEMORY as soon as it is clear that the photons will not fit into memory.
+ * Emits paths first .. first + count - 1 of a seed into one list of the map, behind what it holds,
+ * in batches of bounded memory. The map's settings say how (`scene` apart); its ledger is made for
+ * the lights when it has none. Path i of a seed is always the same path, whatever the batches; the
+ * paths of the caustic list are others than those of the global one. Ranges must come in ascending
+ * order. Fails with RT_ERROR_USAGE when an index is above 2^32 - 1, and with RT_ERROR_MEMORY as
+ * soon as it is clear that the photons will not fit into memory.
  */
-rt_status rt_emitter_emit(rt_emitter *emitter, rt_photon_map *map, rt_photon_kind kind, uint32_t seed, uint64_t first,
-                          uint64_t count, rt_stage_progress *progress, rt_error *error);
+rt_status rt_emitter_emit(rt_emitter *emitter, rt_photon_map *map, rt_photon_kind kind,
+                          uint32_t seed, uint64_t first, uint64_t count,
+                          rt_stage_progress *progress, rt_error *error);
 
 #endif

@@ -1,8 +1,8 @@
 /*
  * fingerprint.c - FNV-1a over 32-bit words, with a final mix, of the scene's tables.
  *
- * Triangles lie in blocks in the order of the hierarchy, some of them more than once; each is hashed
- * by itself, and then the hashes in the order of primitives.
+ * Triangles lie in blocks in the order of the hierarchy, some of them more than once; each is
+ * hashed by itself, and then the hashes in the order of primitives.
  *
  * Reference:
  *   Fowler, Noll, Vo, Eastlake: "The FNV Non-Cryptographic Hash Algorithm", IETF draft.
@@ -35,13 +35,16 @@ static const void *table(const rt_scene_header *scene, rt_u32 offset)
     return (const char *)scene + (size_t)offset * RT_SCENE_ROW;
 }
 
-static uint64_t hash_table(uint64_t h, const rt_scene_header *scene, rt_u32 offset, rt_u32 count, size_t size)
+static uint64_t hash_table(uint64_t h, const rt_scene_header *scene, rt_u32 offset, rt_u32 count,
+                           size_t size)
 {
     h = hash(h, &count, sizeof count);
     return hash(h, table(scene, offset), count * size);
 }
 
-/* The hash of one lane of a block: vertices, and whether they span a triangle or a parallelogram. */
+/*
+ * The hash of one lane of a block: vertices, and whether they span a triangle or a parallelogram.
+ */
 static uint64_t hash_lane(const rt_tri_block *block, int lane)
 {
     float v[9];
@@ -55,8 +58,8 @@ static uint64_t hash_lane(const rt_tri_block *block, int lane)
 }
 
 /* Blocks that hold primitives from 0 to prim_count - 1, in the order of these. */
-static rt_status hash_triangles(uint64_t *h, const rt_tri_block *blocks, rt_u32 block_count, rt_u32 prim_count,
-                                rt_error *error)
+static rt_status hash_triangles(uint64_t *h, const rt_tri_block *blocks, rt_u32 block_count,
+                                rt_u32 prim_count, rt_error *error)
 {
     uint64_t *prims = calloc(prim_count + (size_t)1, sizeof *prims);
     if (!prims)
@@ -71,19 +74,21 @@ static rt_status hash_triangles(uint64_t *h, const rt_tri_block *blocks, rt_u32 
 }
 
 /* The triangles of a mesh that instances share. */
-static rt_status hash_mesh(uint64_t *h, const rt_tri_block *blocks, rt_u32 block_count, rt_error *error)
+static rt_status hash_mesh(uint64_t *h, const rt_tri_block *blocks, rt_u32 block_count,
+                           rt_error *error)
 {
     rt_u32 prim_count = 0;
     for (rt_u32 b = 0; b < block_count; b++)
         for (int lane = 0; lane < RT_BVH_WIDTH; lane++)
-            if (blocks[b].prim[lane] != RT_NONE && (blocks[b].prim[lane] & RT_BLOCK_PRIM) >= prim_count)
+            if (blocks[b].prim[lane] != RT_NONE &&
+                (blocks[b].prim[lane] & RT_BLOCK_PRIM) >= prim_count)
                 prim_count = (blocks[b].prim[lane] & RT_BLOCK_PRIM) + 1;
     return hash_triangles(h, blocks, block_count, prim_count, error);
 }
 
 /*
- * The shapes, but for their places in the hierarchy. A mesh is hashed where its first instance is; the others
- * name the blocks of it, counted from the first of any mesh.
+ * The shapes, but for their places in the hierarchy. A mesh is hashed where its first instance is;
+ * the others name the blocks of it, counted from the first of any mesh.
  */
 static rt_status hash_shapes(uint64_t *h, const rt_scene_header *scene, rt_error *error)
 {
@@ -131,7 +136,8 @@ static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_erro
     h = hash_table(h, scene, scene->texels, scene->texel_rows, RT_SCENE_ROW);
     h = hash_environment(h, scene);
     if (status == RT_OK)
-        status = hash_triangles(&h, table(scene, scene->blocks), scene->block_count, scene->prim_count, error);
+        status = hash_triangles(&h, table(scene, scene->blocks), scene->block_count,
+                                scene->prim_count, error);
     if (status == RT_OK)
         *out = h;
     return status;

@@ -1,12 +1,15 @@
-/* fingerprint.h - a number that tells scenes apart, so that photons meet only the scene they were emitted in. */
+/*
+ * fingerprint.h - a number that tells scenes apart, so that photons meet only the scene they were
+ * emitted in.
+ */
 #ifndef RT_LIB_PHOTON_FINGERPRINT_H
 #define RT_LIB_PHOTON_FINGERPRINT_H
 
 #include "device/device.h"
 
 /*
- * A hash of what photons depend on in a scene on the device (geometry, materials, lights), and not on the
- * camera or on how the hierarchy was built.
+ * A hash of what photons depend on in a scene on the device (geometry, materials, lights), and not
+ * on the camera or on how the hierarchy was built.
  */
 rt_status rt_scene_fingerprint(uint64_t *out, rt_device *device, cl_mem scene, rt_error *error);
 

@@ -89,20 +89,23 @@ static rt_status build(rt_flann_index *index, rt_error *error)
     float speedup;
 
     if (!memory_is_there(index->count, BYTES_PER_POINT))
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the search tree of %zu photons", index->count);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the search tree of %zu photons",
+                       index->count);
     enter();
     index->tree = flann_build_index_float(index->positions, (int)index->count, 3, &speedup, &p);
     leave();
     if (!index->tree)
-        return rt_fail(error, RT_ERROR_MEMORY, "the search tree of %zu photons could not be built", index->count);
+        return rt_fail(error, RT_ERROR_MEMORY, "the search tree of %zu photons could not be built",
+                       index->count);
     return RT_OK;
 }
 
-rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count, rt_error *error)
+rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count,
+                                rt_error *error)
 {
     if (count > INT_MAX)
-        return rt_fail(error, RT_ERROR_MEMORY, "%zu photons are more than the %d a search tree can hold", count,
-                       INT_MAX);
+        return rt_fail(error, RT_ERROR_MEMORY,
+                       "%zu photons are more than the %d a search tree can hold", count, INT_MAX);
     rt_flann_index *index = calloc(1, sizeof *index);
     float *copy = malloc((count ? count : 1) * 3 * sizeof *copy);
     rt_status status = RT_OK;
@@ -140,8 +143,9 @@ void rt_flann_index_destroy(rt_flann_index *index)
     free(index);
 }
 
-rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries, size_t query_count, size_t k,
-                                 int *indices, float *squared, rt_error *error)
+rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries,
+                                 size_t query_count, size_t k, int *indices, float *squared,
+                                 rt_error *error)
 {
     struct FLANNParameters p = parameters();
 
@@ -149,12 +153,13 @@ rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queri
     if (query_count == 0)
         return RT_OK;
     if (query_count > INT_MAX || !memory_is_there(query_count, k * sizeof(size_t)))
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the %zu nearest photons of %zu points", k, query_count);
+        return rt_fail(error, RT_ERROR_MEMORY,
+                       "no memory for the %zu nearest photons of %zu points", k, query_count);
     for (size_t i = 0; i < query_count * k; i++)
         squared[i] = HUGE_VALF;
     enter();
-    int failed = flann_find_nearest_neighbors_index_float(index->tree, (float *)queries, (int)query_count, indices,
-                                                          squared, (int)k, &p);
+    int failed = flann_find_nearest_neighbors_index_float(
+        index->tree, (float *)queries, (int)query_count, indices, squared, (int)k, &p);
     leave();
     if (failed)
         return rt_fail(error, RT_ERROR_MEMORY, "the search for the %zu nearest photons failed", k);

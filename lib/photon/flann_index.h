@@ -19,7 +19,8 @@ typedef struct rt_flann_index rt_flann_index;
  * allowed. Fails with RT_ERROR_MEMORY, also when count is beyond FLANN's int. The caller
  * owns *out.
  */
-rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count, rt_error *error);
+rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count,
+                                rt_error *error);
 void rt_flann_index_destroy(rt_flann_index *index);
 
 /*
@@ -28,7 +29,8 @@ void rt_flann_index_destroy(rt_flann_index *index);
  * points. An index beside an infinite distance means nothing: the distance overflowed. Takes 8
  * bytes of memory for each result while it works, on the calling thread alone.
  */
-rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries, size_t query_count, size_t k,
-                                 int *indices, float *squared, rt_error *error);
+rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries,
+                                 size_t query_count, size_t k, int *indices, float *squared,
+                                 rt_error *error);
 
 #endif

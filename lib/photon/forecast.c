@@ -14,8 +14,8 @@ uint64_t rt_physical_memory(void)
 #endif
 }
 
-rt_status rt_photon_forecast(uint64_t others, uint64_t photons, uint64_t done, uint64_t paths, uint64_t memory,
-                             rt_error *error)
+rt_status rt_photon_forecast(uint64_t others, uint64_t photons, uint64_t done, uint64_t paths,
+                             uint64_t memory, rt_error *error)
 {
     if (memory == 0 || done < RT_FORECAST_PATHS)
         return RT_OK;
@@ -24,7 +24,8 @@ rt_status rt_photon_forecast(uint64_t others, uint64_t photons, uint64_t done, u
     if (bytes <= (double)memory)
         return RT_OK;
     return rt_fail(error, RT_ERROR_MEMORY,
-                   "%llu photon paths would leave about %.3g photons, which take %.3g GB; this machine has %.3g GB of "
+                   "%llu photon paths would leave about %.3g photons, which take %.3g GB; this "
+                   "machine has %.3g GB of "
                    "memory: emit fewer at once",
                    (unsigned long long)paths, expected, 1e-9 * bytes, 1e-9 * (double)memory);
 }

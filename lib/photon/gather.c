@@ -16,9 +16,9 @@ enum { ENTRIES_A_BATCH = 1 << 22 };
 typedef struct host_gather {
     rt_photon_search *search;
     rt_density_params estimate;
-    cl_mem photons; /* rt_photon, the list */
-    cl_mem discs;   /* rt_gather_disc [capacity] */
-    cl_mem lists;   /* u32 [capacity][estimate.stride] */
+    cl_mem photons;               /* rt_photon, the list */
+    cl_mem discs;                 /* rt_gather_disc [capacity] */
+    cl_mem lists;                 /* u32 [capacity][estimate.stride] */
     rt_gather_point *host_points; /* the same on the host */
     rt_gather_disc *host_discs;
     rt_u32 *host_lists;
@@ -46,25 +46,28 @@ static rt_status create_buffers(rt_gatherer *g, const rt_photon_list *list, rt_e
     h->host_lists = malloc(list_bytes ? list_bytes : 1);
     if (!h->host_points || !h->host_discs || !h->host_lists)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points", g->capacity);
-    status = rt_buffer_create(device, &h->photons, CL_MEM_READ_ONLY | in_place, list->count * sizeof *list->photons,
-                              list->photons, "the photon map", error);
+    status = rt_buffer_create(device, &h->photons, CL_MEM_READ_ONLY | in_place,
+                              list->count * sizeof *list->photons, list->photons, "the photon map",
+                              error);
     if (status == RT_OK)
-        status = rt_buffer_create(device, &h->discs, CL_MEM_READ_ONLY, g->capacity * sizeof *h->host_discs, NULL,
-                                  "gather discs", error);
+        status = rt_buffer_create(device, &h->discs, CL_MEM_READ_ONLY,
+                                  g->capacity * sizeof *h->host_discs, NULL, "gather discs", error);
     if (status == RT_OK)
-        status = rt_buffer_create(device, &h->lists, CL_MEM_READ_ONLY, list_bytes, NULL, "neighbour lists", error);
+        status = rt_buffer_create(device, &h->lists, CL_MEM_READ_ONLY, list_bytes, NULL,
+                                  "neighbour lists", error);
     return status;
 }
 
-static rt_status prepare_host(rt_gatherer *g, const rt_photon_list *list, const rt_density_params *estimate,
-                              float max_radius, rt_error *error)
+static rt_status prepare_host(rt_gatherer *g, const rt_photon_list *list,
+                              const rt_density_params *estimate, float max_radius, rt_error *error)
 {
     host_gather *h = &g->host;
-    rt_status status = rt_photon_search_create(&h->search, list, estimate->k, max_radius, g->device->threads,
-                                               error);
+    rt_status status = rt_photon_search_create(&h->search, list, estimate->k, max_radius,
+                                               g->device->threads, error);
     if (status != RT_OK)
         return status;
-    size_t stride = rt_photon_search_stride(h->search), most = ENTRIES_A_BATCH / (stride ? stride : 1);
+    size_t stride = rt_photon_search_stride(h->search),
+           most = ENTRIES_A_BATCH / (stride ? stride : 1);
     if (most < g->capacity)
         g->capacity = most < 1 ? 1 : most;
     h->estimate = *estimate;
@@ -73,11 +76,21 @@ static rt_status prepare_host(rt_gatherer *g, const rt_photon_list *list, const 
 }
 
 rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel,
-                             const rt_photon_list *list, const rt_gather_options *options, rt_error *error)
+                             const rt_photon_list *list, const rt_gather_options *options,
+                             rt_error *error)
 {
     float max_radius = options->max_radius > 0 ? options->max_radius : HUGE_VALF;
-    rt_density_params estimate = {options->density, options->cone_k, 0, options->k, max_radius * max_radius, 0, 0,
-                                  list->emitted ? (float)(1.0 / (double)list->emitted) : 0, options->area, 0, {0}};
+    rt_density_params estimate = {options->density,
+                                  options->cone_k,
+                                  0,
+                                  options->k,
+                                  max_radius * max_radius,
+                                  0,
+                                  0,
+                                  list->emitted ? (float)(1.0 / (double)list->emitted) : 0,
+                                  options->area,
+                                  0,
+                                  {0}};
     rt_gatherer *g = calloc(1, sizeof *g);
 
     if (!g)
@@ -86,8 +99,9 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
     g->kernel = kernel;
     g->capacity = RT_GATHER_POINTS_MAX;
     g->on_device = options->on_device;
-    rt_status status = g->on_device ? rt_device_gather_prepare(&g->on, device, list, &estimate, g->capacity, error)
-                                    : prepare_host(g, list, &estimate, max_radius, error);
+    rt_status status =
+        g->on_device ? rt_device_gather_prepare(&g->on, device, list, &estimate, g->capacity, error)
+                     : prepare_host(g, list, &estimate, max_radius, error);
     if (status == RT_OK)
         *out = g;
     else
@@ -126,20 +140,23 @@ size_t rt_gatherer_capacity(const rt_gatherer *g)
 static rt_status find(rt_gatherer *g, cl_mem points, size_t first, size_t count, rt_error *error)
 {
     host_gather *h = &g->host;
-    rt_status status = rt_buffer_read(g->device, points, first * sizeof *h->host_points, count * sizeof *h->host_points,
-                                      h->host_points, error);
+    rt_status status = rt_buffer_read(g->device, points, first * sizeof *h->host_points,
+                                      count * sizeof *h->host_points, h->host_points, error);
     if (status == RT_OK)
-        status = rt_photon_search_find(h->search, h->host_points, count, h->host_lists, h->host_discs, error);
+        status = rt_photon_search_find(h->search, h->host_points, count, h->host_lists,
+                                       h->host_discs, error);
     if (status == RT_OK)
-        status = rt_buffer_write(g->device, h->discs, 0, count * sizeof *h->host_discs, h->host_discs, error);
+        status = rt_buffer_write(g->device, h->discs, 0, count * sizeof *h->host_discs,
+                                 h->host_discs, error);
     if (status == RT_OK)
-        status = rt_buffer_write(g->device, h->lists, 0, count * h->estimate.stride * sizeof *h->host_lists,
-                                 h->host_lists, error);
+        status = rt_buffer_write(g->device, h->lists, 0,
+                                 count * h->estimate.stride * sizeof *h->host_lists, h->host_lists,
+                                 error);
     return status;
 }
 
-static rt_status add_from_host(rt_gatherer *g, cl_mem points, size_t first, size_t count, rt_gather_disc *discs,
-                               rt_error *error)
+static rt_status add_from_host(rt_gatherer *g, cl_mem points, size_t first, size_t count,
+                               rt_gather_disc *discs, rt_error *error)
 {
     host_gather *h = &g->host;
     rt_params params;
@@ -159,12 +176,13 @@ static rt_status add_from_host(rt_gatherer *g, cl_mem points, size_t first, size
     return status == RT_OK ? rt_device_finish(g->device, error) : status;
 }
 
-rt_status rt_gatherer_add(rt_gatherer *g, cl_mem points, size_t first, size_t count, rt_gather_disc *discs,
-                          rt_error *error)
+rt_status rt_gatherer_add(rt_gatherer *g, cl_mem points, size_t first, size_t count,
+                          rt_gather_disc *discs, rt_error *error)
 {
     if (!g->on_device)
         return add_from_host(g, points, first, count, discs, error);
-    rt_status status = rt_device_gather_launch(&g->on, g->device, g->kernel, points, first, count, error);
+    rt_status status =
+        rt_device_gather_launch(&g->on, g->device, g->kernel, points, first, count, error);
     if (status == RT_OK && discs)
         status = rt_buffer_read(g->device, g->on.discs, 0, count * sizeof *discs, discs, error);
     return status == RT_OK ? rt_device_finish(g->device, error) : status;

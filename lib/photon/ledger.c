@@ -7,7 +7,10 @@
 #include "accel/parallel.h"
 #include "error.h"
 
-/* Bits of a unit below the flux of one path: rounding is 4e-9 of it, and 10^11 paths fit into a sum. */
+/*
+ * Bits of a unit below the flux of one path: rounding is 4e-9 of it, and 10^11 paths fit into a
+ * sum.
+ */
 enum { UNIT_BITS = 26 };
 
 /* A path carries the power of its light over the light's share. */
@@ -25,7 +28,8 @@ rt_status rt_ledger_create(rt_ledger *out, const rt_light_sources *lights, rt_er
 
     l.rows = calloc(l.count ? l.count : 1, sizeof *l.rows);
     if (!l.rows)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the energy ledger of %zu lights", l.count);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the energy ledger of %zu lights",
+                       l.count);
     for (size_t i = 0; i < l.count; i++) {
         const rt_light_source *source = lights->sources + i;
         l.rows[i].shape = source->shape;
@@ -102,7 +106,8 @@ static void book_share(void *user, uint32_t index)
         book(row->sums[RT_LEDGER_ABSORBED], a->absorbed, per_unit);
         book(row->sums[RT_LEDGER_ROULETTE], a->roulette, per_unit);
         if (a->end != RT_END_ABSORBED)
-            book(row->sums[a->end == RT_END_ESCAPED ? RT_LEDGER_ESCAPED : RT_LEDGER_CUT_OFF], a->left, per_unit);
+            book(row->sums[a->end == RT_END_ESCAPED ? RT_LEDGER_ESCAPED : RT_LEDGER_CUT_OFF],
+                 a->left, per_unit);
     }
 }
 
@@ -114,11 +119,13 @@ static void add_row(rt_ledger_row *to, const rt_ledger_row *from)
             to->sums[column][c] += from->sums[column][c];
 }
 
-rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights, const rt_path_account *accounts,
-                         size_t count, uint32_t threads, rt_error *error)
+rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights,
+                         const rt_path_account *accounts, size_t count, uint32_t threads,
+                         rt_error *error)
 {
     size_t jobs = threads ? threads : 1;
-    booking b = {lights, accounts, count, (count + jobs - 1) / jobs, NULL, NULL, ledger->count, NULL};
+    booking b = {lights, accounts, count,         (count + jobs - 1) / jobs,
+                 NULL,   NULL,     ledger->count, NULL};
     b.per_unit = malloc((ledger->count + 1) * sizeof *b.per_unit);
     b.rows = calloc(jobs * ledger->count + 1, sizeof *b.rows);
     b.rejected = calloc(jobs, sizeof *b.rejected);
@@ -137,7 +144,8 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights, cons
     free(b.per_unit);
     free(b.rows);
     free(b.rejected);
-    return failed ? rt_fail(error, RT_ERROR_MEMORY, "out of memory for the accounts of %zu photon paths", count)
+    return failed ? rt_fail(error, RT_ERROR_MEMORY,
+                            "out of memory for the accounts of %zu photon paths", count)
                   : RT_OK;
 }
 
@@ -157,7 +165,8 @@ static rt_status copy(rt_ledger *out, const rt_ledger *from, rt_error *error)
 {
     rt_ledger_row *rows = malloc((from->count ? from->count : 1) * sizeof *rows);
     if (!rows)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the energy ledger of %zu lights", from->count);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the energy ledger of %zu lights",
+                       from->count);
     memcpy(rows, from->rows, from->count * sizeof *rows);
     *out = *from;
     out->rows = rows;
@@ -181,7 +190,8 @@ rt_status rt_ledger_add(rt_ledger *a, const rt_ledger *b, rt_error *error)
         return copy(a, b, error);
     for (size_t i = 0; i < a->count; i++)
         if (!row_fits(a->rows + i, b->rows + i))
-            return rt_fail(error, RT_ERROR_USAGE, "the energy ledger of %llu and %llu photon paths does not fit",
+            return rt_fail(error, RT_ERROR_USAGE,
+                           "the energy ledger of %llu and %llu photon paths does not fit",
                            (unsigned long long)a->paths, (unsigned long long)b->paths);
     for (size_t i = 0; i < a->count; i++)
         add_row(a->rows + i, b->rows + i);

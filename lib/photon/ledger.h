@@ -1,12 +1,13 @@
 /*
  * ledger.h - where the flux of all photon paths went, light by light.
  *
- * Sums are kept as whole numbers of a small unit, so that they are exact in whatever order and
- * in how many parts the paths are taken: the ledger of two joined maps is that of the whole, to the bit. Each light
- * has a unit of its own, so that the light of weak ones is not lost beside that of strong ones.
+ * Sums are kept as whole numbers of a small unit, so that they are exact in whatever order and in
+ * how many parts the paths are taken: the ledger of two joined maps is that of the whole, to the
+ * bit. Each light has a unit of its own, so that the light of weak ones is not lost beside that of
+ * strong ones.
  *
- * Paths of the caustic list are in no ledger: aimed as they are, they carry a part of the lights' flux only. Those of
- * the global list follow all of it, caustics included.
+ * Paths of the caustic list are in no ledger: aimed as they are, they carry a part of the lights'
+ * flux only. Those of the global list follow all of it, caustics included.
  */
 #ifndef RT_LIB_PHOTON_LEDGER_H
 #define RT_LIB_PHOTON_LEDGER_H
@@ -27,7 +28,7 @@ enum {
 
 /* One light. */
 typedef struct rt_ledger_row {
-    rt_u32 shape;    /* as rt_light_source */
+    rt_u32 shape;     /* as rt_light_source */
     int32_t exponent; /* the unit is 2^exponent W */
     uint64_t paths;
     double power[3]; /* W */
@@ -51,13 +52,17 @@ void rt_ledger_free(rt_ledger *ledger);
 void rt_ledger_reset(rt_ledger *ledger);
 
 /* Books the accounts of paths, on so many threads; lights: those that the ledger was made for. */
-rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights, const rt_path_account *accounts,
-                         size_t count, uint32_t threads, rt_error *error);
+rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights,
+                         const rt_path_account *accounts, size_t count, uint32_t threads,
+                         rt_error *error);
 
 /* Whether both are of the same lights with the same shares, so that they can be added. */
 int rt_ledger_matches(const rt_ledger *a, const rt_ledger *b);
 
-/* Adds b to a. One without lights becomes a copy of b. Fails with RT_ERROR_USAGE when the sums become too large. */
+/*
+ * Adds b to a. One without lights becomes a copy of b. Fails with RT_ERROR_USAGE when the sums
+ * become too large.
+ */
 rt_status rt_ledger_add(rt_ledger *a, const rt_ledger *b, rt_error *error);
 
 /* Row i in watts. */

@@ -1,7 +1,8 @@
 /*
  * map_file.h - a photon map as a file, by convention NAME.rtp.
  *
- * All numbers are little-endian; floats are IEEE 754. The file is a header, four tables and a checksum:
+ * All numbers are little-endian; floats are IEEE 754. The file is a header, four tables and a
+ * checksum:
  *
  *   bytes  header
  *    0  8  89 52 54 50 0d 0a 1a 0a ("\x89RTP\r\n\x1a\n")
@@ -17,22 +18,24 @@
  *   56  8  lights in the ledger
  *   64  8  paths in the ledger
  *   72  8  paths left out of it because they were not finite
- *   80 40  of the global photons: u64 paths, u64 photons left out as not finite or too far out, u64 photons,
- *          u64 ranges, u64 0
+ *   80 40  of the global photons: u64 paths, u64 photons left out as not finite or too far out, u64
+ *          photons, u64 ranges, u64 0
  *  120 40  of the caustic photons: the same
  *
- *   168 bytes a light: u32 shape or ffffffff, i32 exponent of its unit: 2^exponent W, u64 paths, f64 power[3] in W,
- *          f64 share of the paths, then emitted, absorbed, escaped, cut off and roulette, each i64[3] in units,
- *          summed over the paths
- *   32 bytes a range of paths, global, then caustic: u64 first, u64 count, u64 photons, u32 seed, u32 0;
- *          ascending by seed and first
- *   64 bytes a photon, global, then caustic, in the order of ranges and paths: f32 position[3], u32 path,
- *          f32 wi[3], u32 flags, f32 flux[3], f32 shading, f32 normal[3], u32 shape, as rt_photon says
+ *   168 bytes a light: u32 shape or ffffffff, i32 exponent of its unit: 2^exponent W, u64 paths,
+ *          f64 power[3] in W, f64 share of the paths, then emitted, absorbed, escaped, cut off and
+ *          roulette, each i64[3] in units, summed over the paths
+ *   32 bytes a range of paths, global, then caustic: u64 first, u64 count, u64 photons, u32 seed,
+ *          u32 0; ascending by seed and first
+ *   64 bytes a photon, global, then caustic, in the order of ranges and paths: f32 position[3], u32
+ *          path, f32 wi[3], u32 flags, f32 flux[3], f32 shading, f32 normal[3], u32 shape, as
+ *          rt_photon says
  *     4    CRC-32 (that of zlib) of all bytes before
  *
- * A reader refuses what does not add up, what is not finite, positions beyond 1e15 m, directions that are not of unit
- * length, and what is left over. Shapes are those of the scene, and are looked at where the map is used with one.
- * Version 1 had one unit for all lights, which lost the flux of weak ones; it is not read.
+ * A reader refuses what does not add up, what is not finite, positions beyond 1e15 m, directions
+ * that are not of unit length, and what is left over. Shapes are those of the scene, and are looked
+ * at where the map is used with one. Version 1 had one unit for all lights, which lost the flux of
+ * weak ones; it is not read.
  */
 #ifndef RT_LIB_PHOTON_MAP_FILE_H
 #define RT_LIB_PHOTON_MAP_FILE_H
@@ -43,7 +46,13 @@
 enum { RT_MAP_VERSION = 2 };
 
 /* Sizes of the file's parts. */
-enum { RT_MAP_HEADER = 160, RT_MAP_LIGHT = 168, RT_MAP_RANGE = 32, RT_MAP_PHOTON = 64, RT_MAP_CHECKSUM = 4 };
+enum {
+    RT_MAP_HEADER = 160,
+    RT_MAP_LIGHT = 168,
+    RT_MAP_RANGE = 32,
+    RT_MAP_PHOTON = 64,
+    RT_MAP_CHECKSUM = 4
+};
 
 /* The first eight bytes. */
 extern const uint8_t rt_map_magic[8];
@@ -52,13 +61,14 @@ extern const uint8_t rt_map_magic[8];
 rt_status rt_photon_map_encode(rt_bytes *out, const rt_photon_map *map, rt_error *error);
 
 /*
- * The map that a file of these bytes holds; name stands for the file in messages. Fails with RT_ERROR_INPUT
- * when it is damaged. The caller owns *out.
+ * The map that a file of these bytes holds; name stands for the file in messages. Fails with
+ * RT_ERROR_INPUT when it is damaged. The caller owns *out.
  */
-rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size, const char *name,
-                               rt_error *error);
+rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size,
+                               const char *name, rt_error *error);
 
 /* What the start of a file says of the size of the whole; fails as decoding does. */
-rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size, const char *name, rt_error *error);
+rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size,
+                                  const char *name, rt_error *error);
 
 #endif

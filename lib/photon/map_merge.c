@@ -1,4 +1,7 @@
-/* map_merge.c - joins photon maps: their ranges of paths in ascending order, and the photons with them. */
+/*
+ * map_merge.c - joins photon maps: their ranges of paths in ascending order, and the photons with
+ * them.
+ */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +26,8 @@ static int compare_pieces(const void *a, const void *b)
 }
 
 /* Says why two maps cannot be parts of one, and which they are where they come from files. */
-static rt_status fail_pair(const rt_photon_map *a, const rt_photon_map *b, rt_error *error, const char *format, ...)
+static rt_status fail_pair(const rt_photon_map *a, const rt_photon_map *b, rt_error *error,
+                           const char *format, ...)
 {
     char why[256];
     va_list args;
@@ -44,20 +48,22 @@ static rt_status check_pair(const rt_photon_map *a, const rt_photon_map *b, rt_e
     if (x->direct != y->direct)
         return fail_pair(a, b, error, "one photon map holds direct light, another does not");
     if (x->split != y->split)
-        return fail_pair(a, b, error, "one photon map keeps caustic photons apart, another does not");
+        return fail_pair(a, b, error,
+                         "one photon map keeps caustic photons apart, another does not");
     if (x->max_depth != y->max_depth)
         return fail_pair(a, b, error, "the photon maps have paths of %u and of %u segments at most",
                          x->max_depth, y->max_depth);
     if (x->sampler != y->sampler)
         return fail_pair(a, b, error, "the photon maps were made by different samplers");
     if (!rt_ledger_matches(&a->ledger, &b->ledger))
-        return fail_pair(a, b, error, "the lights of the photon maps, or their shares, are different");
+        return fail_pair(a, b, error,
+                         "the lights of the photon maps, or their shares, are different");
     return RT_OK;
 }
 
 /* The pieces of all maps in ascending order; the caller frees *out. */
-static rt_status list_pieces(piece **out, size_t *piece_count, const rt_photon_map *const *maps, size_t count,
-                             int kind, rt_error *error)
+static rt_status list_pieces(piece **out, size_t *piece_count, const rt_photon_map *const *maps,
+                             size_t count, int kind, rt_error *error)
 {
     size_t n = 0;
     for (size_t i = 0; i < count; i++)
@@ -86,7 +92,8 @@ static rt_status check_overlap(const piece *pieces, size_t count, rt_error *erro
         const rt_path_range *a = pieces[i - 1].range, *b = pieces[i].range;
         if (a->seed == b->seed && b->first < a->first + a->count)
             return fail_pair(pieces[i - 1].map, pieces[i].map, error,
-                             "the photon maps hold the same paths, %llu and more of seed %u; a different seed or part "
+                             "the photon maps hold the same paths, %llu and more of seed %u; a "
+                             "different seed or part "
                              "makes others",
                              (unsigned long long)b->first, b->seed);
     }
@@ -94,8 +101,8 @@ static rt_status check_overlap(const piece *pieces, size_t count, rt_error *erro
 }
 
 /* Makes one list of the same kind of all maps. */
-static rt_status merge_lists(rt_photon_map *out, const rt_photon_map *const *maps, size_t count, int kind,
-                             rt_error *error)
+static rt_status merge_lists(rt_photon_map *out, const rt_photon_map *const *maps, size_t count,
+                             int kind, rt_error *error)
 {
     rt_photon_list *list = out->lists + kind;
     piece *pieces = NULL;
@@ -114,7 +121,8 @@ static rt_status merge_lists(rt_photon_map *out, const rt_photon_map *const *map
     for (size_t i = 0; i < piece_count && status == RT_OK; i++) {
         const piece *p = pieces + i;
         if (p->range->photons > 0)
-            memcpy(list->photons + list->count, p->photons, (size_t)p->range->photons * sizeof *p->photons);
+            memcpy(list->photons + list->count, p->photons,
+                   (size_t)p->range->photons * sizeof *p->photons);
         list->count += (size_t)p->range->photons;
         status = rt_path_ranges_add(out->ranges + kind, p->range, error);
     }
@@ -122,7 +130,8 @@ static rt_status merge_lists(rt_photon_map *out, const rt_photon_map *const *map
     return status;
 }
 
-rt_status rt_photon_map_merge(rt_photon_map **out, const rt_photon_map *const *maps, size_t count, rt_error *error)
+rt_status rt_photon_map_merge(rt_photon_map **out, const rt_photon_map *const *maps, size_t count,
+                              rt_error *error)
 {
     rt_status status = RT_OK;
     if (count == 0)

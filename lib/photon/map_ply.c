@@ -8,32 +8,33 @@
 #include "image/srgb.h"
 #include "photon/photon_map.h"
 
-static const char header[] = "ply\n"
-                             "format binary_little_endian 1.0\n"
-                             "comment photons; flux in W, travel is the direction in which light came\n"
-                             "comment a path is known by seed and path; shapes are counted from 0\n"
-                             "element vertex %llu\n"
-                             "property float x\n"
-                             "property float y\n"
-                             "property float z\n"
-                             "property float nx\n"
-                             "property float ny\n"
-                             "property float nz\n"
-                             "property float flux_red\n"
-                             "property float flux_green\n"
-                             "property float flux_blue\n"
-                             "property float travel_x\n"
-                             "property float travel_y\n"
-                             "property float travel_z\n"
-                             "property uint seed\n"
-                             "property uint path\n"
-                             "property uint shape\n"
-                             "property ushort segments\n"
-                             "property uchar caustic\n"
-                             "property uchar red\n"
-                             "property uchar green\n"
-                             "property uchar blue\n"
-                             "end_header\n";
+static const char header[] =
+    "ply\n"
+    "format binary_little_endian 1.0\n"
+    "comment photons; flux in W, travel is the direction in which light came\n"
+    "comment a path is known by seed and path; shapes are counted from 0\n"
+    "element vertex %llu\n"
+    "property float x\n"
+    "property float y\n"
+    "property float z\n"
+    "property float nx\n"
+    "property float ny\n"
+    "property float nz\n"
+    "property float flux_red\n"
+    "property float flux_green\n"
+    "property float flux_blue\n"
+    "property float travel_x\n"
+    "property float travel_y\n"
+    "property float travel_z\n"
+    "property uint seed\n"
+    "property uint path\n"
+    "property uint shape\n"
+    "property ushort segments\n"
+    "property uchar caustic\n"
+    "property uchar red\n"
+    "property uchar green\n"
+    "property uchar blue\n"
+    "end_header\n";
 
 enum { POINT_BYTES = 12 * 4 + 3 * 4 + 2 + 1 + 3 };
 
@@ -51,7 +52,8 @@ static void put_float(uint8_t **at, float value)
 }
 
 /* per_path: 1 / emitted paths; brightest: flux that is shown as white. */
-static void put_point(uint8_t **at, const rt_photon *p, uint32_t seed, double per_path, double brightest)
+static void put_point(uint8_t **at, const rt_photon *p, uint32_t seed, double per_path,
+                      double brightest)
 {
     uint32_t segments = p->flags >> 8;
     for (int c = 0; c < 3; c++)

@@ -1,8 +1,9 @@
 /*
  * map_read.c - a photon map from a file; map_file.h describes the bytes.
  *
- * Nothing in a file is believed: sizes are compared with what is there before memory is taken, and what
- * passes the checksum is still checked number by number, because other programs write such files too.
+ * Nothing in a file is believed: sizes are compared with what is there before memory is taken, and
+ * what passes the checksum is still checked number by number, because other programs write such
+ * files too.
  */
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +25,8 @@ typedef struct reader {
 
 static uint32_t get32(reader *r)
 {
-    uint32_t value = r->at[0] | (uint32_t)r->at[1] << 8 | (uint32_t)r->at[2] << 16 | (uint32_t)r->at[3] << 24;
+    uint32_t value =
+        r->at[0] | (uint32_t)r->at[1] << 8 | (uint32_t)r->at[2] << 16 | (uint32_t)r->at[3] << 24;
     r->at += 4;
     return value;
 }
@@ -74,17 +76,20 @@ typedef struct counts {
     uint64_t lights, photons[RT_PHOTON_KINDS], ranges[RT_PHOTON_KINDS];
 } counts;
 
-rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size, const char *name, rt_error *error)
+rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size,
+                                  const char *name, rt_error *error)
 {
     if (size < sizeof rt_map_magic || memcmp(start, rt_map_magic, sizeof rt_map_magic) != 0)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: this is no photon map", name);
     reader r = {start + sizeof rt_map_magic, name, error};
     if (size < RT_MAP_HEADER)
-        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short in its header", name);
+        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short in its header",
+                       name);
     uint32_t version = get32(&r), header = get32(&r);
     if (version != RT_MAP_VERSION || header != RT_MAP_HEADER)
         return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: a photon map of version %u with a header of %u bytes; known is version %d with %d: emit "
+                       "%.350s: a photon map of version %u with a header of %u bytes; known is "
+                       "version %d with %d: emit "
                        "it anew",
                        name, version, header, RT_MAP_VERSION, RT_MAP_HEADER);
     *out = get64(&r);
@@ -99,20 +104,23 @@ static rt_status check_frame(const uint8_t *data, size_t size, const char *name,
     if (status != RT_OK)
         return status;
     if (told != size)
-        return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: the photon map has %zu bytes instead of the %llu it was written with", name, size,
-                       (unsigned long long)told);
+        return rt_fail(
+            error, RT_ERROR_INPUT,
+            "%.350s: the photon map has %zu bytes instead of the %llu it was written with", name,
+            size, (unsigned long long)told);
     if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short", name);
     reader r = {data + size - RT_MAP_CHECKSUM, name, error};
     if (get32(&r) != rt_crc32(data, size - RT_MAP_CHECKSUM))
-        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is damaged: its checksum does not fit", name);
+        return rt_fail(error, RT_ERROR_INPUT,
+                       "%.350s: the photon map is damaged: its checksum does not fit", name);
     return RT_OK;
 }
 
 static rt_status fail_content(const reader *r, const char *what)
 {
-    return rt_fail(r->error, RT_ERROR_INPUT, "%.350s: the photon map is damaged: %s", r->name, what);
+    return rt_fail(r->error, RT_ERROR_INPUT, "%.350s: the photon map is damaged: %s", r->name,
+                   what);
 }
 
 static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
@@ -139,8 +147,9 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
         return fail_content(r, "its settings are out of range");
     if (!zero)
         return fail_content(r, "its header is not zero where it must be");
-    if (!map->settings.split && (n->photons[RT_PHOTONS_CAUSTIC] || n->ranges[RT_PHOTONS_CAUSTIC] ||
-                                 map->lists[RT_PHOTONS_CAUSTIC].emitted || map->lists[RT_PHOTONS_CAUSTIC].rejected))
+    if (!map->settings.split &&
+        (n->photons[RT_PHOTONS_CAUSTIC] || n->ranges[RT_PHOTONS_CAUSTIC] ||
+         map->lists[RT_PHOTONS_CAUSTIC].emitted || map->lists[RT_PHOTONS_CAUSTIC].rejected))
         return fail_content(r, "it has caustic photons where it keeps none apart");
     return RT_OK;
 }
@@ -159,7 +168,8 @@ static rt_status check_counts(const reader *r, const counts *n, size_t file_size
     uint64_t left = file_size - RT_MAP_HEADER - RT_MAP_CHECKSUM;
     int fits = take(&left, n->lights, RT_MAP_LIGHT);
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
-        fits = fits && take(&left, n->ranges[kind], RT_MAP_RANGE) && take(&left, n->photons[kind], RT_MAP_PHOTON);
+        fits = fits && take(&left, n->ranges[kind], RT_MAP_RANGE) &&
+               take(&left, n->photons[kind], RT_MAP_PHOTON);
     return fits && left == 0 ? RT_OK : fail_content(r, "its counts do not fit its size");
 }
 
@@ -188,7 +198,8 @@ static rt_status read_lights(reader *r, rt_ledger *ledger, size_t count)
     uint64_t paths = 0;
     ledger->rows = calloc(count ? count : 1, sizeof *ledger->rows);
     if (!ledger->rows)
-        return rt_fail(r->error, RT_ERROR_MEMORY, "out of memory for a ledger of %zu lights", count);
+        return rt_fail(r->error, RT_ERROR_MEMORY, "out of memory for a ledger of %zu lights",
+                       count);
     ledger->count = count;
     for (size_t i = 0; i < count; i++) {
         rt_status status = read_light(r, ledger->rows + i);
@@ -202,7 +213,8 @@ static rt_status read_lights(reader *r, rt_ledger *ledger, size_t count)
 }
 
 /* Ranges must be in ascending order, apart, and add up to the photons and paths of their list. */
-static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t count, uint64_t photon_count)
+static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t count,
+                             uint64_t photon_count)
 {
     static const uint64_t indices = (uint64_t)UINT32_MAX + 1;
     rt_path_ranges *ranges = map->ranges + kind;
@@ -215,10 +227,11 @@ static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t cou
         range.photons = get64(r);
         range.seed = get32(r);
         const rt_path_range *last = ranges->count ? ranges->ranges + ranges->count - 1 : NULL;
-        if (get32(r) != 0 || range.count == 0 || range.count > indices || range.first > indices - range.count ||
-            range.photons > photon_count - photons)
+        if (get32(r) != 0 || range.count == 0 || range.count > indices ||
+            range.first > indices - range.count || range.photons > photon_count - photons)
             return fail_content(r, "a range of its paths is out of range");
-        if (last && (range.seed < last->seed || (range.seed == last->seed && range.first <= last->first + last->count)))
+        if (last && (range.seed < last->seed ||
+                     (range.seed == last->seed && range.first <= last->first + last->count)))
             return fail_content(r, "the ranges of its paths are not in order");
         rt_status status = rt_path_ranges_add(ranges, &range, r->error);
         if (status != RT_OK)
@@ -256,7 +269,8 @@ static rt_status read_photon(reader *r, rt_photon *p)
 }
 
 /* Photons must be of the paths of their range, in order. */
-static rt_status read_photons(reader *r, rt_photon_list *list, const rt_path_ranges *ranges, size_t count)
+static rt_status read_photons(reader *r, rt_photon_list *list, const rt_path_ranges *ranges,
+                              size_t count)
 {
     rt_status status = rt_photon_list_reserve(list, count, r->error);
     for (size_t i = 0; i < ranges->count && status == RT_OK; i++) {
@@ -265,7 +279,8 @@ static rt_status read_photons(reader *r, rt_photon_list *list, const rt_path_ran
         for (uint64_t j = 0; j < range->photons && status == RT_OK; j++) {
             rt_photon *photon = list->photons + list->count++;
             status = read_photon(r, photon);
-            if (status == RT_OK && (photon->path < path || photon->path >= range->first + range->count))
+            if (status == RT_OK &&
+                (photon->path < path || photon->path >= range->first + range->count))
                 status = fail_content(r, "a photon is not of the paths it lies among");
             path = photon->path;
         }
@@ -273,7 +288,8 @@ static rt_status read_photons(reader *r, rt_photon_list *list, const rt_path_ran
     return status;
 }
 
-rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size, const char *name, rt_error *error)
+rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size,
+                               const char *name, rt_error *error)
 {
     reader r = {data, name, error};
     counts n = {0};
@@ -306,7 +322,8 @@ rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t 
 rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *error)
 {
     rt_bytes bytes = {0};
-    rt_status status = rt_file_read_told(&bytes, path, RT_MAP_HEADER, rt_photon_map_file_size, error);
+    rt_status status =
+        rt_file_read_told(&bytes, path, RT_MAP_HEADER, rt_photon_map_file_size, error);
     if (status == RT_OK)
         status = rt_photon_map_decode(out, bytes.data, bytes.size, path, error);
     rt_bytes_free(&bytes);

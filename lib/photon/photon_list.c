@@ -83,7 +83,8 @@ static void copy_share(void *user, uint32_t index)
 }
 
 rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, size_t row,
-                                const rt_path_account *accounts, size_t path_count, uint32_t threads, rt_error *error)
+                                const rt_path_account *accounts, size_t path_count,
+                                uint32_t threads, rt_error *error)
 {
     size_t jobs = (path_count + PATHS_A_JOB - 1) / PATHS_A_JOB;
     appending a = {slots, row, accounts, path_count, calloc(jobs + 1, sizeof *a.places), NULL};

@@ -22,11 +22,12 @@ typedef struct rt_photon_list {
 rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *error);
 
 /*
- * Appends the photons of path_count more paths: path i stored accounts[i].photons of them, of which the j-th lies at
- * slots[j * row + i], and left out accounts[i].rejected. Works on so many threads.
+ * Appends the photons of path_count more paths: path i stored accounts[i].photons of them, of which
+ * the j-th lies at slots[j * row + i], and left out accounts[i].rejected. Works on so many threads.
  */
 rt_status rt_photon_list_append(rt_photon_list *list, const rt_photon *slots, size_t row,
-                                const rt_path_account *accounts, size_t path_count, uint32_t threads, rt_error *error);
+                                const rt_path_account *accounts, size_t path_count,
+                                uint32_t threads, rt_error *error);
 
 /* Whether all numbers of a photon are finite. */
 int rt_photon_is_finite(const rt_photon *photon);

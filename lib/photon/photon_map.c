@@ -27,7 +27,8 @@ rt_status rt_path_ranges_add(rt_path_ranges *r, const rt_path_range *range, rt_e
         size_t capacity = r->capacity ? 2 * r->capacity : 4;
         rt_path_range *grown = realloc(r->ranges, capacity * sizeof *grown);
         if (!grown)
-            return rt_fail(error, RT_ERROR_MEMORY, "no memory for %zu ranges of photon paths", capacity);
+            return rt_fail(error, RT_ERROR_MEMORY, "no memory for %zu ranges of photon paths",
+                           capacity);
         r->ranges = grown;
         r->capacity = capacity;
     }
@@ -72,7 +73,8 @@ const rt_photon *rt_photon_map_photons(const rt_photon_map *map, rt_photon_kind 
     return (unsigned)kind < RT_PHOTON_KINDS ? map->lists[kind].photons : NULL;
 }
 
-const rt_path_range *rt_photon_map_ranges(const rt_photon_map *map, rt_photon_kind kind, size_t *count)
+const rt_path_range *rt_photon_map_ranges(const rt_photon_map *map, rt_photon_kind kind,
+                                          size_t *count)
 {
     *count = (unsigned)kind < RT_PHOTON_KINDS ? map->ranges[kind].count : 0;
     return *count ? map->ranges[kind].ranges : NULL;
@@ -101,7 +103,10 @@ size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *out, size
     return map->ledger.count;
 }
 
-/* Paths below which the light of a lamp is noisy by more than 1 / sqrt(100), and lamps that a warning names. */
+/*
+ * Paths below which the light of a lamp is noisy by more than 1 / sqrt(100), and lamps that a
+ * warning names.
+ */
 enum { PATHS_ENOUGH = 100, LIGHTS_NAMED = 4 };
 
 static int is_starved(const rt_ledger_row *row)
@@ -118,8 +123,8 @@ static void name_light(char *out, size_t size, const rt_ledger *ledger, size_t i
     if (row->shape != RT_NONE)
         snprintf(shape, sizeof shape, " (shape %u)", row->shape);
     size_t used = strlen(out);
-    snprintf(out + used, size - used, "%slight %zu%s, %.4g W, %llu path%s", used ? "; " : "", i, shape, power,
-             (unsigned long long)row->paths, row->paths == 1 ? "" : "s");
+    snprintf(out + used, size - used, "%slight %zu%s, %.4g W, %llu path%s", used ? "; " : "", i,
+             shape, power, (unsigned long long)row->paths, row->paths == 1 ? "" : "s");
 }
 
 /* One line for all lights. */
@@ -134,10 +139,12 @@ static void warn_lights(const rt_ledger *ledger, const rt_hooks *hooks)
         snprintf(more, sizeof more, "; and %zu more", starved - LIGHTS_NAMED);
     if (starved > 0)
         rt_warn(hooks,
-                "fewer than %d of %llu photon paths came from %s, whose light is noisy, or missing where there are "
+                "fewer than %d of %llu photon paths came from %s, whose light is noisy, or missing "
+                "where there are "
                 "none: %s%s; more photons help, or a larger share of the paths for them",
                 PATHS_ENOUGH, (unsigned long long)ledger->paths,
-                starved == 1 ? "a light with power" : "each of some lights with power", names, more);
+                starved == 1 ? "a light with power" : "each of some lights with power", names,
+                more);
 }
 
 /* Why no path can leave a photon, or "". */
@@ -156,15 +163,18 @@ static void warn_list(const rt_photon_map *map, rt_photon_kind kind, const char 
         rt_warn(hooks, "the %s is empty: none of %llu photon paths left a photon in it%s", name,
                 (unsigned long long)list->emitted, why_empty(&map->settings));
     else if (k != RT_K_ALL && list->count < k)
-        rt_warn(hooks, "the %s has only %zu photon%s, fewer than the %u nearest that an estimate wants", name,
-                list->count, list->count == 1 ? "" : "s", (unsigned)k);
+        rt_warn(hooks,
+                "the %s has only %zu photon%s, fewer than the %u nearest that an estimate wants",
+                name, list->count, list->count == 1 ? "" : "s", (unsigned)k);
     if (list->rejected > 0)
-        rt_warn(hooks, "%llu photons were left out of the %s because they were not finite or lay beyond 1e15 m",
+        rt_warn(hooks,
+                "%llu photons were left out of the %s because they were not finite or lay beyond "
+                "1e15 m",
                 (unsigned long long)list->rejected, name);
 }
 
-void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass, uint32_t k,
-                                uint32_t caustic_k, const rt_hooks *hooks)
+void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass,
+                                uint32_t k, uint32_t caustic_k, const rt_hooks *hooks)
 {
     char of_pass[32] = "", name[64];
     if (pass > 0)
@@ -180,6 +190,8 @@ void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledge
 void rt_photon_map_warn_even(const rt_photon_map *map, rt_area area, const rt_hooks *hooks)
 {
     if (area == RT_AREA_HULL && map->settings.sampler != RT_SAMPLER_INDEPENDENT)
-        rt_warn(hooks, "the photons of the map, by the sampler sobol, are spread more evenly than area hull supposes, "
-                       "and the light comes out too dark: emit the map with the sampler independent");
+        rt_warn(hooks,
+                "the photons of the map, by the sampler sobol, are spread more evenly than area "
+                "hull supposes, "
+                "and the light comes out too dark: emit the map with the sampler independent");
 }

@@ -1,9 +1,10 @@
 /*
- * photon_map.h - a photon map as an object: the photons, what they were made by, and where their flux went.
+ * photon_map.h - a photon map as an object: the photons, what they were made by, and where their
+ * flux went.
  *
  * A map is made of ranges of photon paths, in the order of seed and index. It may hold any of them,
- * which is what lets parts of a map be made apart and joined: the photons of the whole are those of the
- * parts, one after the other.
+ * which is what lets parts of a map be made apart and joined: the photons of the whole are those of
+ * the parts, one after the other.
  */
 #ifndef RT_LIB_PHOTON_PHOTON_MAP_H
 #define RT_LIB_PHOTON_PHOTON_MAP_H
@@ -23,7 +24,10 @@ typedef struct rt_photon_settings {
     rt_u32 split;   /* 1: caustic photons are kept apart */
 } rt_photon_settings;
 
-/* Those of what complete options emit, the scene apart. The hull wants photons that are independent of each other. */
+/*
+ * Those of what complete options emit, the scene apart. The hull wants photons that are independent
+ * of each other.
+ */
 rt_photon_settings rt_photon_settings_of(const rt_render_options *options);
 
 /* Ranges in ascending order of seed and first; none overlaps or touches another. */
@@ -51,12 +55,12 @@ void rt_photon_map_reset(rt_photon_map *map);
 void rt_photon_map_free(rt_photon_map *map);
 
 /*
- * Warns of lights with power that fewer than 100 paths came from, by the ledger of all paths, and of lists of the map
- * with fewer photons than an estimate wants: k of them, or caustic_k in the caustic list. pass: the one that the map is
- * of, from 1; 0: there are none.
+ * Warns of lights with power that fewer than 100 paths came from, by the ledger of all paths, and
+ * of lists of the map with fewer photons than an estimate wants: k of them, or caustic_k in the
+ * caustic list. pass: the one that the map is of, from 1; 0: there are none.
  */
-void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass, uint32_t k,
-                                uint32_t caustic_k, const rt_hooks *hooks);
+void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass,
+                                uint32_t k, uint32_t caustic_k, const rt_hooks *hooks);
 
 /* Warns where the hull is asked of photons that are spread too evenly for it. */
 void rt_photon_map_warn_even(const rt_photon_map *map, rt_area area, const rt_hooks *hooks);

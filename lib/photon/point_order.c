@@ -1,8 +1,8 @@
 /*
  * point_order.c - Hilbert keys and a parallel radix sort.
  *
- * On a plane without end, some points lie so far out that the rest would share a cell. Cells are therefore cubes of
- * one size where most of the points are, and grow outside of that.
+ * On a plane without end, some points lie so far out that the rest would share a cell. Cells are
+ * therefore cubes of one size where most of the points are, and grow outside of that.
  *
  * References:
  *   Hamilton: "Compact Hilbert Indices", Technical Report CS-2006-07, Dalhousie University, 2006.
@@ -16,17 +16,18 @@
 #include "accel/parallel.h"
 #include "error.h"
 
-enum { CURVE_BITS = 12 };   /* an axis */
-enum { INDEX_BITS = 28 };   /* beside a key in an item */
+enum { CURVE_BITS = 12 }; /* an axis */
+enum { INDEX_BITS = 28 }; /* beside a key in an item */
 enum { DIGIT_BITS = 12, DIGITS = 3 * CURVE_BITS / DIGIT_BITS, BINS = 1 << DIGIT_BITS };
-enum { SHARES = 16 };       /* of the points, each one job */
-enum { SAMPLE = 2048, FAR_OUT = 20 }; /* points that show where most are: all but one in so many at either end */
+enum { SHARES = 16 }; /* of the points, each one job */
+/* points that show where most are: all but one in so many at either end */
+enum { SAMPLE = 2048, FAR_OUT = 20 };
 
 /* ---- The curve ----------------------------------------------------------------- */
 
 /*
- * Hilbert's curve as a machine: in each of 24 states, an entry corner of the cube (3 bits) and a direction, an
- * octant is passed in some place, and is entered in another state.
+ * Hilbert's curve as a machine: in each of 24 states, an entry corner of the cube (3 bits) and a
+ * direction, an octant is passed in some place, and is entered in another state.
  */
 enum { STATES = 24 };
 typedef struct curve {
@@ -38,7 +39,10 @@ static unsigned rotate_left(unsigned bits, unsigned by)
     return (bits << by | bits >> (3 - by)) & 7;
 }
 
-/* Hamilton, sections 2.1 and 2.2: the corner at which the curve enters its w-th octant, and its direction there. */
+/*
+ * Hamilton, sections 2.1 and 2.2: the corner at which the curve enters its w-th octant, and its
+ * direction there.
+ */
 static unsigned entry_corner(unsigned w)
 {
     unsigned i = w == 0 ? 0 : 2 * ((w - 1) / 2);
@@ -58,7 +62,8 @@ static void make_curve(curve *c)
     for (unsigned state = 0; state < STATES; state++)
         for (unsigned octant = 0; octant < 8; octant++) {
             unsigned corner = state / 3, turn = state % 3 + 1; /* direction + 1 */
-            unsigned gray = rotate_left(octant ^ corner, turn % 3 ? 3 - turn : 0), w = gray ^ gray >> 1 ^ gray >> 2;
+            unsigned gray = rotate_left(octant ^ corner, turn % 3 ? 3 - turn : 0),
+                     w = gray ^ gray >> 1 ^ gray >> 2;
             unsigned to = corner ^ rotate_left(entry_corner(w), turn % 3);
             c->place[state][octant] = (unsigned char)w;
             c->next[state][octant] = (unsigned char)(3 * to + (turn + direction_within(w)) % 3);
@@ -70,7 +75,8 @@ static uint64_t hilbert_key(const curve *c, const uint32_t cell[3])
     uint64_t key = 0;
     unsigned state = 0;
     for (int bit = CURVE_BITS - 1; bit >= 0; bit--) {
-        unsigned octant = (cell[0] >> bit & 1) | (cell[1] >> bit & 1) << 1 | (cell[2] >> bit & 1) << 2;
+        unsigned octant =
+            (cell[0] >> bit & 1) | (cell[1] >> bit & 1) << 1 | (cell[2] >> bit & 1) << 2;
         key = key << 3 | c->place[state][octant];
         state = c->next[state][octant];
     }
@@ -85,10 +91,10 @@ typedef struct sorting {
     uint64_t *from, *to;
     int shift; /* of the digit */
     float low[SHARES][3], high[SHARES][3];
-    double middle[3], reach;  /* where most photons are: so far from there, along each axis */
-    double origin[3], scale;  /* of squeezed positions, to cells of the curve */
+    double middle[3], reach; /* where most photons are: so far from there, along each axis */
+    double origin[3], scale; /* of squeezed positions, to cells of the curve */
     curve curve;
-    size_t (*bins)[BINS];       /* [SHARES], counts, then where each share's items of a bin go */
+    size_t (*bins)[BINS]; /* [SHARES], counts, then where each share's items of a bin go */
 } sorting;
 
 static size_t share_begin(const sorting *s, uint32_t share)
@@ -104,7 +110,8 @@ static const float *position(const sorting *s, size_t i)
 static void bound_share(void *user, uint32_t share)
 {
     sorting *s = user;
-    float low[3] = {HUGE_VALF, HUGE_VALF, HUGE_VALF}, high[3] = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
+    float low[3] = {HUGE_VALF, HUGE_VALF, HUGE_VALF},
+          high[3] = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
     for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++)
         for (int axis = 0; axis < 3; axis++) {
             float x = position(s, i)[axis];
@@ -121,7 +128,10 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds where most of the points are, from some of them; the reach leaves them half as much room again. */
+/*
+ * Finds where most of the points are, from some of them; the reach leaves them half as much room
+ * again.
+ */
 static void find_most(sorting *s)
 {
     float sample[SAMPLE];
@@ -168,7 +178,8 @@ static void key_share(void *user, uint32_t share)
     for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++) {
         uint32_t cell[3];
         for (int axis = 0; axis < 3; axis++)
-            cell[axis] = (uint32_t)((squeeze(s, position(s, i)[axis], axis) - s->origin[axis]) * s->scale);
+            cell[axis] =
+                (uint32_t)((squeeze(s, position(s, i)[axis], axis) - s->origin[axis]) * s->scale);
         s->from[i] = hilbert_key(&s->curve, cell) << INDEX_BITS | i;
     }
 }
@@ -207,8 +218,8 @@ static void move_share(void *user, uint32_t share)
         s->to[bins[digit(s, s->from[i])]++] = s->from[i];
 }
 
-rt_status rt_point_order(uint64_t *items, uint64_t *spare, const float *first, size_t stride, size_t count,
-                         uint32_t threads, rt_error *error)
+rt_status rt_point_order(uint64_t *items, uint64_t *spare, const float *first, size_t stride,
+                         size_t count, uint32_t threads, rt_error *error)
 {
     sorting s;
     memset(&s, 0, sizeof s);

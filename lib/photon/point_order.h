@@ -10,13 +10,14 @@
 #include "rt.h"
 
 /*
- * Sorts `count` points, at most 2^28, along Hilbert's curve through their bounding box; `first` is the position of the
- * first, three finite numbers, and others follow each `stride` bytes later. The order is written to `items` [count], an
- * index in the low 28 bits of each. `spare` [count] is scratch memory. The sort is stable, so the result does not
- * depend on the number of threads. Fails only for want of memory.
+ * Sorts `count` points, at most 2^28, along Hilbert's curve through their bounding box; `first` is
+ * the position of the first, three finite numbers, and others follow each `stride` bytes later. The
+ * order is written to `items` [count], an index in the low 28 bits of each. `spare` [count] is
+ * scratch memory. The sort is stable, so the result does not depend on the number of threads. Fails
+ * only for want of memory.
  */
-rt_status rt_point_order(uint64_t *items, uint64_t *spare, const float *first, size_t stride, size_t count,
-                         uint32_t threads, rt_error *error);
+rt_status rt_point_order(uint64_t *items, uint64_t *spare, const float *first, size_t stride,
+                         size_t count, uint32_t threads, rt_error *error);
 
 #define RT_POINT_ORDER_INDEX 0x0fffffffu
 

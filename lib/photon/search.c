@@ -43,8 +43,8 @@ static size_t look_limit(const rt_photon_search *search)
     return smaller(search->count, (size_t)RT_PHOTON_LOOK_MAX * search->k);
 }
 
-rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_list *map, uint32_t k, float max_radius,
-                                  uint32_t threads, rt_error *error)
+rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_list *map, uint32_t k,
+                                  float max_radius, uint32_t threads, rt_error *error)
 {
     rt_photon_search *search = calloc(1, sizeof *search);
     float(*positions)[3] = copy_vectors(map, offsetof(rt_photon, position));
@@ -86,11 +86,14 @@ size_t rt_photon_search_stride(const rt_photon_search *search)
     return smaller(search->count, search->k);
 }
 
-/* Whether there is anything to gather; the tree must not be asked for a place that is not finite. */
+/*
+ * Whether there is anything to gather; the tree must not be asked for a place that is not finite.
+ */
 static int is_asked(const rt_gather_point *point)
 {
     const float *p = point->position, *w = point->weight;
-    return (w[0] != 0 || w[1] != 0 || w[2] != 0) && isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+    return (w[0] != 0 || w[1] != 0 || w[2] != 0) && isfinite(p[0]) && isfinite(p[1]) &&
+           isfinite(p[2]);
 }
 
 static int is_accepted(const float a[3], const float b[3])
@@ -102,8 +105,8 @@ static int is_accepted(const float a[3], const float b[3])
  * Ranks the nearest `looked` photons of a point. Returns 1 with the disc complete, or 0 when
  * more photons have to be looked at.
  */
-static int rank(const rt_photon_search *search, const rt_gather_point *point, const int *found, const float *squared,
-                size_t looked, rt_u32 *list, rt_gather_disc *disc)
+static int rank(const rt_photon_search *search, const rt_gather_point *point, const int *found,
+                const float *squared, size_t looked, rt_u32 *list, rt_gather_disc *disc)
 {
     rt_u32 accepted = 0;
     size_t last = 0; /* place of the photon accepted last */
@@ -151,7 +154,10 @@ typedef struct looking {
     unsigned char *failed; /* [jobs], set where memory ran out */
 } looking;
 
-/* Looks at the photons of a share of the points; a disc that needs more gets a negative squared radius. */
+/*
+ * Looks at the photons of a share of the points; a disc that needs more gets a negative squared
+ * radius.
+ */
 static void look_at_share(void *user, uint32_t index)
 {
     const looking *l = user;
@@ -166,12 +172,13 @@ static void look_at_share(void *user, uint32_t index)
     for (size_t i = 0; i < count && !l->failed[index]; i++)
         memcpy(queries[i], l->points[asked[i]].position, sizeof *queries);
     if (!l->failed[index])
-        l->failed[index] =
-            rt_flann_index_nearest(search->index, queries[0], count, look, found, squared, NULL) != RT_OK;
+        l->failed[index] = rt_flann_index_nearest(search->index, queries[0], count, look, found,
+                                                  squared, NULL) != RT_OK;
     for (size_t i = 0; i < count && !l->failed[index]; i++) {
         rt_u32 *list = l->lists + asked[i] * rt_photon_search_stride(search);
         rt_gather_disc *disc = l->discs + asked[i];
-        if (!rank(search, l->points + asked[i], found + i * look, squared + i * look, look, list, disc))
+        if (!rank(search, l->points + asked[i], found + i * look, squared + i * look, look, list,
+                  disc))
             disc->squared_radius = -1;
     }
     free(queries);
@@ -180,11 +187,12 @@ static void look_at_share(void *user, uint32_t index)
 }
 
 /*
- * Looks at the nearest `look` photons of the points in asked[*count], on all threads; those that need
- * more stay in asked, and *count becomes their number.
+ * Looks at the nearest `look` photons of the points in asked[*count], on all threads; those that
+ * need more stay in asked, and *count becomes their number.
  */
-static rt_status look_at(const rt_photon_search *search, const rt_gather_point *points, rt_u32 *asked, size_t *count,
-                         size_t look, rt_u32 *lists, rt_gather_disc *discs, rt_error *error)
+static rt_status look_at(const rt_photon_search *search, const rt_gather_point *points,
+                         rt_u32 *asked, size_t *count, size_t look, rt_u32 *lists,
+                         rt_gather_disc *discs, rt_error *error)
 {
     looking l = {search, points, asked, *count, look, 1, lists, discs, NULL};
     size_t left = 0;
@@ -200,7 +208,8 @@ static rt_status look_at(const rt_photon_search *search, const rt_gather_point *
         failed |= l.failed[i];
     if (!l.failed || failed) {
         free(l.failed);
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the %zu nearest photons of %zu points", look, *count);
+        return rt_fail(error, RT_ERROR_MEMORY,
+                       "no memory for the %zu nearest photons of %zu points", look, *count);
     }
     free(l.failed);
     for (size_t i = 0; i < *count; i++)
@@ -210,9 +219,12 @@ static rt_status look_at(const rt_photon_search *search, const rt_gather_point *
     return RT_OK;
 }
 
-/* Finds the points that ask, in the order of a curve: those near each other go the same ways through the tree. */
-static rt_status find_asked(rt_u32 *asked, size_t *count, const rt_gather_point *points, size_t point_count,
-                            uint32_t threads, rt_error *error)
+/*
+ * Finds the points that ask, in the order of a curve: those near each other go the same ways
+ * through the tree.
+ */
+static rt_status find_asked(rt_u32 *asked, size_t *count, const rt_gather_point *points,
+                            size_t point_count, uint32_t threads, rt_error *error)
 {
     float(*positions)[3] = malloc((point_count ? point_count : 1) * sizeof *positions);
     uint64_t *items = malloc((point_count ? point_count : 1) * 2 * sizeof *items);
@@ -222,7 +234,8 @@ static rt_status find_asked(rt_u32 *asked, size_t *count, const rt_gather_point 
     if (!positions || !items) {
         free(positions);
         free(items);
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to ask for photons at %zu points", point_count);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to ask for photons at %zu points",
+                       point_count);
     }
     for (size_t i = 0; i < point_count; i++)
         if (is_asked(points + i)) {
@@ -230,7 +243,8 @@ static rt_status find_asked(rt_u32 *asked, size_t *count, const rt_gather_point 
             asked[n++] = (rt_u32)i;
         }
     if (n > 0)
-        status = rt_point_order(items, items + n, positions[0], sizeof *positions, n, threads, error);
+        status =
+            rt_point_order(items, items + n, positions[0], sizeof *positions, n, threads, error);
     /* The keys have served: the points take their place, and then go where they belong. */
     for (size_t i = 0; i < n && status == RT_OK; i++)
         items[i] = asked[items[i] & RT_POINT_ORDER_INDEX];
@@ -242,8 +256,8 @@ static rt_status find_asked(rt_u32 *asked, size_t *count, const rt_gather_point 
     return status;
 }
 
-rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points, size_t count,
-                                rt_u32 *lists, rt_gather_disc *discs, rt_error *error)
+rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points,
+                                size_t count, rt_u32 *lists, rt_gather_disc *discs, rt_error *error)
 {
     rt_u32 *asked = malloc((count ? count : 1) * sizeof *asked);
     size_t left = 0;

@@ -30,11 +30,11 @@ typedef struct rt_photon_search rt_photon_search;
 enum { RT_PHOTON_LOOK_MAX = 16 };
 
 /*
- * Builds the search tree of a map, which is not referred to afterwards. k >= 1 photons a point; max_radius in metres,
- * infinite for no limit; threads on the host. The caller owns *out.
+ * Builds the search tree of a map, which is not referred to afterwards. k >= 1 photons a point;
+ * max_radius in metres, infinite for no limit; threads on the host. The caller owns *out.
  */
-rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_list *map, uint32_t k, float max_radius,
-                                  uint32_t threads, rt_error *error);
+rt_status rt_photon_search_create(rt_photon_search **out, const rt_photon_list *map, uint32_t k,
+                                  float max_radius, uint32_t threads, rt_error *error);
 void rt_photon_search_destroy(rt_photon_search *search);
 
 /* Entries of a row of neighbour lists: the most photons that can count at a point. */
@@ -45,7 +45,8 @@ size_t rt_photon_search_stride(const rt_photon_search *search);
  * search's stride, holds discs[i].count indices into the map. A point whose weight is zero is
  * not asked for and has none. Works on all of the search's threads.
  */
-rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points, size_t count,
-                                rt_u32 *lists, rt_gather_disc *discs, rt_error *error);
+rt_status rt_photon_search_find(const rt_photon_search *search, const rt_gather_point *points,
+                                size_t count, rt_u32 *lists, rt_gather_disc *discs,
+                                rt_error *error);
 
 #endif

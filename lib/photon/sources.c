@@ -30,18 +30,22 @@ static void group_lights(rt_light_sources *s, const rt_scene_header *scene)
     }
 }
 
-static rt_status check_shares(const rt_light_sources *s, const float *shares, size_t share_count, rt_error *error)
+static rt_status check_shares(const rt_light_sources *s, const float *shares, size_t share_count,
+                              rt_error *error)
 {
     if (share_count != s->count)
-        return rt_fail_field(error, RT_ERROR_USAGE, "light_shares", "%zu shares for a scene of %zu light%s",
-                             share_count, s->count, s->count == 1 ? "" : "s");
+        return rt_fail_field(error, RT_ERROR_USAGE, "light_shares",
+                             "%zu shares for a scene of %zu light%s", share_count, s->count,
+                             s->count == 1 ? "" : "s");
     for (size_t i = 0; i < share_count; i++) {
         if (!(shares[i] >= 0 && shares[i] <= 1e15f))
             return rt_fail_field(error, RT_ERROR_USAGE, "light_shares",
-                                 "the share of light %zu is %g; it must be a number from 0 on", i, shares[i]);
+                                 "the share of light %zu is %g; it must be a number from 0 on", i,
+                                 shares[i]);
         if (shares[i] == 0 && s->sources[i].share > 0)
-            return rt_fail_field(error, RT_ERROR_USAGE, "light_shares",
-                                 "the share of light %zu is 0, but it has power: its light would be missing", i);
+            return rt_fail_field(
+                error, RT_ERROR_USAGE, "light_shares",
+                "the share of light %zu is 0, but it has power: its light would be missing", i);
     }
     return RT_OK;
 }
@@ -54,7 +58,9 @@ static void share_out(rt_light_sources *s, const rt_light_data *lights, const fl
         total += s->sources[i].share > 0 ? shares[i] : 0;
     for (size_t i = 0; i < s->light_count && total > 0; i++) {
         const rt_light_source *source = s->sources + s->of_light[i];
-        double part = source->share > 0 ? lights[i].power / source->share * shares[s->of_light[i]] / total : 0;
+        double part = source->share > 0
+                          ? lights[i].power / source->share * shares[s->of_light[i]] / total
+                          : 0;
         sum += part;
         s->shares[i] = (rt_light_share){.pmf = (float)part, .cdf = (float)sum};
     }
@@ -80,18 +86,22 @@ static void share_by_power(rt_light_sources *s, const rt_light_data *lights)
         s->sources[i].share /= total;
 }
 
-/* How far around the middle of the scene light from infinitely far is followed, where it matters: see emit_distant. */
+/*
+ * How far around the middle of the scene light from infinitely far is followed, where it matters:
+ * see emit_distant.
+ */
 static double reach(const rt_scene_header *scene)
 {
     const rt_light_data *lights = table(scene, scene->lights);
     for (size_t i = 0; i < scene->light_count && scene->plane_count > 0; i++)
-        if ((lights[i].kind == RT_LIGHT_DIRECTIONAL || lights[i].kind == RT_LIGHT_ENVIRONMENT) && lights[i].power > 0)
+        if ((lights[i].kind == RT_LIGHT_DIRECTIONAL || lights[i].kind == RT_LIGHT_ENVIRONMENT) &&
+            lights[i].power > 0)
             return scene->radius > 0 ? scene->radius : 1;
     return 0;
 }
 
-static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const float *shares, size_t share_count,
-                      rt_error *error)
+static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const float *shares,
+                      size_t share_count, rt_error *error)
 {
     size_t count = scene->light_count ? scene->light_count : 1;
     const rt_light_data *lights = table(scene, scene->lights);
@@ -113,8 +123,8 @@ static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const f
     return status;
 }
 
-rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem scene, const float *shares,
-                                size_t share_count, rt_error *error)
+rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem scene,
+                                const float *shares, size_t share_count, rt_error *error)
 {
     rt_light_sources s = {0};
     const void *mapped = NULL;

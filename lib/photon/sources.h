@@ -1,5 +1,6 @@
 /*
- * sources.h - the lights of a scene as people count them, and what part of the photon paths each gets.
+ * sources.h - the lights of a scene as people count them, and what part of the photon paths each
+ * gets.
  *
  * The kernels' table of lights has an entry for each primitive that emits; here a shape that emits
  * is one light, however many triangles it has.
@@ -23,18 +24,22 @@ typedef struct rt_light_sources {
     rt_u32 *of_light;       /* [light_count], the source of each entry */
     rt_light_share *shares; /* [light_count], for the device */
     size_t light_count;
-    double reach; /* m around the middle of all finite shapes, or the origin where there are none, beyond which light
-                     from infinitely far is not followed to planes; 0: there is no such light or no plane */
+    /*
+     * m around the middle of all finite shapes, or the origin where there are none, beyond which
+     * light from infinitely far is not followed to planes; 0: there is no such light or no plane
+     */
+    double reach;
     int planes_alone; /* there are no finite shapes */
 } rt_light_sources;
 
 /*
- * Reads the lights of a scene on the device. shares: [share_count], what part of the paths each source gets,
- * in proportion; none: in proportion to power. Fails with RT_ERROR_USAGE when there are not as many shares as
- * sources, one is not a number from 0 on, or a light with power gets none. Free with rt_light_sources_free.
+ * Reads the lights of a scene on the device. shares: [share_count], what part of the paths each
+ * source gets, in proportion; none: in proportion to power. Fails with RT_ERROR_USAGE when there
+ * are not as many shares as sources, one is not a number from 0 on, or a light with power gets
+ * none. Free with rt_light_sources_free.
  */
-rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem scene, const float *shares,
-                                size_t share_count, rt_error *error);
+rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem scene,
+                                const float *shares, size_t share_count, rt_error *error);
 void rt_light_sources_free(rt_light_sources *sources);
 
 #endif

@@ -27,16 +27,19 @@ static size_t lay_out(rt_photon_tree *shape, size_t photons)
 
 static size_t level_size(const rt_photon_tree_data *tree, rt_u32 level)
 {
-    size_t end = level + 1 < tree->shape.levels ? tree->shape.first_node[level + 1] : tree->node_count;
+    size_t end =
+        level + 1 < tree->shape.levels ? tree->shape.first_node[level + 1] : tree->node_count;
     return end - tree->shape.first_node[level];
 }
 
 /* ---- Blocks and the nodes over them -------------------------------------- */
 
-static void fill_block(rt_photon_block *block, const rt_photon_list *list, const uint64_t *items, size_t count)
+static void fill_block(rt_photon_block *block, const rt_photon_list *list, const uint64_t *items,
+                       size_t count)
 {
     for (size_t lane = 0; lane < 8; lane++) {
-        const rt_photon *photon = lane < count ? list->photons + (items[lane] & RT_POINT_ORDER_INDEX) : NULL;
+        const rt_photon *photon =
+            lane < count ? list->photons + (items[lane] & RT_POINT_ORDER_INDEX) : NULL;
         for (int axis = 0; axis < 3; axis++) {
             block->position[axis][lane] = photon ? photon->position[axis] : HUGE_VALF;
             block->normal[axis][lane] = photon ? photon->normal[axis] : 0;
@@ -53,7 +56,8 @@ static void clear_bounds(rt_photon_node *node)
 }
 
 /* Takes rows [3][8] of low and high corners, or of points as both, into one lane's box. */
-static void add_bounds(rt_photon_node *node, size_t lane, const float low[3][8], const float high[3][8], size_t count)
+static void add_bounds(rt_photon_node *node, size_t lane, const float low[3][8],
+                       const float high[3][8], size_t count)
 {
     for (int axis = 0; axis < 3; axis++) {
         float *lo = &node->bounds[axis][lane], *hi = &node->bounds[3 + axis][lane];
@@ -74,11 +78,13 @@ static void build_share(void *user, uint32_t job)
 {
     const building *b = user;
     rt_photon_tree_data *tree = b->tree;
-    size_t begin = (size_t)job * NODES_A_JOB, end = begin + NODES_A_JOB, level = level_size(tree, 0);
+    size_t begin = (size_t)job * NODES_A_JOB, end = begin + NODES_A_JOB,
+           level = level_size(tree, 0);
     for (size_t n = begin; n < end && n < level; n++) {
         clear_bounds(tree->nodes + n);
         for (size_t lane = 0; lane < 8 && 8 * n + lane < tree->shape.block_count; lane++) {
-            size_t first = 8 * (8 * n + lane), left = b->list->count - first, count = left < 8 ? left : 8;
+            size_t first = 8 * (8 * n + lane), left = b->list->count - first,
+                   count = left < 8 ? left : 8;
             rt_photon_block *block = tree->blocks + 8 * n + lane;
             const float(*points)[8] = (const float(*)[8])block->position;
             fill_block(block, b->list, b->items + first, count);
@@ -116,24 +122,25 @@ static rt_status allocate(rt_photon_tree_data *tree, size_t photons, rt_error *e
     return RT_OK;
 }
 
-rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list, uint32_t threads,
-                               rt_error *error)
+rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list,
+                               uint32_t threads, rt_error *error)
 {
     rt_photon_tree_data tree = {0};
     if (list->count > RT_PHOTON_TREE_MAX)
-        return rt_fail(error, RT_ERROR_MEMORY, "%zu photons are more than the %d a tree can hold", list->count,
-                       RT_PHOTON_TREE_MAX);
+        return rt_fail(error, RT_ERROR_MEMORY, "%zu photons are more than the %d a tree can hold",
+                       list->count, RT_PHOTON_TREE_MAX);
     uint64_t *items = malloc((list->count ? list->count : 1) * 2 * sizeof *items);
     if (!items)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to sort %zu photons", list->count);
 
     rt_status status = allocate(&tree, list->count, error);
     if (status == RT_OK && list->count > 0)
-        status = rt_point_order(items, items + list->count, list->photons->position, sizeof *list->photons, list->count,
-                                threads, error);
+        status = rt_point_order(items, items + list->count, list->photons->position,
+                                sizeof *list->photons, list->count, threads, error);
     if (status == RT_OK && list->count > 0) {
         building b = {&tree, list, items};
-        rt_parallel(threads, (uint32_t)((level_size(&tree, 0) + NODES_A_JOB - 1) / NODES_A_JOB), build_share, &b);
+        rt_parallel(threads, (uint32_t)((level_size(&tree, 0) + NODES_A_JOB - 1) / NODES_A_JOB),
+                    build_share, &b);
         for (rt_u32 level = 1; level < tree.shape.levels; level++)
             build_level(&tree, level);
     }

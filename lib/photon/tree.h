@@ -1,8 +1,9 @@
 /*
  * tree.h - the tree of photons that the device gathers from; see rt_photon_tree in types.h.
  *
- * The order of the photons is Hilbert's curve through the box around them, by 12 bits an axis; photons of one
- * cell of the curve keep the order of the map. So the same map makes the same tree, whatever the threads.
+ * The order of the photons is Hilbert's curve through the box around them, by 12 bits an axis;
+ * photons of one cell of the curve keep the order of the map. So the same map makes the same tree,
+ * whatever the threads.
  */
 #ifndef RT_LIB_PHOTON_TREE_H
 #define RT_LIB_PHOTON_TREE_H
@@ -23,8 +24,8 @@ typedef struct rt_photon_tree_data {
 enum { RT_PHOTON_TREE_MAX = 1 << 28 };
 
 /* Builds the tree of a list, which is not referred to afterwards, on `threads` threads. */
-rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list, uint32_t threads,
-                               rt_error *error);
+rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list,
+                               uint32_t threads, rt_error *error);
 
 /* Frees what the tree holds and empties it. */
 void rt_photon_tree_free(rt_photon_tree_data *tree);

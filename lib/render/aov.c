@@ -22,8 +22,8 @@ int rt_aov_wanted(const rt_render_options *options)
 
 /* ---- On the device ---------------------------------------------------------- */
 
-rt_status rt_aov_begin(rt_aov *out, rt_renderer *renderer, rt_film *film, rt_stage_progress *progress,
-                          rt_error *error)
+rt_status rt_aov_begin(rt_aov *out, rt_renderer *renderer, rt_film *film,
+                       rt_stage_progress *progress, rt_error *error)
 {
     size_t count = film_pixels(film), bytes = RT_LAYER_COUNT * count * sizeof *film->layer_sums;
     rt_params none;
@@ -34,27 +34,32 @@ rt_status rt_aov_begin(rt_aov *out, rt_renderer *renderer, rt_film *film, rt_sta
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels", count);
     rt_status status = rt_film_add_layers(film, RT_FILM_ALBEDO, RT_FILM_DEPTH, error);
     if (status == RT_OK)
-        status = rt_buffer_create(renderer->device, &out->films, CL_MEM_READ_WRITE, bytes, film->layer_sums,
-                                  "the layers of the film", error);
+        status = rt_buffer_create(renderer->device, &out->films, CL_MEM_READ_WRITE, bytes,
+                                  film->layer_sums, "the layers of the film", error);
     rt_arg args[] = {RT_ARG(none), RT_ARG(renderer->scene), RT_ARG(out->films)};
     if (status == RT_OK)
-        status = rt_kernel_prepare(renderer->device, &out->kernel, "aov", "aov", args, 3, progress, error);
+        status = rt_kernel_prepare(renderer->device, &out->kernel, "aov", "aov", args, 3, progress,
+                                   error);
     return status;
 }
 
-rt_status rt_aov_add(rt_aov *layers, rt_renderer *renderer, const rt_params *params, rt_error *error)
+rt_status rt_aov_add(rt_aov *layers, rt_renderer *renderer, const rt_params *params,
+                     rt_error *error)
 {
     rt_arg first = {sizeof *params, params};
     if (!layers->kernel)
         return RT_OK;
     rt_status status = rt_kernel_args(layers->kernel, &first, 1, error);
-    return status == RT_OK ? rt_launch(renderer->device, layers->kernel, params->item_count, error) : status;
+    return status == RT_OK ? rt_launch(renderer->device, layers->kernel, params->item_count, error)
+                           : status;
 }
 
 rt_status rt_aov_read(const rt_aov *layers, rt_renderer *renderer, rt_film *film, rt_error *error)
 {
     size_t bytes = RT_LAYER_COUNT * film_pixels(film) * sizeof *film->layer_sums;
-    return layers->films ? rt_buffer_read(renderer->device, layers->films, 0, bytes, film->layer_sums, error) : RT_OK;
+    return layers->films
+               ? rt_buffer_read(renderer->device, layers->films, 0, bytes, film->layer_sums, error)
+               : RT_OK;
 }
 
 void rt_aov_free(rt_aov *layers)
@@ -98,8 +103,10 @@ void rt_aov_resolve(rt_film *film)
         if (albedo[i].count == 0)
             continue;
         for (int c = 0; c < 3; c++) {
-            film->layers[RT_FILM_ALBEDO][3 * i + c] = (float)(total(albedo + i, c) / rt_film_divisor(albedo + i));
-            film->layers[RT_FILM_NORMAL][3 * i + c] = (float)(total(normal + i, c) / rt_film_divisor(normal + i));
+            film->layers[RT_FILM_ALBEDO][3 * i + c] =
+                (float)(total(albedo + i, c) / rt_film_divisor(albedo + i));
+            film->layers[RT_FILM_NORMAL][3 * i + c] =
+                (float)(total(normal + i, c) / rt_film_divisor(normal + i));
         }
         double hits = total(depth + i, 1);
         film->layers[RT_FILM_DEPTH][i] = hits > 0 ? (float)(total(depth + i, 0) / hits) : 0;

@@ -13,18 +13,23 @@ typedef struct rt_aov {
 /* Whether the options ask for layers, as the picture itself or beside it. */
 int rt_aov_wanted(const rt_render_options *options);
 
-/* Makes room in the film and on the device, and the kernel ready, as part of the stage `compile`. */
-rt_status rt_aov_begin(rt_aov *out, rt_renderer *renderer, rt_film *film, rt_stage_progress *progress,
-                          rt_error *error);
+/*
+ * Makes room in the film and on the device, and the kernel ready, as part of the stage `compile`.
+ */
+rt_status rt_aov_begin(rt_aov *out, rt_renderer *renderer, rt_film *film,
+                       rt_stage_progress *progress, rt_error *error);
 
 /* Adds the items and samples of params; does not wait. Does nothing where there are no layers. */
-rt_status rt_aov_add(rt_aov *layers, rt_renderer *renderer, const rt_params *params, rt_error *error);
+rt_status rt_aov_add(rt_aov *layers, rt_renderer *renderer, const rt_params *params,
+                     rt_error *error);
 
 /* Copies the sums to the film. Does nothing where there are no layers. */
 rt_status rt_aov_read(const rt_aov *layers, rt_renderer *renderer, rt_film *film, rt_error *error);
 void rt_aov_free(rt_aov *layers);
 
-/* Makes the layers' means from the sums, and from them the picture, where the mode is to show one. */
+/*
+ * Makes the layers' means from the sums, and from them the picture, where the mode is to show one.
+ */
 void rt_aov_resolve(rt_film *film);
 
 #endif

@@ -1,4 +1,7 @@
-/* enclose.c - finds the solids that the camera and the lights lie in, so that paths start in the right medium. */
+/*
+ * enclose.c - finds the solids that the camera and the lights lie in, so that paths start in the
+ * right medium.
+ */
 #include <string.h>
 
 #include "error.h"
@@ -24,7 +27,8 @@ rt_status rt_renderer_enclose(rt_renderer *renderer, const rt_scene *scene, size
         return RT_OK;
     memset(&params, 0, sizeof params);
     rt_arg args[] = {RT_ARG(params), RT_ARG(renderer->scene), RT_ARG(eye)};
-    rt_status status = rt_kernel_prepare(renderer->device, &kernel, "enclose", "enclose", args, 3, progress, error);
+    rt_status status = rt_kernel_prepare(renderer->device, &kernel, "enclose", "enclose", args, 3,
+                                         progress, error);
     if (status != RT_OK)
         return status;
     params.item_count = (rt_u32)light_count + 1;

@@ -23,8 +23,8 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_err
     }
     if (!film || !film->pixels || !film->rgb) {
         rt_film_destroy(film);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film of %u x %u pixels", options->width,
-                       options->height);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film of %u x %u pixels",
+                       options->width, options->height);
     }
     *out = film;
     return RT_OK;
@@ -59,7 +59,8 @@ rt_status rt_film_resolve(rt_film *film, rt_error *error)
     for (size_t i = 0; i < count; i++) {
         const rt_film_pixel *p = film->pixels + i;
         for (int c = 0; c < 3; c++)
-            film->rgb[3 * i + c] = p->count > 0 ? (float)((p->sum[c] - p->lost[c]) / rt_film_divisor(p)) : 0;
+            film->rgb[3 * i + c] =
+                p->count > 0 ? (float)((p->sum[c] - p->lost[c]) / rt_film_divisor(p)) : 0;
         if (p->count < fewest)
             fewest = p->count;
         film->stats.rejected += p->rejected;

@@ -30,27 +30,32 @@ extern const rt_layer_kind rt_layer_kinds[RT_FILM_LAYERS];
 struct rt_film {
     rt_render_options options; /* as rendered, defaults filled in */
     rt_film_stats stats;
-    rt_ledger ledger; /* of all photon paths */
+    rt_ledger ledger;      /* of all photon paths */
     rt_film_pixel *pixels; /* [height][width], the sums */
     float *rgb;            /* [height][width][3], the means */
-    rt_film_pixel *layer_sums; /* [RT_LAYER_COUNT][height][width], of the layers that the kernel aov sums, or NULL */
+    /* [RT_LAYER_COUNT][height][width], of the layers that the kernel aov sums, or NULL */
+    rt_film_pixel *layer_sums;
     float *layers[RT_FILM_LAYERS]; /* [height][width][channels], or NULL */
     struct rt_noise *noise;        /* what rounds tell of the error, or NULL; see noise.h */
 };
 
 /* Makes room for the layers from first to last, all zero; the film owns it. */
-rt_status rt_film_add_layers(rt_film *film, rt_film_layer_id first, rt_film_layer_id last, rt_error *error);
+rt_status rt_film_add_layers(rt_film *film, rt_film_layer_id first, rt_film_layer_id last,
+                             rt_error *error);
 
 /* A black film for complete options; the caller owns *out. */
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error);
 
 /*
- * What the sums of a pixel are divided by: the sum of weights. Where a few samples' signs nearly cancel, which
- * only Mitchell's filter has, their number. 0 without samples.
+ * What the sums of a pixel are divided by: the sum of weights. Where a few samples' signs nearly
+ * cancel, which only Mitchell's filter has, their number. 0 without samples.
  */
 double rt_film_divisor(const rt_film_pixel *pixel);
 
-/* Makes the means from the sums, and from them the counts of samples and of rejected ones; and what the rounds tell. */
+/*
+ * Makes the means from the sums, and from them the counts of samples and of rejected ones; and what
+ * the rounds tell.
+ */
 rt_status rt_film_resolve(rt_film *film, rt_error *error);
 
 #endif

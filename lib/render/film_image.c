@@ -14,7 +14,8 @@ static rt_status set_number(rt_image *image, const char *name, double value, rt_
 }
 
 /* What is needed to make the picture again. */
-static rt_status describe(rt_image *image, const rt_film *film, const rt_image_options *options, rt_error *error)
+static rt_status describe(rt_image *image, const rt_film *film, const rt_image_options *options,
+                          rt_error *error)
 {
     const rt_render_options *o = &film->options;
     rt_status status = rt_image_set_attribute(image, "librt.version", rt_version(), error);
@@ -42,10 +43,12 @@ static void fill(rt_image *image, uint32_t first, const float *from, uint32_t ch
 {
     size_t pixels = (size_t)image->width * image->height;
     for (size_t i = 0; i < pixels; i++)
-        memcpy(image->data + i * image->channel_count + first, from + i * channels, channels * sizeof *from);
+        memcpy(image->data + i * image->channel_count + first, from + i * channels,
+               channels * sizeof *from);
 }
 
-rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options, rt_error *error)
+rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_options *options,
+                        rt_error *error)
 {
     if (rt_is_missing(film, "film", error))
         return RT_ERROR_USAGE;

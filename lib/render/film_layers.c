@@ -1,4 +1,6 @@
-/* film_layers.c - the layers of a film besides its radiance: one table of their names and shapes. */
+/*
+ * film_layers.c - the layers of a film besides its radiance: one table of their names and shapes.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,7 +19,8 @@ const rt_layer_kind rt_layer_kinds[RT_FILM_LAYERS] = {
     [RT_FILM_PHOTON_BIAS] = {"photon.bias", 1, {"photon.bias"}},
 };
 
-rt_status rt_film_add_layers(rt_film *film, rt_film_layer_id first, rt_film_layer_id last, rt_error *error)
+rt_status rt_film_add_layers(rt_film *film, rt_film_layer_id first, rt_film_layer_id last,
+                             rt_error *error)
 {
     size_t pixels = (size_t)film->options.width * film->options.height;
     for (int i = (int)first; i <= (int)last; i++) {

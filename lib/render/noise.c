@@ -43,15 +43,18 @@ rt_status rt_noise_check(const rt_render_options *o, rt_error *error)
     if (!rt_noise_wanted(o))
         return RT_OK;
     if (o->mode == RT_MODE_PHOTON && o->passes < 2)
-        return rt_fail_field(error, RT_ERROR_USAGE, field,
-                             "the samples of one photon map share its photons, so that they cannot tell its error; "
-                             "give passes");
+        return rt_fail_field(
+            error, RT_ERROR_USAGE, field,
+            "the samples of one photon map share its photons, so that they cannot tell its error; "
+            "give passes");
     if (o->mode != RT_MODE_PHOTON && o->mode != RT_MODE_PATH && o->mode != RT_MODE_DIRECT)
-        return rt_fail_field(error, RT_ERROR_USAGE, field,
-                             "the error is that of light, and mode %s shows none (path, photon and direct do)",
-                             rt_mode_name(o->mode));
+        return rt_fail_field(
+            error, RT_ERROR_USAGE, field,
+            "the error is that of light, and mode %s shows none (path, photon and direct do)",
+            rt_mode_name(o->mode));
     if (o->mode != RT_MODE_PHOTON && o->spp < 2)
-        return rt_fail_field(error, RT_ERROR_USAGE, field, "one sample a pixel cannot tell its error");
+        return rt_fail_field(error, RT_ERROR_USAGE, field,
+                             "one sample a pixel cannot tell its error");
     return RT_OK;
 }
 
@@ -64,7 +67,8 @@ rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_error *error)
         noise->fresh = malloc(pixels_a_read * sizeof *noise->fresh);
     if (!noise || !noise->fresh) {
         rt_noise_destroy(noise);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the variance of %zu pixels", pixels);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the variance of %zu pixels",
+                       pixels);
     }
     noise->count = pixels;
     noise->next_look = 1;
@@ -84,14 +88,14 @@ static double sum_of(const rt_film_pixel *pixel, int channel)
     return (double)pixel->sum[channel] - pixel->lost[channel];
 }
 
-rt_status rt_noise_read(rt_noise *noise, const rt_stretch *stretch, rt_device *device, cl_mem pixels, rt_film *film,
-                        rt_error *error)
+rt_status rt_noise_read(rt_noise *noise, const rt_stretch *stretch, rt_device *device,
+                        cl_mem pixels, rt_film *film, rt_error *error)
 {
     rt_status status = RT_OK;
     for (size_t first = 0, count; first < noise->count && status == RT_OK; first += count) {
         count = noise->count - first < pixels_a_read ? noise->count - first : pixels_a_read;
-        status = rt_buffer_read(device, pixels, first * sizeof *film->pixels, count * sizeof *film->pixels,
-                                noise->fresh, error);
+        status = rt_buffer_read(device, pixels, first * sizeof *film->pixels,
+                                count * sizeof *film->pixels, noise->fresh, error);
         for (size_t i = 0; i < count && status == RT_OK; i++) {
             rt_film_pixel *before = film->pixels + first + i, *after = noise->fresh + i;
             noise_pixel *p = noise->pixels + first + i;
@@ -109,7 +113,10 @@ rt_status rt_noise_read(rt_noise *noise, const rt_stretch *stretch, rt_device *d
 
 /* ---- What they tell ------------------------------------------------------------------- */
 
-/* A channel of a pixel by the replicates: its mean, its variance, and the part that each has in that. */
+/*
+ * A channel of a pixel by the replicates: its mean, its variance, and the part that each has in
+ * that.
+ */
 typedef struct noise_value {
     double mean, variance, part[RT_REPLICATES];
 } noise_value;
@@ -138,7 +145,8 @@ static noise_value value_of(const rt_noise *noise, size_t pixel, int channel)
 /* The relative error, and its bound. The parts of the replicates are q of the header by R^2. */
 static double relative_error(const rt_noise *noise, double *bound)
 {
-    double parts[RT_REPLICATES] = {0}, radiance = 0, variance = 0, spread = 0, replicates = noise->replicates;
+    double parts[RT_REPLICATES] = {0}, radiance = 0, variance = 0, spread = 0,
+           replicates = noise->replicates;
     double values = 3.0 * (double)noise->count;
     for (size_t i = 0; i < 3 * noise->count; i++) {
         noise_value value = value_of(noise, i / 3, (int)(i % 3));
@@ -153,8 +161,9 @@ static double relative_error(const rt_noise *noise, double *bound)
     double t = rt_student_quantile(RT_NORMAL_ONE_SIDE, replicates - 1);
     double error = variance > 0 ? sqrt(variance) / fabs(radiance) : 0;
     double deviation = variance > 0 ? sqrt(spread) * replicates / variance : 0;
-    *bound = noise->replicates < RT_REPLICATES ? INFINITY
-                                               : error * exp(0.5 * t * deviation * sqrt(1 + 1 / replicates));
+    *bound = noise->replicates < RT_REPLICATES
+                 ? INFINITY
+                 : error * exp(0.5 * t * deviation * sqrt(1 + 1 / replicates));
     return error;
 }
 

@@ -22,7 +22,8 @@ int rt_photon_bias_finer(rt_gather_options *out, double *factor, const rt_gather
     return 1;
 }
 
-rt_status rt_photon_bias_create(rt_photon_bias *b, rt_device *device, size_t capacity, size_t rows, rt_error *error)
+rt_status rt_photon_bias_create(rt_photon_bias *b, rt_device *device, size_t capacity, size_t rows,
+                                rt_error *error)
 {
     b->device = device;
     b->capacity = capacity;
@@ -31,7 +32,8 @@ rt_status rt_photon_bias_create(rt_photon_bias *b, rt_device *device, size_t cap
     b->sums = malloc(capacity * sizeof *b->sums);
     if (!b->host || !b->sums)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory for the bias at %zu points", capacity);
-    return rt_buffer_create(device, &b->copies, CL_MEM_READ_WRITE, (1 + rows) * capacity * sizeof *b->host, NULL,
+    return rt_buffer_create(device, &b->copies, CL_MEM_READ_WRITE,
+                            (1 + rows) * capacity * sizeof *b->host, NULL,
                             "copies of gather points", error);
 }
 
@@ -43,20 +45,25 @@ void rt_photon_bias_release(rt_photon_bias *b)
     memset(b, 0, sizeof *b);
 }
 
-rt_status rt_photon_bias_begin(rt_photon_bias *b, cl_mem points, cl_mem caustics, size_t count, rt_error *error)
+rt_status rt_photon_bias_begin(rt_photon_bias *b, cl_mem points, cl_mem caustics, size_t count,
+                               rt_error *error)
 {
     size_t row = b->capacity * sizeof *b->host;
     memset(b->sums, 0, b->capacity * sizeof *b->sums);
-    rt_status status = rt_buffer_copy(b->device, points, b->copies, 0, count * sizeof *b->host, error);
-    return status == RT_OK ? rt_buffer_copy(b->device, caustics, b->copies, row, b->rows * row, error) : status;
+    rt_status status =
+        rt_buffer_copy(b->device, points, b->copies, 0, count * sizeof *b->host, error);
+    return status == RT_OK
+               ? rt_buffer_copy(b->device, caustics, b->copies, row, b->rows * row, error)
+               : status;
 }
 
 /* Adds a factor times the mean of the channels of points. */
-static rt_status add_means(const rt_photon_bias *b, cl_mem points, size_t first, size_t count, double factor,
-                           rt_error *error)
+static rt_status add_means(const rt_photon_bias *b, cl_mem points, size_t first, size_t count,
+                           double factor, rt_error *error)
 {
     size_t size = sizeof *b->host;
-    rt_status status = rt_buffer_read(b->device, points, first * size, count * size, b->host, error);
+    rt_status status =
+        rt_buffer_read(b->device, points, first * size, count * size, b->host, error);
     for (size_t i = 0; i < count && status == RT_OK; i++) {
         const float *rgb = b->host[i].radiance;
         b->sums[i] += factor * ((double)rgb[0] + rgb[1] + rgb[2]) / 3;
@@ -64,13 +71,17 @@ static rt_status add_means(const rt_photon_bias *b, cl_mem points, size_t first,
     return status;
 }
 
-rt_status rt_photon_bias_add(rt_photon_bias *b, rt_gatherer *gatherer, const rt_finer *finer, cl_mem points,
-                             size_t first, size_t row, size_t count, rt_gather_disc *discs, rt_error *error)
+rt_status rt_photon_bias_add(rt_photon_bias *b, rt_gatherer *gatherer, const rt_finer *finer,
+                             cl_mem points, size_t first, size_t row, size_t count,
+                             rt_gather_disc *discs, rt_error *error)
 {
     size_t copy = row * b->capacity;
     if (!finer->gatherer)
         return rt_gatherer_add(gatherer, points, first, count, discs, error);
-    /* What one asking adds is what there is after it less what was there before, at points and copies. */
+    /*
+     * What one asking adds is what there is after it less what was there before, at points and
+     * copies.
+     */
     rt_status status = add_means(b, points, first, count, -finer->factor, error);
     if (status == RT_OK)
         status = add_means(b, b->copies, copy, count, finer->factor, error);

@@ -1,11 +1,11 @@
 /*
  * photon_bias.h - the bias of photon estimates, for the layer photon.bias.
  *
- * Light is blurred over the disc that it is gathered from, which to first order makes an error in proportion to the
- * disc's area: E[L_a] = L + c a. A second estimate from the same photons over a smaller area q a then tells the error
- * of the first (Richardson's extrapolation): (L_a - L_qa) / (1 - q). A radius is given half the area. k nearest
- * photons are spread over an area that is in the mean in proportion to k, so (k + 1) / 2 of them, in whole numbers,
- * take its place.
+ * Light is blurred over the disc that it is gathered from, which to first order makes an error in
+ * proportion to the disc's area: E[L_a] = L + c a. A second estimate from the same photons over a
+ * smaller area q a then tells the error of the first (Richardson's extrapolation): (L_a - L_qa) /
+ * (1 - q). A radius is given half the area. k nearest photons are spread over an area that is in
+ * the mean in proportion to k, so (k + 1) / 2 of them, in whole numbers, take its place.
  */
 #ifndef RT_LIB_RENDER_PHOTON_BIAS_H
 #define RT_LIB_RENDER_PHOTON_BIAS_H
@@ -27,7 +27,8 @@ typedef struct rt_finer_maps {
 typedef struct rt_photon_bias {
     rt_device *device;
     size_t capacity, rows; /* paths a batch, and caustic points of each */
-    cl_mem copies;         /* rt_gather_point [1 + rows][capacity]: the points, and what the finer ones make of them */
+    /* rt_gather_point [1 + rows][capacity]: the points, and what the finer ones make of them */
+    cl_mem copies;
     rt_gather_point *host; /* [capacity] */
     double *sums;          /* [capacity], the bias of each path, the mean of its three channels */
 } rt_photon_bias;
@@ -35,17 +36,23 @@ typedef struct rt_photon_bias {
 /* The options of a finer gatherer and its factor; 0 when there are too few photons for one. */
 int rt_photon_bias_finer(rt_gather_options *out, double *factor, const rt_gather_options *how);
 
-rt_status rt_photon_bias_create(rt_photon_bias *out, rt_device *device, size_t capacity, size_t rows, rt_error *error);
+rt_status rt_photon_bias_create(rt_photon_bias *out, rt_device *device, size_t capacity,
+                                size_t rows, rt_error *error);
 void rt_photon_bias_release(rt_photon_bias *bias);
 
-/* Copies the points of a batch, and those of caustics [rows][capacity], before anything is asked for them. */
-rt_status rt_photon_bias_begin(rt_photon_bias *bias, cl_mem points, cl_mem caustics, size_t count, rt_error *error);
+/*
+ * Copies the points of a batch, and those of caustics [rows][capacity], before anything is asked
+ * for them.
+ */
+rt_status rt_photon_bias_begin(rt_photon_bias *bias, cl_mem points, cl_mem caustics, size_t count,
+                               rt_error *error);
 
 /*
- * rt_gatherer_add, at the points first .. first + count - 1, and the finer one at their copies: row 0 are the ends of
- * paths, the next ones the caustic points. The sums grow by the bias.
+ * rt_gatherer_add, at the points first .. first + count - 1, and the finer one at their copies: row
+ * 0 are the ends of paths, the next ones the caustic points. The sums grow by the bias.
  */
-rt_status rt_photon_bias_add(rt_photon_bias *bias, rt_gatherer *gatherer, const rt_finer *finer, cl_mem points,
-                             size_t first, size_t row, size_t count, rt_gather_disc *discs, rt_error *error);
+rt_status rt_photon_bias_add(rt_photon_bias *bias, rt_gatherer *gatherer, const rt_finer *finer,
+                             cl_mem points, size_t first, size_t row, size_t count,
+                             rt_gather_disc *discs, rt_error *error);
 
 #endif

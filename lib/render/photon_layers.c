@@ -12,7 +12,8 @@ rt_status rt_photon_layers_create(rt_photon_layer_sum **out, size_t pixels, rt_e
 {
     rt_photon_layer_sum *sums = calloc(pixels, sizeof *sums);
     if (!sums)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the photon layers of %zu pixels", pixels);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the photon layers of %zu pixels",
+                       pixels);
     *out = sums;
     return RT_OK;
 }
@@ -22,9 +23,9 @@ static double mean3(const float rgb[3])
     return ((double)rgb[0] + rgb[1] + rgb[2]) / 3;
 }
 
-void rt_photon_layers_add(rt_photon_layer_sum *sums, const rt_gather_point *points, const rt_gather_disc *discs,
-                          const double *biases, size_t count, const rt_gather_point *caustics, size_t rows,
-                          size_t stride)
+void rt_photon_layers_add(rt_photon_layer_sum *sums, const rt_gather_point *points,
+                          const rt_gather_disc *discs, const double *biases, size_t count,
+                          const rt_gather_point *caustics, size_t rows, size_t stride)
 {
     for (size_t i = 0; i < count; i++) {
         rt_photon_layer_sum *sum = sums + points[i].pixel;

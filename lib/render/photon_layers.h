@@ -1,4 +1,7 @@
-/* photon_layers.h - layers of the film for the study of photon mapping: what was gathered at each pixel. */
+/*
+ * photon_layers.h - layers of the film for the study of photon mapping: what was gathered at each
+ * pixel.
+ */
 #ifndef RT_LIB_RENDER_PHOTON_LAYERS_H
 #define RT_LIB_RENDER_PHOTON_LAYERS_H
 
@@ -8,19 +11,20 @@
 /* Sums of a pixel. */
 typedef struct rt_photon_layer_sum {
     double asked, photons, radius, density; /* of the points that asked for photons */
-    double samples, value, square, bias;    /* of all samples: mean of the three channels, its square and bias */
+    /* of all samples: mean of the three channels, its square and bias */
+    double samples, value, square, bias;
 } rt_photon_layer_sum;
 
 /* Sums for a film of so many pixels; the caller frees *out with free. */
 rt_status rt_photon_layers_create(rt_photon_layer_sum **out, size_t pixels, rt_error *error);
 
 /*
- * Adds a batch of points after they were gathered for, and what was found there; caustics [rows][stride] are points
- * whose radiance belongs to the same samples. biases [count] are theirs.
+ * Adds a batch of points after they were gathered for, and what was found there; caustics
+ * [rows][stride] are points whose radiance belongs to the same samples. biases [count] are theirs.
  */
-void rt_photon_layers_add(rt_photon_layer_sum *sums, const rt_gather_point *points, const rt_gather_disc *discs,
-                          const double *biases, size_t count, const rt_gather_point *caustics, size_t rows,
-                          size_t stride);
+void rt_photon_layers_add(rt_photon_layer_sum *sums, const rt_gather_point *points,
+                          const rt_gather_disc *discs, const double *biases, size_t count,
+                          const rt_gather_point *caustics, size_t rows, size_t stride);
 
 /* Makes the film's layers from the sums. */
 rt_status rt_photon_layers_resolve(rt_film *film, const rt_photon_layer_sum *sums, rt_error *error);

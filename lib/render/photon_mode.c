@@ -1,6 +1,6 @@
 /*
- * photon_mode.c - photon mapping: light paths fill a photon map, then eye paths ask it for the light
- * that arrives where they end; once, or in passes.
+ * photon_mode.c - photon mapping: light paths fill a photon map, then eye paths ask it for the
+ * light that arrives where they end; once, or in passes.
  */
 #include <string.h>
 
@@ -17,18 +17,22 @@ rt_status rt_photon_mode_check(const rt_render_options *o, rt_error *error)
                              "FLANN finds the k nearest photons only; %s, gather on the device",
                              in_passes ? "in passes" : "for all within a radius");
     if (o->area == RT_AREA_HULL && (all || in_passes || o->gather == RT_GATHER_DEVICE))
-        return rt_fail_field(error, RT_ERROR_USAGE, "area",
-                             "the hull is for the k nearest photons by FLANN, not for passes or the device");
+        return rt_fail_field(
+            error, RT_ERROR_USAGE, "area",
+            "the hull is for the k nearest photons by FLANN, not for passes or the device");
     if (o->k == RT_K_ALL && o->radius == 0)
-        return rt_fail_field(error, RT_ERROR_USAGE, "k", "to gather all photons within a radius, give the radius");
+        return rt_fail_field(error, RT_ERROR_USAGE, "k",
+                             "to gather all photons within a radius, give the radius");
     if (o->caustic_k == RT_K_ALL && o->caustic_radius == 0)
         return rt_fail_field(error, RT_ERROR_USAGE, "caustic_k",
                              "to gather all photons within a radius, give the caustic_radius");
     if ((uint64_t)o->passes * o->spp > UINT32_MAX)
-        return rt_fail_field(error, RT_ERROR_USAGE, "passes", "%u passes of %u samples are more than the %lu possible",
-                             o->passes, o->spp, (unsigned long)UINT32_MAX);
+        return rt_fail_field(error, RT_ERROR_USAGE, "passes",
+                             "%u passes of %u samples are more than the %lu possible", o->passes,
+                             o->spp, (unsigned long)UINT32_MAX);
     if (in_passes && o->photon_map)
-        return rt_fail_field(error, RT_ERROR_USAGE, "passes", "a photon map that is there already has one pass");
+        return rt_fail_field(error, RT_ERROR_USAGE, "passes",
+                             "a photon map that is there already has one pass");
     return RT_OK;
 }
 
@@ -51,9 +55,10 @@ static rt_status prepare(rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->options;
     r->map.settings = rt_photon_settings_of(o);
-    r->how[RT_WAY_GLOBAL] = (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->on_device};
-    r->how[RT_WAY_CAUSTIC] =
-        (rt_gather_options){o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, o->area, r->on_device};
+    r->how[RT_WAY_GLOBAL] =
+        (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->on_device};
+    r->how[RT_WAY_CAUSTIC] = (rt_gather_options){o->caustic_k, o->caustic_radius, o->caustic_kernel,
+                                                 o->cone_k,    o->area,           r->on_device};
     r->how[RT_WAY_ON_THE_WAY] = r->how[r->in_use->settings.split ? RT_WAY_CAUSTIC : RT_WAY_GLOBAL];
     for (rt_photon_way way = 0; way < RT_PHOTON_WAYS; way++) {
         rt_gather_options *how = r->how + way;
@@ -61,10 +66,11 @@ static rt_status prepare(rt_photon_render *r, rt_error *error)
         if (how->k == RT_K_ALL)
             how->k = 0;
     }
-    rt_status status = rt_photon_eye_create(&r->eye, r->renderer, o, &r->eye_kernels, &r->aov, r->film, error);
+    rt_status status =
+        rt_photon_eye_create(&r->eye, r->renderer, o, &r->eye_kernels, &r->aov, r->film, error);
     if (status == RT_OK && !o->photon_map)
-        status = rt_emitter_create(&r->emitter, r->renderer->device, r->emit, r->renderer->scene, o->light_shares,
-                                   o->light_share_count, error);
+        status = rt_emitter_create(&r->emitter, r->renderer->device, r->emit, r->renderer->scene,
+                                   o->light_shares, o->light_share_count, error);
     return status;
 }
 
@@ -89,9 +95,11 @@ static void warn_empty(const rt_film_stats *stats, const rt_hooks *hooks)
 {
     if (stats->gathers_empty > stats->gathers_at_ends / 2)
         rt_warn(hooks,
-                "%llu of the %llu points that asked for photons found none: the light that photons bring is missing "
+                "%llu of the %llu points that asked for photons found none: the light that photons "
+                "bring is missing "
                 "there, or all noise; a larger radius or more photons help",
-                (unsigned long long)stats->gathers_empty, (unsigned long long)stats->gathers_at_ends);
+                (unsigned long long)stats->gathers_empty,
+                (unsigned long long)stats->gathers_at_ends);
 }
 
 /* Emission, then gathering, each a stage. */
@@ -126,7 +134,8 @@ static rt_status render_once(rt_photon_render *r, rt_error *error)
     return status;
 }
 
-rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error)
+rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *options, rt_film *film,
+                           rt_error *error)
 {
     rt_photon_render r;
     rt_status status = RT_OK;
@@ -153,8 +162,8 @@ rt_status rt_render_photon(rt_renderer *renderer, const rt_render_options *optio
     if (status == RT_OK && r.emitter)
         rt_emitter_warn_reach(r.emitter, options->hooks);
     if (status == RT_OK)
-        rt_photon_map_warn_starved(r.in_use, &film->ledger, film->stats.passes, options->k, options->caustic_k,
-                                   options->hooks);
+        rt_photon_map_warn_starved(r.in_use, &film->ledger, film->stats.passes, options->k,
+                                   options->caustic_k, options->hooks);
     if (status == RT_OK)
         warn_empty(&film->stats, options->hooks);
     if (status == RT_OK || (status == RT_CANCELLED && r.eye.pixels)) {

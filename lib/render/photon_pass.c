@@ -13,8 +13,9 @@ uint32_t rt_photon_render_replicates(const rt_photon_render *r)
 }
 
 /*
- * Fills the map with the photons of a pass: the next paths of the seed, and when its indices are used up, of
- * another. Where the error is to be known, passes take turns at replicates, each with seeds of its own.
+ * Fills the map with the photons of a pass: the next paths of the seed, and when its indices are
+ * used up, of another. Where the error is to be known, passes take turns at replicates, each with
+ * seeds of its own.
  */
 static rt_status emit_kind(rt_photon_render *r, rt_photon_kind kind, uint64_t count, uint32_t pass,
                            rt_stage_progress *progress, rt_error *error)
@@ -23,7 +24,8 @@ static rt_status emit_kind(rt_photon_render *r, rt_photon_kind kind, uint64_t co
     uint32_t replicates = rt_photon_render_replicates(r), turn = pass / replicates;
     uint32_t seeds_before = (uint32_t)(turn / passes_a_seed) * replicates + pass % replicates;
     uint32_t seed = r->options->seed + seeds_before * 0x9e3779b9u;
-    return rt_emitter_emit(r->emitter, &r->map, kind, seed, turn % passes_a_seed * count, count, progress, error);
+    return rt_emitter_emit(r->emitter, &r->map, kind, seed, turn % passes_a_seed * count, count,
+                           progress, error);
 }
 
 /* The caustic photons of a list that holds all kinds. */
@@ -41,7 +43,8 @@ static rt_status copy_caustics(rt_photon_list *out, const rt_photon_list *list, 
     return status;
 }
 
-rt_status rt_photon_render_emit(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress, rt_error *error)
+rt_status rt_photon_render_emit(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
+                                rt_error *error)
 {
     const rt_render_options *o = r->options;
     rt_film_stats *stats = &r->film->stats;
@@ -80,14 +83,15 @@ const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_photon
     }
 }
 
-rt_status rt_photon_render_open(rt_photon_render *r, rt_photon_way way, const rt_gather_options *how, rt_error *error)
+rt_status rt_photon_render_open(rt_photon_render *r, rt_photon_way way,
+                                const rt_gather_options *how, rt_error *error)
 {
     return rt_gatherer_create(r->gatherers + way, r->renderer->device, r->eye_kernels.gather,
                               rt_photon_render_list(r, way), how, error);
 }
 
-rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_photon_way way, const rt_gather_options *how,
-                                      rt_error *error)
+rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_photon_way way,
+                                      const rt_gather_options *how, rt_error *error)
 {
     rt_finer *finer = r->finer + way;
     rt_gather_options narrow;
@@ -113,10 +117,13 @@ double rt_photon_render_elapsed(const rt_photon_render *r)
     return part < 1 ? part : 1;
 }
 
-rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_progress *progress, rt_error *error)
+rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_progress *progress,
+                                  rt_error *error)
 {
-    rt_eye_maps maps = {r->gatherers[RT_WAY_GLOBAL], r->gatherers[RT_WAY_CAUSTIC], r->gatherers[RT_WAY_ON_THE_WAY]};
-    rt_finer_maps finer = {r->finer[RT_WAY_GLOBAL], r->finer[RT_WAY_CAUSTIC], r->finer[RT_WAY_ON_THE_WAY]};
+    rt_eye_maps maps = {r->gatherers[RT_WAY_GLOBAL], r->gatherers[RT_WAY_CAUSTIC],
+                        r->gatherers[RT_WAY_ON_THE_WAY]};
+    rt_finer_maps finer = {r->finer[RT_WAY_GLOBAL], r->finer[RT_WAY_CAUSTIC],
+                           r->finer[RT_WAY_ON_THE_WAY]};
     double from = progress->from, span = progress->to - progress->from;
     uint32_t spp = r->options->spp;
     rt_status status = RT_OK;
@@ -127,7 +134,8 @@ rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_
             rt_stage_part(progress, by_time, by_time);
         else
             rt_stage_part(progress, by_samples, from + span * (i + 1) / spp);
-        status = rt_photon_eye_sample(&r->eye, &maps, &finer, first + i, &r->film->stats, progress, error);
+        status = rt_photon_eye_sample(&r->eye, &maps, &finer, first + i, &r->film->stats, progress,
+                                      error);
         if (rt_photon_render_elapsed(r) >= 1)
             break;
     }

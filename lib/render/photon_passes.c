@@ -1,6 +1,6 @@
 /*
- * photon_passes.c - progressive photon mapping: emission and gathering again and again with fresh paths, and a radius
- * that shrinks so that the mean of the passes comes to the truth.
+ * photon_passes.c - progressive photon mapping: emission and gathering again and again with fresh
+ * paths, and a radius that shrinks so that the mean of the passes comes to the truth.
  *
  * References:
  *   Knaus, Zwicker: "Progressive Photon Mapping: A Probabilistic Approach", ACM Transactions on
@@ -19,7 +19,10 @@ static double shrunk(double squared_factor, uint32_t pass, double alpha)
     return pass == 0 ? 1 : squared_factor * (pass + alpha) / (pass + 1.0);
 }
 
-/* Whether a way's points lie on what the pixel sees, so that one sample tells where the others will be. */
+/*
+ * Whether a way's points lie on what the pixel sees, so that one sample tells where the others will
+ * be.
+ */
 static int seen_by_pixels(const rt_photon_render *r, rt_photon_way way)
 {
     return way == RT_WAY_ON_THE_WAY || r->options->final_gather == 0;
@@ -50,11 +53,12 @@ static float median(float *values, int count)
 }
 
 /*
- * Turns the squared distances of the k-th photon, of each pixel, into limits: the median of a pixel and its eight
- * neighbours, for behind glass the samples of a pixel may lie far apart; and none above the mean, which also stands
- * where a distance is missing.
+ * Turns the squared distances of the k-th photon, of each pixel, into limits: the median of a pixel
+ * and its eight neighbours, for behind glass the samples of a pixel may lie far apart; and none
+ * above the mean, which also stands where a distance is missing.
  */
-static void limit_radii(float *limits, const float *squared, uint32_t width, uint32_t height, double mean)
+static void limit_radii(float *limits, const float *squared, uint32_t width, uint32_t height,
+                        double mean)
 {
     const float most = (float)(mean * mean);
     for (uint32_t y = 0; y < height; y++)
@@ -70,24 +74,28 @@ static void limit_radii(float *limits, const float *squared, uint32_t width, uin
         }
 }
 
-/* Chooses the first radii of a way, from the distances of the k-th photon over one sample of the film. */
-static rt_status choose_radii(rt_photon_render *r, rt_photon_way way, uint32_t sample, rt_stage_progress *progress,
-                              rt_error *error)
+/*
+ * Chooses the first radii of a way, from the distances of the k-th photon over one sample of the
+ * film.
+ */
+static rt_status choose_radii(rt_photon_render *r, rt_photon_way way, uint32_t sample,
+                              rt_stage_progress *progress, rt_error *error)
 {
     rt_gather_options nearest = r->how[way];
     uint32_t width = r->options->width, height = r->options->height;
     size_t pixels = (size_t)width * height;
     float *squared = calloc(2 * pixels, sizeof *squared), *limits = squared + pixels;
     if (!squared)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the gather radii of %zu pixels", pixels);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the gather radii of %zu pixels",
+                       pixels);
 
     /* Ask each pixel for its nearest photons. */
     nearest.max_radius = 0;
     nearest.k = way == RT_WAY_GLOBAL ? r->options->k : r->options->caustic_k;
     rt_status status = rt_photon_render_open(r, way, &nearest, error);
     if (status == RT_OK)
-        status = rt_photon_eye_radii(&r->eye, r->gatherers[way], way == RT_WAY_ON_THE_WAY, sample, squared, progress,
-                                     error);
+        status = rt_photon_eye_radii(&r->eye, r->gatherers[way], way == RT_WAY_ON_THE_WAY, sample,
+                                     squared, progress, error);
     rt_gatherer_destroy(r->gatherers[way]);
     r->gatherers[way] = NULL;
 
@@ -95,13 +103,15 @@ static rt_status choose_radii(rt_photon_render *r, rt_photon_way way, uint32_t s
     const double mean = mean_distance(squared, pixels);
     if (status == RT_OK && mean > 0 && seen_by_pixels(r, way)) {
         limit_radii(limits, squared, width, height, mean);
-        status = rt_buffer_create(r->renderer->device, r->first_radii + way, CL_MEM_READ_ONLY,
-                                  pixels * sizeof *limits, limits, "the gather radii of pixels", error);
+        status =
+            rt_buffer_create(r->renderer->device, r->first_radii + way, CL_MEM_READ_ONLY,
+                             pixels * sizeof *limits, limits, "the gather radii of pixels", error);
     }
     free(squared);
     if (status == RT_OK && mean > 0) {
         r->first_radius[way] = mean;
-        rt_log(r->options->hooks, "first radius of the %s photons: %s%g m", way == RT_WAY_GLOBAL ? "global" : "caustic",
+        rt_log(r->options->hooks, "first radius of the %s photons: %s%g m",
+               way == RT_WAY_GLOBAL ? "global" : "caustic",
                r->first_radii[way] ? "each pixel's own, at most " : "", mean);
     }
     return status;
@@ -112,15 +122,16 @@ static void limit_pixels(rt_photon_render *r, rt_photon_way way, float squared_f
 {
     rt_gatherer_limit_pixels(r->gatherers[way], r->first_radii[way], squared_factor);
     if (r->finer[way].gatherer)
-        rt_gatherer_limit_pixels(r->finer[way].gatherer, r->first_radii[way], 0.5f * squared_factor);
+        rt_gatherer_limit_pixels(r->finer[way].gatherer, r->first_radii[way],
+                                 0.5f * squared_factor);
 }
 
 /*
- * Makes the gatherers of a pass, for all photons within its radius; photons are left out while no radius is known for
- * them, because nothing asks for them or there are none.
+ * Makes the gatherers of a pass, for all photons within its radius; photons are left out while no
+ * radius is known for them, because nothing asks for them or there are none.
  */
-static rt_status aim_gatherers(rt_photon_render *r, uint32_t sample, double squared_factor, rt_stage_progress *progress,
-                               rt_error *error)
+static rt_status aim_gatherers(rt_photon_render *r, uint32_t sample, double squared_factor,
+                               rt_stage_progress *progress, rt_error *error)
 {
     rt_status status = RT_OK;
     for (rt_photon_way way = 0; way < RT_PHOTON_WAYS && status == RT_OK; way++) {
@@ -142,8 +153,8 @@ static rt_status aim_gatherers(rt_photon_render *r, uint32_t sample, double squa
     return status;
 }
 
-static rt_status render_pass(rt_photon_render *r, uint32_t pass, double squared_factor, rt_stage_progress *progress,
-                             rt_error *error)
+static rt_status render_pass(rt_photon_render *r, uint32_t pass, double squared_factor,
+                             rt_stage_progress *progress, rt_error *error)
 {
     rt_film_stats *stats = &r->film->stats;
     double from = progress->from, to = progress->to, t0 = rt_clock();
@@ -164,26 +175,33 @@ static rt_status render_pass(rt_photon_render *r, uint32_t pass, double squared_
     return status;
 }
 
-/* At the end of a pass: learns what it tells of the error; *enough: the one asked for is reached. */
-static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress, int *enough, rt_error *error)
+/*
+ * At the end of a pass: learns what it tells of the error; *enough: the one asked for is reached.
+ */
+static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
+                          int *enough, rt_error *error)
 {
     rt_stretch samples = {.replicate = r->eye.replicate, .count = r->options->spp};
     rt_noise *noise = r->film->noise;
     if (!noise)
         return RT_OK;
-    rt_status status = rt_noise_read(noise, &samples, r->renderer->device, r->eye.pixels, r->film, error);
+    rt_status status =
+        rt_noise_read(noise, &samples, r->renderer->device, r->eye.pixels, r->film, error);
     if (status == RT_OK && samples.replicate == RT_REPLICATES - 1)
         *enough = rt_noise_look(noise, pass / RT_REPLICATES + 1, r->options->target_error);
     progress->error = rt_noise_last(noise);
     return status;
 }
 
-/* Where the progress of a pass begins: by passes, by time, or by the error, whichever is furthest. */
+/*
+ * Where the progress of a pass begins: by passes, by time, or by the error, whichever is furthest.
+ */
 static double part_done(const rt_photon_render *r, uint32_t passes)
 {
     const rt_render_options *o = r->options;
     double length = (double)passes / RT_REPLICATES;
-    double by_error = r->film->noise ? rt_noise_progress(r->film->noise, length, o->target_error) : 0;
+    double by_error =
+        r->film->noise ? rt_noise_progress(r->film->noise, length, o->target_error) : 0;
     return fmax((double)passes / o->passes, fmax(rt_photon_render_elapsed(r), by_error));
 }
 

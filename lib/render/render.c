@@ -9,10 +9,10 @@
 #include "scene/view.h"
 
 /*
- * Where roulette may end a path. Measured variance times time of thresholds 1, 1/2, 1/4 and 1/8, from the second
- * segment on: 1, 0.60, 0.53, 0.56 in a closed room under a point light, 1, 0.76, 0.76, 0.81 under an area lamp, 1,
- * 0.72, 0.78, 0.85 with a mirror and a glass ball, 1, 0.79, 0.83, 0.93 among shapes under a sky. Of the good ones 1/2
- * gives the most samples a second.
+ * Where roulette may end a path. Measured variance times time of thresholds 1, 1/2, 1/4 and 1/8,
+ * from the second segment on: 1, 0.60, 0.53, 0.56 in a closed room under a point light, 1, 0.76,
+ * 0.76, 0.81 under an area lamp, 1, 0.72, 0.78, 0.85 with a mirror and a glass ball, 1, 0.79, 0.83,
+ * 0.93 among shapes under a sky. Of the good ones 1/2 gives the most samples a second.
  */
 enum { roulette_depth_default = 2 };
 static const float roulette_threshold_default = 0.5f;
@@ -31,7 +31,9 @@ void rt_options_complete(rt_render_options *o)
     if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
         o->spp = 1;
     if (o->spp == 0)
-        o->spp = o->time > 0 || o->target_error > 0 ? RT_SPP_MAX : o->mode == RT_MODE_PHOTON ? 16 : 64;
+        o->spp = o->time > 0 || o->target_error > 0 ? RT_SPP_MAX
+                 : o->mode == RT_MODE_PHOTON        ? 16
+                                                    : 64;
     if (o->max_depth == 0)
         o->max_depth = 16;
     if (o->roulette_depth == 0)
@@ -73,7 +75,10 @@ rt_params rt_params_make(const rt_render_options *options)
     return p;
 }
 
-/* A kernel being prepared on a thread of its own. What it logs is kept, for hooks are called by the caller's thread. */
+/*
+ * A kernel being prepared on a thread of its own. What it logs is kept, for hooks are called by the
+ * caller's thread.
+ */
 typedef struct preparation {
     rt_device *device;
     const char *program, *kernel;
@@ -99,7 +104,8 @@ static rt_status prepare(void *data)
     rt_hooks hooks = {.log = keep_line, .user = p};
 
     memset(&none, 0, sizeof none);
-    rt_status status = rt_device_kernel(p->device, &p->made, p->program, p->kernel, &hooks, p->error);
+    rt_status status =
+        rt_device_kernel(p->device, &p->made, p->program, p->kernel, &hooks, p->error);
     if (status == RT_OK)
         status = rt_kernel_args(p->made, p->args, p->count, p->error);
     if (status == RT_OK)
@@ -109,8 +115,9 @@ static rt_status prepare(void *data)
     return status == RT_OK ? rt_device_finish(p->device, p->error) : status;
 }
 
-rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *program, const char *kernel,
-                            const rt_arg *args, cl_uint count, rt_stage_progress *progress, rt_error *error)
+rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *program,
+                            const char *kernel, const rt_arg *args, cl_uint count,
+                            rt_stage_progress *progress, rt_error *error)
 {
     preparation p = {device, program, kernel, args, count, NULL, {0}, error};
     rt_status status = rt_stage_run(progress, prepare, &p);
@@ -124,7 +131,10 @@ rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *progr
     return status;
 }
 
-/* Three segments, from the eye to what is lit, to the mirror and to the lamp, are the shortest path of a caustic. */
+/*
+ * Three segments, from the eye to what is lit, to the mirror and to the lamp, are the shortest path
+ * of a caustic.
+ */
 enum { caustic_depth = 3 };
 
 /* Says what light the picture will lack. */
@@ -133,9 +143,9 @@ static void warn_of_missing_light(const rt_renderer *renderer, const rt_render_o
     if (!renderer->has_light && rt_mode_shows_light(o->mode))
         rt_warn(o->hooks, "the scene has no light: its picture is black");
     if (renderer->casts_hidden_caustics && o->mode == RT_MODE_PATH && o->max_depth >= caustic_depth)
-        rt_warn(o->hooks,
-                "mode path leaves out the light that point, spot and directional lights cast by way of smooth "
-                "mirrors or glass; mode photon shows it");
+        rt_warn(o->hooks, "mode path leaves out the light that point, spot and directional lights "
+                          "cast by way of smooth "
+                          "mirrors or glass; mode photon shows it");
 }
 
 rt_status rt_render_options_check(const rt_render_options *options, rt_error *error)
@@ -152,7 +162,8 @@ rt_status rt_render_options_check(const rt_render_options *options, rt_error *er
     return status;
 }
 
-rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options, rt_error *error)
+rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options,
+                    rt_error *error)
 {
     if (rt_is_missing(renderer, "renderer", error))
         return RT_ERROR_USAGE;
@@ -168,8 +179,8 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
     rt_options_complete(&complete);
     rt_view_aim(&camera, &renderer->camera, complete.width, complete.height);
     camera.filter = complete.filter;
-    status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera), sizeof camera,
-                             &camera, error);
+    status = rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera),
+                             sizeof camera, &camera, error);
     if (status == RT_OK)
         status = rt_film_create(&film, &complete, error);
     if (status == RT_OK && rt_noise_wanted(&complete))

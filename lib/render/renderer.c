@@ -18,8 +18,8 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
     if (!options)
         options = &defaults;
     if ((unsigned)options->accel > RT_ACCEL_NONE)
-        return rt_fail_field(error, RT_ERROR_USAGE, "accel", "there is no acceleration structure %d",
-                             (int)options->accel);
+        return rt_fail_field(error, RT_ERROR_USAGE, "accel",
+                             "there is no acceleration structure %d", (int)options->accel);
     rt_renderer *renderer = calloc(1, sizeof *renderer);
     if (!renderer)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a renderer");
@@ -32,12 +32,13 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
 
     rt_status status = rt_stage_begin(&progress, options->hooks, RT_STAGE_BUILD);
     if (status == RT_OK)
-        status = rt_scene_pack(&renderer->image, scene, options->accel, device->threads, &progress, error);
+        status = rt_scene_pack(&renderer->image, scene, options->accel, device->threads, &progress,
+                               error);
     if (status == RT_OK) {
         /* A CPU device works on the host's memory; another gets its copy. */
         cl_mem_flags flags = CL_MEM_READ_WRITE | (device->info.is_cpu ? CL_MEM_USE_HOST_PTR : 0);
-        status = rt_buffer_create(device, &renderer->scene, flags, renderer->image.bytes, renderer->image.data,
-                                  "the scene", error);
+        status = rt_buffer_create(device, &renderer->scene, flags, renderer->image.bytes,
+                                  renderer->image.data, "the scene", error);
     }
     if (status == RT_OK && !device->info.is_cpu)
         rt_scene_image_free(&renderer->image);

@@ -12,7 +12,8 @@ static rt_stretch take(rt_stretch s)
 
 rt_stretch rt_stretch_first(uint32_t all, int replicated)
 {
-    rt_stretch s = {.all = all, .replicates = replicated ? RT_REPLICATES : 1, .to = replicated ? 1 : all};
+    rt_stretch s = {
+        .all = all, .replicates = replicated ? RT_REPLICATES : 1, .to = replicated ? 1 : all};
     return take(s);
 }
 

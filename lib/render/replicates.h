@@ -1,7 +1,8 @@
 /*
- * replicates.h - the order in which samples are taken where the error is to be known: a few sequences of samples,
- * each scrambled on its own (rt_params.replicate), which grow together. Few and long ones keep most of what a
- * Sobol sequence is better at than chance; the spread among them tells the error (see noise.h).
+ * replicates.h - the order in which samples are taken where the error is to be known: a few
+ * sequences of samples, each scrambled on its own (rt_params.replicate), which grow together. Few
+ * and long ones keep most of what a Sobol sequence is better at than chance; the spread among them
+ * tells the error (see noise.h).
  */
 #ifndef RT_LIB_RENDER_REPLICATES_H
 #define RT_LIB_RENDER_REPLICATES_H
@@ -20,7 +21,10 @@ typedef struct rt_stretch {
 /* The first samples of so many in all, in replicates or in one sequence. */
 rt_stretch rt_stretch_first(uint32_t all, int replicated);
 
-/* Those of the next replicate; after the last, of the first again. Lengths are 1, 2, 3, 4, 6, 8, 12, 16 and so on. */
+/*
+ * Those of the next replicate; after the last, of the first again. Lengths are 1, 2, 3, 4, 6, 8,
+ * 12, 16 and so on.
+ */
 rt_stretch rt_stretch_next(rt_stretch stretch);
 
 /* What a replicate has after it has `length`. */

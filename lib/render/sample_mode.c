@@ -1,4 +1,7 @@
-/* sample_mode.c - drives the kernels that take samples of pixels over the film: paths, direct light, layers. */
+/*
+ * sample_mode.c - drives the kernels that take samples of pixels over the film: paths, direct
+ * light, layers.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -38,7 +41,8 @@ static void adapt(schedule *s, double seconds)
 {
     if (seconds < 0.5 * launch_seconds) {
         if (s->pixels_a_launch < s->pixels)
-            s->pixels_a_launch = s->pixels_a_launch > s->pixels / 2 ? s->pixels : 2 * s->pixels_a_launch;
+            s->pixels_a_launch =
+                s->pixels_a_launch > s->pixels / 2 ? s->pixels : 2 * s->pixels_a_launch;
         else if (s->samples_a_launch < samples_per_launch_max)
             s->samples_a_launch *= 2;
     } else if (seconds > 2 * launch_seconds) {
@@ -50,7 +54,8 @@ static void adapt(schedule *s, double seconds)
 }
 
 /* Launches one part of the film and waits for it. */
-static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, uint32_t samples, rt_error *error)
+static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, uint32_t samples,
+                             rt_error *error)
 {
     uint32_t left = s->pixels - s->pixel;
     rt_status status = RT_OK;
@@ -65,7 +70,8 @@ static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, u
         rt_arg first = {sizeof *params, params};
         status = rt_kernel_args(r->kernel, &first, 1, error);
         if (status == RT_OK)
-            status = rt_launch(r->renderer->device, r->kernel, (params->item_count + r->batch - 1) / r->batch, error);
+            status = rt_launch(r->renderer->device, r->kernel,
+                               (params->item_count + r->batch - 1) / r->batch, error);
     }
     if (status == RT_OK)
         status = rt_aov_add(&r->aov, r->renderer, params, error);
@@ -75,9 +81,12 @@ static rt_status launch_part(sample_render *r, rt_params *params, schedule *s, u
     return status;
 }
 
-/* At the end of a stretch: learns what it tells of the error; *enough: the one asked for is reached. */
-static rt_status end_stretch(const sample_render *r, schedule *s, rt_stage_progress *progress, int *enough,
-                             rt_error *error)
+/*
+ * At the end of a stretch: learns what it tells of the error; *enough: the one asked for is
+ * reached.
+ */
+static rt_status end_stretch(const sample_render *r, schedule *s, rt_stage_progress *progress,
+                             int *enough, rt_error *error)
 {
     rt_noise *noise = r->film->noise;
     rt_status status = RT_OK;
@@ -110,7 +119,8 @@ static rt_status render_passes(sample_render *r, rt_stage_progress *progress, rt
 {
     const rt_render_options *options = r->options;
     rt_params params = rt_params_make(options);
-    schedule s = {.pixels = options->width * options->height, .spp = options->spp, .samples_a_launch = 1};
+    schedule s = {
+        .pixels = options->width * options->height, .spp = options->spp, .samples_a_launch = 1};
     rt_status status = RT_OK;
     double began = rt_clock();
     int enough = 0;
@@ -154,17 +164,22 @@ static rt_status compile(sample_render *r, rt_error *error)
 
     rt_status status = rt_stage_begin(&progress, r->options->hooks, RT_STAGE_COMPILE);
     if (status == RT_OK && name)
-        status = rt_kernel_prepare(r->renderer->device, &r->kernel, name, name, args, 3, &progress, error);
+        status = rt_kernel_prepare(r->renderer->device, &r->kernel, name, name, args, 3, &progress,
+                                   error);
     if (status == RT_OK && rt_aov_wanted(r->options))
         status = rt_aov_begin(&r->aov, r->renderer, r->film, &progress, error);
     return status == RT_OK ? rt_stage_end(&progress, &r->film->stats.compile_seconds) : status;
 }
 
-/* Copies what there is from the device; a layer that is the picture has the counts of its samples too. */
+/*
+ * Copies what there is from the device; a layer that is the picture has the counts of its samples
+ * too.
+ */
 static rt_status read_film(sample_render *r, rt_error *error)
 {
     rt_film *film = r->film;
-    size_t count = (size_t)r->options->width * r->options->height, bytes = count * sizeof *film->pixels;
+    size_t count = (size_t)r->options->width * r->options->height,
+           bytes = count * sizeof *film->pixels;
     rt_status status = rt_aov_read(&r->aov, r->renderer, film, error);
     if (status == RT_OK && r->kernel)
         status = rt_buffer_read(r->renderer->device, r->pixels, 0, bytes, film->pixels, error);
@@ -173,7 +188,8 @@ static rt_status read_film(sample_render *r, rt_error *error)
     return status;
 }
 
-rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *options, rt_film *film, rt_error *error)
+rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *options, rt_film *film,
+                            rt_error *error)
 {
     size_t bytes = (size_t)options->width * options->height * sizeof *film->pixels;
     sample_render r;
@@ -184,8 +200,8 @@ rt_status rt_render_samples(rt_renderer *renderer, const rt_render_options *opti
     r.options = options;
     r.film = film;
     r.batch = options->mode == RT_MODE_PATH ? renderer->device->path_pixels : 1;
-    rt_status status =
-        rt_buffer_create(renderer->device, &r.pixels, CL_MEM_READ_WRITE, bytes, film->pixels, "the film", error);
+    rt_status status = rt_buffer_create(renderer->device, &r.pixels, CL_MEM_READ_WRITE, bytes,
+                                        film->pixels, "the film", error);
     if (status == RT_OK)
         status = compile(&r, error);
     if (status == RT_OK)

@@ -2,21 +2,28 @@
  * sobol.c - the first four dimensions of the Sobol sequence.
  *
  * Primitive polynomials and initial numbers are those of Joe and Kuo, "Constructing Sobol Sequences
- * with Better Two-Dimensional Projections", SIAM J. Sci. Comput. 30, 2008; the recurrence is that of
- * Bratley and Fox, "Algorithm 659", ACM TOMS 14(1), 1988.
+ * with Better Two-Dimensional Projections", SIAM J. Sci. Comput. 30, 2008; the recurrence is that
+ * of Bratley and Fox, "Algorithm 659", ACM TOMS 14(1), 1988.
  */
 #include "render/sobol.h"
 
-/* A primitive polynomial of degree s, with its inner coefficients in the bits of a, and s initial numbers. */
+/*
+ * A primitive polynomial of degree s, with its inner coefficients in the bits of a, and s initial
+ * numbers.
+ */
 struct polynomial {
     unsigned s, a;
     uint32_t m[3];
 };
 
 /* Dimension 0, the van der Corput sequence, is the polynomial of degree 0. */
-static const struct polynomial polynomials[4] = {{0, 0, {0}}, {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}};
+static const struct polynomial polynomials[4] = {
+    {0, 0, {0}}, {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}};
 
-/* The 32 columns of the generator matrix: column k is added to a point when bit k of its index is set. */
+/*
+ * The 32 columns of the generator matrix: column k is added to a point when bit k of its index is
+ * set.
+ */
 static void sobol_columns(uint32_t column[32], const struct polynomial *p)
 {
     for (unsigned k = 0; k < 32; k++) {

@@ -1,5 +1,6 @@
 /*
- * student.c - quantiles of Student's t: in closed form for one and two degrees of freedom, else by an expansion.
+ * student.c - quantiles of Student's t: in closed form for one and two degrees of freedom, else by
+ * an expansion.
  *
  * Reference: Abramowitz, Stegun: "Handbook of Mathematical Functions", 1964, 26.7.5.
  */

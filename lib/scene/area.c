@@ -1,9 +1,10 @@
 /*
- * area.c - A linear map with cofactor matrix C stretches a surface element of unit normal n by |C n|.
+ * area.c - A linear map with cofactor matrix C stretches a surface element of unit normal n by |C
+ * n|.
  *
- * Carlson's symmetric integrals: B. C. Carlson, "Numerical computation of real or complex elliptic integrals",
- * Numerical Algorithms 10, 1995; the surface of the ellipsoid: NIST Digital Library of Mathematical Functions,
- * 19.33.1 and 19.21.10.
+ * Carlson's symmetric integrals: B. C. Carlson, "Numerical computation of real or complex elliptic
+ * integrals", Numerical Algorithms 10, 1995; the surface of the ellipsoid: NIST Digital Library of
+ * Mathematical Functions, 19.33.1 and 19.21.10.
  */
 #include "scene/area.h"
 
@@ -26,8 +27,8 @@ static double stretch(double c[3][3], double x, double y, double z)
 }
 
 /*
- * The integral of |C (r cos phi, r sin phi, z)| over a turn, by the trapezium rule, which converges faster
- * than any power of the number of steps on a smooth periodic function.
+ * The integral of |C (r cos phi, r sin phi, z)| over a turn, by the trapezium rule, which converges
+ * faster than any power of the number of steps on a smooth periodic function.
  */
 static double turn(double c[3][3], double r, double z, int steps_max)
 {
@@ -63,7 +64,9 @@ double rt_area_cone(const rt_affine *to_world, double apex_radius, int caps)
     return side + (caps ? pi * (1 + p * p) * stretch(c, 0, 0, 1) : 0);
 }
 
-/* The element is (cos phi cos theta, sin phi cos theta, sin theta) (1 + m cos theta) m dphi dtheta. */
+/*
+ * The element is (cos phi cos theta, sin phi cos theta, sin theta) (1 + m cos theta) m dphi dtheta.
+ */
 double rt_area_torus(const rt_affine *to_world, double minor_radius)
 {
     double c[3][3], sum = 0, before, m = minor_radius, offset = 0;
@@ -92,7 +95,8 @@ static void eigenvalues(double a[3][3], double out[3])
             for (int q = p + 1; q < 3; q++) {
                 if (a[p][q] == 0)
                     continue;
-                double theta = 0.5 * atan2(2 * a[p][q], a[q][q] - a[p][p]), s = sin(theta), co = cos(theta);
+                double theta = 0.5 * atan2(2 * a[p][q], a[q][q] - a[p][p]), s = sin(theta),
+                       co = cos(theta);
                 for (int k = 0; k < 3; k++) {
                     double x = a[k][p], y = a[k][q];
                     a[k][p] = co * x - s * y;
@@ -129,7 +133,10 @@ static void carlson(double x, double y, double z, double *rf, double *rd)
     *rd = 3 * sum + weight / (z * sqrt(z));
 }
 
-/* 4 pi R_G(a^2 b^2, a^2 c^2, b^2 c^2), whose arguments are the squared singular values of the cofactors. */
+/*
+ * 4 pi R_G(a^2 b^2, a^2 c^2, b^2 c^2), whose arguments are the squared singular values of the
+ * cofactors.
+ */
 double rt_area_ellipsoid(const rt_affine *to_world)
 {
     double c[3][3], square[3][3], e[3], rf, rd;
@@ -138,7 +145,10 @@ double rt_area_ellipsoid(const rt_affine *to_world)
         for (int j = 0; j < 3; j++)
             square[i][j] = c[0][i] * c[0][j] + c[1][i] * c[1][j] + c[2][i] * c[2][j];
     eigenvalues(square, e);
-    /* 2 R_G = z R_F - (x - z)(y - z) R_D / 3 + sqrt(x y / z), with z the middle one: then no term is negative. */
+    /*
+     * 2 R_G = z R_F - (x - z)(y - z) R_D / 3 + sqrt(x y / z), with z the middle one: then no term
+     * is negative.
+     */
     double z = e[1], x = e[0] / z, y = e[2] / z;
     carlson(x, y, 1, &rf, &rd);
     return 2 * pi * sqrt(z) * (rf - (x - 1) * (y - 1) * rd / 3 + sqrt(x * y));

@@ -10,7 +10,10 @@
 #include "scene/vec.h"
 #include "types.h"
 
-/* Shorter lengths have squares, and areas have reciprocals, that float32 does not hold in full precision. */
+/*
+ * Shorter lengths have squares, and areas have reciprocals, that float32 does not hold in full
+ * precision.
+ */
 #define RT_LENGTH_MIN 1e-15f
 #define RT_AREA_MIN 1e-30
 
@@ -23,28 +26,32 @@ static inline int rt_is_black(const float c[3])
 }
 
 /* Finite coordinates. */
-static inline rt_status rt_check_point(const float p[3], const char *who, const char *field, rt_error *error)
+static inline rt_status rt_check_point(const float p[3], const char *who, const char *field,
+                                       rt_error *error)
 {
     for (int i = 0; i < 3; i++)
         if (!(fabsf(p[i]) <= RT_COORDINATE_MAX))
-            return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s has the coordinate %g; it must lie within %g",
-                                 who, field, p[i], RT_COORDINATE_MAX);
+            return rt_fail_field(error, RT_ERROR_INPUT, field,
+                                 "%s: %s has the coordinate %g; it must lie within %g", who, field,
+                                 p[i], RT_COORDINATE_MAX);
     return RT_OK;
 }
 
 /* Not negative, not above RT_COLOUR_MAX. */
-static inline rt_status rt_check_colour(const float c[3], const char *who, const char *field, rt_error *error)
+static inline rt_status rt_check_colour(const float c[3], const char *who, const char *field,
+                                        rt_error *error)
 {
     for (int i = 0; i < 3; i++)
         if (!(c[i] >= 0 && c[i] <= RT_COLOUR_MAX))
             return rt_fail_field(error, RT_ERROR_INPUT, field,
-                                 "%s: %s has the component %g; it must lie between 0 and %g", who, field, c[i],
-                                 RT_COLOUR_MAX);
+                                 "%s: %s has the component %g; it must lie between 0 and %g", who,
+                                 field, c[i], RT_COLOUR_MAX);
     return RT_OK;
 }
 
 /* Makes room for one more element of `size` bytes after `count`. */
-static inline rt_status rt_grow(void **array, size_t *room, size_t count, size_t size, rt_error *error)
+static inline rt_status rt_grow(void **array, size_t *room, size_t count, size_t size,
+                                rt_error *error)
 {
     if (count < *room)
         return RT_OK;

@@ -1,11 +1,17 @@
-/* findings.c - rt_scene_check: what a scene may hold but is hardly meant to, such as what makes its picture black. */
+/*
+ * findings.c - rt_scene_check: what a scene may hold but is hardly meant to, such as what makes its
+ * picture black.
+ */
 #include <stdarg.h>
 
 #include "scene/check.h"
 #include "scene/inside.h"
 #include "scene/view.h"
 
-/* Lamps, and open shapes of glass, that are looked at: a mistake in a row of them is seen in its first ones. */
+/*
+ * Lamps, and open shapes of glass, that are looked at: a mistake in a row of them is seen in its
+ * first ones.
+ */
 enum { looked_at_most = 256 };
 
 /* A check under way. */
@@ -19,8 +25,9 @@ typedef struct inspection {
 static const char *shape_name(rt_u32 kind)
 {
     static const char *const names[] = {
-        [RT_SHAPE_TRIANGLES] = "mesh", [RT_SHAPE_SPHERE] = "sphere",     [RT_SHAPE_ELLIPSOID] = "ellipsoid",
-        [RT_SHAPE_CYLINDER] = "cylinder", [RT_SHAPE_CONE] = "cone", [RT_SHAPE_TORUS] = "torus",
+        [RT_SHAPE_TRIANGLES] = "mesh",      [RT_SHAPE_SPHERE] = "sphere",
+        [RT_SHAPE_ELLIPSOID] = "ellipsoid", [RT_SHAPE_CYLINDER] = "cylinder",
+        [RT_SHAPE_CONE] = "cone",           [RT_SHAPE_TORUS] = "torus",
     };
     return kind < sizeof names / sizeof *names && names[kind] ? names[kind] : "shape";
 }
@@ -40,7 +47,8 @@ static void say(inspection *in, rt_finding finding, const char *format, ...)
 
 static rt_finding finding_of(rt_finding_kind kind)
 {
-    rt_severity severity = kind == RT_FINDING_EYE_IN_MEDIUM ? RT_SEVERITY_NOTE : RT_SEVERITY_WARNING;
+    rt_severity severity =
+        kind == RT_FINDING_EYE_IN_MEDIUM ? RT_SEVERITY_NOTE : RT_SEVERITY_WARNING;
     return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, NULL};
 }
 
@@ -65,7 +73,8 @@ int rt_scene_has_light(const rt_scene *scene)
 static int has_light_without_size(const rt_scene *scene)
 {
     for (size_t i = 0; i < scene->light_count; i++)
-        if (scene->lights[i].kind != RT_LIGHT_ENVIRONMENT && !rt_is_black(scene->lights[i].emission))
+        if (scene->lights[i].kind != RT_LIGHT_ENVIRONMENT &&
+            !rt_is_black(scene->lights[i].emission))
             return 1;
     return 0;
 }
@@ -87,7 +96,8 @@ static void find_missing(inspection *in)
     if (!scene->has_camera)
         say(in, finding_of(RT_FINDING_NO_CAMERA), "the scene has no camera: it cannot be rendered");
     if (scene->shape_count == 0)
-        say(in, finding_of(RT_FINDING_NO_SHAPE), "the scene has no shapes: there is nothing to see");
+        say(in, finding_of(RT_FINDING_NO_SHAPE),
+            "the scene has no shapes: there is nothing to see");
     if (rt_mode_shows_light(scene->options.mode) && !rt_scene_has_light(scene))
         say(in, finding_of(RT_FINDING_NO_LIGHT), "the scene has no light: its picture is black");
 }
@@ -105,7 +115,8 @@ static void find_empty_view(inspection *in)
         if (rt_view_may_see(&camera, scene->shapes + i))
             return;
     if (scene->shape_count > 0)
-        say(in, finding_of(RT_FINDING_NOTHING_IN_VIEW), "the camera looks past all shapes: none is in its view");
+        say(in, finding_of(RT_FINDING_NOTHING_IN_VIEW),
+            "the camera looks past all shapes: none is in its view");
 }
 
 static int overlaps(const rt_scene_shape *a, const rt_scene_shape *b)
@@ -124,7 +135,8 @@ static int may_be_lit_inside(const rt_scene *scene, const rt_scene_shape *solid,
     for (size_t i = 0; i < scene->light_count; i++) {
         const rt_scene_light *light = scene->lights + i;
         const double p[3] = {light->position[0], light->position[1], light->position[2]};
-        if ((light->kind == RT_LIGHT_POINT || light->kind == RT_LIGHT_SPOT) && rt_shape_contains(scene, solid, p))
+        if ((light->kind == RT_LIGHT_POINT || light->kind == RT_LIGHT_SPOT) &&
+            rt_shape_contains(scene, solid, p))
             return 1;
     }
     for (size_t i = 0; i < scene->shape_count; i++) {
@@ -135,12 +147,15 @@ static int may_be_lit_inside(const rt_scene *scene, const rt_scene_shape *solid,
     return 0;
 }
 
-/* Says of the first opaque solid that shuts the camera in, or else of the first of all around it. */
+/*
+ * Says of the first opaque solid that shuts the camera in, or else of the first of all around it.
+ */
 static void find_eye_inside(inspection *in)
 {
     const rt_scene *scene = in->scene;
     const float *eye = scene->camera.eye;
-    rt_finding medium = finding_of(RT_FINDING_EYE_IN_MEDIUM), dark = finding_of(RT_FINDING_EYE_IN_THE_DARK);
+    rt_finding medium = finding_of(RT_FINDING_EYE_IN_MEDIUM),
+               dark = finding_of(RT_FINDING_EYE_IN_THE_DARK);
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         int side = rt_shape_contains(scene, shape, (const double[3]){eye[0], eye[1], eye[2]});
@@ -150,12 +165,14 @@ static void find_eye_inside(inspection *in)
             medium.shape = medium.shape == RT_NONE ? (uint32_t)i : medium.shape;
         } else if (!may_be_lit_inside(scene, shape, side < 0)) {
             dark.shape = (uint32_t)i;
-            say(in, dark, "the camera is inside an opaque %s, where there is no light", shape_name(shape->kind));
+            say(in, dark, "the camera is inside an opaque %s, where there is no light",
+                shape_name(shape->kind));
             return;
         }
     }
     if (medium.shape != RT_NONE)
-        say(in, medium, "the camera is inside a transparent %s", shape_name(scene->shapes[medium.shape].kind));
+        say(in, medium, "the camera is inside a transparent %s",
+            shape_name(scene->shapes[medium.shape].kind));
 }
 
 /* ---- Lamps ----------------------------------------------------------------- */
@@ -191,7 +208,8 @@ static void find_lamp_inside(inspection *in, const lamp *lamp)
             hidden.lamp = (uint32_t)(lamp->shape - scene->shapes);
         else
             hidden.light = (uint32_t)(lamp->light - scene->lights);
-        say(in, hidden, "this light is inside an opaque %s and never seen", shape_name(solid->kind));
+        say(in, hidden, "this light is inside an opaque %s and never seen",
+            shape_name(solid->kind));
         return;
     }
 }
@@ -235,14 +253,19 @@ static int is_open(const rt_scene *scene, const rt_scene_shape *shape)
     }
 }
 
-/* Whether what enters the material is bent or absorbed; where not, a sheet of it is a mere filter. */
+/*
+ * Whether what enters the material is bent or absorbed; where not, a sheet of it is a mere filter.
+ */
 static int is_glass(const rt_material *material)
 {
     return (!rt_is_black(material->kt) || material->kt_texture) &&
            (material->ior != 1 || !rt_is_black(material->absorption));
 }
 
-/* Whether shapes of one material may close each other: four flat ones can, and fewer where one is curved. */
+/*
+ * Whether shapes of one material may close each other: four flat ones can, and fewer where one is
+ * curved.
+ */
 static int may_bound(const rt_scene *scene, uint32_t material)
 {
     size_t flat = 0, curved = 0;
@@ -272,11 +295,14 @@ static void find_open_glass(inspection *in)
             continue;
         rt_finding open = finding_of(RT_FINDING_OPEN_GLASS);
         open.shape = (uint32_t)i;
-        say(in, open, "an open shape of glass has no inside: light that has crossed it goes on as in the glass");
+        say(in, open,
+            "an open shape of glass has no inside: light that has crossed it goes on as in the "
+            "glass");
     }
 }
 
-size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding), void *user)
+size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding),
+                      void *user)
 {
     inspection in = {scene, found, user, 0};
     find_missing(&in);

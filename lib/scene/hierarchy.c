@@ -8,7 +8,8 @@
 /* ---- Input of the tree of all shapes ---------------------------------------- */
 
 /* The mesh's vertices where the shape places them. */
-static rt_status place_vertices(float **out, const rt_scene *scene, const rt_scene_shape *shape, rt_error *error)
+static rt_status place_vertices(float **out, const rt_scene *scene, const rt_scene_shape *shape,
+                                rt_error *error)
 {
     size_t count = scene->meshes[shape->mesh].vertex_count;
     float *positions = malloc(count * 3 * sizeof *positions);
@@ -20,8 +21,8 @@ static rt_status place_vertices(float **out, const rt_scene *scene, const rt_sce
     return RT_OK;
 }
 
-static rt_status list_mesh(rt_hierarchy *h, rt_bvh_mesh *out, const rt_scene *scene, size_t index, rt_u32 first_prim,
-                           rt_error *error)
+static rt_status list_mesh(rt_hierarchy *h, rt_bvh_mesh *out, const rt_scene *scene, size_t index,
+                           rt_u32 first_prim, rt_error *error)
 {
     const rt_scene_shape *shape = scene->shapes + index;
     const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
@@ -52,8 +53,8 @@ static void list_box(rt_bvh_analytic *entry, const rt_scene_shape *shape, rt_u32
 }
 
 /* Lists all shapes but planes. */
-static rt_status list_shapes(rt_hierarchy *h, rt_bvh_input *input, const rt_scene *scene, const rt_u32 *first_prim,
-                             rt_error *error)
+static rt_status list_shapes(rt_hierarchy *h, rt_bvh_input *input, const rt_scene *scene,
+                             const rt_u32 *first_prim, rt_error *error)
 {
     size_t shapes = scene->shape_count;
     rt_status status = RT_OK;
@@ -82,8 +83,8 @@ static rt_status list_shapes(rt_hierarchy *h, rt_bvh_input *input, const rt_scen
 /* ---- Trees of meshes ------------------------------------------------------- */
 
 /* Builds the tree of a mesh in its own space, behind those before. */
-static rt_status build_mesh(rt_hierarchy *h, rt_mesh_tree *tree, const rt_scene_mesh *mesh, uint32_t threads,
-                            rt_stage_progress *progress, rt_error *error)
+static rt_status build_mesh(rt_hierarchy *h, rt_mesh_tree *tree, const rt_scene_mesh *mesh,
+                            uint32_t threads, rt_stage_progress *progress, rt_error *error)
 {
     rt_bvh_counts counts;
     tree->input.positions = mesh->positions;
@@ -106,8 +107,8 @@ static rt_status build_mesh(rt_hierarchy *h, rt_mesh_tree *tree, const rt_scene_
 
 /* ---- All ------------------------------------------------------------------- */
 
-rt_status rt_hierarchy_build(rt_hierarchy *h, const rt_scene *scene, const rt_u32 *first_prim, uint32_t threads,
-                             rt_stage_progress *progress, rt_error *error)
+rt_status rt_hierarchy_build(rt_hierarchy *h, const rt_scene *scene, const rt_u32 *first_prim,
+                             uint32_t threads, rt_stage_progress *progress, rt_error *error)
 {
     rt_bvh_input input;
     memset(&input, 0, sizeof input);
@@ -129,14 +130,15 @@ rt_status rt_hierarchy_build(rt_hierarchy *h, const rt_scene *scene, const rt_u3
     return status;
 }
 
-void rt_hierarchy_write(const rt_hierarchy *h, rt_bvh_node *nodes, rt_tri_block *blocks, rt_u32 *analytic)
+void rt_hierarchy_write(const rt_hierarchy *h, rt_bvh_node *nodes, rt_tri_block *blocks,
+                        rt_u32 *analytic)
 {
     rt_bvh_write(h->top, nodes, blocks, analytic, 0, 0);
     for (size_t i = 0; i < h->mesh_count; i++) {
         const rt_mesh_tree *tree = h->trees + i;
         if (tree->bvh)
-            rt_bvh_write(tree->bvh, nodes + tree->first_node, blocks + tree->first_block, NULL, tree->first_node,
-                         tree->first_block);
+            rt_bvh_write(tree->bvh, nodes + tree->first_node, blocks + tree->first_block, NULL,
+                         tree->first_node, tree->first_block);
     }
 }
 

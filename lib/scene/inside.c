@@ -1,10 +1,11 @@
 /*
  * inside.c - whether points lie in solids.
  *
- * Analytic shapes are asked by their equations, in the space of their own that kernels/types.h describes. Of a mesh,
- * the solid angles of its triangles are summed: over a closed surface they make a full sphere seen from inside, and
- * nothing seen from outside, with no ray that could graze an edge (Van Oosterom and Strackee, "The Solid Angle of a
- * Plane Triangle", IEEE Trans. Biomed. Eng. 30(2), 1983).
+ * Analytic shapes are asked by their equations, in the space of their own that kernels/types.h
+ * describes. Of a mesh, the solid angles of its triangles are summed: over a closed surface they
+ * make a full sphere seen from inside, and nothing seen from outside, with no ray that could graze
+ * an edge (Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed.
+ * Eng. 30(2), 1983).
  */
 #include "scene/inside.h"
 
@@ -14,7 +15,10 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The rounding of a sum of many solid angles, in full spheres; a hole that is smaller goes unnoticed. */
+/*
+ * The rounding of a sum of many solid angles, in full spheres; a hole that is smaller goes
+ * unnoticed.
+ */
 static const double rounding = 1e-6;
 
 int rt_material_is_transparent(const rt_material *m)
@@ -27,12 +31,16 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The solid angle of a triangle of corners a, b, c seen from the origin, in full spheres; positive from behind. */
+/*
+ * The solid angle of a triangle of corners a, b, c seen from the origin, in full spheres; positive
+ * from behind.
+ */
 static double solid_angle(const double a[3], const double b[3], const double c[3])
 {
     double n[3], la = rt_vec_length(a), lb = rt_vec_length(b), lc = rt_vec_length(c);
     rt_vec_cross(n, b, c);
-    return atan2(dot(a, n), la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la) / (2 * pi);
+    return atan2(dot(a, n), la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la) /
+           (2 * pi);
 }
 
 static int mesh_contains(const rt_scene_mesh *mesh, const double p[3])
@@ -42,7 +50,9 @@ static int mesh_contains(const rt_scene_mesh *mesh, const double p[3])
         double v[3][3];
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < 3; k++)
-                v[c][k] = mesh->positions[3 * (size_t)mesh->indices[3 * i + (size_t)c] + (size_t)k] - p[k];
+                v[c][k] =
+                    mesh->positions[3 * (size_t)mesh->indices[3 * i + (size_t)c] + (size_t)k] -
+                    p[k];
         sum += solid_angle(v[0], v[1], v[2]);
     }
     double turns = round(sum);
@@ -59,7 +69,8 @@ int rt_shape_contains(const rt_scene *scene, const rt_scene_shape *shape, const 
 {
     rt_affine to_object;
     double q[3];
-    int is_open = shape->kind == RT_SHAPE_PLANE || shape->kind == RT_SHAPE_QUAD || shape->kind == RT_SHAPE_DISC;
+    int is_open = shape->kind == RT_SHAPE_PLANE || shape->kind == RT_SHAPE_QUAD ||
+                  shape->kind == RT_SHAPE_DISC;
     if (is_open)
         return 0;
     for (int i = 0; i < 3; i++)
@@ -85,7 +96,8 @@ int rt_shape_contains(const rt_scene *scene, const rt_scene_shape *shape, const 
     }
 }
 
-int rt_shape_contains_bounds(const rt_scene *scene, const rt_scene_shape *shape, const rt_scene_shape *other)
+int rt_shape_contains_bounds(const rt_scene *scene, const rt_scene_shape *shape,
+                             const rt_scene_shape *other)
 {
     for (int corner = 0; corner < 8; corner++) {
         double p[3];

@@ -4,16 +4,23 @@
 
 #include "scene/scene.h"
 
-/* Whether light can enter a solid of this material; the same as is_transparent in kernels/medium.h. */
+/*
+ * Whether light can enter a solid of this material; the same as is_transparent in kernels/medium.h.
+ */
 int rt_material_is_transparent(const rt_material *material);
 
 /*
- * Whether a point lies inside a shape, which must be closed: 1 inside, -1 inside a mesh whose normals point inwards,
- * else 0. A mesh is closed around the point when its faces, all turned the same way, fill the sphere of directions.
+ * Whether a point lies inside a shape, which must be closed: 1 inside, -1 inside a mesh whose
+ * normals point inwards, else 0. A mesh is closed around the point when its faces, all turned the
+ * same way, fill the sphere of directions.
  */
 int rt_shape_contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3]);
 
-/* Whether it contains all corners of another shape's bounds; then, when it is convex, it contains all of that. */
-int rt_shape_contains_bounds(const rt_scene *scene, const rt_scene_shape *shape, const rt_scene_shape *other);
+/*
+ * Whether it contains all corners of another shape's bounds; then, when it is convex, it contains
+ * all of that.
+ */
+int rt_shape_contains_bounds(const rt_scene *scene, const rt_scene_shape *shape,
+                             const rt_scene_shape *other);
 
 #endif

@@ -12,12 +12,16 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The edge of a spot is at least so wide in the cosine, for what is sharper has no slope in float32. */
+/*
+ * The edge of a spot is at least so wide in the cosine, for what is sharper has no slope in
+ * float32.
+ */
 static const float edge_min = 1e-5f;
 
 static rt_status add_light(rt_scene *scene, const rt_scene_light *light, rt_error *error)
 {
-    rt_status status = rt_grow((void **)&scene->lights, &scene->light_room, scene->light_count, sizeof *light, error);
+    rt_status status = rt_grow((void **)&scene->lights, &scene->light_room, scene->light_count,
+                               sizeof *light, error);
     if (status == RT_OK)
         scene->lights[scene->light_count++] = *light;
     return status;
@@ -34,7 +38,8 @@ rt_status rt_scene_add_point_light(rt_scene *scene, const rt_point_light *light,
         return status;
     int has_power = !rt_is_black(light->power);
     if (has_power && !rt_is_black(light->intensity))
-        return rt_fail_field(error, RT_ERROR_INPUT, "power", "point light: give intensity or power, not both");
+        return rt_fail_field(error, RT_ERROR_INPUT, "power",
+                             "point light: give intensity or power, not both");
     memcpy(l.position, light->position, sizeof l.position);
     for (int c = 0; c < 3; c++)
         l.emission[c] = has_power ? (float)(light->power[c] / (4 * pi)) : light->intensity[c];
@@ -66,10 +71,12 @@ rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, r
                              "spot light: outer is %g degrees; it must lie from 0 to 180", outer);
     if (!(light->inner >= 0 && light->inner <= outer))
         return rt_fail_field(error, RT_ERROR_INPUT, "inner",
-                             "spot light: inner is %g degrees; it must lie from 0 to outer, %g", light->inner, outer);
+                             "spot light: inner is %g degrees; it must lie from 0 to outer, %g",
+                             light->inner, outer);
     rt_vec_sub(axis, light->target, light->position);
     if (!normalise(l.direction, axis))
-        return rt_fail_field(error, RT_ERROR_INPUT, "target", "spot light: position and target are the same point");
+        return rt_fail_field(error, RT_ERROR_INPUT, "target",
+                             "spot light: position and target are the same point");
     l.outer = (float)cos(outer * pi / 180);
     l.inner = (float)cos(light->inner * pi / 180);
     if (l.outer > 1 - edge_min)
@@ -81,43 +88,50 @@ rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, r
     return add_light(scene, &l, error);
 }
 
-rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_directional_light *light, rt_error *error)
+rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_directional_light *light,
+                                         rt_error *error)
 {
     static const float zero[3];
     rt_scene_light l = {.kind = RT_LIGHT_DIRECTIONAL};
     double direction[3];
     rt_status status;
 
-    if ((status = rt_check_point(light->direction, "directional light", "direction", error)) != RT_OK ||
-        (status = rt_check_colour(light->irradiance, "directional light", "irradiance", error)) != RT_OK)
+    if ((status = rt_check_point(light->direction, "directional light", "direction", error)) !=
+            RT_OK ||
+        (status = rt_check_colour(light->irradiance, "directional light", "irradiance", error)) !=
+            RT_OK)
         return status;
     rt_vec_sub(direction, light->direction, zero);
     if (!normalise(l.direction, direction))
-        return rt_fail_field(error, RT_ERROR_INPUT, "direction", "directional light: direction is zero");
+        return rt_fail_field(error, RT_ERROR_INPUT, "direction",
+                             "directional light: direction is zero");
     memcpy(l.emission, light->irradiance, sizeof l.emission);
     return add_light(scene, &l, error);
 }
 
 /* Copies the image's colours, decoded. */
-static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, const char *path, rt_error *error)
+static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, const char *path,
+                             rt_error *error)
 {
     uint32_t channels[3];
     size_t count = (size_t)image->width * image->height;
     if (rt_image_rgb_channels(channels, image, NULL) != RT_OK) {
         uint32_t grey = image->channel_count == 1 ? 0 : rt_image_channel(image, "Y");
         if (grey == RT_IMAGE_NO_CHANNEL)
-            return rt_fail(error, RT_ERROR_INPUT, "environment: %.350s has neither the channels R, G and B nor Y",
-                           path);
+            return rt_fail(error, RT_ERROR_INPUT,
+                           "environment: %.350s has neither the channels R, G and B nor Y", path);
         channels[0] = channels[1] = channels[2] = grey;
     }
     out->texels = calloc(count, 4 * sizeof *out->texels);
     if (!out->texels)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for an environment of %zu pixels", count);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for an environment of %zu pixels",
+                       count);
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) {
             float value = image->data[i * image->channel_count + channels[c]];
             if (!(value >= 0 && value <= 1e30f))
-                return rt_fail(error, RT_ERROR_INPUT, "environment: %.300s has the value %g at pixel (%zu, %zu)", path,
+                return rt_fail(error, RT_ERROR_INPUT,
+                               "environment: %.300s has the value %g at pixel (%zu, %zu)", path,
                                value, i % image->width, i / image->width);
             out->texels[4 * i + (size_t)c] = image->is_srgb ? (float)rt_srgb_decode(value) : value;
         }
@@ -142,7 +156,8 @@ static rt_status read_environment(rt_scene_environment *out, const char *path, r
     return rt_at_file(status, path, error);
 }
 
-rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment, rt_error *error)
+rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment,
+                                   rt_error *error)
 {
     rt_scene_light l = {.kind = RT_LIGHT_ENVIRONMENT};
     rt_scene_environment made = {.mean = {1, 1, 1}};
@@ -152,8 +167,8 @@ rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *enviro
     if (scene->environment.light != RT_NONE)
         return rt_fail(error, RT_ERROR_INPUT, "environment: a scene has only one");
     if (!(fabsf(environment->rotation) <= 1e6f))
-        return rt_fail_field(error, RT_ERROR_INPUT, "rotation", "environment: rotation is %g degrees",
-                             environment->rotation);
+        return rt_fail_field(error, RT_ERROR_INPUT, "rotation",
+                             "environment: rotation is %g degrees", environment->rotation);
     memcpy(l.emission, environment->radiance, sizeof l.emission);
     if (environment->path) {
         status = read_environment(&made, environment->path, error);

@@ -15,13 +15,18 @@ static void complete_colour(float colour[3], uint32_t texture)
         colour[0] = colour[1] = colour[2] = 1;
 }
 
-static rt_status check_textures(const rt_scene *scene, rt_material *m, const char *who, rt_error *error)
+static rt_status check_textures(const rt_scene *scene, rt_material *m, const char *who,
+                                rt_error *error)
 {
     rt_status status;
-    if ((status = rt_texture_check_colours(scene, m->kd_texture, who, "kd_texture", error)) != RT_OK ||
-        (status = rt_texture_check_colours(scene, m->ks_texture, who, "ks_texture", error)) != RT_OK ||
-        (status = rt_texture_check_colours(scene, m->kt_texture, who, "kt_texture", error)) != RT_OK ||
-        (status = rt_texture_check_colours(scene, m->emission_texture, who, "emission_texture", error)) != RT_OK ||
+    if ((status = rt_texture_check_colours(scene, m->kd_texture, who, "kd_texture", error)) !=
+            RT_OK ||
+        (status = rt_texture_check_colours(scene, m->ks_texture, who, "ks_texture", error)) !=
+            RT_OK ||
+        (status = rt_texture_check_colours(scene, m->kt_texture, who, "kt_texture", error)) !=
+            RT_OK ||
+        (status = rt_texture_check_colours(scene, m->emission_texture, who, "emission_texture",
+                                           error)) != RT_OK ||
         (status = rt_texture_check(scene, m->bump_texture, who, "bump_texture", error)) != RT_OK)
         return status;
     complete_colour(m->kd, m->kd_texture);
@@ -31,7 +36,8 @@ static rt_status check_textures(const rt_scene *scene, rt_material *m, const cha
     if (m->bump_scale == 0)
         m->bump_scale = 1;
     if (!(fabsf(m->bump_scale) <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, "bump_scale", "%s: bump_scale is %g m", who, m->bump_scale);
+        return rt_fail_field(error, RT_ERROR_INPUT, "bump_scale", "%s: bump_scale is %g m", who,
+                             m->bump_scale);
     return RT_OK;
 }
 
@@ -50,17 +56,20 @@ static const char *largest_field(const rt_material *m, double kd, double ks)
     return m->kt_texture ? "kt_texture" : "kt";
 }
 
-rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m, uint32_t shape_texture,
-                                   const char *who, const char *field, rt_error *error)
+rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m,
+                                   uint32_t shape_texture, const char *who, const char *field,
+                                   rt_error *error)
 {
     static const char *const channel[] = {"red", "green", "blue"};
     for (int c = 0; c < 3; c++) {
-        double kd = largest(scene, m->kd[c], m->kd_texture, c), ks = largest(scene, m->ks[c], m->ks_texture, c);
+        double kd = largest(scene, m->kd[c], m->kd_texture, c),
+               ks = largest(scene, m->ks[c], m->ks_texture, c);
         double kt = largest(scene, m->kt[c], m->kt_texture, c);
         double sum = largest(scene, (float)kd, shape_texture, c) + ks + kt;
         if (sum > 1 + rounding)
             return rt_fail_field(error, RT_ERROR_INPUT, field ? field : largest_field(m, kd, ks),
-                                 "%s: kd + ks + kt is %g in %s%s; it must not exceed 1", who, sum, channel[c],
+                                 "%s: kd + ks + kt is %g in %s%s; it must not exceed 1", who, sum,
+                                 channel[c],
                                  m->kd_texture || m->ks_texture || m->kt_texture || shape_texture
                                      ? " where the textures are brightest"
                                      : "");
@@ -72,17 +81,20 @@ static rt_status check_conductor(const rt_material *m, const char *who, rt_error
 {
     for (int c = 0; c < 3; c++) {
         if (rt_is_black(m->eta))
-            return rt_fail_field(error, RT_ERROR_INPUT, "eta", "%s: a conductor needs eta, its index of refraction",
-                                 who);
-        if (!(m->eta[c] > 0 && m->eta[c] <= 100))
             return rt_fail_field(error, RT_ERROR_INPUT, "eta",
-                                 "%s: eta has the component %g; that of a conductor must lie between 0 and 100", who,
-                                 m->eta[c]);
+                                 "%s: a conductor needs eta, its index of refraction", who);
+        if (!(m->eta[c] > 0 && m->eta[c] <= 100))
+            return rt_fail_field(
+                error, RT_ERROR_INPUT, "eta",
+                "%s: eta has the component %g; that of a conductor must lie between 0 and 100", who,
+                m->eta[c]);
         if (!(m->k[c] >= 0 && m->k[c] <= 100))
-            return rt_fail_field(error, RT_ERROR_INPUT, "k", "%s: k has the component %g; it must lie from 0 to 100",
-                                 who, m->k[c]);
+            return rt_fail_field(error, RT_ERROR_INPUT, "k",
+                                 "%s: k has the component %g; it must lie from 0 to 100", who,
+                                 m->k[c]);
         if (m->kt[c] != 0)
-            return rt_fail_field(error, RT_ERROR_INPUT, "kt", "%s: a conductor lets no light through", who);
+            return rt_fail_field(error, RT_ERROR_INPUT, "kt",
+                                 "%s: a conductor lets no light through", who);
     }
     return RT_OK;
 }
@@ -92,22 +104,22 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
     if (m->ior == 0)
         m->ior = 1.5f;
     if (!(m->ior >= 0.1f && m->ior <= 10))
-        return rt_fail_field(error, RT_ERROR_INPUT, "ior", "%s: ior is %g; it must lie between 0.1 and 10", who,
-                             m->ior);
+        return rt_fail_field(error, RT_ERROR_INPUT, "ior",
+                             "%s: ior is %g; it must lie between 0.1 and 10", who, m->ior);
     if (!(m->roughness >= 0 && m->roughness <= 1))
-        return rt_fail_field(error, RT_ERROR_INPUT, "roughness", "%s: roughness is %g; it must lie from 0 to 1", who,
-                             m->roughness);
+        return rt_fail_field(error, RT_ERROR_INPUT, "roughness",
+                             "%s: roughness is %g; it must lie from 0 to 1", who, m->roughness);
     if (m->priority < 0)
-        return rt_fail_field(error, RT_ERROR_INPUT, "priority", "%s: priority is %d; it must not be negative", who,
-                             m->priority);
+        return rt_fail_field(error, RT_ERROR_INPUT, "priority",
+                             "%s: priority is %d; it must not be negative", who, m->priority);
     if ((unsigned)m->fresnel > RT_FRESNEL_CONDUCTOR)
-        return rt_fail_field(error, RT_ERROR_INPUT, "fresnel", "%s: there is no fresnel mode %d", who,
-                             (int)m->fresnel);
+        return rt_fail_field(error, RT_ERROR_INPUT, "fresnel", "%s: there is no fresnel mode %d",
+                             who, (int)m->fresnel);
     return m->fresnel == RT_FRESNEL_CONDUCTOR ? check_conductor(m, who, error) : RT_OK;
 }
 
-rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name, const rt_material *material,
-                                rt_error *error)
+rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name,
+                                const rt_material *material, rt_error *error)
 {
     char who[128] = "material";
     rt_material m = *material;
@@ -124,7 +136,8 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK)
         return status;
-    status = rt_grow((void **)&scene->materials, &scene->material_room, scene->material_count, sizeof m, error);
+    status = rt_grow((void **)&scene->materials, &scene->material_room, scene->material_count,
+                     sizeof m, error);
     if (status != RT_OK)
         return status;
     if (out)

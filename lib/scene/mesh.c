@@ -40,9 +40,11 @@ void rt_scene_mesh_survey(rt_scene_mesh *mesh)
     }
 }
 
-rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh, rt_error *error)
+rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh,
+                             rt_error *error)
 {
-    rt_status status = rt_grow((void **)&scene->meshes, &scene->mesh_room, scene->mesh_count, sizeof *mesh, error);
+    rt_status status =
+        rt_grow((void **)&scene->meshes, &scene->mesh_room, scene->mesh_count, sizeof *mesh, error);
     if (status != RT_OK)
         return status;
     scene->meshes[scene->mesh_count] = *mesh;
@@ -61,8 +63,10 @@ static rt_status check_vertices(const rt_mesh_data *mesh, rt_error *error)
             status = rt_check_point(mesh->normals + 3 * i, "triangles", "normals", error);
         if (status == RT_OK && mesh->colours)
             status = rt_check_colour(mesh->colours + 3 * i, "triangles", "colours", error);
-        if (status == RT_OK && mesh->uv && !(isfinite(mesh->uv[2 * i]) && isfinite(mesh->uv[2 * i + 1])))
-            status = rt_fail_field(error, RT_ERROR_INPUT, "uv", "triangles: uv %zu is not finite", i);
+        if (status == RT_OK && mesh->uv &&
+            !(isfinite(mesh->uv[2 * i]) && isfinite(mesh->uv[2 * i + 1])))
+            status =
+                rt_fail_field(error, RT_ERROR_INPUT, "uv", "triangles: uv %zu is not finite", i);
     }
     return status;
 }
@@ -71,11 +75,13 @@ static rt_status check_data(const rt_mesh_data *mesh, rt_error *error)
 {
     if (mesh->triangle_count == 0 || mesh->triangle_count > triangles_max)
         return rt_fail_field(error, RT_ERROR_INPUT, "triangle_count",
-                             "triangles: %zu triangles; there must be 1 to %d", mesh->triangle_count, triangles_max);
+                             "triangles: %zu triangles; there must be 1 to %d",
+                             mesh->triangle_count, triangles_max);
     for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
         if (mesh->indices[i] >= mesh->vertex_count)
-            return rt_fail_field(error, RT_ERROR_INPUT, "indices", "triangles: triangle %zu names vertex %u of %zu",
-                                 i / 3, mesh->indices[i], mesh->vertex_count);
+            return rt_fail_field(error, RT_ERROR_INPUT, "indices",
+                                 "triangles: triangle %zu names vertex %u of %zu", i / 3,
+                                 mesh->indices[i], mesh->vertex_count);
     return check_vertices(mesh, error);
 }
 
@@ -95,14 +101,17 @@ static rt_status check_area(const rt_scene_mesh *mesh, rt_error *error)
     int is_one = mesh->triangle_count == 1;
     if (!(mesh->area > 0))
         return rt_fail_field(error, RT_ERROR_INPUT, "positions",
-                             is_one ? "triangle: its area is zero" : "triangles: all have zero area");
+                             is_one ? "triangle: its area is zero"
+                                    : "triangles: all have zero area");
     if (mesh->area < RT_AREA_MIN)
-        return rt_fail_field(error, RT_ERROR_INPUT, "positions", "%s: area %g m^2; it must be at least %g",
+        return rt_fail_field(error, RT_ERROR_INPUT, "positions",
+                             "%s: area %g m^2; it must be at least %g",
                              is_one ? "triangle" : "triangles, together", mesh->area, RT_AREA_MIN);
     return RT_OK;
 }
 
-rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh, rt_error *error)
+rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh,
+                            rt_error *error)
 {
     rt_scene_mesh made;
     int good = 1;
@@ -119,7 +128,8 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
     made.colours = copy(mesh->colours, mesh->vertex_count, 3 * sizeof(float), &good);
     made.indices = copy(mesh->indices, mesh->triangle_count, 3 * sizeof(uint32_t), &good);
     if (!good)
-        status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu triangles", mesh->triangle_count);
+        status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu triangles",
+                         mesh->triangle_count);
     else
         rt_scene_mesh_survey(&made);
     if (status == RT_OK)
@@ -133,7 +143,10 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
 
 /* ---- Placing --------------------------------------------------------------- */
 
-/* The area of a mesh in world space; a map that is no similarity stretches each triangle by its own factor. */
+/*
+ * The area of a mesh in world space; a map that is no similarity stretches each triangle by its own
+ * factor.
+ */
 static double placed_area(const rt_scene *scene, const rt_scene_shape *shape)
 {
     const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
@@ -162,13 +175,13 @@ static void place_bounds(rt_scene_shape *shape, const rt_scene_mesh *mesh)
     }
 }
 
-rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh, const rt_surface *surface,
-                                rt_error *error)
+rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh,
+                                const rt_surface *surface, rt_error *error)
 {
     rt_scene_shape shape = {.kind = RT_SHAPE_TRIANGLES, .mesh = mesh, .surface = *surface};
     if (mesh >= scene->mesh_count)
-        return rt_fail_field(error, RT_ERROR_INPUT, "mesh", "instance: there is no mesh %u among %zu", mesh,
-                             scene->mesh_count);
+        return rt_fail_field(error, RT_ERROR_INPUT, "mesh",
+                             "instance: there is no mesh %u among %zu", mesh, scene->mesh_count);
     rt_status status = rt_surface_transform(&shape.to_world, surface, "instance", error);
     if (status != RT_OK)
         return status;
@@ -179,12 +192,16 @@ rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh, c
     return rt_scene_add_shape(scene, out, &shape, "instance", error);
 }
 
-rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions, size_t vertex_count,
-                                 const uint32_t *indices, size_t triangle_count, const float *normals,
+rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions,
+                                 size_t vertex_count, const uint32_t *indices,
+                                 size_t triangle_count, const float *normals,
                                  const rt_surface *surface, rt_error *error)
 {
-    rt_mesh_data data = {.positions = positions, .normals = normals, .indices = indices,
-                         .vertex_count = vertex_count, .triangle_count = triangle_count};
+    rt_mesh_data data = {.positions = positions,
+                         .normals = normals,
+                         .indices = indices,
+                         .vertex_count = vertex_count,
+                         .triangle_count = triangle_count};
     uint32_t mesh;
     rt_status status = rt_scene_add_mesh(scene, &mesh, &data, error);
     if (status != RT_OK)

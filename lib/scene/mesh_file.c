@@ -8,7 +8,8 @@
 #include "scene/scene.h"
 
 /* The texture that the file names, looked up beside it. */
-static rt_status add_texture(rt_scene *scene, uint32_t *out, const char *path, const char *name, rt_error *error)
+static rt_status add_texture(rt_scene *scene, uint32_t *out, const char *path, const char *name,
+                             rt_error *error)
 {
     const char *slash = strrchr(path, '/');
     size_t directory = slash && name[0] != '/' ? (size_t)(slash - path) + 1 : 0;
@@ -24,7 +25,8 @@ static rt_status add_texture(rt_scene *scene, uint32_t *out, const char *path, c
 }
 
 /* Moves the arrays of a mesh that was read to the scene's. */
-static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, const char *path, rt_error *error)
+static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, const char *path,
+                             rt_error *error)
 {
     rt_scene_mesh made;
     memset(&made, 0, sizeof made);
@@ -40,7 +42,8 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, cons
         return rt_fail(error, RT_ERROR_INPUT, "%.400s holds no triangle with an area", path);
     for (int i = 0; i < 3; i++)
         if (!(made.lo[i] >= -RT_COORDINATE_MAX && made.hi[i] <= RT_COORDINATE_MAX))
-            return rt_fail(error, RT_ERROR_INPUT, "%.400s reaches beyond coordinates of %g", path, RT_COORDINATE_MAX);
+            return rt_fail(error, RT_ERROR_INPUT, "%.400s reaches beyond coordinates of %g", path,
+                           RT_COORDINATE_MAX);
     rt_status status = rt_scene_take_mesh(scene, out, &made, error);
     if (status == RT_OK) {
         mesh->positions = mesh->normals = mesh->uv = mesh->colours = NULL;
@@ -49,8 +52,8 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, cons
     return status;
 }
 
-rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, rt_shading shading, rt_mesh_info *info,
-                             rt_error *error)
+rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, rt_shading shading,
+                             rt_mesh_info *info, rt_error *error)
 {
     if (rt_is_missing(path, "path", error))
         return RT_ERROR_USAGE;
@@ -58,7 +61,8 @@ rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, r
     uint32_t texture = 0;
 
     if ((unsigned)shading > RT_SHADING_SMOOTH)
-        return rt_fail_field(error, RT_ERROR_INPUT, "shading", "mesh: there is no shading %d", (int)shading);
+        return rt_fail_field(error, RT_ERROR_INPUT, "shading", "mesh: there is no shading %d",
+                             (int)shading);
     rt_status status = rt_mesh_load(&mesh, path, NULL, error);
     if (status == RT_OK && shading == RT_SHADING_SMOOTH)
         status = rt_mesh_smooth(mesh, error);

@@ -1,4 +1,7 @@
-/* pack.c - lays a scene out in one buffer: hierarchy, shapes, materials, lights, textures, sample tables. */
+/*
+ * pack.c - lays a scene out in one buffer: hierarchy, shapes, materials, lights, textures, sample
+ * tables.
+ */
 #include "scene/pack.h"
 
 #include <math.h>
@@ -56,12 +59,14 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->planes, &h->plane_count, p->plane_count, sizeof(rt_u32));
     place(&rows, &h->shapes, &h->shape_count, scene->shape_count, sizeof(rt_shape));
     place(&rows, &h->prim_shape, &h->prim_count, p->prim_count, sizeof(rt_u32));
-    place(&rows, &h->materials, &h->material_count, scene->material_count, sizeof(rt_material_data));
+    place(&rows, &h->materials, &h->material_count, scene->material_count,
+          sizeof(rt_material_data));
     place(&rows, &h->lights, &h->light_count, p->light_count, sizeof(rt_light_data));
     h->light_leaves = (rt_u32)rt_light_tree_leaves(scene);
     place(&rows, &h->light_nodes, NULL, 2 * (size_t)h->light_leaves, sizeof(rt_light_node));
     place(&rows, &h->targets, &h->target_count, rt_targets_count(scene), sizeof(rt_target));
-    place(&rows, &h->transforms, &h->transform_count, p->transform_count, sizeof(rt_transform_data));
+    place(&rows, &h->transforms, &h->transform_count, p->transform_count,
+          sizeof(rt_transform_data));
     place(&rows, &h->indices, &h->index_count, p->index_count, sizeof(rt_u32));
     place(&rows, &h->normals, &h->normal_count, p->normal_count, 4 * sizeof(float));
     place(&rows, &h->uvs, &h->uv_count, p->uv_count, 2 * sizeof(float));
@@ -75,10 +80,12 @@ static size_t place_tables(rt_packing *p)
 }
 
 /* Builds the hierarchies and notes their extent. */
-static rt_status build(rt_packing *p, uint32_t threads, rt_stage_progress *progress, rt_error *error)
+static rt_status build(rt_packing *p, uint32_t threads, rt_stage_progress *progress,
+                       rt_error *error)
 {
     double diagonal = 0;
-    rt_status status = rt_hierarchy_build(&p->hierarchy, p->scene, p->first_prim, threads, progress, error);
+    rt_status status =
+        rt_hierarchy_build(&p->hierarchy, p->scene, p->first_prim, threads, progress, error);
     if (status != RT_OK)
         return status;
     memcpy(p->header.bounds_lo, p->hierarchy.lo, sizeof p->header.bounds_lo);
@@ -94,14 +101,17 @@ static rt_status fill(rt_packing *p, rt_error *error)
 {
     size_t rows = place_tables(p);
     if (rows > UINT32_MAX)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu rows of %u bytes", rows, RT_SCENE_ROW);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu rows of %u bytes",
+                       rows, RT_SCENE_ROW);
     p->image.bytes = rows * RT_SCENE_ROW;
     if (posix_memalign(&p->image.data, buffer_alignment, p->image.bytes)) {
         p->image.data = NULL;
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes", p->image.bytes);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes",
+                       p->image.bytes);
     }
     memset(p->image.data, 0, p->image.bytes);
-    rt_hierarchy_write(&p->hierarchy, rt_packing_table(p, p->header.nodes), rt_packing_table(p, p->header.blocks),
+    rt_hierarchy_write(&p->hierarchy, rt_packing_table(p, p->header.nodes),
+                       rt_packing_table(p, p->header.blocks),
                        rt_packing_table(p, p->header.analytic));
     p->image.light_power = rt_lights_fill(p->scene, p->first_prim, p->header.radius,
                                           rt_packing_table(p, p->header.lights), p->first_light);
@@ -114,11 +124,12 @@ static rt_status fill(rt_packing *p, rt_error *error)
     rt_sobol_table(rt_packing_table(p, p->header.sobol));
     memcpy(p->image.data, &p->header, sizeof p->header);
     return rt_light_tree_fill(rt_packing_table(p, p->header.light_nodes), p->scene, &p->header,
-                              rt_packing_table(p, p->header.lights), rt_packing_table(p, p->header.prim_shape), error);
+                              rt_packing_table(p, p->header.lights),
+                              rt_packing_table(p, p->header.prim_shape), error);
 }
 
-rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel, uint32_t threads,
-                        rt_stage_progress *progress, rt_error *error)
+rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel,
+                        uint32_t threads, rt_stage_progress *progress, rt_error *error)
 {
     rt_packing p;
     memset(&p, 0, sizeof p);

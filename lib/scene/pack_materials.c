@@ -55,7 +55,9 @@ void rt_pack_environment(rt_packing *p)
     rt_environment_data *e = &p->header.environment;
     if (!from->texels)
         return;
-    memcpy(rt_packing_table(p, e->texels), from->texels, (size_t)from->width * from->height * 4 * sizeof(float));
-    e->mean = (float)rt_environment_tabulate(rt_packing_table(p, e->conditional), rt_packing_table(p, e->marginal),
-                                             from->texels, from->width, from->height);
+    memcpy(rt_packing_table(p, e->texels), from->texels,
+           (size_t)from->width * from->height * 4 * sizeof(float));
+    e->mean = (float)rt_environment_tabulate(rt_packing_table(p, e->conditional),
+                                             rt_packing_table(p, e->marginal), from->texels,
+                                             from->width, from->height);
 }

@@ -29,7 +29,10 @@ static rt_u32 take(size_t *count, size_t entries)
     return (rt_u32)first;
 }
 
-/* Places the vertex data of a mesh, shared by all that place it, but for normals that a transform turns. */
+/*
+ * Places the vertex data of a mesh, shared by all that place it, but for normals that a transform
+ * turns.
+ */
 static void number_vertices(rt_packing *p, size_t index)
 {
     const rt_scene_shape *shape = p->scene->shapes + index;
@@ -77,8 +80,10 @@ rt_status rt_pack_number(rt_packing *p, rt_error *error)
             p->shapes[i].transform = take(&p->transform_count, 1);
         if (shape->kind == RT_SHAPE_TRIANGLES)
             number_vertices(p, i);
-        if (p->prim_count > RT_BLOCK_PRIM - 1 || p->index_count > UINT32_MAX - 1 || p->normal_count > UINT32_MAX - 1)
-            status = rt_fail(error, RT_ERROR_INPUT, "the scene has more than %u primitives", RT_BLOCK_PRIM - 1);
+        if (p->prim_count > RT_BLOCK_PRIM - 1 || p->index_count > UINT32_MAX - 1 ||
+            p->normal_count > UINT32_MAX - 1)
+            status = rt_fail(error, RT_ERROR_INPUT, "the scene has more than %u primitives",
+                             RT_BLOCK_PRIM - 1);
     }
     p->light_count = rt_lights_count(p->scene);
     return status;
@@ -89,7 +94,8 @@ rt_status rt_pack_number(rt_packing *p, rt_error *error)
 static void pack_transform(rt_transform_data *out, const rt_affine *to_world)
 {
     rt_affine inverse;
-    rt_affine_inverse(&inverse, to_world); /* there is one: that was checked when the shape was added */
+    /* there is one: that was checked when the shape was added */
+    rt_affine_inverse(&inverse, to_world);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
             out->to_world[i][j] = (float)to_world->m[i][j];
@@ -98,7 +104,8 @@ static void pack_transform(rt_transform_data *out, const rt_affine *to_world)
 }
 
 /* What triangles and instances have besides. */
-static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *shape, rt_u32 first_normal)
+static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *shape,
+                      rt_u32 first_normal)
 {
     const rt_scene_mesh *mesh = p->scene->meshes + shape->mesh;
     const rt_mesh_place *place = p->meshes + shape->mesh;
@@ -121,8 +128,8 @@ static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *
 static int is_varied(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
-    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) || m->kd_texture || m->ks_texture ||
-           m->kt_texture || m->bump_texture;
+    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) || m->kd_texture ||
+           m->ks_texture || m->kt_texture || m->bump_texture;
 }
 
 /* Whether it only reflects diffusely. */
@@ -138,7 +145,8 @@ static int is_matte(const rt_scene *scene, const rt_shape *shape)
 static int is_flat(const rt_shape *shape)
 {
     const rt_u32 other = RT_SHAPE_SMOOTH | RT_SHAPE_VARIED | RT_SHAPE_MIRRORED;
-    return (shape->kind == RT_SHAPE_TRIANGLES || shape->kind == RT_SHAPE_QUAD) && !(shape->flags & other);
+    return (shape->kind == RT_SHAPE_TRIANGLES || shape->kind == RT_SHAPE_QUAD) &&
+           !(shape->flags & other);
 }
 
 static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
@@ -151,12 +159,14 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
     out->prim_count = (rt_u32)rt_scene_shape_primitives(p->scene, shape);
     out->first_light = p->first_light[index];
     out->transform = p->shapes[index].transform;
-    out->texture = surface->texture && !rt_surface_has_light(surface) ? surface->texture - 1 : RT_NONE;
+    out->texture =
+        surface->texture && !rt_surface_has_light(surface) ? surface->texture - 1 : RT_NONE;
     out->flags = shape->caps ? RT_SHAPE_CAPS : 0;
     memcpy(out->p, shape->p, sizeof out->p);
     if (shape->kind == RT_SHAPE_TRIANGLES)
         pack_mesh(p, out, shape, p->shapes[index].normal);
-    if ((out->kind == RT_SHAPE_TRIANGLES || out->kind == RT_SHAPE_QUAD) && rt_scene_is_mirrored(shape))
+    if ((out->kind == RT_SHAPE_TRIANGLES || out->kind == RT_SHAPE_QUAD) &&
+        rt_scene_is_mirrored(shape))
         out->flags |= RT_SHAPE_MIRRORED;
     if (is_varied(p->scene, out))
         out->flags |= RT_SHAPE_VARIED;
@@ -170,7 +180,8 @@ void rt_pack_shapes(const rt_packing *p)
 {
     rt_shape *out = rt_packing_table(p, p->header.shapes);
     rt_transform_data *transforms = rt_packing_table(p, p->header.transforms);
-    rt_u32 *prim_shape = rt_packing_table(p, p->header.prim_shape), *plane = rt_packing_table(p, p->header.planes);
+    rt_u32 *prim_shape = rt_packing_table(p, p->header.prim_shape),
+           *plane = rt_packing_table(p, p->header.planes);
 
     for (size_t i = 0; i < p->scene->shape_count; i++) {
         pack_shape(p, out + i, i);
@@ -199,8 +210,8 @@ static void pack_normals(float (*out)[4], const rt_scene_mesh *mesh)
 }
 
 /*
- * Maps them, and scales all alike so that the longest is of unit length: their mix is then that which is mapped
- * after it was mixed, as instances do.
+ * Maps them, and scales all alike so that the longest is of unit length: their mix is then that
+ * which is mapped after it was mixed, as instances do.
  */
 static void map_normals(float (*normals)[4], size_t count, const rt_affine *inverse)
 {
@@ -225,7 +236,8 @@ static void pack_placed_normals(const rt_packing *p)
         const rt_scene_shape *shape = p->scene->shapes + i;
         rt_u32 first = p->shapes[i].normal;
         rt_affine inverse;
-        if (shape->kind != RT_SHAPE_TRIANGLES || first == RT_NONE || first == p->meshes[shape->mesh].normal)
+        if (shape->kind != RT_SHAPE_TRIANGLES || first == RT_NONE ||
+            first == p->meshes[shape->mesh].normal)
             continue;
         rt_affine_inverse(&inverse, &shape->to_world);
         pack_normals(normals + first, p->scene->meshes + shape->mesh);
@@ -244,7 +256,8 @@ void rt_pack_vertices(const rt_packing *p)
         const rt_scene_mesh *mesh = p->scene->meshes + m;
         const rt_mesh_place *place = p->meshes + m;
         if (place->index != RT_NONE)
-            memcpy(indices + place->index, mesh->indices, 3 * mesh->triangle_count * sizeof *indices);
+            memcpy(indices + place->index, mesh->indices,
+                   3 * mesh->triangle_count * sizeof *indices);
         if (place->normal != RT_NONE)
             pack_normals(normals + place->normal, mesh);
         if (place->uv != RT_NONE)

@@ -1,5 +1,6 @@
 /*
- * pack_targets.c - balls around what caustics can come from: each holds a shape that reflects or refracts specularly.
+ * pack_targets.c - balls around what caustics can come from: each holds a shape that reflects or
+ * refracts specularly.
  */
 #include <math.h>
 

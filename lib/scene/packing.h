@@ -5,7 +5,10 @@
 #include "scene/hierarchy.h"
 #include "scene/pack.h"
 
-/* Where the vertex data of a mesh begin in their tables; RT_NONE where the mesh has none or nothing asks for them. */
+/*
+ * Where the vertex data of a mesh begin in their tables; RT_NONE where the mesh has none or nothing
+ * asks for them.
+ */
 typedef struct rt_mesh_place {
     rt_u32 index, normal, uv, colour;
 } rt_mesh_place;
@@ -34,11 +37,17 @@ void *rt_packing_table(const rt_packing *packing, rt_u32 offset);
 /* Counts and numbers what shapes put into tables (pack_shapes.c). */
 rt_status rt_pack_number(rt_packing *packing, rt_error *error);
 
-/* Fill the tables of shapes, and of what they refer to: primitives, planes, transforms, vertices (pack_shapes.c). */
+/*
+ * Fill the tables of shapes, and of what they refer to: primitives, planes, transforms, vertices
+ * (pack_shapes.c).
+ */
 void rt_pack_shapes(const rt_packing *packing);
 void rt_pack_vertices(const rt_packing *packing);
 
-/* Count and fill the balls around specular shapes; these are one ball when they are too many (pack_targets.c). */
+/*
+ * Count and fill the balls around specular shapes; these are one ball when they are too many
+ * (pack_targets.c).
+ */
 size_t rt_targets_count(const rt_scene *scene);
 void rt_pack_targets(const rt_packing *packing);
 

@@ -17,10 +17,10 @@ typedef struct rt_scene_texture {
 
 /* A mesh in a space of its own; owns its arrays. */
 typedef struct rt_scene_mesh {
-    float *positions; /* [vertex_count][3] */
-    float *normals;   /* [vertex_count][3], or NULL */
-    float *uv;        /* [vertex_count][2], or NULL */
-    float *colours;   /* [vertex_count][3], or NULL */
+    float *positions;  /* [vertex_count][3] */
+    float *normals;    /* [vertex_count][3], or NULL */
+    float *uv;         /* [vertex_count][2], or NULL */
+    float *colours;    /* [vertex_count][3], or NULL */
     uint32_t *indices; /* [triangle_count][3] */
     size_t vertex_count, triangle_count;
     double area;
@@ -35,8 +35,12 @@ typedef struct rt_scene_shape {
     rt_surface surface;
     int caps;
     int emits;
-    double area; /* of all, world space, m^2; infinite for a plane; of a placed mesh only where its power is given */
-    float p[9];  /* as rt_shape.p; quad: corner, edge1, edge2, in world space */
+    /*
+     * of all, world space, m^2; infinite for a plane; of a placed mesh only where its power is
+     * given
+     */
+    double area;
+    float p[9]; /* as rt_shape.p; quad: corner, edge1, edge2, in world space */
     int has_transform;
     rt_affine to_world; /* of the shape's own space, or of the mesh's */
     float lo[3], hi[3]; /* bounds, world space; not of a plane */
@@ -44,9 +48,9 @@ typedef struct rt_scene_shape {
 
 /* A light that is no shape. */
 typedef struct rt_scene_light {
-    rt_u32 kind; /* RT_LIGHT_* */
+    rt_u32 kind;                     /* RT_LIGHT_* */
     float position[3], direction[3]; /* as rt_light_data.a and b */
-    float inner, outer; /* spot: cosines */
+    float inner, outer;              /* spot: cosines */
     float emission[3];
 } rt_scene_light;
 
@@ -62,7 +66,7 @@ typedef struct rt_scene_environment {
 struct rt_scene {
     rt_scene_texture *textures;
     size_t texture_count, texture_room;
-    rt_bytes texels; /* of all image textures */
+    rt_bytes texels;        /* of all image textures */
     rt_material *materials; /* complete: defaults filled in, texture handles checked */
     size_t material_count, material_room;
     rt_scene_mesh *meshes;
@@ -77,28 +81,39 @@ struct rt_scene {
     rt_render_options options; /* hooks NULL */
 };
 
-/* Whether a placed mesh has a tree of its own: when it is placed more than once, and does not emit. */
+/*
+ * Whether a placed mesh has a tree of its own: when it is placed more than once, and does not emit.
+ */
 int rt_scene_is_instance(const rt_scene *scene, const rt_scene_shape *shape);
 
-/* Primitives of a shape on the device: triangles count one by one, every other shape is one, an instance too. */
+/*
+ * Primitives of a shape on the device: triangles count one by one, every other shape is one, an
+ * instance too.
+ */
 size_t rt_scene_shape_primitives(const rt_scene *scene, const rt_scene_shape *shape);
 
 /*
- * Radiance that a shape emits, W/(m^2 sr), from its own radiance or power or its material's emission; before texture.
+ * Radiance that a shape emits, W/(m^2 sr), from its own radiance or power or its material's
+ * emission; before texture.
  */
 void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape, float radiance[3]);
 
-/* Whether a surface brings radiance or power of its own; its texture then multiplies that, and not kd. */
+/*
+ * Whether a surface brings radiance or power of its own; its texture then multiplies that, and not
+ * kd.
+ */
 int rt_surface_has_light(const rt_surface *surface);
 
 /* The handle of the texture that multiplies that radiance, or 0. */
 uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *shape);
 
 /* A vertex of a placed mesh in world space, rounded as the hierarchy has it. */
-void rt_scene_vertex(const rt_scene *scene, const rt_scene_shape *shape, size_t vertex, float out[3]);
+void rt_scene_vertex(const rt_scene *scene, const rt_scene_shape *shape, size_t vertex,
+                     float out[3]);
 
 /* Area of one primitive of a finite shape, m^2. */
-double rt_scene_primitive_area(const rt_scene *scene, const rt_scene_shape *shape, size_t primitive);
+double rt_scene_primitive_area(const rt_scene *scene, const rt_scene_shape *shape,
+                               size_t primitive);
 
 /* Whether placing the shape turns its inside out, so that a product of its edges points inwards. */
 int rt_scene_is_mirrored(const rt_scene_shape *shape);
@@ -106,35 +121,47 @@ int rt_scene_is_mirrored(const rt_scene_shape *shape);
 /*
  * Checks what all shapes share and appends. The shape's kind, p, to_world, area and bounds are set.
  */
-rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who, rt_error *error);
+rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who,
+                             rt_error *error);
 
 /*
- * Whether kd + ks + kt <= 1 wherever textures are brightest, a shape's own included; its handle may be 0. The
- * error names `field`, or, when that is NULL, the coefficient.
+ * Whether kd + ks + kt <= 1 wherever textures are brightest, a shape's own included; its handle may
+ * be 0. The error names `field`, or, when that is NULL, the coefficient.
  */
-rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *material, uint32_t shape_texture,
-                                   const char *who, const char *field, rt_error *error);
-
-/* Whether a handle is one of a texture, or 0 for none; and whether the texture is of colours, none negative. */
-rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *who, const char *field, rt_error *error);
-rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const char *who, const char *field,
+rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *material,
+                                   uint32_t shape_texture, const char *who, const char *field,
                                    rt_error *error);
 
-/* The transform of a surface; fails with field "transform" when it cannot be inverted. */
-rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who, rt_error *error);
+/*
+ * Whether a handle is one of a texture, or 0 for none; and whether the texture is of colours, none
+ * negative.
+ */
+rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *who,
+                           const char *field, rt_error *error);
+rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const char *who,
+                                   const char *field, rt_error *error);
 
-/* Whether anything in the scene shines; whether a mode shows that, and no property of surfaces instead. */
+/* The transform of a surface; fails with field "transform" when it cannot be inverted. */
+rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who,
+                               rt_error *error);
+
+/*
+ * Whether anything in the scene shines; whether a mode shows that, and no property of surfaces
+ * instead.
+ */
 int rt_scene_has_light(const rt_scene *scene);
 int rt_mode_shows_light(rt_mode mode);
 
 /*
- * Whether lights without size (point, spot and directional) and smooth mirrors or glass may cast caustics on a diffuse
- * shape: light that path tracing misses, for no path from the eye meets such a light by way of them.
+ * Whether lights without size (point, spot and directional) and smooth mirrors or glass may cast
+ * caustics on a diffuse shape: light that path tracing misses, for no path from the eye meets such
+ * a light by way of them.
  */
 int rt_scene_casts_hidden_caustics(const rt_scene *scene);
 
 /* Appends a mesh, taking its arrays over; checked already. */
-rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh, rt_error *error);
+rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh,
+                             rt_error *error);
 void rt_scene_mesh_free(rt_scene_mesh *mesh);
 
 /* Sets a mesh's area and bounds from its arrays. */

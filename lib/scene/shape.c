@@ -1,4 +1,7 @@
-/* shape.c - what all shapes share: checks on adding one, transforms, what they emit. Their kinds are in shapes.c. */
+/*
+ * shape.c - what all shapes share: checks on adding one, transforms, what they emit. Their kinds
+ * are in shapes.c.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +15,8 @@ enum { shapes_max = 0x3fffffff };
 
 int rt_scene_is_instance(const rt_scene *scene, const rt_scene_shape *shape)
 {
-    return shape->kind == RT_SHAPE_TRIANGLES && !shape->emits && scene->meshes[shape->mesh].placed > 1;
+    return shape->kind == RT_SHAPE_TRIANGLES && !shape->emits &&
+           scene->meshes[shape->mesh].placed > 1;
 }
 
 size_t rt_scene_shape_primitives(const rt_scene *scene, const rt_scene_shape *shape)
@@ -27,7 +31,8 @@ int rt_scene_is_mirrored(const rt_scene_shape *shape)
     return shape->has_transform && rt_affine_determinant(&shape->to_world) < 0;
 }
 
-void rt_scene_vertex(const rt_scene *scene, const rt_scene_shape *shape, size_t vertex, float out[3])
+void rt_scene_vertex(const rt_scene *scene, const rt_scene_shape *shape, size_t vertex,
+                     float out[3])
 {
     const float *position = scene->meshes[shape->mesh].positions + 3 * vertex;
     if (!shape->has_transform) {
@@ -64,7 +69,8 @@ void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape,
         for (int c = 0; c < 3; c++)
             radiance[c] = (float)(s->power[c] / (pi * sides * shape->area));
     } else {
-        memcpy(radiance, rt_is_black(s->radiance) ? m->emission : s->radiance, 3 * sizeof *radiance);
+        memcpy(radiance, rt_is_black(s->radiance) ? m->emission : s->radiance,
+               3 * sizeof *radiance);
     }
 }
 
@@ -79,7 +85,8 @@ uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *
     return rt_surface_has_light(s) ? s->texture : scene->materials[s->material].emission_texture;
 }
 
-rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who, rt_error *error)
+rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who,
+                               rt_error *error)
 {
     rt_affine inverse;
     *out = rt_affine_from(&surface->transform);
@@ -87,28 +94,32 @@ rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const 
         for (int j = 0; j < 4; j++)
             if (!(fabs(out->m[i][j]) <= RT_COORDINATE_MAX))
                 return rt_fail_field(error, RT_ERROR_INPUT, "transform",
-                                     "%s: the transform has the entry %g; it must lie within %g", who, out->m[i][j],
-                                     RT_COORDINATE_MAX);
+                                     "%s: the transform has the entry %g; it must lie within %g",
+                                     who, out->m[i][j], RT_COORDINATE_MAX);
     if (!rt_affine_inverse(&inverse, out))
         return rt_fail_field(error, RT_ERROR_INPUT, "transform",
                              "%s: the transform cannot be inverted: it flattens the shape", who);
     return RT_OK;
 }
 
-static rt_status check_surface(const rt_scene *scene, const rt_surface *s, const char *who, rt_error *error)
+static rt_status check_surface(const rt_scene *scene, const rt_surface *s, const char *who,
+                               rt_error *error)
 {
     rt_status status;
     if (s->material >= scene->material_count)
-        return rt_fail_field(error, RT_ERROR_INPUT, "material", "%s: there is no material %u among %zu", who,
-                             s->material, scene->material_count);
+        return rt_fail_field(error, RT_ERROR_INPUT, "material",
+                             "%s: there is no material %u among %zu", who, s->material,
+                             scene->material_count);
     if ((status = rt_texture_check_colours(scene, s->texture, who, "texture", error)) != RT_OK ||
         (status = rt_check_colour(s->radiance, who, "radiance", error)) != RT_OK ||
         (status = rt_check_colour(s->power, who, "power", error)) != RT_OK)
         return status;
     if (!rt_is_black(s->radiance) && !rt_is_black(s->power))
-        return rt_fail_field(error, RT_ERROR_INPUT, "power", "%s: give radiance or power, not both", who);
+        return rt_fail_field(error, RT_ERROR_INPUT, "power", "%s: give radiance or power, not both",
+                             who);
     if (s->texture && !rt_surface_has_light(s))
-        return rt_material_check_albedo(scene, scene->materials + s->material, s->texture, who, "texture", error);
+        return rt_material_check_albedo(scene, scene->materials + s->material, s->texture, who,
+                                        "texture", error);
     return RT_OK;
 }
 
@@ -116,21 +127,24 @@ static rt_status check_extent(const rt_scene_shape *shape, const char *who, rt_e
 {
     for (int i = 0; i < 3; i++)
         if (!(shape->lo[i] >= -RT_COORDINATE_MAX && shape->hi[i] <= RT_COORDINATE_MAX))
-            return rt_fail_field(error, RT_ERROR_INPUT, "transform", "%s: it reaches beyond coordinates of %g", who,
-                                 RT_COORDINATE_MAX);
+            return rt_fail_field(error, RT_ERROR_INPUT, "transform",
+                                 "%s: it reaches beyond coordinates of %g", who, RT_COORDINATE_MAX);
     return RT_OK;
 }
 
 static rt_status check_plane(const rt_scene *scene, const rt_surface *s, rt_error *error)
 {
-    const char *field = !rt_is_black(s->power) ? "power" : !rt_is_black(s->radiance) ? "radiance" : "material";
+    const char *field = !rt_is_black(s->power)      ? "power"
+                        : !rt_is_black(s->radiance) ? "radiance"
+                                                    : "material";
     if (rt_surface_has_light(s) || !rt_is_black(scene->materials[s->material].emission))
         return rt_fail_field(error, RT_ERROR_INPUT, field, "plane: an infinite plane cannot emit");
     return RT_OK;
 }
 
 /* A power may be too much for the shape's area. */
-static rt_status check_lamp(const rt_scene *scene, const rt_scene_shape *shape, const char *who, rt_error *error)
+static rt_status check_lamp(const rt_scene *scene, const rt_scene_shape *shape, const char *who,
+                            rt_error *error)
 {
     float radiance[3];
     if (rt_is_black(shape->surface.power))
@@ -138,13 +152,15 @@ static rt_status check_lamp(const rt_scene *scene, const rt_scene_shape *shape, 
     rt_scene_shape_radiance(scene, shape, radiance);
     for (int i = 0; i < 3; i++)
         if (!(radiance[i] <= RT_COLOUR_MAX))
-            return rt_fail_field(error, RT_ERROR_INPUT, "power",
-                                 "%s: power is %g W on %g m^2; the radiance must not exceed %g W/(m^2 sr)", who,
-                                 shape->surface.power[i], shape->area, RT_COLOUR_MAX);
+            return rt_fail_field(
+                error, RT_ERROR_INPUT, "power",
+                "%s: power is %g W on %g m^2; the radiance must not exceed %g W/(m^2 sr)", who,
+                shape->surface.power[i], shape->area, RT_COLOUR_MAX);
     return RT_OK;
 }
 
-rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who, rt_error *error)
+rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who,
+                             rt_error *error)
 {
     const rt_surface *s = &shape->surface;
     rt_status status = check_surface(scene, s, who, error);
@@ -157,7 +173,8 @@ rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *sha
     if (status == RT_OK && scene->shape_count >= shapes_max)
         status = rt_fail(error, RT_ERROR_INPUT, "more than %d shapes", shapes_max);
     if (status == RT_OK)
-        status = rt_grow((void **)&scene->shapes, &scene->shape_room, scene->shape_count, sizeof *shape, error);
+        status = rt_grow((void **)&scene->shapes, &scene->shape_room, scene->shape_count,
+                         sizeof *shape, error);
     if (status != RT_OK)
         return status;
     shape->emits = rt_surface_has_light(s) || !rt_is_black(scene->materials[s->material].emission);

@@ -1,8 +1,9 @@
 /*
  * shapes.c - the builder calls of the shapes that are no meshes.
  *
- * Quad, plane and sphere are brought to world space; every other shape is kept in a space of its own, as
- * kernels/types.h describes, with the map that places it there followed by the caller's transform.
+ * Quad, plane and sphere are brought to world space; every other shape is kept in a space of its
+ * own, as kernels/types.h describes, with the map that places it there followed by the caller's
+ * transform.
  */
 #include <float.h>
 #include <math.h>
@@ -52,8 +53,8 @@ static void extent(const rt_scene_shape *shape, const double a[4], double *lo, d
 }
 
 /* Adds an analytic shape whose kind, p and placement are set. */
-static rt_status add_analytic(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const rt_affine *placement,
-                              const char *who, rt_error *error)
+static rt_status add_analytic(rt_scene *scene, uint32_t *out, rt_scene_shape *shape,
+                              const rt_affine *placement, const char *who, rt_error *error)
 {
     rt_affine transform, inverse;
     rt_status status = rt_surface_transform(&transform, &shape->surface, who, error);
@@ -62,7 +63,8 @@ static rt_status add_analytic(rt_scene *scene, uint32_t *out, rt_scene_shape *sh
     shape->to_world = rt_affine_product(&transform, placement);
     shape->has_transform = 1;
     if (!rt_affine_inverse(&inverse, &shape->to_world))
-        return rt_fail_field(error, RT_ERROR_INPUT, "transform", "%s: it is too small or too flat", who);
+        return rt_fail_field(error, RT_ERROR_INPUT, "transform", "%s: it is too small or too flat",
+                             who);
     for (int i = 0; i < 3; i++) {
         double lo, hi;
         extent(shape, shape->to_world.m[i], &lo, &hi);
@@ -76,13 +78,15 @@ static rt_status add_analytic(rt_scene *scene, uint32_t *out, rt_scene_shape *sh
 static rt_status check_radius(float radius, const char *who, const char *field, rt_error *error)
 {
     if (!(radius >= RT_LENGTH_MIN && radius <= RT_COORDINATE_MAX))
-        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: %s is %g m; it must lie between %g and %g", who, field,
-                             radius, RT_LENGTH_MIN, RT_COORDINATE_MAX);
+        return rt_fail_field(error, RT_ERROR_INPUT, field,
+                             "%s: %s is %g m; it must lie between %g and %g", who, field, radius,
+                             RT_LENGTH_MIN, RT_COORDINATE_MAX);
     return RT_OK;
 }
 
 /* Normalises a direction; fails when it has no length. */
-static rt_status check_direction(double out[3], const float v[3], const char *who, const char *field, rt_error *error)
+static rt_status check_direction(double out[3], const float v[3], const char *who,
+                                 const char *field, rt_error *error)
 {
     rt_status status = rt_check_point(v, who, field, error);
     if (status != RT_OK)
@@ -96,8 +100,11 @@ static rt_status check_direction(double out[3], const float v[3], const char *wh
     return RT_OK;
 }
 
-/* The map to a circle of this radius about unit vector n at `centre`, with `height` along n for 1. */
-static rt_affine placement_about(const float centre[3], const double n[3], double radius, double height)
+/*
+ * The map to a circle of this radius about unit vector n at `centre`, with `height` along n for 1.
+ */
+static rt_affine placement_about(const float centre[3], const double n[3], double radius,
+                                 double height)
 {
     double x[3], y[3], z[3], origin[3];
     rt_frame_about(n, x, y);
@@ -112,8 +119,8 @@ static rt_affine placement_about(const float centre[3], const double n[3], doubl
 
 /* ---- Flat shapes ----------------------------------------------------------- */
 
-rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3], const float normal[3],
-                             const rt_surface *surface, rt_error *error)
+rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3],
+                             const float normal[3], const rt_surface *surface, rt_error *error)
 {
     rt_scene_shape shape = {.kind = RT_SHAPE_PLANE, .surface = *surface, .area = INFINITY};
     rt_affine transform, placement, inverse;
@@ -135,14 +142,16 @@ rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3
         shape.p[i] = (float)p[i];
         shape.p[4 + i] = (float)(m[i] / length);
         if (!(fabsf(shape.p[i]) <= RT_COORDINATE_MAX))
-            return rt_fail_field(error, RT_ERROR_INPUT, "transform", "plane: its point lies beyond coordinates of %g",
+            return rt_fail_field(error, RT_ERROR_INPUT, "transform",
+                                 "plane: its point lies beyond coordinates of %g",
                                  RT_COORDINATE_MAX);
     }
     return rt_scene_add_shape(scene, out, &shape, "plane", error);
 }
 
-rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3], const float edge1[3],
-                            const float edge2[3], const rt_surface *surface, rt_error *error)
+rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3],
+                            const float edge1[3], const float edge2[3], const rt_surface *surface,
+                            rt_error *error)
 {
     rt_scene_shape shape = {.kind = RT_SHAPE_QUAD, .surface = *surface};
     double v[3][3], n[3];
@@ -171,13 +180,15 @@ rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3
         return rt_fail_field(error, RT_ERROR_INPUT, "edge2",
                              "quad: its area is zero; edge1 and edge2 must not be parallel");
     if (shape.area < RT_AREA_MIN)
-        return rt_fail_field(error, RT_ERROR_INPUT, "edge2", "quad: its area is %g m^2; it must be at least %g",
-                             shape.area, RT_AREA_MIN);
+        return rt_fail_field(error, RT_ERROR_INPUT, "edge2",
+                             "quad: its area is %g m^2; it must be at least %g", shape.area,
+                             RT_AREA_MIN);
     return rt_scene_add_shape(scene, out, &shape, "quad", error);
 }
 
-rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3], const float normal[3], float radius,
-                            float inner_radius, const rt_surface *surface, rt_error *error)
+rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3],
+                            const float normal[3], float radius, float inner_radius,
+                            const rt_surface *surface, rt_error *error)
 {
     rt_scene_shape shape = {.kind = RT_SHAPE_DISC, .surface = *surface};
     double n[3];
@@ -188,12 +199,14 @@ rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3
         (status = check_radius(radius, "disc", "radius", error)) != RT_OK)
         return status;
     if (!(inner_radius >= 0 && inner_radius < radius))
-        return rt_fail_field(error, RT_ERROR_INPUT, "inner_radius",
-                             "disc: inner_radius is %g m; it must be at least 0 and less than radius, %g", inner_radius,
-                             radius);
+        return rt_fail_field(
+            error, RT_ERROR_INPUT, "inner_radius",
+            "disc: inner_radius is %g m; it must be at least 0 and less than radius, %g",
+            inner_radius, radius);
     shape.p[0] = inner_radius / radius;
     rt_affine placement = placement_about(centre, n, radius, radius);
-    rt_affine transform = rt_affine_from(&surface->transform), whole = rt_affine_product(&transform, &placement);
+    rt_affine transform = rt_affine_from(&surface->transform),
+              whole = rt_affine_product(&transform, &placement);
     shape.area = rt_area_disc(&whole, shape.p[0]);
     return add_analytic(scene, out, &shape, &placement, "disc", error);
 }
@@ -201,11 +214,12 @@ rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3
 /* ---- Round shapes ---------------------------------------------------------- */
 
 /* A sphere where the map keeps it one, else an ellipsoid. */
-static rt_status add_ball(rt_scene *scene, uint32_t *out, const rt_affine *placement, const rt_surface *surface,
-                          const char *who, rt_error *error)
+static rt_status add_ball(rt_scene *scene, uint32_t *out, const rt_affine *placement,
+                          const rt_surface *surface, const char *who, rt_error *error)
 {
     rt_scene_shape shape = {.kind = RT_SHAPE_ELLIPSOID, .surface = *surface};
-    rt_affine transform = rt_affine_from(&surface->transform), whole = rt_affine_product(&transform, placement);
+    rt_affine transform = rt_affine_from(&surface->transform),
+              whole = rt_affine_product(&transform, placement);
     double radius = rt_affine_similarity(&whole);
 
     shape.area = radius > 0 ? 4 * pi * radius * radius : rt_area_ellipsoid(&whole);
@@ -245,8 +259,8 @@ rt_status rt_scene_add_sphere(rt_scene *scene, uint32_t *out, const float centre
     return add_ball(scene, out, &placement, surface, "sphere", error);
 }
 
-rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const float centre[3], const float radii[3],
-                                 const rt_surface *surface, rt_error *error)
+rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const float centre[3],
+                                 const float radii[3], const rt_surface *surface, rt_error *error)
 {
     rt_status status = rt_check_point(centre, "ellipsoid", "centre", error);
     for (int i = 0; i < 3 && status == RT_OK; i++)
@@ -258,8 +272,9 @@ rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const float cen
 }
 
 /* A cylinder or cone from a to b, whose radius is `top` of the one at a when it comes to b. */
-static rt_status add_round(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const float a[3], const float b[3],
-                           float radius, const char *const names[3], rt_error *error)
+static rt_status add_round(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const float a[3],
+                           const float b[3], float radius, const char *const names[3],
+                           rt_error *error)
 {
     const char *who = names[0];
     double n[3];
@@ -271,39 +286,43 @@ static rt_status add_round(rt_scene *scene, uint32_t *out, rt_scene_shape *shape
     rt_vec_sub(n, b, a);
     double height = rt_vec_length(n);
     if (!(height > 0))
-        return rt_fail_field(error, RT_ERROR_INPUT, names[2], "%s: %s and %s are the same point", who, names[1],
-                             names[2]);
+        return rt_fail_field(error, RT_ERROR_INPUT, names[2], "%s: %s and %s are the same point",
+                             who, names[1], names[2]);
     for (int i = 0; i < 3; i++)
         n[i] /= height;
     rt_affine placement = placement_about(a, n, radius, height);
-    rt_affine transform = rt_affine_from(&shape->surface.transform), whole = rt_affine_product(&transform, &placement);
+    rt_affine transform = rt_affine_from(&shape->surface.transform),
+              whole = rt_affine_product(&transform, &placement);
     shape->area = rt_area_cone(&whole, shape->kind == RT_SHAPE_CONE ? shape->p[0] : 1, shape->caps);
     return add_analytic(scene, out, shape, &placement, who, error);
 }
 
-rt_status rt_scene_add_cylinder(rt_scene *scene, uint32_t *out, const float a[3], const float b[3], float radius,
-                                int caps, const rt_surface *surface, rt_error *error)
+rt_status rt_scene_add_cylinder(rt_scene *scene, uint32_t *out, const float a[3], const float b[3],
+                                float radius, int caps, const rt_surface *surface, rt_error *error)
 {
     static const char *const names[] = {"cylinder", "a", "b"};
     rt_scene_shape shape = {.kind = RT_SHAPE_CYLINDER, .surface = *surface, .caps = caps};
     return add_round(scene, out, &shape, a, b, radius, names, error);
 }
 
-rt_status rt_scene_add_cone(rt_scene *scene, uint32_t *out, const float base[3], const float apex[3], float radius,
-                            float apex_radius, int caps, const rt_surface *surface, rt_error *error)
+rt_status rt_scene_add_cone(rt_scene *scene, uint32_t *out, const float base[3],
+                            const float apex[3], float radius, float apex_radius, int caps,
+                            const rt_surface *surface, rt_error *error)
 {
     static const char *const names[] = {"cone", "base", "apex"};
     rt_scene_shape shape = {.kind = RT_SHAPE_CONE, .surface = *surface, .caps = caps};
     if (!(apex_radius >= 0 && apex_radius <= radius))
-        return rt_fail_field(error, RT_ERROR_INPUT, "apex_radius",
-                             "cone: apex_radius is %g m; it must be at least 0 and at most radius, %g", apex_radius,
-                             radius);
+        return rt_fail_field(
+            error, RT_ERROR_INPUT, "apex_radius",
+            "cone: apex_radius is %g m; it must be at least 0 and at most radius, %g", apex_radius,
+            radius);
     shape.p[0] = radius > 0 ? apex_radius / radius : 0;
     return add_round(scene, out, &shape, base, apex, radius, names, error);
 }
 
-rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float centre[3], const float axis[3],
-                             float major_radius, float minor_radius, const rt_surface *surface, rt_error *error)
+rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float centre[3],
+                             const float axis[3], float major_radius, float minor_radius,
+                             const rt_surface *surface, rt_error *error)
 {
     rt_scene_shape shape = {.kind = RT_SHAPE_TORUS, .surface = *surface};
     double n[3];
@@ -316,11 +335,12 @@ rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float centre[
         return status;
     if (!(minor_radius < major_radius))
         return rt_fail_field(error, RT_ERROR_INPUT, "minor_radius",
-                             "torus: minor_radius is %g m; it must be less than major_radius, %g", minor_radius,
-                             major_radius);
+                             "torus: minor_radius is %g m; it must be less than major_radius, %g",
+                             minor_radius, major_radius);
     shape.p[0] = minor_radius / major_radius;
     rt_affine placement = placement_about(centre, n, major_radius, major_radius);
-    rt_affine transform = rt_affine_from(&surface->transform), whole = rt_affine_product(&transform, &placement);
+    rt_affine transform = rt_affine_from(&surface->transform),
+              whole = rt_affine_product(&transform, &placement);
     shape.area = rt_area_torus(&whole, shape.p[0]);
     return add_analytic(scene, out, &shape, &placement, "torus", error);
 }

@@ -11,8 +11,8 @@
 #include "texture/texture.h"
 
 /*
- * Mean and largest linear value of each channel, and the least of all; the channels are there, for the image was
- * packed.
+ * Mean and largest linear value of each channel, and the least of all; the channels are there, for
+ * the image was packed.
  */
 static void survey(rt_scene_texture *texture, const rt_image *image, int is_linear)
 {
@@ -40,7 +40,8 @@ static void survey(rt_scene_texture *texture, const rt_image *image, int is_line
     }
 }
 
-static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt_texture *from, rt_error *error)
+static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt_texture *from,
+                            rt_error *error)
 {
     rt_image *image = NULL;
     if (!from->path)
@@ -49,7 +50,8 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
     if (status == RT_OK)
         status = rt_image_read(&image, from->path, error);
     if (status == RT_OK)
-        status = rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->path, error);
+        status =
+            rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->path, error);
     if (status == RT_OK)
         survey(texture, image, from->linear);
     else if (error)
@@ -58,26 +60,28 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
     return rt_at_file(status, from->path, error);
 }
 
-rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *who, const char *field, rt_error *error)
+rt_status rt_texture_check(const rt_scene *scene, uint32_t handle, const char *who,
+                           const char *field, rt_error *error)
 {
     if (handle > scene->texture_count)
-        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: there is no texture %u among %zu", who, handle,
-                             scene->texture_count);
+        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: there is no texture %u among %zu",
+                             who, handle, scene->texture_count);
     return RT_OK;
 }
 
-rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const char *who, const char *field,
-                                   rt_error *error)
+rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const char *who,
+                                   const char *field, rt_error *error)
 {
     rt_status status = rt_texture_check(scene, handle, who, field, error);
     if (status != RT_OK || handle == 0)
         return status;
     const rt_scene_texture *texture = scene->textures + handle - 1;
     if (texture->least < 0)
-        return rt_fail_field(
-            error, RT_ERROR_INPUT, field,
-            "%s: %s has the value %g at pixel (%u, %u) from the top left; only heights may be negative", who, field,
-            texture->least, texture->least_at[0], texture->least_at[1]);
+        return rt_fail_field(error, RT_ERROR_INPUT, field,
+                             "%s: %s has the value %g at pixel (%u, %u) from the top left; only "
+                             "heights may be negative",
+                             who, field, texture->least, texture->least_at[0],
+                             texture->least_at[1]);
     return RT_OK;
 }
 
@@ -102,11 +106,11 @@ static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *e
 {
     for (int i = 0; i < 2; i++) {
         if (!(fabsf(from->scale[i]) <= 1e9f))
-            return rt_fail_field(error, RT_ERROR_INPUT, "scale", "texture: scale is %g; it must lie within 1e9",
-                                 from->scale[i]);
+            return rt_fail_field(error, RT_ERROR_INPUT, "scale",
+                                 "texture: scale is %g; it must lie within 1e9", from->scale[i]);
         if (!(fabsf(from->offset[i]) <= 1e9f))
-            return rt_fail_field(error, RT_ERROR_INPUT, "offset", "texture: offset is %g; it must lie within 1e9",
-                                 from->offset[i]);
+            return rt_fail_field(error, RT_ERROR_INPUT, "offset",
+                                 "texture: offset is %g; it must lie within 1e9", from->offset[i]);
         out->scale[i] = from->scale[i] == 0 ? 1 : from->scale[i];
         out->offset[i] = from->offset[i];
     }
@@ -114,16 +118,19 @@ static rt_status place(rt_texture_data *out, const rt_texture *from, rt_error *e
     return RT_OK;
 }
 
-rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture, rt_error *error)
+rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture,
+                               rt_error *error)
 {
     rt_scene_texture made;
     memset(&made, 0, sizeof made);
     if ((unsigned)texture->kind > RT_TEXTURE_GRADIENT)
-        return rt_fail_field(error, RT_ERROR_INPUT, "kind", "texture: there is no kind %d", (int)texture->kind);
+        return rt_fail_field(error, RT_ERROR_INPUT, "kind", "texture: there is no kind %d",
+                             (int)texture->kind);
     if ((unsigned)texture->wrap > RT_WRAP_CLAMP)
-        return rt_fail_field(error, RT_ERROR_INPUT, "wrap", "texture: there is no wrap mode %d", (int)texture->wrap);
-    rt_status status =
-        rt_grow((void **)&scene->textures, &scene->texture_room, scene->texture_count, sizeof made, error);
+        return rt_fail_field(error, RT_ERROR_INPUT, "wrap", "texture: there is no wrap mode %d",
+                             (int)texture->wrap);
+    rt_status status = rt_grow((void **)&scene->textures, &scene->texture_room,
+                               scene->texture_count, sizeof made, error);
     if (status == RT_OK)
         status = texture->kind == RT_TEXTURE_IMAGE ? read_image(scene, &made, texture, error)
                                                    : make_pattern(&made, texture, error);

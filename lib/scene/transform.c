@@ -8,7 +8,10 @@
 /* Entries of an inverse that kernels can still work with. */
 static const double inverse_max = 1e30;
 
-/* Columns that differ in length, or from a right angle, by less than this count as equal: a few roundings. */
+/*
+ * Columns that differ in length, or from a right angle, by less than this count as equal: a few
+ * roundings.
+ */
 static const double same = 4e-7;
 
 rt_affine rt_affine_from(const rt_transform *transform)
@@ -37,7 +40,8 @@ rt_affine rt_affine_product(const rt_affine *a, const rt_affine *b)
     return c;
 }
 
-rt_affine rt_affine_frame(const double x[3], const double y[3], const double z[3], const double origin[3])
+rt_affine rt_affine_frame(const double x[3], const double y[3], const double z[3],
+                          const double origin[3])
 {
     rt_affine a;
     for (int i = 0; i < 3; i++) {

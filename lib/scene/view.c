@@ -60,7 +60,10 @@ void rt_view_aim(rt_camera_data *out, const rt_camera *camera, uint32_t width, u
 
 /* ---- What they may meet ---------------------------------------------------- */
 
-/* Whether a plane of the view has the whole box on its outer side: n . (p - eye) + c < 0 for all of its points p. */
+/*
+ * Whether a plane of the view has the whole box on its outer side: n . (p - eye) + c < 0 for all of
+ * its points p.
+ */
 static int is_outside(const rt_scene_shape *box, const float eye[3], const double n[3], double c)
 {
     for (int i = 0; i < 3; i++)
@@ -68,28 +71,36 @@ static int is_outside(const rt_scene_shape *box, const float eye[3], const doubl
     return c < 0;
 }
 
-/* Whether the box lies beyond the picture's edge on the side of this unit vector, to which it is `half` wide. */
-static int is_beside(const rt_scene_shape *box, const rt_camera_data *c, const float side[3], double sign, double half)
+/*
+ * Whether the box lies beyond the picture's edge on the side of this unit vector, to which it is
+ * `half` wide.
+ */
+static int is_beside(const rt_scene_shape *box, const rt_camera_data *c, const float side[3],
+                     double sign, double half)
 {
     double n[3];
     int is_perspective = c->kind == RT_CAMERA_KIND_PERSPECTIVE;
     for (int i = 0; i < 3; i++)
-        n[i] = is_perspective ? half * c->axis[i] - sign * c->focal_distance * side[i] : -sign * side[i];
+        n[i] = is_perspective ? half * c->axis[i] - sign * c->focal_distance * side[i]
+                              : -sign * side[i];
     return is_outside(box, c->eye, n, is_perspective ? 0 : half);
 }
 
 static int may_see_box(const rt_camera_data *c, const rt_scene_shape *box)
 {
     const double axis[3] = {c->axis[0], c->axis[1], c->axis[2]};
-    const double across[3] = {c->across[0], c->across[1], c->across[2]}, down[3] = {c->down[0], c->down[1], c->down[2]};
+    const double across[3] = {c->across[0], c->across[1], c->across[2]},
+                 down[3] = {c->down[0], c->down[1], c->down[2]};
     double half_width = 0.5 * rt_vec_length(across), half_height = 0.5 * rt_vec_length(down);
     if (is_outside(box, c->eye, axis, 0))
         return 0;
     /* Rays through a lens leave the pyramid of those through its middle. */
     if (c->aperture > 0)
         return 1;
-    return !is_beside(box, c, c->lens_u, 1, half_width) && !is_beside(box, c, c->lens_u, -1, half_width) &&
-           !is_beside(box, c, c->lens_v, 1, half_height) && !is_beside(box, c, c->lens_v, -1, half_height);
+    return !is_beside(box, c, c->lens_u, 1, half_width) &&
+           !is_beside(box, c, c->lens_u, -1, half_width) &&
+           !is_beside(box, c, c->lens_v, 1, half_height) &&
+           !is_beside(box, c, c->lens_v, -1, half_height);
 }
 
 /* Whether a ray of the picture meets an infinite plane; if any does, so does one at a corner. */
@@ -100,9 +111,11 @@ static int may_see_plane(const rt_camera_data *c, const rt_scene_shape *plane)
     for (int corner = 0; corner < 4; corner++) {
         double distance = 0, slope = 0;
         for (int i = 0; i < 3; i++) {
-            double at = c->corner[i] + (corner & 1) * (double)c->across[i] + (corner >> 1) * (double)c->down[i];
+            double at = c->corner[i] + (corner & 1) * (double)c->across[i] +
+                        (corner >> 1) * (double)c->down[i];
             int is_perspective = c->kind == RT_CAMERA_KIND_PERSPECTIVE;
-            distance += plane->p[4 + i] * ((double)plane->p[i] - c->eye[i] - (is_perspective ? 0 : at));
+            distance +=
+                plane->p[4 + i] * ((double)plane->p[i] - c->eye[i] - (is_perspective ? 0 : at));
             slope += plane->p[4 + i] * (is_perspective ? at : c->axis[i]);
         }
         if (distance == 0 || distance * slope > 0)
@@ -115,5 +128,6 @@ int rt_view_may_see(const rt_camera_data *camera, const rt_scene_shape *shape)
 {
     if (camera->kind == RT_CAMERA_KIND_ENVIRONMENT)
         return 1;
-    return shape->kind == RT_SHAPE_PLANE ? may_see_plane(camera, shape) : may_see_box(camera, shape);
+    return shape->kind == RT_SHAPE_PLANE ? may_see_plane(camera, shape)
+                                         : may_see_box(camera, shape);
 }

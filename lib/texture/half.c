@@ -14,11 +14,16 @@ uint16_t rt_half_from_float(float value)
     memcpy(&bits, &value, sizeof bits);
     uint32_t sign = bits >> 16 & 0x8000u, magnitude = bits & 0x7fffffffu;
 
-    /* A subnormal half counts steps of 2^-24. Rounding up to 1024 steps gives the least normal one. */
+    /*
+     * A subnormal half counts steps of 2^-24. Rounding up to 1024 steps gives the least normal one.
+     */
     if (magnitude < NORMAL_MIN)
         return (uint16_t)(sign | (uint32_t)lrintf(fabsf(value) * 0x1p24f));
 
-    /* Else 13 bits of the mantissa go, rounded to even; a carry runs into the exponent, where it belongs. */
+    /*
+     * Else 13 bits of the mantissa go, rounded to even; a carry runs into the exponent, where it
+     * belongs.
+     */
     magnitude -= BIAS_GAP;
     return (uint16_t)(sign | (magnitude + 0xfffu + (magnitude >> 13 & 1u)) >> 13);
 }

@@ -6,7 +6,9 @@
 
 #define RT_HALF_MAX 65504.0f
 
-/* The bits of the half nearest to value, of two equally near the even one; |value| <= RT_HALF_MAX. */
+/*
+ * The bits of the half nearest to value, of two equally near the even one; |value| <= RT_HALF_MAX.
+ */
 uint16_t rt_half_from_float(float value);
 
 #endif

@@ -13,9 +13,9 @@ typedef struct packing {
     const rt_image *image;
     const char *name;
     uint32_t channels[3];
-    int is_srgb;  /* values are still to be decoded */
-    int is_code8; /* every value is a multiple of 1/255 */
-    int is_grey;  /* the channels are equal everywhere */
+    int is_srgb;   /* values are still to be decoded */
+    int is_code8;  /* every value is a multiple of 1/255 */
+    int is_grey;   /* the channels are equal everywhere */
     float largest; /* greatest magnitude of a value, decoded or not: both have the same bounds */
     rt_texture_data texture;
 } packing;
@@ -27,7 +27,8 @@ static rt_status find_channels(packing *p, rt_error *error)
         return RT_OK;
     if (grey == RT_IMAGE_NO_CHANNEL)
         return rt_fail(error, RT_ERROR_INPUT,
-                       "cannot use %.350s as a texture: it has neither the channels R, G and B nor Y nor only one",
+                       "cannot use %.350s as a texture: it has neither the channels R, G and B nor "
+                       "Y nor only one",
                        p->name);
     for (int c = 0; c < 3; c++)
         p->channels[c] = grey;
@@ -47,12 +48,14 @@ static rt_status survey(packing *p, rt_error *error)
     p->is_code8 = p->is_grey = 1;
     for (uint32_t y = 0; y < image->height; y++)
         for (uint32_t x = 0; x < image->width; x++, pixel += image->channel_count) {
-            const float rgb[3] = {pixel[p->channels[0]], pixel[p->channels[1]], pixel[p->channels[2]]};
+            const float rgb[3] = {pixel[p->channels[0]], pixel[p->channels[1]],
+                                  pixel[p->channels[2]]};
             for (int c = 0; c < 3; c++) {
                 if (!isfinite(rgb[c]))
-                    return rt_fail(error, RT_ERROR_INPUT,
-                                   "cannot use %.300s as a texture: pixel (%u, %u) from the top left is %f", p->name, x,
-                                   y, (double)rgb[c]);
+                    return rt_fail(
+                        error, RT_ERROR_INPUT,
+                        "cannot use %.300s as a texture: pixel (%u, %u) from the top left is %f",
+                        p->name, x, y, (double)rgb[c]);
                 p->is_code8 = p->is_code8 && is_code(rgb[c]);
                 p->largest = fabsf(rgb[c]) > p->largest ? fabsf(rgb[c]) : p->largest;
             }
@@ -77,20 +80,25 @@ static uint64_t choose_format(packing *p)
         return codes * sizeof(float) + 4 * count;
     if (t->format == RT_TEXELS_GREY)
         return sizeof(float) * count;
-    /* Bring the brightest value close under the greatest half: what is dark then keeps most bits. */
+    /*
+     * Bring the brightest value close under the greatest half: what is dark then keeps most bits.
+     */
     int exponent = p->is_srgb ? 0 : ilogbf(p->largest);
     t->unit = ldexpf(1.0f, exponent < -112 ? -126 : exponent - half_top_exponent);
     return 4 * sizeof(uint16_t) * count;
 }
 
-/* Lengthens the table to a whole number of rows with room for size bytes, all zero; *row is the first. */
+/*
+ * Lengthens the table to a whole number of rows with room for size bytes, all zero; *row is the
+ * first.
+ */
 static rt_status reserve(rt_bytes *texels, uint64_t size, rt_u32 *row, rt_error *error)
 {
     uint64_t first = ((uint64_t)texels->size + RT_SCENE_ROW - 1) / RT_SCENE_ROW;
     uint64_t count = (size + RT_SCENE_ROW - 1) / RT_SCENE_ROW;
     if (first + count > UINT32_MAX)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: textures of more than 2^32 rows of %u bytes",
-                       RT_SCENE_ROW);
+        return rt_fail(error, RT_ERROR_MEMORY,
+                       "out of memory: textures of more than 2^32 rows of %u bytes", RT_SCENE_ROW);
     *row = (rt_u32)first;
     return rt_bytes_put(texels, (first + count) * RT_SCENE_ROW - 1, "", 1, error);
 }
@@ -113,7 +121,8 @@ static void write_texel(const packing *p, void *image, size_t place, const float
     } else {
         uint16_t *texel = (uint16_t *)image + 4 * place;
         for (int c = 0; c < 3; c++)
-            texel[c] = rt_half_from_float((p->is_srgb ? (float)rt_srgb_decode(rgb[c]) : rgb[c]) / p->texture.unit);
+            texel[c] = rt_half_from_float((p->is_srgb ? (float)rt_srgb_decode(rgb[c]) : rgb[c]) /
+                                          p->texture.unit);
     }
 }
 
@@ -126,13 +135,14 @@ static void write_texels(const packing *p, void *image)
         write_code_table(p, image);
     for (size_t row = p->image->height; row-- > 0;)
         for (size_t x = 0; x < width; x++, pixel += p->image->channel_count) {
-            const float rgb[3] = {pixel[p->channels[0]], pixel[p->channels[1]], pixel[p->channels[2]]};
+            const float rgb[3] = {pixel[p->channels[0]], pixel[p->channels[1]],
+                                  pixel[p->channels[2]]};
             write_texel(p, image, row * width + x, rgb);
         }
 }
 
-rt_status rt_texture_pack(rt_texture_data *out, rt_bytes *texels, const rt_image *image, int is_linear,
-                          const char *name, rt_error *error)
+rt_status rt_texture_pack(rt_texture_data *out, rt_bytes *texels, const rt_image *image,
+                          int is_linear, const char *name, rt_error *error)
 {
     packing p;
     memset(&p, 0, sizeof p);

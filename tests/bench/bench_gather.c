@@ -1,12 +1,12 @@
 /*
- * bench_gather.c - nearest photons: the library's search on the host, and the gather on the device, which both
- * sort the queries along a curve and leave out the photons that face elsewhere, against plain FLANN, in one run and in
- * turn. The gather on the device takes the density sum as well.
+ * bench_gather.c - nearest photons: the library's search on the host, and the gather on the device,
+ * which both sort the queries along a curve and leave out the photons that face elsewhere, against
+ * plain FLANN, in one run and in turn. The gather on the device takes the density sum as well.
  *
  *     bench_gather [PHOTONS [QUERIES [K]]]    1 000 000, 100 000 and 50 by default
  *
- * Photons lie at random on the walls of a box, queries at random on its floor. Prints queries a second,
- * the median of five runs, on all cores, and the ratio to FLANN.
+ * Photons lie at random on the walls of a box, queries at random on its floor. Prints queries a
+ * second, the median of five runs, on all cores, and the ratio to FLANN.
  */
 #include <flann/flann.h>
 #include <math.h>
@@ -122,17 +122,20 @@ typedef struct device_side {
 
 static void open_device(device_side *d, const problem *p)
 {
-    rt_density_params estimate = {RT_DENSITY_EPANECHNIKOV, 1.1f, 0, p->k, HUGE_VALF, 0, 0, 1, RT_AREA_DISC, 0, {0}};
+    rt_density_params estimate = {
+        RT_DENSITY_EPANECHNIKOV, 1.1f, 0, p->k, HUGE_VALF, 0, 0, 1, RT_AREA_DISC, 0, {0}};
     rt_error error;
     must(rt_device_open(&d->device, NULL, &error), &error);
-    must(rt_device_kernel(d->device, &d->kernel, "photon_walk", "photon_walk", NULL, &error), &error);
-    must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE, p->queries * sizeof *p->points, NULL, "points",
-                          &error),
+    must(rt_device_kernel(d->device, &d->kernel, "photon_walk", "photon_walk", NULL, &error),
+         &error);
+    must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE, p->queries * sizeof *p->points,
+                          NULL, "points", &error),
          &error);
     d->in_order = allocate(p->queries, sizeof *d->in_order);
     d->order = allocate(2 * p->queries, sizeof *d->order);
     double began = rt_clock();
-    must(rt_device_gather_prepare(&d->gather, d->device, &p->map, &estimate, p->queries, &error), &error);
+    must(rt_device_gather_prepare(&d->gather, d->device, &p->map, &estimate, p->queries, &error),
+         &error);
     printf("the device's tree takes %.3f s to build\n", rt_clock() - began);
 }
 
@@ -150,20 +153,27 @@ static void close_device(device_side *d)
 static void gather_on_device(device_side *d, const problem *p)
 {
     rt_error error;
-    must(rt_point_order(d->order, d->order + p->queries, p->points->position, sizeof *p->points, p->queries, p->threads,
-                        &error),
+    must(rt_point_order(d->order, d->order + p->queries, p->points->position, sizeof *p->points,
+                        p->queries, p->threads, &error),
          &error);
     for (size_t i = 0; i < p->queries; i++)
         d->in_order[i] = p->points[d->order[i] & RT_POINT_ORDER_INDEX];
-    must(rt_buffer_write(d->device, d->points, 0, p->queries * sizeof *d->in_order, d->in_order, &error), &error);
-    must(rt_device_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error), &error);
-    must(rt_buffer_read(d->device, d->gather.discs, 0, p->queries * sizeof *p->discs, p->discs, &error), &error);
+    must(rt_buffer_write(d->device, d->points, 0, p->queries * sizeof *d->in_order, d->in_order,
+                         &error),
+         &error);
+    must(
+        rt_device_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error),
+        &error);
+    must(rt_buffer_read(d->device, d->gather.discs, 0, p->queries * sizeof *p->discs, p->discs,
+                        &error),
+         &error);
 }
 
 static void report(const char *name, const problem *p, double times[runs], double flann)
 {
     double seconds = median(times);
-    printf("%-6s %8.0f k queries/s %6.2f x FLANN\n", name, (double)p->queries / seconds / 1e3, flann / seconds);
+    printf("%-6s %8.0f k queries/s %6.2f x FLANN\n", name, (double)p->queries / seconds / 1e3,
+           flann / seconds);
 }
 
 static void compete(problem *p)
@@ -181,7 +191,8 @@ static void compete(problem *p)
     parameters.sorted = 1;
     parameters.cores = (int)p->threads;
     parameters.leaf_max_size = 10;
-    flann_index_t tree = flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
+    flann_index_t tree =
+        flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
     must(rt_photon_search_create(&search, &p->map, p->k, HUGE_VALF, p->threads, &error), &error);
 
     open_device(&d, p);
@@ -189,10 +200,12 @@ static void compete(problem *p)
 
     for (int run = 0; run < runs; run++) {
         double t0 = rt_clock();
-        flann_find_nearest_neighbors_index_float(tree, p->places, (int)p->queries, p->indices, p->squared, (int)p->k,
-                                                 &parameters);
+        flann_find_nearest_neighbors_index_float(tree, p->places, (int)p->queries, p->indices,
+                                                 p->squared, (int)p->k, &parameters);
         double t1 = rt_clock();
-        must(rt_photon_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs, &error), &error);
+        must(rt_photon_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs,
+                                   &error),
+             &error);
         plain[run] = t1 - t0;
         double t2 = rt_clock();
         gather_on_device(&d, p);
@@ -222,8 +235,8 @@ int main(int argc, char **argv)
         return 2;
     }
     pose(&p);
-    printf("gather: k = %u of %zu photons, %zu queries, %u threads\n", (unsigned)p.k, p.photons, p.queries,
-           (unsigned)p.threads);
+    printf("gather: k = %u of %zu photons, %zu queries, %u threads\n", (unsigned)p.k, p.photons,
+           p.queries, (unsigned)p.threads);
     compete(&p);
     discard(&p);
     return 0;

@@ -3,9 +3,9 @@
  *
  *     bench_progressive [SCENE [PASSES [RADIUS [DIRECT]]]]
  *
- * 512 x 512 pixels, one eye path a pixel and as many light paths a pass, paths of at most 10 segments. The default
- * radius is 0.003 of that of a sphere around the box, as SmallVCM's `ppm` begins. Prints the median of five runs;
- * kernels are compiled before.
+ * 512 x 512 pixels, one eye path a pixel and as many light paths a pass, paths of at most 10
+ * segments. The default radius is 0.003 of that of a sphere around the box, as SmallVCM's `ppm`
+ * begins. Prints the median of five runs; kernels are compiled before.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,7 +57,8 @@ int main(int argc, char **argv)
     options.max_depth = 10;
     options.passes = 2;
     options.radius = argc > 3 ? strtof(argv[3], NULL) : 0.0054f;
-    options.direct = argc > 4 && strcmp(argv[4], "photons") == 0 ? RT_DIRECT_PHOTONS : RT_DIRECT_NEE;
+    options.direct =
+        argc > 4 && strcmp(argv[4], "photons") == 0 ? RT_DIRECT_PHOTONS : RT_DIRECT_NEE;
     must(rt_scene_load(&scene, path, NULL, &error), &error);
     must(rt_device_open(&device, NULL, &error), &error);
     must(rt_renderer_create(&renderer, scene, device, NULL, &error), &error);

@@ -1,11 +1,13 @@
 /*
- * bench_trace.c - the hierarchy's build and closest hits, ours against Embree's, in one run and in turn.
+ * bench_trace.c - the hierarchy's build and closest hits, ours against Embree's, in one run and in
+ * turn.
  *
  *     bench_trace [CELLS]    cells around the equator, 1224 by default: 1.5 M triangles
  *
- * The mesh is a bumpy ball, made by formula, in a box. Rays: one million from a camera, in tiles of 8 x 8, and from
- * where those end one million diffuse bounces. Prints the median of five runs on all cores, and how our time compares;
- * our rays are timed on the device, without their way there and back.
+ * The mesh is a bumpy ball, made by formula, in a box. Rays: one million from a camera, in tiles of
+ * 8 x 8, and from where those end one million diffuse bounces. Prints the median of five runs on
+ * all cores, and how our time compares; our rays are timed on the device, without their way there
+ * and back.
  */
 #include <math.h>
 #include <stdio.h>
@@ -78,11 +80,14 @@ static void set_vertex(float *p, double radius, double u, double v)
     p[2] = (float)(radius * sin(v) * sin(u));
 }
 
-/* The ball has radius 1 and bumps of three sizes; the box, half as wide as 3, stops every bounce. */
+/*
+ * The ball has radius 1 and bumps of three sizes; the box, half as wide as 3, stops every bounce.
+ */
 static mesh make_mesh(uint32_t around)
 {
-    static const uint32_t faces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
-                                          {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+    static const uint32_t faces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5},
+                                          {0, 4, 5}, {0, 5, 1}, {2, 3, 7}, {2, 7, 6},
+                                          {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
     const double pi = acos(-1.0);
     const uint32_t rows = around / 2, ball = around * (rows + 1);
     mesh m = {NULL, NULL, ball + 8, 2 * around * rows + 12};
@@ -92,7 +97,8 @@ static mesh make_mesh(uint32_t around)
     for (uint32_t j = 0; j <= rows; j++)
         for (uint32_t i = 0; i < around; i++) {
             const double u = 2 * pi * i / around, v = pi * j / rows;
-            const double bumps = 0.05 * sin(9 * u) * sin(7 * v) + 0.01 * sin(61 * u + 3 * v) * sin(53 * v) +
+            const double bumps = 0.05 * sin(9 * u) * sin(7 * v) +
+                                 0.01 * sin(61 * u + 3 * v) * sin(53 * v) +
                                  0.002 * sin(401 * u) * sin(307 * v);
             set_vertex(m.positions + 3 * (size_t)(j * around + i), 1 + bumps, u, v);
         }
@@ -119,11 +125,11 @@ static void aim_camera(rt_ray *rays)
         const uint32_t tile = i / 64, in_tile = i % 64, tiles = film_side / 8;
         const float x = (float)(tile % tiles * 8 + in_tile % 8) + 0.5f,
                     y = (float)(tile / tiles * 8 + in_tile / 8) + 0.5f;
-        const rt_ray ray = {
-            {0.3f, 0.4f, 2.9f},
-            0.0f,
-            {(x / (film_side / 2) - 1.0f) * 0.45f - 0.1f, (1.0f - y / (film_side / 2)) * 0.45f - 0.13f, -1.0f},
-            INFINITY};
+        const rt_ray ray = {{0.3f, 0.4f, 2.9f},
+                            0.0f,
+                            {(x / (film_side / 2) - 1.0f) * 0.45f - 0.1f,
+                             (1.0f - y / (film_side / 2)) * 0.45f - 0.13f, -1.0f},
+                            INFINITY};
         rays[i] = ray;
     }
 }
@@ -136,7 +142,10 @@ static float uniform(uint64_t *state)
     return (float)(*state >> 40) * 0x1p-24f;
 }
 
-/* Turns each ray into one that leaves its hit with the cosine's density: the normal plus a point of the unit sphere. */
+/*
+ * Turns each ray into one that leaves its hit with the cosine's density: the normal plus a point of
+ * the unit sphere.
+ */
 static void bounce(rt_ray *rays, const rt_hit *hits)
 {
     uint64_t state = 88172645463325252u;
@@ -144,7 +153,8 @@ static void bounce(rt_ray *rays, const rt_hit *hits)
         rt_ray *ray = &rays[i];
         const float *n = hits[i].normal, *d = ray->direction;
         const float side = n[0] * d[0] + n[1] * d[1] + n[2] * d[2] > 0.0f ? -1.0f : 1.0f;
-        const float y = 2.0f * uniform(&state) - 1.0f, turn = 6.2831853f * uniform(&state), r = sqrtf(1.0f - y * y);
+        const float y = 2.0f * uniform(&state) - 1.0f, turn = 6.2831853f * uniform(&state),
+                    r = sqrtf(1.0f - y * y);
         const float point[3] = {r * cosf(turn), y, r * sinf(turn)};
         for (int a = 0; a < 3; a++) {
             ray->origin[a] += hits[i].t * d[a] + 1e-3f * side * n[a];
@@ -178,7 +188,8 @@ static double our_build(const contest *c)
 static double our_trace(const contest *c)
 {
     const cl_uint count = ray_count;
-    const rt_arg args[] = {RT_ARG(c->renderer->scene), RT_ARG(c->rays_there), RT_ARG(count), RT_ARG(c->hits_there)};
+    const rt_arg args[] = {RT_ARG(c->renderer->scene), RT_ARG(c->rays_there), RT_ARG(count),
+                           RT_ARG(c->hits_there)};
     rt_error error;
     must(rt_kernel_args(c->kernel, args, 4, &error), &error);
     const double begin = rt_clock();
@@ -211,7 +222,8 @@ static void compete_in_tracing(contest *c, const char *name)
 {
     double ours[runs], theirs[runs];
     rt_error error;
-    must(rt_buffer_write(c->device, c->rays_there, 0, ray_count * sizeof *c->rays, c->rays, &error), &error);
+    must(rt_buffer_write(c->device, c->rays_there, 0, ray_count * sizeof *c->rays, c->rays, &error),
+         &error);
     our_trace(c); /* compiles */
     for (int run = 0; run < runs; run++) {
         ours[run] = our_trace(c);
@@ -221,7 +233,8 @@ static void compete_in_tracing(contest *c, const char *name)
         embree_peer_trace(c->peer, c->rays, ray_count, c->hits);
         theirs[run] = rt_clock() - begin;
     }
-    must(rt_buffer_read(c->device, c->hits_there, 0, ray_count * sizeof *c->hits, c->hits, &error), &error);
+    must(rt_buffer_read(c->device, c->hits_there, 0, ray_count * sizeof *c->hits, c->hits, &error),
+         &error);
     const double us = median(ours);
     printf("%-9s librt %6.2f Mrays/s", name, ray_count / us * 1e-6);
     if (c->peer) {
@@ -243,19 +256,23 @@ static void open_contest(contest *c, uint32_t around)
     c->mesh = make_mesh(around);
     c->rays = allocate(ray_count * sizeof *c->rays);
     c->hits = allocate(ray_count * sizeof *c->hits);
-    c->peer = embree_peer_create(c->mesh.positions, c->mesh.vertices, c->mesh.indices, c->mesh.triangles, c->threads);
+    c->peer = embree_peer_create(c->mesh.positions, c->mesh.vertices, c->mesh.indices,
+                                 c->mesh.triangles, c->threads);
     must(rt_device_open(&c->device, NULL, &error), &error);
     must(rt_scene_create(&scene, &error), &error);
     must(rt_scene_add_material(scene, &index, NULL, &white, &error), &error);
-    must(rt_scene_add_triangles(scene, NULL, c->mesh.positions, c->mesh.vertices, c->mesh.indices, c->mesh.triangles,
-                                NULL, &plain, &error), &error);
+    must(rt_scene_add_triangles(scene, NULL, c->mesh.positions, c->mesh.vertices, c->mesh.indices,
+                                c->mesh.triangles, NULL, &plain, &error),
+         &error);
     must(rt_renderer_create(&c->renderer, scene, c->device, NULL, &error), &error);
     rt_scene_destroy(scene);
     must(rt_device_kernel(c->device, &c->kernel, "trace", "trace_closest", NULL, &error), &error);
-    must(rt_buffer_create(c->device, &c->rays_there, CL_MEM_READ_ONLY, ray_count * sizeof *c->rays, NULL, "rays",
-                          &error), &error);
-    must(rt_buffer_create(c->device, &c->hits_there, CL_MEM_WRITE_ONLY, ray_count * sizeof *c->hits, NULL, "hits",
-                          &error), &error);
+    must(rt_buffer_create(c->device, &c->rays_there, CL_MEM_READ_ONLY, ray_count * sizeof *c->rays,
+                          NULL, "rays", &error),
+         &error);
+    must(rt_buffer_create(c->device, &c->hits_there, CL_MEM_WRITE_ONLY, ray_count * sizeof *c->hits,
+                          NULL, "hits", &error),
+         &error);
 }
 
 static void close_contest(contest *c)
@@ -282,8 +299,9 @@ int main(int argc, char **argv)
     contest c;
     memset(&c, 0, sizeof c);
     open_contest(&c, (uint32_t)around);
-    printf("trace: %u triangles, %d rays, %u threads%s\n", (unsigned)c.mesh.triangles, (int)ray_count,
-           (unsigned)c.threads, c.peer ? "" : "; built without Embree (libembree-dev), so no peer");
+    printf("trace: %u triangles, %d rays, %u threads%s\n", (unsigned)c.mesh.triangles,
+           (int)ray_count, (unsigned)c.threads,
+           c.peer ? "" : "; built without Embree (libembree-dev), so no peer");
     compete_in_building(&c);
     aim_camera(c.rays);
     compete_in_tracing(&c, "camera");

@@ -41,10 +41,10 @@ embree_peer *embree_peer_create(const float *positions, uint32_t vertices, const
     }
     peer->threads = threads;
     peer->geometry = rtcNewGeometry(peer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(peer->geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions, 0,
-                               3 * sizeof *positions, vertices);
-    rtcSetSharedGeometryBuffer(peer->geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices, 0,
-                               3 * sizeof *indices, triangles);
+    rtcSetSharedGeometryBuffer(peer->geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               positions, 0, 3 * sizeof *positions, vertices);
+    rtcSetSharedGeometryBuffer(peer->geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices,
+                               0, 3 * sizeof *indices, triangles);
     rtcCommitGeometry(peer->geometry);
     return peer;
 }
@@ -70,7 +70,8 @@ void embree_peer_build(embree_peer *peer)
     rtcCommitScene(peer->scene);
 }
 
-static void trace_one(RTCScene scene, struct RTCIntersectContext *context, const rt_ray *ray, rt_hit *hit)
+static void trace_one(RTCScene scene, struct RTCIntersectContext *context, const rt_ray *ray,
+                      rt_hit *hit)
 {
     struct RTCRayHit work;
     memset(&work, 0, sizeof work);
@@ -89,8 +90,12 @@ static void trace_one(RTCScene scene, struct RTCIntersectContext *context, const
     const int met = work.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     const float x = work.hit.Ng_x, y = work.hit.Ng_y, z = work.hit.Ng_z;
     const float scale = met ? 1.0f / sqrtf(x * x + y * y + z * z) : 0.0f;
-    *hit = (rt_hit){met ? work.ray.tfar : INFINITY, work.hit.u, work.hit.v, met ? work.hit.primID : RT_NONE,
-                    {x * scale, y * scale, z * scale}, met ? 0 : RT_NONE};
+    *hit = (rt_hit){met ? work.ray.tfar : INFINITY,
+                    work.hit.u,
+                    work.hit.v,
+                    met ? work.hit.primID : RT_NONE,
+                    {x * scale, y * scale, z * scale},
+                    met ? 0 : RT_NONE};
 }
 
 static void trace_chunk(void *user, uint32_t index)

@@ -120,7 +120,8 @@ char *manifest_path(const manifest *m, size_t row)
     return join(m->folder, manifest_field(m, row, "file"));
 }
 
-int manifest_attempt(int (*attempt)(const char *path, void *user), const char *path, void *user, unsigned seconds)
+int manifest_attempt(int (*attempt)(const char *path, void *user), const char *path, void *user,
+                     unsigned seconds)
 {
     int status = 0;
     fflush(NULL);

@@ -1,6 +1,6 @@
 /*
- * manifest.h - a corpus of files that others wrote: a folder with MANIFEST.tsv, whose first line names its
- * columns and each further line says of one file what a reader must do with it.
+ * manifest.h - a corpus of files that others wrote: a folder with MANIFEST.tsv, whose first line
+ * names its columns and each further line says of one file what a reader must do with it.
  *
  * The environment variable RT_CORPUS names the directory that holds the folders.
  */
@@ -20,7 +20,9 @@ typedef struct manifest {
     size_t row_count;
 } manifest;
 
-/* Reads $RT_CORPUS/FOLDER/MANIFEST.tsv; fails the running test when it is missing or lists nothing. */
+/*
+ * Reads $RT_CORPUS/FOLDER/MANIFEST.tsv; fails the running test when it is missing or lists nothing.
+ */
 manifest *manifest_open(const char *folder);
 void manifest_close(manifest *m);
 
@@ -31,9 +33,10 @@ const char *manifest_field(const manifest *m, size_t row, const char *column);
 char *manifest_path(const manifest *m, size_t row);
 
 /*
- * Runs attempt(path, user) in a process of its own, which may crash, for at most `seconds`. Returns what it
- * returned, 0 to 99, or -1 after telling on stderr how the process ended otherwise.
+ * Runs attempt(path, user) in a process of its own, which may crash, for at most `seconds`. Returns
+ * what it returned, 0 to 99, or -1 after telling on stderr how the process ended otherwise.
  */
-int manifest_attempt(int (*attempt)(const char *path, void *user), const char *path, void *user, unsigned seconds);
+int manifest_attempt(int (*attempt)(const char *path, void *user), const char *path, void *user,
+                     unsigned seconds);
 
 #endif

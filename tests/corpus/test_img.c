@@ -1,10 +1,10 @@
 /*
- * Images that others wrote: each is read and made a texture, or refused, as the corpus's manifest asks;
- * none crashes the reader, keeps it for more than two seconds or brings a value into a texture that is not
- * a number.
+ * Images that others wrote: each is read and made a texture, or refused, as the corpus's manifest
+ * asks; none crashes the reader, keeps it for more than two seconds or brings a value into a
+ * texture that is not a number.
  *
- * RT_CORPUS names the directory that holds img/MANIFEST.tsv. Without it the program fails: it is run by a
- * target of its own.
+ * RT_CORPUS names the directory that holds img/MANIFEST.tsv. Without it the program fails: it is
+ * run by a target of its own.
  */
 #include <setjmp.h>
 #include <stdarg.h>

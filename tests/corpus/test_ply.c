@@ -1,9 +1,10 @@
 /*
- * Meshes that others wrote: each is read with the counts that the corpus's manifest gives, or refused; none
- * crashes the reader, keeps it for more than two seconds or brings in an index or a number out of range.
+ * Meshes that others wrote: each is read with the counts that the corpus's manifest gives, or
+ * refused; none crashes the reader, keeps it for more than two seconds or brings in an index or a
+ * number out of range.
  *
- * RT_CORPUS names the directory that holds ply/MANIFEST.tsv. Without it the program fails: it is run by a
- * target of its own.
+ * RT_CORPUS names the directory that holds ply/MANIFEST.tsv. Without it the program fails: it is
+ * run by a target of its own.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -48,8 +49,9 @@ static int is_sound(const rt_mesh *mesh)
 
 static int has_counts(const rt_mesh *mesh, const counts *expected)
 {
-    return !expected->vertices[0] || (mesh->file_vertices == strtoull(expected->vertices, NULL, 10) &&
-                                      mesh->triangle_count == strtoull(expected->triangles, NULL, 10));
+    return !expected->vertices[0] ||
+           (mesh->file_vertices == strtoull(expected->vertices, NULL, 10) &&
+            mesh->triangle_count == strtoull(expected->triangles, NULL, 10));
 }
 
 static int try_mesh(const char *path, void *user)
@@ -58,8 +60,12 @@ static int try_mesh(const char *path, void *user)
     rt_error error = {0};
     rt_status status = rt_mesh_load(&mesh, path, NULL, &error);
     if (status != RT_OK)
-        return status == RT_ERROR_INPUT && error.message[0] && strcmp(error.file, path) == 0 ? is_refused : is_unsound;
-    int result = !is_sound(mesh) ? is_unsound : has_counts(mesh, user) ? is_accepted : is_miscounted;
+        return status == RT_ERROR_INPUT && error.message[0] && strcmp(error.file, path) == 0
+                   ? is_refused
+                   : is_unsound;
+    int result = !is_sound(mesh)          ? is_unsound
+                 : has_counts(mesh, user) ? is_accepted
+                                          : is_miscounted;
     rt_mesh_destroy(mesh);
     return result;
 }

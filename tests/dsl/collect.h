@@ -17,7 +17,7 @@ typedef struct collected_diagnostic {
 typedef struct collected {
     rt_status status;
     rt_error error;
-    rt_scene *scene; /* to be destroyed by collected_free */
+    rt_scene *scene;   /* to be destroyed by collected_free */
     int count, errors; /* diagnostics, of them errors; only the first COLLECTED_MAX are kept */
     collected_diagnostic items[COLLECTED_MAX];
 } collected;

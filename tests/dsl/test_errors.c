@@ -36,39 +36,50 @@ static const bad_text bad_texts[] = {
     {"# \xff\n" BALL, 1, 3, 1, "byte 0xff is not UTF-8", "save the file as UTF-8"},
     {"\xc0\xaf" BALL, 1, 1, 2, "byte 0xc0 is not UTF-8", "UTF-8"},
     {"\xe2\x82\xac" BALL, 1, 1, 3, "unexpected '\xe2\x82\xac'", ""},
-    {"// no comment\n" BALL, 1, 1, 1, "expected a block, 'let', 'include' or 'repeat', found '/'", "'#'"},
+    {"// no comment\n" BALL, 1, 1, 1, "expected a block, 'let', 'include' or 'repeat', found '/'",
+     "'#'"},
 
     /* Statements. */
     {"spere { centre 0 0 0 radius 1 }", 1, 1, 5, "unknown block 'spere'", "did you mean 'sphere'?"},
     {"Camera { eye 0 0 0 }", 1, 1, 6, "unknown block 'Camera'", "did you mean 'camera'?"},
-    {"teapot { size 3 }", 1, 1, 6, "unknown block 'teapot'", "begins with one of: let include repeat camera film"},
+    {"teapot { size 3 }", 1, 1, 6, "unknown block 'teapot'",
+     "begins with one of: let include repeat camera film"},
     {BALL "}\n", 3, 1, 1, "'}' closes nothing", ""},
     {BALL "42\n", 3, 1, 2, "expected a block, 'let', 'include' or 'repeat', found '42'", ""},
-    {"{ centre 0 0 0 }\n" BALL, 1, 1, 1, "expected a block, 'let', 'include' or 'repeat', found '{'", ""},
-    {"light { position 0 0 0 }", 1, 1, 5, "expected a kind of light, found '{'", "light point { ... }"},
-    {"light pont { position 0 0 0 }", 1, 7, 4, "expected a kind of light, found 'pont'", "did you mean 'point'?"},
+    {"{ centre 0 0 0 }\n" BALL, 1, 1, 1,
+     "expected a block, 'let', 'include' or 'repeat', found '{'", ""},
+    {"light { position 0 0 0 }", 1, 1, 5, "expected a kind of light, found '{'",
+     "light point { ... }"},
+    {"light pont { position 0 0 0 }", 1, 7, 4, "expected a kind of light, found 'pont'",
+     "did you mean 'point'?"},
     {"material { kd 1 }", 1, 1, 8, "material needs a name, found '{'", "material white { ... }"},
-    {"material \"white\" { kd 1 }", 1, 1, 8, "material needs a name, found a string", "material white { ... }"},
+    {"material \"white\" { kd 1 }", 1, 1, 8, "material needs a name, found a string",
+     "material white { ... }"},
     {"material off-white { kd 1 }", 1, 10, 9, "'off-white' is not a name", "'_'"},
-    {WHITE "sphere ball { centre 0 0 0 radius 1 material white }", 2, 8, 4, "sphere takes no name, found 'ball'", ""},
-    {WHITE "sphere centre 0 0 0 radius 1 material white }", 2, 8, 6, "expected '{' after sphere, found 'centre'", ""},
+    {WHITE "sphere ball { centre 0 0 0 radius 1 material white }", 2, 8, 4,
+     "sphere takes no name, found 'ball'", ""},
+    {WHITE "sphere centre 0 0 0 radius 1 material white }", 2, 8, 6,
+     "expected '{' after sphere, found 'centre'", ""},
     {WHITE "sphere { centre 0 0 0 radius 1 material white\n", 2, 1, 6,
      "sphere is not closed: expected '}' before the end of the file", ""},
     {"film { width", 1, 1, 4, "film is not closed", ""},
     {"render { mode", 1, 1, 6, "render is not closed", ""},
     {"camera = { eye 0 0 0 }", 1, 8, 1, "expected '{' after camera, found '='", ""},
-    {WHITE "sphere { centre 0 0 0 radius 1 material white\nlight point { position 0 0 0 power 1 }", 2, 1, 6,
-     "sphere is not closed: expected '}' before 'light'", "line 3"},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white\nlight point { position 0 0 0 power 1 }",
+     2, 1, 6, "sphere is not closed: expected '}' before 'light'", "line 3"},
     {"material white {\n kd 0.7\nmaterial black { }\n", 1, 1, 8,
      "material is not closed: expected '}' before 'material'", "line 3"},
-    {"film { width 4 }\nfilm { height 4 }", 2, 1, 4, "a scene has only one film", "the first is at text:1"},
+    {"film { width 4 }\nfilm { height 4 }", 2, 1, 4, "a scene has only one film",
+     "the first is at text:1"},
     {WHITE WHITE, 2, 10, 5, "material 'white' is defined twice", "first at text:1"},
 
     /* Fields. */
-    {"camera { eye 0 0 0 lookat 0 0 1 }", 1, 20, 6, "unknown field 'lookat' in camera", "did you mean 'look_at'?"},
-    {WHITE "sphere { center 0 0 0 radius 1 material white }", 2, 10, 6, "unknown field 'center' in sphere",
-     "did you mean 'centre'?"},
-    {"film { colour 3 }", 1, 8, 6, "unknown field 'colour' in film", "the fields of film are: width height"},
+    {"camera { eye 0 0 0 lookat 0 0 1 }", 1, 20, 6, "unknown field 'lookat' in camera",
+     "did you mean 'look_at'?"},
+    {WHITE "sphere { center 0 0 0 radius 1 material white }", 2, 10, 6,
+     "unknown field 'center' in sphere", "did you mean 'centre'?"},
+    {"film { colour 3 }", 1, 8, 6, "unknown field 'colour' in film",
+     "the fields of film are: width height"},
     {"film { width 3 width 4 }", 1, 16, 5, "'width' is given twice", "first at line 1"},
     {"camera { eye 0 0 0 }", 1, 1, 6, "camera needs 'look_at'", ""},
     {WHITE "sphere { material white }", 2, 1, 6, "sphere needs 'centre', 'radius'", ""},
@@ -85,27 +96,32 @@ static const bad_text bad_texts[] = {
     /* Numbers of numbers. */
     {"camera { eye 0 0 look_at 0 0 1 }", 1, 10, 7, "'eye' takes three numbers, found two", ""},
     {"camera { eye look_at 0 0 1 }", 1, 10, 3, "'eye' takes three numbers, found 'look_at'", ""},
-    {"camera { eye 0 0 0 7 look_at 0 0 1 }", 1, 20, 1, "'eye' takes three numbers, found one more: '7'", ""},
+    {"camera { eye 0 0 0 7 look_at 0 0 1 }", 1, 20, 1,
+     "'eye' takes three numbers, found one more: '7'", ""},
     {"material m { kd 0.5 0.5 }", 1, 14, 10, "'kd' takes one or three numbers, found two", ""},
     {"film { width }", 1, 8, 5, "'width' takes a whole number, found '}'", ""},
     {"film { width \"4\" }", 1, 8, 5, "'width' takes a whole number, found a string", ""},
     {"film { width [1 2 3] }", 1, 14, 7, "'width' takes a whole number, found a vector", ""},
-    {"let v = [1 2 3]\ncamera { eye v 0 0 look_at 0 0 9 }", 2, 16, 1, "'eye' takes three numbers, found one more: '0'",
-     ""},
-    {"camera { eye 0, 0, 0 look_at 0 0 1 }", 1, 15, 1, "unexpected ',' in 'eye'", "separated by spaces"},
+    {"let v = [1 2 3]\ncamera { eye v 0 0 look_at 0 0 9 }", 2, 16, 1,
+     "'eye' takes three numbers, found one more: '0'", ""},
+    {"camera { eye 0, 0, 0 look_at 0 0 1 }", 1, 15, 1, "unexpected ',' in 'eye'",
+     "separated by spaces"},
     {"film { width = 4 }", 1, 14, 1, "unexpected '=' in 'width'", "without a sign"},
     {"film { width: 4; }", 1, 13, 1, "unexpected ':' in 'width'", "without a sign"},
 
     /* Words. */
-    {"render { mode phton }", 1, 15, 5, "'mode' takes path, photon, direct, normals, albedo or depth, found 'phton'",
+    {"render { mode phton }", 1, 15, 5,
+     "'mode' takes path, photon, direct, normals, albedo or depth, found 'phton'",
      "did you mean 'photon'?"},
-    {"render { mode 3 }", 1, 15, 1, "'mode' takes path, photon, direct, normals, albedo or depth, found '3'", ""},
+    {"render { mode 3 }", 1, 15, 1,
+     "'mode' takes path, photon, direct, normals, albedo or depth, found '3'", ""},
     {"render { kernel gaussian-jensen }", 1, 17, 15, "'gaussian-jensen' is not a name", "'_'"},
-    {"material g { fresnel yes }", 1, 22, 3, "'fresnel' takes off, dielectric or conductor, found 'yes'", ""},
+    {"material g { fresnel yes }", 1, 22, 3,
+     "'fresnel' takes off, dielectric or conductor, found 'yes'", ""},
     {WHITE "sphere { centre 0 0 0 radius 1 material whit }", 2, 41, 4, "unknown material 'whit'",
      "did you mean 'white'?"},
-    {"sphere { centre 0 0 0 radius 1 material late }\nmaterial late { }", 1, 41, 4, "unknown material 'late'",
-     "it is defined further down, at text:2"},
+    {"sphere { centre 0 0 0 radius 1 material late }\nmaterial late { }", 1, 41, 4,
+     "unknown material 'late'", "it is defined further down, at text:2"},
     {WHITE "sphere { centre 0 0 0 material radius 1 }", 2, 23, 8,
      "'material' takes the name of a material, found 'radius'", ""},
 
@@ -115,7 +131,8 @@ static const bad_text bad_texts[] = {
     {"film { width 1e9 }", 1, 14, 3, "'width' is 1000000000; it must be from 1 to 65536", ""},
     {"camera { eye 0 0 0 look_at 0 0 1 fov 180 }", 1, 38, 3,
      "'fov' is 180; it must be between 0 and 180, both excluded", ""},
-    {"camera { eye 0 0 1e39 look_at 0 0 1 }", 1, 18, 4, "'eye' is 1e+39; numbers must not exceed 3.4", ""},
+    {"camera { eye 0 0 1e39 look_at 0 0 1 }", 1, 18, 4,
+     "'eye' is 1e+39; numbers must not exceed 3.4", ""},
     {"film { width 1e999 }", 1, 14, 5, "the number '1e999' is too large", ""},
     {"film { width 1.2.3 }", 1, 14, 5, "'1.2.3' is not a number", "1e-3"},
     {"film { width 12px }", 1, 14, 4, "'12px' is not a number", "1e-3"},
@@ -127,20 +144,28 @@ static const bad_text bad_texts[] = {
      "'radius' is -1; it must be from 1e-15 to 1e+15", ""},
     {WHITE "sphere { centre 0 0 0 radius 1e-60 material white }", 2, 30, 5,
      "'radius' is 1e-60; it must be from 1e-15 to 1e+15", ""},
-    {"camera { eye 0 0 0 look_at 0 0 1 fov 1e-60 }", 1, 38, 5, "'fov' is 0; it must be between 0 and 180", ""},
-    {WHITE "plane { point 0 0 0 normal 0 0 0 material white }", 2, 28, 5, "'normal' must not be zero", ""},
+    {"camera { eye 0 0 0 look_at 0 0 1 fov 1e-60 }", 1, 38, 5,
+     "'fov' is 0; it must be between 0 and 180", ""},
+    {WHITE "plane { point 0 0 0 normal 0 0 0 material white }", 2, 28, 5,
+     "'normal' must not be zero", ""},
     {"material m { kd 0.5 1.5 0.5 }", 1, 21, 3, "'kd' is 1.5; it must be from 0 to 1", ""},
     {"material m { kd 0.6 ks 0.6 }", 1, 17, 3, "kd + ks + kt is 1.2", ""},
     {"camera { eye 1 2 3 look_at 1 2 3 }", 1, 28, 5, "eye and look_at are the same point", ""},
-    {WHITE "quad { corner 0 0 0 edge1 1 0 0 edge2 2 0 0 material white }", 2, 39, 5, "its area is zero", ""},
+    {WHITE "quad { corner 0 0 0 edge1 1 0 0 edge2 2 0 0 material white }", 2, 39, 5,
+     "its area is zero", ""},
     {WHITE "triangle { a 0 0 0 b 1 0 0 c 2 0 0 material white }", 2, 1, 8, "its area is zero", ""},
-    {"material l { emission 1 }\nplane { point 0 0 0 normal 0 1 0 material l }", 2, 43, 1, "cannot emit", ""},
+    {"material l { emission 1 }\nplane { point 0 0 0 normal 0 1 0 material l }", 2, 43, 1,
+     "cannot emit", ""},
 
     /* What a render would refuse. */
-    {"render { mode photon k all }", 1, 24, 3, "to gather all photons within a radius, give the radius", ""},
-    {"render { mode photon radius 1 caustic_k all k 9 passes 2 area hull }", 1, 63, 4, "not for passes", ""},
-    {"render { variance true mode photon }", 1, 19, 4, "the samples of one photon map share its photons", ""},
-    {"render { target_error 0.1 mode depth }", 1, 23, 3, "the error is that of light, and mode depth shows none", ""},
+    {"render { mode photon k all }", 1, 24, 3,
+     "to gather all photons within a radius, give the radius", ""},
+    {"render { mode photon radius 1 caustic_k all k 9 passes 2 area hull }", 1, 63, 4,
+     "not for passes", ""},
+    {"render { variance true mode photon }", 1, 19, 4,
+     "the samples of one photon map share its photons", ""},
+    {"render { target_error 0.1 mode depth }", 1, 23, 3,
+     "the error is that of light, and mode depth shows none", ""},
 
     /* let and arithmetic. */
     {"let = 3\n" BALL, 1, 1, 3, "expected a name after 'let', found '='", ""},
@@ -150,31 +175,42 @@ static const bad_text bad_texts[] = {
     {"let a = 1 / 0\n" BALL, 1, 11, 1, "division by zero", ""},
     {"let a = [1 2 3] / [1 0 1]\n" BALL, 1, 17, 1, "division by zero", ""},
     {"let a = 1e200 * 1e200\n" BALL, 1, 15, 1, "the result of this '*' is too large", ""},
-    {"let a = (1 + 2\n" BALL, 1, 15, 1, "expected ')', found 'material'", "closes the '(' at line 1, column 9"},
+    {"let a = (1 + 2\n" BALL, 1, 15, 1, "expected ')', found 'material'",
+     "closes the '(' at line 1, column 9"},
     {"let a = 1 + * 2\n" BALL, 1, 13, 1, "expected a number, found '*'", ""},
-    {"let a = 0.6 0.1 0.1\n" BALL, 1, 13, 3, "unexpected '0.1' after the value of 'a'", "in brackets"},
-    {"let a = 5;\n" BALL, 1, 10, 1, "unexpected ';' after the value of 'a'", "begins on a new line"},
+    {"let a = 0.6 0.1 0.1\n" BALL, 1, 13, 3, "unexpected '0.1' after the value of 'a'",
+     "in brackets"},
+    {"let a = 5;\n" BALL, 1, 10, 1, "unexpected ';' after the value of 'a'",
+     "begins on a new line"},
     {"let a = [1 2]\n" BALL, 1, 13, 1, "a vector has three numbers, found 2", ""},
-    {"let a = [1 2 3 4]\n" BALL, 1, 16, 1, "expected ']', found '4'", "closes the '[' at line 1, column 9"},
+    {"let a = [1 2 3 4]\n" BALL, 1, 16, 1, "expected ']', found '4'",
+     "closes the '[' at line 1, column 9"},
     {"let a = [1, 2, 3]\n" BALL, 1, 11, 1, "expected a number, found ','", "separated by spaces"},
     {"let a = [[1 2 3] 2 3]\n" BALL, 1, 10, 7, "expected a number, found a vector", ""},
-    {"let height = 1\nfilm { width heigth }", 2, 14, 6, "unknown constant 'heigth'", "did you mean 'height'?"},
-    {"film { width w }\nlet w = 3", 1, 14, 1, "unknown constant 'w'", "it is defined further down, at text:2"},
+    {"let height = 1\nfilm { width heigth }", 2, 14, 6, "unknown constant 'heigth'",
+     "did you mean 'height'?"},
+    {"film { width w }\nlet w = 3", 1, 14, 1, "unknown constant 'w'",
+     "it is defined further down, at text:2"},
     {"let a = b\nlet b = 3\n" BALL, 1, 9, 1, "unknown constant 'b'", "further down"},
-    {"camera { eye 0 1 - 4 look_at 0 0 1 }", 1, 18, 1, "this '-' is neither a sign nor inside parentheses", "(a - b)"},
-    {"camera { eye 0 1-4 look_at 0 0 1 }", 1, 17, 1, "this '-' is neither a sign nor inside parentheses", "(a - b)"},
+    {"camera { eye 0 1 - 4 look_at 0 0 1 }", 1, 18, 1,
+     "this '-' is neither a sign nor inside parentheses", "(a - b)"},
+    {"camera { eye 0 1-4 look_at 0 0 1 }", 1, 17, 1,
+     "this '-' is neither a sign nor inside parentheses", "(a - b)"},
     {"film { width 2 * 3 }", 1, 16, 1, "unexpected '*' after the value of 'width'", "(2 * 3)"},
-    {"camera { eye 0 3/2 1 look_at 0 0 1 }", 1, 17, 1, "unexpected '/' after the value of 'eye'", "(2 * 3)"},
+    {"camera { eye 0 3/2 1 look_at 0 0 1 }", 1, 17, 1, "unexpected '/' after the value of 'eye'",
+     "(2 * 3)"},
     {WHITE "let n = 2\nrepeat i from 0 to n + 1 {\n let z = i\n"
            " sphere { centre z 0 0 radius 1 material white }\n}\n",
      3, 22, 1, "expected '{' after repeat, found '+'", "(n - 1)"},
-    {"film { width 5 -3 }", 1, 16, 1, "unexpected '-' after the value of 'width'", "in parentheses"},
+    {"film { width 5 -3 }", 1, 16, 1, "unexpected '-' after the value of 'width'",
+     "in parentheses"},
     {"film { width +3 }", 1, 8, 5, "'width' takes a whole number, found '+'", ""},
     {"let radius = 1\n" WHITE "sphere { centre 0 0 0 radius radius material white }", 3, 23, 6,
      "'radius' takes a number, found 'radius'", "in parentheses"},
 
     {"let pi = 4\n" BALL, 1, 5, 2, "'pi' is already defined", "a constant of the language"},
-    {"repeat pi from 1 to 2 { }\n" BALL, 1, 8, 2, "'pi' is already defined", "a constant of the language"},
+    {"repeat pi from 1 to 2 { }\n" BALL, 1, 8, 2, "'pi' is already defined",
+     "a constant of the language"},
 
     /* Functions. */
     {"let a = sine(3)\n" BALL, 1, 9, 4, "unknown function 'sine'", "did you mean 'sin'?"},
@@ -183,71 +219,85 @@ static const bad_text bad_texts[] = {
     {"let a = sin(1, 2)\n" BALL, 1, 9, 3, "'sin' takes one value, found 2", ""},
     {"let a = sqrt(-1)\n" BALL, 1, 9, 4, "'sqrt' has no finite value here", ""},
     {"let a = sin (30)\n" BALL, 1, 9, 3, "'sin' is apart from its '('", "sin(...)"},
-    {"camera { eye 0 0 pow (2, 3) look_at 0 0 0 }", 1, 18, 3, "'pow' is apart from its '('", "pow(...)"},
+    {"camera { eye 0 0 pow (2, 3) look_at 0 0 0 }", 1, 18, 3, "'pow' is apart from its '('",
+     "pow(...)"},
     {"let a = 2 ^ 3\n" BALL, 1, 11, 1, "unexpected '^' after the value of 'a'", "pow(x, y)"},
     {"let a = (5 % 3)\n" BALL, 1, 12, 1, "expected ')', found '%'", "mod(x, y)"},
     {"film { width 2 ^ 3 }", 1, 16, 1, "unexpected '^' after the value of 'width'", "pow(x, y)"},
     {"film { width 10 cm }", 1, 17, 2, "unknown field 'cm' in film", "without units"},
     {"film { width 10px }", 1, 14, 4, "'10px' is not a number", "without units"},
-    {"light { }", 1, 1, 5, "expected a kind of light", "the kinds are: point spot directional environment; as in"},
+    {"light { }", 1, 1, 5, "expected a kind of light",
+     "the kinds are: point spot directional environment; as in"},
     {"let a = sin(1\n" BALL, 1, 14, 1, "expected ')', found 'material'", "closes the '('"},
 
     /* repeat. */
-    {"repeat { }\n" BALL, 1, 1, 6, "expected a name after 'repeat', found '{'", "repeat i from 1 to 10"},
+    {"repeat { }\n" BALL, 1, 1, 6, "expected a name after 'repeat', found '{'",
+     "repeat i from 1 to 10"},
     {"repeat i to 3 { }\n" BALL, 1, 10, 2, "expected 'from', found 'to'", "repeat i from 1 to 10"},
     {"repeat i from 1 3 { }\n" BALL, 1, 17, 1, "expected 'to', found '3'", "repeat i from 1 to 10"},
-    {"repeat i from 1 to 2 - 1 { }\n" BALL, 1, 22, 1, "expected '{' after repeat, found '-'", "in parentheses"},
+    {"repeat i from 1 to 2 - 1 { }\n" BALL, 1, 22, 1, "expected '{' after repeat, found '-'",
+     "in parentheses"},
     {"repeat i from 1 to [1 2 3] { }\n" BALL, 1, 20, 7, "expected a number, found a vector", ""},
-    {"repeat i from 0 to 1e9 { }\n" BALL, 1, 1, 6, "the repeats of a scene have more than 10000000 turns", ""},
+    {"repeat i from 0 to 1e9 { }\n" BALL, 1, 1, 6,
+     "the repeats of a scene have more than 10000000 turns", ""},
     {BALL "repeat i from 1 to 3 {\n", 3, 8, 1, "this repeat is not closed", ""},
-    {BALL "repeat i from 1 to 3 { film { width 0 } }\n", 3, 37, 1, "'width' is 0; it must be from 1 to 65536", ""},
-    {"let i = 1\n" BALL "repeat i from 1 to 3 { }\n", 4, 8, 1, "constant 'i' is defined twice", "first at text:1"},
+    {BALL "repeat i from 1 to 3 { film { width 0 } }\n", 3, 37, 1,
+     "'width' is 0; it must be from 1 to 65536", ""},
+    {"let i = 1\n" BALL "repeat i from 1 to 3 { }\n", 4, 8, 1, "constant 'i' is defined twice",
+     "first at text:1"},
     {"repeat i from 1 to 2 { material m { } sphere { centre i 0 0 radius 1 material m } }\n"
      "sphere { centre 0 0 0 radius 1 material m }",
      2, 41, 1, "unknown material 'm'", "above their use"},
 
     /* Transforms. */
-    {WHITE "sphere { centre 0 0 0 radius 1 material white scale 0 }", 2, 53, 1, "'scale' is 0; it must be not zero",
-     ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white scale 0 }", 2, 53, 1,
+     "'scale' is 0; it must be not zero", ""},
     {WHITE "sphere { centre 0 0 0 radius 1 material white rotate 0 0 0 9 }", 2, 54, 7,
      "the axis of 'rotate' must not be zero", ""},
     {WHITE "sphere { centre 0 0 0 radius 1 material white rotate 0 1 0 }", 2, 47, 12,
      "'rotate' takes four numbers, found three", ""},
-    {WHITE "sphere { centre 0 0 0 radius 1 material white matrix 1 0 0 0  0 1 0 0  0 0 0 1 }", 2, 54, 25,
-     "the transform cannot be inverted", ""},
+    {WHITE "sphere { centre 0 0 0 radius 1 material white matrix 1 0 0 0  0 1 0 0  0 0 0 1 }", 2,
+     54, 25, "the transform cannot be inverted", ""},
 
     /* Textures, meshes, files. */
-    {"material m { kd_texture wood }\n", 1, 25, 4, "unknown texture 'wood'", "textures are defined by 'texture NAME"},
+    {"material m { kd_texture wood }\n", 1, 25, 4, "unknown texture 'wood'",
+     "textures are defined by 'texture NAME"},
     {"texture wood { file \"none.png\" }\n", 1, 22, 8, "none.png", ""},
     {"texture wood { }\n", 1, 1, 7, "an image needs a file", ""},
     {"texture wood { file \"\" }\n", 1, 22, 0 + 1, "the name of the file is empty", ""},
-    {"texture wood { file wood }\n", 1, 21, 4, "'file' takes a file name in quotes, found 'wood'", "double quotes"},
+    {"texture wood { file wood }\n", 1, 21, 4, "'file' takes a file name in quotes, found 'wood'",
+     "double quotes"},
     {"texture t { pattern checker a 1 }\nmaterial m { kd_texture t  ks 0.1 }", 2, 25, 1,
      "kd + ks + kt is 1.1 in red where the textures are brightest", ""},
     {"mesh m { file \"none.ply\" }\n", 1, 16, 8, "none.ply", ""},
     {"mesh m { file \"scenes/README.md\" }\n", 1, 16, 16, "unknown mesh format", ""},
-    {WHITE "instance bunny { material white }\n", 2, 10, 5, "unknown mesh 'bunny'", "meshes are defined by 'mesh NAME"},
-    {WHITE "instance { material white }\n", 2, 1, 8, "instance needs a name, found '{'", "instance bunny"},
+    {WHITE "instance bunny { material white }\n", 2, 10, 5, "unknown mesh 'bunny'",
+     "meshes are defined by 'mesh NAME"},
+    {WHITE "instance { material white }\n", 2, 1, 8, "instance needs a name, found '{'",
+     "instance bunny"},
     {WHITE "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 0 material white }\n", 2, 1, 8,
      "triangle needs all of 'uva', 'uvb' and 'uvc', or none", ""},
     {"material m { ks 1 fresnel conductor }", 1, 1, 8, "a conductor needs eta", ""},
     {"light environment { radiance 1 }\nlight environment { radiance 1 }", 2, 1, 17,
      "a scene has only one light environment", "the first is at text:1"},
-    {WHITE "cone { base 0 0 0 apex 0 1 0 radius 1 apex_radius 2 material white }\n", 2, 51, 1, "apex_radius is 2 m",
-     ""},
+    {WHITE "cone { base 0 0 0 apex 0 1 0 radius 1 apex_radius 2 material white }\n", 2, 51, 1,
+     "apex_radius is 2 m", ""},
 
     /* include and strings. */
     {"mesh m { file \"wood.ply shading flat }\n" BALL, 1, 15, 1, "the string is not closed", ""},
-    {"texture wood { file \"wood.png  scale 2 2\n wrap clamp\n}\n" BALL, 1, 21, 1, "the string is not closed", ""},
+    {"texture wood { file \"wood.png  scale 2 2\n wrap clamp\n}\n" BALL, 1, 21, 1,
+     "the string is not closed", ""},
     {"model { file \"wood.ply  material white }\n" BALL, 1, 14, 1, "the string is not closed", ""},
-    {WHITE "sphere (\n centre 0 0 0\n radius 1\n material white\n}\n", 2, 8, 1, "expected '{' after sphere, found '('",
-     ""},
+    {WHITE "sphere (\n centre 0 0 0\n radius 1\n material white\n}\n", 2, 8, 1,
+     "expected '{' after sphere, found '('", ""},
     {WHITE "sphere\n centre 0 0 0\n radius 1\n material white\n}\n", 2, 7, 1,
      "expected '{' after sphere, found 'centre'", ""},
-    {"include box\n" BALL, 1, 1, 7, "expected a file name in quotes after 'include', found 'box'", "materials.rts"},
+    {"include box\n" BALL, 1, 1, 7, "expected a file name in quotes after 'include', found 'box'",
+     "materials.rts"},
     {"include \"box.rts\n" BALL, 1, 9, 1, "the string is not closed", ""},
     {"include \"\"\n" BALL, 1, 10, 1, "the name of the file to include is empty", ""},
-    {"include \"no/such/file.rts\"\n" BALL, 1, 10, 16, "cannot include 'no/such/file.rts': No such file", ""},
+    {"include \"no/such/file.rts\"\n" BALL, 1, 10, 16,
+     "cannot include 'no/such/file.rts': No such file", ""},
     {"include \"scenes\"\n" BALL, 1, 10, 6, "cannot include 'scenes': it is a directory", ""},
 };
 
@@ -260,20 +310,22 @@ static void every_mistake_is_one_error_at_its_place(void **state)
         const bad_text *bad = &bad_texts[i];
         const collected_diagnostic *d = &c.items[0];
         collect_text(&c, bad->text);
-        int good = c.status == RT_ERROR_INPUT && c.scene == NULL && c.count == 1 && d->line == bad->line &&
-                   d->column == bad->column && d->length == bad->length && strstr(d->message, bad->message) &&
+        int good = c.status == RT_ERROR_INPUT && c.scene == NULL && c.count == 1 &&
+                   d->line == bad->line && d->column == bad->column && d->length == bad->length &&
+                   strstr(d->message, bad->message) &&
                    (bad->hint[0] ? strstr(d->hint, bad->hint) != NULL : d->hint[0] == '\0');
         /* The caller's error says the same. */
-        good = good && c.error.status == RT_ERROR_INPUT && c.error.line == d->line && c.error.column == d->column &&
-               strcmp(c.error.file, "text") == 0 && strcmp(c.error.message, d->message) == 0;
+        good = good && c.error.status == RT_ERROR_INPUT && c.error.line == d->line &&
+               c.error.column == d->column && strcmp(c.error.file, "text") == 0 &&
+               strcmp(c.error.message, d->message) == 0;
         if (good)
             continue;
         failures++;
-        print_error("text %zu:\n%s\nexpected %d:%d+%d %s (%s)\n", i, bad->text, bad->line, bad->column, bad->length,
-                    bad->message, bad->hint);
+        print_error("text %zu:\n%s\nexpected %d:%d+%d %s (%s)\n", i, bad->text, bad->line,
+                    bad->column, bad->length, bad->message, bad->hint);
         for (int j = 0; j < c.count && j < COLLECTED_MAX; j++)
-            print_error("   found %d:%d+%d %s (%s)\n", c.items[j].line, c.items[j].column, c.items[j].length,
-                        c.items[j].message, c.items[j].hint);
+            print_error("   found %d:%d+%d %s (%s)\n", c.items[j].line, c.items[j].column,
+                        c.items[j].length, c.items[j].message, c.items[j].hint);
         collected_free(&c);
     }
     assert_int_equal(failures, 0);
@@ -283,7 +335,8 @@ static void five_errors_give_five_reports_in_order(void **state)
 {
     static const char text[] = "camera { eye 0 0  look_at 0 0 1  fov 200 }\n" /* two numbers, fov */
                                "let a = 2 * (3 + )\n"
-                               "sphere { centre 0 0 0  raduis a  material white }\n" /* field, material */
+                               /* field, material */
+                               "sphere { centre 0 0 0  raduis a  material white }\n"
                                "light point { position 0 0 0  intensity a }\n";
     static const int places[5][2] = {{1, 10}, {1, 38}, {2, 18}, {3, 24}, {3, 43}};
     static collected c;
@@ -303,11 +356,13 @@ static void the_source_line_is_quoted_whole(void **state)
 {
     static collected c;
     (void)state;
-    collect_text(&c, "\xef\xbb\xbf" "film {\r\n\twidth 0 # none\r\n}\r\n");
+    collect_text(&c, "\xef\xbb\xbf"
+                     "film {\r\n\twidth 0 # none\r\n}\r\n");
     assert_int_equal(c.count, 1);
     assert_string_equal(c.items[0].source_line, "\twidth 0 # none");
     assert_int_equal(c.items[0].column, 8);
-    collect_text(&c, "\xef\xbb\xbf" "flim { }");
+    collect_text(&c, "\xef\xbb\xbf"
+                     "flim { }");
     assert_string_equal(c.items[0].source_line, "flim { }");
     assert_int_equal(c.items[0].column, 1);
 }
@@ -319,7 +374,8 @@ static void what_nothing_uses_is_warned_of(void **state)
     collect_text(&c, "let a = 1\nlet b = a\nmaterial m { }\nfilm { width 4 }\n");
     assert_int_equal(c.status, RT_OK);
     assert_int_equal(c.count, 2);
-    assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[1].severity == RT_SEVERITY_WARNING);
+    assert_true(c.items[0].severity == RT_SEVERITY_WARNING &&
+                c.items[1].severity == RT_SEVERITY_WARNING);
     assert_string_equal(c.items[0].message, "constant 'b' is never used");
     assert_string_equal(c.items[1].message, "material 'm' is never used");
     collected_free(&c);
@@ -333,10 +389,13 @@ static void a_repeat_without_turns_is_warned_of(void **state)
     collect_text(&c, BALL "repeat i from 5 to 1 { nonsense }\n");
     assert_int_equal(c.status, RT_OK);
     assert_int_equal(c.count, 1);
-    assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[0].line == 3 && c.items[0].column == 1);
+    assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[0].line == 3 &&
+                c.items[0].column == 1);
     assert_string_equal(c.items[0].message, "this repeat makes no turns: it counts up from 5 to 1");
     collected_free(&c);
-    collect_text(&c, BALL "repeat i from 1 to 2 { repeat j from 1 to (i - 1) { film { width (i + j) } } }\n");
+    collect_text(
+        &c,
+        BALL "repeat i from 1 to 2 { repeat j from 1 to (i - 1) { film { width (i + j) } } }\n");
     expect_clean(&c, "a triangle of turns");
     collected_free(&c);
 }
@@ -350,33 +409,43 @@ static void fields_without_effect_are_warned_of(void **state)
         const char *message;
     } cases[] = {
         {"material m { kd 0.5 eta 1 }", 21, "'eta' has no effect without 'fresnel conductor'"},
-        {"material m { ks 1 fresnel dielectric k 1 }", 38, "'k' has no effect without 'fresnel conductor'"},
-        {"material m { kd 0.5 roughness 0.1 }", 21, "'roughness' has no effect without 'ks' or 'kt'"},
+        {"material m { ks 1 fresnel dielectric k 1 }", 38,
+         "'k' has no effect without 'fresnel conductor'"},
+        {"material m { kd 0.5 roughness 0.1 }", 21,
+         "'roughness' has no effect without 'ks' or 'kt'"},
         {"material m { ior 1.2 }", 14, "'ior' has no effect without 'ks' or 'kt'"},
         {"material m { absorption 1 }", 14, "'absorption' has no effect without 'ks' or 'kt'"},
         {"material m { bump_scale 1 }", 14, "'bump_scale' has no effect without 'bump_texture'"},
-        {"camera { eye 0 0 0 look_at 0 0 1 width 2 }", 34, "'width' has no effect without 'projection orthographic'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 width 2 }", 34,
+         "'width' has no effect without 'projection orthographic'"},
         {"camera { eye 0 0 0 look_at 0 0 1 projection orthographic fov 2 }", 58,
          "'fov' has no effect without 'projection perspective'"},
-        {"camera { eye 0 0 0 look_at 0 0 1 blades 5 }", 34, "'blades' has no effect without 'aperture'"},
+        {"camera { eye 0 0 0 look_at 0 0 1 blades 5 }", 34,
+         "'blades' has no effect without 'aperture'"},
         {"camera { eye 0 0 0 look_at 0 0 1 focal_distance 5 }", 34,
          "'focal_distance' has no effect without 'aperture'"},
         {"camera { eye 0 0 0 look_at 0 0 1 aperture 1 blade_rotation 5 }", 45,
          "'blade_rotation' has no effect without 'blades'"},
-        {"texture t { pattern checker file \"none.png\" }", 29, "'file' has no effect without 'pattern image'"},
-        {"texture t { pattern checker linear true }", 29, "'linear' has no effect without 'pattern image'"},
+        {"texture t { pattern checker file \"none.png\" }", 29,
+         "'file' has no effect without 'pattern image'"},
+        {"texture t { pattern checker linear true }", 29,
+         "'linear' has no effect without 'pattern image'"},
         {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
          "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
         {"material m { emission 7 } sphere { radiance 0 centre 0 0 0 radius 1 material m }", 36,
          "'radiance' of 0 has no effect: it counts as left out"},
-        {"material m { emission 7 } disc { centre 0 0 0 normal 0 1 0 radius 1 power 0 material m }", 69,
-         "'power' of 0 has no effect"},
-        {"light environment { radiance 0 file \"scenes/textures/letter.png\" }", 21, "'radiance' of 0 has no effect"},
+        {"material m { emission 7 } disc { centre 0 0 0 normal 0 1 0 radius 1 power 0 material m }",
+         69, "'power' of 0 has no effect"},
+        {"light environment { radiance 0 file \"scenes/textures/letter.png\" }", 21,
+         "'radiance' of 0 has no effect"},
         {"texture t { file \"scenes/textures/letter.png\" } material m { kd 0 kd_texture t }", 62,
          "'kd' of 0 has no effect"},
-        {"render { mode photon area hull kernel cone }", 32, "'kernel' has no effect without 'area disc'"},
-        {"render { mode photon kernel box cone_k 2 }", 33, "'cone_k' has no effect without 'kernel cone'"},
-        {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37, "'ior' has no effect"},
+        {"render { mode photon area hull kernel cone }", 32,
+         "'kernel' has no effect without 'area disc'"},
+        {"render { mode photon kernel box cone_k 2 }", 33,
+         "'cone_k' has no effect without 'kernel cone'"},
+        {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37,
+         "'ior' has no effect"},
     };
     static collected c;
     (void)state;
@@ -386,9 +455,11 @@ static void fields_without_effect_are_warned_of(void **state)
         assert_int_equal(c.status, RT_OK);
         for (int j = 0; j < c.count; j++)
             found += c.items[j].severity == RT_SEVERITY_WARNING && c.items[j].line == 1 &&
-                     c.items[j].column == cases[i].column && strstr(c.items[j].message, cases[i].message);
+                     c.items[j].column == cases[i].column &&
+                     strstr(c.items[j].message, cases[i].message);
         if (found != 1)
-            fail_msg("%d times at column %d: %s\nin %s", found, cases[i].column, cases[i].message, cases[i].text);
+            fail_msg("%d times at column %d: %s\nin %s", found, cases[i].column, cases[i].message,
+                     cases[i].text);
         collected_free(&c);
     }
 }
@@ -398,13 +469,15 @@ static void what_a_check_finds_stands_at_its_place(void **state)
 {
     static collected c;
     (void)state;
-    check_text(&c, "material m { kd 0.5 }\nsphere { centre 0 0 0 radius 1 material m }\n"
-                   "camera { eye 0 0 -4 look_at 0 0 -9 }\nlight point { position 9 9 9 intensity 1 }\n"
-                   "repeat i from 1 to 3 {\n light point { position 0 0 0.1 intensity 1 }\n}\n");
+    check_text(&c,
+               "material m { kd 0.5 }\nsphere { centre 0 0 0 radius 1 material m }\n"
+               "camera { eye 0 0 -4 look_at 0 0 -9 }\nlight point { position 9 9 9 intensity 1 }\n"
+               "repeat i from 1 to 3 {\n light point { position 0 0 0.1 intensity 1 }\n}\n");
     assert_int_equal(c.status, RT_OK);
     assert_int_equal(c.count, 2);
     assert_int_equal(c.items[0].finding, RT_FINDING_NOTHING_IN_VIEW);
-    assert_true(c.items[0].line == 3 && c.items[0].column == 1 && c.items[0].severity == RT_SEVERITY_WARNING);
+    assert_true(c.items[0].line == 3 && c.items[0].column == 1 &&
+                c.items[0].severity == RT_SEVERITY_WARNING);
     assert_int_equal(c.items[1].finding, RT_FINDING_LIGHT_SHUT_IN);
     assert_true(c.items[1].line == 6 && c.items[1].column == 2);
     assert_string_equal(c.items[1].hint, "the sphere is at text:2");
@@ -418,10 +491,13 @@ static void what_a_check_finds_stands_at_its_place(void **state)
     assert_int_equal(c.items[1].severity, RT_SEVERITY_NOTE);
     collected_free(&c);
 
-    check_text(&c, "material m { kt 1 }\nlight point { position 0 3 0 power 1 }\ncamera { eye 0 0 -4 look_at 0 0 0 }\n"
-                   "repeat i from 1 to 3 { disc { centre 0 0 0 normal 0 0 1 radius 1 material m } }\n");
+    check_text(&c,
+               "material m { kt 1 }\nlight point { position 0 3 0 power 1 }\ncamera { eye 0 0 -4 "
+               "look_at 0 0 0 }\n"
+               "repeat i from 1 to 3 { disc { centre 0 0 0 normal 0 0 1 radius 1 material m } }\n");
     assert_int_equal(c.count, 1);
-    assert_true(c.items[0].finding == RT_FINDING_OPEN_GLASS && c.items[0].line == 4 && c.items[0].column == 24);
+    assert_true(c.items[0].finding == RT_FINDING_OPEN_GLASS && c.items[0].line == 4 &&
+                c.items[0].column == 24);
     assert_true(strstr(c.items[0].hint, "closed shape") != NULL);
     collected_free(&c);
 

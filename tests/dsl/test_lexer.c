@@ -37,9 +37,14 @@ static void tokens_carry_their_place(void **state)
     static const struct {
         int kind, line, column, length, first_on_line, space_before;
     } expected[] = {
-        {RT_TOKEN_WORD, 1, 1, 4, 1, 1},   {'{', 1, 5, 1, 0, 0},           {RT_TOKEN_WORD, 2, 2, 5, 1, 1},
-        {'-', 2, 8, 1, 0, 1},             {RT_TOKEN_NUMBER, 2, 9, 4, 0, 0}, {RT_TOKEN_STRING, 3, 3, 5, 1, 1},
-        {'}', 3, 10, 1, 0, 1},            {RT_TOKEN_END, 4, 1, 0, 1, 1},
+        {RT_TOKEN_WORD, 1, 1, 4, 1, 1},
+        {'{', 1, 5, 1, 0, 0},
+        {RT_TOKEN_WORD, 2, 2, 5, 1, 1},
+        {'-', 2, 8, 1, 0, 1},
+        {RT_TOKEN_NUMBER, 2, 9, 4, 0, 0},
+        {RT_TOKEN_STRING, 3, 3, 5, 1, 1},
+        {'}', 3, 10, 1, 0, 1},
+        {RT_TOKEN_END, 4, 1, 0, 1, 1},
     };
     fixture f;
     uint64_t order = 0;
@@ -97,7 +102,8 @@ static void only_well_formed_utf8_is_text(void **state)
 
 static void a_broken_number_is_one_token(void **state)
 {
-    static const char *const texts[] = {"1.2.3", "12abc", "1e", "1e+", "0x1f", "1_000", "1e999", "1e2.5"};
+    static const char *const texts[] = {"1.2.3", "12abc", "1e",    "1e+",
+                                        "0x1f",  "1_000", "1e999", "1e2.5"};
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         fixture f;

@@ -26,11 +26,14 @@ static void every_field_reaches_the_scene(void **state)
     static const char text[] =
         "camera { eye 0 1 -4  look_at 0 1 0  up 0 1 1  fov 40  aperture 0.02  focal_distance 3 }\n"
         "film { width 640  height 480 }\n"
-        "render { mode photon spp 7 max_depth 9 seed 4294967295 sampler independent time 2.5 photons 4000000000\n"
-        "  roulette_depth 5 roulette_threshold 1e-6 k 60 radius 0.25 kernel gaussian_jensen cone_k 1.5 direct photons "
+        "render { mode photon spp 7 max_depth 9 seed 4294967295 sampler independent time 2.5 "
+        "photons 4000000000\n"
+        "  roulette_depth 5 roulette_threshold 1e-6 k 60 radius 0.25 kernel gaussian_jensen cone_k "
+        "1.5 direct photons "
         "final_gather 2\n"
         "  caustic_photons 3000000000 caustic_k 40 caustic_radius 0.125 caustic_kernel cone }\n"
-        "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel dielectric  two_sided "
+        "material glass { kd 0.1  ks 0.1 0.2 0.3  kt 0.6  emission 1 2 3  ior 1.33  fresnel "
+        "dielectric  two_sided "
         "true\n"
         "  priority 3 }\n"
         "material plain { kd 0.7 }\n"
@@ -54,12 +57,15 @@ static void every_field_reaches_the_scene(void **state)
 
     rt_render_options o;
     rt_scene_get_options(c.scene, &o);
-    assert_true(o.width == 640 && o.height == 480 && o.mode == RT_MODE_PHOTON && o.spp == 7 && o.max_depth == 9);
+    assert_true(o.width == 640 && o.height == 480 && o.mode == RT_MODE_PHOTON && o.spp == 7 &&
+                o.max_depth == 9);
     assert_true(o.roulette_depth == 5 && o.roulette_threshold == 1e-6f);
     assert_true(o.seed == 4294967295u && o.sampler == RT_SAMPLER_INDEPENDENT && o.time == 2.5);
     assert_true(o.photons == 4000000000u && o.k == 60 && o.radius == 0.25f && o.cone_k == 1.5f);
-    assert_true(o.kernel == RT_DENSITY_GAUSSIAN_JENSEN && o.direct == RT_DIRECT_PHOTONS && o.final_gather == 2);
-    assert_true(o.caustic_photons == 3000000000u && o.caustic_k == 40 && o.caustic_radius == 0.125f);
+    assert_true(o.kernel == RT_DENSITY_GAUSSIAN_JENSEN && o.direct == RT_DIRECT_PHOTONS &&
+                o.final_gather == 2);
+    assert_true(o.caustic_photons == 3000000000u && o.caustic_k == 40 &&
+                o.caustic_radius == 0.125f);
     assert_true(o.caustic_kernel == RT_DENSITY_CONE);
 
     const rt_material *m = &c.scene->materials[0];
@@ -76,7 +82,8 @@ static void every_field_reaches_the_scene(void **state)
     assert_vector(s[1].p, 1, 2, 3);
     assert_vector(s[1].surface.radiance, 4, 5, 6);
     const rt_scene_mesh *triangle = &c.scene->meshes[s[2].mesh];
-    assert_true(s[2].kind == RT_SHAPE_TRIANGLES && triangle->triangle_count == 1 && triangle->normals);
+    assert_true(s[2].kind == RT_SHAPE_TRIANGLES && triangle->triangle_count == 1 &&
+                triangle->normals);
     assert_vector(triangle->positions + 3, 1, 0, 0);
     assert_vector(triangle->normals + 6, 1, 0, 1);
     assert_true(s[3].kind == RT_SHAPE_QUAD);
@@ -93,14 +100,18 @@ static void choices_match_their_enums(void **state)
     static const struct {
         const char *word;
         int value;
-    } kernels[] = {{"epanechnikov", RT_DENSITY_EPANECHNIKOV}, {"box", RT_DENSITY_BOX},
-                   {"cone", RT_DENSITY_CONE},                 {"gaussian", RT_DENSITY_GAUSSIAN},
-                   {"silverman", RT_DENSITY_SILVERMAN},       {"gaussian_jensen", RT_DENSITY_GAUSSIAN_JENSEN}};
+    } kernels[] = {{"epanechnikov", RT_DENSITY_EPANECHNIKOV},
+                   {"box", RT_DENSITY_BOX},
+                   {"cone", RT_DENSITY_CONE},
+                   {"gaussian", RT_DENSITY_GAUSSIAN},
+                   {"silverman", RT_DENSITY_SILVERMAN},
+                   {"gaussian_jensen", RT_DENSITY_GAUSSIAN_JENSEN}};
     static collected c;
     (void)state;
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++) {
         char text[128];
-        snprintf(text, sizeof text, "render { kernel %s mode path sampler sobol direct nee }", kernels[i].word);
+        snprintf(text, sizeof text, "render { kernel %s mode path sampler sobol direct nee }",
+                 kernels[i].word);
         collect_text(&c, text);
         expect_clean(&c, text);
         assert_int_equal(c.scene->options.kernel, kernels[i].value);
@@ -116,8 +127,10 @@ static void expect_position(const char *expression, float x, float y, float z)
 {
     static collected c;
     char text[512];
-    snprintf(text, sizeof text, "let a = 3\nlet v = [1 2 3]\nlet e = %s\nlet used = (a + v + e)\n"
-             "light point { position e  power used }", expression);
+    snprintf(text, sizeof text,
+             "let a = 3\nlet v = [1 2 3]\nlet e = %s\nlet used = (a + v + e)\n"
+             "light point { position e  power used }",
+             expression);
     collect_text(&c, text);
     expect_clean(&c, text);
     assert_vector(c.scene->lights[0].position, x, y, z);
@@ -163,7 +176,8 @@ static void functions_have_their_values(void **state)
 }
 
 /* The map of a shape, applied to a point. */
-static void expect_mapped(const rt_scene_shape *shape, double x, double y, double z, float u, float v, float w)
+static void expect_mapped(const rt_scene_shape *shape, double x, double y, double z, float u,
+                          float v, float w)
 {
     double p[3] = {x, y, z}, q[3];
     rt_affine map = rt_affine_from(&shape->surface.transform);
@@ -179,8 +193,10 @@ static void transforms_apply_in_the_order_written(void **state)
         "material m { }\n"
         "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  rotate 0 0 1 90  translate 5 0 0 }\n"
         "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  translate 5 0 0  rotate 0 0 1 90 }\n"
-        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  scale 1 2 3  scale 2  rotate up (-90) }\n"
-        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  matrix 1 2 0 4  0 1 0 5  0 0 -1 6 }\n";
+        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  scale 1 2 3  scale 2  rotate up "
+        "(-90) }\n"
+        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  matrix 1 2 0 4  0 1 0 5  0 0 -1 6 "
+        "}\n";
     static collected c;
     (void)state;
     collect_text(&c, text);
@@ -215,7 +231,8 @@ static void repeats_count_and_scope_their_names(void **state)
     for (int i = 0; i < 6; i++) {
         const rt_scene_shape *s = &c.scene->shapes[i];
         assert_vector(s->p, 10.0f * (float)(i / 2 + 1), (float)(i / 2 + 1 + i % 2), 0);
-        assert_float_equal(c.scene->materials[s->surface.material].kd[0], (float)(i / 2 + 1) / 10, 1e-6);
+        assert_float_equal(c.scene->materials[s->surface.material].kd[0], (float)(i / 2 + 1) / 10,
+                           1e-6);
     }
     assert_vector(c.scene->shapes[6].p, 7, 0, 0);
     collected_free(&c);
@@ -225,12 +242,15 @@ static void repeats_count_and_scope_their_names(void **state)
 static void meshes_textures_and_lights_reach_the_scene(void **state)
 {
     static const char text[] =
-        "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 aperture 0.1 blades 6 blade_rotation 30 }\n"
+        "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 aperture 0.1 blades 6 "
+        "blade_rotation 30 }\n"
         "film { filter mitchell }\n"
         "render { mode direct aov true estimator bsdf variance true target_error 0.02 }\n"
-        "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 linear true }\n"
+        "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 "
+        "linear true }\n"
         "texture squares { pattern checker a 1 b 0 0.5 0 }\n"
-        "material gold { ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture letter bump_scale 0.1 }\n"
+        "material gold { ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture "
+        "letter bump_scale 0.1 }\n"
         "material water { kt 1 fresnel dielectric absorption 0.1 0.2 0.3 kt_texture squares }\n"
         "mesh knot { file \"scenes/meshes/knot.ply\" }\n"
         "repeat i from 1 to 3 { instance knot { material gold texture squares translate i 0 0 } }\n"
@@ -246,22 +266,28 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     collect_text(&c, text);
     expect_clean(&c, text);
     const rt_scene *s = c.scene;
-    assert_true(s->camera.kind == RT_CAMERA_ORTHOGRAPHIC && s->camera.width == 3 && s->camera.blades == 6);
-    assert_true(s->options.filter == RT_FILTER_MITCHELL && s->options.mode == RT_MODE_DIRECT && s->options.aov);
+    assert_true(s->camera.kind == RT_CAMERA_ORTHOGRAPHIC && s->camera.width == 3 &&
+                s->camera.blades == 6);
+    assert_true(s->options.filter == RT_FILTER_MITCHELL && s->options.mode == RT_MODE_DIRECT &&
+                s->options.aov);
     assert_true(s->options.estimator == RT_ESTIMATOR_BSDF);
     assert_true(s->options.variance && s->options.target_error == 0.02);
     const rt_texture_data *letter = &s->textures[0].data;
-    assert_true(letter->kind == RT_TEXTURE_IMAGE && letter->width == 128 && letter->wrap == RT_WRAP_MIRROR);
+    assert_true(letter->kind == RT_TEXTURE_IMAGE && letter->width == 128 &&
+                letter->wrap == RT_WRAP_MIRROR);
     assert_true(letter->scale[0] == 4 && letter->scale[1] == 2 && letter->offset[1] == -1);
     assert_true(s->textures[1].data.kind == RT_TEXTURE_CHECKER && s->textures[1].data.b[1] == 0.5f);
     assert_true(s->materials[0].fresnel == RT_FRESNEL_CONDUCTOR && s->materials[0].eta[2] == 0.2f);
     assert_true(s->materials[0].bump_texture == 1 && s->materials[1].kt_texture == 2);
-    assert_true(s->materials[1].absorption[2] == 0.3f && s->materials[1].fresnel == RT_FRESNEL_DIELECTRIC);
+    assert_true(s->materials[1].absorption[2] == 0.3f &&
+                s->materials[1].fresnel == RT_FRESNEL_DIELECTRIC);
 
     assert_true(s->shape_count == 7 && s->mesh_count == 3 && s->meshes[0].placed == 3);
     assert_true(s->meshes[0].normals && s->meshes[0].uv && s->meshes[0].triangle_count == 2400);
-    assert_true(!s->meshes[1].normals && s->shapes[2].surface.texture == 2 && s->shapes[3].surface.texture == 0);
-    assert_true(s->shapes[4].caps && !s->shapes[5].caps && s->meshes[2].uv[1] == 1 && s->meshes[2].uv[4] == 1);
+    assert_true(!s->meshes[1].normals && s->shapes[2].surface.texture == 2 &&
+                s->shapes[3].surface.texture == 0);
+    assert_true(s->shapes[4].caps && !s->shapes[5].caps && s->meshes[2].uv[1] == 1 &&
+                s->meshes[2].uv[4] == 1);
 
     assert_true(s->light_count == 3 && s->environment.light == 2 && s->environment.width == 128);
     assert_vector(s->lights[0].direction, 0, -1, 0);
@@ -279,7 +305,8 @@ static void spaces_lines_and_marks_do_not_matter(void **state)
         "film{width 4 height 5}",
         "film\n{\nwidth\n4\nheight 5 }",
         "film {\r\n\twidth 4\r\n\theight 5\r\n}\r\n",
-        "\xef\xbb\xbf" "film { height 5 width 4 }",
+        "\xef\xbb\xbf"
+        "film { height 5 width 4 }",
         "# \xc3\xa9t\xc3\xa9\nfilm { width 4 # } \n height 5 }",
         "let width = 4\nfilm { width (width) height 5 }",
     };
@@ -300,7 +327,8 @@ typedef struct scratch {
     char directory[64];
 } scratch;
 
-static void write_file(const scratch *s, const char *name, const char *text, size_t size, char path[256])
+static void write_file(const scratch *s, const char *name, const char *text, size_t size,
+                       char path[256])
 {
     snprintf(path, 256, "%s/%s", s->directory, name);
     FILE *file = fopen(path, "wb");
@@ -407,9 +435,10 @@ static void a_file_that_cannot_be_read_is_an_error_without_place(void **state)
 {
     static const struct {
         const char *path, *message;
-    } cases[] = {{"/no/such/scene.rts", "cannot read the scene: No such file or directory"},
-                 {"/tmp", "cannot read the scene: it is a directory"},
-                 {"/dev/zero", "cannot read the scene: the scene's files are larger than 256 MiB together"}};
+    } cases[] = {
+        {"/no/such/scene.rts", "cannot read the scene: No such file or directory"},
+        {"/tmp", "cannot read the scene: it is a directory"},
+        {"/dev/zero", "cannot read the scene: the scene's files are larger than 256 MiB together"}};
     static collected c;
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -428,12 +457,14 @@ static void all_stands_for_a_number_of_photons(void **state)
 {
     static collected c;
     rt_render_options o;
-    const char *text = "let all = 7\nrender { k all\n caustic_k (all) spp (all) radius 1 photon_layers true }";
+    const char *text =
+        "let all = 7\nrender { k all\n caustic_k (all) spp (all) radius 1 photon_layers true }";
     (void)state;
     collect_text(&c, text);
     expect_clean(&c, text);
     rt_scene_get_options(c.scene, &o);
-    assert_true(o.k == RT_K_ALL && o.caustic_k == 7 && o.spp == 7 && o.photon_layers == 1 && o.aov == 0);
+    assert_true(o.k == RT_K_ALL && o.caustic_k == 7 && o.spp == 7 && o.photon_layers == 1 &&
+                o.aov == 0);
     collected_free(&c);
     collect_text(&c, "render { spp all }");
     assert_int_equal(c.errors, 1);
@@ -445,7 +476,8 @@ static void without_callback_or_error_it_still_works(void **state)
 {
     rt_scene *scene = NULL;
     (void)state;
-    assert_int_equal(rt_scene_parse(&scene, "film { width 0 }", "text", NULL, NULL), RT_ERROR_INPUT);
+    assert_int_equal(rt_scene_parse(&scene, "film { width 0 }", "text", NULL, NULL),
+                     RT_ERROR_INPUT);
     assert_null(scene);
     assert_int_equal(rt_scene_parse(&scene, "film { width 1 }", "text", NULL, NULL), RT_OK);
     rt_scene_destroy(scene);
@@ -462,10 +494,12 @@ int main(void)
         cmocka_unit_test(repeats_count_and_scope_their_names),
         cmocka_unit_test(meshes_textures_and_lights_reach_the_scene),
         cmocka_unit_test(spaces_lines_and_marks_do_not_matter),
-        cmocka_unit_test_setup_teardown(includes_are_relative_to_the_file_that_names_them, make_scratch,
+        cmocka_unit_test_setup_teardown(includes_are_relative_to_the_file_that_names_them,
+                                        make_scratch, remove_scratch),
+        cmocka_unit_test_setup_teardown(errors_name_the_included_file_and_keep_the_order,
+                                        make_scratch, remove_scratch),
+        cmocka_unit_test_setup_teardown(cycles_and_explosions_of_includes_are_refused, make_scratch,
                                         remove_scratch),
-        cmocka_unit_test_setup_teardown(errors_name_the_included_file_and_keep_the_order, make_scratch, remove_scratch),
-        cmocka_unit_test_setup_teardown(cycles_and_explosions_of_includes_are_refused, make_scratch, remove_scratch),
         cmocka_unit_test_setup_teardown(what_is_no_text_is_one_error, make_scratch, remove_scratch),
         cmocka_unit_test(a_file_that_cannot_be_read_is_an_error_without_place),
         cmocka_unit_test(all_stands_for_a_number_of_photons),

@@ -1,4 +1,7 @@
-/* The reference page: it has every block and field as the tables of the language say, and its examples are right. */
+/*
+ * The reference page: it has every block and field as the tables of the language say, and its
+ * examples are right.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,8 +29,8 @@ static void field_row(char row[1024], const rt_field *field)
     contents[2] = field->need == RT_NEED_REQUIRED ? "required" : field->fallback;
     for (int i = 0; i < 3; i++)
         snprintf(cell[i], sizeof cell[i], "%s%s", contents[i], contents[i][0] ? " " : "");
-    snprintf(row, 1024, "| `%s` | %s | %s| %s| %s| ", field->name, rt_field_phrase(phrase, field), cell[0], cell[1],
-             cell[2]);
+    snprintf(row, 1024, "| `%s` | %s | %s| %s| %s| ", field->name, rt_field_phrase(phrase, field),
+             cell[0], cell[1], cell[2]);
 }
 
 static void every_block_and_field_is_described(void **state)
@@ -97,7 +100,8 @@ static void every_example_is_a_good_scene(void **state)
         collect_text(&c, text);
         for (int i = 0; i < c.count; i++)
             if (c.items[i].severity == RT_SEVERITY_ERROR)
-                fail_msg("line %d of an example: %s\n%s", c.items[i].line, c.items[i].message, text);
+                fail_msg("line %d of an example: %s\n%s", c.items[i].line, c.items[i].message,
+                         text);
         assert_int_equal(c.status, RT_OK);
         collected_free(&c);
         examples++;

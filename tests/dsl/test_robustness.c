@@ -1,4 +1,7 @@
-/* The scenes that ship are good; cut short or damaged anywhere they are accepted or refused, never worse. */
+/*
+ * The scenes that ship are good; cut short or damaged anywhere they are accepted or refused, never
+ * worse.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,8 +14,8 @@
 
 #include "tests/dsl/collect.h"
 
-static const char *const scenes[] = {"scenes/cornell.rts", "scenes/box_point.rts", "scenes/box_area.rts",
-                                     "scenes/box_caustic.rts"};
+static const char *const scenes[] = {"scenes/cornell.rts", "scenes/box_point.rts",
+                                     "scenes/box_area.rts", "scenes/box_caustic.rts"};
 #define SCENE_COUNT (sizeof scenes / sizeof *scenes)
 
 static void the_scenes_that_ship_are_good(void **state)
@@ -41,7 +44,8 @@ static void expect_an_answer(const char *text)
     int line = 0, column = 0;
     for (int i = 0; i < c.count && i < COLLECTED_MAX; i++) {
         const collected_diagnostic *d = &c.items[i];
-        assert_true(d->line >= 1 && d->column >= 1 && d->length >= 1 && (size_t)d->line <= length + 1);
+        assert_true(d->line >= 1 && d->column >= 1 && d->length >= 1 &&
+                    (size_t)d->line <= length + 1);
         assert_true(d->message[0] != '\0' && strpbrk(d->message, "\r\n") == NULL);
         if (strcmp(d->file, "text") != 0)
             continue;
@@ -87,9 +91,11 @@ static void damaged_anywhere_a_scene_gives_an_answer(void **state)
 /* Words of the language in any order. */
 static void shuffled_words_give_an_answer(void **state)
 {
-    static const char *const words[] = {"sphere ", "{ ", "} ", "material ", "m ", "centre ", "0 ", "-1 ", "- ", "( ",
-                                        ") ", "[ ", "] ", "let ", "= ", "radius ", "\n", "light ", "point ", "include ",
-                                        "\"x\" ", "kd ", "render ", "mode ", "* ", "a ", ", ", "1e999 "};
+    static const char *const words[] = {
+        "sphere ", "{ ",      "} ",    "material ", "m ",     "centre ",  "0 ",
+        "-1 ",     "- ",      "( ",    ") ",        "[ ",     "] ",       "let ",
+        "= ",      "radius ", "\n",    "light ",    "point ", "include ", "\"x\" ",
+        "kd ",     "render ", "mode ", "* ",        "a ",     ", ",       "1e999 "};
     char text[1024];
     uint32_t random = 7;
     (void)state;

@@ -19,13 +19,22 @@ static void edit_distances_are_those_of_optimal_alignment(void **state)
     static const struct {
         const char *a, *b;
         int distance;
-    } cases[] = {{"", "", 0},           {"a", "", 1},          {"radius", "radius", 0}, {"raduis", "radius", 1},
-                 {"centre", "center", 1}, {"spere", "sphere", 1}, {"kitten", "sitting", 3}, {"CA", "ABC", 3},
-                 {"Radius", "radius", 0}, {"ab", "ba", 1}};
+    } cases[] = {{"", "", 0},
+                 {"a", "", 1},
+                 {"radius", "radius", 0},
+                 {"raduis", "radius", 1},
+                 {"centre", "center", 1},
+                 {"spere", "sphere", 1},
+                 {"kitten", "sitting", 3},
+                 {"CA", "ABC", 3},
+                 {"Radius", "radius", 0},
+                 {"ab", "ba", 1}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_int_equal(rt_edit_distance(text(cases[i].a), text(cases[i].b), 9), cases[i].distance);
-        assert_int_equal(rt_edit_distance(text(cases[i].b), text(cases[i].a), 9), cases[i].distance);
+        assert_int_equal(rt_edit_distance(text(cases[i].a), text(cases[i].b), 9),
+                         cases[i].distance);
+        assert_int_equal(rt_edit_distance(text(cases[i].b), text(cases[i].a), 9),
+                         cases[i].distance);
     }
     assert_int_equal(rt_edit_distance(text("abcdef"), text("uvwxyz"), 2), 3);
 }

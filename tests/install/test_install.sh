@@ -36,8 +36,15 @@ check installs install_with install
 
 cat >"$work/expected" <<'END'
 ./usr/local/bin/rtc
+./usr/local/include/rt/base.h
 ./usr/local/include/rt/common.h
+./usr/local/include/rt/device.h
+./usr/local/include/rt/film.h
+./usr/local/include/rt/image.h
+./usr/local/include/rt/photon.h
+./usr/local/include/rt/render.h
 ./usr/local/include/rt/rt.h
+./usr/local/include/rt/scene.h
 ./usr/local/lib/librt-render.a
 ./usr/local/lib/librt-render.so
 ./usr/local/lib/librt-render.so.0

@@ -1,6 +1,6 @@
 /* bsdf.cl - scattering of one surface, for its test. */
-#include "bsdf.h"
-#include "rng.h"
+#include "bsdf/bsdf.h"
+#include "sample/rng.h"
 
 /* What a test wants of a surface: rows of four floats. */
 struct situation {
@@ -30,8 +30,8 @@ kernel void reflectance(uint count, global const float2 *in, global float2 *out)
 }
 
 /*
- * Four rows an item: wi and event, weight over survival and squeeze, light and density of the event's lobe at wi, and
- * albedo with the density that was sampled.
+ * Four rows an item: wi and event, weight over survival and squeeze, light and density of the
+ * event's lobe at wi, and albedo with the density that was sampled.
  */
 kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
                     global const struct situation *situation, uint transport, global float4 *out)
@@ -53,7 +53,8 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
         made = bsdf_scatter(&bsdf, event, u.xyw, transport);
     out[4u * i] = (float4)(made.wi, (float)event);
     out[4u * i + 1u] = (float4)(made.weight / at.beta.w, made.squeeze);
-    const struct lobe lobe = event == EVENT_ROUGH ? bsdf_rough(&bsdf, made.wi) : bsdf_diffuse(&bsdf, made.wi);
+    const struct lobe lobe =
+        event == EVENT_ROUGH ? bsdf_rough(&bsdf, made.wi) : bsdf_diffuse(&bsdf, made.wi);
     out[4u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
     out[4u * i + 3u] = (float4)(bsdf_albedo(&bsdf), made.pdf_w);
 }
@@ -78,9 +79,12 @@ kernel void events(uint seed, uint count, global const rt_scene_header *header,
     out[2u * i + 1u] = (float4)((float)event, 0.0f, 0.0f, 0.0f);
 }
 
-/* Two rows an item: light and density of diffuse, and of rough events, in situations[i] at wi[i]. */
-kernel void evaluate(uint count, global const rt_scene_header *header, global const struct situation *situations,
-                     global const float4 *wi, global float4 *out)
+/*
+ * Two rows an item: light and density of diffuse, and of rough events, in situations[i] at wi[i].
+ */
+kernel void evaluate(uint count, global const rt_scene_header *header,
+                     global const struct situation *situations, global const float4 *wi,
+                     global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -98,8 +102,8 @@ kernel void evaluate(uint count, global const rt_scene_header *header, global co
 }
 
 /*
- * Two rows an item, for situations[i]: mean and mean square of the part of the light that a sample keeps, with the
- * largest part of all samples.
+ * Two rows an item, for situations[i]: mean and mean square of the part of the light that a sample
+ * keeps, with the largest part of all samples.
  */
 kernel void albedo(uint seed, uint count, global const rt_scene_header *header,
                    global const struct situation *situations, uint samples, global float4 *out)

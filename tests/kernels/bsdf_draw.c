@@ -24,14 +24,15 @@ static cl_mem scene_of(const rt_material_data *material)
     return test_buffer(sizeof scene, &scene);
 }
 
-void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport, uint32_t seed,
-                  uint32_t count, bsdf_draw *out)
+void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
+                  uint32_t seed, uint32_t count, bsdf_draw *out)
 {
     seed = test_seed(seed);
     cl_kernel kernel = test_kernel("bsdf", "scatter");
     cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
     cl_mem made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(transport), RT_ARG(made)};
+    rt_arg args[] = {RT_ARG(seed), RT_ARG(count),     RT_ARG(scene),
+                     RT_ARG(s),    RT_ARG(transport), RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(scene);
@@ -40,7 +41,8 @@ void draw_scatter(const rt_material_data *material, const situation *at, uint32_
     rt_kernel_release(kernel);
 }
 
-void draw_events(const rt_material_data *material, const situation *at, uint32_t seed, uint32_t count, bsdf_event *out)
+void draw_events(const rt_material_data *material, const situation *at, uint32_t seed,
+                 uint32_t count, bsdf_event *out)
 {
     cl_kernel kernel = test_kernel("bsdf", "events");
     cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
@@ -54,8 +56,8 @@ void draw_events(const rt_material_data *material, const situation *at, uint32_t
     rt_kernel_release(kernel);
 }
 
-void evaluate_scatter(const rt_material_data *material, const situation *at, const float (*wi)[4], uint32_t count,
-                      bsdf_value *out)
+void evaluate_scatter(const rt_material_data *material, const situation *at, const float (*wi)[4],
+                      uint32_t count, bsdf_value *out)
 {
     cl_kernel kernel = test_kernel("bsdf", "evaluate");
     cl_mem scene = scene_of(material), s = test_buffer(count * sizeof *at, at);
@@ -70,14 +72,15 @@ void evaluate_scatter(const rt_material_data *material, const situation *at, con
     rt_kernel_release(kernel);
 }
 
-void measure_albedo(const rt_material_data *material, const situation *at, uint32_t samples, uint32_t count,
-                    bsdf_albedo *out)
+void measure_albedo(const rt_material_data *material, const situation *at, uint32_t samples,
+                    uint32_t count, bsdf_albedo *out)
 {
     cl_kernel kernel = test_kernel("bsdf", "albedo");
     cl_mem scene = scene_of(material), s = test_buffer(count * sizeof *at, at);
     cl_mem made = test_buffer(count * sizeof *out, NULL);
     uint32_t seed = test_seed(0);
-    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(samples), RT_ARG(made)};
+    rt_arg args[] = {RT_ARG(seed), RT_ARG(count),   RT_ARG(scene),
+                     RT_ARG(s),    RT_ARG(samples), RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(scene);

@@ -37,23 +37,27 @@ typedef struct bsdf_value {
     float rough[3], rough_pdf_w;
 } bsdf_value;
 
-/* What a situation keeps of the light: mean and mean square over samples, and the most that one keeps. */
+/*
+ * What a situation keeps of the light: mean and mean square over samples, and the most that one
+ * keeps.
+ */
 typedef struct bsdf_albedo {
     float mean[3], most;
     float square[3], unused;
 } bsdf_albedo;
 
 /* Fill out[count] with events. */
-void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport, uint32_t seed,
-                  uint32_t count, bsdf_draw *out);
-void draw_events(const rt_material_data *material, const situation *at, uint32_t seed, uint32_t count, bsdf_event *out);
+void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport,
+                  uint32_t seed, uint32_t count, bsdf_draw *out);
+void draw_events(const rt_material_data *material, const situation *at, uint32_t seed,
+                 uint32_t count, bsdf_event *out);
 
 /* Fills out[count] with what each wo of the situations gets from each wi. */
-void evaluate_scatter(const rt_material_data *material, const situation *at, const float (*wi)[4], uint32_t count,
-                      bsdf_value *out);
+void evaluate_scatter(const rt_material_data *material, const situation *at, const float (*wi)[4],
+                      uint32_t count, bsdf_value *out);
 
 /* Fills out[count] with what each of the situations keeps. */
-void measure_albedo(const rt_material_data *material, const situation *at, uint32_t samples, uint32_t count,
-                    bsdf_albedo *out);
+void measure_albedo(const rt_material_data *material, const situation *at, uint32_t samples,
+                    uint32_t count, bsdf_albedo *out);
 
 #endif

@@ -1,8 +1,9 @@
 /* camera.cl - camera rays for given film and lens points, for their test. */
-#include "camera.h"
+#include "camera/camera.h"
 
 /* in: film x, y, lens x, y; out: two rows a ray, origin and direction. */
-kernel void rays(global const rt_scene_header *header, uint count, global const float4 *in, global float4 *out)
+kernel void rays(global const rt_scene_header *header, uint count, global const float4 *in,
+                 global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

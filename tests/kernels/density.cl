@@ -1,7 +1,8 @@
 /* density.cl - evaluates density_kernel at given squared distances. */
-#include "density.h"
+#include "photon/density.h"
 
-kernel void evaluate(uint count, uint density, float cone_k, float r2, global const float *d2, global float *out)
+kernel void evaluate(uint count, uint density, float cone_k, float r2, global const float *d2,
+                     global float *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i < count)

@@ -1,5 +1,5 @@
 /* film.cl - the pixel of each work-item, and samples added to one, for their tests. */
-#include "film.h"
+#include "camera/film.h"
 
 kernel void pixels(const rt_params params, global uint *out)
 {

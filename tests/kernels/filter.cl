@@ -1,6 +1,6 @@
 /* filter.cl - samples of reconstruction filters, for their test. */
-#include "filter.h"
-#include "rng.h"
+#include "camera/filter.h"
+#include "sample/rng.h"
 
 /* One row an item: the point in pixels from the pixel's corner, and its weight. */
 kernel void sample(uint filter, uint seed, uint count, global float4 *out)

@@ -1,12 +1,16 @@
 /*
- * knn.cl - the photons that the gather on the device counts at each point, in no particular order, by their places in
- * the order of the tree.
+ * knn.cl - the photons that the gather on the device counts at each point, in no particular order,
+ * by their places in the order of the tree.
  */
-#include "photon_sum.h"
+#include "photon/sum.h"
 
-/* lists: [item_count][params.slots]; the arguments before them are those of photon_walk, in its order. */
-kernel void neighbours(const rt_params params, const rt_density_params estimate, global const rt_gather_point *points,
-                       global rt_gather_disc *discs, const rt_photon_tree shape, global const rt_photon_node *nodes,
+/*
+ * lists: [item_count][params.slots]; the arguments before them are those of photon_walk, in its
+ * order.
+ */
+kernel void neighbours(const rt_params params, const rt_density_params estimate,
+                       global const rt_gather_point *points, global rt_gather_disc *discs,
+                       const rt_photon_tree shape, global const rt_photon_node *nodes,
                        global const rt_photon_block *blocks, global float *scratch,
                        global const float *own_limits, global uint *lists)
 {
@@ -26,15 +30,20 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     if (estimate.k == 0u) {
         /* By turns as one of a group of up to four points. */
         const uint first = item - item % 4u;
-        start = start_of_points(&tree, points + first, min(1u + item % 4u, params.item_count - first), &estimate,
-                                own_limits);
-        sum = sum_within(&tree, &start, &query, &estimate, point_limit(points + item, &estimate, own_limits));
+        start =
+            start_of_points(&tree, points + first, min(1u + item % 4u, params.item_count - first),
+                            &estimate, own_limits);
+        sum = sum_within(&tree, &start, &query, &estimate,
+                         point_limit(points + item, &estimate, own_limits));
     } else {
         /* By turns without a guess, with a good one, one much too large and one too small. */
         sum = sum_nearest(&tree, &query, &estimate, 0.0f, own);
         if (item % 4u)
             sum = sum_nearest(&tree, &query, &estimate,
-                              sum.squared_radius * (item % 4u == 1u ? 1.3f : item % 4u == 2u ? 30.0f : 0.5f), own);
+                              sum.squared_radius * (item % 4u == 1u   ? 1.3f
+                                                    : item % 4u == 2u ? 30.0f
+                                                                      : 0.5f),
+                              own);
     }
 
     rt_gather_disc disc;
@@ -53,7 +62,8 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
                                    photons_accepted(block, &query));
             for (; lanes; lanes &= lanes - 1u) {
                 if (disc.count < params.slots)
-                    lists[(size_t)item * params.slots + disc.count] = 8u * index + lane_first(lanes);
+                    lists[(size_t)item * params.slots + disc.count] =
+                        8u * index + lane_first(lanes);
                 disc.count++;
             }
         }

@@ -1,19 +1,19 @@
 /* leave.cl - what a ray meets when it leaves the surface that another ray met, for its test. */
-#include "traverse.h"
+#include "accel/traverse.h"
 
 /*
- * Follows each ray to its nearest hit, leaves that surface towards away[i].xyz and writes how far the next hit is:
- * infinity for none, -1 where the first ray missed.
+ * Follows each ray to its nearest hit, leaves that surface towards away[i].xyz and writes how far
+ * the next hit is: infinity for none, -1 where the first ray missed.
  */
-kernel void leave(global const rt_scene_header *header, global const rt_ray *rays, global const float4 *away,
-                  uint count, global float *out)
+kernel void leave(global const rt_scene_header *header, global const rt_ray *rays,
+                  global const float4 *away, uint count, global float *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
         return;
     const struct scene scene = scene_open(header);
-    const struct ray first =
-        make_ray(vload3(0, rays[i].origin), vload3(0, rays[i].direction), rays[i].t_min, rays[i].t_max);
+    const struct ray first = make_ray(vload3(0, rays[i].origin), vload3(0, rays[i].direction),
+                                      rays[i].t_min, rays[i].t_max);
     struct hit hit;
     if (!closest_hit(&scene, &first, &hit)) {
         out[i] = -1.0f;

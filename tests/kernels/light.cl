@@ -1,6 +1,6 @@
 /* light.cl - samples of lights and starts of light paths, for their test. */
-#include "light_emit.h"
-#include "rng.h"
+#include "light/emit.h"
+#include "sample/rng.h"
 
 static float4 numbers(uint seed, uint i)
 {
@@ -8,9 +8,11 @@ static float4 numbers(uint seed, uint i)
 }
 
 /*
- * Four rows an item: position and 1 / pdf_w, wi and delta, radiance and light_pdf_w at the same point, normal and lift.
+ * Four rows an item: position and 1 / pdf_w, wi and delta, radiance and light_pdf_w at the same
+ * point, normal and lift.
  */
-kernel void sample(global const rt_scene_header *header, uint seed, uint count, float4 from, global float4 *out)
+kernel void sample(global const rt_scene_header *header, uint seed, uint count, float4 from,
+                   global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -27,7 +29,8 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
     else if (made.distant && !made.delta)
         again = sky_light_pdf_w(&scene, from.xyz, made.wi);
     else if (!made.delta)
-        again = light_pdf_w(&scene, scene.lights + choose_light(&scene, from.xyz, u.z, &pmf), from.xyz, &made.at);
+        again = light_pdf_w(&scene, scene.lights + choose_light(&scene, from.xyz, u.z, &pmf),
+                            from.xyz, &made.at);
     out[4u * i] = (float4)(made.at.position, made.spread);
     out[4u * i + 1u] = (float4)(made.wi, made.delta ? 1.0f : 0.0f);
     out[4u * i + 2u] = (float4)(made.radiance, again);
@@ -35,7 +38,8 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
 }
 
 /* Which light the number i + 1/2 of count chooses, and with which probability. */
-kernel void choose(global const rt_scene_header *header, uint count, float4 from, global float2 *out)
+kernel void choose(global const rt_scene_header *header, uint count, float4 from,
+                   global float2 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -56,8 +60,8 @@ kernel void chances(global const rt_scene_header *header, float4 from, global fl
 }
 
 /* Four rows an item: position, direction, flux and light, normal. */
-kernel void emit(global const rt_scene_header *header, uint seed, uint count, global const rt_light_share *shares,
-                 global float4 *out)
+kernel void emit(global const rt_scene_header *header, uint seed, uint count,
+                 global const rt_light_share *shares, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

@@ -26,12 +26,14 @@ rt_renderer *light_renderer(rt_scene *scene)
     return renderer;
 }
 
-void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count, light_draw *out)
+void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count,
+                      light_draw *out)
 {
     float point[4] = {from[0], from[1], from[2], 0};
     cl_kernel kernel = test_kernel("light", "sample");
     cl_mem made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(point), RT_ARG(made)};
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(point),
+                     RT_ARG(made)};
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(made);
@@ -43,11 +45,13 @@ void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, e
     cl_kernel kernel = test_kernel("light", "emit");
     rt_light_sources lights;
     rt_error error;
-    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
+    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error),
+              &error);
     cl_mem shares = test_buffer(lights.light_count * sizeof *lights.shares, lights.shares);
     memset(out, 0, count * sizeof *out);
     cl_mem made = test_buffer(count * sizeof *out, out);
-    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(shares), RT_ARG(made)};
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(shares),
+                     RT_ARG(made)};
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *out, out);
     rt_light_sources_free(&lights);

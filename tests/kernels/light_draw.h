@@ -1,4 +1,7 @@
-/* light_draw.h - samples of a scene's lights and starts of its light paths, for the tests of lights. */
+/*
+ * light_draw.h - samples of a scene's lights and starts of its light paths, for the tests of
+ * lights.
+ */
 #ifndef RT_TESTS_KERNELS_LIGHT_DRAW_H
 #define RT_TESTS_KERNELS_LIGHT_DRAW_H
 
@@ -29,7 +32,8 @@ rt_scene *light_scene(void);
 rt_renderer *light_renderer(rt_scene *scene);
 
 /* Fill out[count]. */
-void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count, light_draw *out);
+void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count,
+                      light_draw *out);
 void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, emission_draw *out);
 
 /* Fills out[light_draws] with samples of the lights seen from a point. */

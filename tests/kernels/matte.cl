@@ -1,11 +1,15 @@
-/* matte.cl - path tracing that takes each vertex by itself, for the test of those that are taken together. */
-#include "camera.h"
+/*
+ * matte.cl - path tracing that takes each vertex by itself, for the test of those that are taken
+ * together.
+ */
+#include "camera/camera.h"
 #include "entry.h"
-#include "film.h"
-#include "integrate.h"
+#include "camera/film.h"
+#include "integrate/integrate.h"
 
 /* One work-item a pixel. */
-KERNEL path_singly(const rt_params params, global const rt_scene_header *header, global rt_film_pixel *film)
+KERNEL path_singly(const rt_params params, global const rt_scene_header *header,
+                   global rt_film_pixel *film)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
@@ -17,7 +21,8 @@ KERNEL path_singly(const rt_params params, global const rt_scene_header *header,
         const struct sampler sampler = sampler_start(&scene, &params, index, n);
         float weight;
         struct path path;
-        path_begin(&path, &scene, &sampler, pixel_ray(&header->camera, &params, &sampler, at, &weight));
+        path_begin(&path, &scene, &sampler,
+                   pixel_ray(&header->camera, &params, &sampler, at, &weight));
         while (path.depth) {
             const float8 numbers = sampler_pair(&path.sampler, set_light(path.depth - 1u));
             struct hit hit;

@@ -1,9 +1,12 @@
 /* medium.cl - boundaries crossed and light absorbed, for their test. */
-#include "medium.h"
+#include "material/medium.h"
 
-/* Crosses boundaries in turn: in: material and 1 for entering; out: eta, exists, and the medium after. */
-kernel void cross_boundaries(global const rt_scene_header *header, uint count, global const uint2 *in,
-                             global float4 *out)
+/*
+ * Crosses boundaries in turn: in: material and 1 for entering; out: eta, exists, and the medium
+ * after.
+ */
+kernel void cross_boundaries(global const rt_scene_header *header, uint count,
+                             global const uint2 *in, global float4 *out)
 {
     if (get_global_id(0) != 0)
         return;
@@ -12,13 +15,14 @@ kernel void cross_boundaries(global const rt_scene_header *header, uint count, g
     for (uint i = 0; i < count; i++) {
         const struct boundary boundary = media_cross(&scene, media, in[i].x, in[i].y != 0u);
         media = boundary.beyond;
-        out[i] =
-            (float4)(boundary.eta, boundary.exists ? 1.0f : 0.0f, media.x == RT_NONE ? -1.0f : (float)media.x, 0.0f);
+        out[i] = (float4)(boundary.eta, boundary.exists ? 1.0f : 0.0f,
+                          media.x == RT_NONE ? -1.0f : (float)media.x, 0.0f);
     }
 }
 
 /* What is left of light after each distance in material 0. */
-kernel void transmit(global const rt_scene_header *header, uint count, global const float *distance, global float4 *out)
+kernel void transmit(global const rt_scene_header *header, uint count, global const float *distance,
+                     global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

@@ -60,15 +60,17 @@ rt_scene *rays_scene(void)
     return scene;
 }
 
-void rays_add_triangles(rt_scene *scene, const float *positions, size_t vertices, const uint32_t *indices,
-                        size_t triangles)
+void rays_add_triangles(rt_scene *scene, const float *positions, size_t vertices,
+                        const uint32_t *indices, size_t triangles)
 {
     rt_error error;
-    expect_ok(rt_scene_add_triangles(scene, NULL, positions, vertices, indices, triangles, NULL, &plain, &error),
+    expect_ok(rt_scene_add_triangles(scene, NULL, positions, vertices, indices, triangles, NULL,
+                                     &plain, &error),
               &error);
 }
 
-void rays_add_quad(rt_scene *scene, const float corner[3], const float edge1[3], const float edge2[3])
+void rays_add_quad(rt_scene *scene, const float corner[3], const float edge1[3],
+                   const float edge2[3])
 {
     rt_error error;
     expect_ok(rt_scene_add_quad(scene, NULL, corner, edge1, edge2, &plain, &error), &error);
@@ -109,10 +111,12 @@ float *rays_leave(rt_scene *scene, const rt_ray *rays, float (*away)[4], uint32_
     rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
     float *next = malloc(count * sizeof *next);
     assert_non_null(next);
-    cl_mem in = test_buffer(count * sizeof *rays, rays), to = test_buffer(count * sizeof *away, away);
+    cl_mem in = test_buffer(count * sizeof *rays, rays),
+           to = test_buffer(count * sizeof *away, away);
     cl_mem out = test_buffer(count * sizeof *next, NULL);
     cl_kernel kernel = test_kernel("leave", "leave");
-    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(to), RT_ARG(count), RT_ARG(out)};
+    const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(to), RT_ARG(count),
+                           RT_ARG(out)};
     test_run(kernel, args, 5, count);
     test_read(out, count * sizeof *next, next);
     rt_kernel_release(kernel);

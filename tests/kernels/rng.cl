@@ -1,8 +1,8 @@
 /* rng.cl - sets of samplers, for their test. */
-#include "rng.h"
+#include "sample/rng.h"
 
-kernel void sets(const rt_params params, global const rt_scene_header *header, uint stream, uint set, uint count,
-                 global float4 *out)
+kernel void sets(const rt_params params, global const rt_scene_header *header, uint stream,
+                 uint set, uint count, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -13,8 +13,8 @@ kernel void sets(const rt_params params, global const rt_scene_header *header, u
 }
 
 /* Two sets an item, `set` and the next: of sample i of stream 7, or of sample 7 of stream i. */
-kernel void pairs(const rt_params params, global const rt_scene_header *header, uint along, uint set, uint count,
-                  global float8 *out)
+kernel void pairs(const rt_params params, global const rt_scene_header *header, uint along,
+                  uint set, uint count, global float8 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

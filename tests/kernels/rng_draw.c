@@ -17,7 +17,8 @@ cl_mem rng_scene(void)
     return test_buffer(sizeof scene, &scene);
 }
 
-void rng_draw_pairs(rt_sampler kind, uint32_t seed, int along, uint32_t set, uint32_t count, float (*out)[8])
+void rng_draw_pairs(rt_sampler kind, uint32_t seed, int along, uint32_t set, uint32_t count,
+                    float (*out)[8])
 {
     const uint32_t is_along = along != 0;
     rt_params params;
@@ -26,7 +27,8 @@ void rng_draw_pairs(rt_sampler kind, uint32_t seed, int along, uint32_t set, uin
     params.seed = seed;
     cl_kernel kernel = test_kernel("rng", "pairs");
     cl_mem scene = rng_scene(), made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(is_along), RT_ARG(set), RT_ARG(count), RT_ARG(made)};
+    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(is_along),
+                     RT_ARG(set),    RT_ARG(count), RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(made);

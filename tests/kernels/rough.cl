@@ -1,6 +1,6 @@
 /* rough.cl - the lobes of one rough boundary and the reflectance of metals, for their tests. */
-#include "rng.h"
-#include "rough.h"
+#include "sample/rng.h"
+#include "bsdf/rough.h"
 
 /* A boundary: ks, kt, alpha and eta. */
 static struct specular boundary_of(global const rt_material_data *material, float4 numbers)
@@ -15,8 +15,8 @@ static struct specular boundary_of(global const rt_material_data *material, floa
 }
 
 /* Three rows an item: wi and the density sampled, weight, light and density by evaluation at wi. */
-kernel void sample_rough(uint seed, uint count, global const rt_material_data *material, const float4 numbers,
-                         const float4 wo, global float4 *out)
+kernel void sample_rough(uint seed, uint count, global const rt_material_data *material,
+                         const float4 numbers, const float4 wo, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -33,8 +33,9 @@ kernel void sample_rough(uint seed, uint count, global const rt_material_data *m
 }
 
 /* A row an item: light from directions[i] to wo, with its density. */
-kernel void evaluate_rough(uint count, global const rt_material_data *material, const float4 numbers, const float4 wo,
-                           global const float4 *directions, global float4 *out)
+kernel void evaluate_rough(uint count, global const rt_material_data *material,
+                           const float4 numbers, const float4 wo, global const float4 *directions,
+                           global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -45,8 +46,8 @@ kernel void evaluate_rough(uint count, global const rt_material_data *material, 
 }
 
 /* The same with the directions exchanged, seen from the side of what was wi. */
-kernel void evaluate_back(uint count, global const rt_material_data *material, const float4 numbers, const float4 wo,
-                          global const float4 *directions, global float4 *out)
+kernel void evaluate_back(uint count, global const rt_material_data *material, const float4 numbers,
+                          const float4 wo, global const float4 *directions, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -61,7 +62,8 @@ kernel void evaluate_back(uint count, global const rt_material_data *material, c
 }
 
 /* Reflectance of a metal at each cosine. */
-kernel void reflect_metal(uint count, const float4 eta, const float4 k, global const float *cosine, global float4 *out)
+kernel void reflect_metal(uint count, const float4 eta, const float4 k, global const float *cosine,
+                          global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i < count)

@@ -1,6 +1,6 @@
 /* sample.cl - the sampling routines over independent numbers, for their test. */
-#include "rng.h"
-#include "sample.h"
+#include "sample/rng.h"
+#include "sample/sample.h"
 
 /* Two independent numbers for item i. */
 static float2 pair(uint seed, uint i)
@@ -46,14 +46,16 @@ kernel void rectangle(uint seed, uint count, float4 shape, float z, global float
     if (i >= count)
         return;
     const struct seen_rectangle seen = see_rectangle(shape.x, shape.y, z, shape.z, shape.w);
-    out[i] = (float4)(sample_seen_rectangle(&seen, pair(seed, i)), seen.solid_angle, seen_rectangle_pdf_w(&seen));
+    out[i] = (float4)(sample_seen_rectangle(&seen, pair(seed, i)), seen.solid_angle,
+                      seen_rectangle_pdf_w(&seen));
 }
 
 kernel void cap(uint seed, uint count, float radius, float distance2, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i < count)
-        out[i] = (float4)(sample_cap(radius, distance2, pair(seed, i)), cap_pdf_w(radius, distance2));
+        out[i] =
+            (float4)(sample_cap(radius, distance2, pair(seed, i)), cap_pdf_w(radius, distance2));
 }
 
 /* sin, cos and atan of y / x for each (x, y). */

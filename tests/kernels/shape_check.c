@@ -10,22 +10,16 @@ static const double band = 1e-4;
 static const double pi = 3.14159265358979323846;
 
 const truth_shape shape_kinds[] = {
-    {.kind = RT_SHAPE_ELLIPSOID},
-    {.kind = RT_SHAPE_DISC},
-    {.kind = RT_SHAPE_DISC, .p = 0.6f},
-    {.kind = RT_SHAPE_CYLINDER},
-    {.kind = RT_SHAPE_CYLINDER, .caps = 1},
-    {.kind = RT_SHAPE_CONE},
-    {.kind = RT_SHAPE_CONE, .caps = 1},
-    {.kind = RT_SHAPE_CONE, .p = 0.4f, .caps = 1},
-    {.kind = RT_SHAPE_CONE, .p = 0.9f},
-    {.kind = RT_SHAPE_TORUS, .p = 0.25f},
-    {.kind = RT_SHAPE_TORUS, .p = 0.95f},
-    {.kind = RT_SHAPE_TORUS, .p = 0.01f},
+    {.kind = RT_SHAPE_ELLIPSOID},           {.kind = RT_SHAPE_DISC},
+    {.kind = RT_SHAPE_DISC, .p = 0.6f},     {.kind = RT_SHAPE_CYLINDER},
+    {.kind = RT_SHAPE_CYLINDER, .caps = 1}, {.kind = RT_SHAPE_CONE},
+    {.kind = RT_SHAPE_CONE, .caps = 1},     {.kind = RT_SHAPE_CONE, .p = 0.4f, .caps = 1},
+    {.kind = RT_SHAPE_CONE, .p = 0.9f},     {.kind = RT_SHAPE_TORUS, .p = 0.25f},
+    {.kind = RT_SHAPE_TORUS, .p = 0.95f},   {.kind = RT_SHAPE_TORUS, .p = 0.01f},
 };
 const size_t shape_kind_count = sizeof shape_kinds / sizeof *shape_kinds;
 
-const shape_place shape_places[] = {{1.0f, 0.0f, 0},    {1e-3f, 0.0f, 1}, {1e3f, 0.0f, 1},
+const shape_place shape_places[] = {{1.0f, 0.0f, 0},   {1e-3f, 0.0f, 1}, {1e3f, 0.0f, 1},
                                     {1.0f, 100.0f, 0}, {1.0f, 3.0f, 1},  {1e-3f, 1000.0f, 1}};
 const size_t shape_place_count = sizeof shape_places / sizeof *shape_places;
 
@@ -115,7 +109,8 @@ rt_scene *shape_scene(const truth_shape *shape)
 /* A point of the surface and its normal, in the shape's space. */
 static void surface_point(rays_stream *stream, const truth_shape *shape, double p[3], double n[3])
 {
-    const double turn = 2 * pi * rays_uniform(stream), v = rays_uniform(stream), c = cos(turn), s = sin(turn);
+    const double turn = 2 * pi * rays_uniform(stream), v = rays_uniform(stream), c = cos(turn),
+                 s = sin(turn);
     const double top = shape->kind == RT_SHAPE_CONE ? shape->p : 1, angle = 2 * pi * v;
     double r = 1, z = 0, nr = 0, nz = 1;
     switch (shape->kind) {
@@ -158,8 +153,12 @@ rt_ray shape_ray(rays_stream *stream, const truth_shape *shape)
         to[i] += g[i];
     }
     if (choice > 0.6f) {
-        /* Towards the point, but along the surface there, and past it by up to a hundredth of the size. */
-        const double past = pow(10, rays_between(stream, -5, -2)) * (rays_uniform(stream) < 0.5f ? 1 : -1);
+        /*
+         * Towards the point, but along the surface there, and past it by up to a hundredth of the
+         * size.
+         */
+        const double past =
+            pow(10, rays_between(stream, -5, -2)) * (rays_uniform(stream) < 0.5f ? 1 : -1);
         const double back = choice > 0.9f ? 1 : 0.03;
         double lift = 0;
         for (int i = 0; i < 3; i++)
@@ -210,7 +209,8 @@ static verdict judge(const truth_shape *shape, const rt_ray *ray)
     if (is_hit)
         truth_normal(shape, v.hit.normal, v.normal);
     for (int i = 0; i < 4; i++) {
-        const truth_hit other = truth_nearest(shape, i & 1 ? band : -band, i & 2 ? band : -band, ray);
+        const truth_hit other =
+            truth_nearest(shape, i & 1 ? band : -band, i & 2 ? band : -band, ray);
         if ((other.t < INFINITY) != is_hit)
             v.is_sure = 0;
         if (!is_hit || !v.is_sure)
@@ -222,16 +222,21 @@ static verdict judge(const truth_shape *shape, const rt_ray *ray)
     }
     if (v.t * speed > 0.02 || v.turning > 0.3)
         v.is_sure = 0;
-    if (shape->kind == RT_SHAPE_CONE && is_hit && hypot(v.hit.position[0], v.hit.position[1]) < 20 * band)
+    if (shape->kind == RT_SHAPE_CONE && is_hit &&
+        hypot(v.hit.position[0], v.hit.position[1]) < 20 * band)
         v.is_sure = 0; /* at the apex every normal is near */
     return v;
 }
 
-/* Whether the ray hits a shape that differs by the band or less: it may run inside the band without crossing it. */
+/*
+ * Whether the ray hits a shape that differs by the band or less: it may run inside the band without
+ * crossing it.
+ */
 static int runs_in_band(const truth_shape *shape, const rt_ray *ray)
 {
     for (double by = band; by > 1e-4 * band; by *= 0.5)
-        if (truth_nearest(shape, by, 0, ray).t < INFINITY || truth_nearest(shape, -by, 0, ray).t < INFINITY)
+        if (truth_nearest(shape, by, 0, ray).t < INFINITY ||
+            truth_nearest(shape, -by, 0, ray).t < INFINITY)
             return 1;
     return 0;
 }
@@ -242,7 +247,8 @@ static void expect_hit(const truth_shape *shape, const verdict *v, const rt_hit 
     const double normal[3] = {hit->normal[0], hit->normal[1], hit->normal[2]};
     const double precision = 0.02 + 0.005 * v->hit.t * speed; /* of positions, in bands */
     const double from_axis = hypot(v->hit.position[0], v->hit.position[1]);
-    const double bend = precision * band / (shape->kind == RT_SHAPE_TORUS ? shape->p : fmin(1, from_axis));
+    const double bend =
+        precision * band / (shape->kind == RT_SHAPE_TORUS ? shape->p : fmin(1, from_axis));
     double uv[2];
     assert_true(fabs(hit->t - v->hit.t) <= 1e-5 * v->hit.t + precision * v->t + 2e-6 / speed);
     assert_true(gap(normal, v->normal) <= 1e-4 + bend + precision * v->turning);

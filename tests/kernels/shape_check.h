@@ -12,7 +12,10 @@
 extern const truth_shape shape_kinds[];
 extern const size_t shape_kind_count;
 
-/* A placement: the size, the distance of the middle from the origin in sizes, and whether it is skewed. */
+/*
+ * A placement: the size, the distance of the middle from the origin in sizes, and whether it is
+ * skewed.
+ */
 typedef struct shape_place {
     float size, offset;
     int is_skewed;
@@ -20,7 +23,10 @@ typedef struct shape_place {
 extern const shape_place shape_places[];
 extern const size_t shape_place_count;
 
-/* The shape at a place; skewed by a rotation, a stretch of 1 to 4 and another rotation, mirrored at times. */
+/*
+ * The shape at a place; skewed by a rotation, a stretch of 1 to 4 and another rotation, mirrored at
+ * times.
+ */
 truth_shape shape_placed(rays_stream *stream, size_t kind, size_t place);
 
 /* A scene that holds nothing else. */
@@ -30,8 +36,8 @@ rt_scene *shape_scene(const truth_shape *shape);
 rt_ray shape_ray(rays_stream *stream, const truth_shape *shape);
 
 /*
- * Traces so many rays through the device and expects the truth: hit or miss and, with t and normal, which hit, unless
- * the answer hangs on 1e-4 of the size.
+ * Traces so many rays through the device and expects the truth: hit or miss and, with t and normal,
+ * which hit, unless the answer hangs on 1e-4 of the size.
  */
 void shape_expect_truth(const truth_shape *shape, size_t rays, uint64_t seed);
 

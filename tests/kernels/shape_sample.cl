@@ -1,9 +1,13 @@
 /* shape_sample.cl - points of a scene's first shape, for their test. */
-#include "shape_sample.h"
+#include "shape/shape_sample.h"
 
-/* For each of u: position and pdf_a, normal and the pdf_a asked for afterwards, and the surface's u and v. */
+/*
+ * For each of u: position and pdf_a, normal and the pdf_a asked for afterwards, and the surface's u
+ * and v.
+ */
 kernel void sample_points(global const rt_scene_header *header, global const float2 *u, uint count,
-                          global float4 *positions, global float4 *normals, global float2 *parameters)
+                          global float4 *positions, global float4 *normals,
+                          global float2 *parameters)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

@@ -14,8 +14,8 @@ void truth_place(truth_shape *shape, const rt_transform *to_world)
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-            c[i][j] =
-                (double)to_world->m[i1][j1] * to_world->m[i2][j2] - (double)to_world->m[i1][j2] * to_world->m[i2][j1];
+            c[i][j] = (double)to_world->m[i1][j1] * to_world->m[i2][j2] -
+                      (double)to_world->m[i1][j2] * to_world->m[i2][j1];
         }
     for (int j = 0; j < 3; j++)
         det += to_world->m[0][j] * c[0][j];
@@ -120,7 +120,8 @@ static void meet_disc(search *s, double z, double hole, double radius, double no
 
 static void meet_round(search *s)
 {
-    const double top = s->shape->kind == RT_SHAPE_CONE ? s->shape->p : 1, slope = 1 - top, r = 1 + s->wider;
+    const double top = s->shape->kind == RT_SHAPE_CONE ? s->shape->p : 1, slope = 1 - top,
+                 r = 1 + s->wider;
     const double w = r - slope * s->o[2], dw = -slope * s->d[2];
     const double lo = -s->longer, hi = 1 + s->longer;
     double roots[2], p[3];
@@ -169,7 +170,10 @@ static real root_between(const real *c, const real *slope, int degree, real lo, 
     return x;
 }
 
-/* The roots in [lo, hi] at which the polynomial changes its sign, in rising order; returns their number. */
+/*
+ * The roots in [lo, hi] at which the polynomial changes its sign, in rising order; returns their
+ * number.
+ */
 static int real_roots(const real *c, int degree, real lo, real hi, real *roots)
 {
     real slope[4], turns[6];
@@ -208,7 +212,9 @@ static void meet_torus(search *s)
         flat[1] += 2 * n[i] * d[i];
         flat[2] += d[i] * d[i];
     }
-    /* |p|^2 + 1 - m^2 = k + x^2, for the line's own length x has no part along the nearest point. */
+    /*
+     * |p|^2 + 1 - m^2 = k + x^2, for the line's own length x has no part along the nearest point.
+     */
     const real k = n2 + 1 - m * m;
     const real c[5] = {k * k - 4 * flat[0], -4 * flat[1], 2 * k - 4 * flat[2], 0, 1};
     const int count = real_roots(c, 4, -sqrtl(half2), sqrtl(half2), roots);
@@ -253,7 +259,8 @@ static double turns(double y, double x)
 int truth_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
 {
     const double *p = hit->position, *n = hit->normal, from_axis = hypot(p[0], p[1]);
-    const int is_cap = fabs(n[2]) > 0.9 && (shape->kind == RT_SHAPE_CYLINDER || shape->kind == RT_SHAPE_CONE);
+    const int is_cap =
+        fabs(n[2]) > 0.9 && (shape->kind == RT_SHAPE_CYLINDER || shape->kind == RT_SHAPE_CONE);
     uv[0] = turns(n[2] > 0 && (is_cap || shape->kind == RT_SHAPE_DISC) ? -p[1] : p[1], p[0]);
     switch (shape->kind) {
     case RT_SHAPE_DISC:

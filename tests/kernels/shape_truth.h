@@ -1,6 +1,6 @@
 /*
- * shape_truth.h - the shapes of kernels/types.h that a transform places, once more in double and extended precision,
- * by other means than the kernels': what a ray meets.
+ * shape_truth.h - the shapes of kernels/types.h that a transform places, once more in double and
+ * extended precision, by other means than the kernels': what a ray meets.
  */
 #ifndef RT_TESTS_KERNELS_SHAPE_TRUTH_H
 #define RT_TESTS_KERNELS_SHAPE_TRUTH_H
@@ -18,19 +18,21 @@ typedef struct truth_shape {
 } truth_shape;
 
 typedef struct truth_hit {
-    double t; /* infinite: none */
+    double t;                      /* infinite: none */
     double position[3], normal[3]; /* in the shape's space, unit */
 } truth_hit;
 
 /* Places the shape; the map must have an inverse. */
 void truth_place(truth_shape *shape, const rt_transform *to_world);
 
-/* The ray's origin and direction in the shape's space. Returns the length of the direction there. */
+/*
+ * The ray's origin and direction in the shape's space. Returns the length of the direction there.
+ */
 double truth_ray(const truth_shape *shape, const rt_ray *ray, double o[3], double d[3]);
 
 /*
- * The nearest hit with t >= 0 of the shape with radii larger by `wider` and its length at both ends by `longer`; the
- * disc is raised by `wider`, and its hole smaller by `longer`.
+ * The nearest hit with t >= 0 of the shape with radii larger by `wider` and its length at both ends
+ * by `longer`; the disc is raised by `wider`, and its hole smaller by `longer`.
  */
 truth_hit truth_nearest(const truth_shape *shape, double wider, double longer, const rt_ray *ray);
 

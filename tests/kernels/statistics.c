@@ -68,9 +68,9 @@ static void measure(const double *values, size_t n, double *mean, double *error,
 }
 
 /*
- * Where few of the values carry most of the sum, t is skewed the other way: too few came, and the error is small as
- * well. Hall's transformation takes that away: "On the Removal of Skewness by Transformation", J. R. Statist. Soc. B
- * 54(1), 1992.
+ * Where few of the values carry most of the sum, t is skewed the other way: too few came, and the
+ * error is small as well. Hall's transformation takes that away: "On the Removal of Skewness by
+ * Transformation", J. R. Statist. Soc. B 54(1), 1992.
  */
 static double without_skewness(double t, double skewness)
 {
@@ -97,10 +97,12 @@ void expect_mean(const double *values, size_t n, double truth, double rounding, 
 
 void expect_deviate(double deviate, const char *what)
 {
-    chance_compare(chance_of_student(deviate, INFINITY), "%s: %+.2f standard errors off", what, deviate);
+    chance_compare(chance_of_student(deviate, INFINITY), "%s: %+.2f standard errors off", what,
+                   deviate);
 }
 
 void expect_close(double found, double truth, double bound, const char *what)
 {
-    chance_compare(fabs(found - truth) <= bound, "%s: %.9g, should be %.9g to %.3g", what, found, truth, bound);
+    chance_compare(fabs(found - truth) <= bound, "%s: %.9g, should be %.9g to %.3g", what, found,
+                   truth, bound);
 }

@@ -8,18 +8,21 @@
 #include "chance.h"
 
 /*
- * Pearson's chi-square test, cells with fewer than 10 expected counts pooled: the chance that samples of the stated
- * density give counts as far from it as these, or farther.
+ * Pearson's chi-square test, cells with fewer than 10 expected counts pooled: the chance that
+ * samples of the stated density give counts as far from it as these, or farther.
  */
 double chance_of_counts(const uint32_t *counts, const double *expected, size_t cells);
 
 /*
- * The chance that the mean of n independent values, by their own spread, is as far from their true mean as this or
- * farther; `rounding` is excused.
+ * The chance that the mean of n independent values, by their own spread, is as far from their true
+ * mean as this or farther; `rounding` is excused.
  */
 double chance_of_mean(const double *values, size_t n, double truth, double rounding);
 
-/* A chi-square value with so many degrees of freedom as a deviate of the standard normal distribution. */
+/*
+ * A chi-square value with so many degrees of freedom as a deviate of the standard normal
+ * distribution.
+ */
 double chi_square_deviate(double chi_square, double freedom);
 
 /* Comparisons of a statistical test; see chance.h. */
@@ -33,7 +36,10 @@ void expect_mean(const double *values, size_t n, double truth, double rounding, 
 /* A number that should be of the standard normal distribution, or nearer to 0. */
 void expect_deviate(double deviate, const char *what);
 
-/* A random number held to a bound of five standard deviations or more, which the caller knows from elsewhere. */
+/*
+ * A random number held to a bound of five standard deviations or more, which the caller knows from
+ * elsewhere.
+ */
 void expect_close(double found, double truth, double bound, const char *what);
 
 #endif

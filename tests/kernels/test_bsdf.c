@@ -1,4 +1,7 @@
-/* test_bsdf.c - mixtures of events: energy, choice, Snell's law, what radiance and flux keep, shading normals. */
+/*
+ * test_bsdf.c - mixtures of events: energy, choice, Snell's law, what radiance and flux keep,
+ * shading normals.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -15,8 +18,8 @@ enum { n = 1 << 16 };
 
 static bsdf_draw results[n];
 
-static const rt_material_data mixture = {.kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f},
-                                         .ior = 1.5f};
+static const rt_material_data mixture = {
+    .kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f}, .ior = 1.5f};
 
 /* Seen at 50 degrees from above, flat, by a white path that is never ended. */
 static situation flat(float eta)
@@ -38,7 +41,8 @@ static double fresnel(double cos_i, double eta)
     if (sine2 >= 1)
         return 1;
     double cos_t = sqrt(1 - sine2);
-    double s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t), p = (eta * cos_t - cos_i) / (eta * cos_t + cos_i);
+    double s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t),
+           p = (eta * cos_t - cos_i) / (eta * cos_t + cos_i);
     return (s * s + p * p) / 2;
 }
 
@@ -71,7 +75,8 @@ static void fresnel_agrees_with_the_closed_form(void **state)
 }
 
 /* The mean of weights is what the events keep of the light, whatever the roulette. */
-static void expect_energy(const rt_material_data *material, const situation *at, const double kept[3], const char *what)
+static void expect_energy(const rt_material_data *material, const situation *at,
+                          const double kept[3], const char *what)
 {
     static double values[n];
     scatter(material, at, carry_radiance);
@@ -136,7 +141,8 @@ static void diffuse_density_is_what_is_sampled(void **state)
         const bsdf_draw *r = results + i;
         double t = atan2(r->wi[1], r->wi[0]) / (2 * PI) + 0.5;
         int ring = (int)((double)r->wi[2] * r->wi[2] * side), sector = (int)(t * side);
-        counts[(ring > side - 1 ? side - 1 : ring) * side + (sector > side - 1 ? side - 1 : sector)]++;
+        counts[(ring > side - 1 ? side - 1 : ring) * side +
+               (sector > side - 1 ? side - 1 : sector)]++;
         assert_float_equal(r->pdf_w, r->wi[2] / PI, 1e-6);
         assert_float_equal(r->eval_pdf_w, r->pdf_w, 1e-6);
         assert_float_equal(r->eval[1], 0.5 * r->wi[2] / PI, 1e-6);
@@ -182,7 +188,8 @@ static void radiance_is_squeezed_by_refraction_and_flux_is_not(void **state)
     for (uint32_t transport = carry_radiance; transport <= carry_flux; transport++) {
         scatter(&mixture, &at, transport);
         for (int i = 0; i < n; i++) {
-            double factor = results[i].event == refracted && transport == carry_radiance ? 1 / 2.25 : 1;
+            double factor =
+                results[i].event == refracted && transport == carry_radiance ? 1 / 2.25 : 1;
             assert_float_equal(results[i].squeeze, factor, 1e-6);
         }
     }
@@ -212,7 +219,9 @@ static void shading_normals_leak_no_light(void **state)
     rt_material_data matte = mixture;
     situation at = flat(1 / 1.5f);
     (void)state;
-    /* The shading normal leans 60 degrees away, so many directions about it are below the surface. */
+    /*
+     * The shading normal leans 60 degrees away, so many directions about it are below the surface.
+     */
     at.shading[0] = -0.8660254f;
     at.shading[2] = 0.5f;
     memcpy(matte.ks, black, sizeof black);
@@ -223,7 +232,10 @@ static void shading_normals_leak_no_light(void **state)
     assert_int_equal(count_lost(&mixture, &at), 0);
 }
 
-/* A rough event carries its lobe's light over its density, in a mixture as alone; below alpha 1e-3 none is rough. */
+/*
+ * A rough event carries its lobe's light over its density, in a mixture as alone; below alpha 1e-3
+ * none is rough.
+ */
 static void rough_events_carry_their_lobe(void **state)
 {
     rt_material_data material = mixture;
@@ -244,7 +256,8 @@ static void rough_events_carry_their_lobe(void **state)
             through += r->wi[2] < 0;
             assert_float_equal(r->pdf_w, r->eval_pdf_w, 1e-2 * r->pdf_w);
             for (int c = 0; c < 3; c++)
-                assert_float_equal(r->weight[c] * r->pdf_w * r->squeeze, r->eval[c], 1e-2 * r->eval[c]);
+                assert_float_equal(r->weight[c] * r->pdf_w * r->squeeze, r->eval[c],
+                                   1e-2 * r->eval[c]);
             assert_float_equal(r->squeeze, r->wi[2] < 0 ? 1 / 2.25 : 1, 1e-6);
         }
         material.roughness = 9e-4f;
@@ -255,7 +268,9 @@ static void rough_events_carry_their_lobe(void **state)
     assert_true(through > n / 10 && counted - through > n / 20);
 }
 
-/* Veach 1997, section 5.3.2: with shading normals, the same event carries flux other than radiance. */
+/*
+ * Veach 1997, section 5.3.2: with shading normals, the same event carries flux other than radiance.
+ */
 static void flux_is_corrected_for_shading_normals(void **state)
 {
     static float radiance[n][3];
@@ -273,12 +288,14 @@ static void flux_is_corrected_for_shading_normals(void **state)
         scatter(&material, &at, carry_flux);
         for (int i = 0; i < n; i++) {
             const bsdf_draw *r = results + i;
-            double wo_s = at.wo[0] * 0.28 + at.wo[2] * 0.96, wi_s = r->wi[0] * 0.28 + r->wi[2] * 0.96;
+            double wo_s = at.wo[0] * 0.28 + at.wo[2] * 0.96,
+                   wi_s = r->wi[0] * 0.28 + r->wi[2] * 0.96;
             double factor = fabs(wo_s * r->wi[2] / (at.wo[2] * wi_s));
             if (r->event == absorbed || radiance[i][0] == 0)
                 continue;
             seen[(int)r->event]++;
-            assert_float_equal(r->weight[0], radiance[i][0] * factor, 1e-4 * (1 + factor) * radiance[i][0]);
+            assert_float_equal(r->weight[0], radiance[i][0] * factor,
+                               1e-4 * (1 + factor) * radiance[i][0]);
         }
         assert_true(seen[diffuse] && (is_rough ? seen[rough] : seen[reflected] && seen[refracted]));
     }

@@ -1,4 +1,7 @@
-/* test_bump.c - derivatives of every shape by its u and v, and normals tilted by a height, against differences. */
+/*
+ * test_bump.c - derivatives of every shape by its u and v, and normals tilted by a height, against
+ * differences.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -17,7 +20,8 @@ typedef struct row {
 } row;
 
 /* A turn, a stretch and a shift. */
-static const rt_transform placement = {{{0.9f, -0.5f, 0.1f, 0.2f}, {0.3f, 1.2f, -0.2f, -0.1f}, {0, 0.4f, 0.8f, 0.3f}}};
+static const rt_transform placement = {
+    {{0.9f, -0.5f, 0.1f, 0.2f}, {0.3f, 1.2f, -0.2f, -0.1f}, {0, 0.4f, 0.8f, 0.3f}}};
 /* A turn about (1, 1, 1) by 120 degrees, twice as large: a sphere stays one. */
 static const rt_transform turn = {{{0, 0, 2, 0.2f}, {2, 0, 0, -0.1f}, {0, 2, 0, 0.3f}}};
 
@@ -46,7 +50,8 @@ static void aim(rt_ray *out)
         }
         for (int k = 0; k < 3; k++) {
             rt_ray *ray = out + 3 * i + k;
-            float shift[3] = {k == 1 ? 2e-3f : 0, k == 2 ? 2e-3f : 0, k == 1 ? -1e-3f : 1e-3f * (float)k};
+            float shift[3] = {k == 1 ? 2e-3f : 0, k == 2 ? 2e-3f : 0,
+                              k == 1 ? -1e-3f : 1e-3f * (float)k};
             for (int c = 0; c < 3; c++) {
                 ray->direction[c] = r[3 + c] * 1.2f - r[c] * 8;
                 ray->origin[c] = r[c] * 8 + shift[c];
@@ -62,10 +67,14 @@ static double dot(const double a[3], const float b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* From one hit to its neighbour: dp = dp/du du + dp/dv dv, and the height's gradient along dp is height dv. */
+/*
+ * From one hit to its neighbour: dp = dp/du du + dp/dv dv, and the height's gradient along dp is
+ * height dv.
+ */
 static int expect_step(const row *a, const row *b, const float bumped[3])
 {
-    double du = (double)b->u - a->u, dv = (double)b->v - a->v, dp[3], off[3], size = 0, miss = 0, across = 0, climb = 0;
+    double du = (double)b->u - a->u, dv = (double)b->v - a->v, dp[3], off[3], size = 0, miss = 0,
+           across = 0, climb = 0;
     double same = 0, turning = 0, whole = a->v - floor(a->v);
     for (int c = 0; c < 3; c++) {
         dp[c] = (double)b->position[c] - a->position[c];
@@ -76,9 +85,12 @@ static int expect_step(const row *a, const row *b, const float bumped[3])
         across += (double)bumped[c] * a->normal[c];
         turning += (double)a->along_u[c] * a->along_u[c];
     }
-    /* Not over an edge, the seam, or next to a pole, where u turns fast; nor where the gradient starts again. */
-    if (same < 0.999 || fabs(du) > 0.02 || fabs(dv) > 0.02 || size > 1e-4 || turning < 0.6 || whole < 0.03 ||
-        whole > 0.97)
+    /*
+     * Not over an edge, the seam, or next to a pole, where u turns fast; nor where the gradient
+     * starts again.
+     */
+    if (same < 0.999 || fabs(du) > 0.02 || fabs(dv) > 0.02 || size > 1e-4 || turning < 0.6 ||
+        whole < 0.03 || whole > 0.97)
         return 0;
     assert_true(sqrt(miss) < 0.05 * sqrt(size) + 1e-5);
     climb = dot(dp, a->normal) - dot(dp, bumped) / across;
@@ -102,7 +114,8 @@ static void expect_tangents(rt_scene *scene)
     cl_kernel kernel = test_kernel("bump", "follow_parameters");
     cl_mem in = test_buffer(sizeof given, given), out = test_buffer(sizeof rows, NULL);
     cl_mem tilted = test_buffer(sizeof bumped, NULL);
-    rt_arg args[] = {RT_ARG(count), RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(out), RT_ARG(tilted)};
+    rt_arg args[] = {RT_ARG(count), RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(out),
+                     RT_ARG(tilted)};
     test_run(kernel, args, 5, rays);
     test_read(out, sizeof rows, rows);
     test_read(tilted, sizeof bumped, bumped);
@@ -150,10 +163,12 @@ static void shapes_about_an_axis_have_their_tangents(void **state)
     for (int caps = 0; caps < 2; caps++) {
         rt_scene *scene = bumpy_scene(&surface);
         surface.transform = placement;
-        expect_ok(rt_scene_add_cylinder(scene, NULL, origin, top, 0.8f, caps, &surface, &error), &error);
+        expect_ok(rt_scene_add_cylinder(scene, NULL, origin, top, 0.8f, caps, &surface, &error),
+                  &error);
         expect_tangents(scene);
         scene = bumpy_scene(&surface);
-        expect_ok(rt_scene_add_cone(scene, NULL, origin, top, 1.2f, 0.5f, caps, &surface, &error), &error);
+        expect_ok(rt_scene_add_cone(scene, NULL, origin, top, 1.2f, 0.5f, caps, &surface, &error),
+                  &error);
         expect_tangents(scene);
     }
     rt_scene *scene = bumpy_scene(&surface);
@@ -168,7 +183,8 @@ static void shapes_about_an_axis_have_their_tangents(void **state)
 
 static void flat_shapes_have_their_tangents(void **state)
 {
-    static const float e1[3] = {1.5f, 0.2f, 0}, e2[3] = {0.3f, 1.1f, 0.8f}, corner[3] = {-0.7f, -0.6f, -0.2f};
+    static const float e1[3] = {1.5f, 0.2f, 0}, e2[3] = {0.3f, 1.1f, 0.8f},
+                       corner[3] = {-0.7f, -0.6f, -0.2f};
     rt_surface surface;
     rt_error error;
     (void)state;
@@ -191,7 +207,8 @@ static void meshes_have_the_tangents_of_their_coordinates(void **state)
     static const float positions[4][3] = {{-1, -1, 0.2f}, {1, -1, 0}, {-1, 1, 0}, {1, 1.2f, -0.4f}};
     static const float uvs[4][2] = {{0.2f, 0.1f}, {0.3f, 0.9f}, {0.8f, 0.2f}, {0.9f, 0.7f}};
     static const uint32_t indices[2][3] = {{0, 1, 2}, {1, 3, 2}};
-    rt_mesh_data data = {.positions = positions[0], .indices = indices[0], .vertex_count = 4, .triangle_count = 2};
+    rt_mesh_data data = {
+        .positions = positions[0], .indices = indices[0], .vertex_count = 4, .triangle_count = 2};
     rt_surface surface;
     uint32_t mesh;
     rt_error error;

@@ -11,11 +11,20 @@
 
 enum { n = 4096 };
 
-/* At (1, 2, 3), looking along +z, in focus at 5 m; the film's plane in focus is 4 m wide and 2 m high. */
+/*
+ * At (1, 2, 3), looking along +z, in focus at 5 m; the film's plane in focus is 4 m wide and 2 m
+ * high.
+ */
 static rt_camera_data thin_lens(float aperture)
 {
-    return (rt_camera_data){.eye = {1, 2, 3}, .aperture = aperture, .corner = {2, 1, 5}, .across = {-4, 0, 0},
-                            .down = {0, -2, 0}, .lens_u = {-1, 0, 0}, .lens_v = {0, 1, 0}, .axis = {0, 0, 1},
+    return (rt_camera_data){.eye = {1, 2, 3},
+                            .aperture = aperture,
+                            .corner = {2, 1, 5},
+                            .across = {-4, 0, 0},
+                            .down = {0, -2, 0},
+                            .lens_u = {-1, 0, 0},
+                            .lens_v = {0, 1, 0},
+                            .axis = {0, 0, 1},
                             .focal_distance = 5};
 }
 
@@ -109,11 +118,13 @@ static void orthographic_rays_are_parallel(void **state)
     make_rays_of(parallel(0));
     expect_to_meet_in_focus();
     for (int i = 0; i < n; i++)
-        assert_true(rays[i][1][0] == 0 && rays[i][1][1] == 0 && rays[i][1][2] == 1 && rays[i][0][2] == 3);
+        assert_true(rays[i][1][0] == 0 && rays[i][1][1] == 0 && rays[i][1][2] == 1 &&
+                    rays[i][0][2] == 3);
     make_rays_of(parallel(0.25f));
     expect_to_meet_in_focus();
     for (int i = 0; i < n; i++)
-        assert_true(hypot(rays[i][0][0] - (3 - 4 * in[i][0]), rays[i][0][1] - (3 - 2 * in[i][1])) <= 0.250001);
+        assert_true(hypot(rays[i][0][0] - (3 - 4 * in[i][0]), rays[i][0][1] - (3 - 2 * in[i][1])) <=
+                    0.250001);
 }
 
 /* Longitude to the right, latitude from the top down, the axis in the centre. */
@@ -132,7 +143,10 @@ static void environment_rays_go_everywhere(void **state)
     }
 }
 
-/* In a wheel of `blades` edges, every triangle of the centre and an edge, and in it every part, has its share. */
+/*
+ * In a wheel of `blades` edges, every triangle of the centre and an edge, and in it every part, has
+ * its share.
+ */
 static void blades_make_an_even_polygon(void **state)
 {
     static const uint32_t kinds[] = {3, 5, 6, 9};
@@ -147,7 +161,8 @@ static void blades_make_an_even_polygon(void **state)
         make_rays_of(camera);
         for (int i = 0; i < n; i++) {
             double x = (1 - rays[i][0][0]) / 0.25, y = (rays[i][0][1] - 2) / 0.25;
-            double turn = (atan2(y, x) - (double)0.3f) / (2 * PI), wedge = (turn - floor(turn)) * blades;
+            double turn = (atan2(y, x) - (double)0.3f) / (2 * PI),
+                   wedge = (turn - floor(turn)) * blades;
             double off = (wedge - floor(wedge) - 0.5) * 2 * PI / blades;
             /* How far towards the edge, from 0 to 1. */
             double reach = hypot(x, y) * cos(off) / cos(PI / blades);

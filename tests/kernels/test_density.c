@@ -13,11 +13,14 @@ static const float radii[] = {1e-3f, 1.0f, 250.0f};
 static const float cone_constants[] = {1.0f, 1.1f, 3.0f};
 
 /* Values at (i + 1/2) / rings of the disc's area, by the device. */
-static void evaluate(uint32_t density, float cone_k, float r2, const float *d2, float *values, uint32_t count)
+static void evaluate(uint32_t density, float cone_k, float r2, const float *d2, float *values,
+                     uint32_t count)
 {
     cl_kernel kernel = test_kernel("density", "evaluate");
-    cl_mem in = test_buffer(count * sizeof *d2, d2), out = test_buffer(count * sizeof *values, NULL);
-    rt_arg args[] = {RT_ARG(count), RT_ARG(density), RT_ARG(cone_k), RT_ARG(r2), RT_ARG(in), RT_ARG(out)};
+    cl_mem in = test_buffer(count * sizeof *d2, d2),
+           out = test_buffer(count * sizeof *values, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(density), RT_ARG(cone_k),
+                     RT_ARG(r2),    RT_ARG(in),      RT_ARG(out)};
     test_run(kernel, args, 6, count);
     test_read(out, count * sizeof *values, values);
     rt_buffer_release(in);
@@ -61,8 +64,8 @@ static double closed_form(uint32_t density, double c, double t)
 
 static void kernels_integrate_to_one_over_the_disc(void **state)
 {
-    static const uint32_t densities[] = {RT_DENSITY_BOX, RT_DENSITY_GAUSSIAN, RT_DENSITY_EPANECHNIKOV,
-                                         RT_DENSITY_SILVERMAN};
+    static const uint32_t densities[] = {RT_DENSITY_BOX, RT_DENSITY_GAUSSIAN,
+                                         RT_DENSITY_EPANECHNIKOV, RT_DENSITY_SILVERMAN};
     (void)state;
     for (size_t r = 0; r < sizeof radii / sizeof *radii; r++) {
         for (size_t i = 0; i < sizeof densities / sizeof *densities; i++)
@@ -82,14 +85,16 @@ static void kernels_equal_their_closed_forms(void **state)
 {
     float d2[64], values[64];
     (void)state;
-    for (uint32_t density = RT_DENSITY_EPANECHNIKOV; density <= RT_DENSITY_GAUSSIAN_JENSEN; density++)
+    for (uint32_t density = RT_DENSITY_EPANECHNIKOV; density <= RT_DENSITY_GAUSSIAN_JENSEN;
+         density++)
         for (size_t r = 0; r < sizeof radii / sizeof *radii; r++) {
             float r2 = radii[r] * radii[r];
             for (int i = 0; i < 64; i++)
                 d2[i] = (float)i / 64 * r2;
             evaluate(density, 1.1f, r2, d2, values, 64);
             for (int i = 0; i < 64; i++)
-                assert_float_equal(PI * r2 * values[i], closed_form(density, 1.1f, sqrt(i / 64.0)), 2e-6);
+                assert_float_equal(PI * r2 * values[i], closed_form(density, 1.1f, sqrt(i / 64.0)),
+                                   2e-6);
         }
 }
 
@@ -98,7 +103,8 @@ static void kernels_are_zero_outside_the_disc_and_on_an_empty_one(void **state)
     static const float outside[] = {1.0001f, 2, 1e30f, INFINITY}, inside[] = {0, 1e-30f};
     float values[4];
     (void)state;
-    for (uint32_t density = RT_DENSITY_EPANECHNIKOV; density <= RT_DENSITY_GAUSSIAN_JENSEN; density++) {
+    for (uint32_t density = RT_DENSITY_EPANECHNIKOV; density <= RT_DENSITY_GAUSSIAN_JENSEN;
+         density++) {
         evaluate(density, 1.1f, 1, outside, values, 4);
         for (int i = 0; i < 4; i++)
             assert_true(values[i] == 0);

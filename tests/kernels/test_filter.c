@@ -65,17 +65,24 @@ static void weights_have_the_sign_of_the_filter(void **state)
         double magnitude = filter == RT_FILTER_MITCHELL ? magnitude_of((rt_filter)filter) : 1;
         draw((uint32_t)filter, 9);
         for (int i = 0; i < n; i++) {
-            double f = value((rt_filter)filter, samples[i][0] - 0.5, samples[i][1] - 0.5), w = samples[i][2];
-            assert_true(filter == RT_FILTER_MITCHELL ? fabs(w) == 1 && (fabs(f) < 1e-4 || (f > 0) == (w > 0)) : w == 1);
+            double f = value((rt_filter)filter, samples[i][0] - 0.5, samples[i][1] - 0.5),
+                   w = samples[i][2];
+            assert_true(filter == RT_FILTER_MITCHELL
+                            ? fabs(w) == 1 && (fabs(f) < 1e-4 || (f > 0) == (w > 0))
+                            : w == 1);
             values[i] = magnitude * w;
         }
         expect_mean(values, n, 1, 1e-5, "integral");
         for (int i = 0; i < n; i++)
             values[i] = magnitude * samples[i][2] * (samples[i][0] - 0.5) * (samples[i][0] - 0.5);
-        /* Second moments of each coordinate; of a Gaussian cut at three deviations r^2/2 is the mean. */
+        /*
+         * Second moments of each coordinate; of a Gaussian cut at three deviations r^2/2 is the
+         * mean.
+         */
         static const double moments[] = {1.0 / 12, 1.0 / 6, 0, 1.0 / 9};
         double cut = exp(-4.5), gaussian = 0.25 * (1 - 4.5 * cut / (1 - cut));
-        expect_mean(values, n, filter == RT_FILTER_GAUSSIAN ? gaussian : moments[filter], 1e-5, "second moment");
+        expect_mean(values, n, filter == RT_FILTER_GAUSSIAN ? gaussian : moments[filter], 1e-5,
+                    "second moment");
     }
 }
 

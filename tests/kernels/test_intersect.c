@@ -1,8 +1,9 @@
 /*
- * test_intersect.c - each primitive against its closed form in float64, and rays that leave a surface.
+ * test_intersect.c - each primitive against its closed form in float64, and rays that leave a
+ * surface.
  *
- * A hit is asked for where the closed form clears the edge by more than a band of 1e-4 of the size, a miss where it
- * fails by more; within the band either is right.
+ * A hit is asked for where the closed form clears the edge by more than a band of 1e-4 of the size,
+ * a miss where it fails by more; within the band either is right.
  */
 #include <float.h>
 #include <math.h>
@@ -25,8 +26,8 @@ typedef struct truth {
 } truth;
 
 typedef struct shape {
-    float p[9];   /* as the primitive needs */
-    double size;  /* its extent */
+    float p[9];  /* as the primitive needs */
+    double size; /* its extent */
     truth (*solve)(const struct shape *shape, const rt_ray *ray);
 } shape;
 
@@ -55,7 +56,8 @@ static void load(double out[3], const float in[3])
 }
 
 /* Solves origin + t direction = p0 + u e1 + v e2 by Cramer's rule. */
-static truth solve_edges(const double p0[3], const double e1[3], const double e2[3], const rt_ray *ray)
+static truth solve_edges(const double p0[3], const double e1[3], const double e2[3],
+                         const rt_ray *ray)
 {
     truth result = {0};
     double o[3], d[3], s[3], n[3], q[3];
@@ -143,7 +145,10 @@ static truth solve_plane(const shape *shape, const rt_ray *ray)
     return result;
 }
 
-/* How precisely t can be known: rounding of coordinates and of the plane's normal, seen at the ray's angle. */
+/*
+ * How precisely t can be known: rounding of coordinates and of the plane's normal, seen at the
+ * ray's angle.
+ */
 static double t_tolerance(const truth *exact, const shape *shape, const rt_ray *ray)
 {
     double o[3], d[3];
@@ -169,7 +174,10 @@ static void expect_hit(const truth *exact, const rt_hit *hit, const shape *shape
     }
 }
 
-/* From outside, inside and near, towards a point near the shape, so that about half of the rays hit. */
+/*
+ * From outside, inside and near, towards a point near the shape, so that about half of the rays
+ * hit.
+ */
 static rt_ray aim(const shape *shape, const float centre[3], rays_stream *stream)
 {
     const float size = (float)shape->size;
@@ -184,7 +192,8 @@ static rt_ray aim(const shape *shape, const float centre[3], rays_stream *stream
 }
 
 /* Rays against the one shape of a scene. The scene is destroyed. */
-static void expect_closed_form(rt_scene *scene, const shape *shape, const float centre[3], uint64_t seed)
+static void expect_closed_form(rt_scene *scene, const shape *shape, const float centre[3],
+                               uint64_t seed)
 {
     rays_stream stream = {seed};
     rt_ray *rays = malloc(rays_each * sizeof *rays);
@@ -301,7 +310,8 @@ static void add_ball(rt_scene *scene, const float centre[3], float radius)
     static uint32_t indices[rings][n][2][3];
     for (uint32_t j = 0; j <= rings; j++)
         for (uint32_t i = 0; i < n; i++) {
-            const double turn = 2.0 * acos(-1.0) * i / n, tilt = acos(-1.0) * (j + 0.01) / (rings + 0.02);
+            const double turn = 2.0 * acos(-1.0) * i / n,
+                         tilt = acos(-1.0) * (j + 0.01) / (rings + 0.02);
             positions[j][i][0] = centre[0] + radius * (float)(sin(tilt) * cos(turn));
             positions[j][i][1] = centre[1] + radius * (float)cos(tilt);
             positions[j][i][2] = centre[2] + radius * (float)(sin(tilt) * sin(turn));
@@ -315,7 +325,10 @@ static void add_ball(rt_scene *scene, const float centre[3], float radius)
     rays_add_triangles(scene, positions[0][0], (rings + 1) * n, indices[0][0][0], 2 * rings * n);
 }
 
-/* Share of rays that, having met a convex body from outside, leave it outwards and yet meet it again. */
+/*
+ * Share of rays that, having met a convex body from outside, leave it outwards and yet meet it
+ * again.
+ */
 static double share_that_returns(rt_scene *scene, const float centre[3], float size, uint64_t seed)
 {
     enum { count = 50000 };
@@ -355,7 +368,8 @@ static void rays_leave_convex_bodies(void **state)
     for (int s = 0; s < 3; s++)
         for (int o = 0; o < 3; o++) {
             const float size = sizes[s];
-            const float centre[3] = {offsets[o] * size, -0.3f * offsets[o] * size, 0.7f * offsets[o] * size};
+            const float centre[3] = {offsets[o] * size, -0.3f * offsets[o] * size,
+                                     0.7f * offsets[o] * size};
             rt_scene *ball = rays_scene();
             add_ball(ball, centre, size);
             assert_true(share_that_returns(ball, centre, size, 50 + s) == 0.0);
@@ -394,7 +408,10 @@ static void rays_leave_planes_of_axes(void **state)
     }
 }
 
-/* Rays as long as the sphere is large, as shadow rays are: the squares of both are in range, their product is not. */
+/*
+ * Rays as long as the sphere is large, as shadow rays are: the squares of both are in range, their
+ * product is not.
+ */
 static void spheres_are_met_at_every_scale(void **state)
 {
     (void)state;

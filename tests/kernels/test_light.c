@@ -1,4 +1,7 @@
-/* test_light.c - lights seen from points: what arrives, with which density; and the light paths that they start. */
+/*
+ * test_light.c - lights seen from points: what arrives, with which density; and the light paths
+ * that they start.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -42,16 +45,21 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 30(2), 1983. */
+/*
+ * Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed. Eng. 30(2),
+ * 1983.
+ */
 static double triangle_angle(const double a[3], const double b[3], const double c[3])
 {
     double bc[3], la = sqrt(dot(a, a)), lb = sqrt(dot(b, b)), lc = sqrt(dot(c, c));
     cross(b, c, bc);
-    return 2 * atan2(fabs(dot(a, bc)), la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la);
+    return 2 *
+           atan2(fabs(dot(a, bc)), la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la);
 }
 
 /* Solid angle of the parallelogram, seen from a point. */
-static double quad_angle(const float corner[3], const float e1[3], const float e2[3], const float from[3])
+static double quad_angle(const float corner[3], const float e1[3], const float e2[3],
+                         const float from[3])
 {
     double p[4][3];
     for (int i = 0; i < 3; i++) {
@@ -65,8 +73,12 @@ static double quad_angle(const float corner[3], const float e1[3], const float e
 
 static void quads_fill_their_solid_angle(void **state)
 {
-    static const float corner[3] = {1, 2, 3}, e1[3] = {2, 0, 0}, right[3] = {0, 0, 1}, skew[3] = {1, 0, 1};
-    /* The normal is e1 x e2 = -y: lit points are below. Near, beside, in a corner, far, close to the plane. */
+    static const float corner[3] = {1, 2, 3}, e1[3] = {2, 0, 0}, right[3] = {0, 0, 1},
+                       skew[3] = {1, 0, 1};
+    /*
+     * The normal is e1 x e2 = -y: lit points are below. Near, beside, in a corner, far, close to
+     * the plane.
+     */
     static const float from[][3] = {{2, 1.5f, 3.5f}, {4, 1, 5},        {1, 1.9f, 3},
                                     {-20, -30, 10},  {5, 1.95f, 3.5f}, {2, 1.99f, 3.4f}};
     (void)state;
@@ -78,7 +90,8 @@ static void quads_fill_their_solid_angle(void **state)
         rt_renderer *renderer = light_renderer(scene);
         for (size_t i = 0; i < sizeof from / sizeof *from; i++) {
             draw_lights(renderer, (uint32_t)i, from[i], samples);
-            expect_solid_angle(quad_angle(corner, e1, e2, from[i]), skewed ? "skewed quad" : "rectangle");
+            expect_solid_angle(quad_angle(corner, e1, e2, from[i]),
+                               skewed ? "skewed quad" : "rectangle");
         }
         draw_lights(renderer, 1, (const float[3]){2, 2.5f, 3}, samples);
         for (int i = 0; i < n; i++)
@@ -88,8 +101,8 @@ static void quads_fill_their_solid_angle(void **state)
 }
 
 /*
- * From close by, a sphere is sampled by its area: most samples are on its far side, and the others' 1 / pdf_w has so
- * long a tail that no mean of it tells anything. Each is known: A cos / d^2.
+ * From close by, a sphere is sampled by its area: most samples are on its far side, and the others'
+ * 1 / pdf_w has so long a tail that no mean of it tells anything. Each is known: A cos / d^2.
  */
 static void expect_samples_by_area(const float centre[3], double radius, const float from[3])
 {
@@ -105,7 +118,9 @@ static void expect_samples_by_area(const float centre[3], double radius, const f
         }
         counts[s->radiance[0] > 0]++;
         if (s->radiance[0] > 0)
-            assert_float_equal(s->spread / (4 * PI * radius * radius * dot(d, normal) / pow(dot(d, d), 1.5)), 1, 0.02);
+            assert_float_equal(
+                s->spread / (4 * PI * radius * radius * dot(d, normal) / pow(dot(d, d), 1.5)), 1,
+                0.02);
     }
     expect_counts(counts, expected, 2, "sphere from close by");
 }
@@ -140,7 +155,8 @@ static void triangles_fill_their_solid_angle(void **state)
     rt_scene *scene = light_scene();
     rt_error error;
     (void)state;
-    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 3, indices, 1, NULL, &lamp, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 3, indices, 1, NULL, &lamp, &error),
+              &error);
     rt_renderer *renderer = light_renderer(scene);
     draw_lights(renderer, 4, (const float[3]){0.5f, 0, 0.25f}, samples);
     expect_solid_angle(triangle_angle(a, b, c), "triangle");
@@ -166,7 +182,8 @@ static void point_lights_fall_off_with_the_square_of_distance(void **state)
 /* Three lights of 1, 2 and 1 parts of the power: a quad, a sphere of both sides' area, a point. */
 static rt_renderer *mixed_lights(void)
 {
-    static const float corner[3] = {0, 2, 0}, e1[3] = {1, 0, 0}, e2[3] = {0, 0, 1}, centre[3] = {5, 0, 0};
+    static const float corner[3] = {0, 2, 0}, e1[3] = {1, 0, 0}, e2[3] = {0, 0, 1},
+                       centre[3] = {5, 0, 0};
     rt_scene *scene = light_scene();
     rt_surface quad = {.power = {1, 1, 1}}, sphere = {.power = {2, 2, 2}};
     rt_point_light point = {.position = {0, -5, 0}, .power = {1, 1, 1}};
@@ -206,10 +223,11 @@ static void area_lights_emit_by_the_cosine_and_points_evenly(void **state)
     draw_emissions(renderer, 1, emissions);
     for (int i = 0; i < n; i++) {
         const emission_draw *e = emissions + i;
-        double cosine =
-            e->direction[0] * e->normal[0] + e->direction[1] * e->normal[1] + e->direction[2] * e->normal[2];
+        double cosine = e->direction[0] * e->normal[0] + e->direction[1] * e->normal[1] +
+                        e->direction[2] * e->normal[2];
         assert_float_equal(e->direction[0] * e->direction[0] + e->direction[1] * e->direction[1] +
-                           e->direction[2] * e->direction[2], 1, 1e-6);
+                               e->direction[2] * e->direction[2],
+                           1, 1e-6);
         if (e->light == 0) {
             point[point_count++] = e->direction[1];
         } else {

@@ -1,4 +1,7 @@
-/* test_light_sky.c - the environment: its directions, its density, and the light paths that it starts. */
+/*
+ * test_light_sky.c - the environment: its directions, its density, and the light paths that it
+ * starts.
+ */
 #include "light_draw.h"
 
 #include <math.h>
@@ -34,7 +37,10 @@ static rt_renderer *sky(int has_image, float rotation)
     return light_renderer(scene);
 }
 
-/* The point of the picture in direction w: the centre towards -z, growing towards +x, from the top down. */
+/*
+ * The point of the picture in direction w: the centre towards -z, growing towards +x, from the top
+ * down.
+ */
 static void place(const float w[3], double rotation, double *u, double *v)
 {
     *u = 0.5 + atan2(w[0], -w[2]) / (2 * PI) + rotation / 360;
@@ -58,7 +64,8 @@ static double radiance(double u, double v)
     double x = u * width - 0.5, y = v * height - 0.5;
     int i = (int)floor(x), j = (int)floor(y);
     double a = x - i, b = y - j;
-    int left = wrapped(i, width), right = wrapped(i + 1, width), top = clamped(j, height), low = clamped(j + 1, height);
+    int left = wrapped(i, width), right = wrapped(i + 1, width), top = clamped(j, height),
+        low = clamped(j + 1, height);
     return 2 * ((1 - b) * ((1 - a) * sky_texel(left, top) + a * sky_texel(right, top)) +
                 b * ((1 - a) * sky_texel(left, low) + a * sky_texel(right, low)));
 }
@@ -114,7 +121,8 @@ static void expect_flux(double truth, const char *what)
     for (int i = 0; i < n; i++) {
         const emission_draw *e = emissions + i;
         double t = (2 - e->position[1]) / e->direction[1];
-        double x = e->position[0] + t * e->direction[0] - 1, z = e->position[2] + t * e->direction[2] - 3;
+        double x = e->position[0] + t * e->direction[0] - 1,
+               z = e->position[2] + t * e->direction[2] - 3;
         values[i] = t > 0 && e->direction[1] < 0 && x * x + z * z < 0.01 ? e->flux[0] : 0;
     }
     expect_mean(values, n, truth * PI * 0.01, 1e-5, what);
@@ -158,21 +166,25 @@ static void light_paths_of_a_directional_light_carry_its_irradiance(void **state
     expect_flux(5 * 2 / sqrt(6), "directional light");
     draw_lights(renderer, 1, origin, samples);
     for (int i = 0; i < n; i++)
-        assert_true(samples[i].delta == 1 && samples[i].spread == 1 && samples[i].radiance[0] == 5 &&
-                    fabs(samples[i].wi[1] - 2 / sqrt(6)) < 1e-6);
+        assert_true(samples[i].delta == 1 && samples[i].spread == 1 &&
+                    samples[i].radiance[0] == 5 && fabs(samples[i].wi[1] - 2 / sqrt(6)) < 1e-6);
     rt_renderer_destroy(renderer);
 }
 
 static void distant_light_starts_beyond_all_planes(void **state)
 {
-    static const float centre[3] = {1, 2, 3}, low[3] = {0, 2.5f, 0}, high[3] = {0, 4, 0}, up[3] = {0, 1, 0};
+    static const float centre[3] = {1, 2, 3}, low[3] = {0, 2.5f, 0}, high[3] = {0, 4, 0},
+                       up[3] = {0, 1, 0};
     rt_environment environment = {.radiance = {2, 2, 2}};
     rt_surface surface;
     rt_scene *scene = light_scene();
     rt_error error;
     (void)state;
     memset(&surface, 0, sizeof surface);
-    /* The planes lie above the sphere's centre: what comes from above meets both, what comes from below at most one. */
+    /*
+     * The planes lie above the sphere's centre: what comes from above meets both, what comes from
+     * below at most one.
+     */
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &surface, &error), &error);
     expect_ok(rt_scene_add_plane(scene, NULL, low, up, &surface, &error), &error);
     expect_ok(rt_scene_add_plane(scene, NULL, high, up, &surface, &error), &error);
@@ -181,7 +193,8 @@ static void distant_light_starts_beyond_all_planes(void **state)
     draw_emissions(renderer, 3, emissions);
     for (int i = 0; i < n; i++) {
         assert_float_equal(emissions[i].flux[0], emissions[0].flux[0], 1e-5 * emissions[0].flux[0]);
-        assert_true(emissions[i].direction[1] < 0 ? emissions[i].position[1] > 4 : emissions[i].position[1] < 2.5f);
+        assert_true(emissions[i].direction[1] < 0 ? emissions[i].position[1] > 4
+                                                  : emissions[i].position[1] < 2.5f);
     }
     assert_true(emissions[0].flux[0] > 0);
     rt_renderer_destroy(renderer);

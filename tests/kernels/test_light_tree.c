@@ -1,4 +1,7 @@
-/* test_light_tree.c - choosing lights for a point: every one by the chance that is told, the near ones more often. */
+/*
+ * test_light_tree.c - choosing lights for a point: every one by the chance that is told, the near
+ * ones more often.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,11 +13,14 @@ enum { numbers = 1 << 20 };
 
 static rt_error error;
 
-/* One of every kind of light: two without size, one that shines from infinitely far, a sky, and shapes. */
+/*
+ * One of every kind of light: two without size, one that shines from infinitely far, a sky, and
+ * shapes.
+ */
 static rt_scene *all_kinds(void)
 {
-    static const float corner[3] = {-1, 3, -1}, x[3] = {2, 0, 0}, z[3] = {0, 0, 2}, ball[3] = {5, 1, 0},
-                       ring[3] = {-5, 1, 0}, up[3] = {0, 1, 0};
+    static const float corner[3] = {-1, 3, -1}, x[3] = {2, 0, 0}, z[3] = {0, 0, 2},
+                       ball[3] = {5, 1, 0}, ring[3] = {-5, 1, 0}, up[3] = {0, 1, 0};
     static const float corners[3][3] = {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
     static const uint32_t indices[3] = {0, 1, 2};
     const rt_point_light point = {.position = {0, 4, 0}, .intensity = {1, 2, 3}};
@@ -32,11 +38,15 @@ static rt_scene *all_kinds(void)
     expect_ok(rt_scene_add_quad(scene, NULL, corner, z, x, &lamp, &error), &error);
     expect_ok(rt_scene_add_sphere(scene, NULL, ball, 0.5f, &lamp, &error), &error);
     expect_ok(rt_scene_add_torus(scene, NULL, ring, up, 0.5f, 0.1f, &lamp, &error), &error);
-    expect_ok(rt_scene_add_triangles(scene, NULL, corners[0], 3, indices, 1, NULL, &lamp, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, corners[0], 3, indices, 1, NULL, &lamp, &error),
+              &error);
     return scene;
 }
 
-/* count x count point lights of different powers, 1 m apart in the plane y = 1, scaled and moved in all. */
+/*
+ * count x count point lights of different powers, 1 m apart in the plane y = 1, scaled and moved in
+ * all.
+ */
 static rt_scene *a_field(int count, float scale, float move)
 {
     rt_scene *scene = light_scene();
@@ -50,7 +60,10 @@ static rt_scene *a_field(int count, float scale, float move)
     return scene;
 }
 
-/* Each light is chosen by as many of evenly spaced numbers as its chance says, and that chance is told beside it. */
+/*
+ * Each light is chosen by as many of evenly spaced numbers as its chance says, and that chance is
+ * told beside it.
+ */
 static void expect_chances(rt_scene *scene, size_t lights, const float from[3])
 {
     float point[4] = {from[0], from[1], from[2], 0}, *chances = malloc(lights * sizeof *chances);
@@ -137,7 +150,10 @@ static void lights_without_power_are_never_chosen(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* Under a large field, the lights within three metres, a tenth of all, bring most of the light and get most choices. */
+/*
+ * Under a large field, the lights within three metres, a tenth of all, bring most of the light and
+ * get most choices.
+ */
 static void near_lights_are_chosen_more_often(void **state)
 {
     enum { side = 20, lights = side * side };

@@ -1,4 +1,7 @@
-/* test_matte.c - vertices that eight paths take together come out as those that each takes by itself. */
+/*
+ * test_matte.c - vertices that eight paths take together come out as those that each takes by
+ * itself.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -18,21 +21,26 @@ static rt_surface add_material(rt_scene *scene, const rt_material *material)
     return surface;
 }
 
-/* A floor, a wall with a texture, one placed by a mirroring transform, a smooth triangle, and spheres of all sorts. */
+/*
+ * A floor, a wall with a texture, one placed by a mirroring transform, a smooth triangle, and
+ * spheres of all sorts.
+ */
 static void add_shapes(rt_scene *scene)
 {
     static const rt_material grey = {.kd = {0.7f, 0.6f, 0.5f}}, black = {.kd = {0, 0, 0}},
-                             glass = {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = 1}, mirror = {.ks = {0.9f, 0.9f, 0.9f}},
+                             glass = {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = 1},
+                             mirror = {.ks = {0.9f, 0.9f, 0.9f}},
                              mixed = {.kd = {0.4f, 0.4f, 0.4f}, .ks = {0.4f, 0.4f, 0.4f}};
-    static const float corner[3] = {-5, -5, 0}, x[3] = {10, 0, 0}, y[3] = {1, 10, 0}, up[3] = {0, 0, 4},
-                       back[3] = {-5, 3, 0};
+    static const float corner[3] = {-5, -5, 0}, x[3] = {10, 0, 0}, y[3] = {1, 10, 0},
+                       up[3] = {0, 0, 4}, back[3] = {-5, 3, 0};
     static const float tent[9] = {-3, -1, 0.1f, -1, -1, 0.2f, -2, 0, 2},
                        bent[9] = {0.3f, -0.5f, 1, 0.2f, -0.6f, 1, 0.1f, -0.3f, 1};
     static const uint32_t indices[3] = {0, 1, 2};
     static const rt_transform mirroring = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     static const float side[3] = {4, -5, 0}, along[3] = {0, 10, 1};
     const rt_material *spheres[] = {&grey, &glass, &mirror, &mixed, &black};
-    static const rt_texture checks = {.kind = RT_TEXTURE_CHECKER, .a = {1, 0.5f, 0.2f}, .b = {0.1f, 0.1f, 0.1f}};
+    static const rt_texture checks = {
+        .kind = RT_TEXTURE_CHECKER, .a = {1, 0.5f, 0.2f}, .b = {0.1f, 0.1f, 0.1f}};
     rt_error error;
     rt_surface plain = add_material(scene, &grey), varied = plain, turned = plain;
 
@@ -41,7 +49,8 @@ static void add_shapes(rt_scene *scene)
     expect_ok(rt_scene_add_quad(scene, NULL, corner, x, y, &plain, &error), &error);
     expect_ok(rt_scene_add_quad(scene, NULL, back, x, up, &varied, &error), &error);
     expect_ok(rt_scene_add_quad(scene, NULL, side, along, up, &turned, &error), &error);
-    expect_ok(rt_scene_add_triangles(scene, NULL, tent, 3, indices, 1, bent, &plain, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, tent, 3, indices, 1, bent, &plain, &error),
+              &error);
     for (int i = 0; i < 5; i++) {
         const float centre[3] = {(float)i - 2, 0.5f * (float)(i % 2), 0.4f};
         rt_surface surface = add_material(scene, spheres[i]);
@@ -52,20 +61,23 @@ static void add_shapes(rt_scene *scene)
 /* Lamps of every kind that sampling tells apart. */
 static void add_lights(rt_scene *scene)
 {
-    static const rt_material lamp = {.emission = {3, 3, 2}}, both = {.emission = {2, 1, 1}, .two_sided = 1};
-    static const float high[3] = {-1, -1, 3}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, skew[3] = {0.5f, 1, 0.2f},
-                       aside[3] = {2, -2, 2}, low[3] = {-3, -2, 1.5f};
+    static const rt_material lamp = {.emission = {3, 3, 2}},
+                             both = {.emission = {2, 1, 1}, .two_sided = 1};
+    static const float high[3] = {-1, -1, 3}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0},
+                       skew[3] = {0.5f, 1, 0.2f}, aside[3] = {2, -2, 2}, low[3] = {-3, -2, 1.5f};
     static const float facing[9] = {1, 1, 3, 1, 2, 3, 2, 1, 3};
     static const uint32_t indices[3] = {0, 1, 2};
     static const rt_point_light point = {.position = {-2, -3, 2}, .intensity = {3, 3, 3}};
-    static const rt_directional_light sun = {.direction = {1, 1, -2}, .irradiance = {0.3f, 0.3f, 0.3f}};
+    static const rt_directional_light sun = {.direction = {1, 1, -2},
+                                             .irradiance = {0.3f, 0.3f, 0.3f}};
     static const rt_environment sky = {.radiance = {0.1f, 0.2f, 0.3f}};
     rt_surface down = add_material(scene, &lamp), two_sided = add_material(scene, &both);
     rt_error error;
 
     expect_ok(rt_scene_add_quad(scene, NULL, high, y, x, &down, &error), &error);
     expect_ok(rt_scene_add_quad(scene, NULL, low, skew, x, &two_sided, &error), &error);
-    expect_ok(rt_scene_add_triangles(scene, NULL, facing, 3, indices, 1, NULL, &down, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, facing, 3, indices, 1, NULL, &down, &error),
+              &error);
     expect_ok(rt_scene_add_sphere(scene, NULL, aside, 0.3f, &down, &error), &error);
     expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
     expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
@@ -74,7 +86,8 @@ static void add_lights(rt_scene *scene)
 
 static rt_scene *new_scene(void)
 {
-    static const rt_camera camera = {.eye = {0, -6, 2.5f}, .look_at = {0, 0, 0.8f}, .up = {0, 0, 1}, .fov = 60};
+    static const rt_camera camera = {
+        .eye = {0, -6, 2.5f}, .look_at = {0, 0, 0.8f}, .up = {0, 0, 1}, .fov = 60};
     rt_scene *scene = NULL;
     rt_error error;
     expect_ok(rt_scene_create(&scene, &error), &error);
@@ -85,8 +98,13 @@ static rt_scene *new_scene(void)
 /* Renders by the library, which aims the camera, to means, and by the test's kernel to sums. */
 static void render_both(rt_scene *scene, rt_film_pixel *singly, float *together)
 {
-    rt_render_options options = {.width = width, .height = height, .spp = spp, .max_depth = 9, .seed = test_seed(5),
-                                 .roulette_depth = 2, .roulette_threshold = 0.5f};
+    rt_render_options options = {.width = width,
+                                 .height = height,
+                                 .spp = spp,
+                                 .max_depth = 9,
+                                 .seed = test_seed(5),
+                                 .roulette_depth = 2,
+                                 .roulette_threshold = 0.5f};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
     rt_error error;
@@ -111,8 +129,8 @@ static void render_both(rt_scene *scene, rt_film_pixel *singly, float *together)
 }
 
 /*
- * Equal but for rounding, which now and then sends a path another way: so all pixels but one in a hundred are equal
- * to a thousandth.
+ * Equal but for rounding, which now and then sends a path another way: so all pixels but one in a
+ * hundred are equal to a thousandth.
  */
 static void expect_equal_films(rt_scene *scene)
 {
@@ -138,19 +156,23 @@ static void all_surfaces_under_all_lights(void **state)
     expect_equal_films(scene);
 }
 
-/* The lamps are all flat and sampled by area, the surfaces as well: what is wholly done in lanes. */
+/*
+ * The lamps are all flat and sampled by area, the surfaces as well: what is wholly done in lanes.
+ */
 static void flat_surfaces_under_flat_lights(void **state)
 {
     static const rt_material grey = {.kd = {0.7f, 0.6f, 0.5f}}, lamp = {.emission = {9, 9, 7}};
     static const float positions[] = {-4, -4, 0, 4, -4, 0, 0, 4, 0, -2, 3, 0, 2, 3, 0, 0, 3, 3,
-                                      -1, 0, 1, 0, -1, 1, 0, 0, 2, 0, 0, 3, 1, 1, 3, 1, 0, 3};
+                                      -1, 0,  1, 0, -1, 1, 0, 0, 2, 0,  0, 3, 1, 1, 3, 1, 0, 3};
     static const uint32_t walls[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}, lamps[] = {9, 10, 11};
     rt_scene *scene = new_scene();
     rt_surface wall = add_material(scene, &grey), shining = add_material(scene, &lamp);
     rt_error error;
     (void)state;
-    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 12, walls, 3, NULL, &wall, &error), &error);
-    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 12, lamps, 1, NULL, &shining, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 12, walls, 3, NULL, &wall, &error),
+              &error);
+    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 12, lamps, 1, NULL, &shining, &error),
+              &error);
     expect_equal_films(scene);
 }
 

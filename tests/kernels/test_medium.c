@@ -6,7 +6,10 @@
 
 #include "types.h"
 
-/* Boundaries crossed in turn, by materials of index 1.1 + material / 10 and priority 0, 0, 1, 2, 0, 0. */
+/*
+ * Boundaries crossed in turn, by materials of index 1.1 + material / 10 and priority 0, 0, 1, 2, 0,
+ * 0.
+ */
 static void cross(const uint32_t (*steps)[2], uint32_t count, float (*out)[4])
 {
     static const rt_u32 priorities[6] = {0, 0, 1, 2, 0, 0};
@@ -71,7 +74,8 @@ static void a_path_that_starts_inside_leaves_as_from_that_solid(void **state)
 
 static void the_fifth_solid_makes_the_last_forgotten(void **state)
 {
-    static const uint32_t steps[8][2] = {{0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}, {3, 0}, {2, 0}, {4, 0}};
+    static const uint32_t steps[8][2] = {{0, 1}, {1, 1}, {2, 1}, {3, 1},
+                                         {4, 1}, {3, 0}, {2, 0}, {4, 0}};
     float made[8][4];
     (void)state;
     cross(steps, 8, made);
@@ -104,7 +108,8 @@ static void absorption_follows_beer_and_lambert(void **state)
     test_read(made, sizeof out, out);
     for (int i = 0; i < count; i++)
         for (int c = 0; c < 3; c++)
-            assert_float_equal(out[i][c], absorption[c] > 0 ? exp(-absorption[c] * distances[i]) : 1, 1e-6);
+            assert_float_equal(out[i][c],
+                               absorption[c] > 0 ? exp(-absorption[c] * distances[i]) : 1, 1e-6);
     rt_buffer_release(s);
     rt_buffer_release(in);
     rt_buffer_release(made);

@@ -1,4 +1,7 @@
-/* test_path.c - path tracing against closed forms, and the same bits however samples are shared out. */
+/*
+ * test_path.c - path tracing against closed forms, and the same bits however samples are shared
+ * out.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -37,7 +40,8 @@ static void add_sphere(rt_scene *scene, const float centre[3], float radius, rt_
     expect_ok(rt_scene_add_sphere(scene, NULL, centre, radius, &surface, &error), &error);
 }
 
-static void add_quad(rt_scene *scene, const float corner[3], const float e1[3], const float e2[3], rt_surface surface)
+static void add_quad(rt_scene *scene, const float corner[3], const float e1[3], const float e2[3],
+                     rt_surface surface)
 {
     rt_error error;
     expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &surface, &error), &error);
@@ -53,7 +57,11 @@ static void look(rt_scene *scene, float x, float y, float z, float fov)
 /* Renders and destroys the scene; the caller destroys the film. */
 static rt_film *render(rt_scene *scene, uint32_t depth, uint32_t spp, rt_sampler sampler)
 {
-    rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = depth, .seed = test_seed(1),
+    rt_render_options options = {.width = side,
+                                 .height = side,
+                                 .spp = spp,
+                                 .max_depth = depth,
+                                 .seed = test_seed(1),
                                  .sampler = sampler};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
@@ -80,7 +88,8 @@ static double mean(const rt_film *film)
 /* Inside of a sphere of albedo a that emits 1 everywhere: each segment more adds a power of a. */
 static void a_furnace_sums_the_series_of_its_albedo(void **state)
 {
-    static const rt_material wall = {.kd = {0.5f, 0.5f, 0.5f}, .emission = {1, 1, 1}, .two_sided = 1};
+    static const rt_material wall = {
+        .kd = {0.5f, 0.5f, 0.5f}, .emission = {1, 1, 1}, .two_sided = 1};
     static const uint32_t depths[] = {1, 2, 3, 6, 40};
     (void)state;
     for (size_t i = 0; i < sizeof depths / sizeof *depths; i++) {
@@ -89,7 +98,8 @@ static void a_furnace_sums_the_series_of_its_albedo(void **state)
         look(scene, 3, 2, 1, 90);
         rt_film *film = render(scene, depths[i], 64, RT_SAMPLER_SOBOL);
         /* 36864 paths whose sums deviate by less than 1 of each other: 5 standard errors. */
-        expect_close(mean(film), (1 - pow(0.5, depths[i])) / 0.5, 5.0 / sqrt(64 * pixels), "furnace");
+        expect_close(mean(film), (1 - pow(0.5, depths[i])) / 0.5, 5.0 / sqrt(64 * pixels),
+                     "furnace");
         rt_film_destroy(film);
     }
 }
@@ -117,7 +127,9 @@ static void expect_even(rt_scene *scene, double radiance)
 static void glass_disappears_in_even_light(void **state)
 {
     static const rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = 1},
-                             plain = {.kt = {0.75f, 0.75f, 0.75f}, .ks = {0.25f, 0.25f, 0.25f}, .ior = 1.3f};
+                             plain = {.kt = {0.75f, 0.75f, 0.75f},
+                                      .ks = {0.25f, 0.25f, 0.25f},
+                                      .ior = 1.3f};
     (void)state;
     for (int fresnel = 0; fresnel < 2; fresnel++) {
         rt_scene *scene = even_light();
@@ -189,7 +201,10 @@ static void a_point_light_lights_a_floor_by_the_inverse_square(void **state)
     rt_film_destroy(film);
 }
 
-/* Form factor from a point to a parallel rectangle with a corner right above it (Howell's catalogue, B-3). */
+/*
+ * Form factor from a point to a parallel rectangle with a corner right above it (Howell's
+ * catalogue, B-3).
+ */
 static double corner_factor(double a, double b, double height)
 {
     double x = a / height, y = b / height, rx = sqrt(1 + x * x), ry = sqrt(1 + y * y);
@@ -203,15 +218,21 @@ static void a_rectangle_lights_a_floor_by_its_form_factor(void **state)
     (void)state;
     for (int i = 0; i < 3; i++)
         for (int two = 1; two < 3; two++) {
-            /* From (1,1) to (-1,-1) downwards, and once more with light sampling alone able to end the path. */
+            /*
+             * From (1,1) to (-1,-1) downwards, and once more with light sampling alone able to end
+             * the path.
+             */
             float corner[3] = {-1, -1, heights[i]}, x[3] = {0, 2, 0}, y[3] = {2, 0, 0};
             rt_scene *scene = floor_seen_from_above();
-            rt_camera beside = {.eye = {0, 3, 0.1f}, .look_at = {0, 0, 0}, .up = {0, 0, 1}, .fov = 0.02f};
+            rt_camera beside = {
+                .eye = {0, 3, 0.1f}, .look_at = {0, 0, 0}, .up = {0, 0, 1}, .fov = 0.02f};
             rt_error error;
             add_quad(scene, corner, x, y, add_material(scene, &lamp));
             expect_ok(rt_scene_set_camera(scene, &beside, &error), &error);
-            rt_film *film = render(scene, 1 + (uint32_t)two, 256, two == 1 ? RT_SAMPLER_SOBOL : RT_SAMPLER_INDEPENDENT);
-            expect_close(mean(film) / (0.8 * 2 * 4 * corner_factor(1, 1, heights[i])), 1, 5e-3, "lamp over a floor");
+            rt_film *film = render(scene, 1 + (uint32_t)two, 256,
+                                   two == 1 ? RT_SAMPLER_SOBOL : RT_SAMPLER_INDEPENDENT);
+            expect_close(mean(film) / (0.8 * 2 * 4 * corner_factor(1, 1, heights[i])), 1, 5e-3,
+                         "lamp over a floor");
             rt_film_destroy(film);
         }
 }
@@ -219,7 +240,8 @@ static void a_rectangle_lights_a_floor_by_its_form_factor(void **state)
 static void depth_counts_the_segments_from_the_eye(void **state)
 {
     static const rt_material lamp = {.emission = {1, 1, 1}};
-    static const float corner[3] = {-1, -1, 0}, x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, high[3] = {-1, -1, 2};
+    static const float corner[3] = {-1, -1, 0}, x[3] = {2, 0, 0}, y[3] = {0, 2, 0},
+                       high[3] = {-1, -1, 2};
     (void)state;
     /* The lamp itself takes one segment, the floor below it two. */
     rt_scene *scene = new_scene();
@@ -251,8 +273,10 @@ static rt_scene *scaled_scene(float scale)
                                             {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = 1}};
     static const rt_material lamp = {.emission = {9, 9, 9}};
     rt_scene *scene = new_scene();
-    float corner[3] = {-5 * scale, -5 * scale, 0}, x[3] = {10 * scale, 0, 0}, y[3] = {0, 10 * scale, 0};
-    float lamp_corner[3] = {-scale, -scale, 4 * scale}, lamp_x[3] = {0, 2 * scale, 0}, lamp_y[3] = {2 * scale, 0, 0};
+    float corner[3] = {-5 * scale, -5 * scale, 0}, x[3] = {10 * scale, 0, 0},
+          y[3] = {0, 10 * scale, 0};
+    float lamp_corner[3] = {-scale, -scale, 4 * scale}, lamp_x[3] = {0, 2 * scale, 0},
+          lamp_y[3] = {2 * scale, 0, 0};
     add_quad(scene, corner, x, y, add_material(scene, materials));
     add_quad(scene, lamp_corner, lamp_x, lamp_y, add_material(scene, &lamp));
     for (int i = 0; i < 3; i++) {
@@ -287,14 +311,19 @@ static void samplers_agree(void **state)
     rt_film_destroy(independent);
 }
 
-/* Launches the kernel `launches` times, each with its share of 16 samples, `each` pixels a work-item. */
-static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t group, uint32_t each, rt_film_pixel *film)
+/*
+ * Launches the kernel `launches` times, each with its share of 16 samples, `each` pixels a
+ * work-item.
+ */
+static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t group, uint32_t each,
+                            rt_film_pixel *film)
 {
     cl_kernel kernel = NULL;
     rt_error error;
     rt_render_options options = {.width = side, .height = side, .max_depth = 8, .seed = 3};
     rt_params params = rt_params_make(&options);
-    size_t bytes = pixels * sizeof *film, items = ((pixels + each - 1) / each + group - 1) / group * group;
+    size_t bytes = pixels * sizeof *film,
+           items = ((pixels + each - 1) / each + group - 1) / group * group;
     memset(film, 0, bytes);
     cl_mem buffer = test_buffer(bytes, film);
     expect_ok(rt_device_kernel(test_device(), &kernel, "path", "path", NULL, &error), &error);
@@ -302,10 +331,12 @@ static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t gro
     params.item_count = pixels;
     params.pixels_an_item = each;
     params.sample_count = 16 / launches;
-    for (params.first_sample = 0; params.first_sample < 16; params.first_sample += params.sample_count) {
+    for (params.first_sample = 0; params.first_sample < 16;
+         params.first_sample += params.sample_count) {
         rt_arg args[] = {RT_ARG(params), RT_ARG(renderer->scene), RT_ARG(buffer)};
         expect_ok(rt_kernel_args(kernel, args, 3, &error), &error);
-        assert_int_equal(clEnqueueNDRangeKernel(test_device()->queue, kernel, 1, NULL, &items, &group, 0, NULL, NULL),
+        assert_int_equal(clEnqueueNDRangeKernel(test_device()->queue, kernel, 1, NULL, &items,
+                                                &group, 0, NULL, NULL),
                          CL_SUCCESS);
         expect_ok(rt_device_finish(test_device(), &error), &error);
     }
@@ -339,7 +370,8 @@ static void the_film_does_not_depend_on_how_samples_are_shared_out(void **state)
 
 static void every_pixel_has_one_item(void **state)
 {
-    static const uint32_t sizes[][2] = {{1, 1}, {8, 8}, {7, 9}, {64, 3}, {3, 64}, {17, 31}, {100, 50}};
+    static const uint32_t sizes[][2] = {{1, 1},  {8, 8},   {7, 9},   {64, 3},
+                                        {3, 64}, {17, 31}, {100, 50}};
     (void)state;
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         static uint32_t out[5000];
@@ -402,8 +434,10 @@ static void samples_that_gather_nowhere_are_rejected(void **state)
     }
     params.item_count = COUNT;
     cl_mem gathered = test_buffer(sizeof points, points), film = test_buffer(sizeof pixels, pixels);
-    expect_ok(rt_device_kernel(test_device(), &kernel, "photon_film", "photon_film", NULL, &error), &error);
-    rt_arg args[] = {RT_ARG(params), RT_ARG(gathered), RT_ARG(gathered), RT_ARG(stride), RT_ARG(film)};
+    expect_ok(rt_device_kernel(test_device(), &kernel, "photon_film", "photon_film", NULL, &error),
+              &error);
+    rt_arg args[] = {RT_ARG(params), RT_ARG(gathered), RT_ARG(gathered), RT_ARG(stride),
+                     RT_ARG(film)};
     test_run(kernel, args, 5, COUNT);
     test_read(film, sizeof pixels, pixels);
     for (uint32_t i = 0; i < COUNT; i++) {

@@ -1,4 +1,7 @@
-/* test_rng.c - the random numbers: how evenly they lie, and that streams do not resemble each other. */
+/*
+ * test_rng.c - the random numbers: how evenly they lie, and that streams do not resemble each
+ * other.
+ */
 #include "rng_draw.h"
 
 #include <math.h>
@@ -10,8 +13,8 @@
 #include "types.h"
 
 /* count samples, from `first` on, of one set of one stream. */
-static void draw(rt_sampler kind, uint32_t seed, uint32_t stream, uint32_t set, uint32_t first, uint32_t count,
-                 float (*out)[4])
+static void draw(rt_sampler kind, uint32_t seed, uint32_t stream, uint32_t set, uint32_t first,
+                 uint32_t count, float (*out)[4])
 {
     rt_params params;
     memset(&params, 0, sizeof params);
@@ -20,7 +23,8 @@ static void draw(rt_sampler kind, uint32_t seed, uint32_t stream, uint32_t set, 
     params.first_sample = first;
     cl_kernel kernel = test_kernel("rng", "sets");
     cl_mem scene = rng_scene(), buffer = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(stream), RT_ARG(set), RT_ARG(count), RT_ARG(buffer)};
+    rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(stream),
+                     RT_ARG(set),    RT_ARG(count), RT_ARG(buffer)};
     test_run(kernel, args, 6, count);
     test_read(buffer, count * sizeof *out, out);
     rt_buffer_release(buffer);
@@ -133,8 +137,8 @@ static void independent_numbers_fill_the_hypercube_evenly(void **state)
 }
 
 /*
- * Correlations of the coordinates over n samples. Of independent numbers they deviate by 1 / sqrt(n); of Sobol points,
- * over 8 seeds, by 1.1 to 1.4 times that.
+ * Correlations of the coordinates over n samples. Of independent numbers they deviate by 1 /
+ * sqrt(n); of Sobol points, over 8 seeds, by 1.1 to 1.4 times that.
  */
 static void expect_unrelated(int kind, const float (*a)[4], const float (*b)[4], int n)
 {
@@ -143,7 +147,8 @@ static void expect_unrelated(int kind, const float (*a)[4], const float (*b)[4],
             double sum = 0;
             for (int i = 0; i < n; i++)
                 sum += (a[i][x] - 0.5) * (b[i][y] - 0.5);
-            expect_deviate(12 * sum / sqrt(n) / (kind == RT_SAMPLER_SOBOL ? 1.5 : 1), "correlation");
+            expect_deviate(12 * sum / sqrt(n) / (kind == RT_SAMPLER_SOBOL ? 1.5 : 1),
+                           "correlation");
         }
 }
 
@@ -163,7 +168,10 @@ static void streams_sets_and_seeds_are_unrelated(void **state)
     }
 }
 
-/* What makes a mean unbiased: a single sample is even over the scramblings, and so are any two of its coordinates. */
+/*
+ * What makes a mean unbiased: a single sample is even over the scramblings, and so are any two of
+ * its coordinates.
+ */
 static void one_sample_is_even_over_the_streams(void **state)
 {
     enum { n = 1 << 16, side = 16, cells = side * side };

@@ -1,6 +1,6 @@
 /*
- * test_rough.c - rough reflection and refraction: sampling against evaluation, reciprocity, energy; metals'
- * reflectance.
+ * test_rough.c - rough reflection and refraction: sampling against evaluation, reciprocity, energy;
+ * metals' reflectance.
  */
 #include "support.h"
 
@@ -60,7 +60,8 @@ static void evaluate(const char *name, const rt_material_data *material, boundar
     float wo[4];
     view(wo, cosine);
     cl_kernel kernel = test_kernel("rough", name);
-    cl_mem m = test_buffer(sizeof *material, material), in = test_buffer(count * sizeof *directions, directions);
+    cl_mem m = test_buffer(sizeof *material, material),
+           in = test_buffer(count * sizeof *directions, directions);
     cl_mem made = test_buffer(count * sizeof *out, NULL);
     rt_arg args[] = {RT_ARG(count), RT_ARG(m), RT_ARG(b), RT_ARG(wo), RT_ARG(in), RT_ARG(made)};
     test_run(kernel, args, 6, count);
@@ -90,7 +91,10 @@ static void sampling_and_evaluation_agree(void **state)
     for (int a = 0; a < 4; a++)
         for (int c = 1; c < 10; c += 2) {
             const boundary b = {0.3f, 0.6f, alphas[a], c % 4 == 1 ? 1 / 1.5f : 1.5f};
-            /* Where facets are steep over a short way, a rounding of the direction is a change of density. */
+            /*
+             * Where facets are steep over a short way, a rounding of the direction is a change of
+             * density.
+             */
             const double near = 2e-6 / (alphas[a] * alphas[a]) + 1e-3;
             int far = 0;
             sample(c % 3 ? &plain : &dielectric, b, c / 10.0);
@@ -108,7 +112,9 @@ static void sampling_and_evaluation_agree(void **state)
         }
 }
 
-/* By rounding a path may meet a surface along it: what it samples there is light as anywhere else. */
+/*
+ * By rounding a path may meet a surface along it: what it samples there is light as anywhere else.
+ */
 static void a_view_along_the_surface_is_finite(void **state)
 {
     static const double cosines[] = {0, 1e-38, 1e-30, 1e-20, 1e-9};
@@ -117,7 +123,8 @@ static void a_view_along_the_surface_is_finite(void **state)
     for (int c = 0; c < 5; c++)
         for (int a = 0; a < 3; a++) {
             double mean = 0;
-            sample(&dielectric, (boundary){0.3f, 0.6f, alphas[a], a % 2 ? 1 / 1.5f : 1.5f}, cosines[c]);
+            sample(&dielectric, (boundary){0.3f, 0.6f, alphas[a], a % 2 ? 1 / 1.5f : 1.5f},
+                   cosines[c]);
             for (int i = 0; i < n; i++) {
                 const result *r = results + i;
                 assert_true(isfinite(r->wi[0] + r->wi[1] + r->wi[2]) && isfinite(r->pdf_w));
@@ -126,13 +133,17 @@ static void a_view_along_the_surface_is_finite(void **state)
                 mean += r->weight[0] / n;
             }
             if (!(mean > 0.1 && mean < 0.901))
-                fail_msg("alpha %g, cosine %g: reflects and refracts %g of the light", alphas[a], cosines[c], mean);
+                fail_msg("alpha %g, cosine %g: reflects and refracts %g of the light", alphas[a],
+                         cosines[c], mean);
         }
 }
 
 /* ---- Reciprocity -------------------------------------------------------------- */
 
-/* fr is the same both ways; refracted flux is, over the square of the index on the side that it comes from. */
+/*
+ * fr is the same both ways; refracted flux is, over the square of the index on the side that it
+ * comes from.
+ */
 static void light_goes_both_ways_alike(void **state)
 {
     enum { count = 4096 };
@@ -147,12 +158,15 @@ static void light_goes_both_ways_alike(void **state)
         for (int f = 0; f < 2; f++) {
             const boundary b = {0.4f, 0.5f, alphas[a], 1 / 1.5f};
             const rt_material_data *material = f ? &dielectric : &plain;
-            evaluate("evaluate_rough", material, b, cosine, (const float(*)[4])directions, count, there);
-            evaluate("evaluate_back", material, b, cosine, (const float(*)[4])directions, count, back);
+            evaluate("evaluate_rough", material, b, cosine, (const float(*)[4])directions, count,
+                     there);
+            evaluate("evaluate_back", material, b, cosine, (const float(*)[4])directions, count,
+                     back);
             for (int i = 0; i < count; i++) {
                 int through = directions[i][2] < 0;
                 double squeeze = through ? (double)b.eta * b.eta : 1;
-                double f1 = there[i][0] / fabs(directions[i][2]) * squeeze, f2 = back[i][0] / cosine;
+                double f1 = there[i][0] / fabs(directions[i][2]) * squeeze,
+                       f2 = back[i][0] / cosine;
                 refracted += through && f1 > 0;
                 assert_float_equal(f1, f2, 2e-3 * (f1 + f2) + 1e-7);
             }
@@ -181,12 +195,16 @@ static double kept_on_average(const rt_material_data *material, boundary b)
     return sum;
 }
 
-/* No lobe gains; a white metal and clear glass lose what rough.h states, which is light that met two facets. */
+/*
+ * No lobe gains; a white metal and clear glass lose what rough.h states, which is light that met
+ * two facets.
+ */
 static void a_white_furnace_loses_what_meets_two_facets(void **state)
 {
     static const struct {
         float alpha;
-        double loss[6]; /* metal, glass, and glass from inside, each at normal view and on average */
+        /* metal, glass, and glass from inside, each at normal view and on average */
+        double loss[6];
     } truths[] = {
         {0.01f, {0, 0, 0, 0, 0, 0}},
         {0.1f, {0.01, 0.03, 0, 0.01, 0.01, 0.03}},
@@ -196,21 +214,25 @@ static void a_white_furnace_loses_what_meets_two_facets(void **state)
     };
     (void)state;
     for (int i = 0; i < 5; i++) {
-        const boundary metal = {1, 0, truths[i].alpha, 1}, glass = {0, 1, truths[i].alpha, 1 / 1.5f},
+        const boundary metal = {1, 0, truths[i].alpha, 1},
+                       glass = {0, 1, truths[i].alpha, 1 / 1.5f},
                        inside = {0, 1, truths[i].alpha, 1.5f};
-        const double found[6] = {kept(&plain, metal, 1),       kept_on_average(&plain, metal),
-                                 kept(&dielectric, glass, 1),  kept_on_average(&dielectric, glass),
-                                 kept(&dielectric, inside, 1), kept_on_average(&dielectric, inside)};
+        const double found[6] = {
+            kept(&plain, metal, 1),       kept_on_average(&plain, metal),
+            kept(&dielectric, glass, 1),  kept_on_average(&dielectric, glass),
+            kept(&dielectric, inside, 1), kept_on_average(&dielectric, inside)};
         /* Stated in whole hundredths; the noise is below half of one. */
         for (int k = 0; k < 6; k++)
             if (!(found[k] <= 1 + 1e-6 && fabs(1 - found[k] - truths[i].loss[k]) < 0.01))
-                fail_msg("alpha %g: keeps %g, should lose %g", truths[i].alpha, found[k], truths[i].loss[k]);
+                fail_msg("alpha %g: keeps %g, should lose %g", truths[i].alpha, found[k],
+                         truths[i].loss[k]);
     }
 }
 
 /*
- * At alpha 1 facets are spread by the cosine. Those within 45 degrees of a normal view reflect upwards, and G2 =
- * cos(2 t) / cos^2(t) of it gets away: the integral of 2 tan(t) cos(2 t) is 1 - ln 2.
+ * At alpha 1 facets are spread by the cosine. Those within 45 degrees of a normal view reflect
+ * upwards, and G2 = cos(2 t) / cos^2(t) of it gets away: the integral of 2 tan(t) cos(2 t) is 1 -
+ * ln 2.
  */
 static void the_roughest_metal_keeps_its_closed_form(void **state)
 {
@@ -252,10 +274,12 @@ static void the_narrowest_lobe_is_the_smooth_boundary(void **state)
 
 /* ---- Metals ------------------------------------------------------------------- */
 
-static void reflect(const float eta[4], const float k[4], const float *cosines, uint32_t count, float (*out)[4])
+static void reflect(const float eta[4], const float k[4], const float *cosines, uint32_t count,
+                    float (*out)[4])
 {
     cl_kernel kernel = test_kernel("rough", "reflect_metal");
-    cl_mem in = test_buffer(count * sizeof *cosines, cosines), made = test_buffer(count * sizeof *out, NULL);
+    cl_mem in = test_buffer(count * sizeof *cosines, cosines),
+           made = test_buffer(count * sizeof *out, NULL);
     float index[4], loss[4];
     memcpy(index, eta, sizeof index);
     memcpy(loss, k, sizeof loss);
@@ -279,7 +303,8 @@ static double metal(double cosine, double eta, double k)
 static void metals_reflect_by_complex_fresnel(void **state)
 {
     enum { count = 256 };
-    static const float etas[][4] = {{0.2f, 1, 3}, {1.5f, 0.05f, 100}}, ks[][4] = {{3.4f, 7, 0.1f}, {0, 4, 100}};
+    static const float etas[][4] = {{0.2f, 1, 3}, {1.5f, 0.05f, 100}},
+                       ks[][4] = {{3.4f, 7, 0.1f}, {0, 4, 100}};
     float cosines[count], out[count][4];
     (void)state;
     for (int i = 0; i < count; i++)
@@ -292,7 +317,10 @@ static void metals_reflect_by_complex_fresnel(void **state)
     }
 }
 
-/* At normal view: aluminium, gold and silver in the middle of the spectrum, red for gold, from handbooks' n and k. */
+/*
+ * At normal view: aluminium, gold and silver in the middle of the spectrum, red for gold, from
+ * handbooks' n and k.
+ */
 static void known_metals_have_their_reflectance(void **state)
 {
     static const float eta[4] = {0.96f, 0.17f, 0.06f}, k[4] = {6.69f, 3.14f, 3.59f}, one = 1;

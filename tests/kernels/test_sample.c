@@ -1,4 +1,7 @@
-/* test_sample.c - where the sampling routines put their samples, and closed forms; tests/statistics/ has densities. */
+/*
+ * test_sample.c - where the sampling routines put their samples, and closed forms;
+ * tests/statistics/ has densities.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -45,10 +48,12 @@ static void discs_and_triangles_hold_their_points(void **state)
     (void)state;
     draw("disc", 1, NULL, 0);
     for (int i = 0; i < n; i++)
-        assert_true((double)samples[i][0] * samples[i][0] + (double)samples[i][1] * samples[i][1] <= 1 + 1e-6);
+        assert_true((double)samples[i][0] * samples[i][0] + (double)samples[i][1] * samples[i][1] <=
+                    1 + 1e-6);
     draw("triangle", 1, NULL, 0);
     for (int i = 0; i < n; i++)
-        assert_true(samples[i][0] >= 0 && samples[i][1] >= 0 && samples[i][0] + samples[i][1] <= 1 + 1e-6);
+        assert_true(samples[i][0] >= 0 && samples[i][1] >= 0 &&
+                    samples[i][0] + samples[i][1] <= 1 + 1e-6);
 }
 
 /* Solid angle of the rectangle from (0,0) to (x,y) at distance z, signed by x and y. */
@@ -59,7 +64,8 @@ static double corner_angle(double x, double y, double z)
 
 static double solid_angle(double x0, double y0, double x1, double y1, double z)
 {
-    return corner_angle(x1, y1, z) - corner_angle(x0, y1, z) - corner_angle(x1, y0, z) + corner_angle(x0, y0, z);
+    return corner_angle(x1, y1, z) - corner_angle(x0, y1, z) - corner_angle(x1, y0, z) +
+           corner_angle(x0, y0, z);
 }
 
 typedef struct view {
@@ -68,10 +74,11 @@ typedef struct view {
 } view;
 
 static const view views[] = {
-    {{-0.5f, -0.5f, 1, 1}, 1},           {{-0.5f, -0.5f, 1, 1}, 0.01f}, {{-0.5f, -0.5f, 1, 1}, 8},
-    {{0.7f, -0.2f, 1, 1}, 0.3f},         {{0.1f, 0.1f, 1, 1}, 0.02f},   {{-3, 0.2f, 6, 0.1f}, 0.5f},
-    {{-1000, -500, 1000, 1000}, 700},    {{1e-3f, 2e-3f, 1e-3f, 1e-3f}, 2e-3f},
-    {{0.25f, -4, 0.5f, 8}, 0.05f},       {{2, 2, 1, 1}, 1},
+    {{-0.5f, -0.5f, 1, 1}, 1},        {{-0.5f, -0.5f, 1, 1}, 0.01f},
+    {{-0.5f, -0.5f, 1, 1}, 8},        {{0.7f, -0.2f, 1, 1}, 0.3f},
+    {{0.1f, 0.1f, 1, 1}, 0.02f},      {{-3, 0.2f, 6, 0.1f}, 0.5f},
+    {{-1000, -500, 1000, 1000}, 700}, {{1e-3f, 2e-3f, 1e-3f, 1e-3f}, 2e-3f},
+    {{0.25f, -4, 0.5f, 8}, 0.05f},    {{2, 2, 1, 1}, 1},
 };
 
 static void solid_angle_of_a_rectangle_agrees_with_the_closed_form(void **state)
@@ -99,8 +106,12 @@ static void points_of_a_cap_lie_on_its_sphere(void **state)
         draw("cap", (uint32_t)v, args, 2);
         for (int i = 0; i < n; i++) {
             const float *p = samples[i];
-            assert_float_equal((double)p[0] * p[0] + (double)p[1] * p[1] + (double)p[2] * p[2], 1, 1e-5);
-            /* The tangent from the viewer at (0, 0, d) touches at height 1 / d: nothing below is seen. */
+            assert_float_equal((double)p[0] * p[0] + (double)p[1] * p[1] + (double)p[2] * p[2], 1,
+                               1e-5);
+            /*
+             * The tangent from the viewer at (0, 0, d) touches at height 1 / d: nothing below is
+             * seen.
+             */
             assert_true(p[2] * d >= 1 - 2e-3);
             assert_float_equal(p[3] * 2 * PI * height, 1, 5e-4);
         }

@@ -1,6 +1,6 @@
 /*
- * test_shape_sample.c - points chosen on shapes: they lie on the surface, and their densities give the areas of its
- * parts back, bin by bin.
+ * test_shape_sample.c - points chosen on shapes: they lie on the surface, and their densities give
+ * the areas of its parts back, bin by bin.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +44,8 @@ static void world_point(const truth_shape *shape, int part, double u, double v, 
         p[2] = -sin(pi * v) * sin(turn);
     }
     for (int i = 0; i < 3; i++)
-        out[i] = shape->to_world.m[i][0] * p[0] + shape->to_world.m[i][1] * p[1] + shape->to_world.m[i][2] * p[2];
+        out[i] = shape->to_world.m[i][0] * p[0] + shape->to_world.m[i][1] * p[1] +
+                 shape->to_world.m[i][2] * p[2];
 }
 
 /* The area of a bin, by central differences at the middles of a fine grid. */
@@ -62,7 +63,8 @@ static double bin_area(const truth_shape *shape, int part, int bin_u, int bin_v)
             world_point(shape, part, u, v + h, d);
             for (int k = 0; k < 3; k++) {
                 const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-                const double x = (b[k1] - a[k1]) * (d[k2] - c[k2]) - (b[k2] - a[k2]) * (d[k1] - c[k1]);
+                const double x =
+                    (b[k1] - a[k1]) * (d[k2] - c[k2]) - (b[k2] - a[k2]) * (d[k1] - c[k1]);
                 square += x * x;
             }
             area += sqrt(square) / (4 * h * h) * width * width;
@@ -97,11 +99,14 @@ static points *choose(const truth_shape *shape, uint64_t seed)
     rt_scene *scene = shape_scene(shape);
     rt_renderer *renderer = rays_renderer(scene, RT_ACCEL_BVH);
     for (int i = 0; i < samples; i++) {
-        u[i][0] = fminf(((float)(i % across) + rays_uniform(&stream)) / (float)across, 0x1.fffffep-1f);
-        u[i][1] = fminf(((float)(i / across) + rays_uniform(&stream)) / (float)(samples / across), 0x1.fffffep-1f);
+        u[i][0] =
+            fminf(((float)(i % across) + rays_uniform(&stream)) / (float)across, 0x1.fffffep-1f);
+        u[i][1] = fminf(((float)(i / across) + rays_uniform(&stream)) / (float)(samples / across),
+                        0x1.fffffep-1f);
     }
     cl_mem in = test_buffer(sizeof u, u), positions = test_buffer(sizeof out->positions, NULL);
-    cl_mem normals = test_buffer(sizeof out->normals, NULL), parameters = test_buffer(sizeof out->parameters, NULL);
+    cl_mem normals = test_buffer(sizeof out->normals, NULL),
+           parameters = test_buffer(sizeof out->parameters, NULL);
     cl_kernel kernel = test_kernel("shape_sample", "sample_points");
     const cl_uint n = samples;
     const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in),      RT_ARG(n),
@@ -121,7 +126,8 @@ static points *choose(const truth_shape *shape, uint64_t seed)
 }
 
 /* Each point is met by a ray that falls on it along its normal, with the same normal. */
-static void expect_on_surface(const truth_shape *shape, const float position[4], const float normal[4])
+static void expect_on_surface(const truth_shape *shape, const float position[4],
+                              const float normal[4])
 {
     rt_ray ray = {.t_min = 0, .t_max = INFINITY};
     const float back = 0.01f * shape_places[1].size;
@@ -161,7 +167,10 @@ static void expect_areas(const truth_shape *shape, const points *chosen)
             }
 }
 
-/* The deviations are those of independent points; as the points are stratified, their own are smaller. */
+/*
+ * The deviations are those of independent points; as the points are stratified, their own are
+ * smaller.
+ */
 static void points_have_their_density(void **state)
 {
     (void)state;

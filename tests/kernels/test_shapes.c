@@ -1,5 +1,6 @@
 /*
- * test_shapes.c - the shapes that a transform places: what rays meet, and where rays go that leave them.
+ * test_shapes.c - the shapes that a transform places: what rays meet, and where rays go that leave
+ * them.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +21,10 @@ static void placed_shapes_match_extended_precision(void **state)
         }
 }
 
-/* How far the rays get, in their own t, that leave what these rays met in the direction `sign` times theirs. */
+/*
+ * How far the rays get, in their own t, that leave what these rays met in the direction `sign`
+ * times theirs.
+ */
 static float *leave(const truth_shape *shape, const rt_ray *rays, float sign)
 {
     static float away[leaving_each][4];
@@ -31,10 +35,11 @@ static float *leave(const truth_shape *shape, const rt_ray *rays, float sign)
 }
 
 /*
- * The t from the ray's first hit to the next. Returns whether it is well told: the ray neither grazes nor cuts a
- * corner off.
+ * The t from the ray's first hit to the next. Returns whether it is well told: the ray neither
+ * grazes nor cuts a corner off.
  */
-static int truth_chord(const truth_shape *shape, const rt_ray *ray, const truth_hit *first, double *chord)
+static int truth_chord(const truth_shape *shape, const rt_ray *ray, const truth_hit *first,
+                       double *chord)
 {
     double o[3], d[3], cosine = 0;
     const double speed = truth_ray(shape, ray, o, d), step = 1e-3 / speed;
@@ -48,9 +53,9 @@ static int truth_chord(const truth_shape *shape, const rt_ray *ray, const truth_
 }
 
 /*
- * The way back to where a ray came from is free, and the way on ends at the next side of the shape. A few rays in a
- * thousand meet it where it turns away or at a corner; and where coordinates are a thousand times the size, the room
- * that their rounding asks for shortens chords.
+ * The way back to where a ray came from is free, and the way on ends at the next side of the shape.
+ * A few rays in a thousand meet it where it turns away or at a corner; and where coordinates are a
+ * thousand times the size, the room that their rounding asks for shortens chords.
  */
 static void rays_leave_placed_shapes(void **state)
 {

@@ -38,8 +38,9 @@ static sample make_sample(rt_u32 format, uint32_t width, uint32_t height)
         if (format == RT_TEXELS_GREY && i % 3)
             s.image->data[i] = s.image->data[i - 1];
         else
-            s.image->data[i] = format == RT_TEXELS_CODE8 ? (float)(random_bits(&state) & 255) / 255.0f
-                                                         : (float)(random_bits(&state) & 1023) / 1024.0f;
+            s.image->data[i] = format == RT_TEXELS_CODE8
+                                   ? (float)(random_bits(&state) & 255) / 255.0f
+                                   : (float)(random_bits(&state) & 1023) / 1024.0f;
     expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, "made", &error), &error);
     assert_int_equal(s.texture.format, format);
     return s;
@@ -52,13 +53,14 @@ static void free_sample(sample *s)
 }
 
 /* Runs a kernel of one texture over points; `floats` a point come out. */
-static void evaluate(const char *name, const rt_texture_data *texture, const rt_bytes *texels, const float *uv,
-                     uint32_t count, float *out, size_t floats)
+static void evaluate(const char *name, const rt_texture_data *texture, const rt_bytes *texels,
+                     const float *uv, uint32_t count, float *out, size_t floats)
 {
     static const uint8_t none[RT_SCENE_ROW];
     cl_kernel kernel = test_kernel("texture", name);
     cl_mem t = test_buffer(sizeof *texture, texture), in = test_buffer(2 * count * sizeof *uv, uv);
-    cl_mem image = texels ? test_buffer(texels->size, texels->data) : test_buffer(sizeof none, none);
+    cl_mem image =
+        texels ? test_buffer(texels->size, texels->data) : test_buffer(sizeof none, none);
     cl_mem result = test_buffer(count * floats * sizeof *out, NULL);
     rt_arg args[] = {RT_ARG(count), RT_ARG(t), RT_ARG(image), RT_ARG(in), RT_ARG(result)};
     test_run(kernel, args, 5, count);
@@ -75,7 +77,8 @@ static void colours(const sample *s, const float *uv, uint32_t count, float (*ou
     evaluate("colours", &s->texture, &s->texels, uv, count, out[0], 4);
 }
 
-static void pattern(const rt_texture_data *texture, const float *uv, uint32_t count, float (*out)[4])
+static void pattern(const rt_texture_data *texture, const float *uv, uint32_t count,
+                    float (*out)[4])
 {
     evaluate("colours", texture, NULL, uv, count, out[0], 4);
 }
@@ -85,7 +88,10 @@ static long modulo(long a, long n)
     return (a % n + n) % n;
 }
 
-/* Which texel stands at index i of the endless grid: by whole numbers, where the kernel folds coordinates. */
+/*
+ * Which texel stands at index i of the endless grid: by whole numbers, where the kernel folds
+ * coordinates.
+ */
 static long wrap_index(long i, long size, rt_u32 wrap)
 {
     if (wrap == RT_WRAP_REPEAT)
@@ -104,8 +110,10 @@ static double reference(const sample *s, double u, double v, int channel)
     long i = (long)floor(x), j = (long)floor(y);
     for (long dj = 0; dj < 2; dj++)
         for (long di = 0; di < 2; di++) {
-            long column = wrap_index(i + di, width, s->texture.wrap), row = wrap_index(j + dj, height, s->texture.wrap);
-            double weight = (di ? x - (double)i : 1 - (x - (double)i)) * (dj ? y - (double)j : 1 - (y - (double)j));
+            long column = wrap_index(i + di, width, s->texture.wrap),
+                 row = wrap_index(j + dj, height, s->texture.wrap);
+            double weight = (di ? x - (double)i : 1 - (x - (double)i)) *
+                            (dj ? y - (double)j : 1 - (y - (double)j));
             sum += weight * s->image->data[3 * ((height - 1 - row) * width + column) + channel];
         }
     return sum;
@@ -135,14 +143,15 @@ static void texel_centres_give_the_texels(void **state)
 /* The eye's test in numbers: a red mark at the picture's upper left is at small u and large v. */
 static void images_are_upright_and_unmirrored(void **state)
 {
-    static const float uv[4][2] = {{0.125f, 0.875f}, {0.875f, 0.875f}, {0.125f, 0.125f}, {0.875f, 0.125f}};
+    static const float uv[4][2] = {
+        {0.125f, 0.875f}, {0.875f, 0.875f}, {0.125f, 0.125f}, {0.875f, 0.125f}};
     float out[4][4];
     (void)state;
     sample s = make_sample(RT_TEXELS_CODE8, 4, 4);
     memset(s.image->data, 0, 48 * sizeof(float));
-    s.image->data[0] = 1.0f;                   /* upper left: red */
-    s.image->data[3 * 3 + 1] = 1.0f;           /* upper right: green */
-    s.image->data[3 * 12 + 2] = 1.0f;          /* lower left: blue */
+    s.image->data[0] = 1.0f;          /* upper left: red */
+    s.image->data[3 * 3 + 1] = 1.0f;  /* upper right: green */
+    s.image->data[3 * 12 + 2] = 1.0f; /* lower left: blue */
     s.texels.size = 0;
     expect_ok(rt_texture_pack(&s.texture, &s.texels, s.image, 0, "made", NULL), &(rt_error){0});
     colours(&s, uv[0], 4, out);
@@ -163,7 +172,9 @@ static void between_centres_it_is_bilinear_in_every_wrap_mode(void **state)
             for (size_t w = 0; w < 3; w++) {
                 sample s = make_sample(format, sizes[size][0], sizes[size][1]);
                 s.texture.wrap = wraps[w];
-                /* From -32 to 32 in steps that float holds exactly through the whole calculation. */
+                /*
+                 * From -32 to 32 in steps that float holds exactly through the whole calculation.
+                 */
                 for (int i = 0; i < points_max; i++)
                     for (int k = 0; k < 2; k++)
                         uv[i][k] = ((float)(random_bits(&random) & 0xffff) - 32768.0f) / 1024.0f;
@@ -231,7 +242,8 @@ static void scale_and_offset_move_the_image(void **state)
     colours(&s, uv[0], 256, out);
     for (int i = 0; i < 256; i++)
         for (int c = 0; c < 3; c++)
-            assert_float_equal(out[i][c], reference(&s, 3.0 * uv[i][0] + 0.25, -0.5 * uv[i][1] - 2.125, c), 1e-6);
+            assert_float_equal(
+                out[i][c], reference(&s, 3.0 * uv[i][0] + 0.25, -0.5 * uv[i][1] - 2.125, c), 1e-6);
     free_sample(&s);
 }
 
@@ -239,11 +251,13 @@ static void scale_and_offset_move_the_image(void **state)
 static void no_coordinate_reads_outside(void **state)
 {
     static const float hard[] = {
-        0.0f, -0.0f, 1.0f, -2.0f, 3.0f, -1e-30f, 1e-30f, -1e-8f, 0.99999994f, 1.0000001f, 1.9999999f, 1e7f, -1e7f,
-        16777217.0f, 2147483648.0f, -2147483648.0f, 4294967296.0f, 1e30f, -1e30f, FLT_MAX, -FLT_MAX, INFINITY,
-        -INFINITY, NAN};
+        0.0f,   -0.0f,       1.0f,          -2.0f,          3.0f,          -1e-30f,
+        1e-30f, -1e-8f,      0.99999994f,   1.0000001f,     1.9999999f,    1e7f,
+        -1e7f,  16777217.0f, 2147483648.0f, -2147483648.0f, 4294967296.0f, 1e30f,
+        -1e30f, FLT_MAX,     -FLT_MAX,      INFINITY,       -INFINITY,     NAN};
     enum { hard_count = sizeof hard / sizeof *hard };
-    static float uv[hard_count * hard_count][2], out[hard_count * hard_count][4], slope[hard_count * hard_count][2];
+    static float uv[hard_count * hard_count][2], out[hard_count * hard_count][4],
+        slope[hard_count * hard_count][2];
     (void)state;
     sample outer = make_sample(RT_TEXELS_GREY, 4, 4), inner = make_sample(RT_TEXELS_GREY, 4, 4);
     for (int i = 0; i < 48; i++)
@@ -275,7 +289,8 @@ static void no_coordinate_reads_outside(void **state)
 
 static rt_texture_data make_pattern(rt_u32 kind)
 {
-    const rt_texture_data t = {kind, RT_WRAP_REPEAT, 0, 0, {1, 1}, {0, 0}, 0, 0, 0, 0, {1, 2, 4}, 0, {3, 0.5f, 0}, 0};
+    const rt_texture_data t = {kind, RT_WRAP_REPEAT, 0, 0, {1, 1}, {0, 0}, 0, 0, 0, 0, {1, 2, 4},
+                               0,    {3, 0.5f, 0},   0};
     return t;
 }
 
@@ -302,14 +317,16 @@ static void a_checker_alternates_by_unit_squares(void **state)
     }
     pattern(&t, beyond[0], 2, out);
     for (int i = 0; i < 2; i++)
-        assert_true(memcmp(out[i], t.a, 3 * sizeof(float)) == 0 || memcmp(out[i], t.b, 3 * sizeof(float)) == 0);
+        assert_true(memcmp(out[i], t.a, 3 * sizeof(float)) == 0 ||
+                    memcmp(out[i], t.b, 3 * sizeof(float)) == 0);
 }
 
 static double fold(double x, rt_u32 wrap)
 {
     if (wrap == RT_WRAP_CLAMP)
         return fmin(fmax(x, 0), 1);
-    return wrap == RT_WRAP_REPEAT ? x - floor(x) : acos(cos(3.14159265358979323846 * x)) / 3.14159265358979323846;
+    return wrap == RT_WRAP_REPEAT ? x - floor(x)
+                                  : acos(cos(3.14159265358979323846 * x)) / 3.14159265358979323846;
 }
 
 static void a_gradient_is_linear_along_its_axis(void **state)
@@ -327,8 +344,9 @@ static void a_gradient_is_linear_along_its_axis(void **state)
             pattern(&t, uv[0], points_max, out);
             for (int i = 0; i < points_max; i++)
                 for (int c = 0; c < 3; c++)
-                    assert_float_equal(out[i][c], t.a[c] + ((double)t.b[c] - t.a[c]) * fold(uv[i][t.axis], t.wrap),
-                                       2e-6);
+                    assert_float_equal(
+                        out[i][c], t.a[c] + ((double)t.b[c] - t.a[c]) * fold(uv[i][t.axis], t.wrap),
+                        2e-6);
         }
 }
 
@@ -346,10 +364,13 @@ static void the_slope_of_a_ramp_is_its_steepness(void **state)
     s.texture.wrap = RT_WRAP_MIRROR;
     s.texture.scale[0] = 2.0f;
     s.texture.scale[1] = -1.0f;
-    /* 0.64 a unit of s, 0.96 of t; on (u, v) it is scaled, and each second copy goes the other way. */
+    /*
+     * 0.64 a unit of s, 0.96 of t; on (u, v) it is scaled, and each second copy goes the other way.
+     */
     for (int i = 0; i < 256; i++) {
         int copy = (int)(random_bits(&random) % 64) - 32;
-        uv[i][0] = 0.5f * ((float)copy + 0.1f + 0.8f * (float)(random_bits(&random) & 255) / 256.0f);
+        uv[i][0] =
+            0.5f * ((float)copy + 0.1f + 0.8f * (float)(random_bits(&random) & 255) / 256.0f);
         uv[i][1] = -((float)(i % 8) + 0.5f);
     }
     evaluate("slopes", &s.texture, &s.texels, uv[0], 256, out[0], 2);
@@ -361,7 +382,9 @@ static void the_slope_of_a_ramp_is_its_steepness(void **state)
     free_sample(&s);
 }
 
-/* The integral of the slope along a line of texture is the difference of the heights at its ends. */
+/*
+ * The integral of the slope along a line of texture is the difference of the heights at its ends.
+ */
 static void the_slope_integrates_to_the_height(void **state)
 {
     static float uv[points_max][2], slope[points_max][2];
@@ -369,7 +392,10 @@ static void the_slope_integrates_to_the_height(void **state)
     sample s = make_sample(RT_TEXELS_HALF, 16, 16);
     for (int axis = 0; axis < 2; axis++) {
         double sum = 0;
-        /* From 1/4 to 3/4, whose central differences reach half a texel further: take heights as means there. */
+        /*
+         * From 1/4 to 3/4, whose central differences reach half a texel further: take heights as
+         * means there.
+         */
         for (int i = 0; i < points_max; i++) {
             uv[i][axis] = (float)(0.25 + 0.5 * (i + 0.5) / points_max);
             uv[i][1 - axis] = 0.40625f;
@@ -399,7 +425,8 @@ static void the_slope_of_a_pattern_is_that_of_its_colours(void **state)
     t.scale[0] = 2.0f;
     t.wrap = RT_WRAP_CLAMP;
     evaluate("slopes", &t, NULL, uv[0], 4, out[0], 2);
-    assert_float_equal(out[0][0], 0.5 * 2 * (3.5 - 7.0) / 3, 1e-4); /* at the upper edge: half of the steps beyond */
+    /* at the upper edge: half of the steps beyond */
+    assert_float_equal(out[0][0], 0.5 * 2 * (3.5 - 7.0) / 3, 1e-4);
     assert_true(out[0][1] == 0.0f);
     assert_true(out[1][0] == 0.0f && out[2][0] == 0.0f);
 

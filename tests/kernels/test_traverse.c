@@ -1,6 +1,7 @@
 /*
- * test_traverse.c - the tree against testing every primitive: the same hits to the bit. Both tests run the same
- * intersections, and ties go to the lower primitive, so nothing is left to the order of the walk.
+ * test_traverse.c - the tree against testing every primitive: the same hits to the bit. Both tests
+ * run the same intersections, and ties go to the lower primitive, so nothing is left to the order
+ * of the walk.
  */
 #include <float.h>
 #include <math.h>
@@ -11,10 +12,14 @@
 #include "render/renderer.h"
 #include "support.h"
 
-/* Traces through the tree and through everything, expects equal results, and returns the number of hits. */
+/*
+ * Traces through the tree and through everything, expects equal results, and returns the number of
+ * hits.
+ */
 static size_t expect_same(const rt_scene *scene, const rt_ray *rays, size_t count)
 {
-    rt_renderer *tree = rays_renderer(scene, RT_ACCEL_BVH), *all = rays_renderer(scene, RT_ACCEL_NONE);
+    rt_renderer *tree = rays_renderer(scene, RT_ACCEL_BVH),
+                *all = rays_renderer(scene, RT_ACCEL_NONE);
     rt_hit *a = rays_trace(tree, RT_TRACE_CLOSEST, rays, count);
     rt_hit *b = rays_trace(all, RT_TRACE_CLOSEST, rays, count);
     rt_hit *any = rays_trace(tree, RT_TRACE_ANY, rays, count);
@@ -41,7 +46,8 @@ static size_t expect_same(const rt_scene *scene, const rt_ray *rays, size_t coun
 }
 
 /* Loose triangles of the given size in a cube of half width 1, scaled and moved. */
-static void add_soup(rt_scene *scene, rays_stream *stream, size_t count, float size, float scale, const float move[3])
+static void add_soup(rt_scene *scene, rays_stream *stream, size_t count, float size, float scale,
+                     const float move[3])
 {
     float *positions = malloc(count * 9 * sizeof *positions);
     uint32_t *indices = malloc(count * 3 * sizeof *indices);
@@ -96,9 +102,11 @@ static void bvh_matches_brute_force_on_triangles(void **state)
         size_t count;
         float size, scale, move[3];
     } soups[] = {
-        {1, 0.5f, 1, {0, 0, 0}},          {9, 0.5f, 1, {0, 0, 0}},          {500, 0.2f, 1, {0, 0, 0}},
-        {3000, 0.05f, 1, {0, 0, 0}},      {1000, 1.0f, 1, {0, 0, 0}},       {1000, 0.1f, 1e-3f, {0, 0, 0}},
-        {1000, 0.1f, 1e3f, {0, 0, 0}},    {1000, 0.1f, 1, {1e3f, -1e3f, 5}}, {1000, 0.1f, 1e6f, {0, 0, 0}},
+        {1, 0.5f, 1, {0, 0, 0}},       {9, 0.5f, 1, {0, 0, 0}},
+        {500, 0.2f, 1, {0, 0, 0}},     {3000, 0.05f, 1, {0, 0, 0}},
+        {1000, 1.0f, 1, {0, 0, 0}},    {1000, 0.1f, 1e-3f, {0, 0, 0}},
+        {1000, 0.1f, 1e3f, {0, 0, 0}}, {1000, 0.1f, 1, {1e3f, -1e3f, 5}},
+        {1000, 0.1f, 1e6f, {0, 0, 0}},
     };
     rays_stream stream = {5};
     size_t hits = 0;
@@ -160,8 +168,9 @@ static void make_sheet(rt_mesh_data *mesh, int is_smooth)
         const uint32_t faces[2][3] = {{a, a + 1, a + across}, {a + 1, a + across + 1, a + across}};
         memcpy(indices[2 * i], faces, sizeof faces);
     }
-    *mesh = (rt_mesh_data){positions[0], is_smooth ? normals[0] : NULL, uv[0], NULL, indices[0],
-                           across * across, 2 * side * side};
+    *mesh = (rt_mesh_data){
+        positions[0],   is_smooth ? normals[0] : NULL, uv[0], NULL, indices[0], across * across,
+        2 * side * side};
 }
 
 /* A linear map of no special kind, mirrored at times, to somewhere in the cube of half width 1. */
@@ -197,7 +206,10 @@ static rt_scene *place_sheets(size_t count, int is_baked)
     return scene;
 }
 
-/* The instance and its baked copy are the same but for rounding, which only tells where two sheets all but meet. */
+/*
+ * The instance and its baked copy are the same but for rounding, which only tells where two sheets
+ * all but meet.
+ */
 static void instances_match_baked_copies(void **state)
 {
     (void)state;
@@ -206,7 +218,8 @@ static void instances_match_baked_copies(void **state)
     rt_scene *placed = place_sheets(placements, 0), *baked = place_sheets(placements, 1);
     rt_renderer *a = rays_renderer(placed, RT_ACCEL_BVH), *b = rays_renderer(baked, RT_ACCEL_BVH);
     rt_ray *rays = make_rays(&stream, count, 1.0f, nowhere);
-    rt_hit *in_a = rays_trace(a, RT_TRACE_CLOSEST, rays, count), *in_b = rays_trace(b, RT_TRACE_CLOSEST, rays, count);
+    rt_hit *in_a = rays_trace(a, RT_TRACE_CLOSEST, rays, count),
+           *in_b = rays_trace(b, RT_TRACE_CLOSEST, rays, count);
     size_t hits = 0, unlike = 0;
     for (size_t i = 0; i < count; i++) {
         const rt_hit *p = &in_a[i], *q = &in_b[i];
@@ -217,8 +230,9 @@ static void instances_match_baked_copies(void **state)
         if (p->shape == RT_NONE)
             continue;
         hits++;
-        const float along = fabsf(p->normal[0] * rays[i].direction[0] + p->normal[1] * rays[i].direction[1] +
-                                  p->normal[2] * rays[i].direction[2]);
+        const float along =
+            fabsf(p->normal[0] * rays[i].direction[0] + p->normal[1] * rays[i].direction[1] +
+                  p->normal[2] * rays[i].direction[2]);
         assert_true(fabsf(p->t - q->t) <= 1e-5f * q->t + 3e-6f / along);
         for (int k = 0; k < 3; k++)
             assert_true(fabsf(p->normal[k] - q->normal[k]) <= 1e-4f);
@@ -255,9 +269,12 @@ static void bvh_matches_brute_force_on_placed_shapes(void **state)
         surface.transform = random_placement(&stream);
         expect_ok(rt_scene_add_disc(scene, NULL, zero, up, 0.3f, 0.1f, &surface, &error), &error);
         surface.transform = random_placement(&stream);
-        expect_ok(rt_scene_add_cylinder(scene, NULL, zero, up, 0.1f, i % 2, &surface, &error), &error);
+        expect_ok(rt_scene_add_cylinder(scene, NULL, zero, up, 0.1f, i % 2, &surface, &error),
+                  &error);
         surface.transform = random_placement(&stream);
-        expect_ok(rt_scene_add_cone(scene, NULL, zero, up, 0.2f, i % 3 ? 0.1f : 0.0f, i % 2, &surface, &error), &error);
+        expect_ok(rt_scene_add_cone(scene, NULL, zero, up, 0.2f, i % 3 ? 0.1f : 0.0f, i % 2,
+                                    &surface, &error),
+                  &error);
         surface.transform = random_placement(&stream);
         expect_ok(rt_scene_add_torus(scene, NULL, zero, up, 0.3f, 0.05f, &surface, &error), &error);
     }
@@ -316,7 +333,8 @@ static void the_range_includes_its_ends(void **state)
     static const struct {
         float t_min, t_max;
         int hit;
-    } ranges[] = {{0, 2, 1}, {2, 3, 1}, {2, 2, 1}, {0, 1.9999f, 0}, {2.0001f, 5, 0}, {-5, 5, 1}, {-5, -1, 0}};
+    } ranges[] = {{0, 2, 1},       {2, 3, 1},  {2, 2, 1},  {0, 1.9999f, 0},
+                  {2.0001f, 5, 0}, {-5, 5, 1}, {-5, -1, 0}};
     rt_scene *scene = rays_scene();
     rays_add_triangles(scene, positions[0], 3, indices, 1);
     for (int accel = 0; accel < 2; accel++) {
@@ -371,11 +389,13 @@ static void closed_meshes_do_not_leak(void **state)
     for (size_t p = 0; p < sizeof places / sizeof *places; p++) {
         make_shell(places[p].scale, places[p].move);
         rt_scene *scene = rays_scene();
-        rays_add_triangles(scene, shell[0][0], (side + 1) * around, shell_faces[0][0][0], 2 * side * around);
+        rays_add_triangles(scene, shell[0][0], (side + 1) * around, shell_faces[0][0][0],
+                           2 * side * around);
         rt_ray *rays = malloc(count * sizeof *rays);
         for (size_t i = 0; i < count; i++) {
             float from[3], direction[3];
-            const uint32_t *face = &shell_faces[0][0][0][0] + 3 * (size_t)(rays_uniform(&stream) * 2 * side * around);
+            const uint32_t *face =
+                &shell_faces[0][0][0][0] + 3 * (size_t)(rays_uniform(&stream) * 2 * side * around);
             const float *a = &shell[0][0][0] + 3 * face[0], *b = &shell[0][0][0] + 3 * face[i % 2];
             rays_point(&stream, 0.4f * places[p].scale, from);
             for (int k = 0; k < 3; k++) {
@@ -403,12 +423,14 @@ static void closed_meshes_do_not_leak(void **state)
 }
 
 /* Launches a kernel of trace.cl itself: rt_trace would refuse these rays. */
-static void launch(rt_renderer *renderer, const char *name, const rt_ray *rays, rt_u32 count, rt_hit *hits)
+static void launch(rt_renderer *renderer, const char *name, const rt_ray *rays, rt_u32 count,
+                   rt_hit *hits)
 {
     cl_kernel kernel = NULL;
     rt_error error;
     expect_ok(rt_device_kernel(test_device(), &kernel, "trace", name, NULL, &error), &error);
-    cl_mem in = test_buffer(count * sizeof *rays, rays), out = test_buffer(count * sizeof *hits, NULL);
+    cl_mem in = test_buffer(count * sizeof *rays, rays),
+           out = test_buffer(count * sizeof *hits, NULL);
     const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(count), RT_ARG(out)};
     test_run(kernel, args, 4, count);
     test_read(out, count * sizeof *hits, hits);
@@ -421,11 +443,16 @@ static void rays_that_cannot_be_followed_miss(void **state)
 {
     (void)state;
     const rt_ray rays[] = {
-        {{0, 0, -3}, 0, {NAN, NAN, NAN}, INFINITY},           {{0, 0, -3}, 0, {0, 0, NAN}, INFINITY},
-        {{NAN, NAN, NAN}, 0, {0, 0, 1}, INFINITY},            {{0, NAN, -3}, 0, {0, 0, 1}, INFINITY},
-        {{0, 0, -3}, 0, {INFINITY, 0, 0}, INFINITY},          {{INFINITY, INFINITY, 0}, 0, {0, 0, 1}, INFINITY},
-        {{-INFINITY, INFINITY, 0}, 0, {NAN, 0, 1}, INFINITY}, {{1e30f, 1e30f, -3}, 0, {0, 0, 1}, INFINITY},
-        {{0, 0, -3}, 0, {0, 0, 0}, INFINITY},                 {{1e15f, 1e15f, -3}, 0, {0, 0, 1}, INFINITY},
+        {{0, 0, -3}, 0, {NAN, NAN, NAN}, INFINITY},
+        {{0, 0, -3}, 0, {0, 0, NAN}, INFINITY},
+        {{NAN, NAN, NAN}, 0, {0, 0, 1}, INFINITY},
+        {{0, NAN, -3}, 0, {0, 0, 1}, INFINITY},
+        {{0, 0, -3}, 0, {INFINITY, 0, 0}, INFINITY},
+        {{INFINITY, INFINITY, 0}, 0, {0, 0, 1}, INFINITY},
+        {{-INFINITY, INFINITY, 0}, 0, {NAN, 0, 1}, INFINITY},
+        {{1e30f, 1e30f, -3}, 0, {0, 0, 1}, INFINITY},
+        {{0, 0, -3}, 0, {0, 0, 0}, INFINITY},
+        {{1e15f, 1e15f, -3}, 0, {0, 0, 1}, INFINITY},
     };
     enum { count = sizeof rays / sizeof *rays };
     rays_stream stream = {10};
@@ -433,7 +460,8 @@ static void rays_that_cannot_be_followed_miss(void **state)
     rt_scene *scene = rays_scene(), *empty = rays_scene();
     add_soup(scene, &stream, 1000, 0.2f, 1.0f, nowhere);
     rays_add_sphere(scene, nowhere, 0.5f);
-    rt_renderer *renderers[] = {rays_renderer(scene, RT_ACCEL_BVH), rays_renderer(empty, RT_ACCEL_BVH)};
+    rt_renderer *renderers[] = {rays_renderer(scene, RT_ACCEL_BVH),
+                                rays_renderer(empty, RT_ACCEL_BVH)};
     for (int i = 0; i < 2; i++) {
         launch(renderers[i], "trace_closest", rays, count, hits);
         for (int k = 0; k < count; k++)

@@ -28,13 +28,15 @@ static void structs_have_the_same_layout_on_host_and_device(void **state)
     test_read(out, sizeof device, device);
     for (int i = 0; i < count; i++)
         if (device[i] != expected[i].value)
-            fail_msg("%s: %u on the host, %u on the device", expected[i].name, expected[i].value, device[i]);
+            fail_msg("%s: %u on the host, %u on the device", expected[i].name, expected[i].value,
+                     device[i]);
     rt_buffer_release(out);
     rt_kernel_release(kernel);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(structs_have_the_same_layout_on_host_and_device)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(structs_have_the_same_layout_on_host_and_device)};
     return cmocka_run_group_tests_name("kernels/types", tests, NULL, NULL);
 }

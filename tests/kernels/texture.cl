@@ -1,5 +1,5 @@
 /* texture.cl - evaluates textures at given coordinates. */
-#include "texture.h"
+#include "material/texture.h"
 
 /* One texture and its texels at many points. */
 kernel void colours(uint count, global const rt_texture_data *texture, global const uchar *texels,

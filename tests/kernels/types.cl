@@ -1,4 +1,7 @@
-/* types.cl - the device's view of the shared structs: sizes and offsets, in the order of type_members.h. */
+/*
+ * types.cl - the device's view of the shared structs: sizes and offsets, in the order of
+ * type_members.h.
+ */
 #include "types.h"
 
 kernel void layout(global uint *out)

@@ -13,21 +13,28 @@ mutation_field() {
 # Tests that all survivors meet.
 mutation_rest() { sed -n 's/^rest  *//p' "$table"; }
 
-# plant OLD NEW <FILE: the file with its only OLD replaced by NEW. Fails where OLD is not there, or more than once.
+# plant OLD NEW <FILE: the file with its only OLD replaced by NEW; white space does not count, so that OLD may run over
+# several lines of the file. Fails where OLD is not there, or more than once.
 plant() {
     OLD=$1 NEW=$2 awk '
-        BEGIN { old = ENVIRON["OLD"]; new = ENVIRON["NEW"] }
-        {
-            for (rest = $0; at = index(rest, old); rest = substr(rest, at + length(old))) {
-                printf "%s%s", substr(rest, 1, at - 1), new
+        { text = text $0 "\n" }
+        END {
+            old = ENVIRON["OLD"]
+            gsub(/[ \t]/, "", old)
+            for (i = 1; i <= length(text); i++)
+                if ((c = substr(text, i, 1)) !~ /[ \t\n]/) {
+                    dense = dense c
+                    place[++count] = i
+                }
+            for (rest = dense; at = index(rest, old); rest = substr(rest, at + 1)) {
+                first = done += at
                 found++
             }
-            print rest
-        }
-        END {
             if (found != 1) {
                 printf "the old text is there %d times, not once\n", found | "cat 1>&2"
                 exit 1
             }
+            printf "%s%s%s", substr(text, 1, place[first] - 1), ENVIRON["NEW"],
+                substr(text, place[first + length(old) - 1] + 1)
         }'
 }

@@ -45,6 +45,8 @@ plants() {
 }
 
 plants text_is_replaced 'a/b & "c\n"' 'x*[' '& "c\n"' 'a/b x*['
+plants text_over_two_lines_is_replaced 'a (bc)' 'b+ 1' 'b' 'a (b
+    + 1c)'
 plants text_that_is_missing_is_refused refused 'x' 'y' 'abc'
 plants text_that_is_there_twice_is_refused refused 'x' 'y' 'x + x'
 for name in $(mutation_names); do

@@ -1,11 +1,16 @@
-/* optics.h - how much light boundaries reflect, in double precision and by other ways than the kernels go. */
+/*
+ * optics.h - how much light boundaries reflect, in double precision and by other ways than the
+ * kernels go.
+ */
 #ifndef RT_TESTS_PROOF_OPTICS_H
 #define RT_TESTS_PROOF_OPTICS_H
 
 #include <complex.h>
 
-/* Unpolarised reflectance of a smooth boundary; index: eta + i k of what lies beyond over that of the side of the
- * light. */
+/*
+ * Unpolarised reflectance of a smooth boundary; index: eta + i k of what lies beyond over that of
+ * the side of the light.
+ */
 double optics_fresnel(double cos_i, double complex index);
 
 /* Reflectance of a boundary of GGX facets, each reflecting once, to a direction of that cosine. */

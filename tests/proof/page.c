@@ -19,8 +19,10 @@ static int row_count;
 void page_row(const char *stated, const char *measured)
 {
     assert_true(row_count < rows_max);
-    assert_in_range(snprintf(rows[row_count].stated, cells_size, "| %s |", stated), 0, cells_size - 1);
-    assert_in_range(snprintf(rows[row_count].measured, cells_size, " %s |", measured), 0, cells_size - 1);
+    assert_in_range(snprintf(rows[row_count].stated, cells_size, "| %s |", stated), 0,
+                    cells_size - 1);
+    assert_in_range(snprintf(rows[row_count].measured, cells_size, " %s |", measured), 0,
+                    cells_size - 1);
     row_count++;
 }
 
@@ -75,8 +77,8 @@ static void expect_section(const char *title)
     }
     free(section);
     if (missing || lines != row_count + 1)
-        fail_msg(PAGE ", '%s': %d rows for %d checks, %d missing; make proof writes it anew", title, lines - 1,
-                 row_count, missing);
+        fail_msg(PAGE ", '%s': %d rows for %d checks, %d missing; make proof writes it anew", title,
+                 lines - 1, row_count, missing);
 }
 
 void page_section(const char *title, const char *columns)

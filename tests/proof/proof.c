@@ -64,7 +64,8 @@ void proof_free(proof_films *films)
         free(films->rgb[i]);
 }
 
-proof_values proof_mean_of(const proof_films *films, int channel, uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1)
+proof_values proof_mean_of(const proof_films *films, int channel, uint32_t x0, uint32_t y0,
+                           uint32_t x1, uint32_t y1)
 {
     proof_values values;
     for (int i = 0; i < proof_renders; i++) {
@@ -84,7 +85,9 @@ proof_values proof_mean(const proof_films *films, int channel)
 
 /* ---- Statistics ---------------------------------------------------------------- */
 
-/* The mean of the values, its standard error with that of rounding, and how many of them it is off. */
+/*
+ * The mean of the values, its standard error with that of rounding, and how many of them it is off.
+ */
 typedef struct estimate {
     double mean, error, off;
 } estimate;
@@ -95,7 +98,8 @@ static estimate estimate_of(const proof_values *values, double expected, double 
     for (int i = 0; i < proof_renders; i++)
         e.mean += values->of[i] / proof_renders;
     for (int i = 0; i < proof_renders; i++)
-        e.error += (values->of[i] - e.mean) * (values->of[i] - e.mean) / ((double)proof_renders * (proof_renders - 1));
+        e.error += (values->of[i] - e.mean) * (values->of[i] - e.mean) /
+                   ((double)proof_renders * (proof_renders - 1));
     e.error = sqrt(e.error + PROOF_ROUNDING * PROOF_ROUNDING * scale * scale);
     if (e.mean != expected)
         e.off = (e.mean - expected) / e.error;
@@ -115,11 +119,12 @@ void proof_check(proof_row row, double expected, const proof_values *values)
     page_row(proof_text("%s | %s | %s | %.6g", row.scene, row.by, row.truth, expected),
              proof_text("%.6g | %.1e | %+.2f", e.mean, e.error, e.off));
     if (is_wrong(e.off, 1))
-        fail_msg("%s by %s, %s: %.8g, should be %.8g; %+.1f standard errors of %.2g", row.scene, row.by, row.truth,
-                 e.mean, expected, e.off, e.error);
+        fail_msg("%s by %s, %s: %.8g, should be %.8g; %+.1f standard errors of %.2g", row.scene,
+                 row.by, row.truth, e.mean, expected, e.off, e.error);
 }
 
-void proof_radiance(proof_row row, double expected, const char *text, const rt_render_options *options)
+void proof_radiance(proof_row row, double expected, const char *text,
+                    const rt_render_options *options)
 {
     proof_films films;
     proof_render(&films, text, options);
@@ -163,19 +168,22 @@ void proof_same(proof_row row, const proof_films *a, const proof_films *peer)
 
     /* Compare the means. */
     proof_values x = proof_mean(a, 1), y = proof_mean(peer, 1), d = difference(&x, &y);
-    estimate ours = estimate_of(&x, 0, 0), theirs = estimate_of(&y, 0, 0), e = estimate_of(&d, 0, ours.mean);
+    estimate ours = estimate_of(&x, 0, 0), theirs = estimate_of(&y, 0, 0),
+             e = estimate_of(&d, 0, ours.mean);
     page_row(proof_text("%s | %s | %s", row.scene, row.by, row.truth),
-             proof_text("%.6g | %.6g | %.1e | %+.2f, worst of %d %+.2f", theirs.mean, ours.mean, e.error, e.off,
-                        (int)count, worst_off));
+             proof_text("%.6g | %.6g | %.1e | %+.2f, worst of %d %+.2f", theirs.mean, ours.mean,
+                        e.error, e.off, (int)count, worst_off));
     if (is_wrong(e.off, 1))
-        fail_msg("%s by %s and by %s: mean %.8g and %.8g, %+.1f standard errors", row.scene, row.by, row.truth,
-                 ours.mean, theirs.mean, e.off);
+        fail_msg("%s by %s and by %s: mean %.8g and %.8g, %+.1f standard errors", row.scene, row.by,
+                 row.truth, ours.mean, theirs.mean, e.off);
     if (is_wrong(worst_off, (double)count))
-        fail_msg("%s by %s and by %s: channel %d of pixel %d, %d differs by %+.1f standard errors", row.scene, row.by,
-                 row.truth, (int)(worst % 3), (int)(worst / 3 % a->width), (int)(worst / 3 / a->width), worst_off);
+        fail_msg("%s by %s and by %s: channel %d of pixel %d, %d differs by %+.1f standard errors",
+                 row.scene, row.by, row.truth, (int)(worst % 3), (int)(worst / 3 % a->width),
+                 (int)(worst / 3 / a->width), worst_off);
 }
 
 void proof_page(const char *title)
 {
-    page_section(title, "scene | by | closed form or peer | expected | ours | standard error | off by standard errors");
+    page_section(title, "scene | by | closed form or peer | expected | ours | standard error | off "
+                        "by standard errors");
 }

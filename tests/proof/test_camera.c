@@ -1,9 +1,9 @@
 /*
  * test_camera.c - where things are in the picture: pinholes, lenses, and textures.
  *
- * A camera of horizontal angle fov and W columns sees a point d = x right + y up + z axis from the eye at the column
- * W (1/2 + (x/z) / (2 tan(fov/2))). A lens of radius a, focused at f, spreads a point at z over a disc of diameter
- * 2 a |1/z - 1/f| W / (2 tan(fov/2)).
+ * A camera of horizontal angle fov and W columns sees a point d = x right + y up + z axis from the
+ * eye at the column W (1/2 + (x/z) / (2 tan(fov/2))). A lens of radius a, focused at f, spreads a
+ * point at z over a disc of diameter 2 a |1/z - 1/f| W / (2 tan(fov/2)).
  */
 #include <math.h>
 #include <string.h>
@@ -16,7 +16,10 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- Where the light of a channel is -------------------------------------------------- */
 
-/* Sums over the film of the channel's light, times the column or row of the pixel's centre, to powers. */
+/*
+ * Sums over the film of the channel's light, times the column or row of the pixel's centre, to
+ * powers.
+ */
 static proof_values moment(const proof_films *films, int channel, int x_power, int y_power)
 {
     proof_values values;
@@ -24,8 +27,8 @@ static proof_values moment(const proof_films *films, int channel, int x_power, i
         values.of[i] = 0;
         for (uint32_t y = 0; y < films->height; y++)
             for (uint32_t x = 0; x < films->width; x++)
-                values.of[i] += films->rgb[i][3 * (y * films->width + x) + (uint32_t)channel] * pow(x + 0.5, x_power) *
-                                pow(y + 0.5, y_power);
+                values.of[i] += films->rgb[i][3 * (y * films->width + x) + (uint32_t)channel] *
+                                pow(x + 0.5, x_power) * pow(y + 0.5, y_power);
     }
     return values;
 }
@@ -38,13 +41,15 @@ static proof_values ratio(proof_values a, proof_values b)
 }
 
 /* The middle of the channel's light and its sum are as expected, in pixels. */
-static void expect_spot(const char *scene, const proof_films *films, int channel, const double expected[3])
+static void expect_spot(const char *scene, const proof_films *films, int channel,
+                        const double expected[3])
 {
     static const char *const what[] = {"column", "row", "area in pixels"};
     proof_values sum = moment(films, channel, 0, 0);
     for (int i = 0; i < 3; i++) {
         proof_values values = i == 2 ? sum : ratio(moment(films, channel, i == 0, i == 1), sum);
-        proof_check((proof_row){proof_text("%s %d", scene, channel + 1), what[i], "projection"}, expected[i], &values);
+        proof_check((proof_row){proof_text("%s %d", scene, channel + 1), what[i], "projection"},
+                    expected[i], &values);
     }
 }
 
@@ -74,7 +79,10 @@ static double middle_of_pixels(double x0, double x1)
     return sum / (x1 - x0);
 }
 
-/* Three lamps, red, green and blue, squares of 0.2 m across the view, at places right, up and ahead of the eye. */
+/*
+ * Three lamps, red, green and blue, squares of 0.2 m across the view, at places right, up and ahead
+ * of the eye.
+ */
 static void squares_by_their_projection(void **state)
 {
     static const vector eye = {1, 2, -3}, ahead = {0.6, -0.48, 0.64}, up = {0.1, 1, 0.2};
@@ -90,11 +98,14 @@ static void squares_by_their_projection(void **state)
     for (int k = 0; k < 3; k++) {
         vector corner;
         for (int i = 0; i < 3; i++)
-            corner[i] = eye[i] + (places[k][0] - 0.1) * x[i] + (places[k][1] - 0.1) * y[i] + places[k][2] * ahead[i];
-        strcat(lamps, proof_text("quad { corner %.9g %.9g %.9g  edge1 %.9g %.9g %.9g  edge2 %.9g %.9g %.9g\n"
-                                 "  material lamp  radiance %d %d %d }\n",
-                                 corner[0], corner[1], corner[2], 0.2 * x[0], 0.2 * x[1], 0.2 * x[2], 0.2 * y[0],
-                                 0.2 * y[1], 0.2 * y[2], k == 0, k == 1, k == 2));
+            corner[i] = eye[i] + (places[k][0] - 0.1) * x[i] + (places[k][1] - 0.1) * y[i] +
+                        places[k][2] * ahead[i];
+        strcat(
+            lamps,
+            proof_text("quad { corner %.9g %.9g %.9g  edge1 %.9g %.9g %.9g  edge2 %.9g %.9g %.9g\n"
+                       "  material lamp  radiance %d %d %d }\n",
+                       corner[0], corner[1], corner[2], 0.2 * x[0], 0.2 * x[1], 0.2 * x[2],
+                       0.2 * y[0], 0.2 * y[1], 0.2 * y[2], k == 0, k == 1, k == 2));
     }
     proof_render(&films,
                  proof_text("camera { eye 1 2 -3  look_at 1.6 1.52 -2.36  up 0.1 1 0.2  fov 50 }\n"
@@ -103,7 +114,8 @@ static void squares_by_their_projection(void **state)
                  &options);
     for (int k = 0; k < 3; k++) {
         const double *p = places[k];
-        double x_middle = 30 + scale * p[0] / p[2], y_middle = 20 - scale * p[1] / p[2], half = scale * 0.1 / p[2];
+        double x_middle = 30 + scale * p[0] / p[2], y_middle = 20 - scale * p[1] / p[2],
+               half = scale * 0.1 / p[2];
         double expected[3] = {middle_of_pixels(x_middle - half, x_middle + half),
                               middle_of_pixels(y_middle - half, y_middle + half), 4 * half * half};
         expect_spot("pinhole camera, square", &films, k, expected);
@@ -115,16 +127,19 @@ static void squares_by_their_projection(void **state)
 static void other_cameras(void **state)
 {
     static const char lamps[] =
-        "material lamp { }\nsphere { centre 0.5 0.3 2  radius 0.1  material lamp  radiance 1 0 0 }\n"
+        "material lamp { }\nsphere { centre 0.5 0.3 2  radius 0.1  material lamp  radiance 1 0 0 "
+        "}\n"
         "sphere { centre -0.8 0 3  radius 0.1  material lamp  radiance 0 1 0 }\n"
         "sphere { centre 0.7 -0.4 -2  radius 0.1  material lamp  radiance 0 0 1 }\n";
     static const rt_render_options options = {.width = 40, .height = 20, .spp = 64};
     proof_films films;
     (void)state;
     /* One who looks along +z has +x on the left. */
-    proof_render(&films,
-                 proof_text("camera { projection orthographic  eye 0 0 -5  look_at 0 0 0  width 4 }\n%s", lamps),
-                 &options);
+    proof_render(
+        &films,
+        proof_text("camera { projection orthographic  eye 0 0 -5  look_at 0 0 0  width 4 }\n%s",
+                   lamps),
+        &options);
     const double expected[3][3] = {{15, 7, pi}, {28, 10, pi}, {13, 14, pi}};
     for (int k = 0; k < 3; k++)
         expect_spot("orthographic camera, sphere", &films, k, expected[k]);
@@ -132,7 +147,8 @@ static void other_cameras(void **state)
 
     proof_render(&films,
                  proof_text("camera { projection environment  eye 0 0 3  look_at 0 0 4 }\n%s",
-                            "material lamp { }\nsphere { centre 0 0 5  radius 0.1  material lamp  radiance 1 0 0 }\n"
+                            "material lamp { }\nsphere { centre 0 0 5  radius 0.1  material lamp  "
+                            "radiance 1 0 0 }\n"
                             "sphere { centre -2 0 3  radius 0.1  material lamp  radiance 0 1 0 }\n"
                             "sphere { centre 2 0 5  radius 0.1  material lamp  radiance 0 0 1 }\n"),
                  &options);
@@ -158,7 +174,8 @@ static double blur_radius(double z, double width)
 
 static const char *lens(const char *lamp)
 {
-    return proof_text("camera { eye 0 0 0  look_at 0 0 1  fov (2 * atan(0.125))  aperture 0.1  focal_distance 2 }\n"
+    return proof_text("camera { eye 0 0 0  look_at 0 0 1  fov (2 * atan(0.125))  aperture 0.1  "
+                      "focal_distance 2 }\n"
                       "material black { }\n%s",
                       lamp);
 }
@@ -179,7 +196,10 @@ static double column(double x, double r)
     return sum / steps;
 }
 
-/* A half plane that shines on the left, before and behind the plane in focus: each column has its part of the disc. */
+/*
+ * A half plane that shines on the left, before and behind the plane in focus: each column has its
+ * part of the disc.
+ */
 static void edges_through_a_lens(void **state)
 {
     static const rt_render_options options = {.width = 64, .height = 2, .spp = 64};
@@ -190,15 +210,17 @@ static void edges_through_a_lens(void **state)
         proof_films films;
         proof_render(
             &films,
-            lens(proof_text("quad { corner 0 -9 %g  edge1 0 18 0  edge2 9 0 0  material black  radiance 1 }\n", z)),
+            lens(proof_text(
+                "quad { corner 0 -9 %g  edge1 0 18 0  edge2 9 0 0  material black  radiance 1 }\n",
+                z)),
             &options);
         static const int columns[] = {0, 24, 27, 31, 32, 36, 39, 63};
         for (int i = 0; i < 8; i++) {
             uint32_t x = (uint32_t)columns[i];
             proof_values values = proof_mean_of(&films, 1, x, 0, x + 1, 2);
             double expected = r > 0 ? column(31 - (double)x, r) : x < 32;
-            proof_check((proof_row){proof_text("edge at %g m, lens focused at 2 m", z), proof_text("column %u", x),
-                                    "segment of the disc of confusion"},
+            proof_check((proof_row){proof_text("edge at %g m, lens focused at 2 m", z),
+                                    proof_text("column %u", x), "segment of the disc of confusion"},
                         expected, &values);
         }
         proof_free(&films);
@@ -206,8 +228,8 @@ static void edges_through_a_lens(void **state)
 }
 
 /*
- * A small disc: the variance of the light's column is that of the disc of confusion, D^2/16, that of the lamp's image,
- * and 1/12, which the pixels add (Sheppard). Its light is that of a pinhole.
+ * A small disc: the variance of the light's column is that of the disc of confusion, D^2/16, that
+ * of the lamp's image, and 1/12, which the pixels add (Sheppard). Its light is that of a pinhole.
  */
 static void discs_of_confusion(void **state)
 {
@@ -218,18 +240,21 @@ static void discs_of_confusion(void **state)
         double z = distances[k], own = 0.02 / z * 48 / (2 * half_view);
         proof_films films;
         proof_render(&films,
-                     lens(proof_text("disc { centre 0.01 -0.02 %g  normal 0 0 -1  radius 0.02  material black  "
-                                     "radiance 1 }\n",
-                                     z)),
+                     lens(proof_text(
+                         "disc { centre 0.01 -0.02 %g  normal 0 0 -1  radius 0.02  material black  "
+                         "radiance 1 }\n",
+                         z)),
                      &options);
         proof_values sum = moment(&films, 1, 0, 0), mean = ratio(moment(&films, 1, 1, 0), sum);
         proof_values square = ratio(moment(&films, 1, 2, 0), sum);
         for (int i = 0; i < proof_renders; i++)
-            square.of[i] = 4 * sqrt(square.of[i] - mean.of[i] * mean.of[i] - 1 / 12.0 - own * own / 4);
+            square.of[i] =
+                4 * sqrt(square.of[i] - mean.of[i] * mean.of[i] - 1 / 12.0 - own * own / 4);
         const char *scene = proof_text("point at %g m, lens focused at 2 m", z);
-        proof_check((proof_row){scene, "diameter in pixels", "2 a abs(1/z - 1/f), projected"}, 2 * blur_radius(z, 48),
-                    &square);
-        proof_check((proof_row){scene, "area in pixels", "that of the lamp, projected"}, pi * own * own, &sum);
+        proof_check((proof_row){scene, "diameter in pixels", "2 a abs(1/z - 1/f), projected"},
+                    2 * blur_radius(z, 48), &square);
+        proof_check((proof_row){scene, "area in pixels", "that of the lamp, projected"},
+                    pi * own * own, &sum);
         proof_free(&films);
     }
 }
@@ -238,7 +263,10 @@ static void discs_of_confusion(void **state)
 
 static const rt_render_options window = {.width = 4, .height = 4, .spp = 4};
 
-/* A gradient is 2 + 3 v, seen through a very small window at right angles to a point of a shape that shines. */
+/*
+ * A gradient is 2 + 3 v, seen through a very small window at right angles to a point of a shape
+ * that shines.
+ */
 static void gradients_at_known_places(void **state)
 {
     static const struct {
@@ -251,11 +279,27 @@ static void gradients_at_known_places(void **state)
          {0.5, 0.25, 0},
          {0, 0, 1},
          0.4},
-        {"sphere", "sphere { centre 0 0 0  radius 1", {0.8, -0.6, 0}, {0.8, -0.6, 0}, 0.2951672353008665},
-        {"ellipsoid", "ellipsoid { centre 0 0 0  radii 2 1 1", {0, 0.8, 0.6}, {0, 0.8, 0.6}, 0.7951672353008665},
-        {"ring", "disc { centre 0 0 0  normal 0 0 1  radius 2  inner_radius 1", {0, 1.25, 0}, {0, 0, 1}, 0.25},
+        {"sphere",
+         "sphere { centre 0 0 0  radius 1",
+         {0.8, -0.6, 0},
+         {0.8, -0.6, 0},
+         0.2951672353008665},
+        {"ellipsoid",
+         "ellipsoid { centre 0 0 0  radii 2 1 1",
+         {0, 0.8, 0.6},
+         {0, 0.8, 0.6},
+         0.7951672353008665},
+        {"ring",
+         "disc { centre 0 0 0  normal 0 0 1  radius 2  inner_radius 1",
+         {0, 1.25, 0},
+         {0, 0, 1},
+         0.25},
         {"cylinder", "cylinder { a 0 0 0  b 0 2 0  radius 1", {0, 0.5, 1}, {0, 0, 1}, 0.25},
-        {"cap of a cylinder", "cylinder { a 0 0 0  b 0 2 0  radius 1", {0.25, 2, 0}, {0, 1, 0}, 0.25},
+        {"cap of a cylinder",
+         "cylinder { a 0 0 0  b 0 2 0  radius 1",
+         {0.25, 2, 0},
+         {0, 1, 0},
+         0.25},
         {"cone", "cone { base 0 0 0  apex 0 1 0  radius 1", {0, 0.25, 0.75}, {0, 1, 1}, 0.25},
         {"torus, outside",
          "torus { centre 0 0 0  axis 0 0 1  major_radius 2  minor_radius 1",
@@ -267,9 +311,11 @@ static void gradients_at_known_places(void **state)
     for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) {
         const double *p = looks[i].at, *n = looks[i].normal;
         proof_radiance(
-            (proof_row){proof_text("gradient, %s", looks[i].name), proof_text("v = %.4g", looks[i].v), "2 + 3 v"},
+            (proof_row){proof_text("gradient, %s", looks[i].name),
+                        proof_text("v = %.4g", looks[i].v), "2 + 3 v"},
             2 + 3 * looks[i].v,
-            proof_text("camera { projection orthographic  width 1e-4  look_at %.9g %.9g %.9g  eye %.9g %.9g %.9g\n"
+            proof_text("camera { projection orthographic  width 1e-4  look_at %.9g %.9g %.9g  eye "
+                       "%.9g %.9g %.9g\n"
                        "  up 0.3 0.2 -0.1 }\n"
                        "texture steps { pattern gradient  a 2  b 5 }\nmaterial black { }\n"
                        "%s  material black  radiance 1  texture steps }\n",
@@ -292,7 +338,10 @@ static void write_texels(const char *path, int width, int height, const float *t
     rt_image_destroy(image);
 }
 
-/* On a quad of 4 x 2 m, on which a texel is a square of 1 m with its number in the middle, and linear between. */
+/*
+ * On a quad of 4 x 2 m, on which a texel is a square of 1 m with its number in the middle, and
+ * linear between.
+ */
 static void images_at_known_places(void **state)
 {
     static const float texels[] = {1, 2, 4, 8, 16, 32, 64, 128};
@@ -317,17 +366,23 @@ static void images_at_known_places(void **state)
     write_texels("texels.exr", 4, 2, texels);
     for (size_t i = 0; i < sizeof looks / sizeof *looks; i++)
         proof_radiance(
-            (proof_row){proof_text("image, %s", looks[i].what), proof_text("u, v = %g, %g", looks[i].u, looks[i].v),
-                        "bilinear"},
+            (proof_row){proof_text("image, %s", looks[i].what),
+                        proof_text("u, v = %g, %g", looks[i].u, looks[i].v), "bilinear"},
             looks[i].expected,
-            proof_text("camera { projection orthographic  width 1e-9  eye %.9g %.9g 1  look_at %.9g %.9g 0 }\n"
+            proof_text("camera { projection orthographic  width 1e-9  eye %.9g %.9g 1  look_at "
+                       "%.9g %.9g 0 }\n"
                        "texture numbers { file \"texels.exr\"  %s }\nmaterial black { }\n"
-                       "quad { corner 0 0 0  edge1 4 0 0  edge2 0 2 0  material black  radiance 1  texture numbers }\n",
-                       4 * looks[i].u, 2 * looks[i].v, 4 * looks[i].u, 2 * looks[i].v, looks[i].options),
+                       "quad { corner 0 0 0  edge1 4 0 0  edge2 0 2 0  material black  radiance 1  "
+                       "texture numbers }\n",
+                       4 * looks[i].u, 2 * looks[i].v, 4 * looks[i].u, 2 * looks[i].v,
+                       looks[i].options),
             &window);
 }
 
-/* The code 188 of an 8-bit file is ((188/255 + 0.055) / 1.055)^2.4 of light, or 188/255 where it is linear. */
+/*
+ * The code 188 of an 8-bit file is ((188/255 + 0.055) / 1.055)^2.4 of light, or 188/255 where it is
+ * linear.
+ */
 static void codes_of_files(void **state)
 {
     static const float half[] = {0.5f};
@@ -340,7 +395,8 @@ static void codes_of_files(void **state)
             linear ? 188 / 255.0 : pow((188 / 255.0 + 0.055) / 1.055, 2.4),
             proof_text("camera { projection orthographic  width 1  eye 0 0 1  look_at 0 0 0 }\n"
                        "texture grey { file \"code.png\"  linear %s }\nmaterial black { }\n"
-                       "quad { corner -1 -1 0  edge1 2 0 0  edge2 0 2 0  material black  radiance 1  texture grey }\n",
+                       "quad { corner -1 -1 0  edge1 2 0 0  edge2 0 2 0  material black  radiance "
+                       "1  texture grey }\n",
                        linear ? "true" : "false"),
             &window);
 }

@@ -1,9 +1,10 @@
 /*
- * test_convergence.c - how fast the noise falls as samples grow, for both samplers: the slope of log RMSE against log
- * samples, -1/2 for independent samples and steeper for Sobol points.
+ * test_convergence.c - how fast the noise falls as samples grow, for both samplers: the slope of
+ * log RMSE against log samples, -1/2 for independent samples and steeper for Sobol points.
  *
- * The mean square of a pixel's noise is its variance over the renders, so that no reference is needed; that the means
- * are right is for the other tests. The slope's standard error is that of the jackknife (Efron and Stein 1981).
+ * The mean square of a pixel's noise is its variance over the renders, so that no reference is
+ * needed; that the means are right is for the other tests. The slope's standard error is that of
+ * the jackknife (Efron and Stein 1981).
  */
 #include <math.h>
 
@@ -14,7 +15,10 @@
 
 enum { octaves = 9, side = 12 }; /* 1 to 256 samples */
 
-/* Root of the mean variance of the green pixels over the renders but `without`, over their mean; -1: over all. */
+/*
+ * Root of the mean variance of the green pixels over the renders but `without`, over their mean;
+ * -1: over all.
+ */
 static double noise(const proof_films *films, int without)
 {
     const int n = proof_renders - (without >= 0);
@@ -25,7 +29,9 @@ static double noise(const proof_films *films, int without)
         for (int k = 0; k < proof_renders; k++)
             mean += k == without ? 0 : films->rgb[k][3 * i + 1] / n;
         for (int k = 0; k < proof_renders; k++)
-            sum += k == without ? 0 : (films->rgb[k][3 * i + 1] - mean) * (films->rgb[k][3 * i + 1] - mean);
+            sum += k == without
+                       ? 0
+                       : (films->rgb[k][3 * i + 1] - mean) * (films->rgb[k][3 * i + 1] - mean);
         squares += sum / (n - 1);
         total += mean;
     }
@@ -43,13 +49,20 @@ static double slope_of(const double log_noise[octaves])
     return above / (below * log(2));
 }
 
-/* Renders with 1, 2, 4, ... samples. Writes the noise at each and the slope's jackknife values, whose mean it is. */
-static void measure(const char *text, rt_sampler sampler, double rmse[octaves], proof_values *slopes)
+/*
+ * Renders with 1, 2, 4, ... samples. Writes the noise at each and the slope's jackknife values,
+ * whose mean it is.
+ */
+static void measure(const char *text, rt_sampler sampler, double rmse[octaves],
+                    proof_values *slopes)
 {
     double logs[proof_renders + 1][octaves];
     for (int i = 0; i < octaves; i++) {
-        rt_render_options options = {
-            .width = side, .height = side, .spp = 1u << i, .sampler = sampler, .seed = 100u * (uint32_t)i};
+        rt_render_options options = {.width = side,
+                                     .height = side,
+                                     .spp = 1u << i,
+                                     .sampler = sampler,
+                                     .seed = 100u * (uint32_t)i};
         proof_films films;
         proof_render(&films, text, &options);
         for (int without = -1; without < proof_renders; without++)
@@ -58,7 +71,8 @@ static void measure(const char *text, rt_sampler sampler, double rmse[octaves], 
         proof_free(&films);
     }
     for (int k = 0; k < proof_renders; k++)
-        slopes->of[k] = proof_renders * slope_of(logs[0]) - (proof_renders - 1) * slope_of(logs[k + 1]);
+        slopes->of[k] =
+            proof_renders * slope_of(logs[0]) - (proof_renders - 1) * slope_of(logs[k + 1]);
 }
 
 static void mean_and_error(const proof_values *values, double *mean, double *error)
@@ -72,7 +86,10 @@ static void mean_and_error(const proof_values *values, double *mean, double *err
     *error = sqrt(squares / (proof_renders * (proof_renders - 1.0)));
 }
 
-/* The slope is -1/2 for independent samples, and at most `bound` for Sobol points, by 6.9 standard errors. */
+/*
+ * The slope is -1/2 for independent samples, and at most `bound` for Sobol points, by 6.9 standard
+ * errors.
+ */
 static void expect_slope(const char *scene, const char *text, rt_sampler sampler, double bound)
 {
     double rmse[octaves], slope, error;
@@ -81,16 +98,19 @@ static void expect_slope(const char *scene, const char *text, rt_sampler sampler
     mean_and_error(&slopes, &slope, &error);
     chance_spend(PROOF_FALSE_ALARM);
     const int is_sobol = sampler == RT_SAMPLER_SOBOL;
-    page_row(proof_text("%s | %s | %s%g", scene, is_sobol ? "Sobol" : "independent", is_sobol ? "below " : "", bound),
-             proof_text("%.3f | %.3f | %.4f | %.4f | %.4f | %.4f | %.4f", slope, error, rmse[0], rmse[2], rmse[4],
-                        rmse[6], rmse[8]));
+    page_row(proof_text("%s | %s | %s%g", scene, is_sobol ? "Sobol" : "independent",
+                        is_sobol ? "below " : "", bound),
+             proof_text("%.3f | %.3f | %.4f | %.4f | %.4f | %.4f | %.4f", slope, error, rmse[0],
+                        rmse[2], rmse[4], rmse[6], rmse[8]));
     if (!(slope < bound + 6.9 * error && (is_sobol || slope > bound - 6.9 * error)))
-        fail_msg("%s, sampler %d: slope %.4f with a standard error of %.4f", scene, sampler, slope, error);
+        fail_msg("%s, sampler %d: slope %.4f with a standard error of %.4f", scene, sampler, slope,
+                 error);
 }
 
-#define LAMP_OVER_FLOOR                                                                                                \
-    "camera { eye 0 2 2  look_at 0 0 0  fov 40 }\nmaterial white { kd 0.8 }\nmaterial lamp { emission 4 }\n"           \
-    "plane { point 0 0 0  normal 0 1 0  material white }\n"                                                            \
+#define LAMP_OVER_FLOOR                                                                            \
+    "camera { eye 0 2 2  look_at 0 0 0  fov 40 }\nmaterial white { kd 0.8 }\nmaterial lamp { "     \
+    "emission 4 }\n"                                                                               \
+    "plane { point 0 0 0  normal 0 1 0  material white }\n"                                        \
     "quad { corner -0.5 1 -1.5  edge1 1 0 0  edge2 0 0.3 1  material lamp }\n"
 
 static void independent_samples_by_the_root(void **state)
@@ -110,9 +130,9 @@ static void sobol_points_faster(void **state)
 static void the_page_has_the_rows(void **state)
 {
     (void)state;
-    page_section("Convergence",
-                 "scene | sampler | slope expected | slope | standard error | relative RMSE at 1 sample | 4 | 16 | "
-                 "64 | 256");
+    page_section("Convergence", "scene | sampler | slope expected | slope | standard error | "
+                                "relative RMSE at 1 sample | 4 | 16 | "
+                                "64 | 256");
 }
 
 int main(void)

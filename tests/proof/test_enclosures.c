@@ -1,10 +1,11 @@
 /*
- * test_enclosures.c - light that is reflected without end: in closed spheres and boxes, and of bodies in even light.
+ * test_enclosures.c - light that is reflected without end: in closed spheres and boxes, and of
+ * bodies in even light.
  *
- * In a sphere of radius r and albedo a, every point gets the same light from every other: a lamp of power P that shines
- * evenly on the wall gives the irradiance P / (4 pi r^2) (1 + a + a^2 + ...) (Ulbricht's integrating sphere). Where
- * walls both shine with L and reflect a, the radiance is L / (1 - a) everywhere, whatever the shape (the white
- * furnace).
+ * In a sphere of radius r and albedo a, every point gets the same light from every other: a lamp of
+ * power P that shines evenly on the wall gives the irradiance P / (4 pi r^2) (1 + a + a^2 + ...)
+ * (Ulbricht's integrating sphere). Where walls both shine with L and reflect a, the radiance is L /
+ * (1 - a) everywhere, whatever the shape (the white furnace).
  */
 #include <math.h>
 
@@ -14,13 +15,21 @@
 static const double pi = 3.14159265358979323846;
 
 static const rt_render_options path = {.width = 8, .height = 8, .spp = 16, .max_depth = 64};
-static const rt_render_options map = {.width = 8, .height = 8, .spp = 4, .mode = RT_MODE_PHOTON, .max_depth = 40,
-                                      .direct = RT_DIRECT_PHOTONS, .photons = 10000, .k = RT_K_ALL, .radius = 0.2f};
+static const rt_render_options map = {.width = 8,
+                                      .height = 8,
+                                      .spp = 4,
+                                      .mode = RT_MODE_PHOTON,
+                                      .max_depth = 40,
+                                      .direct = RT_DIRECT_PHOTONS,
+                                      .photons = 10000,
+                                      .k = RT_K_ALL,
+                                      .radius = 0.2f};
 
 /* ---- The integrating sphere ----------------------------------------------------------- */
 
 #define INSIDE "camera { eye 0.3 0.2 -0.1  look_at -0.2 0.1 1  fov 90 }\n"
-#define ULBRICHT "material wall { kd 0.2 0.5 0.8 }\nsphere { centre 0 0 0  radius 1  material wall }\n"
+#define ULBRICHT                                                                                   \
+    "material wall { kd 0.2 0.5 0.8 }\nsphere { centre 0 0 0  radius 1  material wall }\n"
 
 static const double albedo[3] = {0.2, 0.5, 0.8};
 
@@ -38,7 +47,8 @@ static void expect_sphere(const char *by, const rt_render_options *options)
     for (int c = 0; c < 3; c++) {
         proof_values values = proof_mean(&films, c);
         proof_check((proof_row){proof_text("integrating sphere of albedo %g", albedo[c]), by,
-                                proof_text("a (1 + a + ... + a^%d) P/(2 pi r)^2/pi", (int)options->max_depth - 2)},
+                                proof_text("a (1 + a + ... + a^%d) P/(2 pi r)^2/pi",
+                                           (int)options->max_depth - 2)},
                     reflected(albedo[c], (int)options->max_depth - 1), &values);
     }
     proof_free(&films);
@@ -70,19 +80,25 @@ static void depth_by_depth(void **state)
 /* Light that was reflected is even, wherever the lamp is. A small part of the wall is seen. */
 static void off_centre(void **state)
 {
-    static const char text[] =
-        ULBRICHT "light point { position 0.4 0 0  power 7 }\n"
-                 "camera { projection orthographic  eye 0 0 0  look_at 0 1 0  up 0 0 1  width 0.01 }\n";
+    static const char text[] = ULBRICHT
+        "light point { position 0.4 0 0  power 7 }\n"
+        "camera { projection orthographic  eye 0 0 0  look_at 0 1 0  up 0 0 1  width 0.01 }\n";
     double d2 = 1 + 0.4 * 0.4, straight = 7 / (4 * pi) / (d2 * sqrt(d2)) * 0.5 / pi;
     (void)state;
-    proof_radiance(
-        (proof_row){"integrating sphere, lamp off centre", "path", "direct light + a^2/(1 - a) P/(2 pi r)^2/pi"},
-        straight + 0.5 * reflected(0.5, 62), text, &path);
+    proof_radiance((proof_row){"integrating sphere, lamp off centre", "path",
+                               "direct light + a^2/(1 - a) P/(2 pi r)^2/pi"},
+                   straight + 0.5 * reflected(0.5, 62), text, &path);
     proof_radiance((proof_row){"integrating sphere, lamp off centre", "photons and shadow rays",
                                "direct light + a^2/(1 - a) P/(2 pi r)^2/pi"},
                    straight + 0.5 * reflected(0.5, 62), text,
-                   &(rt_render_options){.width = 8, .height = 8, .spp = 4, .mode = RT_MODE_PHOTON, .max_depth = 64,
-                                        .photons = 20000, .k = RT_K_ALL, .radius = 0.3f});
+                   &(rt_render_options){.width = 8,
+                                        .height = 8,
+                                        .spp = 4,
+                                        .mode = RT_MODE_PHOTON,
+                                        .max_depth = 64,
+                                        .photons = 20000,
+                                        .k = RT_K_ALL,
+                                        .radius = 0.3f});
 }
 
 /* ---- The white furnace --------------------------------------------------------------- */
@@ -107,27 +123,32 @@ static void closed_furnaces(void **state)
         for (int e = 0; e < 3; e++) {
             rt_render_options options = path;
             options.estimator = (rt_estimator)e;
-            proof_radiance((proof_row){walls[i].name, estimators[e], "L / (1 - a)"}, 0.6 / (1 - walls[i].a), text,
-                           &options);
+            proof_radiance((proof_row){walls[i].name, estimators[e], "L / (1 - a)"},
+                           0.6 / (1 - walls[i].a), text, &options);
         }
         if (i != 1)
-            proof_radiance((proof_row){walls[i].name, "photons", "L / (1 - a)"}, 0.6 / (1 - walls[i].a), text, &map);
+            proof_radiance((proof_row){walls[i].name, "photons", "L / (1 - a)"},
+                           0.6 / (1 - walls[i].a), text, &map);
     }
 }
 
-#define WALL(corner, edge1, edge2) "quad { corner " corner "  edge1 " edge1 "  edge2 " edge2 "  material wall }\n"
+#define WALL(corner, edge1, edge2)                                                                 \
+    "quad { corner " corner "  edge1 " edge1 "  edge2 " edge2 "  material wall }\n"
 
 /* Estimates at edges would lose photons: paths alone. */
 static void box_furnace(void **state)
 {
-    static const char text[] = INSIDE "material wall { emission 0.6  kd 0.7 }\n" WALL("-1 -1 -1", "0 0 3", "2 0 0")
-        WALL("-1 1 -1", "2 0 0", "0 0 3") WALL("-1 -1 -1", "0 2 0", "0 0 3") WALL("1 -1 -1", "0 0 3", "0 2 0")
-            WALL("-1 -1 -1", "2 0 0", "0 2 0") WALL("-1 -1 2", "0 2 0", "2 0 0");
+    static const char text[] =
+        INSIDE "material wall { emission 0.6  kd 0.7 }\n" WALL("-1 -1 -1", "0 0 3", "2 0 0")
+            WALL("-1 1 -1", "2 0 0", "0 0 3") WALL("-1 -1 -1", "0 2 0", "0 0 3")
+                WALL("1 -1 -1", "0 0 3", "0 2 0") WALL("-1 -1 -1", "2 0 0", "0 2 0")
+                    WALL("-1 -1 2", "0 2 0", "2 0 0");
     (void)state;
     for (int e = 0; e < 3; e++) {
         rt_render_options options = path;
         options.estimator = (rt_estimator)e;
-        proof_radiance((proof_row){"box that shines, diffuse", estimators[e], "L / (1 - a)"}, 2, text, &options);
+        proof_radiance((proof_row){"box that shines, diffuse", estimators[e], "L / (1 - a)"}, 2,
+                       text, &options);
     }
 }
 
@@ -135,12 +156,14 @@ static void box_furnace(void **state)
 static void metal_furnace(void **state)
 {
     (void)state;
-    proof_radiance((proof_row){"sphere that shines, metal, seen from its centre", "path", "L / (1 - R(0))"},
-                   0.6 / (1 - optics_fresnel(1, 0.42 + 2.35 * I)),
-                   "camera { eye 0 0 0  look_at 0.2 0.1 1  fov 90 }\n"
-                   "material wall { emission 0.6  two_sided true  ks 1  fresnel conductor  eta 0.42  k 2.35 }\n"
-                   "sphere { centre 0 0 0  radius 1  material wall }\n",
-                   &path);
+    proof_radiance(
+        (proof_row){"sphere that shines, metal, seen from its centre", "path", "L / (1 - R(0))"},
+        0.6 / (1 - optics_fresnel(1, 0.42 + 2.35 * I)),
+        "camera { eye 0 0 0  look_at 0.2 0.1 1  fov 90 }\n"
+        "material wall { emission 0.6  two_sided true  ks 1  fresnel conductor  eta 0.42  k 2.35 "
+        "}\n"
+        "sphere { centre 0 0 0  radius 1  material wall }\n",
+        &path);
 }
 
 /* ---- Bodies in even light ------------------------------------------------------------- */
@@ -158,18 +181,21 @@ static void balls_in_even_light(void **state)
         {"ball of clear glass", "L", "kt 1", 1},
         {"ball of glass with Fresnel reflection", "L", "kt 1  fresnel dielectric", 1},
         {"ball of diamond", "L", "kt 1  fresnel dielectric  ior 2.42", 1},
-        {"ball of diffuse, mirror and clear parts that lose nothing", "L", "kd 0.3  ks 0.3  kt 0.4  ior 1.3", 1},
+        {"ball of diffuse, mirror and clear parts that lose nothing", "L",
+         "kd 0.3  ks 0.3  kt 0.4  ior 1.3", 1},
     };
     rt_render_options options = path;
     (void)state;
     options.max_depth = 1000;
     for (size_t i = 0; i < sizeof balls / sizeof *balls; i++)
-        proof_radiance((proof_row){proof_text("%s in even light", balls[i].name), "path", balls[i].truth},
-                       balls[i].expected,
-                       proof_text("camera { eye 0 0 -2  look_at 0 0 0  fov 40 }\nlight environment { radiance 1 }\n"
-                                  "material stuff { %s }\nsphere { centre 0 0 0  radius 1  material stuff }\n",
-                                  balls[i].material),
-                       &options);
+        proof_radiance(
+            (proof_row){proof_text("%s in even light", balls[i].name), "path", balls[i].truth},
+            balls[i].expected,
+            proof_text(
+                "camera { eye 0 0 -2  look_at 0 0 0  fov 40 }\nlight environment { radiance 1 }\n"
+                "material stuff { %s }\nsphere { centre 0 0 0  radius 1  material stuff }\n",
+                balls[i].material),
+            &options);
 }
 
 /* A plate, seen at an angle. What goes through it is lost in a black plate behind. */
@@ -182,7 +208,8 @@ static void plates_in_even_light(void **state)
         {"gold (green)", "ks 1  fresnel conductor  eta 0.42  k 2.35", 0, 0.42, 2.35},
         {"glass", "kt 1  fresnel dielectric", 0, 1.5, 0},
         {"rough white metal", "ks 1  roughness 0.5", 0.5, 1e-9, 0},
-        {"rough gold (green)", "ks 1  fresnel conductor  eta 0.42  k 2.35  roughness 0.3", 0.3, 0.42, 2.35},
+        {"rough gold (green)", "ks 1  fresnel conductor  eta 0.42  k 2.35  roughness 0.3", 0.3,
+         0.42, 2.35},
         {"rough glass", "kt 1  fresnel dielectric  roughness 0.4", 0.4, 1.5, 0},
     };
     static const int degrees[] = {0, 45, 75};
@@ -194,14 +221,17 @@ static void plates_in_even_light(void **state)
             double expected = plates[i].alpha > 0 ? optics_rough(cos(angle), plates[i].alpha, index)
                                                   : optics_fresnel(cos(angle), index);
             proof_radiance(
-                (proof_row){proof_text("plate of %s in even light, from %d degrees", plates[i].name, degrees[a]),
+                (proof_row){proof_text("plate of %s in even light, from %d degrees", plates[i].name,
+                                       degrees[a]),
                             "path", plates[i].alpha > 0 ? "integral of the GGX lobe" : "R L"},
                 expected,
-                proof_text("camera { projection orthographic  width 0.1  eye %.9g 0 %.9g  look_at 0 0 0 }\n"
-                           "light environment { radiance 1 }\nmaterial black { }\nmaterial stuff { %s }\n"
-                           "plane { point 0 0 0  normal 0 0 1  material stuff }\n"
-                           "plane { point 0 0 -1  normal 0 0 1  material black }\n",
-                           sin(angle), cos(angle), plates[i].material),
+                proof_text(
+                    "camera { projection orthographic  width 0.1  eye %.9g 0 %.9g  look_at 0 0 0 "
+                    "}\n"
+                    "light environment { radiance 1 }\nmaterial black { }\nmaterial stuff { %s }\n"
+                    "plane { point 0 0 0  normal 0 0 1  material stuff }\n"
+                    "plane { point 0 0 -1  normal 0 0 1  material black }\n",
+                    sin(angle), cos(angle), plates[i].material),
                 &path);
         }
 }

@@ -1,8 +1,8 @@
 /*
  * test_estimators.c - all ways to render a room have the same mean in every pixel.
  *
- * Photons are gathered within a radius so small that what discs lose beyond edges is far below the noise: the mean of
- * such an estimate does not hang on how many photons a disc holds.
+ * Photons are gathered within a radius so small that what discs lose beyond edges is far below the
+ * noise: the mean of such an estimate does not hang on how many photons a disc holds.
  */
 #include <math.h>
 
@@ -12,9 +12,17 @@
 /* Eye paths and photon paths are cut off each by themselves: far beyond what light is left. */
 enum { side = 12, depth = 24 };
 
-static const rt_render_options path = {.width = side, .height = side, .spp = 64, .max_depth = depth};
-static const rt_render_options map = {.width = side, .height = side, .spp = 32, .max_depth = depth, .seed = 1000,
-                                      .mode = RT_MODE_PHOTON, .photons = 40000, .k = RT_K_ALL, .radius = 0.005f};
+static const rt_render_options path = {
+    .width = side, .height = side, .spp = 64, .max_depth = depth};
+static const rt_render_options map = {.width = side,
+                                      .height = side,
+                                      .spp = 32,
+                                      .max_depth = depth,
+                                      .seed = 1000,
+                                      .mode = RT_MODE_PHOTON,
+                                      .photons = 40000,
+                                      .k = RT_K_ALL,
+                                      .radius = 0.005f};
 
 /* Path tracing as it is by default, rendered once. */
 static proof_films peer;
@@ -99,7 +107,10 @@ static void progressive_passes(void **state)
     expect_same("photons in 16 passes", &options);
 }
 
-/* Light that was scattered once, by a mode of its own and as the first part of the series of all depths. */
+/*
+ * Light that was scattered once, by a mode of its own and as the first part of the series of all
+ * depths.
+ */
 static void direct_light(void **state)
 {
     rt_render_options direct = path, shallow = path;

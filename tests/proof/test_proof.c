@@ -1,4 +1,7 @@
-/* test_proof.c - the yardsticks: Student's distribution, and what boundaries reflect, where they are known. */
+/*
+ * test_proof.c - the yardsticks: Student's distribution, and what boundaries reflect, where they
+ * are known.
+ */
 #include <math.h>
 
 #include "chance.h"
@@ -26,8 +29,8 @@ static void boundaries(void **state)
     assert_float_equal(optics_fresnel(cos(atan(1.5)), 1.5), 0.5 * pow(5 / 13.0, 2),
                        1e-12); /* Brewster's angle: p vanishes */
     assert_float_equal(optics_fresnel(0.5, 1 / 1.5), 1, 1e-12);
-    assert_float_equal(optics_fresnel(1, 0.42 + 2.35 * I), (0.58 * 0.58 + 2.35 * 2.35) / (1.42 * 1.42 + 2.35 * 2.35),
-                       1e-12);
+    assert_float_equal(optics_fresnel(1, 0.42 + 2.35 * I),
+                       (0.58 * 0.58 + 2.35 * 2.35) / (1.42 * 1.42 + 2.35 * 2.35), 1e-12);
     assert_float_equal(optics_rough(0.7, 1e-3, 1.5), optics_fresnel(0.7, 1.5), 1e-5);
 }
 

@@ -1,10 +1,11 @@
 /*
- * The reference scenes against the renders of an independent renderer: linear radiance agrees block by
- * block, by the rule of rt_image_compare, in path and in photon mode. The page of the proof has a section of it.
+ * The reference scenes against the renders of an independent renderer: linear radiance agrees block
+ * by block, by the rule of rt_image_compare, in path and in photon mode. The page of the proof has
+ * a section of it.
  *
- * RT_REFERENCE names the directory that holds box_point.exr, box_area.exr and box_caustic.exr, 256x256.
- * Without it the program fails: it is run by a target of its own. The signed differences are left as
- * .exr files in the directory that RT_REFERENCE_OUT names, if it is set.
+ * RT_REFERENCE names the directory that holds box_point.exr, box_area.exr and box_caustic.exr,
+ * 256x256. Without it the program fails: it is run by a target of its own. The signed differences
+ * are left as .exr files in the directory that RT_REFERENCE_OUT names, if it is set.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +20,8 @@ typedef struct reference_case {
     const char *scene;
     rt_mode mode;
     uint32_t spp;
-    uint32_t renders; /* independent ones, of seeds 1, 2, ...: more than one where pixels share photons */
+    /* independent ones, of seeds 1, 2, ...: more than one where pixels share photons */
+    uint32_t renders;
     uint64_t photons;
     uint32_t k;
     double tolerance;
@@ -52,7 +54,8 @@ static rt_image *render(rt_renderer *renderer, const rt_scene *scene, const refe
     /* The map's own bias at edges would show: gather after the first bounce. */
     options.final_gather = c->mode == RT_MODE_PHOTON ? 1 : 0;
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
-    expect_ok(rt_image_from_rgb(&image, rt_film_rgb(film), options.width, options.height, &error), &error);
+    expect_ok(rt_image_from_rgb(&image, rt_film_rgb(film), options.width, options.height, &error),
+              &error);
     rt_film_destroy(film);
     return image;
 }
@@ -67,8 +70,9 @@ static void tell_page(const reference_case *c, const rt_comparison_info *info, d
 {
     char stated[128], measured[128];
     snprintf(stated, sizeof stated, "%s | %s | %s.exr | 1", c->scene, mode_name(c), c->scene);
-    snprintf(measured, sizeof measured, "%.6g | %.1e | %+.2f | %zu of %zu | %.2f", info->ratio, info->ratio_error,
-             (info->ratio - 1.0) / info->ratio_error, info->off, info->blocks, excess);
+    snprintf(measured, sizeof measured, "%.6g | %.1e | %+.2f | %zu of %zu | %.2f", info->ratio,
+             info->ratio_error, (info->ratio - 1.0) / info->ratio_error, info->off, info->blocks,
+             excess);
     page_row(stated, measured);
 }
 
@@ -83,21 +87,25 @@ static void keep_difference(const reference_case *c, const rt_comparison *compar
     expect_ok(rt_comparison_write_difference(comparison, path, 0.0, &error), &error);
 }
 
-static void compare_with_reference(const reference_case *c, const rt_image *const *renders, const rt_image *reference)
+static void compare_with_reference(const reference_case *c, const rt_image *const *renders,
+                                   const rt_image *reference)
 {
     rt_comparison *comparison = NULL;
     rt_comparison_info info;
     rt_error error;
     size_t count;
     rt_compare_options options = {.tolerance = c->tolerance};
-    expect_ok(rt_image_compare(&comparison, renders, c->renders, reference, &options, &error), &error);
+    expect_ok(rt_image_compare(&comparison, renders, c->renders, reference, &options, &error),
+              &error);
     rt_comparison_get_info(comparison, &info);
     const rt_image_block *worst = rt_comparison_blocks(comparison, &count) + info.worst;
     uint32_t channel = info.worst_channel;
-    printf("%s %s: %zu of %zu blocks off, mean ratio %.5f, RMSE %.5f; worst at (%u, %u) channel %u: %.6f for %.6f, "
+    printf("%s %s: %zu of %zu blocks off, mean ratio %.5f, RMSE %.5f; worst at (%u, %u) channel "
+           "%u: %.6f for %.6f, "
            "standard error %.6f, %.2f of what is allowed\n",
-           c->scene, mode_name(c), info.off, info.blocks, info.ratio, info.rmse, worst->x, worst->y, channel,
-           worst->mean[channel], worst->reference[channel], worst->error[channel], worst->excess[channel]);
+           c->scene, mode_name(c), info.off, info.blocks, info.ratio, info.rmse, worst->x, worst->y,
+           channel, worst->mean[channel], worst->reference[channel], worst->error[channel],
+           worst->excess[channel]);
     tell_page(c, &info, worst->excess[channel]);
     keep_difference(c, comparison);
     rt_comparison_destroy(comparison);
@@ -132,10 +140,10 @@ static void agrees_with_the_reference(void **state)
 static void the_page_says_so(void **state)
 {
     (void)state;
-    page_section(
-        "Against renders that are kept",
-        "scene | by | peer | mean ratio expected | ours | standard error | off by standard errors | blocks off | "
-        "worst block, of what is allowed");
+    page_section("Against renders that are kept",
+                 "scene | by | peer | mean ratio expected | ours | standard error | off by "
+                 "standard errors | blocks off | "
+                 "worst block, of what is allowed");
 }
 
 int main(void)
@@ -148,7 +156,8 @@ int main(void)
         return 1;
     }
     for (int i = 0; i < COUNT; i++) {
-        snprintf(names[i], sizeof names[i], "%s_agrees_in_mode_%s", cases[i].scene, mode_name(&cases[i]));
+        snprintf(names[i], sizeof names[i], "%s_agrees_in_mode_%s", cases[i].scene,
+                 mode_name(&cases[i]));
         tests[i].name = names[i];
         tests[i].test_func = agrees_with_the_reference;
         tests[i].initial_state = (void *)&cases[i];

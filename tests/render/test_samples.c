@@ -1,9 +1,10 @@
 /*
- * No sample of the scenes that ship is infinite or not a number: in path and in photon mode none is rejected, nor
- * any photon, and every pixel is finite.
+ * No sample of the scenes that ship is infinite or not a number: in path and in photon mode none is
+ * rejected, nor any photon, and every pixel is finite.
  *
- * RT_TEST_SAMPLES samples (default 10^7) are shared by the scenes in path mode, and a tenth as many, which are slower,
- * in photon mode, with as many photon paths. What was drawn is printed as a table.
+ * RT_TEST_SAMPLES samples (default 10^7) are shared by the scenes in path mode, and a tenth as
+ * many, which are slower, in photon mode, with as many photon paths. What was drawn is printed as a
+ * table.
  */
 #include <glob.h>
 #include <math.h>
@@ -53,8 +54,8 @@ static uint64_t count_not_finite(const rt_film *film, uint64_t pixels)
 static void expect_finite_samples(rt_mode mode, const char *mode_name, double samples)
 {
     uint64_t drawn = 0, rejected = 0, photons_rejected = 0, not_finite = 0;
-    printf("%-28s %-7s %12s %9s %12s %9s %17s\n", "scene", "mode", "samples", "rejected", "photons", "rejected",
-           "pixels not finite");
+    printf("%-28s %-7s %12s %9s %12s %9s %17s\n", "scene", "mode", "samples", "rejected", "photons",
+           "rejected", "pixels not finite");
     for (size_t i = 0; i < scenes.gl_pathc; i++) {
         const char *path = scenes.gl_pathv[i];
         rt_film *film = render(path, mode, samples / (double)scenes.gl_pathc);
@@ -74,8 +75,9 @@ static void expect_finite_samples(rt_mode mode, const char *mode_name, double sa
         photons_rejected += stats.photons_rejected;
         not_finite += wrong;
     }
-    printf("%-28s %-7s %12llu %9llu %12s %9llu %17llu\n", "all", mode_name, (unsigned long long)drawn,
-           (unsigned long long)rejected, "", (unsigned long long)photons_rejected, (unsigned long long)not_finite);
+    printf("%-28s %-7s %12llu %9llu %12s %9llu %17llu\n", "all", mode_name,
+           (unsigned long long)drawn, (unsigned long long)rejected, "",
+           (unsigned long long)photons_rejected, (unsigned long long)not_finite);
     assert_true((double)drawn >= samples);
     assert_int_equal(rejected, 0);
     assert_int_equal(photons_rejected, 0);

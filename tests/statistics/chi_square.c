@@ -43,8 +43,10 @@ static void find_shares(subject *s, const routine *r)
     s->cells = (size_t)r->across * (size_t)r->down;
     assert_true(s->cells <= most_cells);
     for (size_t i = 0; i < s->cells; i++) {
-        const double x = (double)(i % (size_t)r->across) / r->across, y = (double)(i / (size_t)r->across) / r->down;
-        s->shares[i] = integral(density_at, r, x, y, x + 1.0 / r->across, y + 1.0 / r->down, near_share);
+        const double x = (double)(i % (size_t)r->across) / r->across,
+                     y = (double)(i / (size_t)r->across) / r->down;
+        s->shares[i] =
+            integral(density_at, r, x, y, x + 1.0 / r->across, y + 1.0 / r->down, near_share);
         sum += s->shares[i];
     }
     s->factor = r->method->is_proportional ? 1 / sum : 1;
@@ -57,7 +59,10 @@ static void find_shares(subject *s, const routine *r)
 
 /* ---- Counts ------------------------------------------------------------------ */
 
-/* Counts of each cell, of what is not sampled, and of what lies off the square, for each part of the samples. */
+/*
+ * Counts of each cell, of what is not sampled, and of what lies off the square, for each part of
+ * the samples.
+ */
 static uint32_t counts[jobs][most_cells + 2];
 
 /* Coordinates may be 1, and off the square by rounding. */
@@ -109,7 +114,10 @@ static double chance(const subject *s, uint32_t seed)
 
 /* ---- Tests --------------------------------------------------------------------- */
 
-/* Where samples are, the kernels tell the stated density; one in 200 may be where it is too steep for float32. */
+/*
+ * Where samples are, the kernels tell the stated density; one in 200 may be where it is too steep
+ * for float32.
+ */
 static void expect_told_density(const subject *s)
 {
     const routine *r = s->routine;
@@ -123,7 +131,8 @@ static void expect_told_density(const subject *s)
         wrong += !(fabs(p.pdf - truth) <= near * truth);
     }
     if (wrong > told / 200)
-        fail_msg("%s: the density that the kernels tell is wrong at %u of %u samples", r->name, wrong, told);
+        fail_msg("%s: the density that the kernels tell is wrong at %u of %u samples", r->name,
+                 wrong, told);
 }
 
 static void samples_have_their_density(void **state)
@@ -137,7 +146,8 @@ static void samples_have_their_density(void **state)
             continue;
         const double second = chance(&s, fresh + seed);
         if (second < alpha)
-            fail_msg("%s: such counts have a chance of %g, of a fresh seed %g", s.routine->name, first, second);
+            fail_msg("%s: such counts have a chance of %g, of a fresh seed %g", s.routine->name,
+                     first, second);
     }
 }
 
@@ -151,7 +161,8 @@ int test_routines(const char *group, uint32_t sample_count, uint32_t seeds)
     for (size_t t = 0; t < sizeof tables / sizeof *tables; t++)
         for (size_t i = 0; i < tables[t]->count && count < most_tests; i++, count++) {
             const routine *r = tables[t]->routines + i;
-            tests[count] = (struct CMUnitTest){r->name, samples_have_their_density, NULL, NULL, (void *)(uintptr_t)r};
+            tests[count] = (struct CMUnitTest){r->name, samples_have_their_density, NULL, NULL,
+                                               (void *)(uintptr_t)r};
         }
     samples_a_test = sample_count;
     seeds_a_test = seeds;

@@ -1,15 +1,17 @@
 /*
  * chi_square.h - sampling routines of the kernels against the densities that they should have.
  *
- * A routine's samples are brought to the unit square by coordinates that suit it: r and angle on a disc, height and
- * longitude on a sphere. The density over that square is stated here again, in float64 and by the definition of
- * what is sampled, and integrated over each of a grid of cells; what the samples count there is held against it by
- * Pearson's test. Where kernels tell a density themselves, it must be the same function, measure and all.
+ * A routine's samples are brought to the unit square by coordinates that suit it: r and angle on a
+ * disc, height and longitude on a sphere. The density over that square is stated here again, in
+ * float64 and by the definition of what is sampled, and integrated over each of a grid of cells;
+ * what the samples count there is held against it by Pearson's test. Where kernels tell a density
+ * themselves, it must be the same function, measure and all.
  *
- * False alarms. A family of tests is one run: every routine with every seed, T tests. A test raises suspicion when
- * counts as far off have a chance below 0.01 / T (Bonferroni), so that a run of true routines suspects one in 1 run
- * of 100. Then samples of a fresh seed must clear the routine, at the same level, or it fails: together
- * T (0.01 / T)^2 = 1e-4 / T a run. As all seeds are fixed, the verdict on one machine is always the same as well.
+ * False alarms. A family of tests is one run: every routine with every seed, T tests. A test raises
+ * suspicion when counts as far off have a chance below 0.01 / T (Bonferroni), so that a run of true
+ * routines suspects one in 1 run of 100. Then samples of a fresh seed must clear the routine, at
+ * the same level, or it fails: together T (0.01 / T)^2 = 1e-4 / T a run. As all seeds are fixed,
+ * the verdict on one machine is always the same as well.
  */
 #ifndef RT_TESTS_STATISTICS_CHI_SQUARE_H
 #define RT_TESTS_STATISTICS_CHI_SQUARE_H
@@ -25,14 +27,18 @@ enum { most_samples = 1000000, told_samples = 4096 };
 /* A sample on the unit square. */
 typedef struct sampled {
     double x, y; /* x < 0: nothing was sampled; counted in a cell of its own */
-    double pdf;  /* density over the square that the kernels tell; NAN: they tell none, or i >= told_samples */
+    /* density over the square that the kernels tell; NAN: they tell none, or i >= told_samples */
+    double pdf;
 } sampled;
 
 /* How samples of a kind are made and what they should be; `setup` is a routine's own. */
 typedef struct method {
-    void (*draw)(const void *setup, uint32_t seed, uint32_t count); /* makes samples and keeps them */
-    sampled (*place)(const void *setup, uint32_t i);                /* sample i of those; called by several threads */
-    double (*density)(const void *setup, double x, double y); /* over the square; what lacks to 1 is not sampled */
+    /* makes samples and keeps them */
+    void (*draw)(const void *setup, uint32_t seed, uint32_t count);
+    /* sample i of those; called by several threads */
+    sampled (*place)(const void *setup, uint32_t i);
+    /* over the square; what lacks to 1 is not sampled */
+    double (*density)(const void *setup, double x, double y);
     int is_proportional; /* the density is known but for a factor, which makes its integral 1 */
 } method;
 
@@ -48,11 +54,12 @@ typedef struct routine_table {
     const routine *routines;
     size_t count;
 } routine_table;
-extern const routine_table map_routines, number_routines, light_routines, emission_routines, scatter_routines;
+extern const routine_table map_routines, number_routines, light_routines, emission_routines,
+    scatter_routines;
 
 /*
- * Runs a group of tests, one a routine: `samples` samples, at most most_samples, of each of `seeds` seeds. Returns
- * what cmocka returns.
+ * Runs a group of tests, one a routine: `samples` samples, at most most_samples, of each of `seeds`
+ * seeds. Returns what cmocka returns.
  */
 int test_routines(const char *group, uint32_t samples, uint32_t seeds);
 

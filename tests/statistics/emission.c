@@ -1,4 +1,7 @@
-/* emission.c - where light paths start, and in which directions; and the choice of the light that they start at. */
+/*
+ * emission.c - where light paths start, and in which directions; and the choice of the light that
+ * they start at.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +14,10 @@ static emission_draw draws[most_samples];
 
 /* ---- Lamps ----------------------------------------------------------------------- */
 
-/* What is looked at: the point; the direction about its normal; or one coordinate of each, which are independent. */
+/*
+ * What is looked at: the point; the direction about its normal; or one coordinate of each, which
+ * are independent.
+ */
 typedef enum aspect { START, WAY, BOTH } aspect;
 
 typedef struct emission {
@@ -115,7 +121,8 @@ static sampled place_point(const void *setup, uint32_t i)
 {
     const emission_draw *d = draws + i;
     (void)setup;
-    return (sampled){0.5 + 0.5 * d->direction[1], turns_of(d->direction[0], d->direction[2]), 5 / d->flux[0] * 4 * PI};
+    return (sampled){0.5 + 0.5 * d->direction[1], turns_of(d->direction[0], d->direction[2]),
+                     5 / d->flux[0] * 4 * PI};
 }
 
 static double even(const void *setup, double x, double y)
@@ -150,7 +157,10 @@ static double of_spot(const void *setup, double x, double y)
 
 /* ---- From infinitely far ------------------------------------------------------------ */
 
-/* The disc on which light starts that comes from one direction: that of a sphere around the bounds of the sphere. */
+/*
+ * The disc on which light starts that comes from one direction: that of a sphere around the bounds
+ * of the sphere.
+ */
 static sampled place_on_disc(const emission_draw *d)
 {
     static const double centre[3] = SKY_SPHERE_CENTRE;
@@ -180,7 +190,8 @@ static rt_scene *sun_scene(const void *setup)
     rt_error error;
     (void)setup;
     memset(&surface, 0, sizeof surface);
-    expect_ok(rt_scene_add_sphere(scene, NULL, centre, (float)SKY_SPHERE_RADIUS, &surface, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, (float)SKY_SPHERE_RADIUS, &surface, &error),
+              &error);
     expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
     return scene;
 }
@@ -223,7 +234,8 @@ static sampled place_heaven(const void *setup, uint32_t i)
     if (h->aspect != START)
         sky_place(w, &way.x, &way.y);
     if (h->aspect == WAY && i < told_samples)
-        way.pdf = sky_radiance(h->has_picture, way.x, way.y) * area / d->flux[0] * sky_element(way.y);
+        way.pdf =
+            sky_radiance(h->has_picture, way.x, way.y) * area / d->flux[0] * sky_element(way.y);
     if (h->aspect != WAY)
         start = place_on_disc(d);
     start.pdf = NAN;
@@ -298,12 +310,16 @@ static const routine routines[] = {
     {"emission: mesh", 48, 8, &by_lamp, &(const emission){EMIT_MESH, START}},
     {"emission: sphere", 16, 16, &by_lamp, &(const emission){EMIT_SPHERE, START}},
     {"emission: frustum", 24, 12, &by_lamp, &(const emission){EMIT_FRUSTUM, START}},
-    {"emission: direction from a rectangle", 16, 16, &by_lamp, &(const emission){EMIT_RECTANGLE, WAY}},
-    {"emission: direction from both sides", 16, 16, &by_lamp, &(const emission){EMIT_TWO_SIDED, WAY}},
+    {"emission: direction from a rectangle", 16, 16, &by_lamp,
+     &(const emission){EMIT_RECTANGLE, WAY}},
+    {"emission: direction from both sides", 16, 16, &by_lamp,
+     &(const emission){EMIT_TWO_SIDED, WAY}},
     {"emission: direction from a sphere", 16, 16, &by_lamp, &(const emission){EMIT_SPHERE, WAY}},
     {"emission: direction from a frustum", 16, 16, &by_lamp, &(const emission){EMIT_FRUSTUM, WAY}},
-    {"emission: point and direction of both sides", 16, 16, &by_lamp, &(const emission){EMIT_TWO_SIDED, BOTH}},
-    {"emission: point and direction of a torus", 16, 16, &by_lamp, &(const emission){EMIT_TORUS, BOTH}},
+    {"emission: point and direction of both sides", 16, 16, &by_lamp,
+     &(const emission){EMIT_TWO_SIDED, BOTH}},
+    {"emission: point and direction of a torus", 16, 16, &by_lamp,
+     &(const emission){EMIT_TORUS, BOTH}},
     {"emission: point light", 16, 16, &by_point, NULL},
     {"emission: spot", 32, 8, &by_spot, NULL},
     {"emission: directional light", 16, 16, &by_sun, NULL},

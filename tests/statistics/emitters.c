@@ -8,17 +8,21 @@
 
 enum { triangles = 12 };
 
-static const rt_transform skew = {{{1.2f, 0.1f, 0, 0.3f}, {-0.2f, 0.8f, 0.3f, 0.1f}, {0, -0.2f, 1.1f, 0}}};
+static const rt_transform skew = {
+    {{1.2f, 0.1f, 0, 0.3f}, {-0.2f, 0.8f, 0.3f, 0.1f}, {0, -0.2f, 1.1f, 0}}};
 
 /* The rectangle and the parallelogram. */
-static const float corner[3] = {1, 2, 3}, edge1[3] = {2, 0, 0}, right[3] = {0, 0, 1}, slanted[3] = {1, 0, 1};
+static const float corner[3] = {1, 2, 3}, edge1[3] = {2, 0, 0}, right[3] = {0, 0, 1},
+                   slanted[3] = {1, 0, 1};
 
 static const float vertices[9] = {0, 2, 0, 1, 2, 0, 0, 2, 2};
 
 /* The others: centre or base; towards the top or along the axis. */
-static const float centre[3] = {0.3f, 0.2f, -0.1f}, top[3] = {0.5f, 1.4f, 0.3f}, radii[3] = {0.5f, 0.2f, 0.8f};
+static const float centre[3] = {0.3f, 0.2f, -0.1f}, top[3] = {0.5f, 1.4f, 0.3f},
+                   radii[3] = {0.5f, 0.2f, 0.8f};
 
-static const double sphere_radius = 0.5, disc_radius = 0.7f, disc_hole = 0.3f, torus_major = 0.6f, torus_minor = 0.2f;
+static const double sphere_radius = 0.5, disc_radius = 0.7f, disc_hole = 0.3f, torus_major = 0.6f,
+                    torus_minor = 0.2f;
 
 /* Radii of the round shapes at base and top. */
 static void round_radii(emitter kind, double *at_base, double *at_top)
@@ -50,12 +54,14 @@ static rt_status add_mesh(rt_scene *scene, const rt_surface *lamp, rt_error *err
     float positions[9 * triangles];
     uint32_t indices[3 * triangles];
     for (int i = 0; i < triangles; i++) {
-        const float three[9] = {(float)i, 2, 0, (float)(i + strip_width(i)), 2, 0, (float)i, 2, (float)strip_depth(i)};
+        const float three[9] = {(float)i, 2,        0, (float)(i + strip_width(i)), 2,
+                                0,        (float)i, 2, (float)strip_depth(i)};
         memcpy(positions + 9 * i, three, sizeof three);
         for (int c = 0; c < 3; c++)
             indices[3 * i + c] = (uint32_t)(3 * i + c);
     }
-    return rt_scene_add_triangles(scene, NULL, positions, 3 * triangles, indices, triangles, NULL, lamp, error);
+    return rt_scene_add_triangles(scene, NULL, positions, 3 * triangles, indices, triangles, NULL,
+                                  lamp, error);
 }
 
 static rt_status add_lamp(rt_scene *scene, emitter kind, const rt_surface *lamp, rt_error *error)
@@ -78,14 +84,18 @@ static rt_status add_lamp(rt_scene *scene, emitter kind, const rt_surface *lamp,
     case EMIT_ELLIPSOID:
         return rt_scene_add_ellipsoid(scene, NULL, centre, radii, lamp, error);
     case EMIT_DISC:
-        return rt_scene_add_disc(scene, NULL, centre, top, (float)disc_radius, (float)disc_hole, lamp, error);
+        return rt_scene_add_disc(scene, NULL, centre, top, (float)disc_radius, (float)disc_hole,
+                                 lamp, error);
     case EMIT_TORUS:
-        return rt_scene_add_torus(scene, NULL, centre, top, (float)torus_major, (float)torus_minor, lamp, error);
+        return rt_scene_add_torus(scene, NULL, centre, top, (float)torus_major, (float)torus_minor,
+                                  lamp, error);
     case EMIT_PIPE:
     case EMIT_CYLINDER:
-        return rt_scene_add_cylinder(scene, NULL, centre, top, (float)at_base, is_closed(kind), lamp, error);
+        return rt_scene_add_cylinder(scene, NULL, centre, top, (float)at_base, is_closed(kind),
+                                     lamp, error);
     default:
-        return rt_scene_add_cone(scene, NULL, centre, top, (float)at_base, (float)at_top, 1, lamp, error);
+        return rt_scene_add_cone(scene, NULL, centre, top, (float)at_base, (float)at_top, 1, lamp,
+                                 error);
     }
 }
 
@@ -97,7 +107,8 @@ static int is_skew(emitter kind)
 rt_scene *emitter_scene(emitter kind)
 {
     const float radiance = (float)EMITTED_RADIANCE;
-    rt_material shining = {.emission = {radiance, radiance, radiance}, .two_sided = kind == EMIT_TWO_SIDED};
+    rt_material shining = {.emission = {radiance, radiance, radiance},
+                           .two_sided = kind == EMIT_TWO_SIDED};
     rt_surface lamp;
     rt_scene *scene = light_scene();
     rt_error error;
@@ -151,7 +162,8 @@ static void round_point(emitter kind, double x, double y, double out[3])
     axes_of(kind, s, t, along);
     profile(kind, x, &radius, &height);
     for (int i = 0; i < 3; i++)
-        out[i] = centre[i] + radius * (cos(2 * PI * y) * s[i] + sin(2 * PI * y) * t[i]) + height * along[i];
+        out[i] = centre[i] + radius * (cos(2 * PI * y) * s[i] + sin(2 * PI * y) * t[i]) +
+                 height * along[i];
 }
 
 static void ball_point(emitter kind, double x, double y, double out[3])
@@ -171,7 +183,8 @@ static void flat_point(emitter kind, double x, double y, double out[3])
         out[i] = corner[i] + x * edge1[i] + y * second[i];
     if (kind == EMIT_TRIANGLE)
         for (int i = 0; i < 3; i++)
-            out[i] = vertices[i] + x * (vertices[3 + i] - vertices[i]) + y * (1 - x) * (vertices[6 + i] - vertices[i]);
+            out[i] = vertices[i] + x * (vertices[3 + i] - vertices[i]) +
+                     y * (1 - x) * (vertices[6 + i] - vertices[i]);
     if (kind == EMIT_MESH) {
         out[0] = which + part * strip_width(which);
         out[2] = y * (1 - part) * strip_depth(which);
@@ -188,7 +201,9 @@ void emitter_point(emitter kind, double x, double y, double out[3])
     else
         round_point(kind, x, y, p);
     for (int i = 0; i < 3; i++)
-        out[i] = is_skew(kind) ? skew.m[i][0] * p[0] + skew.m[i][1] * p[1] + skew.m[i][2] * p[2] + skew.m[i][3] : p[i];
+        out[i] = is_skew(kind) ? skew.m[i][0] * p[0] + skew.m[i][1] * p[1] + skew.m[i][2] * p[2] +
+                                     skew.m[i][3]
+                               : p[i];
 }
 
 /* What the transform maps to a point: by Cramer's rule. */
@@ -222,7 +237,8 @@ static void flat_place(emitter kind, const double p[3], double *x, double *y)
     }
 }
 
-static void round_place(emitter kind, const double p[3], const float normal[3], double *x, double *y)
+static void round_place(emitter kind, const double p[3], const float normal[3], double *x,
+                        double *y)
 {
     double s[3], t[3], along[3], away[3], n[3], at_base, at_top;
     axes_of(kind, s, t, along);
@@ -230,7 +246,8 @@ static void round_place(emitter kind, const double p[3], const float normal[3], 
     for (int i = 0; i < 3; i++)
         away[i] = p[i] - centre[i];
     wide(n, normal);
-    const double radius = distance(dot3(away, s), dot3(away, t)), height = dot3(away, along) / dot3(along, along);
+    const double radius = distance(dot3(away, s), dot3(away, t)),
+                 height = dot3(away, along) / dot3(along, along);
     const double facing = dot3(n, along) / rt_vec_length(along);
     *y = turns_of(dot3(away, s), dot3(away, t));
     if (kind == EMIT_DISC)
@@ -240,10 +257,14 @@ static void round_place(emitter kind, const double p[3], const float normal[3], 
     else if (!is_closed(kind))
         *x = height;
     else
-        *x = (facing < -0.9 ? 1 + radius / at_base : facing > 0.9 ? 2 + radius / at_top : height) / 3;
+        *x = (facing < -0.9  ? 1 + radius / at_base
+              : facing > 0.9 ? 2 + radius / at_top
+                             : height) /
+             3;
 }
 
-void emitter_place(emitter kind, const float position[3], const float normal[3], double *x, double *y)
+void emitter_place(emitter kind, const float position[3], const float normal[3], double *x,
+                   double *y)
 {
     double p[3];
     wide(p, position);
@@ -301,7 +322,8 @@ static double round_density(emitter kind, double x)
     rt_vec_sub(along, top, centre);
     profile(kind, x, &radius, &height);
     const double side = PI * (at_base + at_top) * distance(rt_vec_length(along), at_base - at_top);
-    const double base = PI * at_base * at_base, cover = PI * at_top * at_top, all = side + base + cover;
+    const double base = PI * at_base * at_base, cover = PI * at_top * at_top,
+                 all = side + base + cover;
     const double on_side = 2 * radius / (at_base + at_top);
     if (!is_closed(kind))
         return on_side;
@@ -323,11 +345,13 @@ double emitter_density(emitter kind, double x, double y)
         const int which = (int)fmax(0, fmin(triangles - 1, floor(x * triangles)));
         for (int i = 0; i < triangles; i++)
             total += strip_width(i) * strip_depth(i);
-        return triangles * strip_width(which) * strip_depth(which) / total * 2 * (1 - (x * triangles - which));
+        return triangles * strip_width(which) * strip_depth(which) / total * 2 *
+               (1 - (x * triangles - which));
     }
     case EMIT_DISC:
         profile(kind, x, &radius, &height);
-        return 2 * radius * (disc_radius - disc_hole) / (disc_radius * disc_radius - disc_hole * disc_hole);
+        return 2 * radius * (disc_radius - disc_hole) /
+               (disc_radius * disc_radius - disc_hole * disc_hole);
     case EMIT_TORUS:
         profile(kind, x, &radius, &height);
         return radius / torus_major;

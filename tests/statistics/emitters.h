@@ -34,7 +34,8 @@ rt_scene *emitter_scene(emitter kind);
 void emitter_point(emitter kind, double x, double y, double out[3]);
 
 /* Parameters of a point with this normal. */
-void emitter_place(emitter kind, const float position[3], const float normal[3], double *x, double *y);
+void emitter_place(emitter kind, const float position[3], const float normal[3], double *x,
+                   double *y);
 
 /* Area of the world that an area of parameters around a point stands for. */
 double emitter_element(emitter kind, double x, double y);
@@ -43,12 +44,16 @@ double emitter_element(emitter kind, double x, double y);
 void emitter_normal(emitter kind, double x, double y, double out[3]);
 
 /*
- * The density over the parameters of points that are chosen by area: a mesh's and all of its triangles', a round
- * shape's and all of its parts', and the ellipsoid's, disc's and torus' own before the transform.
+ * The density over the parameters of points that are chosen by area: a mesh's and all of its
+ * triangles', a round shape's and all of its parts', and the ellipsoid's, disc's and torus' own
+ * before the transform.
  */
 double emitter_density(emitter kind, double x, double y);
 
-/* A renderer of the scene that `build` makes of a key; the last is kept, and is the same for the same key. */
+/*
+ * A renderer of the scene that `build` makes of a key; the last is kept, and is the same for the
+ * same key.
+ */
 rt_renderer *kept_renderer(const void *key, rt_scene *(*build)(const void *key));
 
 #endif

@@ -23,12 +23,13 @@ double metal_reflectance(double cosine, double eta, double k)
     return (s * s + p * p) / 2;
 }
 
-void boundary_split(const rt_material_data *material, int channel, double cosine, double eta, double *reflected,
-                    double *refracted)
+void boundary_split(const rt_material_data *material, int channel, double cosine, double eta,
+                    double *reflected, double *refracted)
 {
     const double ks = material->ks[channel], kt = material->kt[channel];
     if (material->flags & RT_MATERIAL_CONDUCTOR) {
-        *reflected = ks * metal_reflectance(cosine, material->eta[channel] / eta, material->k[channel] / eta);
+        *reflected = ks * metal_reflectance(cosine, material->eta[channel] / eta,
+                                            material->k[channel] / eta);
         *refracted = 0;
         return;
     }
@@ -70,7 +71,8 @@ static double reflection_chance(const rt_material_data *material, double cosine,
     return r + t > 0 ? r / (r + t) : 0;
 }
 
-double rough_density(const rt_material_data *material, double eta, const double wo[3], const double wi[3])
+double rough_density(const rt_material_data *material, double eta, const double wo[3],
+                     const double wi[3])
 {
     const int reflects = wi[2] > 0;
     double h[3];

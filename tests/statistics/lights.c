@@ -1,4 +1,7 @@
-/* lights.c - the points on lights that are sampled from a point in the scene, and the choice among lights. */
+/*
+ * lights.c - the points on lights that are sampled from a point in the scene, and the choice among
+ * lights.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -46,7 +49,8 @@ static sampled place_lamp(const void *setup, uint32_t i)
 }
 
 /*
- * Evenly by area, or by the solid angle of what faces the point. Of a mesh only from far, where no triangle is nearer.
+ * Evenly by area, or by the solid angle of what faces the point. Of a mesh only from far, where no
+ * triangle is nearer.
  */
 static double of_lamp(const void *setup, double x, double y)
 {
@@ -59,7 +63,10 @@ static double of_lamp(const void *setup, double x, double y)
     for (int i = 0; i < 3; i++)
         away[i] = p[i] - v->from[i];
     const double d2 = dot3(away, away), cosine = dot3(away, n) / sqrt(d2);
-    /* The normal of a sphere's parameters points inwards. Only a sphere has a side that the point cannot see. */
+    /*
+     * The normal of a sphere's parameters points inwards. Only a sphere has a side that the point
+     * cannot see.
+     */
     const double faces = v->kind == EMIT_SPHERE ? fmax(0, cosine) : fabs(cosine);
     return faces * emitter_element(v->kind, x, y) / d2;
 }
@@ -146,11 +153,13 @@ static const method by_choice = {draw_choice, place_choice, by_chance, 0};
 static const routine routines[] = {
     {"light: rectangle", 16, 16, &by_lamp, &(const viewed){EMIT_RECTANGLE, {2, 1.5f, 3.5f}, 1}},
     {"light: rectangle, far", 16, 16, &by_lamp, &(const viewed){EMIT_RECTANGLE, {-20, -30, 10}, 0}},
-    {"light: parallelogram", 16, 16, &by_lamp, &(const viewed){EMIT_PARALLELOGRAM, {2, 1, 3.5f}, 0}},
+    {"light: parallelogram", 16, 16, &by_lamp,
+     &(const viewed){EMIT_PARALLELOGRAM, {2, 1, 3.5f}, 0}},
     {"light: mesh, far", 48, 8, &by_lamp, &(const viewed){EMIT_MESH, {1e5f, -5e5f, 1e5f}, 0}},
     {"light: sphere", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {2, 4, 1.5f}, 1}},
     {"light: sphere, near", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {0.5f, 0.7f, 0.1f}, 1}},
-    {"light: sphere, from inside", 16, 16, &by_lamp, &(const viewed){EMIT_SPHERE, {0.3f, 0.3f, -0.1f}, 0}},
+    {"light: sphere, from inside", 16, 16, &by_lamp,
+     &(const viewed){EMIT_SPHERE, {0.3f, 0.3f, -0.1f}, 0}},
     {"light: ellipsoid", 16, 16, &by_lamp, &(const viewed){EMIT_ELLIPSOID, {2, 4, 1.5f}, 0}},
     {"light: disc with a hole", 16, 16, &by_lamp, &(const viewed){EMIT_DISC, {2, 4, 1.5f}, 0}},
     {"light: torus", 16, 16, &by_lamp, &(const viewed){EMIT_TORUS, {2, 4, 1.5f}, 0}},

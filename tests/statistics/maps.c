@@ -9,8 +9,8 @@
 static float rows[most_samples][4];
 
 /* Runs a kernel of a seed, a count, arguments of its own and the output: a row an item. */
-static void draw_rows(const char *program, const char *name, uint32_t seed, uint32_t count, const rt_arg *own,
-                      cl_uint own_count)
+static void draw_rows(const char *program, const char *name, uint32_t seed, uint32_t count,
+                      const rt_arg *own, cl_uint own_count)
 {
     cl_kernel kernel = test_kernel(program, name);
     cl_mem out = test_buffer(count * sizeof *rows, NULL);
@@ -143,7 +143,10 @@ static double cone_height(double distance)
     return sine2 / (1 + sqrt(1 - sine2));
 }
 
-/* As the viewer above the sphere's centre sees it: 1 - cos of the angle to the axis, and the angle around it. */
+/*
+ * As the viewer above the sphere's centre sees it: 1 - cos of the angle to the axis, and the angle
+ * around it.
+ */
 static void draw_cap(const void *setup, uint32_t seed, uint32_t count)
 {
     const float distance = *(const float *)setup, radius = 1, d2 = distance * distance;
@@ -158,7 +161,8 @@ static sampled place_cap(const void *setup, uint32_t i)
     const double down = from - rows[i][2], sine2 = off2 / (off2 + down * down);
     const double h = sine2 / (1 + sqrt(1 - sine2)) / height;
     /* The rim of the cap is where float32 knows the angle least. */
-    return (sampled){h > 1 && h < 1.002 ? 1 : h, turns_of(rows[i][0], rows[i][1]), rows[i][3] * 2 * PI * height};
+    return (sampled){h > 1 && h < 1.002 ? 1 : h, turns_of(rows[i][0], rows[i][1]),
+                     rows[i][3] * 2 * PI * height};
 }
 
 /* ---- The lens and the pixel -------------------------------------------------- */
@@ -256,11 +260,15 @@ static const routine routines[] = {
     {"cosine hemisphere", 16, 16, &by_cosine, NULL},
     {"sphere", 16, 16, &by_sphere, NULL},
     {"triangle", 16, 16, &by_triangle, NULL},
-    {"rectangle by solid angle", 16, 16, &by_rectangle, &(const rectangle){{-0.5f, -0.5f, 1, 1}, 1}},
+    {"rectangle by solid angle", 16, 16, &by_rectangle,
+     &(const rectangle){{-0.5f, -0.5f, 1, 1}, 1}},
     {"rectangle, close", 16, 16, &by_rectangle, &(const rectangle){{-0.5f, -0.5f, 1, 1}, 0.05f}},
-    {"rectangle, from beside", 16, 16, &by_rectangle, &(const rectangle){{0.7f, -0.2f, 1, 1}, 0.3f}},
-    {"rectangle, over a corner", 16, 16, &by_rectangle, &(const rectangle){{0.1f, 0.1f, 1, 1}, 0.1f}},
-    {"rectangle, small", 16, 16, &by_rectangle, &(const rectangle){{1e-3f, 2e-3f, 1e-3f, 1e-3f}, 2e-3f}},
+    {"rectangle, from beside", 16, 16, &by_rectangle,
+     &(const rectangle){{0.7f, -0.2f, 1, 1}, 0.3f}},
+    {"rectangle, over a corner", 16, 16, &by_rectangle,
+     &(const rectangle){{0.1f, 0.1f, 1, 1}, 0.1f}},
+    {"rectangle, small", 16, 16, &by_rectangle,
+     &(const rectangle){{1e-3f, 2e-3f, 1e-3f, 1e-3f}, 2e-3f}},
     {"rectangle, high", 16, 16, &by_rectangle, &(const rectangle){{0.25f, -4, 0.5f, 8}, 0.2f}},
     {"cap of a sphere, close", 16, 16, &by_cap, &(const float){1.001f}},
     {"cap of a sphere, near", 16, 16, &by_cap, &(const float){1.1f}},

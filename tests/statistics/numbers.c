@@ -1,8 +1,14 @@
-/* numbers.c - the random numbers themselves, two coordinates at a time: along one stream, and over many streams. */
+/*
+ * numbers.c - the random numbers themselves, two coordinates at a time: along one stream, and over
+ * many streams.
+ */
 #include "kernels/rng_draw.h"
 #include "statistics/space.h"
 
-/* Which numbers of which sets; along: of the samples of one stream, else of one sample of many streams. */
+/*
+ * Which numbers of which sets; along: of the samples of one stream, else of one sample of many
+ * streams.
+ */
 typedef struct choice {
     uint32_t sampler; /* rt_sampler */
     int along;
@@ -46,7 +52,8 @@ static const routine routines[] = {
     {"independent, x of two sets", 32, 32, &by_numbers, &(const choice){I, 1, 2, 0, 4}},
     {"independent over streams, x and y", 32, 32, &by_numbers, &(const choice){I, 0, 0, 0, 1}},
     {"independent over streams, z and w", 32, 32, &by_numbers, &(const choice){I, 0, 3, 2, 3}},
-    {"independent over streams, x of two sets", 32, 32, &by_numbers, &(const choice){I, 0, 2, 0, 4}},
+    {"independent over streams, x of two sets", 32, 32, &by_numbers,
+     &(const choice){I, 0, 2, 0, 4}},
 };
 
 const routine_table number_routines = {routines, sizeof routines / sizeof *routines};

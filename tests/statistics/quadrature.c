@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-enum { deepest = 9, always = 2 }; /* halvings: at most, and at least, so that no corner is overlooked */
+/* halvings: at most, and at least, so that no corner is overlooked */
+enum { deepest = 9, always = 2 };
 
 /* Three points each way. */
 static double gauss(integrand f, const void *of, double x0, double y0, double x1, double y1)
@@ -11,15 +12,16 @@ static double gauss(integrand f, const void *of, double x0, double y0, double x1
     static const double weights[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     double sum = 0;
     for (int i = 0; i < 9; i++) {
-        const double x = 0.5 * (x0 + x1 + points[i % 3] * (x1 - x0)), y = 0.5 * (y0 + y1 + points[i / 3] * (y1 - y0));
+        const double x = 0.5 * (x0 + x1 + points[i % 3] * (x1 - x0)),
+                     y = 0.5 * (y0 + y1 + points[i / 3] * (y1 - y0));
         sum += weights[i % 3] * weights[i / 3] * f(of, x, y);
     }
     return sum * (x1 - x0) * (y1 - y0);
 }
 
 /* Refines an estimate until its quarters agree with it. */
-static double refined(integrand f, const void *of, double x0, double y0, double x1, double y1, double whole, int depth,
-                      double near)
+static double refined(integrand f, const void *of, double x0, double y0, double x1, double y1,
+                      double whole, int depth, double near)
 {
     const double x = 0.5 * (x0 + x1), y = 0.5 * (y0 + y1);
     const double a = gauss(f, of, x0, y0, x, y), b = gauss(f, of, x, y0, x1, y);
@@ -27,11 +29,14 @@ static double refined(integrand f, const void *of, double x0, double y0, double 
     if (depth == 0 || (depth <= deepest - always && fabs(a + b + c + d - whole) < near))
         return a + b + c + d;
     depth--;
-    return refined(f, of, x0, y0, x, y, a, depth, near) + refined(f, of, x, y0, x1, y, b, depth, near) +
-           refined(f, of, x0, y, x, y1, c, depth, near) + refined(f, of, x, y, x1, y1, d, depth, near);
+    return refined(f, of, x0, y0, x, y, a, depth, near) +
+           refined(f, of, x, y0, x1, y, b, depth, near) +
+           refined(f, of, x0, y, x, y1, c, depth, near) +
+           refined(f, of, x, y, x1, y1, d, depth, near);
 }
 
-double integral(integrand f, const void *of, double x0, double y0, double x1, double y1, double near)
+double integral(integrand f, const void *of, double x0, double y0, double x1, double y1,
+                double near)
 {
     return refined(f, of, x0, y0, x1, y1, gauss(f, of, x0, y0, x1, y1), deepest, near);
 }

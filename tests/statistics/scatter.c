@@ -31,8 +31,8 @@ static void as_floats(float out[4], const double v[3])
 }
 
 /*
- * The slope s of a normal, over alpha, gives q = 1 / sqrt(1 + s^2), the cosine of its angle had it alpha 1: over
- * q^2 normals are even when seen from above, however small alpha is.
+ * The slope s of a normal, over alpha, gives q = 1 / sqrt(1 + s^2), the cosine of its angle had it
+ * alpha 1: over q^2 normals are even when seen from above, however small alpha is.
  */
 static void normal_at(double alpha, double q, double turn, double h[3])
 {
@@ -148,23 +148,32 @@ static double of_surface(const void *setup, double x, double y)
 
 /* ---- Table ------------------------------------------------------------------------------ */
 
-#define ALL(v) {v, v, v}
+#define ALL(v)                                                                                     \
+    {                                                                                              \
+        v, v, v                                                                                    \
+    }
 #define MIXED .kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f}
 #define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
 #define GLASS .kt = ALL(1), .flags = RT_MATERIAL_FRESNEL
 
 static const rt_material_data matte = {.kd = ALL(0.5f)}, mixture = {MIXED},
                               with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL},
-                              ore = {.kd = ALL(0.3f), .ks = ALL(0.7f), .eta = ALL(1.5f), .k = ALL(1),
+                              ore = {.kd = ALL(0.3f),
+                                     .ks = ALL(0.7f),
+                                     .eta = ALL(1.5f),
+                                     .k = ALL(1),
                                      .flags = RT_MATERIAL_CONDUCTOR},
                               gold1 = {.ks = ALL(1), GOLD, .roughness = 0.1f},
                               gold5 = {.ks = ALL(1), GOLD, .roughness = 0.5f},
                               gold10 = {.ks = ALL(1), GOLD, .roughness = 1},
-                              glass1 = {GLASS, .roughness = 0.1f}, glass4 = {GLASS, .roughness = 0.4f},
+                              glass1 = {GLASS, .roughness = 0.1f},
+                              glass4 = {GLASS, .roughness = 0.4f},
                               glass10 = {GLASS, .roughness = 1},
                               rough_mixture = {MIXED, .roughness = 0.3f},
-                              rough_with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL, .roughness = 0.5f},
-                              rough_gilded = {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.25f};
+                              rough_with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL,
+                                                    .roughness = 0.5f},
+                              rough_gilded = {
+                                  .kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.25f};
 
 #define INTO (1 / 1.5)
 #define OUT_OF 1.5
@@ -181,29 +190,40 @@ static const routine routines[] = {
     {"matte", 16, 16, &by_surface, &(const surface){&matte, 0.6, 1, DIFFUSE}},
     {"mixture, events", event_count, 1, &by_surface, &(const surface){&mixture, 0.6, INTO, EVENTS}},
     {"mixture, diffuse", 16, 16, &by_surface, &(const surface){&mixture, 0.6, INTO, DIFFUSE}},
-    {"mixture with Fresnel, events", event_count, 1, &by_surface, &(const surface){&with_fresnel, 0.3, INTO, EVENTS}},
+    {"mixture with Fresnel, events", event_count, 1, &by_surface,
+     &(const surface){&with_fresnel, 0.3, INTO, EVENTS}},
     {"mixture with Fresnel, events inside", event_count, 1, &by_surface,
      &(const surface){&with_fresnel, 0.9, OUT_OF, EVENTS}},
     {"mixture with Fresnel, total reflection", event_count, 1, &by_surface,
      &(const surface){&with_fresnel, 0.3, OUT_OF, EVENTS}},
-    {"ore in water, events", event_count, 1, &by_surface, &(const surface){&ore, 0.9, 1.33, EVENTS}},
+    {"ore in water, events", event_count, 1, &by_surface,
+     &(const surface){&ore, 0.9, 1.33, EVENTS}},
     {"rough metal, alpha 0.1", 32, 32, &by_surface, &(const surface){&gold1, 0.9, 1, ROUGH}},
-    {"rough metal in water, alpha 0.1", 32, 32, &by_surface, &(const surface){&gold1, 0.4, 1.33, ROUGH}},
+    {"rough metal in water, alpha 0.1", 32, 32, &by_surface,
+     &(const surface){&gold1, 0.4, 1.33, ROUGH}},
     {"rough metal, alpha 0.5", 32, 32, &by_surface, &(const surface){&gold5, 0.9, 1, ROUGH}},
-    {"rough metal, alpha 0.5, grazing", 32, 32, &by_surface, &(const surface){&gold5, 0.2, 1, ROUGH}},
+    {"rough metal, alpha 0.5, grazing", 32, 32, &by_surface,
+     &(const surface){&gold5, 0.2, 1, ROUGH}},
     {"rough metal, alpha 1", 32, 32, &by_surface, &(const surface){&gold10, 0.7, 1, ROUGH}},
     {"rough glass, alpha 0.1", 32, 32, &by_surface, &(const surface){&glass1, 0.9, INTO, ROUGH}},
-    {"rough glass from inside, alpha 0.1", 32, 32, &by_surface, &(const surface){&glass1, 0.6, OUT_OF, ROUGH}},
+    {"rough glass from inside, alpha 0.1", 32, 32, &by_surface,
+     &(const surface){&glass1, 0.6, OUT_OF, ROUGH}},
     {"rough glass, alpha 0.4", 32, 32, &by_surface, &(const surface){&glass4, 0.8, INTO, ROUGH}},
-    {"rough glass from inside, alpha 0.4", 32, 32, &by_surface, &(const surface){&glass4, 0.3, OUT_OF, ROUGH}},
+    {"rough glass from inside, alpha 0.4", 32, 32, &by_surface,
+     &(const surface){&glass4, 0.3, OUT_OF, ROUGH}},
     {"rough glass, alpha 1", 32, 32, &by_surface, &(const surface){&glass10, 0.7, INTO, ROUGH}},
-    {"rough glass from inside, alpha 1", 32, 32, &by_surface, &(const surface){&glass10, 0.7, OUT_OF, ROUGH}},
-    {"rough mixture, diffuse", 16, 16, &by_surface, &(const surface){&rough_mixture, 0.7, INTO, DIFFUSE}},
-    {"rough mixture, rough", 32, 32, &by_surface, &(const surface){&rough_mixture, 0.7, INTO, ROUGH}},
+    {"rough glass from inside, alpha 1", 32, 32, &by_surface,
+     &(const surface){&glass10, 0.7, OUT_OF, ROUGH}},
+    {"rough mixture, diffuse", 16, 16, &by_surface,
+     &(const surface){&rough_mixture, 0.7, INTO, DIFFUSE}},
+    {"rough mixture, rough", 32, 32, &by_surface,
+     &(const surface){&rough_mixture, 0.7, INTO, ROUGH}},
     {"rough mixture with Fresnel, rough", 32, 32, &by_surface,
      &(const surface){&rough_with_fresnel, 0.4, OUT_OF, ROUGH}},
-    {"rough metal over matte, diffuse", 16, 16, &by_surface, &(const surface){&rough_gilded, 0.5, 1, DIFFUSE}},
-    {"rough metal over matte, rough", 32, 32, &by_surface, &(const surface){&rough_gilded, 0.5, 1, ROUGH}},
+    {"rough metal over matte, diffuse", 16, 16, &by_surface,
+     &(const surface){&rough_gilded, 0.5, 1, DIFFUSE}},
+    {"rough metal over matte, rough", 32, 32, &by_surface,
+     &(const surface){&rough_gilded, 0.5, 1, ROUGH}},
 };
 
 const routine_table scatter_routines = {routines, sizeof routines / sizeof *routines};

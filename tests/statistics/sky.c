@@ -43,7 +43,8 @@ rt_scene *sky_scene(int has_picture)
     memset(&surface, 0, sizeof surface);
     if (has_picture)
         environment.path = sky_write_picture();
-    expect_ok(rt_scene_add_sphere(scene, NULL, centre, (float)SKY_SPHERE_RADIUS, &surface, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, (float)SKY_SPHERE_RADIUS, &surface, &error),
+              &error);
     expect_ok(rt_scene_set_environment(scene, &environment, &error), &error);
     return scene;
 }
@@ -60,7 +61,10 @@ double sky_element(double v)
     return 2 * PI * PI * sin(PI * v);
 }
 
-/* Between the centres of pixels of which row y counts by[y], bilinear; over the seam, but not over the poles. */
+/*
+ * Between the centres of pixels of which row y counts by[y], bilinear; over the seam, but not over
+ * the poles.
+ */
 static double between(const double by[height], double u, double v)
 {
     const double px = u * width - 0.5, py = v * height - 0.5;

@@ -1,4 +1,7 @@
-/* test_chi_square.c - every sampling routine against its density: 10^6 samples of each of five seeds. */
+/*
+ * test_chi_square.c - every sampling routine against its density: 10^6 samples of each of five
+ * seeds.
+ */
 #include "statistics/chi_square.h"
 
 int main(void)

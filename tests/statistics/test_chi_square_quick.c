@@ -1,4 +1,7 @@
-/* test_chi_square_quick.c - every sampling routine against its density, in short; test_chi_square.c looks closer. */
+/*
+ * test_chi_square_quick.c - every sampling routine against its density, in short; test_chi_square.c
+ * looks closer.
+ */
 #include "statistics/chi_square.h"
 
 int main(void)

@@ -1,6 +1,7 @@
 /*
- * test_scattering.c - for every kind of material: evaluation, sampling and density agree, light goes both ways
- * alike, densities are those of chances, and none gives back more light than it gets.
+ * test_scattering.c - for every kind of material: evaluation, sampling and density agree, light
+ * goes both ways alike, densities are those of chances, and none gives back more light than it
+ * gets.
  */
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +14,10 @@
 
 enum { n = 1 << 17, rings = 256, sectors = 192, points = rings * sectors };
 
-#define ALL(v) {v, v, v}
+#define ALL(v)                                                                                     \
+    {                                                                                              \
+        v, v, v                                                                                    \
+    }
 #define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
 #define MIXED .kd = {0.3f, 0.2f, 0.1f}, .ks = {0.2f, 0.3f, 0.1f}, .kt = {0.4f, 0.2f, 0.6f}
 
@@ -109,7 +113,10 @@ static int spreads(const bsdf_draw *d)
     return (int)d->event == diffuse || (int)d->event == rough;
 }
 
-/* The mean of what is sampled is the integral of what is evaluated: E[f cos / pdf] = integral of f cos. */
+/*
+ * The mean of what is sampled is the integral of what is evaluated: E[f cos / pdf] = integral of f
+ * cos.
+ */
 static void sampled_light_is_the_light_that_is_evaluated(void **state)
 {
     (void)state;
@@ -117,7 +124,8 @@ static void sampled_light_is_the_light_that_is_evaluated(void **state)
         for (int v = 0; v < view_count; v++) {
             const situation at = view_of(v);
             const integrals truth = integrate(&materials[m].material, &at);
-            draw_scatter(&materials[m].material, &at, carry_radiance, (uint32_t)(10 * m + v), n, draws);
+            draw_scatter(&materials[m].material, &at, carry_radiance, (uint32_t)(10 * m + v), n,
+                         draws);
             for (int c = 0; c < 3; c++) {
                 for (int i = 0; i < n; i++)
                     values[i] = spreads(draws + i) ? draws[i].weight[c] * draws[i].squeeze : 0;
@@ -126,7 +134,10 @@ static void sampled_light_is_the_light_that_is_evaluated(void **state)
         }
 }
 
-/* Diffuse and rough densities integrate to the chance of such an event, less the part whose light is lost. */
+/*
+ * Diffuse and rough densities integrate to the chance of such an event, less the part whose light
+ * is lost.
+ */
 static void densities_are_of_what_happens(void **state)
 {
     (void)state;
@@ -134,7 +145,8 @@ static void densities_are_of_what_happens(void **state)
         for (int v = 0; v < view_count; v++) {
             const situation at = view_of(v);
             const integrals found = integrate(&materials[m].material, &at);
-            draw_scatter(&materials[m].material, &at, carry_radiance, (uint32_t)(10 * m + v), n, draws);
+            draw_scatter(&materials[m].material, &at, carry_radiance, (uint32_t)(10 * m + v), n,
+                         draws);
             double all_rough = 0;
             for (int i = 0; i < n; i++) {
                 values[i] = (int)draws[i].event == diffuse;
@@ -152,7 +164,10 @@ static void densities_are_of_what_happens(void **state)
 
 /* ---- Reciprocity ------------------------------------------------------------------------- */
 
-/* fr(wo, wi) = fr(wi, wo), and through a boundary fr(wo, wi) / n_o^2 = fr(wi, wo) / n_i^2 (Veach 1997, section 5.2). */
+/*
+ * fr(wo, wi) = fr(wi, wo), and through a boundary fr(wo, wi) / n_o^2 = fr(wi, wo) / n_i^2 (Veach
+ * 1997, section 5.2).
+ */
 static void light_goes_both_ways_alike(void **state)
 {
     enum { pairs = 1 << 14 };
@@ -165,7 +180,8 @@ static void light_goes_both_ways_alike(void **state)
         for (int i = 0; i < pairs; i++) {
             /* Directions spread evenly by the golden ratio and its like. */
             direction(wo[i], fmod(i * 0.7548776662466927, 1), fmod(i * 0.5698402909980532, 1));
-            direction(wi[i], 2 * fmod(i * 0.6180339887498949, 1) - 1, fmod(i * 0.3819660112501051 * 7, 1));
+            direction(wi[i], 2 * fmod(i * 0.6180339887498949, 1) - 1,
+                      fmod(i * 0.3819660112501051 * 7, 1));
             there[i] = back[i] = seen_at(1, etas[i % 2]);
             memcpy(there[i].wo, wo[i], sizeof there[i].wo);
             memcpy(back[i].wo, wi[i], sizeof back[i].wo);
@@ -181,7 +197,8 @@ static void light_goes_both_ways_alike(void **state)
             if (fabs(wi[i][2]) < 0.02 || wo[i][2] < 0.02)
                 continue;
             for (int c = 0; c < 3; c++) {
-                const double f = (forth_values[i].diffuse[c] + forth_values[i].rough[c]) / fabs(wi[i][2]) / squeeze;
+                const double f = (forth_values[i].diffuse[c] + forth_values[i].rough[c]) /
+                                 fabs(wi[i][2]) / squeeze;
                 const double b = (back_values[i].diffuse[c] + back_values[i].rough[c]) / wo[i][2];
                 compared += f > 1e-4;
                 across += through && f > 1e-4;
@@ -190,7 +207,8 @@ static void light_goes_both_ways_alike(void **state)
             }
         }
         assert_true(compared > 1000);
-        assert_true(across > 1000 || !(materials[m].material.roughness > 0 && materials[m].material.kt[0] > 0));
+        assert_true(across > 1000 ||
+                    !(materials[m].material.roughness > 0 && materials[m].material.kt[0] > 0));
     }
 }
 
@@ -200,7 +218,8 @@ static void light_goes_both_ways_alike(void **state)
 static void nothing_gives_back_more_than_it_gets(void **state)
 {
     static const double angles[] = {1, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.01};
-    static const double indices[] = {1 / 2.4, 1 / 1.5, 1 / 1.33, 1 / 1.0003, 1.0003, 1.33, 1.5, 2.4};
+    static const double indices[] = {1 / 2.4, 1 / 1.5, 1 / 1.33, 1 / 1.0003,
+                                     1.0003,  1.33,    1.5,      2.4};
     static const float alphas[] = {0, 1e-3f, 0.01f, 0.1f, 0.3f, 0.6f, 1};
     static const rt_material_data whites[] = {
         {.kd = ALL(1)},
@@ -210,12 +229,20 @@ static void nothing_gives_back_more_than_it_gets(void **state)
         {.kd = ALL(0.25f), .ks = ALL(0.25f), .kt = ALL(0.5f)},
         {.kd = ALL(0.5f), .kt = ALL(0.5f), .flags = RT_MATERIAL_FRESNEL},
         {.kd = {0.7f, 0.2f, 0.1f}, .ks = {0.2f, 0.2f, 0.1f}, .kt = {0.1f, 0.6f, 0.8f}},
-        {.kd = {0.7f, 0.2f, 0.1f}, .ks = {0.2f, 0.2f, 0.1f}, .kt = {0.1f, 0.6f, 0.8f}, .flags = RT_MATERIAL_FRESNEL},
+        {.kd = {0.7f, 0.2f, 0.1f},
+         .ks = {0.2f, 0.2f, 0.1f},
+         .kt = {0.1f, 0.6f, 0.8f},
+         .flags = RT_MATERIAL_FRESNEL},
         {.ks = ALL(1), GOLD},
         {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD},
         {.ks = ALL(1), .eta = ALL(0.05f), .k = ALL(8), .flags = RT_MATERIAL_CONDUCTOR},
     };
-    enum { samples = 2048, angle_count = 8, index_count = 8, situations = angle_count * index_count };
+    enum {
+        samples = 2048,
+        angle_count = 8,
+        index_count = 8,
+        situations = angle_count * index_count
+    };
     static situation at[situations];
     static bsdf_albedo found[situations];
     (void)state;
@@ -224,20 +251,27 @@ static void nothing_gives_back_more_than_it_gets(void **state)
     for (size_t w = 0; w < sizeof whites / sizeof *whites; w++)
         for (size_t a = 0; a < sizeof alphas / sizeof *alphas; a++) {
             rt_material_data material = whites[w];
-            /* What is the same in all channels, with a reflectance that is no metal's, keeps no more in any sample. */
-            const int is_grey = material.kd[0] == material.kd[1] && !(material.flags & RT_MATERIAL_CONDUCTOR);
+            /*
+             * What is the same in all channels, with a reflectance that is no metal's, keeps no
+             * more in any sample.
+             */
+            const int is_grey =
+                material.kd[0] == material.kd[1] && !(material.flags & RT_MATERIAL_CONDUCTOR);
             material.roughness = alphas[a];
             measure_albedo(&material, at, samples, situations, found);
             for (int i = 0; i < situations; i++)
                 for (int c = 0; c < 3; c++) {
-                    const double mean = found[i].mean[c], variance = found[i].square[c] - mean * mean;
+                    const double mean = found[i].mean[c],
+                                 variance = found[i].square[c] - mean * mean;
                     const double error = sqrt(fmax(0, variance) / samples);
                     const double excess = mean - 1 - 1e-5;
-                    const double chance = excess > 0 ? chance_of_student(excess / error, samples - 1) : 1;
-                    chance_compare(is_grey && !(found[i].most <= 1 + 1e-5) ? 0 : chance,
-                                   "material %zu, alpha %g, cosine %g, index %g: keeps %g +- %g, at most %g", w,
-                                   alphas[a], angles[i % angle_count], indices[i / angle_count], mean, error,
-                                   found[i].most);
+                    const double chance =
+                        excess > 0 ? chance_of_student(excess / error, samples - 1) : 1;
+                    chance_compare(
+                        is_grey && !(found[i].most <= 1 + 1e-5) ? 0 : chance,
+                        "material %zu, alpha %g, cosine %g, index %g: keeps %g +- %g, at most %g",
+                        w, alphas[a], angles[i % angle_count], indices[i / angle_count], mean,
+                        error, found[i].most);
                 }
         }
 }

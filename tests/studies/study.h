@@ -1,4 +1,7 @@
-/* study.h - what the studies share: a scene on a device, renders, and their errors against a reference. */
+/*
+ * study.h - what the studies share: a scene on a device, renders, and their errors against a
+ * reference.
+ */
 #ifndef RT_TESTS_STUDY_H
 #define RT_TESTS_STUDY_H
 
@@ -16,16 +19,22 @@ typedef struct study {
 void study_open(study *s, const char *name, const char *scene, uint32_t side);
 void study_close(study *s);
 
-/* Renders; the same on failure. *seconds, if not NULL, is the time of emission, gathering and rendering. */
+/*
+ * Renders; the same on failure. *seconds, if not NULL, is the time of emission, gathering and
+ * rendering.
+ */
 rt_film *study_render(const study *s, const rt_render_options *options, double *seconds);
 
-/* Writes films of the study's size side by side to build/study/NAME.png; ends the program when it cannot. */
+/*
+ * Writes films of the study's size side by side to build/study/NAME.png; ends the program when it
+ * cannot.
+ */
 void study_write(const study *s, const rt_film *const *films, int count, const char *name);
 
 /*
- * Mean squared difference of a film from a reference of the same size, without the pixels that see a lamp or
- * border on one: those brighter than half the brightest where that is far above the mean. Their noise is that of
- * the pixel's coverage, whatever lights the scene.
+ * Mean squared difference of a film from a reference of the same size, without the pixels that see
+ * a lamp or border on one: those brighter than half the brightest where that is far above the mean.
+ * Their noise is that of the pixel's coverage, whatever lights the scene.
  */
 double study_mse(const rt_film *film, const rt_film *reference);
 double study_mean(const rt_film *film);

@@ -3,18 +3,20 @@
  *
  *     study_caustic [PASSES [REFERENCE [FILE]]]
  *
- * scenes/box_caustic.rts: the light that the glass sphere gathers on the floor. PASSES of photon mapping (8) are
- * timed, and path tracing gets as many samples a pixel as take as long. Time is that of processors, so that other
- * programs do not count. Pictures go to build/study.
+ * scenes/box_caustic.rts: the light that the glass sphere gathers on the floor. PASSES of photon
+ * mapping (8) are timed, and path tracing gets as many samples a pixel as take as long. Time is
+ * that of processors, so that other programs do not count. Pictures go to build/study.
  *
- * The region is the floor within 0.3 m of where the line from the lamp's centre through the sphere's meets it, as far
- * as whole pixels see it beside the sphere. A picture's squared error is the mean product of its differences from two
- * truths of independent noises, so that these leave no trace but in its standard error. It is told twice:
- *   - by paths and photons: one truth is path traced with REFERENCE samples a pixel (1024), or is the picture FILE, of
- *     the same size, and the other is of photons, of another seed, in twice as many passes with half the radius around
- *     caustics. It owes nothing to photons being right, but paths that rarely meet the lamp make it uncertain;
- *   - by photons and photons: both truths are of that kind, of seeds of their own. Of bias, which goes with the squared
- *     radius, they have a quarter, and the product 9/16 of the square.
+ * The region is the floor within 0.3 m of where the line from the lamp's centre through the
+ * sphere's meets it, as far as whole pixels see it beside the sphere. A picture's squared error is
+ * the mean product of its differences from two truths of independent noises, so that these leave no
+ * trace but in its standard error. It is told twice:
+ *   - by paths and photons: one truth is path traced with REFERENCE samples a pixel (1024), or is
+ *     the picture FILE, of the same size, and the other is of photons, of another seed, in twice as
+ *     many passes with half the radius around caustics. It owes nothing to photons being right, but
+ *     paths that rarely meet the lamp make it uncertain;
+ *   - by photons and photons: both truths are of that kind, of seeds of their own. Of bias, which
+ *     goes with the squared radius, they have a quarter, and the product 9/16 of the square.
  */
 #include <math.h>
 #include <stdio.h>
@@ -29,12 +31,14 @@ enum { side = 256 };
 /* ---- The region ------------------------------------------------------------- */
 
 static const double eye_z = -3.5, half_fov = 19 * 3.14159265358979323846 / 180, floor_y = -1;
-static const double glass[3] = {-0.5, -0.7, -0.25}, glass_radius = 0.3, lamp_y = 0.999, spot_radius = 0.3;
+static const double glass[3] = {-0.5, -0.7, -0.25}, glass_radius = 0.3, lamp_y = 0.999,
+                    spot_radius = 0.3;
 
 static int meets_glass(const double d[3])
 {
     double o[3] = {-glass[0], -glass[1], eye_z - glass[2]};
-    double b = o[0] * d[0] + o[1] * d[1] + o[2] * d[2], dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    double b = o[0] * d[0] + o[1] * d[1] + o[2] * d[2],
+           dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     double c = o[0] * o[0] + o[1] * o[1] + o[2] * o[2] - glass_radius * glass_radius;
     return b * b > dd * c;
 }
@@ -47,7 +51,8 @@ static int in_spot(double x, double y)
     double d[3] = {-(2 * x / side - 1) * scale, -(2 * y / side - 1) * scale, 1};
     if (d[1] >= 0 || meets_glass(d))
         return 0;
-    double t = floor_y / d[1], dx = t * d[0] - to_spot * glass[0], dz = eye_z + t - to_spot * glass[2];
+    double t = floor_y / d[1], dx = t * d[0] - to_spot * glass[0],
+           dz = eye_z + t - to_spot * glass[2];
     return dx * dx + dz * dz < spot_radius * spot_radius;
 }
 
@@ -69,7 +74,8 @@ static region_error error_of(const float *rgb, const float *first, const float *
         for (uint32_t x = 0; x < side; x++) {
             double product = 0;
             for (size_t i = 3 * ((size_t)y * side + x), c = 0; c < 3 && in_region(x, y); c++)
-                product += ((double)rgb[i + c] - first[i + c]) * ((double)rgb[i + c] - second[i + c]) / 3;
+                product +=
+                    ((double)rgb[i + c] - first[i + c]) * ((double)rgb[i + c] - second[i + c]) / 3;
             sum += product;
             squares += product * product;
             count += in_region(x, y);
@@ -84,7 +90,8 @@ static double region_mean(const float *rgb)
     size_t count = 0;
     for (uint32_t y = 0; y < side; y++)
         for (uint32_t x = 0; x < side; x++)
-            for (size_t i = 3 * ((size_t)y * side + x), c = 0; c < 3 && in_region(x, y); c++, count++)
+            for (size_t i = 3 * ((size_t)y * side + x), c = 0; c < 3 && in_region(x, y);
+                 c++, count++)
                 sum += rgb[i + c];
     return sum / (double)count;
 }
@@ -109,7 +116,8 @@ static rt_film *trace_paths(const study *s, uint32_t spp, uint32_t seed, double 
     return render(s, &options, seconds);
 }
 
-static rt_film *map_photons(const study *s, uint32_t passes, float radius, uint32_t seed, double *seconds)
+static rt_film *map_photons(const study *s, uint32_t passes, float radius, uint32_t seed,
+                            double *seconds)
 {
     rt_render_options options = s->options;
     options.mode = RT_MODE_PHOTON;
@@ -130,8 +138,8 @@ static float *read_reference(const char *path)
     rt_error error;
     uint32_t channels[3];
     float *rgb = malloc(sizeof(float) * 3 * side * side);
-    if (!rgb || rt_image_read(&image, path, &error) != RT_OK || image->width != side || image->height != side ||
-        rt_image_rgb_channels(channels, image, &error) != RT_OK) {
+    if (!rgb || rt_image_read(&image, path, &error) != RT_OK || image->width != side ||
+        image->height != side || rt_image_rgb_channels(channels, image, &error) != RT_OK) {
         fprintf(stderr, "study_caustic: %s is no picture of %d x %d pixels\n", path, side, side);
         exit(1);
     }
@@ -142,10 +150,12 @@ static float *read_reference(const char *path)
     return rgb;
 }
 
-static void print_row(const char *what, const rt_film *film, double seconds, const region_error errors[2], double mean)
+static void print_row(const char *what, const rt_film *film, double seconds,
+                      const region_error errors[2], double mean)
 {
-    printf("%-28s %8.2f %11.5f +- %.5f %11.5f +- %.5f %9.5f\n", what, seconds, errors[0].rmse, errors[0].deviation,
-           errors[1].rmse, errors[1].deviation, region_mean(rt_film_rgb(film)) / mean);
+    printf("%-28s %8.2f %11.5f +- %.5f %11.5f +- %.5f %9.5f\n", what, seconds, errors[0].rmse,
+           errors[0].deviation, errors[1].rmse, errors[1].deviation,
+           region_mean(rt_film_rgb(film)) / mean);
 }
 
 /* Paths for as long as photons took: a first round of as many samples says how many more. */
@@ -187,15 +197,16 @@ int main(int argc, char **argv)
         errors[i][1] = error_of(rgb, by_photons[0], by_photons[1]);
     }
     double mean = region_mean(by_photons[0]);
-    printf("%-28s %8s %22s %22s %9s\n", "caustic under glass", "seconds", "RMSE, path truth", "RMSE, photon truth",
-           "mean");
+    printf("%-28s %8s %22s %22s %9s\n", "caustic under glass", "seconds", "RMSE, path truth",
+           "RMSE, photon truth", "mean");
     snprintf(what, sizeof what, "path, %u samples a pixel", equal);
     print_row(what, path, path_seconds, errors[0], mean);
     snprintf(what, sizeof what, "photon, %u passes", passes);
     print_row(what, photon, photon_seconds, errors[1], mean);
-    printf(
-        "photons have 1/%.1f of the error by the one truth, 1/%.1f by the other; the path truth has a mean of %.5f\n\n",
-        errors[0][0].rmse / errors[1][0].rmse, errors[0][1].rmse / errors[1][1].rmse, region_mean(by_paths) / mean);
+    printf("photons have 1/%.1f of the error by the one truth, 1/%.1f by the other; the path truth "
+           "has a mean of %.5f\n\n",
+           errors[0][0].rmse / errors[1][0].rmse, errors[0][1].rmse / errors[1][1].rmse,
+           region_mean(by_paths) / mean);
     study_write(&s, (const rt_film *[]){path}, 1, "caustic-path");
     study_write(&s, (const rt_film *[]){photon}, 1, "caustic-photon");
 

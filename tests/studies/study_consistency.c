@@ -1,17 +1,18 @@
 /*
- * study_consistency.c - progressive photon mapping comes to the truth: mean squared error against path tracing,
- * pass after pass, and the slope of its logarithm.
+ * study_consistency.c - progressive photon mapping comes to the truth: mean squared error against
+ * path tracing, pass after pass, and the slope of its logarithm.
  *
  *     study_consistency [SCENE [SIDE [PASSES [PHOTONS [REFERENCE [RADIUS]]]]]]
  *
- * Without a scene, box_point, box_area and box_caustic of scenes/ in turn. SIDE: of the film, pixels (64); PASSES:
- * the most, a power of two (256); PHOTONS: of a pass (4000); REFERENCE: samples a pixel of the path traced
- * picture (16384); RADIUS: of the first pass, metres (0.03). All light comes from the photons.
+ * Without a scene, box_point, box_area and box_caustic of scenes/ in turn. SIDE: of the film,
+ * pixels (64); PASSES: the most, a power of two (256); PHOTONS: of a pass (4000); REFERENCE:
+ * samples a pixel of the path traced picture (16384); RADIUS: of the first pass, metres (0.03). All
+ * light comes from the photons.
  *
- * Knaus and Zwicker 2011: with radii that shrink by alpha, the variance of the mean of i passes falls as i^-alpha, and
- * its squared bias as i^-2(1 - alpha); for alpha = 2/3 both are i^-2/3. That of the bias is for smooth light: at the
- * edges of shadows and surfaces it is of the size of the light, in a strip as wide as the radius. The defaults are such
- * that variance outweighs it.
+ * Knaus and Zwicker 2011: with radii that shrink by alpha, the variance of the mean of i passes
+ * falls as i^-alpha, and its squared bias as i^-2(1 - alpha); for alpha = 2/3 both are i^-2/3. That
+ * of the bias is for smooth light: at the edges of shadows and surfaces it is of the size of the
+ * light, in a strip as wide as the radius. The defaults are such that variance outweighs it.
  */
 #include <math.h>
 #include <stdio.h>
@@ -19,8 +20,8 @@
 
 #include "studies/study.h"
 
-static void follow(const char *scene, uint32_t side, uint32_t most, uint64_t photons, uint32_t reference_spp,
-                   float radius)
+static void follow(const char *scene, uint32_t side, uint32_t most, uint64_t photons,
+                   uint32_t reference_spp, float radius)
 {
     double passes[32], errors[32];
     int count = 0;
@@ -57,7 +58,8 @@ static void follow(const char *scene, uint32_t side, uint32_t most, uint64_t pho
 
 int main(int argc, char **argv)
 {
-    static const char *const scenes[] = {"scenes/box_point.rts", "scenes/box_area.rts", "scenes/box_caustic.rts"};
+    static const char *const scenes[] = {"scenes/box_point.rts", "scenes/box_area.rts",
+                                         "scenes/box_caustic.rts"};
     uint32_t side = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 64;
     uint32_t passes = argc > 3 ? (uint32_t)strtoul(argv[3], NULL, 10) : 256;
     uint64_t photons = argc > 4 ? strtoul(argv[4], NULL, 10) : 4000;

@@ -1,5 +1,6 @@
 /*
- * study_photons.c - what the choices of photon mapping cost and bring: time and error against path tracing.
+ * study_photons.c - what the choices of photon mapping cost and bring: time and error against path
+ * tracing.
  *
  *     study_photons [STUDY [SCENE [SIDE [REFERENCE]]]]
  *
@@ -10,10 +11,10 @@
  *   kernels   the kernels side by side, all light from the map
  *   ways      disc and hull, FLANN and the device, with and without final gather
  *   all       all of these, the default
- * SCENE: scenes/box_area.rts by default; SIDE: of the films, pixels (128); REFERENCE: samples a pixel of the path
- * traced picture (4096). The error is the root of the mean square over the film, relative to the mean of the reference.
- * The pictures of each study, in the order of its rows, stand side by side in build/study/STUDY.png; the last is
- * the reference.
+ * SCENE: scenes/box_area.rts by default; SIDE: of the films, pixels (128); REFERENCE: samples a
+ * pixel of the path traced picture (4096). The error is the root of the mean square over the film,
+ * relative to the mean of the reference. The pictures of each study, in the order of its rows,
+ * stand side by side in build/study/STUDY.png; the last is the reference.
  */
 #include <math.h>
 #include <stdio.h>
@@ -105,7 +106,8 @@ static void compare_direct(comparison *c)
 
 static void compare_kernels(comparison *c)
 {
-    static const char *const kernels[] = {"epanechnikov", "box", "cone", "gaussian", "silverman", "gaussian-jensen"};
+    static const char *const kernels[] = {"epanechnikov", "box",       "cone",
+                                          "gaussian",     "silverman", "gaussian-jensen"};
     rt_render_options options = photon_options(c);
     options.direct = RT_DIRECT_PHOTONS;
     heading("kernel, all light");
@@ -141,7 +143,10 @@ static const struct {
     const char *name;
     void (*run)(comparison *c);
 } studies[] = {
-    {"k", sweep_k},         {"paths", sweep_paths}, {"direct", compare_direct}, {"kernels", compare_kernels},
+    {"k", sweep_k},
+    {"paths", sweep_paths},
+    {"direct", compare_direct},
+    {"kernels", compare_kernels},
     {"ways", compare_ways},
 };
 enum { STUDIES = sizeof studies / sizeof *studies };
@@ -153,13 +158,16 @@ static int is_wanted(int i, const char *name)
 
 int main(int argc, char **argv)
 {
-    const char *name = argc > 1 ? argv[1] : "all", *scene = argc > 2 ? argv[2] : "scenes/box_area.rts";
+    const char *name = argc > 1 ? argv[1] : "all",
+               *scene = argc > 2 ? argv[2] : "scenes/box_area.rts";
     comparison c = {.count = 0};
     int wanted = 0;
     for (int i = 0; i < STUDIES; i++)
         wanted += is_wanted(i, name);
     if (!wanted) {
-        fprintf(stderr, "study_photons: no study '%s'; there are k, paths, direct, kernels, ways and all\n", name);
+        fprintf(stderr,
+                "study_photons: no study '%s'; there are k, paths, direct, kernels, ways and all\n",
+                name);
         return 2;
     }
     study_open(&c.s, "study_photons", scene, argc > 3 ? (uint32_t)strtoul(argv[3], NULL, 10) : 128);

@@ -12,7 +12,8 @@
 
 static void fail_run(const run *run, const char *what, const char *text)
 {
-    fail_msg("%s %s\nstatus %d\nstdout: %s\nstderr: %s", what, text, run->status, run->out, run->err);
+    fail_msg("%s %s\nstatus %d\nstdout: %s\nstderr: %s", what, text, run->status, run->out,
+             run->err);
 }
 
 void expect_status(const run *run, int status)

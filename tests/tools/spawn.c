@@ -108,13 +108,13 @@ static run run_line(FILE *in, char *line)
 }
 
 /* Declares line: the text that format and the arguments after it make. */
-#define FORMAT_LINE(line, format)                                                                                      \
-    char line[LONGEST_LINE];                                                                                           \
-    do {                                                                                                               \
-        va_list args;                                                                                                  \
-        va_start(args, format);                                                                                        \
-        assert_true(vsnprintf(line, sizeof line, format, args) < LONGEST_LINE);                                        \
-        va_end(args);                                                                                                  \
+#define FORMAT_LINE(line, format)                                                                  \
+    char line[LONGEST_LINE];                                                                       \
+    do {                                                                                           \
+        va_list args;                                                                              \
+        va_start(args, format);                                                                    \
+        assert_true(vsnprintf(line, sizeof line, format, args) < LONGEST_LINE);                    \
+        va_end(args);                                                                              \
     } while (0)
 
 run run_rtc(const char *format, ...)

@@ -12,24 +12,30 @@ typedef struct run {
     char *err;
 } run;
 
-/* Finds build/rtc from the current directory, before a test leaves it. Returns 0, or -1 after saying so. */
+/*
+ * Finds build/rtc from the current directory, before a test leaves it. Returns 0, or -1 after
+ * saying so.
+ */
 int spawn_find_rtc(void);
 
 /*
- * Runs `rtc` with a line of words apart by single spaces, as printf makes it. Words that hold an equals
- * sign and stand before a word "rtc" are set in the environment: "NO_COLOR=1 rtc check a.rts". Fails the
- * test when it cannot be started. Free with run_free.
+ * Runs `rtc` with a line of words apart by single spaces, as printf makes it. Words that hold an
+ * equals sign and stand before a word "rtc" are set in the environment: "NO_COLOR=1 rtc check
+ * a.rts". Fails the test when it cannot be started. Free with run_free.
  */
 run run_rtc(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void run_free(run *run);
 
 /* The same with this text, of length bytes, on stdin. */
-run run_rtc_input(const char *input, size_t length, const char *format, ...) __attribute__((format(printf, 3, 4)));
+run run_rtc_input(const char *input, size_t length, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* The same with stdout going to the file at path; out is then empty. */
 run run_rtc_to(const char *path, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Runs rtc to its end with a terminal on stdin, stdout and stderr; all that it writes comes as out. */
+/*
+ * Runs rtc to its end with a terminal on stdin, stdout and stderr; all that it writes comes as out.
+ */
 run run_rtc_terminal(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* A run that is under way: what it writes on stderr can be read from the descriptor err. */

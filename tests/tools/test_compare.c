@@ -53,7 +53,9 @@ static void results_are_lines_on_stdout(void **state)
     assert_true(stats_number(&run, "relmse") == 0.240385);
     assert_true(stats_number(&run, "ratio") == 1.5);
     assert_true(stats_number(&run, "blocks off") == 1);
-    expect_out(&run, "worst block: at 0 0, channel R, 0.75 for 0.5, ratio 1.5 +- 0, 50 of what is allowed\n");
+    expect_out(
+        &run,
+        "worst block: at 0 0, channel R, 0.75 for 0.5, ratio 1.5 +- 0, 50 of what is allowed\n");
     assert_string_equal(run.err, "");
     run_free(&run);
 }
@@ -63,11 +65,16 @@ static void results_are_json_when_asked(void **state)
     (void)state;
     run run = run_rtc("compare a.exr b.pfm --json --max-rmse 0.2 --max-off=1");
     expect_status(&run, 1);
-    assert_memory_equal(run.out, "{\"images\":[\"a.exr\"],\"reference\":\"b.pfm\",\"layer\":null,\"width\":16,", 61);
+    assert_memory_equal(
+        run.out, "{\"images\":[\"a.exr\"],\"reference\":\"b.pfm\",\"layer\":null,\"width\":16,",
+        61);
     expect_out(&run, ",\"mse\":0.0625,\"rmse\":0.25,");
-    expect_out(&run, ",\"ratio\":1.5,\"ratio_error\":0,\"shares_photons\":[false,false],\"ratio_rgb\":[1.5,1.5,1.5],");
-    expect_out(&run, ",\"limits\":[{\"option\":\"max-rmse\",\"limit\":0.2,\"measured\":0.25,\"kept\":false},"
-                     "{\"option\":\"max-off\",\"limit\":1,\"measured\":1,\"kept\":true}],\"within\":false}\n");
+    expect_out(&run, ",\"ratio\":1.5,\"ratio_error\":0,\"shares_photons\":[false,false],\"ratio_"
+                     "rgb\":[1.5,1.5,1.5],");
+    expect_out(
+        &run,
+        ",\"limits\":[{\"option\":\"max-rmse\",\"limit\":0.2,\"measured\":0.25,\"kept\":false},"
+        "{\"option\":\"max-off\",\"limit\":1,\"measured\":1,\"kept\":true}],\"within\":false}\n");
     run_free(&run);
     /* A number that JSON cannot hold, and a name that needs its escapes. */
     write_picture("\"b\\\n.pfm", 0.0f, 0.0f);
@@ -76,7 +83,8 @@ static void results_are_json_when_asked(void **state)
     expect_status(&run, 0);
     expect_out(&run, "\"reference\":\"\\\"b\\\\\\u000a.pfm\"");
     expect_out(&run, "\"ratio\":null");
-    expect_out(&run, "\"block_list\":[{\"x\":0,\"y\":0,\"width\":16,\"height\":16,\"mean\":[0,0,0],");
+    expect_out(&run,
+               "\"block_list\":[{\"x\":0,\"y\":0,\"width\":16,\"height\":16,\"mean\":[0,0,0],");
     run_free(&run);
 }
 
@@ -90,7 +98,10 @@ static void blocks_are_listed_when_asked(void **state)
     run_free(&run);
 }
 
-/* A block of one pixel has no scatter within it, so that one render does not tell its noise; two do. */
+/*
+ * A block of one pixel has no scatter within it, so that one render does not tell its noise; two
+ * do.
+ */
 static void noise_that_is_not_known_is_called_so(void **state)
 {
     (void)state;
@@ -119,17 +130,20 @@ static void photon_renders_by_themselves_are_warned_of(void **state)
                            "material white { kd 0.7 }\n"
                            "sphere { centre 0 0 0  radius 1  material white }\n"
                            "light point { position 2 4 -3  intensity 20 }\n");
-    run made[] = {run_rtc("a.rts --spp 1 --quiet --out path.exr"),
-                  run_rtc("a.rts --spp 1 --mode photon --photons 100 --quiet --aov --out 1.exr --out 1.pfm"),
-                  run_rtc("a.rts --spp 1 --mode photon --photons 100 --seed 1 --quiet --out 2.exr")};
-    run one = run_rtc("compare 1.exr path.exr --json"), two = run_rtc("compare 1.exr 2.exr path.exr --json");
+    run made[] = {
+        run_rtc("a.rts --spp 1 --quiet --out path.exr"),
+        run_rtc("a.rts --spp 1 --mode photon --photons 100 --quiet --aov --out 1.exr --out 1.pfm"),
+        run_rtc("a.rts --spp 1 --mode photon --photons 100 --seed 1 --quiet --out 2.exr")};
+    run one = run_rtc("compare 1.exr path.exr --json"),
+        two = run_rtc("compare 1.exr 2.exr path.exr --json");
     run reference = run_rtc("compare path.exr 1.exr"), other = run_rtc("compare 1.pfm path.exr");
     run layer = run_rtc("compare 1.exr 1.exr --layer albedo");
     expect_err(&one, "warning: 1.exr: the noise of one photon render is understated");
     expect_out(&one, "\"shares_photons\":[true,false]");
     assert_string_equal(two.err, "");
     expect_out(&two, "\"shares_photons\":[false,false]");
-    expect_err(&reference, "warning: 1.exr: the noise of a reference of photon mode is understated");
+    expect_err(&reference,
+               "warning: 1.exr: the noise of a reference of photon mode is understated");
     assert_string_equal(other.err, "");
     assert_string_equal(layer.err, "");
     for (int i = 0; i < 3; i++)
@@ -159,7 +173,8 @@ static void formats_of_one_render_are_equal(void **state)
                            "material white { kd 0.7 }\n"
                            "sphere { centre 0 0 0  radius 1  material white }\n"
                            "light point { position 2 4 -3  intensity 20 }\n");
-    run render = run_rtc("a.rts --spp 4 --aov --quiet --out r.exr --out r.pfm --out r.png --out r.ppm");
+    run render =
+        run_rtc("a.rts --spp 4 --aov --quiet --out r.exr --out r.pfm --out r.png --out r.ppm");
     expect_status(&render, 0);
     run_free(&render);
     static const char *const lines[] = {
@@ -232,10 +247,13 @@ static void limits_on_what_is_not_known_are_not_kept(void **state)
     run black = run_rtc("compare a.exr black.pfm --max-bias 0.5");
     expect_status(&small, 1);
     expect_out(&small, "\nssim: unknown\n");
-    assert_string_equal(small.err, "the pictures are too small for --min-ssim: 2x1 pixels, and its window has 11x11\n");
+    assert_string_equal(
+        small.err,
+        "the pictures are too small for --min-ssim: 2x1 pixels, and its window has 11x11\n");
     expect_status(&black, 1);
     expect_out(&black, "\nratio: unknown +- unknown\nratio by channel: unknown unknown unknown\n");
-    assert_string_equal(black.err, "bias is unknown, and not within --max-bias: the mean of the reference is 0\n");
+    assert_string_equal(
+        black.err, "bias is unknown, and not within --max-bias: the mean of the reference is 0\n");
     run_free(&small);
     run_free(&black);
 }
@@ -272,7 +290,8 @@ static void differences_are_written(void **state)
     assert_true(rgb[0] == 0.25f && rgb[VALUES - 1] == 0.25f);
     rt_image_destroy(image);
     assert_int_equal(rt_image_read(&image, "d.png", NULL), RT_OK);
-    assert_true(image->data[0] == 1.0f && fabs(image->data[1] - 0.5) < 0.003 && fabs(image->data[2] - 0.5) < 0.003);
+    assert_true(image->data[0] == 1.0f && fabs(image->data[1] - 0.5) < 0.003 &&
+                fabs(image->data[2] - 0.5) < 0.003);
     rt_image_destroy(image);
     run_free(&run);
 }
@@ -280,7 +299,8 @@ static void differences_are_written(void **state)
 static void scales_that_nothing_shows_are_warned_of(void **state)
 {
     (void)state;
-    run none = run_rtc("compare a.exr b.pfm --scale 1"), exr = run_rtc("compare a.exr b.pfm --scale 1 --out d.exr");
+    run none = run_rtc("compare a.exr b.pfm --scale 1"),
+        exr = run_rtc("compare a.exr b.pfm --scale 1 --out d.exr");
     run png = run_rtc("compare a.exr b.pfm --scale 1 --out d.png");
     expect_err(&none, "warning: --scale has no effect without --out to a .png or .ppm\n");
     expect_err(&exr, "warning: --scale has no effect without --out to a .png or .ppm\n");

@@ -1,4 +1,7 @@
-/* test_determinism.c - the same seed gives the same bytes of EXR, run after run, however the work is shared out. */
+/*
+ * test_determinism.c - the same seed gives the same bytes of EXR, run after run, however the work
+ * is shared out.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,24 +14,29 @@
 #include "lib/image/scratch.h"
 #include "spawn.h"
 
-/* Diffuse, mirror and glass, a point light and a lamp, a thin lens: everything that draws samples. */
-static const char scene[] = "camera { eye 0 1.5 -5  look_at 0 0.8 0  fov 45  aperture 0.05 }\n"
-                            "film { width 37  height 29 }\n"
-                            "material white { kd 0.7 }\n"
-                            "material mirror { ks 0.9 }\n"
-                            "material glass { kt 1  ior 1.5  fresnel dielectric }\n"
-                            "plane { point 0 0 0  normal 0 1 0  material white }\n"
-                            "sphere { centre -1.2 1 0  radius 1  material mirror }\n"
-                            "sphere { centre 1 1 0  radius 0.9  material glass }\n"
-                            "triangle { a -4 0 3  b 0 6 3  c 4 0 3  material white }\n"
-                            "quad { corner -1 4 -1  edge1 2 0 0  edge2 0 0 2  material white  radiance 8 }\n"
-                            "light point { position 2 4 -3  intensity 20 }\n";
+/*
+ * Diffuse, mirror and glass, a point light and a lamp, a thin lens: everything that draws samples.
+ */
+static const char scene[] =
+    "camera { eye 0 1.5 -5  look_at 0 0.8 0  fov 45  aperture 0.05 }\n"
+    "film { width 37  height 29 }\n"
+    "material white { kd 0.7 }\n"
+    "material mirror { ks 0.9 }\n"
+    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"
+    "plane { point 0 0 0  normal 0 1 0  material white }\n"
+    "sphere { centre -1.2 1 0  radius 1  material mirror }\n"
+    "sphere { centre 1 1 0  radius 0.9  material glass }\n"
+    "triangle { a -4 0 3  b 0 6 3  c 4 0 3  material white }\n"
+    "quad { corner -1 4 -1  edge1 2 0 0  edge2 0 0 2  material white  radiance 8 }\n"
+    "light point { position 2 4 -3  intensity 20 }\n";
 
 enum { RUNS = 10 };
 
 static void render(const char *mode, const char *how, const char *out)
 {
-    run run = run_rtc("a.rts --quiet --spp 5 --photons 20000 --final-gather 1 --seed 3 %s %s --out %s", mode, how, out);
+    run run =
+        run_rtc("a.rts --quiet --spp 5 --photons 20000 --final-gather 1 --seed 3 %s %s --out %s",
+                mode, how, out);
     expect_status(&run, 0);
     run_free(&run);
 }
@@ -64,7 +72,8 @@ static void a_device_of_small_work_groups_gives_the_same_bytes(void **state)
     (void)state;
     scratch_write("a.rts", scene);
     render("--mode path", "", "first.exr");
-    run run = run_rtc("POCL_MAX_WORK_GROUP_SIZE=4 rtc a.rts --quiet --spp 5 --photons 20000 --final-gather 1 --seed 3 "
+    run run = run_rtc("POCL_MAX_WORK_GROUP_SIZE=4 rtc a.rts --quiet --spp 5 --photons 20000 "
+                      "--final-gather 1 --seed 3 "
                       "--mode path --out small.exr");
     expect_status(&run, 0);
     run_free(&run);
@@ -80,8 +89,9 @@ static void photon_mode_gives_the_same_bytes(void **state)
 /* The variance is in the file, and where the render ends hangs on it. */
 static void what_is_said_of_the_error_is_the_same_bytes(void **state)
 {
-    static const char *const modes[] = {"--mode path --spp 1000 --target-error 0.3",
-                                        "--mode photon --spp 1 --photons 1000 --passes 50 --target-error 0.5"};
+    static const char *const modes[] = {
+        "--mode path --spp 1000 --target-error 0.3",
+        "--mode photon --spp 1 --photons 1000 --passes 50 --target-error 0.5"};
     (void)state;
     scratch_write("a.rts", scene);
     for (int i = 0; i < 2; i++) {

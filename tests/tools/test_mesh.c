@@ -1,4 +1,7 @@
-/* test_mesh.c - `rtc mesh`: the surfaces are closed, smooth, of the size asked for and the same in each run. */
+/*
+ * test_mesh.c - `rtc mesh`: the surfaces are closed, smooth, of the size asked for and the same in
+ * each run.
+ */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -31,7 +34,8 @@ static rt_mesh *make(const char *kind, unsigned triangles)
     expect_status(&run, 0);
     if (rt_mesh_load(&mesh, "a.ply", NULL, &error) != RT_OK)
         fail_msg("%s", error.message);
-    snprintf(told, sizeof told, "a.ply: %u vertices, %u triangles\n", mesh->vertex_count, mesh->triangle_count);
+    snprintf(told, sizeof told, "a.ply: %u vertices, %u triangles\n", mesh->vertex_count,
+             mesh->triangle_count);
     assert_string_equal(run.out, told);
     run_free(&run);
     return mesh;
@@ -50,7 +54,8 @@ static double dot(const double a[3], const float b[3])
 /* Twice the area of a triangle times its normal. */
 static void area_vector(const rt_mesh *mesh, size_t triangle, double out[3])
 {
-    const float *a = corner(mesh, mesh->positions, triangle, 0), *b = corner(mesh, mesh->positions, triangle, 1);
+    const float *a = corner(mesh, mesh->positions, triangle, 0),
+                *b = corner(mesh, mesh->positions, triangle, 1);
     const float *c = corner(mesh, mesh->positions, triangle, 2);
     double e[3], f[3];
     for (int i = 0; i < 3; i++) {
@@ -122,7 +127,10 @@ static int is_same(const float *a, const float *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Each edge from a to b is met by exactly one from b to a: no gap at the seams and poles, to the bit. */
+/*
+ * Each edge from a to b is met by exactly one from b to a: no gap at the seams and poles, to the
+ * bit.
+ */
 static void closed_surfaces_have_no_seam(void **state)
 {
     (void)state;

@@ -1,4 +1,7 @@
-/* test_photons.c - `rtc photons` and --photon-map: maps made, joined, looked at, exported and rendered with. */
+/*
+ * test_photons.c - `rtc photons` and --photon-map: maps made, joined, looked at, exported and
+ * rendered with.
+ */
 #include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,14 +18,16 @@
 #include "lib/image/scratch.h"
 #include "spawn.h"
 
-/* A closed box with a glass ball under a lamp, and a light far too weak for its share of the paths. */
-#define SCENE                                                                                                          \
-    "camera { eye 0 0 0.9  look_at 0 0 0  fov 80 }\n"                                                                  \
-    "film { width 16  height 16 }\n"                                                                                   \
-    "material wall { kd 0.6 }\n"                                                                                       \
-    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                                           \
-    "sphere { centre 0 0 0  radius 1  material wall }\n"                                                               \
-    "sphere { centre 0 -0.3 0  radius 0.3  material glass }\n"                                                         \
+/*
+ * A closed box with a glass ball under a lamp, and a light far too weak for its share of the paths.
+ */
+#define SCENE                                                                                      \
+    "camera { eye 0 0 0.9  look_at 0 0 0  fov 80 }\n"                                              \
+    "film { width 16  height 16 }\n"                                                               \
+    "material wall { kd 0.6 }\n"                                                                   \
+    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                       \
+    "sphere { centre 0 0 0  radius 1  material wall }\n"                                           \
+    "sphere { centre 0 -0.3 0  radius 0.3  material glass }\n"                                     \
     "quad { corner -0.2 0.7 -0.2  edge1 0.4 0 0  edge2 0 0 0.4  material wall  power 5 }\n"
 
 static void succeed(const char *line)
@@ -46,8 +51,10 @@ static void parts_merge_into_the_same_file(void **state)
     (void)state;
     succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out whole.rtp");
     succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out 1.rtp --part 1/3");
-    succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out 2.rtp --part 2/3 --threads 1");
-    succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out 3.rtp --part 3/3 --work-group 7");
+    succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out 2.rtp --part 2/3 "
+            "--threads 1");
+    succeed("photons a.rts --photons 3000 --caustic-photons 1000 --quiet --out 3.rtp --part 3/3 "
+            "--work-group 7");
     succeed("photons merge 3.rtp 1.rtp 2.rtp --out merged.rtp");
     expect_same_files("whole.rtp", "merged.rtp");
     expect_different_files("1.rtp", "2.rtp");
@@ -56,14 +63,16 @@ static void parts_merge_into_the_same_file(void **state)
 static void info_says_what_a_map_holds(void **state)
 {
     (void)state;
-    run made = run_rtc("photons a.rts --photons 3000 --caustic-photons 1000 --seed 9 --stats --quiet --out a.rtp");
+    run made = run_rtc(
+        "photons a.rts --photons 3000 --caustic-photons 1000 --seed 9 --stats --quiet --out a.rtp");
     run info = run_rtc("photons info a.rtp");
     expect_status(&made, 0);
     expect_status(&info, 0);
     assert_string_equal(made.out, info.out);
     assert_true(stats_number(&info, "global photon paths") == 3000 &&
                 stats_number(&info, "caustic photon paths") == 1000);
-    assert_true(stats_number(&info, "global photons") > 1000 && stats_number(&info, "caustic photons") > 50);
+    assert_true(stats_number(&info, "global photons") > 1000 &&
+                stats_number(&info, "caustic photons") > 50);
     expect_out(&info, "direct light: left to shadow rays");
     expect_out(&info, "global range: paths 0 to 2999 of seed 9, ");
     expect_out(&info, "ledger light 0 (shape 2): 3000 paths, power 5, emitted 5 = absorbed ");
@@ -77,7 +86,8 @@ static void diff_tells_equal_maps_from_others(void **state)
         const char *options, *says;
     } others[] = {
         {"--photons 999", "only in the first"},
-        {"--photons 999", "ledger light 0 (shape 2): 1000 and 999 paths, share 1 and 1, emitted 5 and 5, absorbed "},
+        {"--photons 999",
+         "ledger light 0 (shape 2): 1000 and 999 paths, share 1 and 1, emitted 5 and 5, absorbed "},
         {"--photons 1000 --seed 1", "0 equal, 0 changed"},
         {"--photons 1000 --max-depth 4", "longest path: 16 and 4"},
         {"--photons 1000 --direct photons", "direct light in the map: 0 and 1"},
@@ -108,14 +118,17 @@ static void results_are_json_when_asked(void **state)
     run made = run_rtc("photons a.rts --photons 1000 --seed 9 --quiet --stats --json --out a.rtp");
     run info = run_rtc("photons info a.rtp --json");
     succeed("photons a.rts --photons 999 --seed 9 --quiet --out b.rtp");
-    run same = run_rtc("photons diff a.rtp a.rtp --json"), other = run_rtc("photons diff a.rtp b.rtp --json");
+    run same = run_rtc("photons diff a.rtp a.rtp --json"),
+        other = run_rtc("photons diff a.rtp b.rtp --json");
     assert_memory_equal(info.out, "{\"map\":\"a.rtp\",\"scene\":\"", 24);
     assert_string_equal(made.out, info.out);
     expect_out(&info, ",\"direct\":\"nee\",\"sampler\":\"sobol\",\"max_depth\":16,\"rejected\":0,"
                       "\"global\":{\"paths\":1000,");
     expect_out(&info, ",\"ranges\":[{\"first\":0,\"count\":1000,\"photons\":");
-    expect_out(&info, ",\"seed\":9}]},"
-                      "\"ledger\":[{\"shape\":2,\"paths\":1000,\"share\":1,\"power\":[5,5,5],\"emitted\":[");
+    expect_out(
+        &info,
+        ",\"seed\":9}]},"
+        "\"ledger\":[{\"shape\":2,\"paths\":1000,\"share\":1,\"power\":[5,5,5],\"emitted\":[");
     assert_null(strstr(info.out, "\"caustic\":{"));
     expect_status(&same, 0);
     expect_out(&same, "{\"maps\":[\"a.rtp\",\"a.rtp\"],\"same_scene\":true,\"same_settings\":true,"
@@ -137,10 +150,14 @@ static void results_are_json_when_asked(void **state)
 /* A difference that could not be told is a failure, not the answer that there is one. */
 static void full_stdout_is_status_4(void **state)
 {
-    static const char *const lines[] = {
-        "photons info a.rtp", "photons diff a.rtp a.rtp", "photons diff a.rtp b.rtp", "compare a.pfm a.pfm",
-        "compare a.pfm b.pfm --max-rmse 0", "check a.rts", "a.rts --spp 1 --stats --quiet --out a.png",
-        "photons a.rts --photons 10 --stats --quiet --out c.rtp"};
+    static const char *const lines[] = {"photons info a.rtp",
+                                        "photons diff a.rtp a.rtp",
+                                        "photons diff a.rtp b.rtp",
+                                        "compare a.pfm a.pfm",
+                                        "compare a.pfm b.pfm --max-rmse 0",
+                                        "check a.rts",
+                                        "a.rts --spp 1 --stats --quiet --out a.png",
+                                        "photons a.rts --photons 10 --stats --quiet --out c.rtp"};
     (void)state;
     succeed("photons a.rts --photons 100 --quiet --out a.rtp");
     succeed("photons a.rts --photons 101 --quiet --out b.rtp");
@@ -159,12 +176,14 @@ static void maps_render_as_if_emitted(void **state)
     (void)state;
     succeed("photons a.rts --photons 5000 --caustic-photons 2000 --quiet --out a.rtp");
     succeed("a.rts --photon-map a.rtp --spp 2 --quiet --out with.pfm");
-    succeed("a.rts --mode photon --photons 5000 --caustic-photons 2000 --spp 2 --quiet --out without.pfm");
+    succeed("a.rts --mode photon --photons 5000 --caustic-photons 2000 --spp 2 --quiet --out "
+            "without.pfm");
     expect_same_files("with.pfm", "without.pfm");
     /* A map that holds direct light is used so without being asked to. */
     succeed("photons a.rts --photons 5000 --direct photons --quiet --out d.rtp");
     succeed("a.rts --photon-map d.rtp --spp 2 --quiet --out with.pfm");
-    succeed("a.rts --mode photon --direct photons --photons 5000 --spp 2 --quiet --out without.pfm");
+    succeed(
+        "a.rts --mode photon --direct photons --photons 5000 --spp 2 --quiet --out without.pfm");
     expect_same_files("with.pfm", "without.pfm");
     run run = run_rtc("a.rts --photon-map d.rtp --direct nee --spp 1 --quiet --out x.pfm");
     expect_status(&run, 2);
@@ -175,7 +194,8 @@ static void maps_render_as_if_emitted(void **state)
 /* A pipe can be read once, from its start to its end. */
 static void maps_are_read_from_pipes(void **state)
 {
-    static const char *const lines[] = {"photons info /dev/stdin", "photons export /dev/stdin --out a.ply",
+    static const char *const lines[] = {"photons info /dev/stdin",
+                                        "photons export /dev/stdin --out a.ply",
                                         "a.rts --photon-map /dev/stdin --spp 1 --out a.pfm"};
     char map[1 << 15]; /* less than a pipe holds */
     (void)state;
@@ -228,7 +248,8 @@ static void exports_are_clouds_of_points(void **state)
     run info = run_rtc("photons info a.rtp");
     run export = run_rtc("photons export a.rtp --out a.ply");
     expect_status(&export, 0);
-    snprintf(line, sizeof line, "wrote a.ply: %.0f photons of 500 paths", stats_number(&info, "global photons"));
+    snprintf(line, sizeof line, "wrote a.ply: %.0f photons of 500 paths",
+             stats_number(&info, "global photons"));
     expect_err(&export, line);
     expect_file("a.ply");
     run_free(&info);
@@ -248,7 +269,8 @@ static void broken_maps_and_places_have_their_status(void **state)
         {"a.rts --photon-map . --out a.pfm", 1, "directory"},
         {"photons info none.rtp", 1, "none.rtp: No such file"},
         {"photons diff a.rtp a.rts", 1, "no photon map"},
-        {"photons merge a.rtp a.rtp --out c.rtp", 1, "a.rtp and a.rtp: the photon maps hold the same paths"},
+        {"photons merge a.rtp a.rtp --out c.rtp", 1,
+         "a.rtp and a.rtp: the photon maps hold the same paths"},
         {"photons export a.rtp --out nowhere/a.ply", 4, "nowhere/a.ply"},
         {"photons merge a.rtp --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
         {"photons a.rts --photons 10 --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
@@ -275,8 +297,10 @@ static void starved_lights_are_told_without_verbose(void **state)
     run quiet = run_rtc("photons b.rts --photons 1000 --quiet --out b.rtp");
     run shared = run_rtc("photons b.rts --photons 1000 --light-shares 1,1 --stats --out b.rtp");
     expect_status(&loud, 0);
-    expect_err(&loud, "rtc: warning: fewer than 100 of 1000 photon paths came from a light with power, "
-                      "whose light is noisy, or missing where there are none: light 0, 1e-09 W, 0 paths; ");
+    expect_err(
+        &loud,
+        "rtc: warning: fewer than 100 of 1000 photon paths came from a light with power, "
+        "whose light is noisy, or missing where there are none: light 0, 1e-09 W, 0 paths; ");
     assert_string_equal(quiet.err, "");
     expect_no_err(&shared, "warning");
     expect_out(&shared, "ledger light 1 (shape 2): ");
@@ -290,14 +314,17 @@ static void starved_lights_are_told_without_verbose(void **state)
 static void renders_print_stats_as_json(void **state)
 {
     (void)state;
-    run photon = run_rtc("a.rts --mode photon --photons 1000 --spp 1 --quiet --stats --json --out a.pfm");
+    run photon =
+        run_rtc("a.rts --mode photon --photons 1000 --spp 1 --quiet --stats --json --out a.pfm");
     run path = run_rtc("a.rts --spp 3 --variance --quiet --stats --json --out a.exr");
     run idle = run_rtc("a.rts --spp 1 --json --out a.pfm");
     expect_status(&photon, 0);
     assert_memory_equal(photon.out, "{\"device\":\"", 11);
     expect_out(&photon, ",\"shapes\":3,");
-    expect_out(&photon, ",\"mode\":\"photon\",\"width\":16,\"height\":16,\"spp\":1,\"rejected\":0,\"replicates\":0,"
-                        "\"light_power\":5,");
+    expect_out(
+        &photon,
+        ",\"mode\":\"photon\",\"width\":16,\"height\":16,\"spp\":1,\"rejected\":0,\"replicates\":0,"
+        "\"light_power\":5,");
     expect_out(&photon, ",\"photons_emitted\":1000,");
     expect_out(&photon, ",\"ledger\":[{\"shape\":2,\"paths\":1000,");
     expect_out(&path, ",\"mode\":\"path\",\"width\":16,\"height\":16,\"spp\":3,");
@@ -316,17 +343,22 @@ static void renders_share_paths_among_lights(void **state)
 {
     (void)state;
     scratch_write("b.rts", SCENE "light point { position 0 0 0.5  power 5 }\n");
-    run told = run_rtc("b.rts --mode photon --photons 1000 --light-shares 0.25,0.75 --spp 1 --stats --out b.exr");
+    run told = run_rtc(
+        "b.rts --mode photon --photons 1000 --light-shares 0.25,0.75 --spp 1 --stats --out b.exr");
     run path = run_rtc("b.rts --light-shares 1,1 --spp 1 --out b.pfm");
     expect_status(&told, 0);
     const char *line = strstr(told.out, "ledger light 0: ");
     int paths = 0;
     assert_non_null(line);
-    /* Of 1000 paths a quarter, within five standard errors of 14; but sobol draws them more evenly. */
-    assert_true(sscanf(line, "ledger light 0: %d paths", &paths) == 1 && paths > 180 && paths < 320);
+    /*
+     * Of 1000 paths a quarter, within five standard errors of 14; but sobol draws them more evenly.
+     */
+    assert_true(sscanf(line, "ledger light 0: %d paths", &paths) == 1 && paths > 180 &&
+                paths < 320);
     rt_image *image = NULL;
     assert_int_equal(rt_image_read(&image, "b.exr", NULL), RT_OK);
-    assert_non_null(strstr(rt_image_attribute_value(image, "librt.command"), "--light-shares 0.25,0.75"));
+    assert_non_null(
+        strstr(rt_image_attribute_value(image, "librt.command"), "--light-shares 0.25,0.75"));
     rt_image_destroy(image);
     expect_err(&path, "warning: --light-shares has no effect in path mode");
     run_free(&told);

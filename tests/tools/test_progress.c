@@ -38,24 +38,31 @@ static void options_idle_beside_others_are_warned_of(void **state)
     static const struct {
         const char *idle, *says, *used;
     } cases[] = {
-        {"--mode depth --max-depth 3", "--max-depth has no effect in a mode that shows no light", "--max-depth 3"},
-        {"--mode albedo --roulette-depth 3", "--roulette-depth has no effect in a mode that", "--roulette-depth 3"},
-        {"--mode normals --estimator light", "--estimator has no effect in a mode that", "--estimator light"},
-        {"--mode photon --estimator light", "--estimator has no effect in photon mode without --final-gather",
+        {"--mode depth --max-depth 3", "--max-depth has no effect in a mode that shows no light",
+         "--max-depth 3"},
+        {"--mode albedo --roulette-depth 3", "--roulette-depth has no effect in a mode that",
+         "--roulette-depth 3"},
+        {"--mode normals --estimator light", "--estimator has no effect in a mode that",
+         "--estimator light"},
+        {"--mode photon --estimator light",
+         "--estimator has no effect in photon mode without --final-gather",
          "--mode photon --estimator light --final-gather 1"},
-        {"--mode photon --roulette-threshold 1", "--roulette-threshold has no effect in photon mode without",
+        {"--mode photon --roulette-threshold 1",
+         "--roulette-threshold has no effect in photon mode without",
          "--mode photon --roulette-threshold 1 --final-gather 1"},
         {"--mode photon --caustic-k 9", "--caustic-k has no effect without --caustic-photons",
          "--mode photon --caustic-k 9 --caustic-photons 500"},
         {"--mode photon --kernel cone --area hull", "--kernel has no effect with --area hull",
          "--mode photon --kernel cone"},
-        {"--mode photon --kernel cone --cone-k 2 --area hull", "--cone-k has no effect without --kernel cone, or with",
+        {"--mode photon --kernel cone --cone-k 2 --area hull",
+         "--cone-k has no effect without --kernel cone, or with",
          "--mode photon --kernel cone --cone-k 2"},
         {"--mode photon --cone-k 2", "--cone-k has no effect without --kernel cone",
          "--mode photon --cone-k 2 --caustic-photons 500 --caustic-kernel cone"},
-        {"--mode photon --alpha 0.5", "--alpha has no effect without --passes", "--mode photon --alpha 0.5 --passes 2"},
-        {"--mode photon --k 9 --passes 2 --radius 0.5", "--k has no effect with --passes and --radius",
-         "--mode photon --k 9 --passes 2"},
+        {"--mode photon --alpha 0.5", "--alpha has no effect without --passes",
+         "--mode photon --alpha 0.5 --passes 2"},
+        {"--mode photon --k 9 --passes 2 --radius 0.5",
+         "--k has no effect with --passes and --radius", "--mode photon --k 9 --passes 2"},
     };
     (void)state;
     scratch_write("a.rts", small_scene);
@@ -73,19 +80,24 @@ static void options_idle_beside_others_are_warned_of(void **state)
     }
 }
 
-/* Layers go to an .exr; what the scene turns on by itself is no mistake of who types another name. */
+/*
+ * Layers go to an .exr; what the scene turns on by itself is no mistake of who types another name.
+ */
 static void layers_without_a_place_are_warned_of(void **state)
 {
-    static const char *const options[] = {"--aov", "--variance", "--mode photon --photons 1000 --photon-layers"},
-                             *const says[] = {"warning: --aov has no effect without an .exr",
-                                              "warning: --variance adds no layer without an .exr",
-                                              "warning: --photon-layers has no effect without an .exr"};
+    static const char *const options[] = {"--aov", "--variance",
+                                          "--mode photon --photons 1000 --photon-layers"},
+                             *const says[] = {
+                                 "warning: --aov has no effect without an .exr",
+                                 "warning: --variance adds no layer without an .exr",
+                                 "warning: --photon-layers has no effect without an .exr"};
     (void)state;
     scratch_write("a.rts", small_scene);
     for (size_t i = 0; i < sizeof says / sizeof *says; i++) {
         run png = run_rtc("a.rts --spp 8 %s --out a.png --out a.pfm", options[i]);
         run exr = run_rtc("a.rts --spp 8 %s --out a.png --out a.exr", options[i]);
-        run off = run_rtc("a.rts --spp 8 %s --no-aov --no-variance --no-photon-layers --out a.png", options[i]);
+        run off = run_rtc("a.rts --spp 8 %s --no-aov --no-variance --no-photon-layers --out a.png",
+                          options[i]);
         expect_status(&png, 0);
         expect_err(&png, says[i]);
         expect_no_err(&exr, "warning");
@@ -97,10 +109,11 @@ static void layers_without_a_place_are_warned_of(void **state)
 }
 
 /* A scene without light, seen from inside of a ball of glass. */
-static const char dark_scene[] = "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
-                                 "material glass { kt 1 }\nmaterial white { kd 1 }\n"
-                                 "sphere { centre 0 0 0  radius 1  material white }\n"
-                                 "sphere { centre 0 0 -4  radius 1  material glass }\n";
+static const char dark_scene[] =
+    "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
+    "material glass { kt 1 }\nmaterial white { kd 1 }\n"
+    "sphere { centre 0 0 0  radius 1  material white }\n"
+    "sphere { centre 0 0 -4  radius 1  material glass }\n";
 
 /* Notes are for a check alone; a render warns where its mode shows light. */
 static void what_would_be_black_is_warned_of(void **state)
@@ -111,7 +124,8 @@ static void what_would_be_black_is_warned_of(void **state)
     expect_status(&run, 0);
     expect_err(&run, "dark.rts: warning: the scene has no light: its picture is black\n");
     expect_err(&run, "dark.rts:1:1: note: the camera is inside a transparent sphere\n"
-                     "    camera { eye 0 0 -4  look_at 0 0 0 }\n    ^~~~~~\n  hint: the sphere is at dark.rts:6\n");
+                     "    camera { eye 0 0 -4  look_at 0 0 0 }\n    ^~~~~~\n  hint: the sphere is "
+                     "at dark.rts:6\n");
     expect_out(&run, "; 1 warning\n");
     run_free(&run);
 
@@ -156,7 +170,8 @@ static void plain_progress_names_the_stages(void **state)
     scratch_write("a.rts", small_scene);
     run run = run_rtc("a.rts --spp 1 --mode photon --photons 1000 --out a.pfm");
     expect_status(&run, 0);
-    static const char *const stages[] = {"build   100 %", "compile 100 %", "emit    100 %", "gather  100 %"};
+    static const char *const stages[] = {"build   100 %", "compile 100 %", "emit    100 %",
+                                         "gather  100 %"};
     for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++)
         expect_err(&run, stages[i]);
     expect_no_err(&run, "\r");
@@ -174,11 +189,12 @@ static void json_progress_is_one_object_a_line(void **state)
     for (char *line = strtok(run.err, "\n"); line; line = strtok(NULL, "\n"), lines++) {
         char stage[16], remaining[32], relative[32];
         double fraction, elapsed;
-        assert_int_equal(sscanf(line,
-                                "{\"stage\":\"%15[a-z]\",\"fraction\":%lf,\"elapsed\":%lf,\"remaining\":%31[^,],"
-                                "\"error\":%31[^}]}",
-                                stage, &fraction, &elapsed, remaining, relative),
-                         5);
+        assert_int_equal(
+            sscanf(line,
+                   "{\"stage\":\"%15[a-z]\",\"fraction\":%lf,\"elapsed\":%lf,\"remaining\":%31[^,],"
+                   "\"error\":%31[^}]}",
+                   stage, &fraction, &elapsed, remaining, relative),
+            5);
         assert_true(fraction >= 0.0 && fraction <= 1.0 && elapsed >= 0.0);
         assert_int_equal(line[strlen(line) - 1], '}');
     }
@@ -187,21 +203,27 @@ static void json_progress_is_one_object_a_line(void **state)
     run_free(&run);
 }
 
-/* Fails unless every line is an object with a stage or a severity; returns how many have a severity. */
+/*
+ * Fails unless every line is an object with a stage or a severity; returns how many have a
+ * severity.
+ */
 static int expect_json_lines(char *text)
 {
     int messages = 0;
     for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
         int is_message = strncmp(line, "{\"severity\":\"", 13) == 0;
-        if ((!is_message && strncmp(line, "{\"stage\":\"", 10) != 0) || line[strlen(line) - 1] != '}' ||
-            strstr(line + 1, "{\""))
+        if ((!is_message && strncmp(line, "{\"stage\":\"", 10) != 0) ||
+            line[strlen(line) - 1] != '}' || strstr(line + 1, "{\""))
             fail_msg("no JSON object: %s", line);
         messages += is_message;
     }
     return messages;
 }
 
-/* A program reads one stream: warnings, errors with their place, hints and the last word are objects too. */
+/*
+ * A program reads one stream: warnings, errors with their place, hints and the last word are
+ * objects too.
+ */
 static void all_that_is_said_beside_json_progress_is_json(void **state)
 {
     (void)state;
@@ -216,7 +238,8 @@ static void all_that_is_said_beside_json_progress_is_json(void **state)
     scratch_write("b.rts", "camera { eye 0 0 -4  look_at 0 0 0 }\nsphear { file \"a\\b\" }\n");
     run = run_rtc("b.rts --progress json --out a.pfm");
     expect_status(&run, 1);
-    expect_err(&run, "{\"severity\":\"error\",\"file\":\"b.rts\",\"line\":2,\"column\":1,\"message\":\"");
+    expect_err(&run,
+               "{\"severity\":\"error\",\"file\":\"b.rts\",\"line\":2,\"column\":1,\"message\":\"");
     expect_err(&run, "{\"severity\":\"hint\",\"message\":\"");
     assert_true(expect_json_lines(run.err) >= 2);
     run_free(&run);
@@ -234,8 +257,9 @@ static void first_compile_keeps_reporting(void **state)
     snprintf(cache, sizeof cache, "/tmp/rtc-cache-%ld", (long)getpid());
     scratch_write("a.rts", small_scene);
     assert_int_equal(mkdir(cache, 0777), 0);
-    run run =
-        run_rtc("POCL_CACHE_DIR=%s rtc a.rts --spp 1 --mode photon --photons 1000 --progress json --out a.pfm", cache);
+    run run = run_rtc("POCL_CACHE_DIR=%s rtc a.rts --spp 1 --mode photon --photons 1000 --progress "
+                      "json --out a.pfm",
+                      cache);
     char remove[96];
     snprintf(remove, sizeof remove, "rm -rf %s", cache);
     assert_int_equal(system(remove), 0);
@@ -298,7 +322,10 @@ static void closed_stderr_does_not_end_a_render(void **state)
 
 /* ---- Interruption ----------------------------------------------------------------- */
 
-/* Starts a render that would last for hours, sends a signal once it renders, and looks at what is left. */
+/*
+ * Starts a render that would last for hours, sends a signal once it renders, and looks at what is
+ * left.
+ */
 static void interrupt_render(int signal_number, const char *options, const char *stage)
 {
     static char said[1 << 20];

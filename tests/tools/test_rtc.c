@@ -78,12 +78,16 @@ static const struct {
     {"sampler", "--spp 2", "--spp 2 --sampler independent"},
     {"photons", "--spp 2 --mode photon --photons 1000", "--spp 2 --mode photon --photons 2000"},
     {"k", "--spp 2 --mode photon --photons 1000", "--spp 2 --mode photon --photons 1000 --k 7"},
-    {"radius", "--spp 2 --mode photon --photons 1000", "--spp 2 --mode photon --photons 1000 --radius 0.05"},
-    {"kernel", "--spp 2 --mode photon --photons 1000", "--spp 2 --mode photon --photons 1000 --kernel box"},
+    {"radius", "--spp 2 --mode photon --photons 1000",
+     "--spp 2 --mode photon --photons 1000 --radius 0.05"},
+    {"kernel", "--spp 2 --mode photon --photons 1000",
+     "--spp 2 --mode photon --photons 1000 --kernel box"},
     {"cone-k", "--spp 2 --mode photon --photons 1000 --kernel cone",
      "--spp 2 --mode photon --photons 1000 --kernel cone --cone-k 2"},
-    {"direct", "--spp 2 --mode photon --photons 1000", "--spp 2 --mode photon --photons 1000 --direct photons"},
-    {"final-gather", "--spp 2 --mode photon --photons 1000", "--spp 2 --mode photon --photons 1000 --final-gather 1"},
+    {"direct", "--spp 2 --mode photon --photons 1000",
+     "--spp 2 --mode photon --photons 1000 --direct photons"},
+    {"final-gather", "--spp 2 --mode photon --photons 1000",
+     "--spp 2 --mode photon --photons 1000 --final-gather 1"},
     {"caustic-photons", "--spp 2 --mode photon --photons 1000",
      "--spp 2 --mode photon --photons 1000 --caustic-photons 2000"},
     {"caustic-k", "--spp 2 --mode photon --photons 1000 --caustic-photons 5000",
@@ -113,12 +117,14 @@ static void options_change_the_picture(void **state)
 static void density_kernels_all_differ(void **state)
 {
     (void)state;
-    static const char *const kernels[] = {"box", "cone", "gaussian", "epanechnikov", "silverman", "gaussian-jensen"};
+    static const char *const kernels[] = {"box",          "cone",      "gaussian",
+                                          "epanechnikov", "silverman", "gaussian-jensen"};
     enum { COUNT = sizeof kernels / sizeof kernels[0] };
     scratch_write("a.rts", small_scene);
     for (int i = 0; i < COUNT; i++) {
         char options[128], a[64], b[64];
-        snprintf(options, sizeof options, "--spp 1 --mode photon --photons 2000 --kernel %s", kernels[i]);
+        snprintf(options, sizeof options, "--spp 1 --mode photon --photons 2000 --kernel %s",
+                 kernels[i]);
         render_and_forget(kernels[i], options);
         snprintf(a, sizeof a, "%s.pfm", kernels[i]);
         for (int j = 0; j < i; j++) {
@@ -145,7 +151,8 @@ static void options_of_the_scene_hold_where_the_line_is_silent(void **state)
 {
     (void)state;
     char text[2000];
-    snprintf(text, sizeof text, "%srender { spp 3  seed 5  mode photon  photons 1234 }\n", small_scene);
+    snprintf(text, sizeof text, "%srender { spp 3  seed 5  mode photon  photons 1234 }\n",
+             small_scene);
     scratch_write("a.rts", text);
     run both = render("both", "");
     run over = render("over", "--spp 2 --mode path");
@@ -234,7 +241,8 @@ static void out_may_be_repeated_in_every_format(void **state)
 static void exposure_and_tonemap_change_8_bit_files_only(void **state)
 {
     (void)state;
-    static const char *const options[] = {"--exposure 0", "--exposure 1.5", "--tonemap reinhard", "--tonemap aces"};
+    static const char *const options[] = {"--exposure 0", "--exposure 1.5", "--tonemap reinhard",
+                                          "--tonemap aces"};
     scratch_write("a.rts", small_scene);
     for (int i = 0; i < 4; i++) {
         run run = run_rtc("a.rts --spp 1 --quiet %s --out %d.ppm --out %d.pfm", options[i], i, i);
@@ -277,7 +285,8 @@ static void aov_adds_layers_to_exr(void **state)
         run_free(&run);
         rt_image *image = read_image("a.exr");
         for (int i = 0; i < 4; i++)
-            assert_int_equal(rt_image_channel(image, names[i]) != RT_IMAGE_NO_CHANNEL, i == 0 || aov);
+            assert_int_equal(rt_image_channel(image, names[i]) != RT_IMAGE_NO_CHANNEL,
+                             i == 0 || aov);
         rt_image_destroy(image);
     }
 }
@@ -288,7 +297,8 @@ static void variance_is_a_layer_and_the_error_is_said(void **state)
     scratch_write("a.rts", small_scene);
     run run = run_rtc("a.rts --spp 32 --variance --stats --out a.exr");
     expect_status(&run, 0);
-    double said = stats_number(&run, "relative error"), bound = stats_number(&run, "relative error, 95 % bound");
+    double said = stats_number(&run, "relative error"),
+           bound = stats_number(&run, "relative error, 95 % bound");
     assert_true(said > 0 && bound > said && bound < 10 * said);
     assert_true(stats_number(&run, "independent sequences") == 8);
     expect_err(&run, "\nrelative error ");
@@ -305,10 +315,12 @@ static void variance_is_a_layer_and_the_error_is_said(void **state)
         for (size_t i = 0; i < (size_t)image->width * image->height; i++)
             sums[c] += image->data[i * image->channel_count + channel];
     }
-    double pixels = (double)image->width * image->height * 3, mean = (sums[0] + sums[1] + sums[2]) / pixels;
+    double pixels = (double)image->width * image->height * 3,
+           mean = (sums[0] + sums[1] + sums[2]) / pixels;
     assert_float_equal(sqrt((sums[3] + sums[4] + sums[5]) / pixels) / mean, said, 1e-4 * said);
     assert_string_equal(rt_image_attribute_value(image, "librt.replicates"), "8");
-    assert_string_equal(rt_image_attribute_value(image, "librt.command"), "rtc a.rts --spp 32 --variance");
+    assert_string_equal(rt_image_attribute_value(image, "librt.command"),
+                        "rtc a.rts --spp 32 --variance");
     rt_image_destroy(image);
 }
 
@@ -327,7 +339,8 @@ static void a_render_ends_at_the_target_error(void **state)
     expect_err(&run, "warning: the target error of 1e-07 % was not reached");
     run_free(&run);
 
-    run = run_rtc("a.rts --mode photon --passes 40 --photons 1000 --target-error 1 --stats --out a.pfm");
+    run = run_rtc(
+        "a.rts --mode photon --passes 40 --photons 1000 --target-error 1 --stats --out a.pfm");
     expect_status(&run, 0);
     assert_true(stats_number(&run, "passes") == 32);
     expect_err(&run, "of the noise alone, not of the bias");
@@ -349,11 +362,13 @@ static void a_render_ends_at_the_target_error(void **state)
 static void samples_that_are_not_finite_are_shown(void **state)
 {
     (void)state;
-    scratch_write("a.rts", "camera { projection orthographic  eye 0 1 0  look_at 0 0 0  up 0 0 1  width 1e-4 }\n"
-                           "film { width 8  height 8 }\n"
-                           "material white { kd 0.7 }\n"
-                           "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
-                           "light point { position 0 1e-6 0  intensity 1e28 }\n");
+    scratch_write(
+        "a.rts",
+        "camera { projection orthographic  eye 0 1 0  look_at 0 0 0  up 0 0 1  width 1e-4 }\n"
+        "film { width 8  height 8 }\n"
+        "material white { kd 0.7 }\n"
+        "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
+        "light point { position 0 1e-6 0  intensity 1e28 }\n");
     run run = run_rtc("a.rts --spp 64 --variance --stats --out a.pfm");
     expect_status(&run, 0);
     assert_true(stats_number(&run, "samples rejected") > 0);

@@ -1,4 +1,7 @@
-/* test_scenes.c - malformed scenes: rtc names the place and what is wrong, with status 1, and never crashes. */
+/*
+ * test_scenes.c - malformed scenes: rtc names the place and what is wrong, with status 1, and never
+ * crashes.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,22 +29,28 @@ static const struct {
 } mistakes[] = {
     {"unknown_block", "shpere { }\n", 1, 1, "did you mean 'sphere'?"},
     {"unknown_field", CAMERA "film { widht 4 }\n", 2, 8, "did you mean 'width'?"},
-    {"unknown_material", WHITE "sphere { centre 0 0 0  radius 1  material wihte }\n", 2, 43, "did you mean 'white'?"},
+    {"unknown_material", WHITE "sphere { centre 0 0 0  radius 1  material wihte }\n", 2, 43,
+     "did you mean 'white'?"},
     {"unknown_light", "light spto { position 0 0 0  intensity 1 }\n", 1, 7, "spto"},
     {"unknown_mode", "render { mode paht }\n", 1, 15, "did you mean 'path'?"},
     {"unknown_constant", "let a = 1\nfilm { width b }\n", 2, 14, "'b'"},
     {"missing_field", WHITE "sphere { centre 0 0 0  material white }\n", 2, 1, "radius"},
     {"missing_brace", "film { width 4\n", 1, 1, "}"},
     {"missing_value", "film { width }\n", 1, 8, "width"},
-    {"two_numbers_for_three", "camera { eye 0 0  look_at 0 0 0 }\n", 1, 10, "three numbers, found two"},
+    {"two_numbers_for_three", "camera { eye 0 0  look_at 0 0 0 }\n", 1, 10,
+     "three numbers, found two"},
     {"four_numbers_for_three", "camera { eye 0 0 0 0  look_at 0 0 1 }\n", 1, 20, "three numbers"},
-    {"negative_radius", WHITE "sphere { centre 0 0 0  radius -1  material white }\n", 2, 31, "from 1e-15 to 1e+15"},
-    {"zero_radius", WHITE "sphere { centre 0 0 0  radius 0  material white }\n", 2, 31, "from 1e-15 to 1e+15"},
+    {"negative_radius", WHITE "sphere { centre 0 0 0  radius -1  material white }\n", 2, 31,
+     "from 1e-15 to 1e+15"},
+    {"zero_radius", WHITE "sphere { centre 0 0 0  radius 0  material white }\n", 2, 31,
+     "from 1e-15 to 1e+15"},
     {"wide_fov", "camera { eye 0 0 0  look_at 0 0 1  fov 180 }\n", 1, 40, "180"},
     {"eye_is_look_at", "camera { eye 1 2 3  look_at 1 2 3 }\n", 1, 29, "eye"},
     {"zero_normal", WHITE "plane { point 0 0 0  normal 0 0 0  material white }\n", 2, 29, "zero"},
-    {"flat_quad", WHITE "quad { corner 0 0 0  edge1 1 0 0  edge2 2 0 0  material white }\n", 2, 41, "edge"},
-    {"flat_triangle", WHITE "triangle { a 0 0 0  b 1 1 1  c 2 2 2  material white }\n", 2, 1, "area is zero"},
+    {"flat_quad", WHITE "quad { corner 0 0 0  edge1 1 0 0  edge2 2 0 0  material white }\n", 2, 41,
+     "edge"},
+    {"flat_triangle", WHITE "triangle { a 0 0 0  b 1 1 1  c 2 2 2  material white }\n", 2, 1,
+     "area is zero"},
     {"too_reflective", "material m { kd 0.6  ks 0.6 }\n", 1, 17, "must not exceed 1"},
     {"negative_albedo", "material m { kd -0.1 }\n", 1, 17, "kd"},
     {"zero_ior", "material m { kt 1  ior 0 }\n", 1, 24, "ior"},
@@ -54,7 +63,8 @@ static const struct {
     {"double_material", WHITE WHITE, 2, 10, "white"},
     {"double_camera", CAMERA CAMERA, 2, 1, "camera"},
     {"double_field", "film { width 4  width 5 }\n", 1, 17, "width"},
-    {"power_and_intensity", "light point { position 0 0 0  intensity 1  power 1 }\n", 1, 44, "intensity"},
+    {"power_and_intensity", "light point { position 0 0 0  intensity 1  power 1 }\n", 1, 44,
+     "intensity"},
     {"stray_character", "film { width 4 } @\n", 1, 18, "@"},
     {"missing_include", "include \"nowhere.rts\"\n", 1, 10, "nowhere.rts"},
     {"include_of_itself", "include \"include_of_itself.rts\"\n", 1, 10, "include"},
@@ -68,7 +78,8 @@ static void each_mistake_is_placed_and_explained(void **state)
     for (size_t i = 0; i < sizeof mistakes / sizeof mistakes[0]; i++) {
         char file[64], place[96];
         snprintf(file, sizeof file, "%s.rts", mistakes[i].name);
-        snprintf(place, sizeof place, "%s:%d:%d: error: ", file, mistakes[i].line, mistakes[i].column);
+        snprintf(place, sizeof place, "%s:%d:%d: error: ", file, mistakes[i].line,
+                 mistakes[i].column);
         scratch_write(file, mistakes[i].text);
         run run = run_rtc("%s", file);
         expect_status(&run, 1);
@@ -85,10 +96,11 @@ static void each_mistake_is_placed_and_explained(void **state)
 static void five_mistakes_are_five_errors(void **state)
 {
     (void)state;
-    scratch_write("five.rts", "camera { eye 0 0 -4  look_at 0 0 0  fov 400 }\n"
-                              "film { widht 64 }\n" WHITE "sphere { centre 0 1 0  radius -1  material white }\n"
-                              "plane { point 0 0 0  normal 0 1 0  material whit }\n"
-                              "spere { }\n");
+    scratch_write("five.rts",
+                  "camera { eye 0 0 -4  look_at 0 0 0  fov 400 }\n"
+                  "film { widht 64 }\n" WHITE "sphere { centre 0 1 0  radius -1  material white }\n"
+                  "plane { point 0 0 0  normal 0 1 0  material whit }\n"
+                  "spere { }\n");
     run run = run_rtc("check five.rts");
     expect_status(&run, 1);
     int errors = 0;
@@ -208,10 +220,14 @@ static void scene_cut_short_anywhere_never_crashes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(each_mistake_is_placed_and_explained),      TEST(five_mistakes_are_five_errors),
-        TEST(error_in_an_included_file_names_that_file), TEST(caret_stands_under_the_place),
-        TEST(long_line_is_cut_around_the_place),         TEST(control_characters_do_not_reach_the_terminal),
-        TEST(what_is_no_scene_file_is_status_1),         TEST(binary_scene_is_status_1),
+        TEST(each_mistake_is_placed_and_explained),
+        TEST(five_mistakes_are_five_errors),
+        TEST(error_in_an_included_file_names_that_file),
+        TEST(caret_stands_under_the_place),
+        TEST(long_line_is_cut_around_the_place),
+        TEST(control_characters_do_not_reach_the_terminal),
+        TEST(what_is_no_scene_file_is_status_1),
+        TEST(binary_scene_is_status_1),
         TEST(scene_cut_short_anywhere_never_crashes),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;

@@ -48,17 +48,22 @@ static const struct {
     {"a.rts --radius -0.5", "--radius takes a number from 0 to 1e+15"},
     {"a.rts --radius 1e-999", "not '1e-999'"},
     {"a.rts --radius -0.1e-60", "not '-0.1e-60'"},
-    {"a.rts --mode photon --radius 1e-20", "--radius: radius is 1e-20 m; it must lie between 1e-15"},
+    {"a.rts --mode photon --radius 1e-20",
+     "--radius: radius is 1e-20 m; it must lie between 1e-15"},
     {"a.rts --photons 4000000001", "--photons takes a whole number from 1 to 4000000000"},
     {"a.rts --cone-k 0.9", "--cone-k takes a number from 1 to 1000000"},
-    {"a.rts --mode photon --passes 2 --alpha 0", "--alpha takes a number between 0 and 1, both excluded; not '0'"},
-    {"a.rts --mode photon --passes 2 --alpha 1", "--alpha takes a number between 0 and 1, both excluded; not '1'"},
-    {"a.rts --mode photon --passes 2 --alpha 0.9999999999", "--alpha: alpha is 1; it must lie between 0 and 1"},
+    {"a.rts --mode photon --passes 2 --alpha 0",
+     "--alpha takes a number between 0 and 1, both excluded; not '0'"},
+    {"a.rts --mode photon --passes 2 --alpha 1",
+     "--alpha takes a number between 0 and 1, both excluded; not '1'"},
+    {"a.rts --mode photon --passes 2 --alpha 0.9999999999",
+     "--alpha: alpha is 1; it must lie between 0 and 1"},
     {"a.rts --exposure ++1", "--exposure takes a number"},
     {"a.rts --exposure 1000", "--exposure takes a number"},
     {"a.rts --mode paht", "did you mean path?"},
     {"a.rts --kernel gausian", "did you mean gaussian?"},
-    {"a.rts --kernel q", "--kernel takes one of box, cone, gaussian, epanechnikov, silverman, gaussian-jensen"},
+    {"a.rts --kernel q",
+     "--kernel takes one of box, cone, gaussian, epanechnikov, silverman, gaussian-jensen"},
     {"a.rts --sampler halton", "--sampler takes one of sobol, independent"},
     {"a.rts --direct no", "--direct takes one of nee, photons"},
     {"a.rts --accel kd", "--accel takes one of bvh, none"},
@@ -99,20 +104,24 @@ static const struct {
     {"photons a.rts", "--out FILE"},
     {"photons a.rts b.rts --out m.rtp", "usage: rtc photons"},
     {"photons a.rts --out m.rtp --out n.rtp", "--out FILE"},
-    {"photons a.rts --out m.rtp --part 0/2", "--part 0/2: there is no part 0 of 2; they are counted from 1"},
+    {"photons a.rts --out m.rtp --part 0/2",
+     "--part 0/2: there is no part 0 of 2; they are counted from 1"},
     {"photons a.rts --out m.rtp --part 3/2", "--part 3/2: there is no part 3 of 2"},
     {"photons a.rts --out m.rtp --part 0/0", "--part takes"},
     {"photons a.rts --out m.rtp --part 1", "--part takes"},
     {"photons a.rts --out m.rtp --part 1/x", "--part takes"},
     {"photons a.rts --out m.rtp --light-shares 1,,2",
-     "--light-shares takes a number from 0 to 1e+15 for each light, with commas between them, as in 1,0.5,2; not "
+     "--light-shares takes a number from 0 to 1e+15 for each light, with commas between them, as "
+     "in 1,0.5,2; not "
      "'1,,2'"},
     {"a.rts --mode photon --light-shares 1,2e15", "--light-shares takes"},
     {"a.rts --mode photon --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
     {"photons a.rts --out m.rtp --light-shares 1,-2", "--light-shares takes"},
-    {"photons a.rts --out m.rtp --light-shares 1,2", "--light-shares: 2 shares for a scene of 1 light"},
+    {"photons a.rts --out m.rtp --light-shares 1,2",
+     "--light-shares: 2 shares for a scene of 1 light"},
     {"photons a.rts --out m.rtp --k 5", "`rtc photons` takes no option --k"},
-    {"photons a.rts --out m.rtp --max-depth 1e6", "--max-depth takes a whole number from 1 to 4096"},
+    {"photons a.rts --out m.rtp --max-depth 1e6",
+     "--max-depth takes a whole number from 1 to 4096"},
     {"photons info", "usage: rtc photons info"},
     {"photons info m.rtp --seed 3", "`rtc photons info` takes no option --seed"},
     {"photons info m.rtp --out a", "`rtc photons info` takes no option --out"},
@@ -173,10 +182,12 @@ static void outputs_spare_what_is_read(void **state)
     (void)state;
     scratch_write("wood.ppm", "P3 1 1 255 9 9 9\n");
     scratch_write("part.ppm", "texture wood { file \"wood.ppm\" }\n");
-    scratch_write("b.rts", "include \"part.ppm\"\n"
-                           "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
-                           "material white { kd_texture wood }\nsphere { centre 0 0 0  radius 1  material white }\n"
-                           "light point { position 2 4 -3  intensity 20 }\n");
+    scratch_write(
+        "b.rts",
+        "include \"part.ppm\"\n"
+        "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
+        "material white { kd_texture wood }\nsphere { centre 0 0 0  radius 1  material white }\n"
+        "light point { position 2 4 -3  intensity 20 }\n");
     assert_int_equal(symlink("wood.ppm", "link.ppm"), 0);
     assert_int_equal(link("b.rts", "a.pfm"), 0);
     run made = run_rtc("photons b.rts --photons 10 --out n.rtp");
@@ -196,25 +207,33 @@ static void outputs_spare_what_is_read(void **state)
     }
     assert_int_equal(scratch_count(), files);
     /* What is not read may be replaced. */
-    run first = run_rtc("b.rts --spp 1 --quiet --out c.pfm"), again = run_rtc("b.rts --spp 1 --quiet --out c.pfm");
+    run first = run_rtc("b.rts --spp 1 --quiet --out c.pfm"),
+        again = run_rtc("b.rts --spp 1 --quiet --out c.pfm");
     expect_status(&first, 0);
     expect_status(&again, 0);
     run_free(&first);
     run_free(&again);
 }
 
-/* Options that are good alone may not go together; what is at fault is called by the name that was typed. */
+/*
+ * Options that are good alone may not go together; what is at fault is called by the name that was
+ * typed.
+ */
 static void typed_options_are_named_when_the_scene_disagrees(void **state)
 {
     static const struct {
         const char *render, *options, *says;
     } cases[] = {
-        {"mode photon area hull", "--passes 4", "--passes does not go with the scene's area: the hull is"},
+        {"mode photon area hull", "--passes 4",
+         "--passes does not go with the scene's area: the hull is"},
         {"mode photon passes 4", "--area hull", "--area: the hull is"},
         {"mode photon", "--k all", "--k: to gather all photons within a radius, give the radius"},
-        {"mode photon k all radius 1", "--radius 0", "--radius does not go with the scene's k: to gather"},
-        {"mode photon gather flann", "--passes 4", "--passes does not go with the scene's gather: FLANN"},
-        {"target_error 0.1", "--spp 1", "--spp does not go with the scene's target_error: one sample"},
+        {"mode photon k all radius 1", "--radius 0",
+         "--radius does not go with the scene's k: to gather"},
+        {"mode photon gather flann", "--passes 4",
+         "--passes does not go with the scene's gather: FLANN"},
+        {"target_error 0.1", "--spp 1",
+         "--spp does not go with the scene's target_error: one sample"},
         {"", "--mode photon --variance", "--variance: the samples of one photon map"},
     };
     (void)state;
@@ -308,10 +327,11 @@ static void help_describes_every_option(void **state)
 {
     (void)state;
     static const char *const options[] = {
-        "--mode ",       "--spp ",      "--max-depth ",    "--photons ",  "--k ",       "--kernel ", "--cone-k ",
-        "--radius ",     "--direct ",   "--final-gather ", "--accel ",    "--sampler ", "--width ",  "--height ",
-        "--seed ",       "--time ",     "--out ",          "--exposure ", "--tonemap ", "--device ", "--threads ",
-        "--work-group ", "--progress ", "--stats",         "--verbose",   "--quiet",    "--help",    "--version"};
+        "--mode ",    "--spp ",    "--max-depth ", "--photons ",      "--k ",        "--kernel ",
+        "--cone-k ",  "--radius ", "--direct ",    "--final-gather ", "--accel ",    "--sampler ",
+        "--width ",   "--height ", "--seed ",      "--time ",         "--out ",      "--exposure ",
+        "--tonemap ", "--device ", "--threads ",   "--work-group ",   "--progress ", "--stats",
+        "--verbose",  "--quiet",   "--help",       "--version"};
     run run = run_rtc("--help");
     expect_status(&run, 0);
     assert_string_equal(run.err, "");
@@ -329,7 +349,8 @@ static void help_describes_every_option(void **state)
 static void each_command_has_its_help(void **state)
 {
     (void)state;
-    static const char *const commands[] = {"check", "mesh", "devices", "doctor", "photons", "compare"};
+    static const char *const commands[] = {"check",  "mesh",    "devices",
+                                           "doctor", "photons", "compare"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         char usage[64];
         snprintf(usage, sizeof usage, "usage: rtc %s", commands[i]);
@@ -354,7 +375,8 @@ static void each_form_of_photons_has_its_help(void **state)
                  {"export", "usage: rtc photons export MAP --out FILE.ply\n", 1}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        run run = run_rtc("help photons %s", cases[i].form), same = run_rtc("photons %s --help", cases[i].form);
+        run run = run_rtc("help photons %s", cases[i].form),
+            same = run_rtc("photons %s --help", cases[i].form);
         expect_status(&run, 0);
         assert_string_equal(run.out, same.out);
         assert_memory_equal(run.out, cases[i].usage, strlen(cases[i].usage));
@@ -412,9 +434,9 @@ static void check_counts_what_a_scene_holds(void **state)
 /* A pipe that none writes to would make rtc wait without end. */
 static void scenes_name_regular_files_only(void **state)
 {
-    static const char *const texts[] = {
-        "include \"pipe\"\n", "texture t { file \"pipe\" }\n", "light environment { file \"pipe\" }\n",
-        "mesh m { file \"pipe\" }\n"};
+    static const char *const texts[] = {"include \"pipe\"\n", "texture t { file \"pipe\" }\n",
+                                        "light environment { file \"pipe\" }\n",
+                                        "mesh m { file \"pipe\" }\n"};
     (void)state;
     assert_int_equal(mkfifo("pipe", 0600), 0);
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
@@ -512,7 +534,8 @@ static void options_and_fields_are_the_same(void **state)
 
 static int is_number(const rt_field *field)
 {
-    return field->type == RT_FIELD_NUMBER || field->type == RT_FIELD_INTEGER || field->type == RT_FIELD_COUNT;
+    return field->type == RT_FIELD_NUMBER || field->type == RT_FIELD_INTEGER ||
+           field->type == RT_FIELD_COUNT;
 }
 
 /* Sets a member of the options as the language would. */
@@ -538,7 +561,10 @@ static int library_takes(const rt_field *field, double value)
     return rt_render_options_check(&options, NULL) == RT_OK;
 }
 
-/* The limits that the command line tells for an option of this name; `all`: whether it takes that word too. */
+/*
+ * The limits that the command line tells for an option of this name; `all`: whether it takes that
+ * word too.
+ */
 static void typed_range(const char *name, double limits[2], int *all)
 {
     char option[64], *found;
@@ -558,8 +584,9 @@ static void typed_range(const char *name, double limits[2], int *all)
 }
 
 /*
- * The language, the command line and the library each have a table of ranges. They agree, but that 0 takes back what
- * the scene says where a command line may say so, and means the default to the library.
+ * The language, the command line and the library each have a table of ranges. They agree, but that
+ * 0 takes back what the scene says where a command line may say so, and means the default to the
+ * library.
  */
 static void ranges_are_the_same_in_language_command_and_library(void **state)
 {
@@ -577,9 +604,10 @@ static void ranges_are_the_same_in_language_command_and_library(void **state)
             int same = fabs(limits[1] - high) <= 1e-9 * high &&
                        (limits[0] == low || (limits[0] == 0 && field->type == RT_FIELD_NUMBER));
             if (!same || all != (field->type == RT_FIELD_COUNT))
-                fail_msg("%s: %g to %g on the command line, %g to %g in a scene", field->name, limits[0], limits[1],
-                         low, high);
-            int above = high < UINT32_MAX && library_takes(field, is_open ? high : high * 1.001 + 1);
+                fail_msg("%s: %g to %g on the command line, %g to %g in a scene", field->name,
+                         limits[0], limits[1], low, high);
+            int above =
+                high < UINT32_MAX && library_takes(field, is_open ? high : high * 1.001 + 1);
             int below = (low > 1 && library_takes(field, low - 1)) ||
                         (low > 0 && low < 1 && library_takes(field, low / 2));
             if (!library_takes(field, is_open ? (low + high) / 2 : high) || above || below)

@@ -1,4 +1,7 @@
-/* test_bvh.c - the tree holds every primitive once, inside its boxes, and is the same for any number of threads. */
+/*
+ * test_bvh.c - the tree holds every primitive once, inside its boxes, and is the same for any
+ * number of threads.
+ */
 #include "accel/bvh.h"
 
 #include <math.h>
@@ -106,7 +109,8 @@ static uint32_t walk_node(walk *w, uint32_t index, const float *lo, const float 
             child_hi[a] = node->bounds[3 + a][lane];
         }
         if (child == RT_NONE) {
-            assert_true(isinf(child_lo[0]) && child_lo[0] > 0 && isinf(child_hi[0]) && child_hi[0] < 0);
+            assert_true(isinf(child_lo[0]) && child_lo[0] > 0 && isinf(child_hi[0]) &&
+                        child_hi[0] < 0);
             continue;
         }
         children++;
@@ -130,8 +134,13 @@ static uint32_t walk_node(walk *w, uint32_t index, const float *lo, const float 
 static void expect_sound(const rt_bvh_input *input, uint32_t prims)
 {
     written tree = build(input, 1);
-    walk w = {&tree, input, calloc(prims + 1, sizeof(uint32_t)), calloc(input->analytic_count + 1, sizeof(uint32_t)),
-              0, 0, 0};
+    walk w = {&tree,
+              input,
+              calloc(prims + 1, sizeof(uint32_t)),
+              calloc(input->analytic_count + 1, sizeof(uint32_t)),
+              0,
+              0,
+              0};
     const uint32_t stack = walk_node(&w, 0, NULL, NULL);
     assert_true(stack <= RT_BVH_STACK);
     assert_int_equal(w.nodes, tree.counts.nodes);
@@ -147,7 +156,8 @@ static void expect_sound(const rt_bvh_input *input, uint32_t prims)
         assert_memory_equal(&other.counts, &tree.counts, sizeof tree.counts);
         assert_memory_equal(other.nodes, tree.nodes, tree.counts.nodes * sizeof *tree.nodes);
         assert_memory_equal(other.blocks, tree.blocks, tree.counts.blocks * sizeof *tree.blocks);
-        assert_memory_equal(other.analytic, tree.analytic, tree.counts.analytic * sizeof *tree.analytic);
+        assert_memory_equal(other.analytic, tree.analytic,
+                            tree.counts.analytic * sizeof *tree.analytic);
         release(&other);
     }
     free(w.seen);
@@ -280,7 +290,8 @@ static void kinds_mix(void **state)
     /* The first two entries lie at one place. */
     memcpy(entry[1].lo, entry[0].lo, sizeof entry[0].lo);
     memcpy(entry[1].hi, entry[0].hi, sizeof entry[0].hi);
-    const rt_bvh_mesh meshes[2] = {{positions[0], indices[0], 200, 0}, {positions[0], indices[200], 300, 200}};
+    const rt_bvh_mesh meshes[2] = {{positions[0], indices[0], 200, 0},
+                                   {positions[0], indices[200], 300, 200}};
     const rt_bvh_input input = {meshes, 2, quad, quads, entry, entries};
     expect_sound(&input, triangles + quads);
     const rt_bvh_input only_entries = {NULL, 0, NULL, 0, entry, 2};

@@ -1,4 +1,7 @@
-/* damage.h - feeds damaged copies of a file to a decoder, which must refuse or accept but never crash. */
+/*
+ * damage.h - feeds damaged copies of a file to a decoder, which must refuse or accept but never
+ * crash.
+ */
 #ifndef RT_TESTS_IMAGE_DAMAGE_H
 #define RT_TESTS_IMAGE_DAMAGE_H
 
@@ -10,7 +13,10 @@ typedef rt_status decoder(rt_image **out, const rt_bytes *file, const char *name
 /* Every proper prefix of file must fail with RT_ERROR_INPUT. */
 void damage_truncate(const rt_bytes *file, decoder *decode);
 
-/* Every byte, changed in several ways, may be accepted or fail with RT_ERROR_INPUT or RT_ERROR_MEMORY. */
+/*
+ * Every byte, changed in several ways, may be accepted or fail with RT_ERROR_INPUT or
+ * RT_ERROR_MEMORY.
+ */
 void damage_flip(const rt_bytes *file, decoder *decode);
 
 #endif

@@ -16,8 +16,8 @@ float exr_sample_value(int x, int y, int c)
     return (float)(1 + c + 3 * (x % 20) + 60 * (y % 20));
 }
 
-static int64_t on_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
-                        exr_stream_error_func_ptr_t fail)
+static int64_t on_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size,
+                        uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
     (void)context;
     (void)fail;
@@ -35,12 +35,12 @@ static void write_header(exr_context_t context, const exr_sample *sample)
     window.max.y = sample->y + sample->height - 1;
     centre.x = centre.y = 0.0f;
     CHECK(exr_add_part(context, NULL, sample->storage, &part));
-    CHECK(exr_initialize_required_attr(context, part, &window, &window, 1.0f, &centre, 1.0f, EXR_LINEORDER_INCREASING_Y,
-                                       sample->compression));
+    CHECK(exr_initialize_required_attr(context, part, &window, &window, 1.0f, &centre, 1.0f,
+                                       EXR_LINEORDER_INCREASING_Y, sample->compression));
     for (int c = 0; c < 3; c++) {
         int sampling = c == 2 && sample->sampling ? sample->sampling : 1;
-        CHECK(exr_add_channel(context, part, channel_names[c], sample->type, EXR_PERCEPTUALLY_LINEAR, sampling,
-                              sampling));
+        CHECK(exr_add_channel(context, part, channel_names[c], sample->type,
+                              EXR_PERCEPTUALLY_LINEAR, sampling, sampling));
     }
     if (sample->tile)
         CHECK(exr_set_tile_descriptor(context, part, (uint32_t)sample->tile, (uint32_t)sample->tile,
@@ -49,7 +49,8 @@ static void write_header(exr_context_t context, const exr_sample *sample)
 }
 
 /* Encodes the chunk whose first pixel is (x, y) of the data window. */
-static void write_chunk(exr_context_t context, const exr_sample *sample, const exr_chunk_info_t *chunk, int x, int y)
+static void write_chunk(exr_context_t context, const exr_sample *sample,
+                        const exr_chunk_info_t *chunk, int x, int y)
 {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     size_t pixel_count = (size_t)chunk->width * (size_t)chunk->height;
@@ -71,7 +72,8 @@ static void write_chunk(exr_context_t context, const exr_sample *sample, const e
         channel->user_bytes_per_element = 4;
         channel->user_pixel_stride = 4;
         channel->user_line_stride = 4 * chunk->width;
-        channel->encode_from_ptr = is_whole ? (const uint8_t *)(whole + at) : (const uint8_t *)(planes + at);
+        channel->encode_from_ptr =
+            is_whole ? (const uint8_t *)(whole + at) : (const uint8_t *)(planes + at);
     }
     CHECK(exr_encoding_choose_default_routines(context, 0, &pipeline));
     CHECK(exr_encoding_run(context, 0, &pipeline));

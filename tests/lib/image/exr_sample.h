@@ -14,7 +14,10 @@ typedef struct exr_sample {
     int sampling;            /* subsampling of channel B; 0 means 1 */
 } exr_sample;
 
-/* The value of channel c (0 R, 1 G, 2 B) at (x, y) of the data window: whole, so that every type holds it. */
+/*
+ * The value of channel c (0 R, 1 G, 2 B) at (x, y) of the data window: whole, so that every type
+ * holds it.
+ */
 float exr_sample_value(int x, int y, int c);
 
 /* The file; of a deep one, the header alone. The caller frees it. */

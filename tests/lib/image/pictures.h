@@ -1,4 +1,7 @@
-/* pictures.h - pictures that the tests of FLIP and SSIM compare, and how near their values are to be. */
+/*
+ * pictures.h - pictures that the tests of FLIP and SSIM compare, and how near their values are to
+ * be.
+ */
 #ifndef RT_TESTS_IMAGE_PICTURES_H
 #define RT_TESTS_IMAGE_PICTURES_H
 

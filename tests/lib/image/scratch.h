@@ -9,9 +9,9 @@ int scratch_enter(void **state);
 int scratch_leave(void **state);
 
 /*
- * Gives up the superuser's rights, if the test has them, until scratch_take_rights or scratch_leave.
- * A test that writes to a device does so first: code that is wrong could replace the device. Where
- * the rights cannot be given up, the test counts as skipped.
+ * Gives up the superuser's rights, if the test has them, until scratch_take_rights or
+ * scratch_leave. A test that writes to a device does so first: code that is wrong could replace the
+ * device. Where the rights cannot be given up, the test counts as skipped.
  */
 void scratch_drop_rights(void);
 void scratch_take_rights(void);

@@ -19,7 +19,8 @@ static rt_image *image_of(const float *rgb)
     return image;
 }
 
-static rt_comparison *compare_with(const float *a, const float *b, const rt_compare_options *options)
+static rt_comparison *compare_with(const float *a, const float *b,
+                                   const rt_compare_options *options)
 {
     rt_image *x = image_of(a), *y = image_of(b);
     const rt_image *renders[1] = {x};
@@ -73,7 +74,8 @@ static void equal_pictures_differ_in_nothing(void **state)
     assert_int_equal(info.width, WIDTH);
     assert_int_equal(info.height, HEIGHT);
     assert_true(info.mse == 0.0 && info.rmse == 0.0 && info.relmse == 0.0 && info.typical == 0.0);
-    assert_true(info.ratio == 1.0 && info.ratio_error == 0.0 && info.ssim == 1.0 && info.flip == 0.0);
+    assert_true(info.ratio == 1.0 && info.ratio_error == 0.0 && info.ssim == 1.0 &&
+                info.flip == 0.0);
     assert_int_equal(info.blocks, 6);
     assert_int_equal(info.off, 0);
 }
@@ -205,7 +207,8 @@ static rt_image *image_with_variance(float value, float variance)
 static void known_variance_is_the_noise(void **state)
 {
     (void)state;
-    rt_image *a = image_with_variance(0.54f, 0.03f), *b = image_with_variance(0.5f, 0.01f), *plain = NULL;
+    rt_image *a = image_with_variance(0.54f, 0.03f), *b = image_with_variance(0.5f, 0.01f),
+             *plain = NULL;
     rt_comparison *comparison = NULL;
     rt_comparison_info info;
     float rgb[VALUES];
@@ -213,7 +216,9 @@ static void known_variance_is_the_noise(void **state)
     fill(rgb, 0.5f);
     plain = image_of(rgb);
     const rt_image *one[1] = {a}, *two[2] = {a, a};
-    /* A difference of 0.04 with a standard error of 0.2 / 16, in the smaller blocks below 0.2 / 11. */
+    /*
+     * A difference of 0.04 with a standard error of 0.2 / 16, in the smaller blocks below 0.2 / 11.
+     */
     assert_int_equal(rt_image_compare(&comparison, one, 1, b, NULL, NULL), RT_OK);
     rt_comparison_get_info(comparison, &info);
     assert_close(rt_comparison_blocks(comparison, &count)[0].error[1], 0.2 / 16.0, 1e-6);
@@ -238,7 +243,8 @@ static void known_variance_is_the_noise(void **state)
 static void layers_are_found_by_name(void **state)
 {
     (void)state;
-    static const char *const names[] = {"A", "B", "G", "R", "n.Z", "n.Y", "n.X", "depth.Z", "a.b.R"};
+    static const char *const names[] = {"A",   "B",   "G",       "R",    "n.Z",
+                                        "n.Y", "n.X", "depth.Z", "a.b.R"};
     rt_image *image = NULL;
     rt_error error;
     float rgb[3];
@@ -277,7 +283,10 @@ static void formats_of_one_picture_agree(void **state)
         rt_image_destroy(copy);
         if (i < 2)
             assert_memory_equal(a, b, sizeof a);
-        /* Half a step of 1/255; the sRGB curve is nowhere steeper than 2.4 / 1.055 in linear values. */
+        /*
+         * Half a step of 1/255; the sRGB curve is nowhere steeper than 2.4 / 1.055 in linear
+         * values.
+         */
         for (size_t k = 0; k < VALUES; k++)
             assert_true(fabs(a[k] - b[k]) <= 0.5 / 255.0 * 2.4 / 1.055 * 1.001);
     }
@@ -313,9 +322,12 @@ static void the_difference_is_signed_and_coloured(void **state)
     rt_comparison_get_info(comparison, &info);
     assert_close(info.typical, 0.25, 0.01);
 
-    assert_int_equal(rt_comparison_write_difference(comparison, "missing/d.png", 0.0, NULL), RT_ERROR_OUTPUT);
-    assert_int_equal(rt_comparison_write_difference(comparison, "d.tiff", 0.0, NULL), RT_ERROR_USAGE);
-    assert_int_equal(rt_comparison_write_difference(comparison, "d.png", -1.0, NULL), RT_ERROR_USAGE);
+    assert_int_equal(rt_comparison_write_difference(comparison, "missing/d.png", 0.0, NULL),
+                     RT_ERROR_OUTPUT);
+    assert_int_equal(rt_comparison_write_difference(comparison, "d.tiff", 0.0, NULL),
+                     RT_ERROR_USAGE);
+    assert_int_equal(rt_comparison_write_difference(comparison, "d.png", -1.0, NULL),
+                     RT_ERROR_USAGE);
     rt_comparison_destroy(comparison);
 }
 
@@ -328,17 +340,24 @@ static void what_cannot_be_compared_is_refused(void **state)
     rt_error error;
     assert_int_equal(rt_image_from_rgb(&turned, rgb, HEIGHT, WIDTH, NULL), RT_OK);
     const rt_image *renders[2] = {image, turned};
-    assert_int_equal(rt_image_compare(&comparison, renders, 2, image, NULL, &error), RT_ERROR_INPUT);
+    assert_int_equal(rt_image_compare(&comparison, renders, 2, image, NULL, &error),
+                     RT_ERROR_INPUT);
     assert_string_equal(error.message, "image 2 has 24x40 pixels but the reference 40x24");
-    assert_int_equal(rt_image_compare(&comparison, renders, 0, image, NULL, &error), RT_ERROR_USAGE);
-    static const rt_compare_options bad[] = {
-        {.tolerance = -0.1}, {.tolerance = NAN}, {.tolerance = 1.5}, {.exposure = INFINITY}, {.exposure = NAN}};
+    assert_int_equal(rt_image_compare(&comparison, renders, 0, image, NULL, &error),
+                     RT_ERROR_USAGE);
+    static const rt_compare_options bad[] = {{.tolerance = -0.1},
+                                             {.tolerance = NAN},
+                                             {.tolerance = 1.5},
+                                             {.exposure = INFINITY},
+                                             {.exposure = NAN}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        assert_int_equal(rt_image_compare(&comparison, renders, 1, image, &bad[i], &error), RT_ERROR_USAGE);
+        assert_int_equal(rt_image_compare(&comparison, renders, 1, image, &bad[i], &error),
+                         RT_ERROR_USAGE);
         assert_string_equal(error.field, i < 3 ? "tolerance" : "exposure");
     }
     rt_compare_options missing = {.layer = "albedo"};
-    assert_int_equal(rt_image_compare(&comparison, renders, 1, image, &missing, &error), RT_ERROR_INPUT);
+    assert_int_equal(rt_image_compare(&comparison, renders, 1, image, &missing, &error),
+                     RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "the reference has no layer 'albedo'"));
     assert_null(comparison);
     rt_image_destroy(image);

@@ -24,7 +24,9 @@ static double noise(uint64_t *state)
     return -log(1.0 - uniform(state)) - 1.0;
 }
 
-/* A picture with a slope and an edge, times `scale`, with noise of relative deviation `deviation`. */
+/*
+ * A picture with a slope and an edge, times `scale`, with noise of relative deviation `deviation`.
+ */
 static float *picture(double scale, double deviation, uint64_t seed)
 {
     float *rgb = malloc(VALUES * sizeof *rgb);
@@ -45,8 +47,12 @@ typedef struct result {
     double reference, error, excess;
 } result;
 
-/* Renders of SIDE x SIDE against a reference of that size; a tolerance of almost 0 leaves the noise alone. */
-static result compare_renders(const float *const *renders, size_t count, const float *reference, double tolerance)
+/*
+ * Renders of SIDE x SIDE against a reference of that size; a tolerance of almost 0 leaves the noise
+ * alone.
+ */
+static result compare_renders(const float *const *renders, size_t count, const float *reference,
+                              double tolerance)
 {
     rt_image *images[RENDERS_MAX] = {0}, *truth = NULL;
     rt_comparison *comparison = NULL;
@@ -57,7 +63,9 @@ static result compare_renders(const float *const *renders, size_t count, const f
     for (size_t i = 0; i < count; i++)
         expect_ok(rt_image_from_rgb(&images[i], renders[i], SIDE, SIDE, &error), &error);
     expect_ok(rt_image_from_rgb(&truth, reference, SIDE, SIDE, &error), &error);
-    expect_ok(rt_image_compare(&comparison, (const rt_image *const *)images, count, truth, &options, &error), &error);
+    expect_ok(rt_image_compare(&comparison, (const rt_image *const *)images, count, truth, &options,
+                               &error),
+              &error);
     rt_comparison_get_info(comparison, &r.info);
     const rt_image_block *block = rt_comparison_blocks(comparison, &blocks) + r.info.worst;
     assert_int_equal(blocks, (SIDE / BLOCK) * (SIDE / BLOCK));
@@ -91,8 +99,12 @@ static void equal_images_agree(void **state)
 static void the_tolerance_is_where_it_says(void **state)
 {
     (void)state;
-    float *reference = picture(1.0, 0.0, 1), *within = picture(1.009, 0.0, 1), *beyond = picture(1.011, 0.0, 1);
-    /* Without noise but with an edge inside: the plane and the edge must not pass for noise of a percent. */
+    float *reference = picture(1.0, 0.0, 1), *within = picture(1.009, 0.0, 1),
+          *beyond = picture(1.011, 0.0, 1);
+    /*
+     * Without noise but with an edge inside: the plane and the edge must not pass for noise of a
+     * percent.
+     */
     assert_int_equal(compare(within, reference, 0.01).info.off, 0);
     result result = compare(beyond, reference, 0.01);
     assert_true(result.info.off > result.info.blocks / 2);
@@ -199,7 +211,10 @@ static void shared_noise_is_measured_from_several_renders(void **state)
         renders[i] = blotchy(1.0, 10 + (uint64_t)i);
         wrong[i] = blotchy(1.06, 30 + (uint64_t)i);
     }
-    /* One render alone does not show its noise; several do, and still an error of 6 percent is seen. */
+    /*
+     * One render alone does not show its noise; several do, and still an error of 6 percent is
+     * seen.
+     */
     result alone = compare_renders(renders, 1, reference, 0.005);
     result several = compare_renders(renders, COUNT, reference, 0.005);
     result off = compare_renders(wrong, COUNT, reference, 0.005);

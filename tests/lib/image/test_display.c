@@ -36,7 +36,8 @@ static void show(uint8_t out[3], float r, float g, float b, float exposure, rt_t
     rt_image_destroy(image);
 }
 
-static void expect(float r, float g, float b, float exposure, rt_tonemap tonemap, int r8, int g8, int b8)
+static void expect(float r, float g, float b, float exposure, rt_tonemap tonemap, int r8, int g8,
+                   int b8)
 {
     uint8_t out[3];
     show(out, r, g, b, exposure, tonemap);

@@ -58,7 +58,8 @@ static void expect_same(const rt_image *a, const rt_image *b)
         uint32_t other = rt_image_channel(b, a->names[c]);
         assert_int_not_equal(other, RT_IMAGE_NO_CHANNEL);
         for (size_t i = 0; i < pixel_count; i++)
-            if (memcmp(&a->data[i * a->channel_count + c], &b->data[i * b->channel_count + other], sizeof(float)) != 0)
+            if (memcmp(&a->data[i * a->channel_count + c], &b->data[i * b->channel_count + other],
+                       sizeof(float)) != 0)
                 fail_msg("channel %s differs at pixel %zu", a->names[c], i);
     }
 }
@@ -67,8 +68,8 @@ static void every_bit_comes_back(void **state)
 {
     (void)state;
     static const char *const rgb[3] = {"R", "G", "B"};
-    static const uint32_t sizes[][2] = {{1, 1}, {3, 5}, {1, 100}, {100, 1}, {17, 16}, {16, 17}, {33, 63}, {513, 257},
-                                        {65536, 1}, {1, 65536}};
+    static const uint32_t sizes[][2] = {{1, 1},   {3, 5},   {1, 100},   {100, 1},   {17, 16},
+                                        {16, 17}, {33, 63}, {513, 257}, {65536, 1}, {1, 65536}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         rt_image *image = create(sizes[i][0], sizes[i][1], rgb, 3);
         fill_with_bits(image, 42);
@@ -104,8 +105,9 @@ static void special_values_come_back(void **state)
 {
     (void)state;
     static const char *const y[1] = {"Y"};
-    static const uint32_t patterns[] = {0x00000000, 0x80000000, 0x00000001, 0x807fffff, 0x00800000, 0x7f7fffff,
-                                        0x7f800000, 0xff800000, 0x7fc00000, 0x7f800001, 0xffffffff};
+    static const uint32_t patterns[] = {0x00000000, 0x80000000, 0x00000001, 0x807fffff,
+                                        0x00800000, 0x7f7fffff, 0x7f800000, 0xff800000,
+                                        0x7fc00000, 0x7f800001, 0xffffffff};
     rt_image *image = create(sizeof patterns / sizeof patterns[0], 1, y, 1);
     memcpy(image->data, patterns, sizeof patterns);
     rt_bytes bytes = encode(image);
@@ -119,8 +121,10 @@ static void special_values_come_back(void **state)
 static void channels_are_bound_by_name(void **state)
 {
     (void)state;
-    static const char *const names[] = {"depth.Z", "R", "normal.X", "G", "albedo.B", "B", "albedo.R", "variance.R",
-                                        "a.name.that.is.longer.than.the.thirty-one.bytes.of.a.short.one"};
+    static const char *const names[] = {
+        "depth.Z",  "R",          "normal.X",
+        "G",        "albedo.B",   "B",
+        "albedo.R", "variance.R", "a.name.that.is.longer.than.the.thirty-one.bytes.of.a.short.one"};
     uint32_t count = sizeof names / sizeof names[0];
     rt_image *image = create(19, 35, names, count);
     for (size_t i = 0; i < (size_t)19 * 35 * count; i++)
@@ -145,7 +149,8 @@ static void attributes_come_back_in_order(void **state)
     assert_int_equal(rt_image_set_attribute(image, "scene", "K\xc3\xb6rper.rts", NULL), RT_OK);
     assert_int_equal(rt_image_set_attribute(image, "command", command, NULL), RT_OK);
     assert_int_equal(rt_image_set_attribute(image, "empty", "", NULL), RT_OK);
-    assert_int_equal(rt_image_set_attribute(image, "a", "first by name, last by order", NULL), RT_OK);
+    assert_int_equal(rt_image_set_attribute(image, "a", "first by name, last by order", NULL),
+                     RT_OK);
     rt_bytes bytes = encode(image);
     rt_image *copy = decode(&bytes);
     assert_int_equal(copy->attribute_count, image->attribute_count);
@@ -185,9 +190,10 @@ static void expect_sample(exr_sample sample)
     for (int y = 0; y < sample.height; y++)
         for (int x = 0; x < sample.width; x++)
             for (int c = 0; c < 3; c++)
-                if (image->data[3 * (y * sample.width + x) + (int)rgb[c]] != exr_sample_value(x, y, c))
-                    fail_msg("type %d compression %d storage %d: channel %d differs at (%d, %d)", sample.type,
-                             sample.compression, sample.storage, c, x, y);
+                if (image->data[3 * (y * sample.width + x) + (int)rgb[c]] !=
+                    exr_sample_value(x, y, c))
+                    fail_msg("type %d compression %d storage %d: channel %d differs at (%d, %d)",
+                             sample.type, sample.compression, sample.storage, c, x, y);
     rt_image_destroy(image);
     rt_bytes_free(&bytes);
 }
@@ -195,11 +201,13 @@ static void expect_sample(exr_sample sample)
 static void every_lossless_kind_is_read(void **state)
 {
     (void)state;
-    static const exr_compression_t compressions[] = {EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE, EXR_COMPRESSION_ZIPS,
-                                                     EXR_COMPRESSION_ZIP, EXR_COMPRESSION_PIZ};
+    static const exr_compression_t compressions[] = {EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE,
+                                                     EXR_COMPRESSION_ZIPS, EXR_COMPRESSION_ZIP,
+                                                     EXR_COMPRESSION_PIZ};
     for (size_t i = 0; i < sizeof compressions / sizeof compressions[0]; i++)
         for (int type = EXR_PIXEL_UINT; type <= EXR_PIXEL_FLOAT; type++) {
-            exr_sample sample = {EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, compressions[i], -7, 11, 41, 39, 0, 0};
+            exr_sample sample = {
+                EXR_STORAGE_SCANLINE, EXR_PIXEL_FLOAT, compressions[i], -7, 11, 41, 39, 0, 0};
             sample.type = (exr_pixel_type_t)type;
             expect_sample(sample);
             sample.storage = EXR_STORAGE_TILED;
@@ -223,7 +231,8 @@ static void expect_refused(exr_sample sample, const char *reason)
 static void deep_and_subsampled_files_are_refused(void **state)
 {
     (void)state;
-    exr_sample sample = {EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIPS, 0, 0, 8, 8, 0, 2};
+    exr_sample sample = {
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIPS, 0, 0, 8, 8, 0, 2};
     expect_refused(sample, "subsampled");
     sample.sampling = 0;
     sample.storage = EXR_STORAGE_DEEP_SCANLINE;
@@ -258,7 +267,8 @@ static void damaged_tiles_never_crash(void **state)
 static void what_is_no_exr_is_refused(void **state)
 {
     (void)state;
-    static const char *const texts[] = {"", "P6 1 1 255 abc", "v/1\x01", "v/1\x01\x02", "\x76\x2f\x31\x01"};
+    static const char *const texts[] = {"", "P6 1 1 255 abc", "v/1\x01", "v/1\x01\x02",
+                                        "\x76\x2f\x31\x01"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         rt_bytes bytes = {0};
         rt_image *image = NULL;

@@ -5,7 +5,8 @@
 #include "lib/image/pictures.h"
 #include "support.h"
 
-#define LARGEST 41.2765726 /* distance of green and blue to the power 0.7, from the formulas in float64 */
+/* distance of green and blue to the power 0.7, from the formulas in float64 */
+#define LARGEST 41.2765726
 
 static double difference(const float *a, const float *b)
 {
@@ -31,7 +32,10 @@ static void equal_pictures_do_not_differ(void **state)
     assert_true(difference(a, a) == 0.0);
 }
 
-/* Even greys have no features and no chroma: L* = 116 Y^(1/3) - 16, and small distances count by their power 0.7. */
+/*
+ * Even greys have no features and no chroma: L* = 116 Y^(1/3) - 16, and small distances count by
+ * their power 0.7.
+ */
 static void greys_differ_by_their_lightness(void **state)
 {
     (void)state;
@@ -54,10 +58,14 @@ static void green_and_blue_differ_most(void **state)
     fill(white, 1.0f, 1.0f, 1.0f);
     expect_measure(difference(green, blue), 1.0, 1e-5);
     /* Beyond 0.4 of the largest, the rest of the scale is the last twentieth. */
-    expect_measure(difference(black, white), 0.95 + 0.05 * (pow(100.0, 0.7) - 0.4 * LARGEST) / (0.6 * LARGEST), 1e-6);
+    expect_measure(difference(black, white),
+                   0.95 + 0.05 * (pow(100.0, 0.7) - 0.4 * LARGEST) / (0.6 * LARGEST), 1e-6);
 }
 
-/* Values by flip-evaluator 1.7, LDR-FLIP of linear pictures; it computes in float, where even areas have features. */
+/*
+ * Values by flip-evaluator 1.7, LDR-FLIP of linear pictures; it computes in float, where even areas
+ * have features.
+ */
 static void the_authors_program_agrees(void **state)
 {
     (void)state;

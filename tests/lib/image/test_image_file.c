@@ -99,7 +99,8 @@ static void the_content_decides_how_a_file_is_read(void **state)
         assert_int_equal(copy->is_srgb, i == 1 || i == 2);
         for (int c = 0; c < 3; c++) {
             float linear = image->data[c], found = copy->data[channels[c]];
-            assert_true(found == (copy->is_srgb ? (float)rt_srgb_quantise(linear) / 255.0f : linear));
+            assert_true(found ==
+                        (copy->is_srgb ? (float)rt_srgb_quantise(linear) / 255.0f : linear));
         }
         rt_image_destroy(copy);
     }

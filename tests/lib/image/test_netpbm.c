@@ -79,8 +79,9 @@ static void pfm_is_little_endian_from_the_bottom_left(void **state)
 static void pfm_keeps_every_bit(void **state)
 {
     (void)state;
-    static const uint32_t patterns[] = {0x00000000, 0x80000000, 0x00000001, 0x807fffff, 0x00800000, 0x3f800001,
-                                        0x7f7fffff, 0x7f800000, 0xff800000, 0x7fc00000, 0x7fc12345, 0x12345678};
+    static const uint32_t patterns[] = {0x00000000, 0x80000000, 0x00000001, 0x807fffff,
+                                        0x00800000, 0x3f800001, 0x7f7fffff, 0x7f800000,
+                                        0xff800000, 0x7fc00000, 0x7fc12345, 0x12345678};
     rt_image *image = NULL, *copy = NULL;
     rt_bytes bytes = {0};
     assert_int_equal(rt_image_create(&image, 2, 2, brg, 3, NULL), RT_OK);
@@ -90,7 +91,8 @@ static void pfm_keeps_every_bit(void **state)
     for (int c = 0; c < 3; c++) {
         uint32_t channel = rt_image_channel(copy, brg[c]);
         for (int i = 0; i < 4; i++)
-            assert_memory_equal(&copy->data[3 * i + (int)channel], &image->data[3 * i + c], sizeof(float));
+            assert_memory_equal(&copy->data[3 * i + (int)channel], &image->data[3 * i + c],
+                                sizeof(float));
     }
     rt_image_destroy(copy);
     rt_image_destroy(image);

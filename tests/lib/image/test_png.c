@@ -75,7 +75,9 @@ static void pixels_come_back_at_every_size(void **state)
     check_size(333, 101);
 }
 
-/* The value of sRGB code 0 to 255 nearest to a linear one, by search over the standard's inverse. */
+/*
+ * The value of sRGB code 0 to 255 nearest to a linear one, by search over the standard's inverse.
+ */
 static int nearest_code(double linear)
 {
     for (int code = 0; code < 255; code++) {

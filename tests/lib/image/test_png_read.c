@@ -29,7 +29,8 @@ static int samples_of(const form *f)
 /* The code of a sample, of a pattern that has every code and no period of a small power of two. */
 static unsigned code_at(const form *f, uint32_t x, uint32_t y, int sample)
 {
-    unsigned code = (x * 2654435761u + y * 40503u * 65537u + (unsigned)sample * 977u * 65539u) >> (32 - f->depth);
+    unsigned code = (x * 2654435761u + y * 40503u * 65537u + (unsigned)sample * 977u * 65539u) >>
+                    (32 - f->depth);
     return f->colour_type == PNG_COLOR_TYPE_PALETTE ? code % (unsigned)f->palette_size : code;
 }
 
@@ -66,9 +67,15 @@ static void write_chunks(png_structp png, png_infop info, const form *f)
     png_color palette[256];
     png_byte alpha[2] = {0, 128};
     png_color_16 transparent = {0, 1, 1, 1, 1};
-    png_text comment = {PNG_TEXT_COMPRESSION_zTXt, "Comment", "compressed, compressed, compressed", 34, 0, NULL, NULL};
-    png_set_IHDR(png, info, f->width, f->height, f->depth, f->colour_type, f->interlace, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_text comment = {PNG_TEXT_COMPRESSION_zTXt,
+                        "Comment",
+                        "compressed, compressed, compressed",
+                        34,
+                        0,
+                        NULL,
+                        NULL};
+    png_set_IHDR(png, info, f->width, f->height, f->depth, f->colour_type, f->interlace,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     for (unsigned i = 0; i < 256; i++)
         palette[i] = palette_at(i);
     if (f->colour_type == PNG_COLOR_TYPE_PALETTE)
@@ -98,7 +105,8 @@ static rt_bytes make_file(const form *f)
             memset(row, 0, row_size);
             for (uint32_t x = 0; x < f->width; x++)
                 for (int s = 0; s < samples_of(f); s++)
-                    put_code(row, (size_t)x * (size_t)samples_of(f) + (size_t)s, f->depth, code_at(f, x, y, s));
+                    put_code(row, (size_t)x * (size_t)samples_of(f) + (size_t)s, f->depth,
+                             code_at(f, x, y, s));
             png_write_row(png, row);
         }
     png_write_end(png, info);
@@ -134,20 +142,18 @@ static void check_form(const form *f)
         for (uint32_t x = 0; x < f->width; x++)
             for (uint32_t c = 0; c < image->channel_count; c++, value++)
                 if (*value != expected_value(f, x, y, c))
-                    fail_msg("type %d, depth %d, interlace %d, %ux%u: wrong at (%u, %u)", f->colour_type, f->depth,
-                             f->interlace, f->width, f->height, x, y);
+                    fail_msg("type %d, depth %d, interlace %d, %ux%u: wrong at (%u, %u)",
+                             f->colour_type, f->depth, f->interlace, f->width, f->height, x, y);
     rt_image_destroy(image);
     rt_bytes_free(&file);
 }
 
-static const int kinds[][2] = {{PNG_COLOR_TYPE_GRAY, 1},       {PNG_COLOR_TYPE_GRAY, 2},
-                               {PNG_COLOR_TYPE_GRAY, 4},       {PNG_COLOR_TYPE_GRAY, 8},
-                               {PNG_COLOR_TYPE_GRAY, 16},      {PNG_COLOR_TYPE_RGB, 8},
-                               {PNG_COLOR_TYPE_RGB, 16},       {PNG_COLOR_TYPE_PALETTE, 1},
-                               {PNG_COLOR_TYPE_PALETTE, 2},    {PNG_COLOR_TYPE_PALETTE, 4},
-                               {PNG_COLOR_TYPE_PALETTE, 8},    {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
-                               {PNG_COLOR_TYPE_GRAY_ALPHA, 16}, {PNG_COLOR_TYPE_RGB_ALPHA, 8},
-                               {PNG_COLOR_TYPE_RGB_ALPHA, 16}};
+static const int kinds[][2] = {
+    {PNG_COLOR_TYPE_GRAY, 1},        {PNG_COLOR_TYPE_GRAY, 2},      {PNG_COLOR_TYPE_GRAY, 4},
+    {PNG_COLOR_TYPE_GRAY, 8},        {PNG_COLOR_TYPE_GRAY, 16},     {PNG_COLOR_TYPE_RGB, 8},
+    {PNG_COLOR_TYPE_RGB, 16},        {PNG_COLOR_TYPE_PALETTE, 1},   {PNG_COLOR_TYPE_PALETTE, 2},
+    {PNG_COLOR_TYPE_PALETTE, 4},     {PNG_COLOR_TYPE_PALETTE, 8},   {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
+    {PNG_COLOR_TYPE_GRAY_ALPHA, 16}, {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {PNG_COLOR_TYPE_RGB_ALPHA, 16}};
 
 enum { kind_count = sizeof kinds / sizeof *kinds };
 

@@ -21,8 +21,8 @@ static rt_status decode(rt_image **out, const char *characters, size_t size, rt_
 }
 
 /* The codes, each over the greatest, are what a file holds. */
-static void check_codes(const char *characters, size_t size, uint32_t width, uint32_t height, uint32_t channel_count,
-                        const unsigned *codes, unsigned top)
+static void check_codes(const char *characters, size_t size, uint32_t width, uint32_t height,
+                        uint32_t channel_count, const unsigned *codes, unsigned top)
 {
     rt_image *image = NULL;
     rt_error error = {0};
@@ -38,13 +38,14 @@ static void check_codes(const char *characters, size_t size, uint32_t width, uin
     rt_image_destroy(image);
 }
 
-#define CODES(literal, width, height, channels, codes, top)                                                           \
+#define CODES(literal, width, height, channels, codes, top)                                        \
     check_codes(literal, sizeof literal - 1, width, height, channels, codes, top)
 
 static void every_kind_is_read(void **state)
 {
     static const unsigned six[] = {0, 1, 2, 253, 254, 255}, wide[] = {0, 1, 256, 258, 999, 1000};
-    static const unsigned deep[] = {0x0000, 0x00ff, 0xff00, 0x1234, 0xfffe, 0xffff}, bits[] = {1, 0, 0, 1, 1, 0};
+    static const unsigned deep[] = {0x0000, 0x00ff, 0xff00, 0x1234, 0xfffe, 0xffff},
+                          bits[] = {1, 0, 0, 1, 1, 0};
     (void)state;
     CODES("P2 3 2 255\n0 1 2 253 254 255\n", 3, 2, 1, six, 255);
     CODES("P3 2 1 255\n0 1 2 253 254 255\n", 2, 1, 3, six, 255);
@@ -61,7 +62,8 @@ static void a_comment_counts_as_if_it_were_not_there(void **state)
     static const unsigned six[] = {35, 1, 2, 253, 254, 255};
     (void)state;
     CODES("P6\n# made by hand\n1 2\n255\n#\x01\x02\xfd\xfe\xff", 1, 2, 3, six, 255);
-    CODES("P6 # one\r# two\n 1# in a number\n 2 25#here too\n5 #\x01\x02\xfd\xfe\xff", 1, 2, 3, six, 255);
+    CODES("P6 # one\r# two\n 1# in a number\n 2 25#here too\n5 #\x01\x02\xfd\xfe\xff", 1, 2, 3, six,
+          255);
     CODES("P3 1 2 255 35 1 # between\n 2 253 254 25#and inside\n5#at the end\n", 1, 2, 3, six, 255);
 }
 
@@ -138,7 +140,9 @@ static void wrong_pixels_are_refused(void **state)
     REFUSED("P2 2 1 255 1 2 3", "follows");
 }
 
-/* A short file that states a large size is refused for its length, without memory for the pixels. */
+/*
+ * A short file that states a large size is refused for its length, without memory for the pixels.
+ */
 static void promises_are_checked_before_they_are_believed(void **state)
 {
     (void)state;
@@ -150,8 +154,10 @@ static void promises_are_checked_before_they_are_believed(void **state)
 
 static void damage_never_crashes(void **state)
 {
-    static char binary[] = "P6\n#c\n2 2\n255\nabcdefghijkl", plain[] = "P3\n#c\n2 1\n999\n1 22 333#\n 44 5 6";
-    const rt_bytes files[] = {{(uint8_t *)binary, sizeof binary - 1, 0}, {(uint8_t *)plain, sizeof plain - 1, 0}};
+    static char binary[] = "P6\n#c\n2 2\n255\nabcdefghijkl",
+                plain[] = "P3\n#c\n2 1\n999\n1 22 333#\n 44 5 6";
+    const rt_bytes files[] = {{(uint8_t *)binary, sizeof binary - 1, 0},
+                              {(uint8_t *)plain, sizeof plain - 1, 0}};
     (void)state;
     for (int i = 0; i < 2; i++) {
         damage_truncate(&files[i], rt_ppm_decode);

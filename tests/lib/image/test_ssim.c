@@ -31,7 +31,8 @@ static void contrast_counts_by_the_formula(void **state)
         sum += weights[i] = exp(-0.5 * (i - 5) * (i - 5) / 2.25);
     for (int i = 0; i < 11; i += 2)
         even += weights[i] / sum;
-    double share = even * even + (1.0 - even) * (1.0 - even); /* of the kind in its middle and corners */
+    /* of the kind in its middle and corners */
+    double share = even * even + (1.0 - even) * (1.0 - even);
     for (size_t i = 0; i < VALUES; i++) {
         int odd = (int)((i / 3 % WIDTH + i / 3 / WIDTH) % 2);
         a[i] = (float)rt_srgb_decode(odd ? 0.75 : 0.25);
@@ -41,7 +42,8 @@ static void contrast_counts_by_the_formula(void **state)
     for (int kind = 0; kind < 2; kind++) {
         double p = kind ? share : 1.0 - share, mx = 0.25 + 0.5 * p, my = 0.4 + 0.2 * p;
         double vx = 0.25 * p * (1 - p), vy = 0.04 * p * (1 - p), cov = 0.1 * p * (1 - p);
-        expected += 0.5 * (2 * mx * my + 1e-4) * (2 * cov + 9e-4) / ((mx * mx + my * my + 1e-4) * (vx + vy + 9e-4));
+        expected += 0.5 * (2 * mx * my + 1e-4) * (2 * cov + 9e-4) /
+                    ((mx * mx + my * my + 1e-4) * (vx + vy + 9e-4));
     }
     expect_measure(similarity(a, b), expected, 1e-5);
 }

@@ -35,7 +35,8 @@ static void pixels_are_chosen_by_radiance_and_sine(void **state)
     assert_float_equal(integral, total / (width * height), 1e-5 * total);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            double row = marginal[y + 1] - marginal[y], pixel = conditional[y][x + 1] - conditional[y][x];
+            double row = marginal[y + 1] - marginal[y],
+                   pixel = conditional[y][x + 1] - conditional[y][x];
             assert_true(row >= 0 && pixel >= 0);
             assert_float_equal(row * pixel, weight[y][x] / total, 1e-6);
         }

@@ -132,8 +132,8 @@ void sample_refuse(const char *name, const char *text, int line, const char *par
     rt_status status = sample_read(&mesh, &s, name, &error);
     sample_free(&s);
     if (status != RT_ERROR_INPUT || error.line != line || !strstr(error.message, part))
-        fail_msg("status %d at line %d with '%s'; expected line %d with '%s'", status, error.line, error.message, line,
-                 part);
+        fail_msg("status %d at line %d with '%s'; expected line %d with '%s'", status, error.line,
+                 error.message, line, part);
 }
 
 void sample_expect_triangles(const rt_mesh *mesh, const unsigned *indices, size_t count)

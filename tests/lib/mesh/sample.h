@@ -1,4 +1,6 @@
-/* sample.h - mesh files made by the tests, in the current directory, and what reading them gives. */
+/*
+ * sample.h - mesh files made by the tests, in the current directory, and what reading them gives.
+ */
 #ifndef RT_TESTS_MESH_SAMPLE_H
 #define RT_TESTS_MESH_SAMPLE_H
 
@@ -23,7 +25,10 @@ void sample_u32(sample *s, unsigned long value, int big);
 void sample_f32(sample *s, float value, int big);
 void sample_f64(sample *s, double value, int big);
 
-/* Writes a file, reads it as a mesh and removes it. Returns the status, checking that error and mesh fit it. */
+/*
+ * Writes a file, reads it as a mesh and removes it. Returns the status, checking that error and
+ * mesh fit it.
+ */
 rt_status sample_read(rt_mesh **out, const sample *s, const char *name, rt_error *error);
 
 /* Reads text that must be a mesh. The caller destroys it. */

@@ -1,7 +1,7 @@
 /*
- * Damaged files of every format: seeds made here, changed by a fixed sequence of random edits. Whatever comes,
- * the reader accepts or refuses; it never crashes, hangs, or lets an index or a number out of range through
- * (sample_read checks that). The sequence is the same in each run.
+ * Damaged files of every format: seeds made here, changed by a fixed sequence of random edits.
+ * Whatever comes, the reader accepts or refuses; it never crashes, hangs, or lets an index or a
+ * number out of range through (sample_read checks that). The sequence is the same in each run.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,10 +27,10 @@ static uint32_t below(uint32_t limit)
 }
 
 /* What breaks readers: numbers at the edges of types, words of the formats, line ends. */
-static const char *const words[] = {"-1", "4294967295", "4294967296", "2147483648", "1e39",       "nan",
-                                    "0",  "255",        "list",       "float",      "uchar",      "element",
-                                    "\n", "\r",         "end_header", " ",          "/",          "\\\n",
-                                    "#",  "facet",      "vertex",     "property",   "1000000000", "\0"};
+static const char *const words[] = {
+    "-1",   "4294967295", "4294967296", "2147483648", "1e39",   "nan",      "0",          "255",
+    "list", "float",      "uchar",      "element",    "\n",     "\r",       "end_header", " ",
+    "/",    "\\\n",       "#",          "facet",      "vertex", "property", "1000000000", "\0"};
 
 static void replace(sample *s, size_t at, size_t gone, const void *with, size_t size)
 {
@@ -100,23 +100,30 @@ static void damage_text(const char *text, const char *name)
     sample_free(&s);
 }
 
-#define BODY                                                                                                           \
-    "comment TextureFile a b.png\nelement vertex 4\nproperty float x\nproperty float y\nproperty double z\n"           \
-    "property float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\nproperty uchar "     \
-    "red\n"                                                                                                            \
-    "property uchar green\nproperty uchar blue\nelement face 2\nproperty list uchar int vertex_indices\n"              \
-    "property list uchar float texcoord\nelement tristrips 1\nproperty list int int vertex_indices\n"
-#define CORNERS                                                                                                        \
-    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"                         \
+#define BODY                                                                                       \
+    "comment TextureFile a b.png\nelement vertex 4\nproperty float x\nproperty float y\nproperty " \
+    "double z\n"                                                                                   \
+    "property float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float "   \
+    "t\nproperty uchar "                                                                           \
+    "red\n"                                                                                        \
+    "property uchar green\nproperty uchar blue\nelement face 2\nproperty list uchar int "          \
+    "vertex_indices\n"                                                                             \
+    "property list uchar float texcoord\nelement tristrips 1\nproperty list int int "              \
+    "vertex_indices\n"
+#define CORNERS                                                                                    \
+    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"     \
     "property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
 
 static void damaged_ascii_ply(void **state)
 {
     (void)state;
-    damage_text("ply\nformat ascii 1.0\n" BODY "end_header\n0 0 0 0 0 1 0 0 255 0 0\n1 0 0 0 0 1 1 0 0 255 0\n"
-                "1 1 0 0 0 1 1 1 0 0 255\n0 1 0 0 0 1 0 1 9 9 9\n3 0 1 2 6 0 0 1 0 1 1\n4 0 1 2 3 0\n6 0 1 2 -1 3 2\n",
+    damage_text("ply\nformat ascii 1.0\n" BODY
+                "end_header\n0 0 0 0 0 1 0 0 255 0 0\n1 0 0 0 0 1 1 0 0 255 0\n"
+                "1 1 0 0 0 1 1 1 0 0 255\n0 1 0 0 0 1 0 1 9 9 9\n3 0 1 2 6 0 0 1 0 1 1\n4 0 1 2 3 "
+                "0\n6 0 1 2 -1 3 2\n",
                 "a.ply");
-    damage_text("ply\nformat ascii 1.0\n" CORNERS "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n", "a.ply");
+    damage_text("ply\nformat ascii 1.0\n" CORNERS "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n",
+                "a.ply");
 }
 
 static void damaged_binary_ply(void **state)
@@ -124,7 +131,8 @@ static void damaged_binary_ply(void **state)
     (void)state;
     for (int big = 0; big < 2; big++) {
         sample s = {0};
-        sample_text(&s, big ? "ply\nformat binary_big_endian 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
+        sample_text(&s, big ? "ply\nformat binary_big_endian 1.0\n"
+                            : "ply\nformat binary_little_endian 1.0\n");
         sample_text(&s, BODY "end_header\n");
         for (unsigned vertex = 0; vertex < 4; vertex++) {
             sample_f32(&s, (float)vertex, big);
@@ -152,7 +160,8 @@ static void damaged_binary_ply(void **state)
 static void damaged_obj(void **state)
 {
     (void)state;
-    damage_text("mtllib a\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nvt 0 0\nvt 1 1\nvn 0 0 1\n"
+    damage_text("mtllib a\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nvt 0 0\nvt "
+                "1 1\nvn 0 0 1\n"
                 "usemtl b\nf 1/1/1 2/2/1 3/1/1 4//1\nf -4 -3 \\\n -2\nf 1/2 2/1 3/1\n",
                 "a.obj");
 }
@@ -160,7 +169,8 @@ static void damaged_obj(void **state)
 static void damaged_off(void **state)
 {
     (void)state;
-    damage_text("STCNOFF\n# all\n4 2 0\n0 0 0 0 0 1 255 0 0 0 0\n1 0 0 0 0 1 0 1.0 0 1 0\n1 1 0 0 0 1 0 0 255 1 1 1\n"
+    damage_text("STCNOFF\n# all\n4 2 0\n0 0 0 0 0 1 255 0 0 0 0\n1 0 0 0 0 1 0 1.0 0 1 0\n1 1 0 0 "
+                "0 1 0 0 255 1 1 1\n"
                 "0 1 0 0 0 1 9 9 9 0 1\n4 0 1 2 3 1.0 0 0\n3 0 1 2\n",
                 "a.off");
 }
@@ -168,10 +178,11 @@ static void damaged_off(void **state)
 static void damaged_stl(void **state)
 {
     (void)state;
-    damage_text(
-        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-        "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
-        "a.stl");
+    damage_text("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+                "0\nendloop\nendfacet\n"
+                "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 "
+                "0\nendloop\nendfacet\nendsolid a\n",
+                "a.stl");
     sample s = {0};
     for (unsigned i = 0; i < 80; i++)
         sample_u8(&s, i);
@@ -188,8 +199,9 @@ static void damaged_stl(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(damaged_ascii_ply), cmocka_unit_test(damaged_binary_ply), cmocka_unit_test(damaged_obj),
-        cmocka_unit_test(damaged_off),       cmocka_unit_test(damaged_stl),
+        cmocka_unit_test(damaged_ascii_ply), cmocka_unit_test(damaged_binary_ply),
+        cmocka_unit_test(damaged_obj),       cmocka_unit_test(damaged_off),
+        cmocka_unit_test(damaged_stl),
     };
     return cmocka_run_group_tests_name("mesh/damage", tests, scratch_enter, scratch_leave);
 }

@@ -16,7 +16,9 @@
 #include "lib/image/scratch.h"
 #include "lib/mesh/sample.h"
 
-#define PLY "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+#define PLY                                                                                        \
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float " \
+    "z\n"
 #define FACE "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
 #define TRIANGLE PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
 
@@ -110,7 +112,8 @@ static void the_log_tells_what_was_left_out(void **state)
 {
     (void)state;
     static const char *const parts[] = {
-        "a.ply: 1 of 3 faces have fewer than three corners, thus no area, and are left out; the first is face 1",
+        "a.ply: 1 of 3 faces have fewer than three corners, thus no area, and are left out; the "
+        "first is face 1",
         "a.ply: 1 of 2 triangles have no area",
         "a.ply: 1 normals have no length",
         "what follows the last element, from line 20 on, is ignored",
@@ -119,11 +122,13 @@ static void the_log_tells_what_was_left_out(void **state)
     heard h = {0};
     rt_hooks hooks = {.log = on_log, .user = &h};
     rt_mesh *mesh = NULL;
-    scratch_write("a.ply",
-                  "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-                  "property float nx\nproperty float ny\nproperty float nz\nelement face 3\n"
-                  "property list uchar int vertex_indices\nend_header\n"
-                  "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 0\n9 9 9 0 0 1\n3 0 1 2\n2 0 1\n3 0 0 1\nmore\n");
+    scratch_write(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+        "float z\n"
+        "property float nx\nproperty float ny\nproperty float nz\nelement face 3\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 0\n9 9 9 0 0 1\n3 0 1 2\n2 0 1\n3 0 0 1\nmore\n");
     assert_int_equal(rt_mesh_load(&mesh, "a.ply", &hooks, NULL), RT_OK);
     rt_mesh_destroy(mesh);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
@@ -134,25 +139,32 @@ static void the_log_tells_what_was_left_out(void **state)
 static void normals_come_out_at_length_one(void **state)
 {
     (void)state;
-    /* Lengths from the least float to the greatest; the last vertex has none and belongs to no face. */
+    /*
+     * Lengths from the least float to the greatest; the last vertex has none and belongs to no
+     * face.
+     */
     static const float expected[] = {0.6f, 0, 0.8f, 0, 1, 0, -1, 0, 0, 0, 1, 0};
-    rt_mesh *mesh =
-        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                               "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n" FACE
-                               "0 0 0 3 0 4\n1 0 0 0 3e38 0\n0 1 0 -1e-45 0 0\n5 5 5 0 0 0\n3 0 1 2\n");
+    rt_mesh *mesh = sample_accept(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                 "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n" FACE
+                 "0 0 0 3 0 4\n1 0 0 0 3e38 0\n0 1 0 -1e-45 0 0\n5 5 5 0 0 0\n3 0 1 2\n");
     for (int i = 0; i < 12; i++)
         assert_true(fabsf(mesh->normals[i] - expected[i]) < 1e-6f);
     rt_mesh_destroy(mesh);
 }
 
-/* A roof: at the ridge the normal is the mean, weighted by area; far from the ridge it is the face's own. */
+/*
+ * A roof: at the ridge the normal is the mean, weighted by area; far from the ridge it is the
+ * face's own.
+ */
 static void smooth_normals_weigh_faces_by_area(void **state)
 {
     (void)state;
-    rt_mesh *mesh =
-        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
-                               "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
-                               "0 0 0\n0 1 0\n-3 0 0\n0 0 -1\n7 7 7\n3 0 1 2\n3 1 0 3\n");
+    rt_mesh *mesh = sample_accept(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n0 1 0\n-3 0 0\n0 0 -1\n7 7 7\n3 0 1 2\n3 1 0 3\n");
     rt_error error;
     assert_null(mesh->normals);
     assert_int_equal(rt_mesh_smooth(mesh, &error), RT_OK);
@@ -172,9 +184,12 @@ static void destroying_nothing_is_fine(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(formats_go_by_content_then_by_name), cmocka_unit_test(what_is_no_file_is_refused),
-        cmocka_unit_test(progress_is_reported_and_cancels),   cmocka_unit_test(the_log_tells_what_was_left_out),
-        cmocka_unit_test(normals_come_out_at_length_one),     cmocka_unit_test(smooth_normals_weigh_faces_by_area),
+        cmocka_unit_test(formats_go_by_content_then_by_name),
+        cmocka_unit_test(what_is_no_file_is_refused),
+        cmocka_unit_test(progress_is_reported_and_cancels),
+        cmocka_unit_test(the_log_tells_what_was_left_out),
+        cmocka_unit_test(normals_come_out_at_length_one),
+        cmocka_unit_test(smooth_normals_weigh_faces_by_area),
         cmocka_unit_test(destroying_nothing_is_fine),
     };
     return cmocka_run_group_tests_name("mesh/mesh", tests, scratch_enter, scratch_leave);

@@ -37,8 +37,8 @@ static void negative_indices_count_back_from_their_line(void **state)
     (void)state;
     static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0};
     static const unsigned two[] = {0, 1, 2, 3, 4, 5};
-    rt_mesh *mesh =
-        sample_accept("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf -3 -2 -1\n");
+    rt_mesh *mesh = sample_accept(
+        "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf -3 -2 -1\n");
     sample_expect_floats(mesh->positions, positions, 18);
     sample_expect_triangles(mesh, two, 2);
     rt_mesh_destroy(mesh);
@@ -49,12 +49,14 @@ static void vertices_split_where_corners_differ(void **state)
     (void)state;
     static const unsigned two[] = {0, 1, 2, 3, 2, 4};
     static const float uv[] = {0, 0, 1, 0, 1, 1, 0.5f, 0.5f, 0, 1};
-    rt_mesh *mesh = sample_accept("a.obj", SQUARE "vt 0 0\nvt 1 0 0\nvt 1 1\nvt 0 1\nvt .5 .5\nvn 0 0 2\n"
-                                                  "f 1/1/1 2/2/1 3/3/1\nf 1/5/1 3/3/-1 4/-2/1\n");
+    rt_mesh *mesh =
+        sample_accept("a.obj", SQUARE "vt 0 0\nvt 1 0 0\nvt 1 1\nvt 0 1\nvt .5 .5\nvn 0 0 2\n"
+                                      "f 1/1/1 2/2/1 3/3/1\nf 1/5/1 3/3/-1 4/-2/1\n");
     sample_expect_triangles(mesh, two, 2);
     sample_expect_floats(mesh->uv, uv, 10);
     for (int i = 0; i < 5; i++)
-        assert_true(mesh->normals[3 * i] == 0 && mesh->normals[3 * i + 1] == 0 && mesh->normals[3 * i + 2] == 1);
+        assert_true(mesh->normals[3 * i] == 0 && mesh->normals[3 * i + 1] == 0 &&
+                    mesh->normals[3 * i + 2] == 1);
     rt_mesh_destroy(mesh);
 }
 
@@ -62,7 +64,8 @@ static void a_normal_may_stand_without_texture_coordinates(void **state)
 {
     (void)state;
     static const float normals[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    rt_mesh *mesh = sample_accept("a.obj", SQUARE "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\nf 1//1 2//2 3//3\n");
+    rt_mesh *mesh =
+        sample_accept("a.obj", SQUARE "vn 1 0 0\nvn 0 1 0\nvn 0 0 1\nf 1//1 2//2 3//3\n");
     sample_expect_floats(mesh->normals, normals, 9);
     assert_null(mesh->uv);
     rt_mesh_destroy(mesh);
@@ -75,7 +78,8 @@ static void corners_without_normals_get_those_of_their_faces(void **state)
     assert_int_equal(mesh->vertex_count, 6);
     assert_true(mesh->normals[0] == 1);
     for (int i = 3; i < 6; i++)
-        assert_true(mesh->normals[3 * i] == 0 && mesh->normals[3 * i + 1] == 0 && mesh->normals[3 * i + 2] == 1);
+        assert_true(mesh->normals[3 * i] == 0 && mesh->normals[3 * i + 1] == 0 &&
+                    mesh->normals[3 * i + 2] == 1);
     rt_mesh_destroy(mesh);
 }
 
@@ -83,7 +87,8 @@ static void colours_may_follow_the_coordinates(void **state)
 {
     (void)state;
     static const float colours[] = {1, 0.5f, 0, 0, 1, 0, 0, 0, 0.25f};
-    rt_mesh *mesh = sample_accept("a.obj", "v 0 0 0 1 .5 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 .25\nf 1 2 3\n");
+    rt_mesh *mesh =
+        sample_accept("a.obj", "v 0 0 0 1 .5 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 .25\nf 1 2 3\n");
     sample_expect_floats(mesh->colours, colours, 9);
     rt_mesh_destroy(mesh);
     mesh = sample_accept("a.obj", "v 0 0 0 1 .5 0\nv 1 0 0\nv 0 1 0 0 0 .25\nf 1 2 3\n");
@@ -95,7 +100,8 @@ static void lines_may_be_continued(void **state)
 {
     (void)state;
     static const unsigned two[] = {0, 1, 2, 0, 2, 3};
-    rt_mesh *mesh = sample_accept("a.obj", "v 0 0 0\r\nv 1 \\\r\n0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2\\\r\n 3 4\r\n");
+    rt_mesh *mesh = sample_accept(
+        "a.obj", "v 0 0 0\r\nv 1 \\\r\n0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2\\\r\n 3 4\r\n");
     sample_expect_triangles(mesh, two, 2);
     rt_mesh_destroy(mesh);
     mesh = sample_accept("a.obj", "# made in C:\\here\\\nv 0 0 0\n");

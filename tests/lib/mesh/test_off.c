@@ -23,7 +23,8 @@ static void polygons_become_fans(void **state)
     (void)state;
     static const float square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const unsigned three[] = {0, 1, 2, 0, 2, 3, 3, 2, 1};
-    static const char *const heads[] = {"OFF\n4 2 0\n", "OFF 4 2 5\n", "# a square\nOFF\n\n# counts\n4 2\n", "4 2 0\n"};
+    static const char *const heads[] = {"OFF\n4 2 0\n", "OFF 4 2 5\n",
+                                        "# a square\nOFF\n\n# counts\n4 2\n", "4 2 0\n"};
     for (int i = 0; i < 4; i++) {
         char text[256];
         strcpy(text, heads[i]);
@@ -44,7 +45,8 @@ static void prefixes_announce_attributes(void **state)
     rt_mesh *mesh = sample_accept("a.off", "STCNOFF\n1 0 0\n1 2 3 0 0 2 255 51 0 128 .25 .75\n");
     sample_expect_floats(mesh->normals, normals, 3);
     sample_expect_floats(mesh->uv, uv, 2);
-    assert_true(mesh->colours[0] == 1 && fabsf(mesh->colours[1] - 0.2f) < 1e-7f && mesh->colours[2] == 0);
+    assert_true(mesh->colours[0] == 1 && fabsf(mesh->colours[1] - 0.2f) < 1e-7f &&
+                mesh->colours[2] == 0);
     rt_mesh_destroy(mesh);
     mesh = sample_accept("a.off", "COFF\n1 0 0\n1 2 3 0.5 1.0 0.0\n");
     assert_true(mesh->colours[0] == 0.5f && mesh->colours[1] == 1 && mesh->colours[2] == 0);
@@ -81,7 +83,8 @@ static void wrong_files_are_refused_at_the_line(void **state)
     refuse("OFF\n1 0 0\n0 0        \n", 3, "vertex 0 has 2 values; expected 3");
     refuse("OFF\n1 0 0\n0 0 0 1\n", 3, "vertex 0 has 4 values; expected 3");
     refuse("COFF\n1 0 0\n0 0 0 1 1\n", 3, "vertex 0 has 5 values; expected 3 and 3 or 4 of colour");
-    refuse("STCNOFF\n1 0 0\n1 2 3 4 5 6 7 8 9 10 11 12 13 14\n", 3, "vertex 0 has at least 13 values");
+    refuse("STCNOFF\n1 0 0\n1 2 3 4 5 6 7 8 9 10 11 12 13 14\n", 3,
+           "vertex 0 has at least 13 values");
     refuse("OFF\n1 0 0\n0 nan 0\n", 3, "'nan'");
     refuse("OFF\n1 0 0\n0 zero 0\n", 3, "'zero'");
     refuse("OFF\n4 1 0\n" SQUARE "3 0 1 4\n", 7, "'4' is not a whole number from 0 to 3");

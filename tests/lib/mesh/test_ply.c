@@ -22,8 +22,9 @@ static void polygons_become_fans(void **state)
 {
     (void)state;
     static const unsigned fans[] = {0, 1, 2, 0, 1, 2, 0, 2, 3, 4, 0, 1, 4, 1, 2, 4, 2, 3};
-    rt_mesh *mesh = sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 5\n" XYZ "element face 3\n" LIST
-                                           "end_header\n" SQUARE "0.5 0.5 1\n3 0 1 2\n4 0 1 2 3\n5 4 0 1 2 3\n");
+    rt_mesh *mesh = sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 5\n" XYZ
+                                           "element face 3\n" LIST "end_header\n" SQUARE
+                                           "0.5 0.5 1\n3 0 1 2\n4 0 1 2 3\n5 4 0 1 2 3\n");
     sample_expect_floats(mesh->positions, square, 12);
     sample_expect_triangles(mesh, fans, 6);
     assert_int_equal(mesh->file_vertices, 5);
@@ -38,14 +39,17 @@ static void polygons_become_fans(void **state)
 static void every_attribute_has_its_place(void **state)
 {
     (void)state;
-    static const float normals[] = {0, 0, 1, 0, 1, 0, 1, 0, 0}, uv[] = {0.25f, 0.5f, 0.75f, 1, 0, 0.125f};
+    static const float normals[] = {0, 0, 1, 0, 1, 0, 1, 0, 0},
+                       uv[] = {0.25f, 0.5f, 0.75f, 1, 0, 0.125f};
     static const float colours[] = {1, 0, 51 / 255.0f, 0, 1, 0, 0.4f, 0.6f, 0.8f};
     rt_mesh *mesh = sample_accept(
         "a.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty uchar blue\nproperty float v\n" XYZ
-        "property float nz\nproperty double ny\nproperty float nx\nproperty float u\nproperty uchar red\n"
+        "property float nz\nproperty double ny\nproperty float nx\nproperty float u\nproperty "
+        "uchar red\n"
         "property uchar green\nproperty uchar alpha\nelement face 1\n" LIST "end_header\n"
-        "51 0.5 0 0 0  1 0 0  0.25 255 0 9\n0 1 1 0 0  0 2 0  0.75 0 255 9\n204 0.125 0 1 0  0 0 3  0 102 153 9\n"
+        "51 0.5 0 0 0  1 0 0  0.25 255 0 9\n0 1 1 0 0  0 2 0  0.75 0 255 9\n204 0.125 0 1 0  0 0 3 "
+        " 0 102 153 9\n"
         "3 0 1 2\n");
     sample_expect_floats(mesh->normals, normals, 9);
     sample_expect_floats(mesh->uv, uv, 6);
@@ -63,7 +67,8 @@ static void texture_coordinates_go_by_many_names(void **state)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char text[512];
         snprintf(text, sizeof text,
-                 "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "property float %s\nproperty float %s\n"
+                 "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
+                 "property float %s\nproperty float %s\n"
                  "end_header\n1 2 3 0.25 0.75\n",
                  names[i][0], names[i][1]);
         rt_mesh *mesh = sample_accept("a.ply", text);
@@ -75,22 +80,26 @@ static void texture_coordinates_go_by_many_names(void **state)
 static void half_an_attribute_is_none(void **state)
 {
     (void)state;
-    rt_mesh *mesh =
-        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "property float nx\n"
-                               "property float ny\nproperty float u\nproperty uchar red\nend_header\n1 2 3 4 5 6 7\n");
+    rt_mesh *mesh = sample_accept(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "property float nx\n"
+        "property float ny\nproperty float u\nproperty uchar red\nend_header\n1 2 3 4 5 6 7\n");
     assert_null(mesh->normals);
     assert_null(mesh->uv);
     assert_null(mesh->colours);
     rt_mesh_destroy(mesh);
 }
 
-/* Each scalar type, in both byte orders: an extra before x, so that a wrong size shifts what follows. */
+/*
+ * Each scalar type, in both byte orders: an extra before x, so that a wrong size shifts what
+ * follows.
+ */
 static void every_type_is_read_in_both_byte_orders(void **state)
 {
     (void)state;
-    static const char *const types[][2] = {{"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"},
-                                           {"ushort", "uint16"}, {"int", "int32"},     {"uint", "uint32"},
-                                           {"float", "float32"}, {"double", "float64"}};
+    static const char *const types[][2] = {
+        {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
+        {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
     static const float values[] = {-100, 200, -30000, 60000, -100000, 3e9f, 0.1f, -1e-3f};
     for (int big = 0; big < 2; big++)
         for (int type = 0; type < 8; type++) {
@@ -167,7 +176,9 @@ static void lists_may_have_any_integer_types(void **state)
         }
 }
 
-/* The layout that most exporters write, whose triangles are copied as they are; a quad among them. */
+/*
+ * The layout that most exporters write, whose triangles are copied as they are; a quad among them.
+ */
 static void plain_binary_triangles_and_a_quad_are_read(void **state)
 {
     (void)state;
@@ -175,7 +186,8 @@ static void plain_binary_triangles_and_a_quad_are_read(void **state)
     static const unsigned rows[] = {3, 0, 1, 2, 3, 1, 2, 3, 4, 0, 1, 2, 3, 3, 3, 2, 1};
     for (int big = 0; big < 2; big++) {
         sample s = {0};
-        sample_text(&s, big ? "ply\nformat binary_big_endian 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
+        sample_text(&s, big ? "ply\nformat binary_big_endian 1.0\n"
+                            : "ply\nformat binary_little_endian 1.0\n");
         sample_text(&s, "element vertex 4\n" XYZ "element face 4\n" LIST "end_header\n");
         for (int i = 0; i < 12; i++)
             sample_f32(&s, square[i], big);
@@ -197,9 +209,10 @@ static void strips_are_unrolled_with_one_winding(void **state)
 {
     (void)state;
     static const unsigned indices[] = {0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5, 5, 4, 3};
-    rt_mesh *mesh =
-        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 6\n" XYZ "element tristrips 1\n" LIST
-                               "end_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n12 0 1 2 3 4 5 -1 0 -1 5 4 3\n");
+    rt_mesh *mesh = sample_accept(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 6\n" XYZ "element tristrips 1\n" LIST
+        "end_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n12 0 1 2 3 4 5 -1 0 -1 5 4 3\n");
     sample_expect_triangles(mesh, indices, 5);
     assert_int_equal(mesh->zero_area, 0);
     rt_mesh_destroy(mesh);
@@ -210,10 +223,12 @@ static void elements_come_in_any_order(void **state)
     (void)state;
     static const unsigned one[] = {0, 2, 3};
     rt_mesh *mesh = sample_accept(
-        "a.ply", "ply\nformat ascii 1.0\nelement edge 1\nproperty int a\nproperty list uchar float b\n"
-                 "element face 1\nproperty list uchar short extra\n" LIST "property float q\n"
-                 "element vertex 4\nproperty list uchar int more\n" XYZ "element tail 2\nproperty int c\nend_header\n"
-                 "7 2 0.5 nan\n2 8 9 3 0 2 3 inf\n1 5 0 0 0\n0 1 0 0\n2 5 5 1 1 0\n0 0 1 0\n1\n2\n");
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement edge 1\nproperty int a\nproperty list uchar float b\n"
+        "element face 1\nproperty list uchar short extra\n" LIST "property float q\n"
+        "element vertex 4\nproperty list uchar int more\n" XYZ
+        "element tail 2\nproperty int c\nend_header\n"
+        "7 2 0.5 nan\n2 8 9 3 0 2 3 inf\n1 5 0 0 0\n0 1 0 0\n2 5 5 1 1 0\n0 0 1 0\n1\n2\n");
     sample_expect_triangles(mesh, one, 1);
     sample_expect_floats(mesh->positions, square, 12);
     rt_mesh_destroy(mesh);
@@ -288,9 +303,9 @@ static void binary_data_begins_right_after_the_header(void **state)
 static void texture_file_is_told_with_its_spaces(void **state)
 {
     (void)state;
-    rt_mesh *mesh =
-        sample_accept("a.ply", "ply\nformat ascii 1.0\ncomment made by hand\ncomment TextureFile  my wood.png \n"
-                               "element vertex 0\n" XYZ "end_header\n");
+    rt_mesh *mesh = sample_accept(
+        "a.ply", "ply\nformat ascii 1.0\ncomment made by hand\ncomment TextureFile  my wood.png \n"
+                 "element vertex 0\n" XYZ "end_header\n");
     assert_string_equal(mesh->texture, "my wood.png");
     assert_int_equal(mesh->vertex_count, 0);
     assert_int_equal(mesh->triangle_count, 0);
@@ -300,16 +315,21 @@ static void texture_file_is_told_with_its_spaces(void **state)
 static void texture_coordinates_by_face_split_vertices(void **state)
 {
     (void)state;
-    /* Two triangles of a square; at vertex 2 they agree, at vertex 0 they do not. Vertex 4 is not used. */
+    /*
+     * Two triangles of a square; at vertex 2 they agree, at vertex 0 they do not. Vertex 4 is not
+     * used.
+     */
     static const unsigned two[] = {0, 1, 2, 3, 2, 4};
     static const float uv[] = {0, 0, 1, 0, 1, 1, 0.5f, 0.5f, 0, 1};
     static const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1, 0};
     static const float reds[] = {0.5f, 1, 0, 0.5f, 0.25f};
     rt_mesh *mesh = sample_accept(
-        "a.ply", "ply\nformat ascii 1.0\nelement vertex 5\n" XYZ "property float red\nproperty float green\n"
-                 "property float blue\nelement face 2\n" LIST "property list uchar float texcoord\nend_header\n"
-                 "0 0 0 .5 0 0\n1 0 0 1 0 0\n1 1 0 0 0 0\n0 1 0 .25 0 0\n9 9 9 0 0 0\n"
-                 "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0.5 0.5 1 1 0 1\n");
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 5\n" XYZ "property float red\nproperty float green\n"
+        "property float blue\nelement face 2\n" LIST
+        "property list uchar float texcoord\nend_header\n"
+        "0 0 0 .5 0 0\n1 0 0 1 0 0\n1 1 0 0 0 0\n0 1 0 .25 0 0\n9 9 9 0 0 0\n"
+        "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0.5 0.5 1 1 0 1\n");
     sample_expect_triangles(mesh, two, 2);
     assert_int_equal(mesh->vertex_count, 5);
     sample_expect_floats(mesh->uv, uv, 10);
@@ -323,10 +343,11 @@ static void texture_coordinates_by_face_split_vertices(void **state)
 static void integer_colours_and_coordinates_are_scaled_to_one(void **state)
 {
     (void)state;
-    rt_mesh *mesh = sample_accept(
-        "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "property ushort red\n"
-                 "property ushort green\nproperty ushort blue\nproperty uchar u\nproperty uchar v\nend_header\n"
-                 "1 2 3 65535 0 32768 255 51\n");
+    rt_mesh *mesh = sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
+                                           "property ushort red\n"
+                                           "property ushort green\nproperty ushort blue\nproperty "
+                                           "uchar u\nproperty uchar v\nend_header\n"
+                                           "1 2 3 65535 0 32768 255 51\n");
     assert_true(mesh->colours[0] == 1 && mesh->colours[1] == 0);
     assert_true(fabsf(mesh->colours[2] - 32768 / 65535.0f) < 1e-7f);
     assert_true(mesh->uv[0] == 1 && fabsf(mesh->uv[1] - 0.2f) < 1e-7f);
@@ -337,9 +358,9 @@ static void float_colours_keep_every_bit(void **state)
 {
     (void)state;
     static const float colours[] = {0.1f, 7.5f, 1e-6f};
-    rt_mesh *mesh =
-        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "property float red\n"
-                               "property float green\nproperty float blue\nend_header\n1 2 3 0.1 7.5 1e-6\n");
+    rt_mesh *mesh = sample_accept(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "property float red\n"
+                 "property float green\nproperty float blue\nend_header\n1 2 3 0.1 7.5 1e-6\n");
     sample_expect_floats(mesh->colours, colours, 3);
     rt_mesh_destroy(mesh);
 }
@@ -349,7 +370,8 @@ static void faces_without_area_are_told_apart(void **state)
     (void)state;
     static const unsigned three[] = {0, 1, 2, 0, 0, 1, 0, 1, 3};
     rt_mesh *mesh =
-        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 5\n" LIST "end_header\n"
+        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
+                               "element face 5\n" LIST "end_header\n"
                                "0 0 0\n1 0 0\n0 1 0\n3 0 0\n3 0 1 2\n2 0 1\n3 0 0 1\n0\n3 0 1 3\n");
     sample_expect_triangles(mesh, three, 3);
     assert_int_equal(mesh->file_faces, 5);
@@ -361,8 +383,8 @@ static void faces_without_area_are_told_apart(void **state)
 static void what_follows_the_data_is_ignored(void **state)
 {
     (void)state;
-    rt_mesh *mesh =
-        sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ "end_header\n1 2 3\n4 5 6\nxyz\n");
+    rt_mesh *mesh = sample_accept("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
+                                           "end_header\n1 2 3\n4 5 6\nxyz\n");
     assert_int_equal(mesh->vertex_count, 1);
     rt_mesh_destroy(mesh);
 }

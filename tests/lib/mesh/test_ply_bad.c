@@ -1,4 +1,7 @@
-/* PLY files that are damaged or lie: each class of fault is refused, with its place and the value at fault. */
+/*
+ * PLY files that are damaged or lie: each class of fault is refused, with its place and the value
+ * at fault.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -14,7 +17,8 @@
 #define ASCII "ply\nformat ascii 1.0\n"
 #define XYZ "property float x\nproperty float y\nproperty float z\n"
 #define LIST "property list uchar int vertex_indices\n"
-#define TRIANGLE ASCII "element vertex 3\n" XYZ "element face 1\n" LIST "end_header\n" /* nine lines */
+#define TRIANGLE                                                                                   \
+    ASCII "element vertex 3\n" XYZ "element face 1\n" LIST "end_header\n" /* nine lines */
 
 static void refuse(const char *text, int line, const char *part)
 {
@@ -43,23 +47,31 @@ static void headers_are_read_strictly(void **state)
 static void counts_are_whole_numbers_that_fit_the_file(void **state)
 {
     (void)state;
-    static const char *const words[] = {"-1", "1.5", "1e3", "0x10", "many", "99999999999999999999", "", "1 2"};
-    static const char *const large[] = {"2", "1000000", "2147483648", "4294967296", "1000000000000000000"};
+    static const char *const words[] = {"-1", "1.5", "1e3", "0x10", "many", "99999999999999999999",
+                                        "",   "1 2"};
+    static const char *const large[] = {"2", "1000000", "2147483648", "4294967296",
+                                        "1000000000000000000"};
     char text[512];
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        snprintf(text, sizeof text, ASCII "element vertex %s\n" XYZ "end_header\n1 2 3\n", words[i]);
+        snprintf(text, sizeof text, ASCII "element vertex %s\n" XYZ "end_header\n1 2 3\n",
+                 words[i]);
         refuse(text, 3, "expected 'element NAME COUNT'");
     }
     for (size_t i = 0; i < sizeof large / sizeof *large; i++) {
-        snprintf(text, sizeof text, ASCII "element vertex %s\n" XYZ "end_header\n1 2 3\n", large[i]);
-        refuse(text, 3, large[i]);
-        snprintf(text, sizeof text,
-                 "ply\nformat binary_little_endian 1.0\nelement vertex %s\n" XYZ "end_header\n123456789012", large[i]);
-        refuse(text, 3, large[i]);
-        snprintf(text, sizeof text, "ply\nformat binary_big_endian 1.0\nelement face %s\n" LIST "end_header\n\1",
+        snprintf(text, sizeof text, ASCII "element vertex %s\n" XYZ "end_header\n1 2 3\n",
                  large[i]);
         refuse(text, 3, large[i]);
-        snprintf(text, sizeof text, ASCII "element other %s\nproperty char c\nend_header\n1", large[i]);
+        snprintf(text, sizeof text,
+                 "ply\nformat binary_little_endian 1.0\nelement vertex %s\n" XYZ
+                 "end_header\n123456789012",
+                 large[i]);
+        refuse(text, 3, large[i]);
+        snprintf(text, sizeof text,
+                 "ply\nformat binary_big_endian 1.0\nelement face %s\n" LIST "end_header\n\1",
+                 large[i]);
+        refuse(text, 3, large[i]);
+        snprintf(text, sizeof text, ASCII "element other %s\nproperty char c\nend_header\n1",
+                 large[i]);
         refuse(text, 3, large[i]);
     }
 }
@@ -67,8 +79,8 @@ static void counts_are_whole_numbers_that_fit_the_file(void **state)
 static void elements_without_properties_cost_nothing(void **state)
 {
     (void)state;
-    rt_mesh_destroy(
-        sample_accept("a.ply", ASCII "element void 4000000000000\nelement vertex 1\n" XYZ "end_header\n1 2 3\n"));
+    rt_mesh_destroy(sample_accept(
+        "a.ply", ASCII "element void 4000000000000\nelement vertex 1\n" XYZ "end_header\n1 2 3\n"));
 }
 
 static void properties_are_read_strictly(void **state)
@@ -78,10 +90,14 @@ static void properties_are_read_strictly(void **state)
     refuse(ASCII "element vertex 0\nproperty float\nend_header\n", 4, "'property float'");
     refuse(ASCII "element vertex 0\nproperty float x y\nend_header\n", 4, "'property float x y'");
     refuse(ASCII "element vertex 0\nproperty half x\nend_header\n", 4, "'half' is no type");
-    refuse(ASCII "element face 0\nproperty list uchar vertex_indices\nend_header\n", 4, "COUNT_TYPE");
-    refuse(ASCII "element face 0\nproperty list float int vertex_indices\nend_header\n", 4, "an integer type");
-    refuse(ASCII "element face 0\nproperty list byte int vertex_indices\nend_header\n", 4, "'byte' is no type");
-    refuse(ASCII "element vertex 0\nproperty float x\nproperty int x\nend_header\n", 5, "'x' is there twice");
+    refuse(ASCII "element face 0\nproperty list uchar vertex_indices\nend_header\n", 4,
+           "COUNT_TYPE");
+    refuse(ASCII "element face 0\nproperty list float int vertex_indices\nend_header\n", 4,
+           "an integer type");
+    refuse(ASCII "element face 0\nproperty list byte int vertex_indices\nend_header\n", 4,
+           "'byte' is no type");
+    refuse(ASCII "element vertex 0\nproperty float x\nproperty int x\nend_header\n", 5,
+           "'x' is there twice");
     refuse(ASCII "element vertex 0\nelement vertex 0\nend_header\n", 4, "'vertex' is there twice");
 }
 
@@ -111,22 +127,26 @@ static void too_many_elements_or_properties_are_refused(void **state)
 static void vertices_need_coordinates(void **state)
 {
     (void)state;
-    refuse(ASCII "element vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n", 3, "x, y and z");
-    refuse(ASCII
-           "element vertex 1\nproperty list uchar float x\nproperty float y\nproperty float z\nend_header\n1 1 2 3\n",
+    refuse(ASCII "element vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n", 3,
+           "x, y and z");
+    refuse(ASCII "element vertex 1\nproperty list uchar float x\nproperty float y\nproperty float "
+                 "z\nend_header\n1 1 2 3\n",
            3, "x, y and z");
 }
 
 static void faces_need_integer_indices(void **state)
 {
     (void)state;
-    refuse(ASCII "element vertex 3\n" XYZ "element face 1\nproperty list uchar float vertex_indices\nend_header\n"
+    refuse(ASCII "element vertex 3\n" XYZ
+                 "element face 1\nproperty list uchar float vertex_indices\nend_header\n"
                  "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
            7, "integer type");
-    refuse(ASCII "element vertex 3\n" XYZ "element face 1\nproperty int vertex_indices\nend_header\n"
+    refuse(ASCII "element vertex 3\n" XYZ
+                 "element face 1\nproperty int vertex_indices\nend_header\n"
                  "0 0 0\n1 0 0\n0 1 0\n3\n",
            7, "no list vertex_indices");
-    refuse(ASCII "element vertex 3\n" XYZ "element face 1\nproperty list uchar int corners\nend_header\n"
+    refuse(ASCII "element vertex 3\n" XYZ
+                 "element face 1\nproperty list uchar int corners\nend_header\n"
                  "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
            7, "no list vertex_indices");
 }
@@ -147,11 +167,13 @@ static void coordinates_are_finite_floats(void **state)
                                         "infi",        "99999999999999999999999999999999999999999"};
     char text[512];
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        snprintf(text, sizeof text, ASCII "element vertex 2\n" XYZ "end_header\n1 2 3\n4 %s 6\n", words[i]);
+        snprintf(text, sizeof text, ASCII "element vertex 2\n" XYZ "end_header\n1 2 3\n4 %s 6\n",
+                 words[i]);
         refuse(text, 9, "vertex 1 of 2, y: ");
     }
-    refuse(ASCII "element vertex 1\n" XYZ
-                 "property float nx\nproperty float ny\nproperty float nz\nend_header\n1 2 3 0 nan 0\n",
+    refuse(ASCII
+           "element vertex 1\n" XYZ
+           "property float nx\nproperty float ny\nproperty float nz\nend_header\n1 2 3 0 nan 0\n",
            11, "vertex 0 of 1, ny: ");
 }
 
@@ -164,7 +186,8 @@ static void binary_coordinates_are_finite_floats(void **state)
             sample s = {0};
             rt_mesh *mesh;
             rt_error error;
-            sample_text(&s, big ? "ply\nformat binary_big_endian 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
+            sample_text(&s, big ? "ply\nformat binary_big_endian 1.0\n"
+                                : "ply\nformat binary_little_endian 1.0\n");
             sample_text(&s, "element vertex 2\n" XYZ "end_header\n");
             for (int k = 0; k < 6; k++)
                 sample_u32(&s, k == 4 ? bits[i] : 0x3f800000, big);
@@ -180,7 +203,8 @@ static void doubles_beyond_float_are_refused(void **state)
     sample s = {0};
     rt_mesh *mesh;
     rt_error error;
-    sample_text(&s, "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty double y\n"
+    sample_text(&s, "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float "
+                    "x\nproperty double y\n"
                     "property float z\nend_header\n");
     sample_f32(&s, 1, 0);
     sample_f64(&s, 1e39, 0);
@@ -193,17 +217,20 @@ static void doubles_beyond_float_are_refused(void **state)
 static void indices_are_in_range(void **state)
 {
     (void)state;
-    static const char *const rows[] = {"3 0 1 3", "3 0 1 2147483647", "3 -1 1 2", "4 0 1 2 7", "1 5"};
+    static const char *const rows[] = {"3 0 1 3", "3 0 1 2147483647", "3 -1 1 2", "4 0 1 2 7",
+                                       "1 5"};
     char text[512];
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         snprintf(text, sizeof text, TRIANGLE "0 0 0\n1 0 0\n0 1 0\n%s\n", rows[i]);
         refuse(text, 13, "out of range; the file has 3 vertices");
     }
     refuse(ASCII "element face 1\n" LIST "end_header\n3 0 1 2\n", 6, "the file has 0 vertices");
-    refuse(ASCII "element face 1\n" LIST "element vertex 2\n" XYZ "end_header\n3 0 1 2\n0 0 0\n1 1 1\n", 10,
-           "the file has 2 vertices");
-    refuse(ASCII "element vertex 1\n" XYZ "element tristrips 1\n" LIST "end_header\n0 0 0\n3 0 -2 0\n", 11,
-           "vertex -2");
+    refuse(ASCII "element face 1\n" LIST "element vertex 2\n" XYZ
+                 "end_header\n3 0 1 2\n0 0 0\n1 1 1\n",
+           10, "the file has 2 vertices");
+    refuse(ASCII "element vertex 1\n" XYZ "element tristrips 1\n" LIST
+                 "end_header\n0 0 0\n3 0 -2 0\n",
+           11, "vertex -2");
 }
 
 static void binary_indices_are_in_range(void **state)
@@ -215,7 +242,8 @@ static void binary_indices_are_in_range(void **state)
             sample s = {0};
             rt_mesh *mesh;
             rt_error error;
-            sample_text(&s, big ? "ply\nformat binary_big_endian 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
+            sample_text(&s, big ? "ply\nformat binary_big_endian 1.0\n"
+                                : "ply\nformat binary_little_endian 1.0\n");
             sample_text(&s, "element vertex 3\n" XYZ "element face 2\n" LIST "end_header\n");
             for (int i = 0; i < 9; i++)
                 sample_f32(&s, (float)i, big);
@@ -233,14 +261,16 @@ static void binary_indices_are_in_range(void **state)
 static void integers_stay_in_the_range_of_their_type(void **state)
 {
     (void)state;
-    static const char *const pairs[][2] = {{"char", "128"},       {"char", "-129"},
-                                           {"uchar", "256"},      {"uchar", "-1"},
-                                           {"short", "32768"},    {"ushort", "65536"},
-                                           {"int", "2147483648"}, {"uint", "4294967296"},
-                                           {"int", "1.0"},        {"uint", "99999999999999999999999"}};
+    static const char *const pairs[][2] = {
+        {"char", "128"},       {"char", "-129"},
+        {"uchar", "256"},      {"uchar", "-1"},
+        {"short", "32768"},    {"ushort", "65536"},
+        {"int", "2147483648"}, {"uint", "4294967296"},
+        {"int", "1.0"},        {"uint", "99999999999999999999999"}};
     char text[512];
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
-        snprintf(text, sizeof text, ASCII "element vertex 1\n" XYZ "property %s tag\nend_header\n1 2 3 %s\n",
+        snprintf(text, sizeof text,
+                 ASCII "element vertex 1\n" XYZ "property %s tag\nend_header\n1 2 3 %s\n",
                  pairs[i][0], pairs[i][1]);
         refuse(text, 9, pairs[i][1]);
     }
@@ -256,15 +286,15 @@ static void lists_end_before_the_file_does(void **state)
     sample s = {0};
     rt_mesh *mesh;
     rt_error error;
-    sample_text(
-        &s,
-        "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uint uchar vertex_indices\nend_header\n");
+    sample_text(&s, "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uint "
+                    "uchar vertex_indices\nend_header\n");
     sample_u32(&s, 0xffffffff, 0);
     assert_int_equal(sample_read(&mesh, &s, "a.ply", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "a list of 4294967295 values"));
     sample_free(&s);
-    sample_text(&s, "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list char uchar "
-                    "vertex_indices\nend_header\n\xff");
+    sample_text(&s,
+                "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list char uchar "
+                "vertex_indices\nend_header\n\xff");
     assert_int_equal(sample_read(&mesh, &s, "a.ply", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "a list of -1 values"));
     sample_free(&s);
@@ -276,14 +306,16 @@ static void rows_hold_no_more_than_the_header_says(void **state)
     (void)state;
     refuse(TRIANGLE "0 0 0 9\n1 0 0\n0 1 0\n3 0 1 2\n", 10, "'9' is one value more");
     refuse(TRIANGLE "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0\n", 13, "'0' is one value more");
-    refuse(ASCII "element vertex 3\n" XYZ "element face 2\n" LIST "end_header\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
+    refuse(ASCII "element vertex 3\n" XYZ "element face 2\n" LIST
+                 "end_header\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
            11, "one value more");
 }
 
 static void texture_coordinates_by_face_come_in_pairs(void **state)
 {
     (void)state;
-    refuse(ASCII "element vertex 3\n" XYZ "element face 1\n" LIST "property list uchar float texcoord\nend_header\n"
+    refuse(ASCII "element vertex 3\n" XYZ "element face 1\n" LIST
+                 "property list uchar float texcoord\nend_header\n"
                  "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 5 0 0 1 0 1\n",
            14, "texcoord has 5 values for 3 corners");
 }
@@ -309,7 +341,8 @@ static void every_truncation_of_binary_is_refused(void **state)
     sample s = {0};
     rt_mesh *mesh;
     rt_error error;
-    sample_text(&s, "ply\nformat binary_big_endian 1.0\nelement vertex 3\n" XYZ "element face 1\n" LIST "end_header\n");
+    sample_text(&s, "ply\nformat binary_big_endian 1.0\nelement vertex 3\n" XYZ
+                    "element face 1\n" LIST "end_header\n");
     for (int i = 0; i < 9; i++)
         sample_f32(&s, (float)i, 1);
     sample_u8(&s, 3);

@@ -10,7 +10,9 @@
 #include "lib/image/scratch.h"
 #include "lib/mesh/sample.h"
 
-#define FACET(a, b, c) "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet\n"
+#define FACET(a, b, c)                                                                             \
+    "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet"  \
+    "\n"
 #define TWO FACET("0 0 0", "1 0 0", "1 1 0") FACET("-0 0 0", "1 1 0", "0 1 0")
 
 static const float square[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
@@ -39,7 +41,8 @@ static void solids_may_follow_each_other(void **state)
     (void)state;
     rt_mesh *mesh = sample_accept(
         "a.stl", "SOLID\nFACET NORMAL nan nan nan OUTER LOOP VERTEX 0 0 0 VERTEX 1 0 0 "
-                 "VERTEX 0 1 0 ENDLOOP ENDFACET ENDSOLID\nsolid b\n" FACET("0 0 1", "1 0 1", "1 1 1") "endsolid b\n");
+                 "VERTEX 0 1 0 ENDLOOP ENDFACET ENDSOLID\nsolid b\n" FACET("0 0 1", "1 0 1",
+                                                                           "1 1 1") "endsolid b\n");
     assert_int_equal(mesh->triangle_count, 2);
     assert_int_equal(mesh->vertex_count, 6);
     rt_mesh_destroy(mesh);
@@ -129,9 +132,11 @@ static void wrong_files_are_refused_at_the_line(void **state)
     refuse("hello", 0, "not an STL file");
     refuse("solid a\n", 2, "the file ends where");
     refuse("solid a\n" TWO, 16, "the file ends where");
-    refuse("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", 5, "ends where 'vertex' is expected");
+    refuse("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", 5,
+           "ends where 'vertex' is expected");
     refuse("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0", 4, "ends in a vertex");
-    refuse("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\n", 4, "'inf' is not a finite float");
+    refuse("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\n", 4,
+           "'inf' is not a finite float");
     refuse("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n", 4, "'x' is not a number");
     refuse("solid a\nfacet normal 0 x 1\n", 2, "'x' is not a number");
     refuse("solid a\nfacet normal 0", 2, "");

@@ -93,8 +93,10 @@ static void integers_fit_or_are_refused(void **state)
 {
     (void)state;
     int64_t value;
-    assert_true(rt_token_integer((rt_token){"9223372036854775807", 19}, &value) && value == INT64_MAX);
-    assert_true(rt_token_integer((rt_token){"-9223372036854775807", 20}, &value) && value == -INT64_MAX);
+    assert_true(rt_token_integer((rt_token){"9223372036854775807", 19}, &value) &&
+                value == INT64_MAX);
+    assert_true(rt_token_integer((rt_token){"-9223372036854775807", 20}, &value) &&
+                value == -INT64_MAX);
     assert_true(rt_token_integer((rt_token){"+007", 4}, &value) && value == 7);
     assert_false(rt_token_integer((rt_token){"9223372036854775808", 19}, &value));
     assert_false(rt_token_integer((rt_token){"1.0", 3}, &value));

@@ -5,12 +5,12 @@
 #include "rt.h"
 
 /* A closed room with a glass ball, two lights of different kind and power. */
-#define ROOM                                                                                                           \
-    "material wall { kd 0.4 0.5 0.6 }\n"                                                                               \
-    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                                           \
-    "sphere { centre 0 0 0  radius 1  material wall }\n"                                                               \
-    "sphere { centre 0.3 0 0  radius 0.3  material glass }\n"                                                          \
-    "quad { corner -0.6 0.5 -0.1  edge1 0.2 0 0  edge2 0 0 0.2  material wall  power 2 2 2 }\n"                        \
+#define ROOM                                                                                       \
+    "material wall { kd 0.4 0.5 0.6 }\n"                                                           \
+    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                       \
+    "sphere { centre 0 0 0  radius 1  material wall }\n"                                           \
+    "sphere { centre 0.3 0 0  radius 0.3  material glass }\n"                                      \
+    "quad { corner -0.6 0.5 -0.1  edge1 0.2 0 0  edge2 0 0 0.2  material wall  power 2 2 2 }\n"    \
     "light point { position 0 0.6 0  power 2 3 5 }\n"
 
 /* A renderer of the scene that a text describes. */

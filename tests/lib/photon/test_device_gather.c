@@ -1,10 +1,12 @@
 /*
- * test_device_gather.c - the gather on the device finds the photons that FLANN finds, and both find those of
- * brute force: the same disc and the same set, whatever the number of photons, k, and the limit.
+ * test_device_gather.c - the gather on the device finds the photons that FLANN finds, and both find
+ * those of brute force: the same disc and the same set, whatever the number of photons, k, and the
+ * limit.
  *
- * Photons lie on the sides of a box and, much denser, in a spot on its floor; some face the wrong way. Their
- * places are random numbers of 24 bits, so that equal distances are rare; a disc whose edge two photons share is
- * told apart by its radius and left out of the comparison of sets (a tie is in one of them by chance).
+ * Photons lie on the sides of a box and, much denser, in a spot on its floor; some face the wrong
+ * way. Their places are random numbers of 24 bits, so that equal distances are rare; a disc whose
+ * edge two photons share is told apart by its radius and left out of the comparison of sets (a tie
+ * is in one of them by chance).
  */
 #include "support.h"
 
@@ -96,8 +98,10 @@ static uint64_t *order_of(const rt_photon_list *list)
     rt_error error;
     assert_non_null(order);
     if (list->count > 0)
-        expect_ok(rt_point_order(order, order + list->count, list->photons->position, sizeof *list->photons,
-                                 list->count, test_device()->threads, &error), &error);
+        expect_ok(rt_point_order(order, order + list->count, list->photons->position,
+                                 sizeof *list->photons, list->count, test_device()->threads,
+                                 &error),
+                  &error);
     return order;
 }
 
@@ -111,8 +115,9 @@ static void ask_device(answers *a, rt_device_gather *g, const uint64_t *order, c
     memset(&params, 0, sizeof params);
     params.item_count = (rt_u32)part;
     params.slots = (rt_u32)a->stride;
-    rt_arg args[] = {RT_ARG(params),   RT_ARG(g->estimate), RT_ARG(on),      RT_ARG(g->discs), RT_ARG(g->tree.shape),
-                     RT_ARG(g->nodes), RT_ARG(g->blocks),   RT_ARG(scratch), RT_ARG(scratch),
+    rt_arg args[] = {RT_ARG(params),    RT_ARG(g->estimate),   RT_ARG(on),
+                     RT_ARG(g->discs),  RT_ARG(g->tree.shape), RT_ARG(g->nodes),
+                     RT_ARG(g->blocks), RT_ARG(scratch),       RT_ARG(scratch),
                      RT_ARG(lists)};
     test_run(kernel, args, sizeof args / sizeof *args, part);
     test_read(g->discs, part * sizeof *a->discs, a->discs);
@@ -122,8 +127,10 @@ static void ask_device(answers *a, rt_device_gather *g, const uint64_t *order, c
     rt_buffer_release(scratch);
     for (size_t i = 0; i < part; i++) {
         assert_true(a->discs[i].count <= a->stride);
-        assert_int_equal(a->discs[i].count, a->discs[i].asked); /* what the sum counts is what is listed */
-        for (rt_u32 *place = a->lists + i * a->stride, *end = place + a->discs[i].count; place < end; place++)
+        /* what the sum counts is what is listed */
+        assert_int_equal(a->discs[i].count, a->discs[i].asked);
+        for (rt_u32 *place = a->lists + i * a->stride, *end = place + a->discs[i].count;
+             place < end; place++)
             *place = (rt_u32)(order[*place] & RT_POINT_ORDER_INDEX);
     }
     sort_lists(a, part);
@@ -153,8 +160,8 @@ static void ask_all(answers *a, const problem *p, const rt_gather_point *points,
         for (size_t i = 0; i < n; i++) {
             const float *x = p->list.photons[i].position, *y = points[q].position;
             const float *m = p->list.photons[i].normal, *o = points[q].normal;
-            all[i].squared =
-                (y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + (y[2] - x[2]) * (y[2] - x[2]);
+            all[i].squared = (y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) +
+                             (y[2] - x[2]) * (y[2] - x[2]);
             all[i].index = (rt_u32)i;
             all[i].accepted = m[0] * o[0] + m[1] * o[1] + m[2] * o[2] > 0.5f;
         }
@@ -187,13 +194,15 @@ static size_t compare(const char *name, const answers *a, const answers *b, size
     size_t ties = 0;
     for (size_t i = 0; i < part; i++) {
         if (a->discs[i].count > 0 && a->discs[i].squared_radius != b->discs[i].squared_radius)
-            fail_msg("%s, point %zu: radius^2 %.9g and %.9g, counts %u and %u", name, i, a->discs[i].squared_radius,
-                     b->discs[i].squared_radius, a->discs[i].count, b->discs[i].count);
+            fail_msg("%s, point %zu: radius^2 %.9g and %.9g, counts %u and %u", name, i,
+                     a->discs[i].squared_radius, b->discs[i].squared_radius, a->discs[i].count,
+                     b->discs[i].count);
         if (a->discs[i].count != b->discs[i].count) {
             ties++;
             continue;
         }
-        if (memcmp(a->lists + i * a->stride, b->lists + i * b->stride, a->discs[i].count * sizeof *a->lists) != 0)
+        if (memcmp(a->lists + i * a->stride, b->lists + i * b->stride,
+                   a->discs[i].count * sizeof *a->lists) != 0)
             fail_msg("%s, point %zu: other photons", name, i);
     }
     return ties;
@@ -227,9 +236,12 @@ static void compete(const problem *p, size_t brute)
     answers theirs = make_answers(part, stride), ours = make_answers(part, stride);
     uint64_t *order = order_of(&p->list);
 
-    expect_ok(rt_device_gather_prepare(&on, test_device(), &p->list, &estimate, part, &error), &error);
+    expect_ok(rt_device_gather_prepare(&on, test_device(), &p->list, &estimate, part, &error),
+              &error);
     if (p->k)
-        expect_ok(rt_photon_search_create(&search, &p->list, p->k, limit, test_device()->threads, &error), &error);
+        expect_ok(
+            rt_photon_search_create(&search, &p->list, p->k, limit, test_device()->threads, &error),
+            &error);
     for (size_t first = 0; first < p->queries; first += part) {
         size_t count = p->queries - first < part ? p->queries - first : part;
         const rt_gather_point *points = p->points + first;
@@ -241,14 +253,16 @@ static void compete(const problem *p, size_t brute)
         }
         if (search) {
             theirs.stride = rt_photon_search_stride(search);
-            expect_ok(rt_photon_search_find(search, points, count, theirs.lists, theirs.discs, &error), &error);
+            expect_ok(
+                rt_photon_search_find(search, points, count, theirs.lists, theirs.discs, &error),
+                &error);
             sort_lists(&theirs, count);
             ties += compare("FLANN", &theirs, &ours, count);
             theirs.stride = stride;
         }
     }
-    print_message("N %zu k %u limit %g: %zu points agree, %zu ties\n", p->list.count, (unsigned)p->k, p->limit,
-                  p->queries - ties, ties);
+    print_message("N %zu k %u limit %g: %zu points agree, %zu ties\n", p->list.count,
+                  (unsigned)p->k, p->limit, p->queries - ties, ties);
     assert_true(ties <= p->queries / 1000 + 1);
     rt_photon_search_destroy(search);
     rt_device_gather_release(&on);
@@ -303,7 +317,10 @@ static void ten_thousand_photons(void **state)
     compete_at(10000, 10000, 100);
 }
 
-/* With RT_TEST_LONG, all of the above with 10^5 queries, and k up to 1000 of a million photons: minutes. */
+/*
+ * With RT_TEST_LONG, all of the above with 10^5 queries, and k up to 1000 of a million photons:
+ * minutes.
+ */
 static void a_million_photons(void **state)
 {
     problem p = {{0}, NULL, 100000, 50, HUGE_VALF};
@@ -324,10 +341,8 @@ static void a_million_photons(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_photons),
-        cmocka_unit_test(one_photon),
-        cmocka_unit_test(a_hundred_photons),
-        cmocka_unit_test(ten_thousand_photons),
+        cmocka_unit_test(no_photons),        cmocka_unit_test(one_photon),
+        cmocka_unit_test(a_hundred_photons), cmocka_unit_test(ten_thousand_photons),
         cmocka_unit_test(a_million_photons),
     };
     return cmocka_run_group_tests_name("lib/photon/device_gather", tests, NULL, NULL);

@@ -2,8 +2,8 @@
  * test_emit.c - the flux that photons carry, against what energy conservation says of closed rooms,
  * and that a map does not depend on how the work was shared out.
  *
- * Bounds: sums that every path reaches exactly are held to rounding (1e-4); random ones to standard errors, from the
- * variance of a geometric series of bounces.
+ * Bounds: sums that every path reaches exactly are held to rounding (1e-4); random ones to standard
+ * errors, from the variance of a geometric series of bounces.
  */
 #include "support.h"
 
@@ -77,7 +77,8 @@ static rt_renderer *make_room(const float kd[3], ceiling above, lamp how)
     return make_room_on(test_device(), kd, above, how);
 }
 
-static rt_photon_map emit_map(rt_renderer *renderer, uint32_t max_depth, rt_direct direct, uint64_t count)
+static rt_photon_map emit_map(rt_renderer *renderer, uint32_t max_depth, rt_direct direct,
+                              uint64_t count)
 {
     rt_photon_map map = {.settings = {.max_depth = max_depth, .direct = direct}};
     rt_emitter *emitter = NULL;
@@ -86,9 +87,15 @@ static rt_photon_map emit_map(rt_renderer *renderer, uint32_t max_depth, rt_dire
     cl_kernel kernel = NULL;
 
     expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_EMIT), &error);
-    expect_ok(rt_device_kernel(renderer->device, &kernel, "photon_emit", "photon_emit", NULL, &error), &error);
-    expect_ok(rt_emitter_create(&emitter, renderer->device, kernel, renderer->scene, NULL, 0, &error), &error);
-    expect_ok(rt_emitter_emit(emitter, &map, RT_PHOTONS_GLOBAL, test_seed(11), 0, count, &progress, &error), &error);
+    expect_ok(
+        rt_device_kernel(renderer->device, &kernel, "photon_emit", "photon_emit", NULL, &error),
+        &error);
+    expect_ok(
+        rt_emitter_create(&emitter, renderer->device, kernel, renderer->scene, NULL, 0, &error),
+        &error);
+    expect_ok(rt_emitter_emit(emitter, &map, RT_PHOTONS_GLOBAL, test_seed(11), 0, count, &progress,
+                              &error),
+              &error);
     rt_emitter_destroy(emitter);
     rt_kernel_release(kernel);
     assert_int_equal(map.lists[RT_PHOTONS_GLOBAL].emitted, count);
@@ -99,7 +106,8 @@ static rt_photon_map emit_map(rt_renderer *renderer, uint32_t max_depth, rt_dire
 }
 
 /* The photons alone. */
-static rt_photon_list emit(rt_renderer *renderer, uint32_t max_depth, rt_direct direct, uint64_t count)
+static rt_photon_list emit(rt_renderer *renderer, uint32_t max_depth, rt_direct direct,
+                           uint64_t count)
 {
     rt_photon_map map = emit_map(renderer, max_depth, direct, count);
     rt_photon_list list = map.lists[RT_PHOTONS_GLOBAL];
@@ -153,7 +161,8 @@ static void light_arrives_whole_at_the_walls(void **state)
     rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
     rt_photon_list map = emit(renderer, 4, RT_DIRECT_PHOTONS, paths);
     for (int c = 0; c < 3; c++)
-        assert_float_equal(sum_flux(&map, after_one_segment, c), light_power[c], 1e-4 * light_power[c]);
+        assert_float_equal(sum_flux(&map, after_one_segment, c), light_power[c],
+                           1e-4 * light_power[c]);
     rt_photon_list_clear(&map);
     rt_renderer_destroy(renderer);
 }
@@ -209,8 +218,10 @@ static void delta_surfaces_store_nothing_and_pass_all_flux(void **state)
         for (int c = 0; c < 3; c++) {
             double first = sum_flux(&map, first_of_path, c);
             if (fabs(first - light_power[c]) > 1e-4 * light_power[c])
-                fail_msg("lamp %d channel %d: %g W arrive of %g", (int)how, c, first, light_power[c]);
-            assert_true(sum_flux(&map, caustic, c) > (how == LAMP_IN_GLASS ? 0.999 : 0.1) * light_power[c]);
+                fail_msg("lamp %d channel %d: %g W arrive of %g", (int)how, c, first,
+                         light_power[c]);
+            assert_true(sum_flux(&map, caustic, c) >
+                        (how == LAMP_IN_GLASS ? 0.999 : 0.1) * light_power[c]);
         }
         for (size_t i = 0; i < map.count; i++)
             assert_true(map.photons[i].shape < sides && map.photons[i].shape != top_side);
@@ -241,7 +252,8 @@ static void photons_are_whole(void **state)
         assert_true(segments(p) >= 1 && segments(p) <= 15);
         assert_true(p->shape < sides);
         /* In the order of paths, and along each path from the light on. */
-        assert_true(i == 0 || p->path > p[-1].path || (p->path == p[-1].path && segments(p) == segments(p - 1) + 1));
+        assert_true(i == 0 || p->path > p[-1].path ||
+                    (p->path == p[-1].path && segments(p) == segments(p - 1) + 1));
     }
     rt_photon_list_clear(&map);
     rt_renderer_destroy(renderer);
@@ -250,7 +262,8 @@ static void photons_are_whole(void **state)
 static void maps_do_not_depend_on_batches(void **state)
 {
     static const float kd[3] = {0.8f, 0.8f, 0.8f};
-    enum { count = 20000, shallow = 16, deep = 128 }; /* deep paths need more slots: smaller batches */
+    /* deep paths need more slots: smaller batches */
+    enum { count = 20000, shallow = 16, deep = 128 };
     (void)state;
     rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
     rt_photon_list one = emit(renderer, shallow, RT_DIRECT_PHOTONS, count);
@@ -294,12 +307,14 @@ static void more_photons_than_fit_are_foreseen(void **state)
     (void)state;
     /* 1.5 photons a path of 64 bytes: 96 GB for 10^9 paths, and 64 bytes a photon that is there. */
     expect_ok(rt_photon_forecast(0, 60000, 40000, 1000000000, 97000000000u, &error), &error);
-    assert_int_equal(rt_photon_forecast(0, 60000, 40000, 1000000000, 95000000000u, &error), RT_ERROR_MEMORY);
+    assert_int_equal(rt_photon_forecast(0, 60000, 40000, 1000000000, 95000000000u, &error),
+                     RT_ERROR_MEMORY);
     assert_non_null(strstr(error.message, "1000000000 photon paths"));
     assert_non_null(strstr(error.message, "1.5e+09 photons"));
     assert_non_null(strstr(error.message, "take 96 GB"));
     assert_non_null(strstr(error.message, "has 95 GB"));
-    assert_int_equal(rt_photon_forecast(50000000, 60000, 40000, 1000000000, 97000000000u, &error), RT_ERROR_MEMORY);
+    assert_int_equal(rt_photon_forecast(50000000, 60000, 40000, 1000000000, 97000000000u, &error),
+                     RT_ERROR_MEMORY);
     /* Not from a few paths, nor where the memory is not known. */
     expect_ok(rt_photon_forecast(0, 1000, 100, 1000000000, 1, &error), &error);
     expect_ok(rt_photon_forecast(0, 60000, 40000, 1000000000, 0, &error), &error);
@@ -319,10 +334,15 @@ static void emission_stops_when_photons_will_not_fit(void **state)
         cl_kernel kernel = NULL;
         rt_error error;
         expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_EMIT), &error);
-        expect_ok(rt_device_kernel(renderer->device, &kernel, "photon_emit", "photon_emit", NULL, &error), &error);
-        expect_ok(rt_emitter_create(&emitter, renderer->device, kernel, renderer->scene, NULL, 0, &error), &error);
+        expect_ok(
+            rt_device_kernel(renderer->device, &kernel, "photon_emit", "photon_emit", NULL, &error),
+            &error);
+        expect_ok(
+            rt_emitter_create(&emitter, renderer->device, kernel, renderer->scene, NULL, 0, &error),
+            &error);
         rt_emitter_limit_memory(emitter, (uint64_t)photon_bytes * (fits ? 3 * many : many));
-        rt_status status = rt_emitter_emit(emitter, &map, RT_PHOTONS_GLOBAL, 11, 0, many, &progress, &error);
+        rt_status status =
+            rt_emitter_emit(emitter, &map, RT_PHOTONS_GLOBAL, 11, 0, many, &progress, &error);
         assert_int_equal(status, fits ? RT_OK : RT_ERROR_MEMORY);
         assert_true(fits ? map.lists[0].count > many : map.lists[0].count < many / 2);
         rt_emitter_destroy(emitter);

@@ -24,8 +24,10 @@ static void write_parts(void)
     scratch_write("white.ppm", "P3 2 1 255  255 255 255  255 255 255\n");
     scratch_write("plain.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nf 1 2 3\n");
     scratch_write("wide.obj", "v 0 0 0\nv 0.2 0 0\nv 0 0.1 0\nf 1 2 3\n");
-    scratch_write("smooth.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 1\nf 1//1 2//2 3//1\n");
-    scratch_write("smoother.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 2\nf 1//1 2//2 3//1\n");
+    scratch_write("smooth.obj",
+                  "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 1\nf 1//1 2//2 3//1\n");
+    scratch_write("smoother.obj",
+                  "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvn 0 0 1\nvn 0 1 2\nf 1//1 2//2 3//1\n");
     scratch_write("mapped.obj", "v 0 0 0\nv 0.15 0 0\nv 0 0.1 0\nvt 0 0\nvt 1 1\nf 1/1 2/2 3/1\n");
     scratch_write("red.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 1 0 0\nf 1 2 3\n");
     scratch_write("green.obj", "v 0 0 0 1 0 0\nv 0.15 0 0 1 0 0\nv 0 0.1 0 0 1 0\nf 1 2 3\n");
@@ -42,12 +44,14 @@ static void scenes_are_told_apart_by_what_photons_see(void **state)
         ROOM "plane { point 0 -3 0  normal 0 1 0  material wall }\n",
         ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall }\n",
         ROOM "ellipsoid { centre 0 0 0  radii 0.1 0.2 0.3  material wall  rotate 0 1 0 5 }\n",
-        ROOM
-        "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
-        ROOM
-        "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
-        ROOM "texture t { file \"grey.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
-        ROOM "texture t { file \"white.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  texture t }\n",
+        ROOM "texture t { pattern checker  a 1  b 0.5 }  sphere { centre 0 0 0  radius 0.1  "
+             "material wall  texture t }\n",
+        ROOM "texture t { pattern checker  a 1  b 0.4 }  sphere { centre 0 0 0  radius 0.1  "
+             "material wall  texture t }\n",
+        ROOM "texture t { file \"grey.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  "
+             "texture t }\n",
+        ROOM "texture t { file \"white.ppm\" }  sphere { centre 0 0 0  radius 0.1  material wall  "
+             "texture t }\n",
         ROOM "light environment { radiance 1 }\n",
         ROOM "light environment { file \"grey.ppm\" }\n",
         ROOM "light environment { file \"white.ppm\" }\n",
@@ -58,9 +62,12 @@ static void scenes_are_told_apart_by_what_photons_see(void **state)
         ROOM "model { file \"mapped.obj\"  material wall }\n",
         ROOM "model { file \"red.obj\"  material wall }\n",
         ROOM "model { file \"green.obj\"  material wall }\n",
-        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material wall  scale 0.5 }\n",
-        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material wall  scale 0.6 }\n",
-        ROOM "mesh m { file \"wide.obj\" }  instance m { material wall }  instance m { material wall  scale 0.5 }\n",
+        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material "
+             "wall  scale 0.5 }\n",
+        ROOM "mesh m { file \"plain.obj\" }  instance m { material wall }  instance m { material "
+             "wall  scale 0.6 }\n",
+        ROOM "mesh m { file \"wide.obj\" }  instance m { material wall }  instance m { material "
+             "wall  scale 0.5 }\n",
     };
     enum { count = sizeof others / sizeof *others };
     uint64_t seen[count + 1] = {fingerprint(ROOM, RT_ACCEL_BVH)};
@@ -79,7 +86,8 @@ static void scenes_are_told_apart_by_what_photons_see(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(scenes_are_told_apart_by_what_photons_see, scratch_enter,
+                                        scratch_leave),
     };
     return cmocka_run_group_tests_name("lib/photon/fingerprint", tests, NULL, NULL);
 }

@@ -45,9 +45,12 @@ static void assert_is_set(const int *indices, size_t k, size_t count)
     free(seen);
 }
 
-/* The indices are different, every distance is that of its index, they ascend, and no nearer point is left out. */
-static void assert_nearest(const float *positions, size_t count, const float *query, size_t k, const int *indices,
-                           const float *squared)
+/*
+ * The indices are different, every distance is that of its index, they ascend, and no nearer point
+ * is left out.
+ */
+static void assert_nearest(const float *positions, size_t count, const float *query, size_t k,
+                           const int *indices, const float *squared)
 {
     float nearer = squared[k - 1] * (1 - 1e-6f);
     size_t in_all = 0, in_list = 0;
@@ -81,7 +84,8 @@ static void compare_with_brute_force(size_t count, size_t k, layout how)
         else
             memcpy(asked[i], positions + 3 * (i % count), sizeof asked[i]);
     expect_ok(rt_flann_index_create(&index, positions, count, &error), &error);
-    expect_ok(rt_flann_index_nearest(index, asked[0], queries, k, indices, squared, &error), &error);
+    expect_ok(rt_flann_index_nearest(index, asked[0], queries, k, indices, squared, &error),
+              &error);
     for (size_t i = 0; i < queries; i++)
         assert_nearest(positions, count, asked[i], k, indices + i * k, squared + i * k);
     rt_flann_index_destroy(index);
@@ -134,8 +138,8 @@ typedef struct shared_index {
 static void ask_share(void *user, uint32_t job)
 {
     shared_index *s = user;
-    rt_flann_index_nearest(s->index, s->positions + 3 * job * queries_a_job, queries_a_job, neighbours, s->indices[job],
-                           s->squared[job], NULL);
+    rt_flann_index_nearest(s->index, s->positions + 3 * job * queries_a_job, queries_a_job,
+                           neighbours, s->indices[job], s->squared[job], NULL);
 }
 
 static void results_do_not_depend_on_threads(void **state)

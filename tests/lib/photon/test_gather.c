@@ -1,4 +1,6 @@
-/* test_gather.c - a gatherer adds to points the light that they reflect of the photons around them. */
+/*
+ * test_gather.c - a gatherer adds to points the light that they reflect of the photons around them.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -14,7 +16,8 @@ enum { photon_count = 2000, point_count = 300, emitted = 4 };
 
 static rt_photon_list make_map(void)
 {
-    rt_photon_list map = {calloc(photon_count, sizeof *map.photons), photon_count, photon_count, emitted, 0};
+    rt_photon_list map = {calloc(photon_count, sizeof *map.photons), photon_count, photon_count,
+                          emitted, 0};
     points_stream stream = {5};
     assert_non_null(map.photons);
     for (size_t i = 0; i < map.count; i++) {
@@ -46,15 +49,20 @@ static void make_points(rt_gather_point points[point_count])
     }
 }
 
-/* Radiance by the definition, in float64, with an Epanechnikov kernel over all photons within the radius. */
-static void expected_radiance(double out[3], const rt_photon_list *map, const rt_gather_point *point, double r)
+/*
+ * Radiance by the definition, in float64, with an Epanechnikov kernel over all photons within the
+ * radius.
+ */
+static void expected_radiance(double out[3], const rt_photon_list *map,
+                              const rt_gather_point *point, double r)
 {
     double sum[3] = {0};
     for (size_t i = 0; i < map->count; i++) {
         double x = map->photons[i].position[0] - point->position[0];
         double z = map->photons[i].position[2] - point->position[2], t2 = (x * x + z * z) / (r * r);
         for (int c = 0; c < 3 && t2 < 1; c++)
-            sum[c] += map->photons[i].flux[c] * map->photons[i].shading * 2 * (1 - t2) / (PI * r * r);
+            sum[c] +=
+                map->photons[i].flux[c] * map->photons[i].shading * 2 * (1 - t2) / (PI * r * r);
     }
     for (int c = 0; c < 3; c++)
         out[c] = point->radiance[c] + point->weight[c] / PI * sum[c] / emitted;
@@ -63,9 +71,12 @@ static void expected_radiance(double out[3], const rt_photon_list *map, const rt
 /* The two ways to gather. */
 static const char *const programs[] = {"photon_gather", "photon_walk"};
 
-/* Gathers twice at the points behind `before` others, which are left alone; discs is what was found. */
-static void gather(const rt_photon_list *map, rt_gather_options options, size_t before, rt_gather_point *points,
-                   rt_gather_disc *discs)
+/*
+ * Gathers twice at the points behind `before` others, which are left alone; discs is what was
+ * found.
+ */
+static void gather(const rt_photon_list *map, rt_gather_options options, size_t before,
+                   rt_gather_point *points, rt_gather_disc *discs)
 {
     size_t bytes = (before + point_count) * sizeof *points;
     const char *program = programs[options.on_device];
@@ -115,8 +126,10 @@ static void points_gain_what_they_reflect(void **state)
 {
     (void)state;
     /* With k above the number of photons inside, all within 0.1 m count. */
-    check_reflection((rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 0});
-    check_reflection((rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 1});
+    check_reflection(
+        (rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 0});
+    check_reflection(
+        (rt_gather_options){1000, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 1});
     check_reflection((rt_gather_options){0, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 1});
 }
 
@@ -139,7 +152,8 @@ static void both_ways_give_the_same_light(void **state)
         gather(&map, on_device, 0, device, discs);
         for (size_t i = 0; i < point_count; i++)
             for (int c = 0; c < 3; c++)
-                assert_float_equal(host[i].radiance[c], device[i].radiance[c], 1e-5 * (1 + host[i].radiance[c]));
+                assert_float_equal(host[i].radiance[c], device[i].radiance[c],
+                                   1e-5 * (1 + host[i].radiance[c]));
     }
     rt_photon_list_clear(&map);
 }
@@ -153,7 +167,8 @@ static void an_empty_map_leaves_the_radiance_alone(void **state)
     make_points(asked);
     for (int on_device = 0; on_device < 2; on_device++) {
         memcpy(points, asked, sizeof points);
-        gather(&map, (rt_gather_options){50, 0, RT_DENSITY_GAUSSIAN, 1.1f, RT_AREA_DISC, on_device}, 0, points, discs);
+        gather(&map, (rt_gather_options){50, 0, RT_DENSITY_GAUSSIAN, 1.1f, RT_AREA_DISC, on_device},
+               0, points, discs);
         assert_memory_equal(points, asked, sizeof points);
     }
 }

@@ -1,8 +1,9 @@
 /*
- * test_ledger.c - the energy ledger closes, says what happened, and does not depend on how paths are shared out.
+ * test_ledger.c - the energy ledger closes, says what happened, and does not depend on how paths
+ * are shared out.
  *
- * In a closed room of one albedo all columns are known: escaped is 0, the flux left after n bounces is albedo^n of
- * the power, the rest is absorbed. Random sums are held to standard errors.
+ * In a closed room of one albedo all columns are known: escaped is 0, the flux left after n bounces
+ * is albedo^n of the power, the rest is absorbed. Random sums are held to standard errors.
  */
 #include "support.h"
 
@@ -38,12 +39,15 @@ static rt_photon_map *emit(rt_renderer *renderer, const rt_render_options *rende
     return map;
 }
 
-/* Fails unless emitted = absorbed + escaped + cut off + roulette to 1e-5 of the light's emission. */
+/*
+ * Fails unless emitted = absorbed + escaped + cut off + roulette to 1e-5 of the light's emission.
+ */
 static void expect_closed(const rt_light_ledger *l, const char *what)
 {
     double largest = fmax(l->emitted[0], fmax(l->emitted[1], l->emitted[2]));
     for (int c = 0; c < 3; c++) {
-        double rest = l->emitted[c] - l->absorbed[c] - l->escaped[c] - l->cut_off[c] - l->roulette[c];
+        double rest =
+            l->emitted[c] - l->absorbed[c] - l->escaped[c] - l->cut_off[c] - l->roulette[c];
         if (!(fabs(rest) <= 1e-5 * largest))
             fail_msg("%s: channel %d: %g W of %g W are missing", what, c, rest, l->emitted[c]);
     }
@@ -104,8 +108,8 @@ static void what_a_solid_absorbs_is_booked(void **state)
     rt_light_ledger l;
     (void)state;
     rt_renderer *renderer = test_renderer("material ink { kt 1  ior 1  absorption 0.5 1 2 }\n"
-                                      "sphere { centre 0 0 0  radius 0.8  material ink }\n"
-                                      "light point { position 0 0 0  power 1 }\n");
+                                          "sphere { centre 0 0 0  radius 0.8  material ink }\n"
+                                          "light point { position 0 0 0  power 1 }\n");
     rt_photon_map *map = emit(renderer, &render);
     assert_int_equal(rt_photon_map_ledger(map, &l, 1), 1);
     expect_closed(&l, "ball of ink");
@@ -119,10 +123,11 @@ static void what_a_solid_absorbs_is_booked(void **state)
 }
 
 /*
- * Fails unless all paths are booked and each took the light's power over its share: true of lights that shine
- * evenly, whose paths are all alike.
+ * Fails unless all paths are booked and each took the light's power over its share: true of lights
+ * that shine evenly, whose paths are all alike.
  */
-static void expect_all_booked(const rt_light_ledger *rows, size_t lights, uint64_t photons, const char *what)
+static void expect_all_booked(const rt_light_ledger *rows, size_t lights, uint64_t photons,
+                              const char *what)
 {
     uint64_t paths = 0;
     for (size_t i = 0; i < lights; i++) {
@@ -131,11 +136,12 @@ static void expect_all_booked(const rt_light_ledger *rows, size_t lights, uint64
         paths += l->paths;
         for (int c = 0; c < 3; c++)
             if (!(fabs(l->emitted[c] - part * l->power[c]) <= 1e-5 * part * l->power[c]))
-                fail_msg("%s: light %zu, channel %d: %g W emitted, not %g W", what, i, c, l->emitted[c],
-                         part * l->power[c]);
+                fail_msg("%s: light %zu, channel %d: %g W emitted, not %g W", what, i, c,
+                         l->emitted[c], part * l->power[c]);
     }
     if (paths != photons)
-        fail_msg("%s: %llu of %llu paths are booked", what, (unsigned long long)paths, (unsigned long long)photons);
+        fail_msg("%s: %llu of %llu paths are booked", what, (unsigned long long)paths,
+                 (unsigned long long)photons);
 }
 
 static void expect_closed_scene(const char *path)
@@ -171,7 +177,10 @@ static void closes_in_every_scene_that_ships(void **state)
     globfree(&found);
 }
 
-/* What photons brought to diffuse surfaces is what these and roulette took off and what went on: the albedo says. */
+/*
+ * What photons brought to diffuse surfaces is what these and roulette took off and what went on:
+ * the albedo says.
+ */
 static void stored_flux_agrees_with_what_is_absorbed(void **state)
 {
     static const double kd[3] = {0.2, 0.5, 0.8};
@@ -205,7 +214,8 @@ static void lights_are_counted_apart(void **state)
     assert_int_equal(l[0].paths + l[1].paths, render.photons);
     /* Paths in proportion to power: 10 W and 2.5 W. */
     assert_float_equal(l[0].share, 0.8, 1e-6);
-    expect_deviate(((double)l[0].paths - 0.8 * render.photons) / sqrt(0.16 * render.photons), "paths of a light");
+    expect_deviate(((double)l[0].paths - 0.8 * render.photons) / sqrt(0.16 * render.photons),
+                   "paths of a light");
     for (int i = 0; i < 2; i++)
         expect_closed(l + i, "two lights");
     rt_photon_map_destroy(map);
@@ -218,11 +228,13 @@ static void weak_lights_beside_strong_ones_are_booked(void **state)
     static const double powers[] = {1e-20, 1e-9, 1e-6, 1, 1e6};
     enum { lights = sizeof powers / sizeof *powers };
     const float shares[lights] = {1, 1, 1, 1, 1};
-    rt_render_options render = {.photons = 5000, .light_shares = shares, .light_share_count = lights};
+    rt_render_options render = {
+        .photons = 5000, .light_shares = shares, .light_share_count = lights};
     rt_emit_options options = {.render = &render};
     rt_photon_map *map = NULL;
     rt_light_ledger l[lights];
-    char text[2000] = "material wall { kd 0.2 0.5 0.8 }\nsphere { centre 0 0 0  radius 1  material wall }\n";
+    char text[2000] =
+        "material wall { kd 0.2 0.5 0.8 }\nsphere { centre 0 0 0  radius 1  material wall }\n";
     rt_error error;
     (void)state;
     for (int i = 0; i < lights; i++)
@@ -248,7 +260,8 @@ static void accounts_that_are_not_finite_are_left_out(void **state)
     rt_path_account accounts[3];
     (void)state;
     rt_renderer *renderer = test_renderer("light point { position 0 0 0  power 3 3 3 }\n");
-    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
+    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error),
+              &error);
     expect_ok(rt_ledger_create(&ledger, &lights, &error), &error);
     memset(accounts, 0, sizeof accounts);
     for (int i = 0; i < 3; i++) {
@@ -277,7 +290,8 @@ static void sums_do_not_depend_on_shares_of_the_work(void **state)
     rt_error error;
     (void)state;
     rt_renderer *renderer = test_renderer(room);
-    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error), &error);
+    expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error),
+              &error);
     expect_ok(rt_ledger_create(&whole, &lights, &error), &error);
     expect_ok(rt_ledger_create(&half, &lights, &error), &error);
     for (int i = 0; i < count; i++) {
@@ -290,7 +304,9 @@ static void sums_do_not_depend_on_shares_of_the_work(void **state)
     expect_ok(rt_ledger_book(&whole, &lights, accounts, count, 1, &error), &error);
     for (int i = 0; i < 2; i++) {
         rt_ledger_reset(&half);
-        expect_ok(rt_ledger_book(&half, &lights, accounts + (1 - i) * 2000, i ? 2000 : 3000, 3, &error), &error);
+        expect_ok(
+            rt_ledger_book(&half, &lights, accounts + (1 - i) * 2000, i ? 2000 : 3000, 3, &error),
+            &error);
         expect_ok(rt_ledger_add(&parts, &half, &error), &error);
     }
     assert_true(rt_ledger_matches(&whole, &parts));

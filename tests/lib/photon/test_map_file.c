@@ -1,4 +1,7 @@
-/* test_map_file.c - files of photon maps: they come back to the bit, and what is damaged is refused with its reason. */
+/*
+ * test_map_file.c - files of photon maps: they come back to the bit, and what is damaged is refused
+ * with its reason.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -11,12 +14,13 @@
 #include "photon/crc32.h"
 #include "photon/map_file.h"
 
-static const char scene_text[] = "material wall { kd 0.5 }\n"
-                                 "material glass { kt 1  ior 1.5  fresnel dielectric }\n"
-                                 "sphere { centre 0 0 0  radius 1  material wall }\n"
-                                 "sphere { centre 0.3 0 0  radius 0.3  material glass }\n"
-                                 "sphere { centre -0.5 0 0  radius 0.1  material wall  radiance 1 2 3 }\n"
-                                 "light point { position 0.3 0 0.1  power 2 3 5 }\n";
+static const char scene_text[] =
+    "material wall { kd 0.5 }\n"
+    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"
+    "sphere { centre 0 0 0  radius 1  material wall }\n"
+    "sphere { centre 0.3 0 0  radius 0.3  material glass }\n"
+    "sphere { centre -0.5 0 0  radius 0.1  material wall  radiance 1 2 3 }\n"
+    "light point { position 0.3 0 0.1  power 2 3 5 }\n";
 
 /* A small map with caustic photons apart and a gap in its paths: parts 0 and 2 of 3. */
 static rt_photon_map *make_map(void)
@@ -37,7 +41,8 @@ static rt_photon_map *make_map(void)
         rt_photon_map_destroy(parts[i]);
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);
-    assert_true(map->lists[RT_PHOTONS_GLOBAL].count > 20 && map->lists[RT_PHOTONS_CAUSTIC].count > 10);
+    assert_true(map->lists[RT_PHOTONS_GLOBAL].count > 20 &&
+                map->lists[RT_PHOTONS_CAUSTIC].count > 10);
     assert_int_equal(map->ranges[RT_PHOTONS_GLOBAL].count, 2);
     return map;
 }
@@ -73,7 +78,8 @@ static void maps_come_back_to_the_bit(void **state)
         assert_int_equal(map->ranges[kind].count, back->ranges[kind].count);
     }
     assert_true(rt_ledger_matches(&map->ledger, &back->ledger));
-    assert_memory_equal(map->ledger.rows, back->ledger.rows, map->ledger.count * sizeof *map->ledger.rows);
+    assert_memory_equal(map->ledger.rows, back->ledger.rows,
+                        map->ledger.count * sizeof *map->ledger.rows);
     /* And the file of what came back is the same file. */
     rt_bytes first = encode(map), second = encode(back);
     assert_int_equal(first.size, second.size);
@@ -146,8 +152,13 @@ static void put(uint8_t *at, uint64_t value, int bytes)
 }
 
 /* Where the first photon, the first light and the first range of the map of make_map lie. */
-enum { LIGHTS = 2, LIGHT_AT = RT_MAP_HEADER, RANGE_AT = LIGHT_AT + LIGHTS * RT_MAP_LIGHT,
-       RANGES = 4, PHOTON_AT = RANGE_AT + RANGES * RT_MAP_RANGE };
+enum {
+    LIGHTS = 2,
+    LIGHT_AT = RT_MAP_HEADER,
+    RANGE_AT = LIGHT_AT + LIGHTS * RT_MAP_LIGHT,
+    RANGES = 4,
+    PHOTON_AT = RANGE_AT + RANGES * RT_MAP_RANGE
+};
 
 /* Changes that a checksum made anew would hide. */
 static const struct {
@@ -190,11 +201,11 @@ static const struct {
     {RANGE_AT + 16, 0, 8, "do not add up"},
     {RANGE_AT + 24, 4, 4, "not in order"},
     {RANGE_AT + 28, 1, 4, "a range of its paths"},
-    {PHOTON_AT, 0x7fc00000u, 4, "not finite"},      /* position NaN */
-    {PHOTON_AT, 0x7f800000u, 4, "not finite"},      /* infinite */
-    {PHOTON_AT, 0x7149f2cau, 4, "farther out"},     /* 1e30 */
-    {PHOTON_AT + 8, 0xd8635faau, 4, "farther out"}, /* just beyond -1e15 */
-    {PHOTON_AT + 12, 4000, 4, "not of the paths"},  /* path */
+    {PHOTON_AT, 0x7fc00000u, 4, "not finite"},       /* position NaN */
+    {PHOTON_AT, 0x7f800000u, 4, "not finite"},       /* infinite */
+    {PHOTON_AT, 0x7149f2cau, 4, "farther out"},      /* 1e30 */
+    {PHOTON_AT + 8, 0xd8635faau, 4, "farther out"},  /* just beyond -1e15 */
+    {PHOTON_AT + 12, 4000, 4, "not of the paths"},   /* path */
     {PHOTON_AT + 16, 0x40000000u, 4, "unit length"}, /* wi.x 2 */
     {PHOTON_AT + 28, 0x80, 4, "flags"},
     {PHOTON_AT + 32, 0xbf800000u, 4, "negative flux"},
@@ -222,7 +233,10 @@ static void lies_with_a_sound_checksum_are_refused(void **state)
     rt_photon_map_destroy(map);
 }
 
-/* Any single byte of a file with a sound checksum may lie: the map is refused or sound, never a crash. */
+/*
+ * Any single byte of a file with a sound checksum may lie: the map is refused or sound, never a
+ * crash.
+ */
 static void any_lie_is_refused_or_harmless(void **state)
 {
     rt_photon_map *map = make_map();
@@ -248,8 +262,11 @@ static void what_is_no_map_is_refused_by_its_path(void **state)
 {
     static const struct {
         const char *path, *reason;
-    } cases[] = {{"missing.rtp", "No such file"}, {".", "directory"},      {"empty.rtp", "no photon map"},
-                 {"text.rtp", "no photon map"},   {"/dev/zero", "no photon map"}};
+    } cases[] = {{"missing.rtp", "No such file"},
+                 {".", "directory"},
+                 {"empty.rtp", "no photon map"},
+                 {"text.rtp", "no photon map"},
+                 {"/dev/zero", "no photon map"}};
     rt_photon_map *map = NULL;
     rt_error error;
     (void)state;
@@ -271,7 +288,8 @@ static void a_file_that_grew_is_not_read_beyond_its_size(void **state)
     (void)state;
     size_t size = file.size;
     char says[128];
-    snprintf(says, sizeof says, "it has 100001 bytes more than the %zu that its header announces", size);
+    snprintf(says, sizeof says, "it has 100001 bytes more than the %zu that its header announces",
+             size);
     expect_ok(rt_bytes_put(&file, size + 100000, "x", 1, &error), &error);
     expect_ok(rt_file_replace("long.rtp", &file, &error), &error);
     assert_int_equal(rt_photon_map_load(&back, "long.rtp", &error), RT_ERROR_INPUT);
@@ -304,7 +322,8 @@ static void exports_hold_every_photon(void **state)
     enum { point_bytes = 66, seed_at = 48, path_at = 52, shape_at = 56, caustic_at = 62 };
     rt_photon_map *map = make_map();
     size_t count = map->lists[0].count + map->lists[1].count;
-    const rt_photon *first = map->lists[0].photons, *last = map->lists[1].photons + map->lists[1].count - 1;
+    const rt_photon *first = map->lists[0].photons,
+                    *last = map->lists[1].photons + map->lists[1].count - 1;
     char line[64];
     rt_bytes file = {0};
     rt_error error;

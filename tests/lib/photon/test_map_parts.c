@@ -1,4 +1,7 @@
-/* test_map_parts.c - maps are the same to the bit, in whichever parts, on whichever device they are made. */
+/*
+ * test_map_parts.c - maps are the same to the bit, in whichever parts, on whichever device they are
+ * made.
+ */
 #include "support.h"
 
 #include <string.h>
@@ -27,7 +30,8 @@ static void expect_no_merge(rt_photon_map *a, rt_photon_map *b, const char *reas
 
 static void parts_join_to_the_map_of_all(void **state)
 {
-    rt_render_options render = {.photons = 10007, .caustic_photons = 5003, .max_depth = 10, .seed = 5};
+    rt_render_options render = {
+        .photons = 10007, .caustic_photons = 5003, .max_depth = 10, .seed = 5};
     rt_emit_options options = {.render = &render};
     rt_photon_map *parts[3];
     (void)state;
@@ -78,7 +82,8 @@ static void seeds_join_in_any_order(void **state)
     for (uint32_t i = 0; i < 2; i++)
         assert_true(ranges[i].seed == 8 + i && ranges[i].first == 0 && ranges[i].count == 3000);
     assert_int_equal(info.photons[RT_PHOTONS_GLOBAL],
-                     rt_photon_map_count(maps[0], RT_PHOTONS_GLOBAL) + rt_photon_map_count(maps[1], RT_PHOTONS_GLOBAL));
+                     rt_photon_map_count(maps[0], RT_PHOTONS_GLOBAL) +
+                         rt_photon_map_count(maps[1], RT_PHOTONS_GLOBAL));
     for (int i = 0; i < 2; i++)
         rt_photon_map_destroy(maps[i]);
     rt_photon_map_destroy(a);

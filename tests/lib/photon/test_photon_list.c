@@ -30,7 +30,8 @@ static void photons_follow_in_the_order_of_paths(void **state)
     size_t at = 0;
     (void)state;
     fill(slots, counts);
-    expect_ok(rt_photon_list_append(&whole, slots, path_count, counts, path_count, 2, &error), &error);
+    expect_ok(rt_photon_list_append(&whole, slots, path_count, counts, path_count, 2, &error),
+              &error);
     for (rt_u32 i = 0; i < path_count; i++)
         for (rt_u32 j = 0; j < counts[i].photons; j++, at++) {
             assert_int_equal(whole.photons[at].path, i);
@@ -42,7 +43,7 @@ static void photons_follow_in_the_order_of_paths(void **state)
     /* Appending part by part makes the same map. */
     for (size_t first = 0; first < path_count; first += 2500)
         expect_ok(rt_photon_list_append(&parts, slots + first, path_count, counts + first, 2500, 1,
-                                       &error),
+                                        &error),
                   &error);
     assert_int_equal(parts.count, whole.count);
     assert_memory_equal(parts.photons, whole.photons, whole.count * sizeof *whole.photons);
@@ -62,7 +63,8 @@ static void photons_left_out_are_counted(void **state)
     fill(slots, counts);
     counts[1].rejected = 1;
     counts[5000].rejected = 2;
-    expect_ok(rt_photon_list_append(&map, slots, path_count, counts, path_count, 2, &error), &error);
+    expect_ok(rt_photon_list_append(&map, slots, path_count, counts, path_count, 2, &error),
+              &error);
     assert_int_equal(map.rejected, 3);
     assert_int_equal(map.count, 2 * path_count);
     rt_photon_list_clear(&map);
@@ -74,7 +76,8 @@ static void numbers_that_are_not_finite_are_seen(void **state)
     (void)state;
     memset(&photon, 0, sizeof photon);
     assert_true(rt_photon_is_finite(&photon));
-    float *const members[] = {photon.position + 2, photon.wi, photon.flux + 1, &photon.shading, photon.normal + 2};
+    float *const members[] = {photon.position + 2, photon.wi, photon.flux + 1, &photon.shading,
+                              photon.normal + 2};
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         *members[i] = NAN;
         assert_false(rt_photon_is_finite(&photon));

@@ -1,5 +1,6 @@
 /*
- * test_point_order.c - the order names every photon once and keeps neighbours together, however far some photons lie.
+ * test_point_order.c - the order names every photon once and keeps neighbours together, however far
+ * some photons lie.
  */
 #include "support.h"
 
@@ -15,7 +16,9 @@ enum { count = 20000 };
 static uint64_t items[count], spare[count];
 static rt_photon photons[count];
 
-/* Photons on a square of 1 m, but for each `far_out`-th, which lies up to 10^6 m away in its plane. */
+/*
+ * Photons on a square of 1 m, but for each `far_out`-th, which lies up to 10^6 m away in its plane.
+ */
 static rt_photon_list make_photons(int far_out)
 {
     points_stream stream = {7};
@@ -35,7 +38,8 @@ static double mean_step(const rt_photon_list *list)
     double sum = 0;
     size_t steps = 0;
     rt_error error;
-    expect_ok(rt_point_order(items, spare, list->photons->position, sizeof *list->photons, list->count, 2, &error),
+    expect_ok(rt_point_order(items, spare, list->photons->position, sizeof *list->photons,
+                             list->count, 2, &error),
               &error);
     for (size_t i = 0; i < count; i++) {
         const float *at = photons[items[i] & RT_POINT_ORDER_INDEX].position;
@@ -57,7 +61,8 @@ static void every_photon_has_one_place(void **state)
     rt_photon_list list = make_photons(20);
     rt_error error;
     (void)state;
-    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error),
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count,
+                             2, &error),
               &error);
     for (size_t i = 0; i < count; i++) {
         size_t index = items[i] & RT_POINT_ORDER_INDEX;
@@ -67,8 +72,8 @@ static void every_photon_has_one_place(void **state)
 }
 
 /*
- * In no order, a step across the square is 0.52 m long in the mean; in the order, as the points' distances, 1 /
- * sqrt(count).
+ * In no order, a step across the square is 0.52 m long in the mean; in the order, as the points'
+ * distances, 1 / sqrt(count).
  */
 static void neighbours_stay_together(void **state)
 {
@@ -77,8 +82,8 @@ static void neighbours_stay_together(void **state)
     double near_only = mean_step(&list);
     list = make_photons(20);
     double with_far = mean_step(&list);
-    print_message("%.3f and, with photons far out, %.3f of 1 / sqrt(count)\n", near_only * sqrt(count),
-                  with_far * sqrt(count));
+    print_message("%.3f and, with photons far out, %.3f of 1 / sqrt(count)\n",
+                  near_only * sqrt(count), with_far * sqrt(count));
     assert_true(near_only < 1.4 / sqrt(count) && with_far < 1.4 / sqrt(count));
 }
 
@@ -88,12 +93,14 @@ static void photons_in_one_place_and_none_are_ordered(void **state)
     rt_error error;
     (void)state;
     memset(photons, 0, sizeof photons);
-    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error),
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count,
+                             2, &error),
               &error);
     for (size_t i = 0; i < count; i++)
         assert_int_equal(items[i] & RT_POINT_ORDER_INDEX, i);
     list.count = 0;
-    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count, 2, &error),
+    expect_ok(rt_point_order(items, spare, list.photons->position, sizeof *list.photons, list.count,
+                             2, &error),
               &error);
 }
 

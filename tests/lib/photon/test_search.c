@@ -35,8 +35,8 @@ static rt_gather_point point_at(float x, float z)
 }
 
 /* Asks once; list must have room for k entries. */
-static rt_gather_disc ask(rt_photon *photons, size_t count, uint32_t k, float max_radius, rt_gather_point point,
-                          rt_u32 *list)
+static rt_gather_disc ask(rt_photon *photons, size_t count, uint32_t k, float max_radius,
+                          rt_gather_point point, rt_u32 *list)
 {
     rt_photon_list map = {photons, count, count, count, 0};
     rt_photon_search *search = NULL;
@@ -108,7 +108,10 @@ static void photons_that_face_elsewhere_are_rejected_before_ranking(void **state
     static rt_photon photons[3 * each];
     rt_u32 list[k];
     (void)state;
-    /* Nearer than each photon that fits lie one of the other side of a thin floor and one of a wall. */
+    /*
+     * Nearer than each photon that fits lie one of the other side of a thin floor and one of a
+     * wall.
+     */
     for (size_t i = 0; i < each; i++) {
         float x = (float)(i + 1);
         photons[3 * i] = photon_at(x - 0.5f, -1e-3f, 0, down);

@@ -1,8 +1,9 @@
 /*
  * test_stored_flux.c - the photons of a wall carry the flux that path tracing says reaches it.
  *
- * From a camera that sees all of a diffuse wall and nothing else, the flux is pi / kd times the mean radiance times
- * the area. The two share geometry and materials, but neither emission nor the way in which light is followed.
+ * From a camera that sees all of a diffuse wall and nothing else, the flux is pi / kd times the
+ * mean radiance times the area. The two share geometry and materials, but neither emission nor the
+ * way in which light is followed.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -14,26 +15,28 @@ static const double pi = 3.14159265358979323846, kd[3] = {0.3, 0.5, 0.7};
 enum { side = 24, walls = 6 };
 
 /* A room of 2 m with its walls 0 to 4, an opening or a lamp above, and bodies in it. */
-#define ROOM                                                                  \
-    "material wall { kd 0.3 0.5 0.7 }\n"                                      \
-    "material mirror { ks 0.9 }\n"                                            \
-    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                  \
-    "material ball { kd 0.8 0.4 0.2 }\n"                                      \
-    "quad { corner -1 -1 -1  edge1 0 0 2  edge2 2 0 0  material wall }\n"     \
-    "quad { corner -1 -1 -1  edge1 2 0 0  edge2 0 2 0  material wall }\n"     \
-    "quad { corner -1 -1 1  edge1 0 2 0  edge2 2 0 0  material wall }\n"      \
-    "quad { corner -1 -1 -1  edge1 0 2 0  edge2 0 0 2  material wall }\n"     \
-    "quad { corner 1 -1 -1  edge1 0 0 2  edge2 0 2 0  material wall }\n"      \
-    "sphere { centre 0.4 -0.4 0.3  radius 0.3  material mirror }\n"           \
-    "sphere { centre -0.4 -0.4 -0.3  radius 0.3  material glass }\n"          \
+#define ROOM                                                                                       \
+    "material wall { kd 0.3 0.5 0.7 }\n"                                                           \
+    "material mirror { ks 0.9 }\n"                                                                 \
+    "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                       \
+    "material ball { kd 0.8 0.4 0.2 }\n"                                                           \
+    "quad { corner -1 -1 -1  edge1 0 0 2  edge2 2 0 0  material wall }\n"                          \
+    "quad { corner -1 -1 -1  edge1 2 0 0  edge2 0 2 0  material wall }\n"                          \
+    "quad { corner -1 -1 1  edge1 0 2 0  edge2 2 0 0  material wall }\n"                           \
+    "quad { corner -1 -1 -1  edge1 0 2 0  edge2 0 0 2  material wall }\n"                          \
+    "quad { corner 1 -1 -1  edge1 0 0 2  edge2 0 2 0  material wall }\n"                           \
+    "sphere { centre 0.4 -0.4 0.3  radius 0.3  material mirror }\n"                                \
+    "sphere { centre -0.4 -0.4 -0.3  radius 0.3  material glass }\n"                               \
     "sphere { centre -0.4 0.4 0.4  radius 0.25  material ball }\n"
 
-static const char lamp_room[] = ROOM "material lamp { kd 0.3 0.5 0.7  emission 2 }\n"
-                                     "quad { corner -1 1 -1  edge1 2 0 0  edge2 0 0 2  material lamp }\n";
+static const char lamp_room[] =
+    ROOM "material lamp { kd 0.3 0.5 0.7  emission 2 }\n"
+         "quad { corner -1 1 -1  edge1 2 0 0  edge2 0 0 2  material lamp }\n";
 static const char open_room[] = ROOM "light environment { radiance 2 }\n";
 
 /* The way out through wall i; the last is the ceiling. */
-static const float outward[walls][3] = {{0, -1, 0}, {0, 0, -1}, {0, 0, 1}, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+static const float outward[walls][3] = {{0, -1, 0}, {0, 0, -1}, {0, 0, 1},
+                                        {-1, 0, 0}, {1, 0, 0},  {0, 1, 0}};
 
 static rt_renderer *open_at(const char *text, int wall)
 {
@@ -41,8 +44,10 @@ static rt_renderer *open_at(const char *text, int wall)
     rt_scene *scene = NULL;
     rt_error error;
     const float *out = outward[wall];
-    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC, .width = 2,
-                        .eye = {0.95f * out[0], 0.95f * out[1], 0.95f * out[2]}, .look_at = {out[0], out[1], out[2]},
+    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC,
+                        .width = 2,
+                        .eye = {0.95f * out[0], 0.95f * out[1], 0.95f * out[2]},
+                        .look_at = {out[0], out[1], out[2]},
                         .up = {out[1] != 0, out[1] == 0, 0}};
     expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
@@ -54,7 +59,8 @@ static rt_renderer *open_at(const char *text, int wall)
 /* The flux that reaches a wall, W, by path tracing. */
 static void flux_by_paths(double flux[3], const char *text, int wall, uint32_t seed)
 {
-    rt_render_options options = {.width = side, .height = side, .spp = 512, .max_depth = 12, .seed = test_seed(seed)};
+    rt_render_options options = {
+        .width = side, .height = side, .spp = 512, .max_depth = 12, .seed = test_seed(seed)};
     rt_renderer *renderer = open_at(text, wall);
     rt_film *film = NULL;
     rt_error error;
@@ -84,7 +90,8 @@ static void flux_by_photons(double flux[walls][3], const char *text, uint32_t se
     const rt_photon *photons = rt_photon_map_photons(map, RT_PHOTONS_GLOBAL);
     for (size_t i = 0; i < rt_photon_map_count(map, RT_PHOTONS_GLOBAL); i++) {
         int inside = 1;
-        for (int axis = 0; axis < 3; axis++) /* photons on the outer sides of the walls are none of the room's */
+        for (int axis = 0; axis < 3;
+             axis++) /* photons on the outer sides of the walls are none of the room's */
             inside &= photons[i].normal[axis] * photons[i].position[axis] <= 0;
         for (int c = 0; c < 3 && inside && photons[i].shape < walls - 1; c++)
             flux[photons[i].shape][c] += photons[i].flux[c] / (double)render.photons;
@@ -94,10 +101,11 @@ static void flux_by_photons(double flux[walls][3], const char *text, uint32_t se
 }
 
 /*
- * Held to five standard deviations, measured over 20 seeds: 0.34 % of a wall and channel and 0.12 % of all under the
- * lamp, 1.1 % and 0.6 % under the sky, most of whose photons miss the opening.
+ * Held to five standard deviations, measured over 20 seeds: 0.34 % of a wall and channel and 0.12 %
+ * of all under the lamp, 1.1 % and 0.6 % under the sky, most of whose photons miss the opening.
  */
-static void expect_same_flux(const char *text, const char *name, double close_each, double close_all)
+static void expect_same_flux(const char *text, const char *name, double close_each,
+                             double close_all)
 {
     double photons[walls][3], paths[3], sums[2] = {0};
     flux_by_photons(photons, text, 1);

@@ -1,13 +1,13 @@
 /*
- * test_unbiased.c - density estimates of uniform fields have the right mean, through the search on the
- * host and the sum on the device, for all kernels and by every rule that ends a search.
+ * test_unbiased.c - density estimates of uniform fields have the right mean, through the search on
+ * the host and the sum on the device, for all kernels and by every rule that ends a search.
  *
- * A field is a number of photons laid down uniformly and independently on a unit square that repeats in
- * both directions (by copies around it), so that no disc meets an edge. The fields lie far apart in one
- * map. The mean over a field's gather points is one independent estimate, and the standard error comes
- * from the scatter of the fields. Where the radius is that of the k-th of n photons, the share of the
- * area inside has the distribution Beta(k, n - k + 1), so that (k - 1) / share has the mean n: the truth
- * is known exactly.
+ * A field is a number of photons laid down uniformly and independently on a unit square that
+ * repeats in both directions (by copies around it), so that no disc meets an edge. The fields lie
+ * far apart in one map. The mean over a field's gather points is one independent estimate, and the
+ * standard error comes from the scatter of the fields. Where the radius is that of the k-th of n
+ * photons, the share of the area inside has the distribution Beta(k, n - k + 1), so that (k - 1) /
+ * share has the mean n: the truth is known exactly.
  */
 #include "support.h"
 
@@ -21,14 +21,17 @@
 
 enum { fields = 100, points_a_field = 1000, estimates = fields * points_a_field };
 
-static const float margin = 0.25f;       /* copies reach so far beyond the square; no disc is larger */
-static const float apart = 4;            /* distance of the fields */
+/* copies reach so far beyond the square; no disc is larger */
+static const float margin = 0.25f;
+static const float apart = 4; /* distance of the fields */
 static const float cone_k = 1.1f;
 
 static const char *const kernel_names[] = {"epanechnikov", "box", "cone", "gaussian", "silverman"};
 enum { kernels = sizeof kernel_names / sizeof *kernel_names };
 
-/* A map of all fields, n photons in each square, of which one in `facing` faces the gather points. */
+/*
+ * A map of all fields, n photons in each square, of which one in `facing` faces the gather points.
+ */
 static void lay_down(rt_photon_list *map, int n, int facing)
 {
     points_stream stream = {test_seed(12)};
@@ -81,8 +84,8 @@ static rt_gather_point *make_points(int at_edge)
 }
 
 /* The mean of the fields' estimated densities, and its standard error. */
-static void estimate(const rt_photon_list *map, const rt_gather_options *options, int at_edge, double *mean,
-                     double *error_of_mean)
+static void estimate(const rt_photon_list *map, const rt_gather_options *options, int at_edge,
+                     double *mean, double *error_of_mean)
 {
     static const char *const programs[] = {"photon_gather", "photon_walk"};
     const char *program = programs[options->on_device];
@@ -122,18 +125,24 @@ static void estimate(const rt_photon_list *map, const rt_gather_options *options
 }
 
 /* Every kernel's mean is `truth`; a box that counts the k-th photon as well would be caught. */
-static void check(const rt_photon_list *map, uint32_t k, float max_radius, int on_device, double truth)
+static void check(const rt_photon_list *map, uint32_t k, float max_radius, int on_device,
+                  double truth)
 {
-    /* The kernels are evaluated by the same function in both ways, and the tree of FLANN is slow to build. */
+    /*
+     * The kernels are evaluated by the same function in both ways, and the tree of FLANN is slow to
+     * build.
+     */
     for (uint32_t density = 0; density < (on_device ? kernels : 2u); density++) {
         rt_gather_options options = {k, max_radius, density, cone_k, RT_AREA_DISC, on_device};
         double mean, sigma;
         estimate(map, &options, 0, &mean, &sigma);
         print_message("%s, k %u, radius %g, %s: %.3f of %.0f, %+.2f standard errors of %.4f %%\n",
-                      on_device ? "device" : "FLANN", (unsigned)k, max_radius, kernel_names[density], mean, truth,
-                      (mean - truth) / sigma, 100 * sigma / truth);
-        chance_compare(chance_of_student((mean - truth) / sigma, fields - 1), "%s, k %u: %g, should be %g, +- %g",
-                       kernel_names[density], (unsigned)k, mean, truth, sigma);
+                      on_device ? "device" : "FLANN", (unsigned)k, max_radius,
+                      kernel_names[density], mean, truth, (mean - truth) / sigma,
+                      100 * sigma / truth);
+        chance_compare(chance_of_student((mean - truth) / sigma, fields - 1),
+                       "%s, k %u: %g, should be %g, +- %g", kernel_names[density], (unsigned)k,
+                       mean, truth, sigma);
         if (k > 0 && max_radius == 0 && density == RT_DENSITY_BOX && truth > 1000)
             assert_true(truth / (k - 1) > 6 * sigma);
     }
@@ -176,7 +185,10 @@ static void a_fixed_radius_gives_the_true_density(void **state)
     rt_photon_list_clear(&map);
 }
 
-/* Estimates by the hull, anywhere in the fields and at the edge that photons beyond x = 1 would have. */
+/*
+ * Estimates by the hull, anywhere in the fields and at the edge that photons beyond x = 1 would
+ * have.
+ */
 static void the_hull_gives_the_true_density_at_edges_too(void **state)
 {
     enum { n = 4000, k = 50 };

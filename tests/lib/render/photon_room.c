@@ -7,7 +7,10 @@
 
 uint32_t room_material(rt_scene *scene, float kd, float ks, float kt)
 {
-    rt_material material = {.kd = {kd, kd, kd}, .ks = {ks, ks, ks}, .kt = {kt, kt, kt}, .ior = 1.5f,
+    rt_material material = {.kd = {kd, kd, kd},
+                            .ks = {ks, ks, ks},
+                            .kt = {kt, kt, kt},
+                            .ior = 1.5f,
                             .fresnel = kt > 0 ? RT_FRESNEL_DIELECTRIC : RT_FRESNEL_OFF};
     uint32_t index = 0;
     rt_error error;
@@ -15,8 +18,8 @@ uint32_t room_material(rt_scene *scene, float kd, float ks, float kt)
     return index;
 }
 
-void room_quad(rt_scene *scene, uint32_t material, float radiance, const float c[3], const float a[3],
-               const float b[3])
+void room_quad(rt_scene *scene, uint32_t material, float radiance, const float c[3],
+               const float a[3], const float b[3])
 {
     rt_surface surface = {.material = material, .radiance = {radiance, radiance, radiance}};
     rt_error error;
@@ -25,10 +28,10 @@ void room_quad(rt_scene *scene, uint32_t material, float radiance, const float c
 
 rt_renderer *room_renderer(rt_device *device)
 {
-    const float x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 2}, low[3] = {-1, -1, -1}, high[3] = {-1, 1, -1},
-                back[3] = {-1, -1, 1}, right[3] = {1, -1, -1}, lamp[3] = {-0.5f, 0.99f, -0.5f},
-                lamp_x[3] = {1, 0, 0}, lamp_z[3] = {0, 0, 1}, mirror[3] = {-0.5f, -0.6f, 0.3f},
-                glass[3] = {0.5f, -0.6f, 0};
+    const float x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 2}, low[3] = {-1, -1, -1},
+                high[3] = {-1, 1, -1}, back[3] = {-1, -1, 1}, right[3] = {1, -1, -1},
+                lamp[3] = {-0.5f, 0.99f, -0.5f}, lamp_x[3] = {1, 0, 0}, lamp_z[3] = {0, 0, 1},
+                mirror[3] = {-0.5f, -0.6f, 0.3f}, glass[3] = {0.5f, -0.6f, 0};
     rt_camera camera = {.eye = {0, 0, -4}, .fov = 40};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;

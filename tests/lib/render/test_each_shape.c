@@ -1,4 +1,7 @@
-/* test_each_shape.c - what must hold of every shape: lettering is upright and unmirrored, clear glass disappears. */
+/*
+ * test_each_shape.c - what must hold of every shape: lettering is upright and unmirrored, clear
+ * glass disappears.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -33,7 +36,10 @@ static void render(float *rgb, uint32_t width, rt_renderer *renderer, rt_render_
 
 /* ---- Lettering -------------------------------------------------------------------------- */
 
-/* The letter F, of 8 x 8 texels, and its middle a texel left of that of the picture: no turn or mirror keeps it. */
+/*
+ * The letter F, of 8 x 8 texels, and its middle a texel left of that of the picture: no turn or
+ * mirror keeps it.
+ */
 enum { letter_side = 8 };
 static const char *const letter[letter_side] = {"........", ".#####..", ".#......", ".#......",
                                                 ".####...", ".#......", ".#......", "........"};
@@ -49,7 +55,8 @@ static void write_letter(const char *path)
 }
 
 /*
- * How black the letter is at texture coordinates that the texture's scale has multiplied; -1 near the edge of a texel.
+ * How black the letter is at texture coordinates that the texture's scale has multiplied; -1 near
+ * the edge of a texel.
  */
 static int letter_at(double u, double v)
 {
@@ -66,7 +73,8 @@ static const struct lettered {
 } lettered[] = {
     {"plane", "plane { point 0 0 0  normal 0 0 1", 1},
     {"quad", "quad { corner -0.9 -0.9 0  edge1 1.8 0 0  edge2 0 1.8 0", 1},
-    {"triangle", "triangle { a -0.9 -0.9 0  b 0.9 -0.9 0  c -0.9 0.9 0  uva 0 0  uvb 1 0  uvc 0 1", 1},
+    {"triangle", "triangle { a -0.9 -0.9 0  b 0.9 -0.9 0  c -0.9 0.9 0  uva 0 0  uvb 1 0  uvc 0 1",
+     1},
     {"triangle without coordinates", "triangle { a -0.9 -0.9 0  b 0.9 -0.9 0  c -0.9 0.9 0", 1},
     {"disc", "disc { centre 0 0 0  normal 0 0 1  radius 0.9", 0},
     {"ring", "disc { centre 0 0 0  normal 0 0 1  radius 0.9  inner_radius 0.3", 0},
@@ -80,14 +88,19 @@ static const struct lettered {
     {"sphere that is turned", "sphere { centre 0 0 0  radius 0.9  rotate 0 1 0 130", 1},
 };
 
-/* Rays that go along -z, a pixel of a picture 2 m wide apart, each with one to its right and one above. */
+/*
+ * Rays that go along -z, a pixel of a picture 2 m wide apart, each with one to its right and one
+ * above.
+ */
 static void make_rays(rt_ray rays[3 * pixels])
 {
     memset(rays, 0, 3 * pixels * sizeof *rays);
     for (int i = 0; i < 3 * pixels; i++) {
         const int pixel = i / 3;
-        rays[i].origin[0] = ((float)(pixel % side) + 0.5f) * 2 / side - 1 + (i % 3 == 1 ? apart : 0);
-        rays[i].origin[1] = 1 - ((float)(pixel / side) + 0.5f) * 2 / side + (i % 3 == 2 ? apart : 0);
+        rays[i].origin[0] =
+            ((float)(pixel % side) + 0.5f) * 2 / side - 1 + (i % 3 == 1 ? apart : 0);
+        rays[i].origin[1] =
+            1 - ((float)(pixel / side) + 0.5f) * 2 / side + (i % 3 == 2 ? apart : 0);
         rays[i].origin[2] = 2;
         rays[i].direction[2] = -1;
         rays[i].t_max = INFINITY;
@@ -100,13 +113,15 @@ static double change(double from, double to)
     return to - from - rint(to - from);
 }
 
-static void expect_upright(const struct lettered *shape, const rt_hit hits[3 * pixels], const rt_ray *rays)
+static void expect_upright(const struct lettered *shape, const rt_hit hits[3 * pixels],
+                           const rt_ray *rays)
 {
     int seen = 0;
     for (int i = 0; i < pixels; i++) {
         const rt_hit *hit = hits + 3 * i;
         const double x = rays[3 * i].origin[0], y = rays[3 * i].origin[1];
-        if (hit[0].shape == RT_NONE || hit[1].shape == RT_NONE || hit[2].shape == RT_NONE || hit[0].normal[2] < 0.3f)
+        if (hit[0].shape == RT_NONE || hit[1].shape == RT_NONE || hit[2].shape == RT_NONE ||
+            hit[0].normal[2] < 0.3f)
             continue;
         const double du_dx = change(hit[0].u, hit[1].u), du_dy = change(hit[0].u, hit[2].u);
         const double dv_dx = change(hit[0].v, hit[1].v), dv_dy = change(hit[0].v, hit[2].v);
@@ -120,8 +135,8 @@ static void expect_upright(const struct lettered *shape, const rt_hit hits[3 * p
 }
 
 /*
- * Whether half a pixel, by which a sample may lie off the middle, is less than a seventh of a texel: then black stays
- * below 1/2.
+ * Whether half a pixel, by which a sample may lie off the middle, is less than a seventh of a
+ * texel: then black stays below 1/2.
  */
 static int is_large(const rt_hit *hit)
 {
@@ -132,18 +147,21 @@ static int is_large(const rt_hit *hit)
 }
 
 /* The picture shows the letter where the coordinates have it. */
-static void expect_letters(const struct lettered *shape, const rt_hit hits[3 * pixels], const float *rgb)
+static void expect_letters(const struct lettered *shape, const rt_hit hits[3 * pixels],
+                           const float *rgb)
 {
     int black = 0, white = 0;
     for (int i = 0; i < pixels; i++) {
         const rt_hit *hit = hits + 3 * i;
-        if (hit[0].shape == RT_NONE || hit[1].shape == RT_NONE || hit[2].shape == RT_NONE || !is_large(hit))
+        if (hit[0].shape == RT_NONE || hit[1].shape == RT_NONE || hit[2].shape == RT_NONE ||
+            !is_large(hit))
             continue;
         const int expected = letter_at(2 * hit[0].u, 2 * hit[0].v);
         if (expected < 0)
             continue;
         if ((rgb[3 * i] < 0.5f) != (expected == 1))
-            fail_msg("%s: %g where the letter is %s", shape->name, rgb[3 * i], expected ? "black" : "white");
+            fail_msg("%s: %g where the letter is %s", shape->name, rgb[3 * i],
+                     expected ? "black" : "white");
         *(expected ? &black : &white) += 1;
     }
     if (black == 0 || white == 0)
@@ -162,12 +180,13 @@ static void lettering_is_upright_and_unmirrored_on_every_shape(void **state)
     for (size_t i = 0; i < sizeof lettered / sizeof *lettered; i++) {
         rt_scene *scene = NULL;
         rt_error error;
-        snprintf(
-            text, sizeof text,
-            "camera { projection orthographic  eye 0 0 2  look_at 0 0 0  width 2 }\nlight environment { radiance 1 }\n"
-            "texture letter { file \"letter.ppm\"  scale 2 2 }\nmaterial paper { kd_texture letter }\n"
-            "%s  material paper }\n",
-            lettered[i].shape);
+        snprintf(text, sizeof text,
+                 "camera { projection orthographic  eye 0 0 2  look_at 0 0 0  width 2 }\nlight "
+                 "environment { radiance 1 }\n"
+                 "texture letter { file \"letter.ppm\"  scale 2 2 }\nmaterial paper { kd_texture "
+                 "letter }\n"
+                 "%s  material paper }\n",
+                 lettered[i].shape);
         rt_renderer *renderer = open_scene(&scene, text);
         expect_ok(rt_trace(renderer, RT_TRACE_CLOSEST, rays, 3 * pixels, hits, &error), &error);
         render(rgb, side, renderer, (rt_render_options){.mode = RT_MODE_ALBEDO, .spp = 1});
@@ -196,14 +215,17 @@ static void clear_glass_of_every_closed_shape_disappears_in_even_light(void **st
     static float rgb[3 * glass_pixels];
     char text[1024];
     (void)state;
-    scratch_write("octahedron.off",
-                  "OFF\n6 8 12\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n"
-                  "3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n");
+    scratch_write(
+        "octahedron.off",
+        "OFF\n6 8 12\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n"
+        "3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n");
     for (size_t i = 0; i < sizeof closed / sizeof *closed; i++) {
         rt_scene *scene = NULL;
-        snprintf(text, sizeof text,
-                 "camera { eye 0.4 1.5 -3  look_at 0 0 0  fov 40 }\nlight environment { radiance 1 }\n"
-                 "material glass { kt 1  ior 1.5  fresnel dielectric }\n%s  material glass }\n", closed[i].shape);
+        snprintf(
+            text, sizeof text,
+            "camera { eye 0.4 1.5 -3  look_at 0 0 0  fov 40 }\nlight environment { radiance 1 }\n"
+            "material glass { kt 1  ior 1.5  fresnel dielectric }\n%s  material glass }\n",
+            closed[i].shape);
         rt_renderer *renderer = open_scene(&scene, text);
         /* Light that total reflection holds back leaves at last. */
         render(rgb, glass_side, renderer, (rt_render_options){.spp = 8, .max_depth = 4096});
@@ -218,10 +240,10 @@ static void clear_glass_of_every_closed_shape_disappears_in_even_light(void **st
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(lettering_is_upright_and_unmirrored_on_every_shape, scratch_enter,
-                                        scratch_leave),
-        cmocka_unit_test_setup_teardown(clear_glass_of_every_closed_shape_disappears_in_even_light, scratch_enter,
-                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(lettering_is_upright_and_unmirrored_on_every_shape,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(clear_glass_of_every_closed_shape_disappears_in_even_light,
+                                        scratch_enter, scratch_leave),
     };
     return cmocka_run_group_tests_name("render/each shape", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /*
- * test_estimators.c - light sampling, material sampling and their combination bring the same mean for every kind of
- * lamp, and the combination less noise.
+ * test_estimators.c - light sampling, material sampling and their combination bring the same mean
+ * for every kind of lamp, and the combination less noise.
  */
 #include "support.h"
 
@@ -29,13 +29,14 @@ static uint32_t material(const rt_material *m)
 /* A floor, seen from above, beside a wall that hides a part of what lights it. */
 static void begin(float roughness)
 {
-    static const float corner[3] = {-2, 0, 2}, x[3] = {4, 0, 0}, z[3] = {0, 0, -4}, wall[3] = {-2, 0, -1},
-                       up[3] = {0, 1, 0};
+    static const float corner[3] = {-2, 0, 2}, x[3] = {4, 0, 0}, z[3] = {0, 0, -4},
+                       wall[3] = {-2, 0, -1}, up[3] = {0, 1, 0};
     rt_material floor_material = {.kd = {0.6f, 0.5f, 0.4f}};
     rt_camera camera = {.eye = {0, 5, 4}, .look_at = {0, 0, 0}, .fov = 30};
     rt_surface surface;
     if (roughness > 0) {
-        floor_material = (rt_material){.kd = {0.3f, 0.3f, 0.3f}, .ks = {0.6f, 0.6f, 0.6f}, .roughness = roughness};
+        floor_material = (rt_material){
+            .kd = {0.3f, 0.3f, 0.3f}, .ks = {0.6f, 0.6f, 0.6f}, .roughness = roughness};
     }
     memset(&surface, 0, sizeof surface);
     expect_ok(rt_scene_create(&scene, &error), &error);
@@ -66,8 +67,14 @@ static rt_renderer *ready(void)
 
 static rt_film *render(rt_renderer *renderer, rt_estimator estimator, uint32_t seed)
 {
-    rt_render_options options = {.width = side, .height = side, .spp = spp, .max_depth = 3, .seed = test_seed(seed),
-                                 .roulette_threshold = 1, .sampler = RT_SAMPLER_INDEPENDENT, .estimator = estimator};
+    rt_render_options options = {.width = side,
+                                 .height = side,
+                                 .spp = spp,
+                                 .max_depth = 3,
+                                 .seed = test_seed(seed),
+                                 .roulette_threshold = 1,
+                                 .sampler = RT_SAMPLER_INDEPENDENT,
+                                 .estimator = estimator};
     rt_film *film = NULL;
     rt_film_stats stats;
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
@@ -76,15 +83,21 @@ static rt_film *render(rt_renderer *renderer, rt_estimator estimator, uint32_t s
     return film;
 }
 
-/* Half the square of the difference of two renders: the variance of a pixel's mean, if averaged over many. */
+/*
+ * Half the square of the difference of two renders: the variance of a pixel's mean, if averaged
+ * over many.
+ */
 static double variance(rt_film *const films[2], int pixel)
 {
     double d = (double)rt_film_rgb(films[0])[3 * pixel + 1] - rt_film_rgb(films[1])[3 * pixel + 1];
     return 0.5 * d * d;
 }
 
-/* The combination's variance is at most so many times that of one technique alone, but for chance. */
-static void expect_less_noise(rt_film *const both[2], rt_film *const alone[2], double most, const char *what)
+/*
+ * The combination's variance is at most so many times that of one technique alone, but for chance.
+ */
+static void expect_less_noise(rt_film *const both[2], rt_film *const alone[2], double most,
+                              const char *what)
 {
     double excess = 0;
     for (int i = 0; i < pixels; i++) {
@@ -95,8 +108,9 @@ static void expect_less_noise(rt_film *const both[2], rt_film *const alone[2], d
 }
 
 /*
- * All three have the same mean, to standard errors of the difference over the film. The variance of the combination
- * is at most `most` times that of material sampling, and 1.3 times that of light sampling.
+ * All three have the same mean, to standard errors of the difference over the film. The variance of
+ * the combination is at most `most` times that of material sampling, and 1.3 times that of light
+ * sampling.
  */
 static void expect_same_mean_and_less_noise(const char *what, double most)
 {
@@ -108,7 +122,8 @@ static void expect_same_mean_and_less_noise(const char *what, double most)
     for (int e = 1; e < 3; e++) {
         for (int i = 0; i < pixels; i++)
             values[i] = ((double)rt_film_rgb(films[e][0])[3 * i] + rt_film_rgb(films[e][1])[3 * i] -
-                         rt_film_rgb(films[0][0])[3 * i] - rt_film_rgb(films[0][1])[3 * i]) / 2;
+                         rt_film_rgb(films[0][0])[3 * i] - rt_film_rgb(films[0][1])[3 * i]) /
+                        2;
         expect_mean(values, pixels, 0, 1e-5, what);
     }
     expect_less_noise(films[0], films[1], 1.3, what);
@@ -126,18 +141,22 @@ static void expect_same_mean(const char *what)
 
 static void lamps_of_every_shape(void **state)
 {
-    static const float at[3] = {0.5f, 1.5f, 0}, to[3] = {0.8f, 2.1f, -0.2f}, edge1[3] = {0, 0, 0.8f},
-                       edge2[3] = {0.7f, -0.2f, 0}, radii[3] = {0.5f, 0.2f, 0.3f};
-    static const char *const names[] = {"quad", "sphere", "ellipsoid", "disc", "cylinder", "cone", "torus"};
+    static const float at[3] = {0.5f, 1.5f, 0}, to[3] = {0.8f, 2.1f, -0.2f},
+                       edge1[3] = {0, 0, 0.8f}, edge2[3] = {0.7f, -0.2f, 0},
+                       radii[3] = {0.5f, 0.2f, 0.3f};
+    static const char *const names[] = {"quad",     "sphere", "ellipsoid", "disc",
+                                        "cylinder", "cone",   "torus"};
     (void)state;
     for (int kind = 0; kind < 7; kind++) {
         begin(0);
         rt_surface s = lamp();
         rt_status status =
             kind == 0   ? rt_scene_add_quad(scene, NULL, at, edge2, edge1, &s, &error)
-            : kind == 1 ? rt_scene_add_sphere(scene, NULL, at, 0.4f, (s.transform = (rt_transform){{{0}}}, &s), &error)
+            : kind == 1 ? rt_scene_add_sphere(scene, NULL, at, 0.4f,
+                                              (s.transform = (rt_transform){{{0}}}, &s), &error)
             : kind == 2 ? rt_scene_add_ellipsoid(scene, NULL, at, radii, &s, &error)
-            : kind == 3 ? rt_scene_add_disc(scene, NULL, at, (const float[3]){0, -1, 0}, 0.5f, 0.2f, &s, &error)
+            : kind == 3 ? rt_scene_add_disc(scene, NULL, at, (const float[3]){0, -1, 0}, 0.5f, 0.2f,
+                                            &s, &error)
             : kind == 4 ? rt_scene_add_cylinder(scene, NULL, at, to, 0.3f, 1, &s, &error)
             : kind == 5 ? rt_scene_add_cone(scene, NULL, at, to, 0.4f, 0.1f, 1, &s, &error)
                         : rt_scene_add_torus(scene, NULL, at, to, 0.4f, 0.15f, &s, &error);
@@ -146,13 +165,22 @@ static void lamps_of_every_shape(void **state)
     }
 }
 
-/* A tent of two triangles, placed twice by transforms, one of them with a texture on its coordinates. */
+/*
+ * A tent of two triangles, placed twice by transforms, one of them with a texture on its
+ * coordinates.
+ */
 static void lamps_of_meshes(void **state)
 {
-    static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 0.3f, 1, 1, 0, 1}, uv[] = {0, 0, 1, 0, 0, 1, 1, 1};
+    static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 0.3f, 1, 1, 0, 1},
+                       uv[] = {0, 0, 1, 0, 0, 1, 1, 1};
     static const uint32_t indices[] = {0, 1, 2, 1, 3, 2};
-    rt_mesh_data mesh = {.positions = positions, .uv = uv, .indices = indices, .vertex_count = 4, .triangle_count = 2};
-    rt_texture checker = {.kind = RT_TEXTURE_CHECKER, .a = {2, 2, 2}, .b = {0.1f, 0.1f, 0.1f}, .scale = {4, 4}};
+    rt_mesh_data mesh = {.positions = positions,
+                         .uv = uv,
+                         .indices = indices,
+                         .vertex_count = 4,
+                         .triangle_count = 2};
+    rt_texture checker = {
+        .kind = RT_TEXTURE_CHECKER, .a = {2, 2, 2}, .b = {0.1f, 0.1f, 0.1f}, .scale = {4, 4}};
     uint32_t handle, texture;
     (void)state;
     begin(0);
@@ -167,11 +195,14 @@ static void lamps_of_meshes(void **state)
     expect_same_mean("mesh");
 }
 
-/* Two walls that shine, right beside the floor: rays meet them as often as points of them are sampled. */
+/*
+ * Two walls that shine, right beside the floor: rays meet them as often as points of them are
+ * sampled.
+ */
 static void large_lamps(void **state)
 {
-    static const float left[3] = {-2, 0, 2}, right[3] = {2, 0, -2}, up[3] = {0, 3, 0}, back[3] = {0, 0, -4},
-                       front[3] = {0, 0, 4};
+    static const float left[3] = {-2, 0, 2}, right[3] = {2, 0, -2}, up[3] = {0, 3, 0},
+                       back[3] = {0, 0, -4}, front[3] = {0, 0, 4};
     (void)state;
     begin(0);
     rt_surface s = lamp();

@@ -28,20 +28,26 @@ static double mean_over(const float *values, int channels, int left, int top, in
     return sum / (size * size);
 }
 
-/* A floor of 4 m seen from above: dim all over, a hundred times as bright in a spot of about 0.5 m in the middle. */
-static const char spot[] = "camera { projection orthographic  eye 0 5 0  look_at 0 0 0  up 0 0 1  width 4 }\n"
-                           "material floor { kd 0.5 }\n"
-                           "quad { corner -2 0 -2  edge1 0 0 4  edge2 4 0 0  material floor }\n"
-                           "light spot { position 0 4 0  target 0 0 0  outer 4  inner 3  intensity 1600 }\n"
-                           "light point { position 0 4 0  intensity 16 }\n";
+/*
+ * A floor of 4 m seen from above: dim all over, a hundred times as bright in a spot of about 0.5 m
+ * in the middle.
+ */
+static const char spot[] =
+    "camera { projection orthographic  eye 0 5 0  look_at 0 0 0  up 0 0 1  width 4 }\n"
+    "material floor { kd 0.5 }\n"
+    "quad { corner -2 0 -2  edge1 0 0 4  edge2 4 0 0  material floor }\n"
+    "light spot { position 0 4 0  target 0 0 0  outer 4  inner 3  intensity 1600 }\n"
+    "light point { position 0 4 0  intensity 16 }\n";
 
 static void each_pixel_begins_with_its_own(void **state)
 {
-    rt_render_options options = {.passes = 2, .photons = 20000, .direct = RT_DIRECT_PHOTONS, .photon_layers = 1};
+    rt_render_options options = {
+        .passes = 2, .photons = 20000, .direct = RT_DIRECT_PHOTONS, .photon_layers = 1};
     (void)state;
     rt_film *film = render_passes(spot, options);
     const float *radius = rt_film_layer(film, "photon.radius", NULL);
-    const double bright = mean_over(radius, 1, side / 2 - 1, side / 2 - 1, 2), dim = mean_over(radius, 1, 2, 2, 4);
+    const double bright = mean_over(radius, 1, side / 2 - 1, side / 2 - 1, 2),
+                 dim = mean_over(radius, 1, 2, 2, 4);
     print_message("radius %.4f m in the spot, %.4f m beside it\n", bright, dim);
     /* In proportion to one over the root of the density, but for the limit by the mean. */
     assert_true(bright > 0 && bright < 0.3 * dim);
@@ -55,16 +61,19 @@ static void each_pixel_begins_with_its_own(void **state)
     rt_film_destroy(film);
 }
 
-/* All light comes through a pane that does not bend it; from the lone floor no path of the final gather meets anything.
+/*
+ * All light comes through a pane that does not bend it; from the lone floor no path of the final
+ * gather meets anything.
  */
 static void caustics_are_seen_where_the_final_gather_sees_nothing(void **state)
 {
-    static const char pane[] = "camera { projection orthographic  eye 0 0.5 0  look_at 0 0 0  up 0 0 1  width 1 }\n"
-                               "material floor { kd 0.5 }\n"
-                               "material pane { kt 1  ior 1 }\n"
-                               "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material floor }\n"
-                               "quad { corner -1 1 -1  edge1 0 0 2  edge2 2 0 0  material pane }\n"
-                               "light point { position 0 2 0  intensity 8 }\n";
+    static const char pane[] =
+        "camera { projection orthographic  eye 0 0.5 0  look_at 0 0 0  up 0 0 1  width 1 }\n"
+        "material floor { kd 0.5 }\n"
+        "material pane { kt 1  ior 1 }\n"
+        "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material floor }\n"
+        "quad { corner -1 1 -1  edge1 0 0 2  edge2 2 0 0  material pane }\n"
+        "light point { position 0 2 0  intensity 8 }\n";
     rt_render_options options = {.passes = 4, .photons = 50000};
     (void)state;
     rt_film *plain = render_passes(pane, options);

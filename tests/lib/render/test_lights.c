@@ -1,5 +1,6 @@
 /*
- * test_lights.c - lights over a floor against closed forms, by path tracing and from the photon map.
+ * test_lights.c - lights over a floor against closed forms, by path tracing and from the photon
+ * map.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -13,12 +14,18 @@ enum { side = 12, pixels = side * side };
 
 static rt_error error;
 
-/* A white floor of 4 m x 4 m, of which the camera sees `width` m x `width` m in the middle from straight above. */
+/*
+ * A white floor of 4 m x 4 m, of which the camera sees `width` m x `width` m in the middle from
+ * straight above.
+ */
 static rt_scene *floor_scene(float width)
 {
     static const float corner[3] = {-2, 0, 2}, x[3] = {4, 0, 0}, z[3] = {0, 0, -4};
     static const rt_material half = {.kd = {0.5f, 0.5f, 0.5f}};
-    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC, .eye = {0, 3, 0}, .look_at = {0, 0, 0}, .up = {0, 0, 1},
+    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC,
+                        .eye = {0, 3, 0},
+                        .look_at = {0, 0, 0},
+                        .up = {0, 0, 1},
                         .width = width};
     rt_scene *scene = NULL;
     rt_surface surface;
@@ -33,8 +40,14 @@ static rt_scene *floor_scene(float width)
 /* The mean over the film, which is half the irradiance over pi. */
 static double irradiance(rt_scene *scene, rt_mode mode)
 {
-    rt_render_options options = {.width = side, .height = side, .mode = mode, .spp = mode == RT_MODE_PHOTON ? 4 : 64,
-                                 .photons = 400000, .k = 400, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(3)};
+    rt_render_options options = {.width = side,
+                                 .height = side,
+                                 .mode = mode,
+                                 .spp = mode == RT_MODE_PHOTON ? 4 : 64,
+                                 .photons = 400000,
+                                 .k = 400,
+                                 .direct = RT_DIRECT_PHOTONS,
+                                 .seed = test_seed(3)};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
     double sum = 0;
@@ -48,7 +61,9 @@ static double irradiance(rt_scene *scene, rt_mode mode)
     return sum / (3 * pixels) / 0.5 * pi;
 }
 
-/* Path tracing to `close` of the truth; the map, of which the film sees some 10^4 photons, to 3 %. */
+/*
+ * Path tracing to `close` of the truth; the map, of which the film sees some 10^4 photons, to 3 %.
+ */
 static void expect_irradiance(rt_scene *(*make)(void), double truth, double close)
 {
     expect_close(irradiance(make(), RT_MODE_PATH), truth, close * truth, "irradiance");
@@ -66,12 +81,16 @@ static rt_scene *with_spot(rt_spot_light spot)
 
 static rt_scene *spot_above(void)
 {
-    return with_spot((rt_spot_light){.position = {0, 2, 0}, .intensity = {8, 8, 8}, .inner = 20, .outer = 40});
+    return with_spot(
+        (rt_spot_light){.position = {0, 2, 0}, .intensity = {8, 8, 8}, .inner = 20, .outer = 40});
 }
 
 static rt_scene *spot_aside(void)
 {
-    return with_spot((rt_spot_light){.position = {2, 2, 0}, .target = {2, 0, 0}, .intensity = {8, 8, 8}, .inner = 30,
+    return with_spot((rt_spot_light){.position = {2, 2, 0},
+                                     .target = {2, 0, 0},
+                                     .intensity = {8, 8, 8},
+                                     .inner = 30,
                                      .outer = 60});
 }
 
@@ -94,7 +113,8 @@ static double inside_the_cone(double x, double z)
 
 static double in_the_edge(double x, double z)
 {
-    double d = sqrt((x - 2) * (x - 2) + z * z + 4), t = (2 / d - cos(pi / 3)) / (cos(pi / 6) - cos(pi / 3));
+    double d = sqrt((x - 2) * (x - 2) + z * z + 4),
+           t = (2 / d - cos(pi / 3)) / (cos(pi / 6) - cos(pi / 3));
     return 8 * t * t * (3 - 2 * t) * 2 / (d * d * d);
 }
 
@@ -133,7 +153,10 @@ static void even_environments_by_pi(void **state)
     expect_irradiance(even_sky, 2 * pi, 5e-3);
 }
 
-/* The same through a pane without end, which stands between the floor and where the light comes from. */
+/*
+ * The same through a pane without end, which stands between the floor and where the light comes
+ * from.
+ */
 static rt_scene *sky_behind_pane(void)
 {
     static const rt_material clear = {.kt = {1, 1, 1}, .ior = 1};
@@ -150,7 +173,8 @@ static void distant_light_comes_through_clear_planes(void **state)
 {
     (void)state;
     expect_close(irradiance(sky_behind_pane(), RT_MODE_PATH), 2 * pi, 5e-3 * 2 * pi, "irradiance");
-    expect_close(irradiance(sky_behind_pane(), RT_MODE_PHOTON), 2 * pi, 0.03 * 2 * pi, "irradiance");
+    expect_close(irradiance(sky_behind_pane(), RT_MODE_PHOTON), 2 * pi, 0.03 * 2 * pi,
+                 "irradiance");
 }
 
 /* A black disc over the middle of the floor, which shines down when it has radiance. */
@@ -170,7 +194,10 @@ static void add_disc(rt_scene *scene, float height, float radius, float radiance
 static rt_scene *spot_of_floor(void)
 {
     rt_scene *scene = floor_scene(0.02f);
-    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC, .eye = {0, 0.9f, 0}, .look_at = {0, 0, 0}, .up = {0, 0, 1},
+    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC,
+                        .eye = {0, 0.9f, 0},
+                        .look_at = {0, 0, 0},
+                        .up = {0, 0, 1},
                         .width = 0.02f};
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
     return scene;
@@ -187,10 +214,14 @@ static rt_scene *disc_lamp(void)
 static void discs_by_their_form_factor(void **state)
 {
     (void)state;
-    expect_close(irradiance(disc_lamp(), RT_MODE_PATH), pi * 4 * 0.25 / 1.25, 3e-3 * pi * 0.8, "irradiance");
+    expect_close(irradiance(disc_lamp(), RT_MODE_PATH), pi * 4 * 0.25 / 1.25, 3e-3 * pi * 0.8,
+                 "irradiance");
 }
 
-/* The irradiance by a lamp of a metre's height and a disc that hides it, or does not, at another height. */
+/*
+ * The irradiance by a lamp of a metre's height and a disc that hides it, or does not, at another
+ * height.
+ */
 static double past_disc(int is_point, float height)
 {
     rt_point_light point = {.position = {0, 1, 0}, .intensity = {1, 1, 1}};
@@ -248,7 +279,9 @@ static void environments_are_seen(void **state)
         expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
         expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
         if (i > 0) {
-            expect_ok(rt_scene_add_material(scene, &surface.material, NULL, i == 1 ? &mirror : &clear, &error), &error);
+            expect_ok(rt_scene_add_material(scene, &surface.material, NULL,
+                                            i == 1 ? &mirror : &clear, &error),
+                      &error);
             expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error);
         }
         expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);

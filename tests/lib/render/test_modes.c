@@ -1,4 +1,7 @@
-/* test_modes.c - the modes that show the first hit, the layers beside a picture, and the filters, on known scenes. */
+/*
+ * test_modes.c - the modes that show the first hit, the layers beside a picture, and the filters,
+ * on known scenes.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -13,14 +16,16 @@ enum { width = 16, height = 8, pixels = width * height };
 static rt_error error;
 
 /*
- * Seen along -z by parallel rays, 4 m wide: on the left half a quad at depth 3, tilted by 45 degrees about x, so
- * that the depth goes from 2 at the bottom to 4 at the top; on the right the sky.
+ * Seen along -z by parallel rays, 4 m wide: on the left half a quad at depth 3, tilted by 45
+ * degrees about x, so that the depth goes from 2 at the bottom to 4 at the top; on the right the
+ * sky.
  */
 static rt_renderer *tilted(void)
 {
     static const float corner[3] = {-2, -1, 1}, x[3] = {2, 0, 0}, y[3] = {0, 2, -2};
     static const rt_material m = {.kd = {0.5f, 0.3f, 0.1f}, .ks = {0.2f, 0.2f, 0.2f}};
-    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC, .eye = {0, 0, 3}, .look_at = {0, 0, 0}, .width = 4};
+    rt_camera camera = {
+        .kind = RT_CAMERA_ORTHOGRAPHIC, .eye = {0, 0, 3}, .look_at = {0, 0, 0}, .width = 4};
     rt_environment sky = {.radiance = {1, 1, 1}};
     rt_scene *scene = NULL;
     rt_renderer *renderer = NULL;
@@ -38,8 +43,13 @@ static rt_renderer *tilted(void)
 
 static rt_film *render(rt_mode mode, int aov, rt_filter filter)
 {
-    rt_render_options options = {.width = width, .height = height, .mode = mode, .spp = 64, .aov = aov,
-                                 .filter = filter, .photons = 1000};
+    rt_render_options options = {.width = width,
+                                 .height = height,
+                                 .mode = mode,
+                                 .spp = 64,
+                                 .aov = aov,
+                                 .filter = filter,
+                                 .photons = 1000};
     rt_renderer *renderer = tilted();
     rt_film *film = NULL;
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
@@ -100,10 +110,13 @@ static void modes_show_their_layer(void **state)
         assert_int_equal(stats.spp, 64);
         expect_layers(film);
         for (int i = 0; i < 3 * pixels; i++) {
-            const float *albedo = rt_film_layer(film, "albedo", NULL), *normal = rt_film_layer(film, "normal", NULL),
+            const float *albedo = rt_film_layer(film, "albedo", NULL),
+                        *normal = rt_film_layer(film, "normal", NULL),
                         *depth = rt_film_layer(film, "depth", NULL);
             int hit = i / 3 % width < width / 2;
-            double shown = m == 0 ? albedo[i] : m == 1 ? (hit ? (normal[i] + 1) / 2 : 0) : depth[i / 3];
+            double shown = m == 0   ? albedo[i]
+                           : m == 1 ? (hit ? (normal[i] + 1) / 2 : 0)
+                                    : depth[i / 3];
             assert_float_equal(rgb[i], shown, 1e-6);
         }
         rt_film_destroy(film);
@@ -114,7 +127,8 @@ static void layers_go_to_exr_by_their_names(void **state)
 {
     static const char *const names[] = {"albedo.R", "albedo.G", "albedo.B", "normal.X",
                                         "normal.Y", "normal.Z", "depth.Z"};
-    static const char *const layers[] = {"albedo", "albedo", "albedo", "normal", "normal", "normal", "depth"};
+    static const char *const layers[] = {"albedo", "albedo", "albedo", "normal",
+                                         "normal", "normal", "depth"};
     rt_image *image = NULL;
     rt_film *film = render(RT_MODE_PATH, 1, RT_FILTER_BOX);
     (void)state;
@@ -128,7 +142,8 @@ static void layers_go_to_exr_by_their_names(void **state)
         const float *layer = rt_film_layer(film, layers[k], &channels);
         assert_true(channel != RT_IMAGE_NO_CHANNEL);
         for (size_t i = 0; i < pixels; i++)
-            assert_true(image->data[i * 10 + channel] == layer[i * channels + (size_t)k % 3 % channels]);
+            assert_true(image->data[i * 10 + channel] ==
+                        layer[i * channels + (size_t)k % 3 % channels]);
     }
     uint32_t red = rt_image_channel(image, "R");
     for (size_t i = 0; i < pixels; i++)
@@ -140,10 +155,14 @@ static void layers_go_to_exr_by_their_names(void **state)
     rt_film_destroy(film);
 }
 
-/* Emission and light scattered once: of a floor under an even sky, the path tracer's picture at depth 2. */
+/*
+ * Emission and light scattered once: of a floor under an even sky, the path tracer's picture at
+ * depth 2.
+ */
 static void direct_light_is_the_path_of_two_segments(void **state)
 {
-    rt_render_options options = {.width = width, .height = height, .mode = RT_MODE_DIRECT, .spp = 16, .max_depth = 9};
+    rt_render_options options = {
+        .width = width, .height = height, .mode = RT_MODE_DIRECT, .spp = 16, .max_depth = 9};
     rt_renderer *renderer = tilted();
     rt_film *direct = NULL, *path = NULL;
     (void)state;
@@ -171,10 +190,16 @@ static void filters_keep_what_is_even(void **state)
     }
 }
 
-/* Across the edge at x = 8 the coverage is the filter's integral beyond it; only wide filters reach further pixels. */
+/*
+ * Across the edge at x = 8 the coverage is the filter's integral beyond it; only wide filters reach
+ * further pixels.
+ */
 static void filters_spread_an_edge(void **state)
 {
-    /* Coverage of the pixels left of the edge, whose centre is half a pixel off: of the nearest and the second. */
+    /*
+     * Coverage of the pixels left of the edge, whose centre is half a pixel off: of the nearest and
+     * the second.
+     */
     static const double covered[][2] = {{1, 1}, {0.875, 1}};
     (void)state;
     for (int filter = RT_FILTER_BOX; filter <= RT_FILTER_TENT; filter++) {
@@ -207,11 +232,17 @@ static void count_missing_caustics(void *user, const char *line)
 }
 
 /* How often a render of a ball above a floor warns that caustics are missing. */
-static int warnings_of(const char *ball, const char *floor, const char *light, rt_mode mode, uint32_t depth)
+static int warnings_of(const char *ball, const char *floor, const char *light, rt_mode mode,
+                       uint32_t depth)
 {
     int count = 0;
     rt_hooks hooks = {.user = &count, .warning = count_missing_caustics};
-    rt_render_options options = {.width = 2, .height = 2, .spp = 1, .mode = mode, .max_depth = depth, .photons = 10,
+    rt_render_options options = {.width = 2,
+                                 .height = 2,
+                                 .spp = 1,
+                                 .mode = mode,
+                                 .max_depth = depth,
+                                 .photons = 10,
                                  .hooks = &hooks};
     rt_scene *scene = NULL;
     rt_renderer *renderer = NULL;
@@ -237,7 +268,8 @@ static void caustics_that_path_tracing_leaves_out_are_told(void **state)
                       point[] = "point { position 0 5 0  power 9 }",
                       spot[] = "spot { position 0 5 0  target 0 0 0  intensity 1 }",
                       sun[] = "directional { direction 0 -1 0  irradiance 1 }",
-                      sky[] = "environment { radiance 1 }", out[] = "point { position 0 5 0  power 0 }";
+                      sky[] = "environment { radiance 1 }",
+                      out[] = "point { position 0 5 0  power 0 }";
     (void)state;
     assert_int_equal(warnings_of(glass, matte, point, RT_MODE_PATH, 0), 1);
     assert_int_equal(warnings_of(glass, matte, spot, RT_MODE_PATH, 3), 1);

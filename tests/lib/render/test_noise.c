@@ -1,9 +1,10 @@
 /*
- * test_noise.c - what a render says of its own error is true: of each pixel, of the whole picture, and where it
- * stops.
+ * test_noise.c - what a render says of its own error is true: of each pixel, of the whole picture,
+ * and where it stops.
  *
- * Over 100 renders the share of pixels whose interval holds the truth has a standard error below 0.3 %. Of the
- * pictures 95 of 100 or more are within their bound: how many are not has a binomial distribution.
+ * Over 100 renders the share of pixels whose interval holds the truth has a standard error below
+ * 0.3 %. Of the pictures 95 of 100 or more are within their bound: how many are not has a binomial
+ * distribution.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -11,21 +12,28 @@
 #include <math.h>
 #include <string.h>
 
-enum { side = 16, values = 3 * side * side, renders = 100, samples = 128, reference_samples = 8192 };
+enum {
+    side = 16,
+    values = 3 * side * side,
+    renders = 100,
+    samples = 128,
+    reference_samples = 8192
+};
 
 /* An open box with a block, under a lamp out of sight: soft shadows and colour bleeding. */
-static const char box[] = "camera { eye 0 -0.2 -3.4  look_at 0 -0.35 0  fov 30 }\n"
-                          "material white { kd 0.73 }\n"
-                          "material red   { kd 0.65 0.05 0.05 }\n"
-                          "material green { kd 0.12 0.45 0.15 }\n"
-                          "material black { kd 0 }\n"
-                          "quad { corner -1 -1 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
-                          "quad { corner -1  1 -1  edge1 2 0 0  edge2 0 0 2  material white }\n"
-                          "quad { corner -1 -1  1  edge1 0 2 0  edge2 2 0 0  material white }\n"
-                          "quad { corner  1 -1 -1  edge1 0 0 2  edge2 0 2 0  material red }\n"
-                          "quad { corner -1 -1 -1  edge1 0 2 0  edge2 0 0 2  material green }\n"
-                          "quad { corner -0.4 0.99 -0.4  edge1 0.8 0 0  edge2 0 0 0.8  material black  radiance 6 }\n"
-                          "sphere { centre 0.3 -0.65 0.1  radius 0.35  material white }\n";
+static const char box[] =
+    "camera { eye 0 -0.2 -3.4  look_at 0 -0.35 0  fov 30 }\n"
+    "material white { kd 0.73 }\n"
+    "material red   { kd 0.65 0.05 0.05 }\n"
+    "material green { kd 0.12 0.45 0.15 }\n"
+    "material black { kd 0 }\n"
+    "quad { corner -1 -1 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
+    "quad { corner -1  1 -1  edge1 2 0 0  edge2 0 0 2  material white }\n"
+    "quad { corner -1 -1  1  edge1 0 2 0  edge2 2 0 0  material white }\n"
+    "quad { corner  1 -1 -1  edge1 0 0 2  edge2 0 2 0  material red }\n"
+    "quad { corner -1 -1 -1  edge1 0 2 0  edge2 0 0 2  material green }\n"
+    "quad { corner -0.4 0.99 -0.4  edge1 0.8 0 0  edge2 0 0 0.8  material black  radiance 6 }\n"
+    "sphere { centre 0.3 -0.65 0.1  radius 0.35  material white }\n";
 
 static rt_renderer *renderer;
 static rt_error error;
@@ -49,8 +57,13 @@ static int destroy_renderer(void **state)
 
 static rt_render_options path_options(rt_sampler sampler, rt_filter filter)
 {
-    rt_render_options options = {.width = side, .height = side, .spp = samples, .max_depth = 4, .variance = 1,
-                                 .sampler = sampler, .filter = filter};
+    rt_render_options options = {.width = side,
+                                 .height = side,
+                                 .spp = samples,
+                                 .max_depth = 4,
+                                 .variance = 1,
+                                 .sampler = sampler,
+                                 .filter = filter};
     return options;
 }
 
@@ -72,17 +85,17 @@ static const float *variance_of(const rt_film *film)
 
 /* What a series of renders with fixed seeds comes to. */
 typedef struct tally {
-    double inside, pictures;           /* of pixels and pictures */
+    double inside, pictures;            /* of pixels and pictures */
     double estimated_mse, measured_mse; /* sums */
     double spp;
 } tally;
 
 /*
- * Compares a film with the truth, which is known up to truth_variance: `factor` widens the film's own variance. limit
- * is what the picture's relative error should be below.
+ * Compares a film with the truth, which is known up to truth_variance: `factor` widens the film's
+ * own variance. limit is what the picture's relative error should be below.
  */
-static void count(tally *t, const rt_film *film, const float *truth, const float *truth_variance, double factor,
-                  double limit)
+static void count(tally *t, const rt_film *film, const float *truth, const float *truth_variance,
+                  double factor, double limit)
 {
     const float *rgb = rt_film_rgb(film), *variance = variance_of(film);
     double mse = 0, mean = 0;
@@ -93,7 +106,8 @@ static void count(tally *t, const rt_film *film, const float *truth, const float
     for (int i = 0; i < values; i++) {
         double off = rgb[i] - truth[i], unknown = truth_variance ? truth_variance[i] : 0;
         /* A pixel without noise differs by rounding alone. */
-        t->inside += fabs(off) <= stats.interval_factor * sqrt(factor * variance[i] + unknown) + 1e-6 * truth[i];
+        t->inside += fabs(off) <=
+                     stats.interval_factor * sqrt(factor * variance[i] + unknown) + 1e-6 * truth[i];
         mse += off * off / factor - unknown;
         mean += truth[i];
     }
@@ -117,8 +131,10 @@ static void expect_within_bound(double pictures, int films)
 
 static void expect_calibrated(const char *what, const tally *t, int films)
 {
-    double inside = t->inside / ((double)films * values), ratio = sqrt(t->estimated_mse / t->measured_mse);
-    print_message("%s: %.2f %% of pixels inside their interval, error %.3f of the true one, %.0f of %d pictures below "
+    double inside = t->inside / ((double)films * values),
+           ratio = sqrt(t->estimated_mse / t->measured_mse);
+    print_message("%s: %.2f %% of pixels inside their interval, error %.3f of the true one, %.0f "
+                  "of %d pictures below "
                   "their bound, %.0f samples\n",
                   what, 100 * inside, ratio, t->pictures, films, t->spp / films);
     expect_close(inside, 0.95, 0.02, "pixels inside their interval");
@@ -186,7 +202,8 @@ static void a_target_is_reached_when_it_says_so(void **state)
         count(&t, film, rt_film_rgb(truth), variance_of(truth), 1, target);
         rt_film_destroy(film);
     }
-    print_message("%.0f of %d below the target, %.0f samples\n", t.pictures, renders, t.spp / renders);
+    print_message("%.0f of %d below the target, %.0f samples\n", t.pictures, renders,
+                  t.spp / renders);
     expect_within_bound(t.pictures, renders);
     assert_true(t.spp > 64 * renders && t.spp < 96 * renders);
     rt_film_destroy(truth);
@@ -302,7 +319,8 @@ static void passes_end_at_the_target(void **state)
     options.target_error = 0.2;
     rt_film *film = render(&options);
     rt_film_get_stats(film, &stats);
-    print_message("%u passes, error below %.3f\n", (unsigned)stats.passes, stats.relative_error_bound);
+    print_message("%u passes, error below %.3f\n", (unsigned)stats.passes,
+                  stats.relative_error_bound);
     assert_true(stats.passes >= 32 && stats.passes < 1000 && stats.relative_error_bound <= 0.2);
     rt_film_destroy(film);
 }
@@ -314,7 +332,8 @@ static void a_bound_takes_all_sequences(void **state)
 {
     (void)state;
     for (int i = 0; i < 4; i++) {
-        rt_render_options options = i < 2 ? path_options(RT_SAMPLER_SOBOL, RT_FILTER_BOX) : pass_options();
+        rt_render_options options =
+            i < 2 ? path_options(RT_SAMPLER_SOBOL, RT_FILTER_BOX) : pass_options();
         uint32_t count = i % 2 ? 8 : 7;
         rt_film_stats stats;
         options.spp = i < 2 ? count : 1;

@@ -1,6 +1,7 @@
 /*
- * test_photon_film.c - what a film of photon mode holds: the same bytes however the work is shared out, what was done,
- * layers of what was gathered, and the samples so far when a render is cancelled.
+ * test_photon_film.c - what a film of photon mode holds: the same bytes however the work is shared
+ * out, what was done, layers of what was gathered, and the samples so far when a render is
+ * cancelled.
  */
 #include "support.h"
 
@@ -18,7 +19,8 @@ static void films_are_the_same(const rt_render_options *how)
         rt_renderer *renderer = room_renderer(device);
         rt_film *film = room_render(renderer, &options);
         if (first)
-            assert_memory_equal(rt_film_rgb(first), rt_film_rgb(film), side * side * 3 * sizeof(float));
+            assert_memory_equal(rt_film_rgb(first), rt_film_rgb(film),
+                                side * side * 3 * sizeof(float));
         rt_renderer_destroy(renderer);
         rt_device_close(device);
         if (first)
@@ -54,7 +56,8 @@ static void the_film_tells_what_was_done(void **state)
     rt_film *film = room_render(renderer, &options);
     rt_film_get_stats(film, &stats);
     assert_int_equal(stats.photons_emitted, options.photons);
-    assert_true(stats.photons_stored > options.photons / 4 && stats.photons_stored < options.photons);
+    assert_true(stats.photons_stored > options.photons / 4 &&
+                stats.photons_stored < options.photons);
     assert_true(stats.gathers > 0 && stats.gathers <= 3 * side * side);
     assert_int_equal(stats.spp, 3);
     assert_int_equal(stats.rejected, 0);
@@ -67,7 +70,10 @@ static void note_empty(void *user, const char *line)
     *(int *)user += strstr(line, "points that asked for photons found none") != NULL;
 }
 
-/* On the device, in passes and by FLANN; with caustic photons apart, too, whose share of the points is small. */
+/*
+ * On the device, in passes and by FLANN; with caustic photons apart, too, whose share of the points
+ * is small.
+ */
 static void gathers_that_find_nothing_are_counted_and_told(void **state)
 {
     static const struct {
@@ -77,9 +83,12 @@ static void gathers_that_find_nothing_are_counted_and_told(void **state)
         float radius;
         int is_empty;
     } cases[] = {
-        {RT_GATHER_AUTO, RT_K_ALL, 1, 0, 1e-9f, 1},   {RT_GATHER_AUTO, 50, 3, 0, 1e-9f, 1},
-        {RT_GATHER_FLANN, 50, 1, 0, 1e-9f, 1},        {RT_GATHER_AUTO, RT_K_ALL, 1, 2000, 1e-9f, 1},
-        {RT_GATHER_AUTO, RT_K_ALL, 1, 2000, 0.3f, 0}, {RT_GATHER_AUTO, 50, 3, 0, 0, 0},
+        {RT_GATHER_AUTO, RT_K_ALL, 1, 0, 1e-9f, 1},
+        {RT_GATHER_AUTO, 50, 3, 0, 1e-9f, 1},
+        {RT_GATHER_FLANN, 50, 1, 0, 1e-9f, 1},
+        {RT_GATHER_AUTO, RT_K_ALL, 1, 2000, 1e-9f, 1},
+        {RT_GATHER_AUTO, RT_K_ALL, 1, 2000, 0.3f, 0},
+        {RT_GATHER_AUTO, 50, 3, 0, 0, 0},
         {RT_GATHER_FLANN, 50, 1, 0, 0, 0},
     };
     (void)state;
@@ -146,7 +155,8 @@ static void layers_tell_what_was_gathered(void **state)
         int whole = 0;
         for (int i = 0; i < side * side; i++) {
             assert_true(counts[i] >= 0 && counts[i] <= 49 && radii[i] >= 0 && variances[i] >= 0);
-            if (counts[i] == 49) { /* the mean of 49 over the areas is at least that over the mean radius squared */
+            /* The mean of 49 over the areas is at least that over the mean radius squared. */
+            if (counts[i] == 49) {
                 assert_true(densities[i] >= 0.999 * 49 / (pi * radii[i] * radii[i]));
                 whole++;
             }

@@ -1,11 +1,12 @@
 /*
  * test_photon_glass.c - photons and eye paths across refraction.
  *
- * Even light of radiance 1 from all around, clear glass and a white ball that absorbs nothing: whatever is seen from
- * outside has radiance 1, whatever is seen in a medium of index n has radiance n^2, and the irradiance of a ball in
- * that medium is pi n^2 (Veach 1997, section 5.2). Photons carry flux, which is not scaled, eye paths radiance, which
- * is: with the factor (eta_i/eta_t)^2 left out or in both, the three cannot all come out. From no ball a ray meets
- * the boundaries beyond the critical angle, so that paths are short.
+ * Even light of radiance 1 from all around, clear glass and a white ball that absorbs nothing:
+ * whatever is seen from outside has radiance 1, whatever is seen in a medium of index n has
+ * radiance n^2, and the irradiance of a ball in that medium is pi n^2 (Veach 1997, section 5.2).
+ * Photons carry flux, which is not scaled, eye paths radiance, which is: with the factor
+ * (eta_i/eta_t)^2 left out or in both, the three cannot all come out. From no ball a ray meets the
+ * boundaries beyond the critical angle, so that paths are short.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -17,30 +18,33 @@ static const double pi = 3.14159265358979323846;
 enum { side = 16, pixels = side * side };
 
 #define BALL "material white { kd 1 }\nlight environment { radiance 1 }\n"
-#define IN_GLASS                                                                     \
-    BALL "sphere { centre 0 0 0  radius 0.6  material glass }\n"                     \
+#define IN_GLASS                                                                                   \
+    BALL "sphere { centre 0 0 0  radius 0.6  material glass }\n"                                   \
          "sphere { centre 0 0 0  radius 0.3  material white }\n"
-#define BEHIND_GLASS_IN_WATER                                                        \
-    BALL "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                    \
-         "material water { kt 1  ior 1.33  fresnel dielectric  priority 1 }\n"       \
-         "sphere { centre 0 0 0  radius 0.6  material glass }\n"                     \
-         "sphere { centre 0 0 0  radius 0.45  material water }\n"                    \
+#define BEHIND_GLASS_IN_WATER                                                                      \
+    BALL "material glass { kt 1  ior 1.5  fresnel dielectric }\n"                                  \
+         "material water { kt 1  ior 1.33  fresnel dielectric  priority 1 }\n"                     \
+         "sphere { centre 0 0 0  radius 0.6  material glass }\n"                                   \
+         "sphere { centre 0 0 0  radius 0.45  material water }\n"                                  \
          "sphere { centre 0 0 0  radius 0.2  material white }\n"
 
-/* A scene, the ball in it, and where the camera stands in which medium; the ball fills the picture. */
+/*
+ * A scene, the ball in it, and where the camera stands in which medium; the ball fills the picture.
+ */
 typedef struct view {
     const char *name, *scene;
-    double ball, index;   /* the ball's radius and the index of the medium around it */
+    double ball, index;         /* the ball's radius and the index of the medium around it */
     double distance, fov, seen; /* of the camera from the centre; its angle; the index around it */
 } view;
 
 static const view views[] = {
-    {"Fresnel glass, from outside", "material glass { kt 1  ior 1.5  fresnel dielectric }\n" IN_GLASS, 0.3, 1.5, 3, 4,
-     1},
-    {"Fresnel glass, from inside", "material glass { kt 1  ior 1.5  fresnel dielectric }\n" IN_GLASS, 0.3, 1.5, 0.5, 30,
-     1.5},
+    {"Fresnel glass, from outside",
+     "material glass { kt 1  ior 1.5  fresnel dielectric }\n" IN_GLASS, 0.3, 1.5, 3, 4, 1},
+    {"Fresnel glass, from inside",
+     "material glass { kt 1  ior 1.5  fresnel dielectric }\n" IN_GLASS, 0.3, 1.5, 0.5, 30, 1.5},
     {"plain glass, from outside", "material glass { kt 1  ior 1.5 }\n" IN_GLASS, 0.3, 1.5, 3, 4, 1},
-    {"plain glass, from inside", "material glass { kt 1  ior 1.5 }\n" IN_GLASS, 0.3, 1.5, 0.5, 30, 1.5},
+    {"plain glass, from inside", "material glass { kt 1  ior 1.5 }\n" IN_GLASS, 0.3, 1.5, 0.5, 30,
+     1.5},
     {"water behind glass, from outside", BEHIND_GLASS_IN_WATER, 0.2, 1.33, 3, 3, 1},
     {"water behind glass, from the glass", BEHIND_GLASS_IN_WATER, 0.2, 1.33, 0.5, 15, 1.5},
     {"water behind glass, from the water", BEHIND_GLASS_IN_WATER, 0.2, 1.33, 0.4, 15, 1.33},
@@ -74,8 +78,15 @@ static double mean_of(rt_renderer *renderer, const rt_render_options *options)
 
 static rt_render_options options_of(rt_mode mode)
 {
-    return (rt_render_options){.width = side, .height = side, .mode = mode, .spp = 1, .photons = 400000, .k = 2000,
-                               .gather = RT_GATHER_DEVICE, .max_depth = 32, .seed = test_seed(3)};
+    return (rt_render_options){.width = side,
+                               .height = side,
+                               .mode = mode,
+                               .spp = 1,
+                               .photons = 400000,
+                               .k = 2000,
+                               .gather = RT_GATHER_DEVICE,
+                               .max_depth = 32,
+                               .seed = test_seed(3)};
 }
 
 static void expect_seen(const view *v, const char *by, double mean, double close)
@@ -86,9 +97,10 @@ static void expect_seen(const view *v, const char *by, double mean, double close
 }
 
 /*
- * Clear and even, each path alone brings the truth, but for the few that are cut off. Photons are held to five
- * standard deviations, which over 14 seeds were 3.5 % at most. A disc of k photons on a ball is a cap, whose area is
- * that of a flat disc of the same chord: a large k blurs nothing here.
+ * Clear and even, each path alone brings the truth, but for the few that are cut off. Photons are
+ * held to five standard deviations, which over 14 seeds were 3.5 % at most. A disc of k photons on
+ * a ball is a cap, whose area is that of a flat disc of the same chord: a large k blurs nothing
+ * here.
  */
 static void radiance_is_the_index_squared(void **state)
 {
@@ -107,7 +119,9 @@ static void radiance_is_the_index_squared(void **state)
     }
 }
 
-/* All flux that comes to the ball, from the map by itself, to five standard deviations: over 14 seeds, 0.2 % at most.
+/*
+ * All flux that comes to the ball, from the map by itself, to five standard deviations: over 14
+ * seeds, 0.2 % at most.
  */
 static void flux_in_glass_is_that_of_the_index_squared(void **state)
 {
@@ -117,7 +131,8 @@ static void flux_in_glass_is_that_of_the_index_squared(void **state)
         rt_emit_options options = {.render = &render};
         rt_photon_map *map = NULL;
         rt_error error;
-        double flux = 0, r = views[i].ball, truth = pi * views[i].index * views[i].index * 4 * pi * r * r;
+        double flux = 0, r = views[i].ball,
+               truth = pi * views[i].index * views[i].index * 4 * pi * r * r;
         rt_renderer *renderer = open_view(views + i);
         expect_ok(rt_photon_map_emit(&map, renderer, &options, &error), &error);
         const rt_photon *photons = rt_photon_map_photons(map, RT_PHOTONS_GLOBAL);

@@ -1,8 +1,10 @@
 /*
- * test_photon_hull.c - the hull estimate through the whole pipeline, and what it is told of the photons it gets.
+ * test_photon_hull.c - the hull estimate through the whole pipeline, and what it is told of the
+ * photons it gets.
  *
- * A point light of intensity I stands the height h above a plane. Over a square of half the side a below it, the mean
- * irradiance is I times the square's solid angle, 4 asin(a^2 / (a^2 + h^2)), over its area.
+ * A point light of intensity I stands the height h above a plane. Over a square of half the side a
+ * below it, the mean irradiance is I times the square's solid angle, 4 asin(a^2 / (a^2 + h^2)),
+ * over its area.
  */
 #include "support.h"
 
@@ -11,11 +13,11 @@
 
 enum { side = 32, renders = 8 };
 
-#define FLOOR                                                                             \
-    "material grey { kd 0.5 }\n"                                                          \
-    "quad { corner -4 -4 0  edge1 8 0 0  edge2 0 8 0  material grey }\n"                        \
-    "light point { position 0 0 1  intensity 1 }\n"                                       \
-    "camera { projection orthographic  eye 0 0 0.9  look_at 0 0 0  up 0 1 0  width 1 }\n" \
+#define FLOOR                                                                                      \
+    "material grey { kd 0.5 }\n"                                                                   \
+    "quad { corner -4 -4 0  edge1 8 0 0  edge2 0 8 0  material grey }\n"                           \
+    "light point { position 0 0 1  intensity 1 }\n"                                                \
+    "camera { projection orthographic  eye 0 0 0.9  look_at 0 0 0  up 0 1 0  width 1 }\n"          \
     "film { width 32  height 32 }\n"
 
 static double mean_of(const rt_film *film)
@@ -36,8 +38,12 @@ static double truth(void)
 /* With nothing else set, that is with the sampler sobol for the eye paths. */
 static void the_mean_of_the_hull_is_right_with_the_default_sampler(void **state)
 {
-    rt_render_options options = {.mode = RT_MODE_PHOTON, .direct = RT_DIRECT_PHOTONS, .area = RT_AREA_HULL,
-                                 .photons = 200000, .spp = 4, .k = 10};
+    rt_render_options options = {.mode = RT_MODE_PHOTON,
+                                 .direct = RT_DIRECT_PHOTONS,
+                                 .area = RT_AREA_HULL,
+                                 .photons = 200000,
+                                 .spp = 4,
+                                 .k = 10};
     double sum = 0, squares = 0;
     (void)state;
     rt_renderer *renderer = test_renderer(FLOOR);
@@ -82,7 +88,8 @@ static void maps_of_even_photons_are_told(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         int warnings = 0;
         rt_hooks hooks = {.user = &warnings, .warning = count_even_photons};
-        rt_render_options options = {.mode = RT_MODE_PHOTON, .direct = RT_DIRECT_PHOTONS, .photons = 1000, .spp = 1};
+        rt_render_options options = {
+            .mode = RT_MODE_PHOTON, .direct = RT_DIRECT_PHOTONS, .photons = 1000, .spp = 1};
         rt_emit_options how = {.render = &options};
         rt_photon_map *map = NULL;
         rt_photon_map_info info;
@@ -92,7 +99,8 @@ static void maps_of_even_photons_are_told(void **state)
         options.area = cases[i].emitted_for;
         expect_ok(rt_photon_map_emit(&map, renderer, &how, &error), &error);
         rt_photon_map_get_info(map, &info);
-        assert_int_equal(info.sampler, cases[i].emitted_for == RT_AREA_HULL ? RT_SAMPLER_INDEPENDENT : options.sampler);
+        assert_int_equal(info.sampler, cases[i].emitted_for == RT_AREA_HULL ? RT_SAMPLER_INDEPENDENT
+                                                                            : options.sampler);
         options.width = options.height = side;
         options.area = cases[i].asked;
         options.photon_map = map;

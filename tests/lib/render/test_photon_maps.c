@@ -1,6 +1,6 @@
 /*
- * test_photon_maps.c - photon maps by the public interface: caustic photons apart, shares of lights, warnings, and
- * what the photons say of the light against theory and path tracing.
+ * test_photon_maps.c - photon maps by the public interface: caustic photons apart, shares of
+ * lights, warnings, and what the photons say of the light against theory and path tracing.
  *
  * Random sums are held to standard errors or to a stated bound.
  */
@@ -54,7 +54,10 @@ static void caustic_photons_are_kept_apart_when_asked(void **state)
             assert_memory_equal(global + j++, all + i, sizeof *all);
         }
     assert_int_equal(j, rt_photon_map_count(two, RT_PHOTONS_GLOBAL));
-    /* The caustic list has only such photons, of other paths, with the flux of those that the global one lacks. */
+    /*
+     * The caustic list has only such photons, of other paths, with the flux of those that the
+     * global one lacks.
+     */
     assert_true(rt_photon_map_count(two, RT_PHOTONS_CAUSTIC) > 3000);
     for (size_t i = 0; i < rt_photon_map_count(two, RT_PHOTONS_CAUSTIC); i++)
         assert_true(caustic[i].flags & RT_PHOTON_CAUSTIC);
@@ -62,7 +65,8 @@ static void caustic_photons_are_kept_apart_when_asked(void **state)
     for (int c = 0; c < 3; c++) {
         double expected = flux_of(one, RT_PHOTONS_GLOBAL, 1, c);
         assert_true(expected > 0.1);
-        expect_close(flux_of(two, RT_PHOTONS_CAUSTIC, 0, c), expected, 0.05 * expected, "caustic flux");
+        expect_close(flux_of(two, RT_PHOTONS_CAUSTIC, 0, c), expected, 0.05 * expected,
+                     "caustic flux");
     }
     rt_photon_map_destroy(one);
     rt_photon_map_destroy(two);
@@ -73,7 +77,8 @@ static void caustic_photons_are_kept_apart_when_asked(void **state)
 static void shares_move_paths_but_not_flux(void **state)
 {
     static const float shares[] = {1, 9};
-    rt_render_options render = {.photons = 100000, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(0)};
+    rt_render_options render = {
+        .photons = 100000, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(0)};
     rt_emit_options options = {.render = &render};
     rt_light_ledger by_power[2], by_shares[2];
     (void)state;
@@ -90,12 +95,14 @@ static void shares_move_paths_but_not_flux(void **state)
     expect_deviate(((double)by_power[1].paths / 1e5 - 0.375) / (0.5 / sqrt(1e5)), "paths by power");
     for (int i = 0; i < 2; i++)
         for (int c = 0; c < 3; c++) {
-            expect_close(by_shares[i].emitted[c], by_shares[i].power[c], 0.05 * by_shares[i].power[c], "emitted");
+            expect_close(by_shares[i].emitted[c], by_shares[i].power[c],
+                         0.05 * by_shares[i].power[c], "emitted");
             assert_float_equal(by_shares[i].power[c], by_power[i].power[c], 0);
         }
     for (int c = 0; c < 3; c++) {
         double expected = flux_of(plain, RT_PHOTONS_GLOBAL, 0, c);
-        expect_close(flux_of(shared, RT_PHOTONS_GLOBAL, 0, c), expected, 0.05 * expected, "stored by shares");
+        expect_close(flux_of(shared, RT_PHOTONS_GLOBAL, 0, c), expected, 0.05 * expected,
+                     "stored by shares");
     }
     rt_photon_map_destroy(plain);
     rt_photon_map_destroy(shared);
@@ -103,7 +110,8 @@ static void shares_move_paths_but_not_flux(void **state)
 }
 
 /* The mean of a film and, for its two lights, the ledger. */
-static double render_shared(rt_light_ledger ledger[2], rt_renderer *renderer, const rt_render_options *options)
+static double render_shared(rt_light_ledger ledger[2], rt_renderer *renderer,
+                            const rt_render_options *options)
 {
     rt_film *film = NULL;
     rt_error error;
@@ -116,12 +124,19 @@ static double render_shared(rt_light_ledger ledger[2], rt_renderer *renderer, co
     return sum / (3.0 * options->width * options->height);
 }
 
-/* Shares move noise between the lights of a picture, and leave its mean alone; once and in passes. */
+/*
+ * Shares move noise between the lights of a picture, and leave its mean alone; once and in passes.
+ */
 static void shares_leave_the_mean_of_a_picture(void **state)
 {
     static const float shares[] = {1, 9};
-    rt_render_options options = {.mode = RT_MODE_PHOTON, .width = 24, .height = 24, .photons = 100000, .spp = 2,
-                                 .radius = 0.1f, .direct = RT_DIRECT_PHOTONS};
+    rt_render_options options = {.mode = RT_MODE_PHOTON,
+                                 .width = 24,
+                                 .height = 24,
+                                 .photons = 100000,
+                                 .spp = 2,
+                                 .radius = 0.1f,
+                                 .direct = RT_DIRECT_PHOTONS};
     (void)state;
     rt_renderer *renderer = test_renderer("camera { eye 0 0 0.9  look_at 0 0 0  fov 80 }\n" ROOM);
     for (options.passes = 1; options.passes <= 4; options.passes += 3) {
@@ -206,7 +221,8 @@ static void starved_lights_and_maps_are_told(void **state)
     (void)state;
     rt_renderer *renderer = test_renderer(ROOM "light point { position 0 0 0.5  power 1e-9 }\n");
     rt_photon_map_destroy(emit_map(renderer, &options));
-    assert_non_null(strstr(warnings, "fewer than 100 of 2000 photon paths came from a light with power"));
+    assert_non_null(
+        strstr(warnings, "fewer than 100 of 2000 photon paths came from a light with power"));
     assert_non_null(strstr(warnings, ": light 1, 1e-09 W, 0 paths; more photons help"));
     assert_null(strstr(warnings, "light 0"));
     assert_null(strstr(warnings, "global"));
@@ -217,20 +233,30 @@ static void starved_lights_and_maps_are_told(void **state)
     renderer = test_renderer("light point { position 0 0 0  power 1 }\n");
     render.caustic_photons = 0;
     rt_photon_map_destroy(emit_map(renderer, &options));
-    assert_string_equal(warnings, "the photon map is empty: none of 2000 photon paths left a photon in it\n");
+    assert_string_equal(warnings,
+                        "the photon map is empty: none of 2000 photon paths left a photon in it\n");
     /* Why that is so is told where it is known, and of which pass it is. */
     warnings[0] = '\0';
     render.max_depth = 1;
     rt_photon_map_destroy(emit_map(renderer, &options));
-    assert_string_equal(warnings, "the photon map is empty: none of 2000 photon paths left a photon in it; with "
-                                  "max_depth 1 all light is direct, which shadow rays bring\n");
+    assert_string_equal(
+        warnings, "the photon map is empty: none of 2000 photon paths left a photon in it; with "
+                  "max_depth 1 all light is direct, which shadow rays bring\n");
     warnings[0] = '\0';
-    rt_render_options passes = {.mode = RT_MODE_PHOTON, .width = 2, .height = 2, .photons = 100, .passes = 3,
-                                .radius = 0.1f, .hooks = &hooks};
+    rt_render_options passes = {.mode = RT_MODE_PHOTON,
+                                .width = 2,
+                                .height = 2,
+                                .photons = 100,
+                                .passes = 3,
+                                .radius = 0.1f,
+                                .hooks = &hooks};
     rt_film *film = NULL;
-    rt_renderer *seen = test_renderer("camera { eye 0 0 1  look_at 0 0 0 }\nlight point { position 0 0 0  power 1 }\n");
+    rt_renderer *seen = test_renderer(
+        "camera { eye 0 0 1  look_at 0 0 0 }\nlight point { position 0 0 0  power 1 }\n");
     expect_ok(rt_render(&film, seen, &passes, &error), &error);
-    assert_string_equal(warnings, "the photon map of pass 3 is empty: none of 100 photon paths left a photon in it\n");
+    assert_string_equal(
+        warnings,
+        "the photon map of pass 3 is empty: none of 100 photon paths left a photon in it\n");
     rt_film_destroy(film);
     rt_renderer_destroy(seen);
     hooks.progress = cancel;
@@ -277,7 +303,8 @@ static void planes_alone_are_told_of_the_origin(void **state)
                                           "plane { point 0 -2 0  normal 0 1 0  material wall }\n"
                                           "light directional { direction 0 -1 0  irradiance 1 }\n");
     rt_photon_map_destroy(emit_map(renderer, &options));
-    assert_non_null(strstr(warnings, "fall on planes only within 1 m of the origin, for want of other shapes: "));
+    assert_non_null(strstr(
+        warnings, "fall on planes only within 1 m of the origin, for want of other shapes: "));
     assert_null(strstr(warnings, "middle"));
     rt_renderer_destroy(renderer);
 }
@@ -286,17 +313,19 @@ static void light_that_does_not_reach_planes_is_told(void **state)
 {
     static const char sun[] = "light directional { direction 0 -1 0  irradiance 1 }\n",
                       floor[] = "plane { point 0 -2 0  normal 0 1 0  material wall }\n",
-                      bulb[] = "light point { position 0 0 0.5  power 1 }\n", *const rooms[] = {floor, "", floor},
-                      *const lights[] = {sun, sun, bulb};
+                      bulb[] = "light point { position 0 0 0.5  power 1 }\n",
+                      *const rooms[] = {floor, "", floor}, *const lights[] = {sun, sun, bulb};
     (void)state;
     for (int i = 0; i < 3; i++) {
         char text[2000], warnings[2000] = "";
         rt_hooks hooks = {.user = warnings, .warning = keep_warning};
-        rt_render_options render = {.photons = 2000, .mode = RT_MODE_PHOTON, .width = 4, .height = 4, .hooks = &hooks};
+        rt_render_options render = {
+            .photons = 2000, .mode = RT_MODE_PHOTON, .width = 4, .height = 4, .hooks = &hooks};
         rt_emit_options options = {.render = &render};
         rt_film *film = NULL;
         rt_error error;
-        snprintf(text, sizeof text, "%s%s%scamera { eye 0 0 -0.9  look_at 0 0 0 }\n", ROOM, rooms[i], lights[i]);
+        snprintf(text, sizeof text, "%s%s%scamera { eye 0 0 -0.9  look_at 0 0 0 }\n", ROOM,
+                 rooms[i], lights[i]);
         rt_renderer *renderer = test_renderer(text);
         rt_photon_map_destroy(emit_map(renderer, &options));
         assert_int_equal(strstr(warnings, "m of the middle of the other shapes: ") != NULL, i == 0);
@@ -311,8 +340,9 @@ static void light_that_does_not_reach_planes_is_told(void **state)
 /* ---- The light ------------------------------------------------------------------------- */
 
 /*
- * A sphere of radius 2 with the light in its middle: everywhere the same irradiance, power / ((1 - kd) area), of
- * which rt_render sees kd/pi. The three agree, and path tracing, which knows no photons, is one of them.
+ * A sphere of radius 2 with the light in its middle: everywhere the same irradiance, power / ((1 -
+ * kd) area), of which rt_render sees kd/pi. The three agree, and path tracing, which knows no
+ * photons, is one of them.
  */
 static const char furnace[] = "camera { eye 0 0 0.5  look_at 0 0 -1  fov 90 }\n"
                               "material wall { kd 0.2 0.5 0.7 }\n"
@@ -322,8 +352,10 @@ static const char furnace[] = "camera { eye 0 0 0.5  look_at 0 0 -1  fov 90 }\n"
 static void stored_flux_is_what_path_tracing_says(void **state)
 {
     static const double power[3] = {2, 3, 5}, kd[3] = {0.2, 0.5, 0.7}, area = 16 * PI;
-    rt_render_options render = {.photons = 200000, .max_depth = 100, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(0)};
-    rt_render_options path = {.width = 24, .height = 24, .spp = 64, .max_depth = 100, .seed = test_seed(0)};
+    rt_render_options render = {
+        .photons = 200000, .max_depth = 100, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(0)};
+    rt_render_options path = {
+        .width = 24, .height = 24, .spp = 64, .max_depth = 100, .seed = test_seed(0)};
     rt_emit_options options = {.render = &render};
     rt_film *film = NULL;
     rt_error error;
@@ -336,7 +368,8 @@ static void stored_flux_is_what_path_tracing_says(void **state)
         for (int i = 0; i < 24 * 24; i++)
             mean += rt_film_rgb(film)[3 * i + c] / (24 * 24);
         expect_close(stored, power[c] / (1 - kd[c]), 0.01 * stored, "stored flux");
-        expect_close(mean, kd[c] / PI * stored / area, 0.017 * mean, "what path tracing sees of it");
+        expect_close(mean, kd[c] / PI * stored / area, 0.017 * mean,
+                     "what path tracing sees of it");
     }
     rt_film_destroy(film);
     rt_photon_map_destroy(map);
@@ -348,7 +381,8 @@ static void irradiance_is_flux_over_area(void **state)
     enum { count = 400 };
     static const double power[3] = {2, 3, 5}, kd[3] = {0.2, 0.5, 0.7};
     static float positions[count][3], normals[count][3], rgb[count][3], again[count][3];
-    rt_render_options render = {.photons = 100000, .max_depth = 100, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(0)};
+    rt_render_options render = {
+        .photons = 100000, .max_depth = 100, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(0)};
     rt_render_options ask = {.k = 100, .kernel = RT_DENSITY_BOX};
     rt_emit_options options = {.render = &render};
     rt_error error;
@@ -363,29 +397,35 @@ static void irradiance_is_flux_over_area(void **state)
             normals[i][c] = (float)-n[c];
         }
     }
-    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count,
+                                       &ask, &error),
               &error);
     for (int c = 0; c < 3; c++) {
         double expected = power[c] / (1 - kd[c]) / (16 * PI), mean = 0;
         for (int i = 0; i < count; i++)
             mean += rgb[i][c] / count;
-        /* Each of 100 photons: 10 % a point, 0.5 % in the mean; a curved surface makes discs look small. */
+        /*
+         * Each of 100 photons: 10 % a point, 0.5 % in the mean; a curved surface makes discs look
+         * small.
+         */
         expect_close(mean, expected, 0.03 * expected, "irradiance");
     }
     /* The device finds the same photons; a fixed radius sees the same light. */
     ask.gather = RT_GATHER_DEVICE;
-    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0],
+                                       count, &ask, &error),
               &error);
     for (int i = 0; i < count; i++)
         for (int c = 0; c < 3; c++)
             assert_float_equal(again[i][c], rgb[i][c], 1e-4 * rgb[i][c]);
     ask.k = RT_K_ALL;
-    assert_int_equal(
-        rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
-        RT_ERROR_USAGE);
+    assert_int_equal(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0],
+                                              count, &ask, &error),
+                     RT_ERROR_USAGE);
     assert_string_equal(error.field, "radius");
     ask.radius = 0.15f;
-    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0],
+                                       count, &ask, &error),
               &error);
     double sum = 0, before = 0;
     for (int i = 0; i < count; i++) {
@@ -399,12 +439,14 @@ static void irradiance_is_flux_over_area(void **state)
         for (int c = 0; c < 3; c++)
             normals[i][c] = -normals[i][c];
     ask.radius = 0.1f;
-    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count, &ask, &error),
+    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count,
+                                       &ask, &error),
               &error);
     for (int i = 0; i < count; i++)
         assert_true(rgb[i][0] == 0 && rgb[i][1] == 0 && rgb[i][2] == 0);
     /* No points are no work. */
-    expect_ok(rt_photon_map_irradiance(NULL, map, test_device(), NULL, NULL, 0, NULL, &error), &error);
+    expect_ok(rt_photon_map_irradiance(NULL, map, test_device(), NULL, NULL, 0, NULL, &error),
+              &error);
     rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
 }
@@ -437,8 +479,8 @@ static void irradiance_is_refused_where_there_is_no_surface(void **state)
         rt_error error = {0};
         memcpy(positions[1], cases[i].position, sizeof positions[1]);
         memcpy(normals[1], cases[i].normal, sizeof normals[1]);
-        rt_status status =
-            rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], 2, NULL, &error);
+        rt_status status = rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0],
+                                                    normals[0], 2, NULL, &error);
         if (status != (cases[i].field ? RT_ERROR_USAGE : RT_OK))
             fail_msg("case %zu: status %d: %s", i, (int)status, error.message);
         assert_string_equal(error.field, cases[i].field ? cases[i].field : "");
@@ -448,7 +490,10 @@ static void irradiance_is_refused_where_there_is_no_surface(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* Where light grazes a plane it lands as far out as one likes; a map keeps what it can be read back with. */
+/*
+ * Where light grazes a plane it lands as far out as one likes; a map keeps what it can be read back
+ * with.
+ */
 static void photons_beyond_all_coordinates_are_left_out(void **state)
 {
     static const char text[] = "material wall { kd 0.5 }\n"
@@ -463,7 +508,10 @@ static void photons_beyond_all_coordinates_are_left_out(void **state)
     rt_renderer *renderer = test_renderer(text);
     rt_photon_map *map = emit_map(renderer, &options);
     rt_photon_map_get_info(map, &info);
-    /* Half of the paths go down, and of these a tenth lands farther out: 100, with a deviation of 10. */
+    /*
+     * Half of the paths go down, and of these a tenth lands farther out: 100, with a deviation of
+     * 10.
+     */
     assert_in_range(info.rejected, 50, 150);
     expect_ok(rt_photon_map_save(map, "far.rtp", &error), &error);
     expect_ok(rt_photon_map_load(&back, "far.rtp", &error), &error);
@@ -483,7 +531,8 @@ static void maps_with_photons_on_no_shape_are_not_rendered(void **state)
     (void)state;
     rt_renderer *renderer = test_renderer("camera { eye 0 0 -0.9  look_at 0 0 0 }\n" ROOM);
     rt_photon_map *map = emit_map(renderer, &options);
-    rt_render_options use = {.mode = RT_MODE_PHOTON, .width = 2, .height = 2, .spp = 1, .photon_map = map};
+    rt_render_options use = {
+        .mode = RT_MODE_PHOTON, .width = 2, .height = 2, .spp = 1, .photon_map = map};
     expect_ok(rt_render(&film, renderer, &use, &error), &error);
     rt_film_destroy(film);
     film = NULL;
@@ -495,7 +544,10 @@ static void maps_with_photons_on_no_shape_are_not_rendered(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* A point light inside a glass ball: all light is caustic at first, and both lists together are all of it. */
+/*
+ * A point light inside a glass ball: all light is caustic at first, and both lists together are all
+ * of it.
+ */
 static void irradiance_sums_both_lists(void **state)
 {
     static const char text[] = "material wall { kd 0.5 }\n"
@@ -504,7 +556,10 @@ static void irradiance_sums_both_lists(void **state)
                                "sphere { centre 0 0 0  radius 0.5  material glass }\n"
                                "light point { position 0 0 0  power 3 3 3 }\n";
     static const float position[3] = {0, 2, 0}, normal[3] = {0, -1, 0};
-    rt_render_options render = {.photons = 100000, .max_depth = 60, .k = 2000, .caustic_photons = 50000,
+    rt_render_options render = {.photons = 100000,
+                                .max_depth = 60,
+                                .k = 2000,
+                                .caustic_photons = 50000,
                                 .seed = test_seed(0)};
     rt_emit_options options = {.render = &render};
     rt_photon_map_info info;
@@ -515,7 +570,9 @@ static void irradiance_sums_both_lists(void **state)
     rt_photon_map *map = emit_map(renderer, &options);
     rt_photon_map_get_info(map, &info);
     assert_true(info.split && info.photons[RT_PHOTONS_CAUSTIC] > 49000);
-    expect_ok(rt_photon_map_irradiance(rgb, map, test_device(), position, normal, 1, &render, &error), &error);
+    expect_ok(
+        rt_photon_map_irradiance(rgb, map, test_device(), position, normal, 1, &render, &error),
+        &error);
     /* 3 W directly and as much again after bounces; 2000 photons: 3 %. */
     expect_close(rgb[0], 6 / (16 * PI), 0.1 * 6 / (16 * PI), "irradiance of both lists");
     rt_photon_map_destroy(map);
@@ -536,7 +593,8 @@ int main(void)
         statistical_test(stored_flux_is_what_path_tracing_says),
         statistical_test(irradiance_is_flux_over_area),
         cmocka_unit_test(irradiance_is_refused_where_there_is_no_surface),
-        cmocka_unit_test_setup_teardown(photons_beyond_all_coordinates_are_left_out, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(photons_beyond_all_coordinates_are_left_out, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test(maps_with_photons_on_no_shape_are_not_rendered),
         statistical_test(irradiance_sums_both_lists),
     };

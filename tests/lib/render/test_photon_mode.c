@@ -1,5 +1,6 @@
 /*
- * test_photon_mode.c - photon mapping makes the picture that path tracing makes, by each of its ways.
+ * test_photon_mode.c - photon mapping makes the picture that path tracing makes, by each of its
+ * ways.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -10,8 +11,8 @@
 #include "lib/render/photon_room.h"
 
 /*
- * Means over the film may be off by so much: the estimate blurs light over edges of the room, by 0.6 % at most, and
- * both renders are noisy, together 0.2 % or less over 6 seeds.
+ * Means over the film may be off by so much: the estimate blurs light over edges of the room, by
+ * 0.6 % at most, and both renders are noisy, together 0.2 % or less over 6 seeds.
  */
 static const double tolerance = 0.017;
 
@@ -37,17 +38,22 @@ static void every_way_agrees_with_path_tracing(void **state)
         uint64_t photons, caustic_photons;
     } ways[] = {
         {"direct light by shadow rays", RT_DIRECT_NEE, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
-        {"direct light from the map", RT_DIRECT_PHOTONS, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
+        {"direct light from the map", RT_DIRECT_PHOTONS, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000,
+         0},
         {"final gather", RT_DIRECT_NEE, 1, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
-        {"final gather of all light", RT_DIRECT_PHOTONS, 1, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
+        {"final gather of all light", RT_DIRECT_PHOTONS, 1, RT_GATHER_FLANN, 50, 0, 0, 16, 300000,
+         0},
         {"two final bounces", RT_DIRECT_NEE, 2, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 0},
         {"gather on the device", RT_DIRECT_NEE, 0, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 0},
         {"fixed radius", RT_DIRECT_PHOTONS, 0, RT_GATHER_AUTO, RT_K_ALL, 0.02f, 0, 16, 300000, 0},
         {"caustics apart", RT_DIRECT_NEE, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 300000},
-        {"caustics apart, final gather", RT_DIRECT_NEE, 1, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 300000},
+        {"caustics apart, final gather", RT_DIRECT_NEE, 1, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000,
+         300000},
         {"passes", RT_DIRECT_NEE, 0, RT_GATHER_AUTO, 50, 0, 50, 1, 20000, 0},
-        {"passes, all light from the map", RT_DIRECT_PHOTONS, 0, RT_GATHER_AUTO, 50, 0.03f, 50, 1, 20000, 0},
-        {"passes, final gather, caustics apart", RT_DIRECT_NEE, 1, RT_GATHER_AUTO, 20, 0, 50, 1, 20000, 5000},
+        {"passes, all light from the map", RT_DIRECT_PHOTONS, 0, RT_GATHER_AUTO, 50, 0.03f, 50, 1,
+         20000, 0},
+        {"passes, final gather, caustics apart", RT_DIRECT_NEE, 1, RT_GATHER_AUTO, 20, 0, 50, 1,
+         20000, 5000},
     };
     rt_render_options options = room_options();
     (void)state;
@@ -88,13 +94,17 @@ static void both_gathers_make_the_same_picture(void **state)
     options.gather = RT_GATHER_DEVICE;
     rt_film *device = room_render(renderer, &options);
     for (int i = 0; i < side * side * 3; i++)
-        assert_float_equal(rt_film_rgb(host)[i], rt_film_rgb(device)[i], 1e-5 * (1 + rt_film_rgb(host)[i]));
+        assert_float_equal(rt_film_rgb(host)[i], rt_film_rgb(device)[i],
+                           1e-5 * (1 + rt_film_rgb(host)[i]));
     rt_film_destroy(host);
     rt_film_destroy(device);
     rt_renderer_destroy(renderer);
 }
 
-/* A floor under a glass sphere and a point light: eye paths can never find the light through the glass. */
+/*
+ * A floor under a glass sphere and a point light: eye paths can never find the light through the
+ * glass.
+ */
 static rt_renderer *make_point_caustic(void)
 {
     const float corner[3] = {-1, 0, -1}, x[3] = {2, 0, 0}, z[3] = {0, 0, 2}, ball[3] = {0, 0.5f, 0};
@@ -120,7 +130,8 @@ static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
     rt_render_options options = room_options();
     (void)state;
     rt_renderer *renderer = make_point_caustic();
-    options.k = RT_K_ALL; /* else the other photons would make the discs smaller where all are in one list */
+    /* else the other photons would make the discs smaller where all are in one list */
+    options.k = RT_K_ALL;
     options.radius = 0.1f;
     options.photons = 1000000;
     options.spp = 64;
@@ -146,11 +157,15 @@ static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* A white ball inside a ball of glass, in a room with a shining ceiling; the ball fills the picture. */
+/*
+ * A white ball inside a ball of glass, in a room with a shining ceiling; the ball fills the
+ * picture.
+ */
 static rt_renderer *make_ball_in_glass(const float eye[3], float fov)
 {
-    const float x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 2}, low[3] = {-1, -1, -1}, high[3] = {-1, 1, -1},
-                back[3] = {-1, -1, 1}, right[3] = {1, -1, -1}, centre[3] = {0};
+    const float x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 2}, low[3] = {-1, -1, -1},
+                high[3] = {-1, 1, -1}, back[3] = {-1, -1, 1}, right[3] = {1, -1, -1},
+                centre[3] = {0};
     rt_camera camera = {.eye = {eye[0], eye[1], eye[2]}, .fov = fov};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
@@ -174,8 +189,9 @@ static rt_renderer *make_ball_in_glass(const float eye[3], float fov)
 }
 
 /*
- * Photons bring flux into glass and the eye sees radiance: without the factor (eta_i/eta_t)^2 of radiance, the two
- * would differ by 2.25, in one direction from outside and in the other from inside.
+ * Photons bring flux into glass and the eye sees radiance: without the factor (eta_i/eta_t)^2 of
+ * radiance, the two would differ by 2.25, in one direction from outside and in the other from
+ * inside.
  */
 static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
 {
@@ -207,8 +223,8 @@ static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
 /* A dark wall behind clear glass that reflects nothing. */
 static void every_eye_path_through_glass_comes_to_the_map(void **state)
 {
-    const float pane[3] = {-2, -2, 0}, behind[3] = {-2, -2, 0.2f}, wall[3] = {-2, -2, 1}, x[3] = {4, 0, 0},
-                y[3] = {0, 4, 0};
+    const float pane[3] = {-2, -2, 0}, behind[3] = {-2, -2, 0.2f}, wall[3] = {-2, -2, 1},
+                x[3] = {4, 0, 0}, y[3] = {0, 4, 0};
     rt_point_light light = {{0, 0, 0.5f}, {1, 1, 1}, {0}};
     rt_camera camera = {.eye = {0, 0, -2}, .fov = 40};
     rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f};
@@ -250,7 +266,9 @@ static rt_renderer *make_smooth_floor(void)
 
     expect_ok(rt_scene_create(&scene, &error), &error);
     rt_surface surface = {.material = room_material(scene, 0.8f, 0, 0)};
-    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 4, indices, 2, normals, &surface, &error), &error);
+    expect_ok(
+        rt_scene_add_triangles(scene, NULL, positions, 4, indices, 2, normals, &surface, &error),
+        &error);
     expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
@@ -286,16 +304,18 @@ static void smooth_surfaces_agree_with_path_tracing(void **state)
 }
 
 /*
- * A grey floor of 5 m under a directional light that meets it at right angles, seen 4 m wide. The photons in a disc of
- * it are Poisson distributed, to a thousandth.
+ * A grey floor of 5 m under a directional light that meets it at right angles, seen 4 m wide. The
+ * photons in a disc of it are Poisson distributed, to a thousandth.
  */
-static const double floor_radius = 3.5355339, irradiance = 2, albedo = 0.5; /* of the sphere around it; in W/m^2 */
+/* of the sphere around it; in W/m^2 */
+static const double floor_radius = 3.5355339, irradiance = 2, albedo = 0.5;
 
 static rt_renderer *make_sunny_floor(void)
 {
     const float corner[3] = {-2.5f, 0, -2.5f}, x[3] = {5, 0, 0}, z[3] = {0, 0, 5};
     rt_directional_light light = {.direction = {0, -1, 0}, .irradiance = {2, 2, 2}};
-    rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC, .eye = {0, 1, 0}, .up = {0, 0, 1}, .width = 4};
+    rt_camera camera = {
+        .kind = RT_CAMERA_ORTHOGRAPHIC, .eye = {0, 1, 0}, .up = {0, 0, 1}, .width = 4};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
     rt_error error;
@@ -309,10 +329,11 @@ static rt_renderer *make_sunny_floor(void)
 }
 
 /*
- * In passes, the variance layer is what theory says of counted photons, and foretells how far renders of two seeds
- * are apart. With n photons expected in a disc a pass, a box kernel's mean over P passes has the variance L^2 / (n P).
- * Over 20 pairs of seeds the layer was 0.3 % above, as the radius that shrinks a little has it, with a standard
- * deviation of 0.4 %, the squared difference 0.6 % with one of 3 %.
+ * In passes, the variance layer is what theory says of counted photons, and foretells how far
+ * renders of two seeds are apart. With n photons expected in a disc a pass, a box kernel's mean
+ * over P passes has the variance L^2 / (n P). Over 20 pairs of seeds the layer was 0.3 % above, as
+ * the radius that shrinks a little has it, with a standard deviation of 0.4 %, the squared
+ * difference 0.6 % with one of 3 %.
  */
 static void the_variance_layer_is_that_of_other_seeds(void **state)
 {
@@ -340,9 +361,11 @@ static void the_variance_layer_is_that_of_other_seeds(void **state)
         foretold += rt_film_layer(a, "photon.variance", NULL)[i] / (2 * side * side) +
                     rt_film_layer(b, "photon.variance", NULL)[i] / (2 * side * side);
     }
-    double radiance = albedo / pi * irradiance, expected = (double)options.photons * pow(radius / floor_radius, 2);
+    double radiance = albedo / pi * irradiance,
+           expected = (double)options.photons * pow(radius / floor_radius, 2);
     double truth = radiance * radiance / (expected * passes);
-    print_message("variance %g; of the layer %.4f, of other seeds %.4f of it\n", truth, foretold / truth, seen / truth);
+    print_message("variance %g; of the layer %.4f, of other seeds %.4f of it\n", truth,
+                  foretold / truth, seen / truth);
     expect_close(foretold, truth, 0.025 * truth, "variance of the layer");
     expect_close(seen, truth, 0.16 * truth, "variance of other seeds");
     rt_film_destroy(a);

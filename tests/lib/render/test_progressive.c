@@ -1,9 +1,10 @@
 /*
- * test_progressive.c - progressive passes come to the truth at the rate of theory, and stop when told to.
+ * test_progressive.c - progressive passes come to the truth at the rate of theory, and stop when
+ * told to.
  *
- * The mean squared error against path tracing, over four seeds, is followed over passes that double; the slope of its
- * logarithm is to be -2/3, within 15 % (Knaus and Zwicker 2011, for alpha = 2/3), of a caustic within 30 %. For the
- * whole study see tests/studies/study_consistency.c.
+ * The mean squared error against path tracing, over four seeds, is followed over passes that
+ * double; the slope of its logarithm is to be -2/3, within 15 % (Knaus and Zwicker 2011, for alpha
+ * = 2/3), of a caustic within 30 %. For the whole study see tests/studies/study_consistency.c.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -49,8 +50,8 @@ static void follow(const char *scene, double close)
         }
     }
     double slope = study_slope(passes, errors, counts);
-    print_message("%s: slope %.3f, error %.5f to %.5f, mean %.4f of path tracing\n", scene, slope, errors[0],
-                  errors[counts - 1], last_mean);
+    print_message("%s: slope %.3f, error %.5f to %.5f, mean %.4f of path tracing\n", scene, slope,
+                  errors[0], errors[counts - 1], last_mean);
     expect_close(slope, -2 / 3.0, close, scene);
     expect_close(last_mean, 1, 0.02, "mean");
     rt_film_destroy(reference);
@@ -62,7 +63,10 @@ static void the_error_falls_as_theory_says(void **state)
     (void)state;
     follow("scenes/box_point.rts", 0.1);
     follow("scenes/box_area.rts", 0.1);
-    /* A caustic is narrower than the first discs: -0.72 over these passes, with a deviation of 0.033 over 6 seeds. */
+    /*
+     * A caustic is narrower than the first discs: -0.72 over these passes, with a deviation of
+     * 0.033 over 6 seeds.
+     */
     follow("scenes/box_caustic.rts", 0.2);
 }
 
@@ -85,7 +89,9 @@ static void one_pass_of_one_sample_is_an_ordinary_render(void **state)
     assert_int_equal(stats.passes, 2);
     assert_int_equal(stats.spp, 2);
     assert_int_equal(stats.photons_emitted, 8000);
-    /* The second pass has other photons: the films are not the same, nor far apart in their mean. */
+    /*
+     * The second pass has other photons: the films are not the same, nor far apart in their mean.
+     */
     assert_true(study_mse(once, twice) > 0);
     expect_close(study_mean(once) / study_mean(twice), 1, 0.6, "mean of one pass and of two");
     rt_film_destroy(once);

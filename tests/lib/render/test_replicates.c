@@ -3,7 +3,10 @@
 
 #include "render/replicates.h"
 
-/* Every replicate goes through its samples without a gap, and all samples are given out, as evenly as can be. */
+/*
+ * Every replicate goes through its samples without a gap, and all samples are given out, as evenly
+ * as can be.
+ */
 static void stretches_share_all_samples_evenly(void **state)
 {
     (void)state;

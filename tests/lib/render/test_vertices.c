@@ -1,4 +1,7 @@
-/* test_vertices.c - what meshes keep at their vertices, as the modes that show the first hit have it. */
+/*
+ * test_vertices.c - what meshes keep at their vertices, as the modes that show the first hit have
+ * it.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -12,17 +15,21 @@ static const float corners[3][3] = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
 static const uint32_t indices[3] = {0, 1, 2};
 
 /* Barycentric weights of the three corners. */
-static const double weights[spots][3] = {
-    {1 / 3.0, 1 / 3.0, 1 / 3.0}, {0.9, 0.05, 0.05}, {0.05, 0.9, 0.05}, {0.05, 0.05, 0.9}, {0.1, 0.3, 0.6}};
+static const double weights[spots][3] = {{1 / 3.0, 1 / 3.0, 1 / 3.0},
+                                         {0.9, 0.05, 0.05},
+                                         {0.05, 0.9, 0.05},
+                                         {0.05, 0.05, 0.9},
+                                         {0.1, 0.3, 0.6}};
 
 /* A placement that keeps the plane z = 0, but shears what stands on it; and the same mirrored. */
-static const rt_transform placements[] = {{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
-                                          {{{4, 0.3f, 0.2f, 0.5f}, {0, 0.5f, 0.4f, -2}, {0, 0, 3, 0}}},
-                                          {{{-4, 0.3f, 0.2f, 0.5f}, {0, 0.5f, 0.4f, -2}, {0, 0, 3, 0}}}};
+static const rt_transform placements[] = {
+    {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
+    {{{4, 0.3f, 0.2f, 0.5f}, {0, 0.5f, 0.4f, -2}, {0, 0, 3, 0}}},
+    {{{-4, 0.3f, 0.2f, 0.5f}, {0, 0.5f, 0.4f, -2}, {0, 0, 3, 0}}}};
 
 /* A triangle of these vertices, and, for an instance, a second one elsewhere. */
-static rt_scene *triangle(const rt_mesh_data *attributes, const rt_material *material, const rt_transform *placement,
-                          int is_instance)
+static rt_scene *triangle(const rt_mesh_data *attributes, const rt_material *material,
+                          const rt_transform *placement, int is_instance)
 {
     rt_mesh_data mesh = *attributes;
     rt_surface surface;
@@ -44,10 +51,15 @@ static rt_scene *triangle(const rt_mesh_data *attributes, const rt_material *mat
     return scene;
 }
 
-/* What a mode shows at a spot of the placed triangle: one pixel, too small for anything to change across it. */
-static void look(float rgb[3], rt_scene *scene, const rt_transform *placement, const double weight[3], rt_mode mode)
+/*
+ * What a mode shows at a spot of the placed triangle: one pixel, too small for anything to change
+ * across it.
+ */
+static void look(float rgb[3], rt_scene *scene, const rt_transform *placement,
+                 const double weight[3], rt_mode mode)
 {
-    rt_render_options options = {.width = 1, .height = 1, .mode = mode, .spp = mode == RT_MODE_PATH ? 16384 : 4};
+    rt_render_options options = {
+        .width = 1, .height = 1, .mode = mode, .spp = mode == RT_MODE_PATH ? 16384 : 4};
     rt_camera camera = {.kind = RT_CAMERA_ORTHOGRAPHIC, .width = 1e-4f, .eye = {0, 0, 5}};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
@@ -80,10 +92,13 @@ static void map_normal(double out[3], const rt_transform *t, const double n[3])
         out[i] /= sqrt(length) * (out[2] < 0 ? -1 : 1);
 }
 
-/* The mix of the corners' unit normals, mapped; whether the mesh is placed once or is an instance. */
+/*
+ * The mix of the corners' unit normals, mapped; whether the mesh is placed once or is an instance.
+ */
 static void normals_are_mixed_and_then_placed(void **state)
 {
-    static const float normals[3][3] = {{0.6f, 0, 0.8f}, {0, 3, 4}, {-0.48f, -0.64f, 0.6f}}; /* one not a unit */
+    /* one not a unit */
+    static const float normals[3][3] = {{0.6f, 0, 0.8f}, {0, 3, 4}, {-0.48f, -0.64f, 0.6f}};
     static const double units[3][3] = {{0.6, 0, 0.8}, {0, 0.6, 0.8}, {-0.48, -0.64, 0.6}};
     const rt_mesh_data attributes = {.normals = normals[0]};
     const rt_material white = {.kd = {1, 1, 1}};
@@ -132,7 +147,10 @@ static void colours_are_mixed(void **state)
     }
 }
 
-/* Colours above 1 may ask for more light than arrives: then all that is scattered is scaled down, its hue kept. */
+/*
+ * Colours above 1 may ask for more light than arrives: then all that is scattered is scaled down,
+ * its hue kept.
+ */
 static void colours_above_one_gain_no_energy(void **state)
 {
     static const float colours[3][3] = {{4, 1, 0}, {4, 1, 0}, {4, 1, 0}};

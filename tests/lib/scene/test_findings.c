@@ -1,4 +1,6 @@
-/* test_findings.c - points inside solids, shapes in view, and what rt_scene_check says of scenes. */
+/*
+ * test_findings.c - points inside solids, shapes in view, and what rt_scene_check says of scenes.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -42,7 +44,8 @@ static double in_ball(const double p[3])
 
 static double in_ellipsoid(const double p[3])
 {
-    return 1 - sqrt(pow((p[0] - at_a[0]) / 0.8, 2) + pow((p[1] - at_a[1]) / 0.4, 2) + pow((p[2] - at_a[2]) / 0.6, 2));
+    return 1 - sqrt(pow((p[0] - at_a[0]) / 0.8, 2) + pow((p[1] - at_a[1]) / 0.4, 2) +
+                    pow((p[2] - at_a[2]) / 0.6, 2));
 }
 
 static double in_cylinder(const double p[3])
@@ -73,21 +76,24 @@ static double in_box(const double p[3])
     return 0.5 - fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
 }
 
-static const float box_corners[8][3] = {{-0.5f, -0.5f, -0.5f}, {0.5f, -0.5f, -0.5f}, {-0.5f, 0.5f, -0.5f},
-                                        {0.5f, 0.5f, -0.5f},   {-0.5f, -0.5f, 0.5f}, {0.5f, -0.5f, 0.5f},
-                                        {-0.5f, 0.5f, 0.5f},   {0.5f, 0.5f, 0.5f}};
-static const uint32_t box_faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                          {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+static const float box_corners[8][3] = {
+    {-0.5f, -0.5f, -0.5f}, {0.5f, -0.5f, -0.5f}, {-0.5f, 0.5f, -0.5f}, {0.5f, 0.5f, -0.5f},
+    {-0.5f, -0.5f, 0.5f},  {0.5f, -0.5f, 0.5f},  {-0.5f, 0.5f, 0.5f},  {0.5f, 0.5f, 0.5f}};
+static const uint32_t box_faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                          {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                          {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
 
 static void add_box(rt_scene *scene, size_t faces, const rt_surface *surface)
 {
     rt_error error;
-    expect_ok(rt_scene_add_triangles(scene, NULL, box_corners[0], 8, box_faces[0], faces, NULL, surface, &error),
+    expect_ok(rt_scene_add_triangles(scene, NULL, box_corners[0], 8, box_faces[0], faces, NULL,
+                                     surface, &error),
               &error);
 }
 
 /* The closed shapes, each with what is positive inside of it. */
-static double (*const insides[])(const double p[3]) = {in_ball, in_ellipsoid, in_cylinder, in_cone, in_torus, in_box};
+static double (*const insides[])(const double p[3]) = {in_ball, in_ellipsoid, in_cylinder,
+                                                       in_cone, in_torus,     in_box};
 
 static rt_scene *scene_of_solids(const rt_surface *surface)
 {
@@ -106,7 +112,10 @@ static rt_scene *scene_of_solids(const rt_surface *surface)
     return scene;
 }
 
-/* Points of the cube from -1.5 to 1.5 about the solids, placed with them; those closer than rounding are left out. */
+/*
+ * Points of the cube from -1.5 to 1.5 about the solids, placed with them; those closer than
+ * rounding are left out.
+ */
 static void expect_sides(const rt_surface *surface)
 {
     rt_scene *scene = scene_of_solids(surface);
@@ -115,7 +124,8 @@ static void expect_sides(const rt_surface *surface)
         uint32_t state = 7;
         int inside = 0;
         for (int i = 0; i < points; i++) {
-            double p[3] = {1.5 * uniform(&state), 1.5 * uniform(&state), 1.5 * uniform(&state)}, q[3];
+            double p[3] = {1.5 * uniform(&state), 1.5 * uniform(&state), 1.5 * uniform(&state)},
+                   q[3];
             double depth = insides[s](p);
             rt_affine_point(q, &placed, p);
             inside += depth > 0;
@@ -129,7 +139,9 @@ static void expect_sides(const rt_surface *surface)
 
 static void points_in_solids_are_those_of_their_equations(void **state)
 {
-    rt_surface plain = {0}, placed = {.transform = {{{0, 2, 0, 5}, {-0.5f, 0.1f, 0, -3}, {0.3f, 0, -1.5f, 100}}}};
+    rt_surface plain = {0},
+               placed = {
+                   .transform = {{{0, 2, 0, 5}, {-0.5f, 0.1f, 0, -3}, {0.3f, 0, -1.5f, 100}}}};
     (void)state;
     expect_sides(&plain);
     expect_sides(&placed);
@@ -139,7 +151,8 @@ static void only_closed_shapes_have_an_inside(void **state)
 {
     static const float point[3], normal[3] = {0, 0, 1}, top[3] = {0, 0, 1};
     static const double middle[3] = {0, 0, 0.25}, outside[3] = {0, 0, 0.75};
-    rt_surface surface = {0}, mirrored = {.transform = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
+    rt_surface surface = {0},
+               mirrored = {.transform = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
     rt_scene *scene = new_scene();
     rt_error error;
     (void)state;
@@ -158,7 +171,9 @@ static void only_closed_shapes_have_an_inside(void **state)
         inverted[i][2] = box_faces[i][1];
     }
     uint32_t box;
-    expect_ok(rt_scene_add_triangles(scene, &box, box_corners[0], 8, inverted[0], 12, NULL, &mirrored, &error), &error);
+    expect_ok(rt_scene_add_triangles(scene, &box, box_corners[0], 8, inverted[0], 12, NULL,
+                                     &mirrored, &error),
+              &error);
     assert_int_equal(rt_shape_contains(scene, scene->shapes + box, middle), -1);
     assert_int_equal(rt_shape_contains(scene, scene->shapes + box, outside), 0);
     rt_scene_destroy(scene);
@@ -195,8 +210,9 @@ static told findings_of(const char *text)
     return t;
 }
 
-#define MATERIALS                                                                                                      \
-    "material white { kd 0.5 }\nmaterial glass { kt 1 fresnel dielectric }\nmaterial lamp { emission 1 }\n"            \
+#define MATERIALS                                                                                  \
+    "material white { kd 0.5 }\nmaterial glass { kt 1 fresnel dielectric }\nmaterial lamp { "      \
+    "emission 1 }\n"                                                                               \
     "material glow { emission 1 two_sided true }\n"
 #define VIEW "camera { eye 0 0 -5 look_at 0 0 0 }\n"
 #define BALL "sphere { centre 0 0 0 radius 1 material white }\n"
@@ -212,8 +228,8 @@ static void expect_findings(const scene_case *cases, size_t count)
     for (size_t i = 0; i < count; i++) {
         told t = findings_of(cases[i].text);
         if (t.last.kind != cases[i].kind)
-            fail_msg("found %d (%s), expected %d in:\n%s", (int)t.last.kind, t.message, (int)cases[i].kind,
-                     cases[i].text);
+            fail_msg("found %d (%s), expected %d in:\n%s", (int)t.last.kind, t.message,
+                     (int)cases[i].kind, cases[i].text);
     }
 }
 
@@ -235,29 +251,41 @@ static void what_is_missing_is_told(void **state)
     EXPECT(cases);
 }
 
-/* Each view looks along +z and sees 45 degrees, from -22.5 to 22.5 in x, and in a square picture in y. */
+/*
+ * Each view looks along +z and sees 45 degrees, from -22.5 to 22.5 in x, and in a square picture in
+ * y.
+ */
 static void a_camera_that_looks_past_all_is_told(void **state)
 {
     static const scene_case cases[] = {
         {MATERIALS SUN BALL "camera { eye 0 0 -5 look_at 0 0 -9 }", RT_FINDING_NOTHING_IN_VIEW},
         {MATERIALS SUN BALL "camera { eye 0 0 -5 look_at 0 0 0 }", RT_FINDING_NONE},
         {MATERIALS SUN BALL "camera { eye 3.5 0 -5 look_at 3.5 0 0 }", RT_FINDING_NOTHING_IN_VIEW},
-        {MATERIALS SUN BALL "camera { eye -3.5 0 -5 look_at -3.5 0 0 }", RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN BALL "camera { eye -3.5 0 -5 look_at -3.5 0 0 }",
+         RT_FINDING_NOTHING_IN_VIEW},
         {MATERIALS SUN BALL "camera { eye 3.4 0 -5 look_at 3.4 0 0 }", RT_FINDING_NONE},
         {MATERIALS SUN BALL "camera { eye 0 3.5 -5 look_at 0 3.5 0 }", RT_FINDING_NOTHING_IN_VIEW},
-        {MATERIALS SUN BALL "camera { eye 0 -3.5 -5 look_at 0 -3.5 0 }", RT_FINDING_NOTHING_IN_VIEW},
-        {MATERIALS SUN BALL "camera { eye 0 3.5 -5 look_at 0 3.5 0 } film { width 256 }", RT_FINDING_NONE},
-        {MATERIALS SUN BALL "camera { eye 3.5 0 -5 look_at 3.5 0 0 aperture 0.1 }", RT_FINDING_NONE},
-        {MATERIALS SUN BALL "camera { projection orthographic eye 1.9 0 -5 look_at 1.9 0 0 }", RT_FINDING_NONE},
+        {MATERIALS SUN BALL "camera { eye 0 -3.5 -5 look_at 0 -3.5 0 }",
+         RT_FINDING_NOTHING_IN_VIEW},
+        {MATERIALS SUN BALL "camera { eye 0 3.5 -5 look_at 0 3.5 0 } film { width 256 }",
+         RT_FINDING_NONE},
+        {MATERIALS SUN BALL "camera { eye 3.5 0 -5 look_at 3.5 0 0 aperture 0.1 }",
+         RT_FINDING_NONE},
+        {MATERIALS SUN BALL "camera { projection orthographic eye 1.9 0 -5 look_at 1.9 0 0 }",
+         RT_FINDING_NONE},
         {MATERIALS SUN BALL "camera { projection orthographic eye 2.1 0 -5 look_at 2.1 0 0 }",
          RT_FINDING_NOTHING_IN_VIEW},
-        {MATERIALS SUN BALL "camera { projection environment eye 0 0 -5 look_at 0 0 -9 }", RT_FINDING_NONE},
-        {MATERIALS SUN "plane { point 0 -1 0 normal 0 1 0 material white } camera { eye 0 0 0 look_at 0 0 9 }",
+        {MATERIALS SUN BALL "camera { projection environment eye 0 0 -5 look_at 0 0 -9 }",
          RT_FINDING_NONE},
-        {MATERIALS SUN "plane { point 0 -1 0 normal 0 1 0 material white } camera { eye 0 0 0 look_at 0 5 9 }",
+        {MATERIALS SUN
+         "plane { point 0 -1 0 normal 0 1 0 material white } camera { eye 0 0 0 look_at 0 0 9 }",
+         RT_FINDING_NONE},
+        {MATERIALS SUN
+         "plane { point 0 -1 0 normal 0 1 0 material white } camera { eye 0 0 0 look_at 0 5 9 }",
          RT_FINDING_NOTHING_IN_VIEW},
         {MATERIALS SUN "plane { point 0 0 1 normal 0 0 1 material white }"
-                       "camera { projection orthographic eye 0 0 2 look_at 0 0 9 }", RT_FINDING_NOTHING_IN_VIEW},
+                       "camera { projection orthographic eye 0 0 2 look_at 0 0 9 }",
+         RT_FINDING_NOTHING_IN_VIEW},
     };
     (void)state;
     EXPECT(cases);
@@ -271,14 +299,21 @@ static void glass_without_an_inside_is_told(void **state)
         {GLASS FACE("0"), RT_FINDING_OPEN_GLASS},
         {GLASS "disc { centre 0 0 0 normal 0 0 1 radius 1 material clear }", RT_FINDING_OPEN_GLASS},
         {GLASS "triangle { a 0 0 0 b 1 0 0 c 0 1 0 material clear }", RT_FINDING_OPEN_GLASS},
-        {GLASS "cylinder { a 0 0 0 b 0 1 0 radius 1 caps false material clear }", RT_FINDING_OPEN_GLASS},
-        {GLASS "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material clear }", RT_FINDING_OPEN_GLASS},
-        /* Closed, by itself or by what may be its other faces; a plane is the boundary of a half-space. */
+        {GLASS "cylinder { a 0 0 0 b 0 1 0 radius 1 caps false material clear }",
+         RT_FINDING_OPEN_GLASS},
+        {GLASS "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material clear }",
+         RT_FINDING_OPEN_GLASS},
+        /*
+         * Closed, by itself or by what may be its other faces; a plane is the boundary of a
+         * half-space.
+         */
         {GLASS "cone { base 0 0 0 apex 0 1 0 radius 1 material clear }", RT_FINDING_NONE},
         {GLASS "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material clear }"
-               "disc { centre 0 0 0 normal 0 -1 0 radius 1 material clear }", RT_FINDING_NONE},
+               "disc { centre 0 0 0 normal 0 -1 0 radius 1 material clear }",
+         RT_FINDING_NONE},
         {GLASS FACE("0") FACE("1") FACE("2") FACE("3"), RT_FINDING_NONE},
-        {GLASS "plane { point 0 -9 0 normal 0 1 0 material clear } sphere { centre 0 0 0 radius 1 material clear }",
+        {GLASS "plane { point 0 -9 0 normal 0 1 0 material clear } sphere { centre 0 0 0 radius 1 "
+               "material clear }",
          RT_FINDING_NONE},
         /* A sheet that bends nothing. */
         {MATERIALS VIEW SUN "material clear { kt 0.5 ior 1 }" FACE("0"), RT_FINDING_NONE},
@@ -290,18 +325,28 @@ static void glass_without_an_inside_is_told(void **state)
 static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
 {
     static const scene_case cases[] = {
-        {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material white }" VIEW, RT_FINDING_EYE_IN_THE_DARK},
-        {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material glass }" VIEW, RT_FINDING_EYE_IN_MEDIUM},
-        /* A room with a lamp in it, by its walls, or of glowing walls, is none; a lamp whose light goes outwards is. */
-        {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 1 0 0 intensity 1 }" VIEW,
+        {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material white }" VIEW,
+         RT_FINDING_EYE_IN_THE_DARK},
+        {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material glass }" VIEW,
+         RT_FINDING_EYE_IN_MEDIUM},
+        /*
+         * A room with a lamp in it, by its walls, or of glowing walls, is none; a lamp whose light
+         * goes outwards is.
+         */
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 1 0 0 "
+                   "intensity 1 }" VIEW,
          RT_FINDING_NONE},
         {MATERIALS "sphere { centre 0 0 0 radius 9 material white }"
-                   "quad { corner 0 0 0 edge1 1 0 0 edge2 0 1 0 material lamp }" VIEW, RT_FINDING_NONE},
+                   "quad { corner 0 0 0 edge1 1 0 0 edge2 0 1 0 material lamp }" VIEW,
+         RT_FINDING_NONE},
         {MATERIALS "sphere { centre 0 0 0 radius 9 material glow }" VIEW, RT_FINDING_NONE},
-        {MATERIALS "sphere { centre 0 0 0 radius 9 material lamp }" VIEW, RT_FINDING_EYE_IN_THE_DARK},
-        {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 0 10 0 intensity 1 }" VIEW,
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material lamp }" VIEW,
          RT_FINDING_EYE_IN_THE_DARK},
-        {MATERIALS SUN "cylinder { a -1 0 -5 b 1 0 -5 radius 1 caps false material white }" VIEW, RT_FINDING_NONE},
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 0 10 0 "
+                   "intensity 1 }" VIEW,
+         RT_FINDING_EYE_IN_THE_DARK},
+        {MATERIALS SUN "cylinder { a -1 0 -5 b 1 0 -5 radius 1 caps false material white }" VIEW,
+         RT_FINDING_NONE},
     };
     (void)state;
     EXPECT(cases);
@@ -313,12 +358,15 @@ static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
 static void a_lamp_in_a_solid_is_told(void **state)
 {
     static const scene_case cases[] = {
-        {MATERIALS VIEW SUN BALL "light point { position 0 0 0.9 intensity 1 }", RT_FINDING_LIGHT_SHUT_IN},
+        {MATERIALS VIEW SUN BALL "light point { position 0 0 0.9 intensity 1 }",
+         RT_FINDING_LIGHT_SHUT_IN},
         {MATERIALS VIEW SUN BALL "light point { position 0 0 1.1 intensity 1 }", RT_FINDING_NONE},
         {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 0.5 0 0 edge2 0 0.5 0 material lamp }",
          RT_FINDING_LIGHT_SHUT_IN},
-        {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 2 0 0 edge2 0 0.5 0 material lamp }", RT_FINDING_NONE},
-        {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material glass } light point { position 0 0 0 intensity 1 }",
+        {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 2 0 0 edge2 0 0.5 0 material lamp }",
+         RT_FINDING_NONE},
+        {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material glass } light point { position 0 "
+                        "0 0 intensity 1 }",
          RT_FINDING_NONE},
     };
     (void)state;

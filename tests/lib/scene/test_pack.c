@@ -1,4 +1,7 @@
-/* test_pack.c - the tables that a scene becomes: instances share, references point where they should. */
+/*
+ * test_pack.c - the tables that a scene becomes: instances share, references point where they
+ * should.
+ */
 #include "support.h"
 
 #include <math.h>
@@ -34,14 +37,17 @@ static const void *table(const rt_scene_image *image, rt_u32 offset)
     return (const char *)image->data + (size_t)offset * RT_SCENE_ROW;
 }
 
-/* A sheet of 2 n^2 triangles over the unit square, with normals, texture coordinates and colours. */
+/*
+ * A sheet of 2 n^2 triangles over the unit square, with normals, texture coordinates and colours.
+ */
 static uint32_t add_sheet(rt_scene *scene, int n)
 {
     size_t side = (size_t)n + 1, vertices = side * side, triangles = 2 * (size_t)n * (size_t)n;
     float *data = malloc(vertices * 11 * sizeof *data);
     uint32_t *indices = malloc(triangles * 3 * sizeof *indices), *index = indices, mesh;
-    rt_mesh_data sheet = {data, data + 3 * vertices, data + 6 * vertices, data + 8 * vertices, indices, vertices,
-                          triangles};
+    rt_mesh_data sheet = {
+        data,     data + 3 * vertices, data + 6 * vertices, data + 8 * vertices, indices, vertices,
+        triangles};
     rt_error error;
     for (size_t i = 0; i < vertices; i++) {
         float u = (float)(i % side) / (float)n, v = (float)(i / side) / (float)n;
@@ -86,9 +92,12 @@ static void a_thousand_instances_take_the_memory_of_one(void **state)
     assert_true((double)bytes[1] < 1.2 * (double)bytes[0]);
 }
 
-/* Counts the triangles below a node and checks that all references stay within the tree's own blocks. */
-static size_t count_triangles(const rt_bvh_node *nodes, const rt_tri_block *blocks, rt_u32 child, rt_u32 first,
-                              rt_u32 count)
+/*
+ * Counts the triangles below a node and checks that all references stay within the tree's own
+ * blocks.
+ */
+static size_t count_triangles(const rt_bvh_node *nodes, const rt_tri_block *blocks, rt_u32 child,
+                              rt_u32 first, rt_u32 count)
 {
     size_t sum = 0;
     if (child == RT_NONE)
@@ -125,18 +134,21 @@ static void instances_have_trees_of_their_own(void **state)
     const rt_transform_data *transforms = table(&image, h->transforms);
     const rt_u32 *prim_shape = table(&image, h->prim_shape);
 
-    assert_true(h->analytic_count == 5 && h->block_count == 0 && h->prim_count == 5 && h->transform_count == 5);
+    assert_true(h->analytic_count == 5 && h->block_count == 0 && h->prim_count == 5 &&
+                h->transform_count == 5);
     for (rt_u32 i = 0; i < 4; i++) {
         size_t triangles = i % 2 ? 800 : 18;
         assert_int_equal(shapes[i].kind, RT_SHAPE_INSTANCE);
         assert_int_equal(shapes[i].flags, vertex_data | RT_SHAPE_MATTE);
         assert_int_equal(prim_shape[shapes[i].first_prim], i);
-        assert_int_equal(count_triangles(nodes, blocks, shapes[i].root, shapes[i].first_block, shapes[i].block_count),
+        assert_int_equal(count_triangles(nodes, blocks, shapes[i].root, shapes[i].first_block,
+                                         shapes[i].block_count),
                          triangles);
     }
     assert_true(shapes[0].root == shapes[2].root && shapes[1].root == shapes[3].root &&
                 shapes[0].root != shapes[1].root);
-    assert_true(shapes[0].first_normal == shapes[2].first_normal && shapes[0].first_uv == shapes[2].first_uv);
+    assert_true(shapes[0].first_normal == shapes[2].first_normal &&
+                shapes[0].first_uv == shapes[2].first_uv);
     assert_float_equal(transforms[shapes[0].transform].to_world[1][1], 2, 0);
     assert_float_equal(transforms[shapes[0].transform].to_object[1][1], 0.5, 0);
     assert_float_equal(transforms[shapes[3].transform].to_object[0][3], -7, 0);
@@ -161,15 +173,18 @@ static void single_and_shining_meshes_are_baked(void **state)
     const float(*uvs)[2] = (const float(*)[2])table(&image, h->uvs);
     const rt_u32 *indices = table(&image, h->indices);
 
-    assert_true(h->prim_count == 16 && h->light_count == 8 && h->transform_count == 0 && h->analytic_count == 0);
+    assert_true(h->prim_count == 16 && h->light_count == 8 && h->transform_count == 0 &&
+                h->analytic_count == 0);
     assert_int_equal(shapes[0].kind, RT_SHAPE_TRIANGLES);
     assert_int_equal(shapes[0].flags, vertex_data | RT_SHAPE_MIRRORED | RT_SHAPE_MATTE);
     assert_int_equal(shapes[1].flags, vertex_data);
-    assert_true(shapes[0].first_light == RT_NONE && shapes[1].first_light == 0 && lights[0].prim == 8);
+    assert_true(shapes[0].first_light == RT_NONE && shapes[1].first_light == 0 &&
+                lights[0].prim == 8);
     assert_true(h->bounds_lo[0] == 3 && h->bounds_hi[0] == 7);
 
     /* Coordinates and corners are shared, normals follow the placement. */
-    assert_true(shapes[0].first_index == shapes[1].first_index && shapes[0].first_uv == shapes[1].first_uv);
+    assert_true(shapes[0].first_index == shapes[1].first_index &&
+                shapes[0].first_uv == shapes[1].first_uv);
     assert_float_equal(normals[shapes[0].first_normal + 4][1], -1, 1e-6);
     assert_float_equal(normals[shapes[1].first_normal + 4][1], 1, 1e-6);
     assert_true(indices[shapes[0].first_index + 1] == 3 && uvs[shapes[0].first_uv + 4][0] == 0.5f);
@@ -182,10 +197,17 @@ static void materials_and_textures_reach_their_tables(void **state)
 {
     rt_scene *scene = new_scene();
     rt_error error;
-    rt_texture checker = {.kind = RT_TEXTURE_CHECKER, .a = {1, 1, 1}, .b = {0, 0.5f, 0}, .scale = {4, 0}};
-    rt_material m = {.ks = {1, 1, 1}, .fresnel = RT_FRESNEL_CONDUCTOR, .eta = {0.2f, 0.4f, 1.4f}, .k = {3, 2, 1},
-                     .roughness = 0.3f, .absorption = {1, 2, 3}, .two_sided = 1};
-    rt_surface surface = {.material = 1, .texture = 1}, lamp = {.radiance = {2, 2, 2}, .texture = 1};
+    rt_texture checker = {
+        .kind = RT_TEXTURE_CHECKER, .a = {1, 1, 1}, .b = {0, 0.5f, 0}, .scale = {4, 0}};
+    rt_material m = {.ks = {1, 1, 1},
+                     .fresnel = RT_FRESNEL_CONDUCTOR,
+                     .eta = {0.2f, 0.4f, 1.4f},
+                     .k = {3, 2, 1},
+                     .roughness = 0.3f,
+                     .absorption = {1, 2, 3},
+                     .two_sided = 1};
+    rt_surface surface = {.material = 1, .texture = 1},
+               lamp = {.radiance = {2, 2, 2}, .texture = 1};
     (void)state;
     expect_ok(rt_scene_add_texture(scene, &m.ks_texture, &checker, &error), &error);
     m.bump_texture = m.ks_texture;
@@ -199,16 +221,24 @@ static void materials_and_textures_reach_their_tables(void **state)
     const rt_shape *shapes = table(&image, h->shapes);
     const rt_light_data *lights = table(&image, h->lights);
 
-    assert_true(materials[0].kd_texture == RT_NONE && materials[0].flags == 0 && materials[0].bump_scale == 1);
+    assert_true(materials[0].kd_texture == RT_NONE && materials[0].flags == 0 &&
+                materials[0].bump_scale == 1);
     assert_true(materials[1].flags == (RT_MATERIAL_CONDUCTOR | RT_MATERIAL_TWO_SIDED));
-    assert_true(materials[1].ks_texture == 0 && materials[1].bump_texture == 0 && materials[1].kt_texture == RT_NONE);
-    assert_true(materials[1].eta[2] == 1.4f && materials[1].k[0] == 3 && materials[1].absorption[1] == 2);
+    assert_true(materials[1].ks_texture == 0 && materials[1].bump_texture == 0 &&
+                materials[1].kt_texture == RT_NONE);
+    assert_true(materials[1].eta[2] == 1.4f && materials[1].k[0] == 3 &&
+                materials[1].absorption[1] == 2);
     assert_true(materials[1].roughness == 0.3f);
-    assert_true(h->texture_count == 1 && textures[0].kind == RT_TEXTURE_CHECKER && textures[0].scale[0] == 4);
+    assert_true(h->texture_count == 1 && textures[0].kind == RT_TEXTURE_CHECKER &&
+                textures[0].scale[0] == 4);
     assert_true(textures[0].scale[1] == 1 && textures[0].b[1] == 0.5f);
-    /* The texture of a shape multiplies its kd, or its light if it brings one; the light's power counts its mean. */
+    /*
+     * The texture of a shape multiplies its kd, or its light if it brings one; the light's power
+     * counts its mean.
+     */
     assert_true(shapes[0].texture == 0 && shapes[1].texture == RT_NONE && lights[0].texture == 0);
-    assert_float_equal(lights[0].power, 3.14159265 * 4 * 3.14159265 * 2 * (0.5 + 0.75 + 0.5) / 3, 1e-3);
+    assert_float_equal(lights[0].power, 3.14159265 * 4 * 3.14159265 * 2 * (0.5 + 0.75 + 0.5) / 3,
+                       1e-3);
     rt_scene_image_free(&image);
     rt_scene_destroy(scene);
 }
@@ -220,7 +250,11 @@ static void matte_and_flat_shapes_are_told_and_lights_by_area(void **state)
     static const rt_transform mirroring = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     static const rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f};
     static const rt_texture checker = {.kind = RT_TEXTURE_CHECKER, .a = {1, 1, 1}};
-    rt_surface quads[6] = {{0}, {.transform = mirroring}, {0}, {.material = 1}, {.radiance = {1, 1, 1}},
+    rt_surface quads[6] = {{0},
+                           {.transform = mirroring},
+                           {0},
+                           {.material = 1},
+                           {.radiance = {1, 1, 1}},
                            {.radiance = {1, 1, 1}}};
     const rt_u32 matte = RT_SHAPE_MATTE, flat = RT_SHAPE_FLAT;
     const rt_u32 expected[6] = {matte | flat, matte, matte, flat, flat, flat};
@@ -230,7 +264,8 @@ static void matte_and_flat_shapes_are_told_and_lights_by_area(void **state)
     expect_ok(rt_scene_add_material(scene, NULL, NULL, &glass, &error), &error);
     expect_ok(rt_scene_add_texture(scene, &quads[2].texture, &checker, &error), &error);
     for (int i = 0; i < 6; i++)
-        expect_ok(rt_scene_add_quad(scene, NULL, origin, x, i == 5 ? skew : y, &quads[i], &error), &error);
+        expect_ok(rt_scene_add_quad(scene, NULL, origin, x, i == 5 ? skew : y, &quads[i], &error),
+                  &error);
     rt_scene_image image = pack(scene);
     const rt_shape *shapes = table(&image, header(&image)->shapes);
     const rt_light_data *lights = table(&image, header(&image)->lights);

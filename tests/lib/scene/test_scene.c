@@ -53,7 +53,8 @@ static void materials_out_of_range_are_refused(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        expect_refused(rt_scene_add_material(scene, NULL, NULL, &cases[i].material, &error), &error, cases[i].field);
+        expect_refused(rt_scene_add_material(scene, NULL, NULL, &cases[i].material, &error), &error,
+                       cases[i].field);
     rt_scene_destroy(scene);
 }
 
@@ -62,7 +63,8 @@ static void textures_count_in_the_balance_of_energy(void **state)
     rt_scene *scene = new_scene();
     rt_error error;
     uint32_t half, full;
-    rt_texture halves = {.kind = RT_TEXTURE_CHECKER, .a = {0.5f, 0.5f, 0.5f}}, whole = halves, negative = halves;
+    rt_texture halves = {.kind = RT_TEXTURE_CHECKER, .a = {0.5f, 0.5f, 0.5f}}, whole = halves,
+               negative = halves;
     rt_surface surface = {0};
     (void)state;
     whole.a[1] = 1;
@@ -72,14 +74,18 @@ static void textures_count_in_the_balance_of_energy(void **state)
     expect_ok(rt_scene_add_texture(scene, &full, &whole, &error), &error);
     assert_true(half == 1 && full == 2);
 
-    /* A texture alone stands for kd; 0.5 + 0.6 is too much, and so is what a shape's own texture makes. */
+    /*
+     * A texture alone stands for kd; 0.5 + 0.6 is too much, and so is what a shape's own texture
+     * makes.
+     */
     rt_material m = {.kd_texture = half, .ks = {0.6f, 0, 0}};
     expect_refused(rt_scene_add_material(scene, NULL, NULL, &m, &error), &error, "kd_texture");
     m.ks[0] = 0.4f;
     expect_ok(rt_scene_add_material(scene, &surface.material, NULL, &m, &error), &error);
     assert_true(scene->materials[surface.material].kd[2] == 1);
     surface.texture = 3;
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error, "texture");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error,
+                   "texture");
     surface.texture = full;
     expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error);
     rt_scene_destroy(scene);
@@ -111,11 +117,14 @@ static void negative_texels_are_refused_as_colours(void **state)
         {{.emission_texture = heights}, "emission_texture"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        expect_refused(rt_scene_add_material(scene, NULL, "m", &cases[i].material, &error), &error, cases[i].field);
-        assert_non_null(strstr(error.message, "has the value -0.5 at pixel (1, 1) from the top left"));
+        expect_refused(rt_scene_add_material(scene, NULL, "m", &cases[i].material, &error), &error,
+                       cases[i].field);
+        assert_non_null(
+            strstr(error.message, "has the value -0.5 at pixel (1, 1) from the top left"));
     }
     surface.texture = lamp.texture = heights;
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error, "texture");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error,
+                   "texture");
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &lamp, &error), &error, "texture");
 
     rt_material bumpy = {.kd = {0.5f, 0.5f, 0.5f}, .bump_texture = heights};
@@ -134,8 +143,11 @@ static void missing_files_are_refused(void **state)
     expect_refused(rt_scene_add_texture(scene, &out, &texture, &error), &error, "path");
     expect_refused(rt_scene_add_texture(scene, &out, &nameless, &error), &error, "path");
     expect_refused(rt_scene_set_environment(scene, &sky, &error), &error, "path");
-    expect_refused(rt_scene_load_mesh(scene, &out, "tests/no_such.ply", RT_SHADING_FILE, NULL, &error), &error, "path");
-    expect_refused(rt_scene_load_mesh(scene, &out, "x", (rt_shading)9, NULL, &error), &error, "shading");
+    expect_refused(
+        rt_scene_load_mesh(scene, &out, "tests/no_such.ply", RT_SHADING_FILE, NULL, &error), &error,
+        "path");
+    expect_refused(rt_scene_load_mesh(scene, &out, "x", (rt_shading)9, NULL, &error), &error,
+                   "shading");
     assert_int_equal(scene->light_count, 0);
     rt_scene_destroy(scene);
 }
@@ -150,26 +162,41 @@ static void shapes_without_extent_are_refused(void **state)
     (void)state;
 
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 0, &surface, &error), &error, "radius");
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, -1, &surface, &error), &error, "radius");
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, NAN, &surface, &error), &error, "radius");
-    expect_refused(rt_scene_add_sphere(scene, NULL, nan_point, 1, &surface, &error), &error, "centre");
-    expect_refused(rt_scene_add_plane(scene, NULL, origin, origin, &surface, &error), &error, "normal");
-    expect_refused(rt_scene_add_quad(scene, NULL, origin, up, up, &surface, &error), &error, "edge2");
-    expect_refused(rt_scene_add_triangles(scene, NULL, line, 3, corners, 1, NULL, &surface, &error), &error,
-                   "positions");
-    expect_refused(rt_scene_add_triangles(scene, NULL, line, 3, beyond, 1, NULL, &surface, &error), &error, "indices");
-    expect_refused(rt_scene_add_disc(scene, NULL, origin, origin, 1, 0, &surface, &error), &error, "normal");
-    expect_refused(rt_scene_add_disc(scene, NULL, origin, up, 1, 1, &surface, &error), &error, "inner_radius");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, -1, &surface, &error), &error,
+                   "radius");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, NAN, &surface, &error), &error,
+                   "radius");
+    expect_refused(rt_scene_add_sphere(scene, NULL, nan_point, 1, &surface, &error), &error,
+                   "centre");
+    expect_refused(rt_scene_add_plane(scene, NULL, origin, origin, &surface, &error), &error,
+                   "normal");
+    expect_refused(rt_scene_add_quad(scene, NULL, origin, up, up, &surface, &error), &error,
+                   "edge2");
+    expect_refused(rt_scene_add_triangles(scene, NULL, line, 3, corners, 1, NULL, &surface, &error),
+                   &error, "positions");
+    expect_refused(rt_scene_add_triangles(scene, NULL, line, 3, beyond, 1, NULL, &surface, &error),
+                   &error, "indices");
+    expect_refused(rt_scene_add_disc(scene, NULL, origin, origin, 1, 0, &surface, &error), &error,
+                   "normal");
+    expect_refused(rt_scene_add_disc(scene, NULL, origin, up, 1, 1, &surface, &error), &error,
+                   "inner_radius");
     expect_refused(rt_scene_add_cylinder(scene, NULL, up, up, 1, 1, &surface, &error), &error, "b");
-    expect_refused(rt_scene_add_cylinder(scene, NULL, origin, up, 0, 1, &surface, &error), &error, "radius");
-    expect_refused(rt_scene_add_cone(scene, NULL, up, up, 1, 0, 1, &surface, &error), &error, "apex");
-    expect_refused(rt_scene_add_cone(scene, NULL, origin, up, 1, 2, 1, &surface, &error), &error, "apex_radius");
-    expect_refused(rt_scene_add_ellipsoid(scene, NULL, origin, up, &surface, &error), &error, "radii");
-    expect_refused(rt_scene_add_torus(scene, NULL, origin, up, 1, 1, &surface, &error), &error, "minor_radius");
-    expect_refused(rt_scene_add_torus(scene, NULL, origin, origin, 1, 0.1f, &surface, &error), &error, "axis");
+    expect_refused(rt_scene_add_cylinder(scene, NULL, origin, up, 0, 1, &surface, &error), &error,
+                   "radius");
+    expect_refused(rt_scene_add_cone(scene, NULL, up, up, 1, 0, 1, &surface, &error), &error,
+                   "apex");
+    expect_refused(rt_scene_add_cone(scene, NULL, origin, up, 1, 2, 1, &surface, &error), &error,
+                   "apex_radius");
+    expect_refused(rt_scene_add_ellipsoid(scene, NULL, origin, up, &surface, &error), &error,
+                   "radii");
+    expect_refused(rt_scene_add_torus(scene, NULL, origin, up, 1, 1, &surface, &error), &error,
+                   "minor_radius");
+    expect_refused(rt_scene_add_torus(scene, NULL, origin, origin, 1, 0.1f, &surface, &error),
+                   &error, "axis");
     expect_refused(rt_scene_add_instance(scene, NULL, 0, &surface, &error), &error, "mesh");
     surface.material = 1;
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error, "material");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error,
+                   "material");
     rt_scene_destroy(scene);
 }
 
@@ -177,25 +204,31 @@ static void shapes_without_extent_are_refused(void **state)
 static void sizes_beyond_float_are_refused_with_the_true_range(void **state)
 {
     rt_scene *scene = new_scene();
-    rt_surface surface = {0}, lamp = {.power = {1e10f, 0, 0}}, dazzling = {.radiance = {1e29f, 0, 0}};
+    rt_surface surface = {0}, lamp = {.power = {1e10f, 0, 0}},
+               dazzling = {.radiance = {1e29f, 0, 0}};
     rt_error error;
     static const float x[3] = {1e-14f, 0, 0}, y[3] = {0, 1e-17f, 0};
     static const float small[9] = {0, 0, 0, 1e-17f, 0, 0, 0, 1e-17f, 0};
     static const uint32_t corners[3] = {0, 1, 2};
     (void)state;
 
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1e-19f, &surface, &error), &error, "radius");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1e-19f, &surface, &error), &error,
+                   "radius");
     assert_non_null(strstr(error.message, "between 1e-15 and 1e+15"));
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 2e15f, &surface, &error), &error, "radius");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 2e15f, &surface, &error), &error,
+                   "radius");
     expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1e-15f, &surface, &error), &error);
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1e-15f, &lamp, &error), &error, "power");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1e-15f, &lamp, &error), &error,
+                   "power");
     assert_non_null(strstr(error.message, "1e+28"));
     expect_refused(rt_scene_add_quad(scene, NULL, origin, x, y, &surface, &error), &error, "edge2");
     assert_non_null(strstr(error.message, "at least 1e-30"));
-    expect_refused(rt_scene_add_triangles(scene, NULL, small, 3, corners, 1, NULL, &surface, &error), &error,
-                   "positions");
+    expect_refused(
+        rt_scene_add_triangles(scene, NULL, small, 3, corners, 1, NULL, &surface, &error), &error,
+        "positions");
     assert_non_null(strstr(error.message, "at least 1e-30"));
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &dazzling, &error), &error, "radiance");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &dazzling, &error), &error,
+                   "radiance");
     assert_non_null(strstr(error.message, "between 0 and 1e+28"));
     rt_scene_destroy(scene);
 }
@@ -206,7 +239,8 @@ static void infinite_planes_cannot_emit(void **state)
     rt_surface surface = {.radiance = {1, 1, 1}};
     rt_error error;
     (void)state;
-    expect_refused(rt_scene_add_plane(scene, NULL, origin, up, &surface, &error), &error, "radiance");
+    expect_refused(rt_scene_add_plane(scene, NULL, origin, up, &surface, &error), &error,
+                   "radiance");
     rt_scene_destroy(scene);
 }
 
@@ -416,7 +450,8 @@ int main(void)
         cmocka_unit_test(materials_that_gain_energy_are_refused),
         cmocka_unit_test(materials_out_of_range_are_refused),
         cmocka_unit_test(textures_count_in_the_balance_of_energy),
-        cmocka_unit_test_setup_teardown(negative_texels_are_refused_as_colours, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(negative_texels_are_refused_as_colours, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test(missing_files_are_refused),
         cmocka_unit_test(lights_without_direction_or_cone_are_refused),
         cmocka_unit_test(power_of_distant_lights_is_what_meets_the_scene),

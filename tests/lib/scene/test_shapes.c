@@ -11,7 +11,10 @@
 static const double pi = 3.14159265358979323846;
 static const float origin[3], x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};
 
-/* A quarter turn about z, then twice the size, then one metre along x; and a stretch, mirrored and sheared. */
+/*
+ * A quarter turn about z, then twice the size, then one metre along x; and a stretch, mirrored and
+ * sheared.
+ */
 static const rt_transform similar = {{{0, -2, 0, 1}, {2, 0, 0, 0}, {0, 0, 2, 0}}};
 static const rt_transform skewed = {{{1.5f, 0.4f, 0, 1}, {0, -0.7f, 0.3f, 2}, {0.2f, 0, 0.9f, -3}}};
 static const rt_transform flat = {{{1, 0, 1, 0}, {0, 1, 0, 0}, {1, 0, 1, 0}}};
@@ -30,15 +33,23 @@ static void a_transform_that_flattens_is_refused(void **state)
     static const uint32_t corners[3] = {0, 1, 2};
     static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, radii[3] = {1, 2, 3};
     (void)state;
-    expect_refused(rt_scene_add_plane(scene, NULL, origin, y_axis, &s, &error), &error, "transform");
+    expect_refused(rt_scene_add_plane(scene, NULL, origin, y_axis, &s, &error), &error,
+                   "transform");
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &s, &error), &error, "transform");
-    expect_refused(rt_scene_add_ellipsoid(scene, NULL, origin, radii, &s, &error), &error, "transform");
-    expect_refused(rt_scene_add_quad(scene, NULL, origin, x_axis, y_axis, &s, &error), &error, "transform");
-    expect_refused(rt_scene_add_disc(scene, NULL, origin, y_axis, 1, 0, &s, &error), &error, "transform");
-    expect_refused(rt_scene_add_cylinder(scene, NULL, origin, y_axis, 1, 1, &s, &error), &error, "transform");
-    expect_refused(rt_scene_add_cone(scene, NULL, origin, y_axis, 1, 0, 1, &s, &error), &error, "transform");
-    expect_refused(rt_scene_add_torus(scene, NULL, origin, y_axis, 1, 0.2f, &s, &error), &error, "transform");
-    expect_refused(rt_scene_add_triangles(scene, NULL, triangle, 3, corners, 1, NULL, &s, &error), &error, "transform");
+    expect_refused(rt_scene_add_ellipsoid(scene, NULL, origin, radii, &s, &error), &error,
+                   "transform");
+    expect_refused(rt_scene_add_quad(scene, NULL, origin, x_axis, y_axis, &s, &error), &error,
+                   "transform");
+    expect_refused(rt_scene_add_disc(scene, NULL, origin, y_axis, 1, 0, &s, &error), &error,
+                   "transform");
+    expect_refused(rt_scene_add_cylinder(scene, NULL, origin, y_axis, 1, 1, &s, &error), &error,
+                   "transform");
+    expect_refused(rt_scene_add_cone(scene, NULL, origin, y_axis, 1, 0, 1, &s, &error), &error,
+                   "transform");
+    expect_refused(rt_scene_add_torus(scene, NULL, origin, y_axis, 1, 0.2f, &s, &error), &error,
+                   "transform");
+    expect_refused(rt_scene_add_triangles(scene, NULL, triangle, 3, corners, 1, NULL, &s, &error),
+                   &error, "transform");
     s.transform.m[0][0] = NAN;
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &s, &error), &error, "transform");
     assert_true(scene->shape_count == 0 && scene->mesh_count == 0);
@@ -73,7 +84,8 @@ static void flat_shapes_are_brought_to_world_space(void **state)
     rt_scene *scene = new_scene();
     rt_error error;
     rt_surface turned = placed(&similar), bent = placed(&skewed);
-    static const float corner[3] = {1, 0, 0}, edge1[3] = {0, 1, 0}, edge2[3] = {0, 0, 1}, at[3] = {0, 3, 0};
+    static const float corner[3] = {1, 0, 0}, edge1[3] = {0, 1, 0}, edge2[3] = {0, 0, 1},
+                       at[3] = {0, 3, 0};
     (void)state;
     expect_ok(rt_scene_add_quad(scene, NULL, corner, edge1, edge2, &turned, &error), &error);
     expect_ok(rt_scene_add_plane(scene, NULL, at, y_axis, &bent, &error), &error);
@@ -84,7 +96,10 @@ static void flat_shapes_are_brought_to_world_space(void **state)
         assert_float_equal(s[0].p[i], quad[i], 1e-6);
     assert_float_equal(s[0].area, 4, 1e-6);
 
-    /* The plane's point is mapped; its normal is perpendicular to the mapped x and z, on the side of the mapped y. */
+    /*
+     * The plane's point is mapped; its normal is perpendicular to the mapped x and z, on the side
+     * of the mapped y.
+     */
     double normal[3] = {s[1].p[4], s[1].p[5], s[1].p[6]};
     assert_float_equal(s[1].p[0], 2.2, 1e-6);
     assert_float_equal(s[1].p[1], -0.1, 1e-6);
@@ -131,7 +146,9 @@ static void annulus(double out[3], double u, double v, double inner)
     out[2] = 0;
 }
 
-/* The area by the parallelograms of central differences; its error is of second order in the step. */
+/*
+ * The area by the parallelograms of central differences; its error is of second order in the step.
+ */
 static double brute_area(surface_point *point, double parameter, const rt_affine *map, int steps)
 {
     double sum = 0, h = 0.5 / steps;
@@ -146,7 +163,8 @@ static double brute_area(surface_point *point, double parameter, const rt_affine
                 rt_affine_point(q[k], map, p[k]);
             for (int k = 0; k < 3; k++) {
                 int a = (k + 1) % 3, b = (k + 2) % 3;
-                n[k] = (q[1][a] - q[0][a]) * (q[3][b] - q[2][b]) - (q[1][b] - q[0][b]) * (q[3][a] - q[2][a]);
+                n[k] = (q[1][a] - q[0][a]) * (q[3][b] - q[2][b]) -
+                       (q[1][b] - q[0][b]) * (q[3][a] - q[2][a]);
             }
             sum += sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         }
@@ -175,7 +193,8 @@ static void areas_under_affine_maps_match_brute_force(void **state)
         expect_area(rt_area_disc(&map, 0.4), brute_area(annulus, 0.4, &map, steps), 1e-5);
         expect_area(rt_area_cone(&map, 1, 0), brute_area(side, 1, &map, steps), 1e-5);
         expect_area(rt_area_cone(&map, 1, 1), brute_area(side, 1, &map, steps) + 2 * end, 1e-5);
-        expect_area(rt_area_cone(&map, 0.3, 1), brute_area(side, 0.3, &map, steps) + 1.09 * end, 1e-5);
+        expect_area(rt_area_cone(&map, 0.3, 1), brute_area(side, 0.3, &map, steps) + 1.09 * end,
+                    1e-5);
         expect_area(rt_area_torus(&map, 0.4), brute_area(ring, 0.4, &map, steps), 1e-5);
     }
 }
@@ -194,8 +213,8 @@ static void areas_of_plain_shapes_are_the_known_ones(void **state)
     expect_ok(rt_scene_add_torus(scene, NULL, origin, z_axis, 3, 1, &turned, &error), &error);
     expect_ok(rt_scene_add_ellipsoid(scene, NULL, origin, prolate, &turned, &error), &error);
     double e = sqrt(0.75); /* of the prolate spheroid: 2 pi a^2 (1 + c / (a e) asin e) */
-    const double known[] = {36 * pi,      8 * pi,       2 * pi * 2 * 5 + 8 * pi, pi * 12 * 13,
-                            4 * pi * pi * 3, 2 * pi * (1 + 2 / e * asin(e))};
+    const double known[] = {36 * pi,      8 * pi,          2 * pi * 2 * 5 + 8 * pi,
+                            pi * 12 * 13, 4 * pi * pi * 3, 2 * pi * (1 + 2 / e * asin(e))};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         expect_area(scene->shapes[i].area, 4 * known[i], 1e-6);
     rt_scene_destroy(scene);
@@ -211,7 +230,8 @@ static void power_becomes_the_radiance_that_emits_it(void **state)
     lamp.power[0] = lamp.power[1] = lamp.power[2] = 7;
     expect_ok(rt_scene_add_torus(scene, NULL, origin, z_axis, 1, 0.3f, &lamp, &error), &error);
     rt_scene_shape_radiance(scene, scene->shapes, radiance);
-    expect_area(radiance[1] * pi * brute_area(ring, 0.3, &scene->shapes[0].to_world, 1000), 7, 1e-5);
+    expect_area(radiance[1] * pi * brute_area(ring, 0.3, &scene->shapes[0].to_world, 1000), 7,
+                1e-5);
     rt_scene_destroy(scene);
 }
 
@@ -228,7 +248,8 @@ static void power_of_a_placed_mesh_is_spread_over_its_area(void **state)
         rt_surface lamp = placed(maps[m]);
         float radiance[3];
         lamp.power[0] = lamp.power[1] = lamp.power[2] = 5;
-        expect_ok(rt_scene_add_triangles(scene, NULL, corners, 4, indices, 2, NULL, &lamp, &error), &error);
+        expect_ok(rt_scene_add_triangles(scene, NULL, corners, 4, indices, 2, NULL, &lamp, &error),
+                  &error);
         rt_scene_shape_radiance(scene, scene->shapes, radiance);
         double area = rt_scene_primitive_area(scene, scene->shapes, 0) +
                       rt_scene_primitive_area(scene, scene->shapes, 1);

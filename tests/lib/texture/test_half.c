@@ -33,7 +33,8 @@ static void between_two_the_nearer_is_taken_or_the_even_one(void **state)
 {
     (void)state;
     for (uint32_t bits = 0; bits < greatest; bits++) {
-        float low = value_of((uint16_t)bits), high = value_of((uint16_t)(bits + 1)), middle = 0.5f * (low + high);
+        float low = value_of((uint16_t)bits), high = value_of((uint16_t)(bits + 1)),
+              middle = 0.5f * (low + high);
         assert_int_equal(rt_half_from_float(middle), bits % 2 ? bits + 1 : bits);
         assert_int_equal(rt_half_from_float(nextafterf(middle, low)), bits);
         assert_int_equal(rt_half_from_float(nextafterf(middle, high)), bits + 1);

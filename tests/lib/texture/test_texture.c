@@ -19,7 +19,8 @@ static const char *const gbr[3] = {"G", "B", "R"}, *const grey[1] = {"Y"};
 static rt_image *uniform(uint32_t width, uint32_t height, uint32_t channel_count, float value)
 {
     rt_image *image = NULL;
-    assert_int_equal(rt_image_create(&image, width, height, channel_count == 3 ? gbr : grey, channel_count, NULL),
+    assert_int_equal(rt_image_create(&image, width, height, channel_count == 3 ? gbr : grey,
+                                     channel_count, NULL),
                      RT_OK);
     for (size_t i = 0; i < (size_t)width * height * channel_count; i++)
         image->data[i] = value;
@@ -61,7 +62,10 @@ static void codes_keep_their_value_and_rows_go_up(void **state)
     const uint8_t *texel = (const uint8_t *)(decode + codes);
     for (int i = 0; i < codes; i++)
         assert_true(decode[i] == (float)rt_srgb_decode(i / 255.0));
-    /* Pixel i of the image holds G = 10 i, B = 10 i + 1, R = 10 i + 2. The bottom row is pixels 4 and 5. */
+    /*
+     * Pixel i of the image holds G = 10 i, B = 10 i + 1, R = 10 i + 2. The bottom row is pixels 4
+     * and 5.
+     */
     const uint8_t expected[24] = {42, 40, 41, 0, 52, 50, 51, 0, 22, 20, 21, 0,
                                   32, 30, 31, 0, 2,  0,  1,  0, 12, 10, 11, 0};
     assert_memory_equal(texel, expected, sizeof expected);
@@ -127,7 +131,8 @@ static void deep_srgb_is_decoded(void **state)
     image->is_srgb = 1;
     rt_texture_data texture = pack(&texels, image, 0);
     assert_int_equal(texture.format, RT_TEXELS_GREY);
-    assert_true(*(const float *)texels_of(&texels, &texture) == (float)rt_srgb_decode(12345.0f / 65535.0f));
+    assert_true(*(const float *)texels_of(&texels, &texture) ==
+                (float)rt_srgb_decode(12345.0f / 65535.0f));
     rt_bytes_free(&texels);
 
     image->data[0] = 0.5001f;
@@ -162,16 +167,19 @@ static void deep_colour_keeps_its_range(void **state)
         rt_bytes texels = {0};
         for (int i = 0; i < 27; i++)
             for (int c = 0; c < 3; c++)
-                image->data[3 * i + c] = (float)ldexp((c == 0 ? -1.0 : 1.0 / (c + 1)) * tops[t], -i);
+                image->data[3 * i + c] =
+                    (float)ldexp((c == 0 ? -1.0 : 1.0 / (c + 1)) * tops[t], -i);
         rt_texture_data texture = pack(&texels, image, 0);
         int exponent;
         assert_int_equal(texture.format, RT_TEXELS_HALF);
         assert_true(frexp(texture.unit, &exponent) == 0.5);
         const uint16_t *half = texels_of(&texels, &texture);
         for (int i = 0; i < 27; i++) {
-            const double expected[3] = {image->data[3 * i + 2], image->data[3 * i], image->data[3 * i + 1]};
+            const double expected[3] = {image->data[3 * i + 2], image->data[3 * i],
+                                        image->data[3 * i + 1]};
             for (int c = 0; c < 3; c++)
-                assert_true(fabs(half_value(half[4 * i + c]) * texture.unit - expected[c]) <= fabs(expected[c]) / 2048);
+                assert_true(fabs(half_value(half[4 * i + c]) * texture.unit - expected[c]) <=
+                            fabs(expected[c]) / 2048);
         }
         rt_bytes_free(&texels);
         rt_image_destroy(image);
@@ -183,7 +191,8 @@ static void textures_share_the_table_row_by_row(void **state)
     (void)state;
     rt_image *first = uniform(3, 1, 1, 0.3f), *second = uniform(5, 7, 1, 0.61f);
     rt_bytes texels = {0};
-    rt_texture_data a = pack(&texels, first, 0), b = pack(&texels, second, 0), c = pack(&texels, first, 0);
+    rt_texture_data a = pack(&texels, first, 0), b = pack(&texels, second, 0),
+                    c = pack(&texels, first, 0);
     assert_int_equal(a.texels, 0);
     assert_int_equal(b.texels, 1);
     assert_int_equal(c.texels, 1 + (5 * 7 * 4 + RT_SCENE_ROW - 1) / RT_SCENE_ROW);
@@ -205,7 +214,8 @@ static void check_refused(const rt_image *image, const char *cause)
     rt_texture_data texture;
     rt_bytes texels = {0};
     rt_error error = {0};
-    assert_int_equal(rt_texture_pack(&texture, &texels, image, 0, "made.exr", &error), RT_ERROR_INPUT);
+    assert_int_equal(rt_texture_pack(&texture, &texels, image, 0, "made.exr", &error),
+                     RT_ERROR_INPUT);
     assert_int_equal(texels.size, 0);
     assert_non_null(strstr(error.message, "made.exr"));
     if (!strstr(error.message, cause))
@@ -226,7 +236,8 @@ static void values_that_are_not_finite_are_refused(void **state)
 
 static void images_without_colour_are_refused(void **state)
 {
-    static const char *const two[2] = {"R", "G"}, *const alpha[2] = {"A", "Y"}, *const depth[1] = {"Z"};
+    static const char *const two[2] = {"R", "G"}, *const alpha[2] = {"A", "Y"},
+                             *const depth[1] = {"Z"};
     (void)state;
     rt_image *image = NULL;
     rt_bytes texels = {0};

@@ -1,0 +1,48 @@
+/*
+ * delta.h - lights that no ray can meet: point, spot and directional. Each has one direction from
+ * every point.
+ */
+#ifndef RT_KERNELS_LIGHT_DELTA_H
+#define RT_KERNELS_LIGHT_DELTA_H
+
+#include "math/frame.h"
+#include "light/sample.h"
+#include "types.h"
+
+/*
+ * The part of its intensity that a spot sends at an angle of this cosine to its axis: 3x^2 - 2x^3
+ * over its edge.
+ */
+static inline float spot_falloff(global const rt_light_data *light, float cosine)
+{
+    const float inner = light->c[0], outer = light->c[1];
+    const float x = clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
+    return x * x * (3.0f - 2.0f * x);
+}
+
+/* Always the same direction; false when nothing arrives. */
+static inline bool sample_delta_light(struct light_sample *sample,
+                                      global const rt_light_data *light, float3 from)
+{
+    sample->delta = true;
+    sample->distant = light->kind == RT_LIGHT_DIRECTIONAL;
+    sample->spread = 1.0f;
+    sample->lift = 0.0f;
+    sample->at.position = row3(light->a);
+    sample->radiance = row3(light->emission);
+    if (sample->distant) {
+        sample->wi = -row3(light->b);
+        sample->at.normal = row3(light->b);
+        return true;
+    }
+    const float3 towards = sample->at.position - from;
+    const float d2 = dot(towards, towards);
+    sample->wi = towards * (1.0f / sqrt(d2));
+    sample->at.normal = -sample->wi;
+    const float shown =
+        light->kind == RT_LIGHT_SPOT ? spot_falloff(light, -dot(sample->wi, row3(light->b))) : 1.0f;
+    sample->radiance *= shown / d2;
+    return shown > 0.0f;
+}
+
+#endif

@@ -1,0 +1,200 @@
+/*
+ * emit.h - where light paths start: a light by its share of the paths, a point and a direction by
+ * what it emits there. The flux of a start is what the light emits over the density of the choices.
+ */
+#ifndef RT_KERNELS_LIGHT_EMIT_H
+#define RT_KERNELS_LIGHT_EMIT_H
+
+#include "light/light.h"
+#include "shape/shapes.h"
+
+/* The start of a light path. */
+struct emission {
+    struct surface at; /* position, normal and error only */
+    float3 direction;  /* unit */
+    float3 flux;       /* W; the mean over all choices is the power of all lights */
+    uint light;
+};
+
+/* In free space: no surface to be lifted off. */
+static inline void emit_from(struct emission *emission, float3 position, float3 direction)
+{
+    emission->at.position = position;
+    emission->at.normal = direction;
+    emission->at.error = 0.0f;
+    emission->direction = direction;
+}
+
+/*
+ * The x in [0,1] up to which the falloff 3x^2 - 2x^3 has the part u of its integral: x^3 (2 - x) =
+ * u. Below x = 1 the left side is convex, so Newton's steps, after the first, come down to the
+ * root.
+ */
+static inline float falloff_inverse(float u)
+{
+    float x = cbrt(0.5f * u);
+    for (int i = 0; i < 5 && x > 0.0f; i++)
+        x = min(1.0f, x - (x * x * x * (2.0f - x) - u) / (2.0f * x * x * (3.0f - 2.0f * x)));
+    return x;
+}
+
+/* The solid angle that a spot would fill with its full intensity. */
+static inline float spot_spread(global const rt_light_data *light)
+{
+    const float inner = light->c[0], outer = light->c[1];
+    return 2.0f * RT_PI * ((1.0f - inner) + 0.5f * (inner - outer));
+}
+
+/*
+ * A direction in proportion to a spot's intensity. In the cosine, the edge has half the light of as
+ * wide a piece inside.
+ */
+static inline void emit_spot(struct emission *emission, global const rt_light_data *light, float2 u)
+{
+    const float inner = light->c[0], outer = light->c[1];
+    const float whole = spot_spread(light) / (2.0f * RT_PI);
+    const float v = u.x * whole;
+    const float inside = 1.0f - inner;
+    const float below =
+        v < inside
+            ? v
+            : 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
+    const float2 arc = sin_cos(2.0f * RT_PI * u.y);
+    const float3 way = (float3)(sqrt(below * (2.0f - below)) * arc.yx, 1.0f - below);
+    emit_from(emission, row3(light->a), frame_to_world(frame_about(row3(light->b)), way));
+    emission->flux = spot_spread(light) * row3(light->emission);
+}
+
+/*
+ * How far it is from a point in direction w to the last of the planes, which have no end; 0 when
+ * there is none.
+ */
+static inline float last_plane(const struct scene *scene, float3 from, float3 w)
+{
+    const struct ray ray = make_ray(from, w, 0.0f, INFINITY);
+    float last = 0.0f;
+    for (uint i = 0; i < scene->header->plane_count; i++) {
+        const float t = intersect_plane(scene->shapes + scene->planes[i], &ray);
+        last = t < INFINITY ? max(last, t) : last;
+    }
+    return last;
+}
+
+/* The sphere around all finite shapes; that of no shapes is of unit size. */
+static inline float distant_radius(const struct scene *scene)
+{
+    return scene->header->radius > 0.0f ? scene->header->radius : 1.0f;
+}
+
+static inline float3 distant_centre(const struct scene *scene)
+{
+    global const rt_scene_header *header = scene->header;
+    return header->radius > 0.0f ? 0.5f * (row3(header->bounds_lo) + row3(header->bounds_hi))
+                                 : (float3)(0.0f);
+}
+
+/*
+ * Light from infinitely far in direction w comes through a disc that faces it and touches the
+ * sphere around all finite shapes. Where it starts to go through a point: on the plane of the disc,
+ * or twice as far as the last of the scene's planes that stands before it.
+ */
+static inline float3 distant_start(const struct scene *scene, float3 w, float3 through)
+{
+    const float up = dot(distant_centre(scene) - through, w) + distant_radius(scene);
+    const float3 disc = through + up * w;
+    return disc + 2.0f * last_plane(scene, disc, w) * w;
+}
+
+/* Starts on the disc. What would pass beside the sphere, to planes farther out, is not followed. */
+static inline void emit_distant(const struct scene *scene, struct emission *emission, float3 w,
+                                float2 u)
+{
+    const float radius = distant_radius(scene);
+    const float2 p = radius * sample_disc(u);
+    const struct frame frame = frame_about(w);
+    emit_from(emission,
+              distant_start(scene, w, distant_centre(scene) + (p.x * frame.s + p.y * frame.t)), -w);
+    emission->flux *= RT_PI * radius * radius;
+}
+
+/* From a surface by the cosine; `side` in [0,1) chooses that of a two-sided light. */
+static inline void emit_area(const struct scene *scene, struct emission *emission,
+                             global const rt_light_data *light, float2 start, float2 way,
+                             float side)
+{
+    const bool two_sided = light->flags & RT_LIGHT_TWO_SIDED;
+    float area = light->area;
+    if (light->kind == RT_LIGHT_SHAPE) {
+        area = 1.0f / shape_point(scene, scene->prim_shape[light->prim], start, &emission->at);
+    } else {
+        sample_area(&emission->at, light, start);
+        if (light->texture != RT_NONE)
+            locate_on_light(scene, light, &emission->at);
+    }
+    const float3 normal = two_sided && side < 0.5f ? -emission->at.normal : emission->at.normal;
+    emission->direction = frame_to_world(frame_about(normal), sample_cosine(way));
+    emission->flux = (two_sided ? 2.0f : 1.0f) * RT_PI * area * row3(light->emission);
+    if (light->texture != RT_NONE)
+        emission->flux *= light_texture(scene, light, &emission->at);
+}
+
+/* Starts at a light that is chosen. The flux leaves out the choice. */
+static inline void emit_chosen(const struct scene *scene, global const rt_light_data *light,
+                               float4 start, float4 way, struct emission *emission)
+{
+    float3 w, radiance;
+    switch (light->kind) {
+    case RT_LIGHT_POINT:
+        emit_from(emission, row3(light->a), sample_sphere(way.xy));
+        emission->flux = 4.0f * RT_PI * row3(light->emission);
+        return;
+    case RT_LIGHT_SPOT:
+        emit_spot(emission, light, way.xy);
+        return;
+    case RT_LIGHT_DIRECTIONAL:
+        emission->flux = row3(light->emission);
+        emit_distant(scene, emission, -row3(light->b), start.xy);
+        return;
+    case RT_LIGHT_ENVIRONMENT:
+        emission->flux = sample_sky(scene, way.xy, &w, &radiance);
+        emission->flux *= radiance;
+        emit_distant(scene, emission, w, start.xy);
+        return;
+    default:
+        emit_area(scene, emission, light, start.xy, way.xy, way.z);
+    }
+}
+
+/* The light at u of the distribution of photon paths, which need not be that of power. */
+static inline uint choose_emitter(global const rt_light_share *shares, uint count, float u)
+{
+    uint low = 0u, high = count - 1u;
+    while (low < high) {
+        const uint middle = (low + high) >> 1;
+        if (u < shares[middle].cdf)
+            high = middle;
+        else
+            low = middle + 1u;
+    }
+    return low;
+}
+
+/*
+ * Starts a light path: start.z chooses the light, start.xy and way.xy the point and the direction,
+ * way.z the side. False when no light shines.
+ */
+static inline bool light_emit(const struct scene *scene, global const rt_light_share *shares,
+                              float4 start, float4 way, struct emission *emission)
+{
+    if (scene->header->light_count == 0u)
+        return false;
+    emission->light = choose_emitter(shares, scene->header->light_count, start.z);
+    const float pmf = shares[emission->light].pmf;
+    if (pmf == 0.0f)
+        return false;
+    emit_chosen(scene, scene->lights + emission->light, start, way, emission);
+    emission->flux /= pmf;
+    return true;
+}
+
+#endif

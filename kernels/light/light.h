@@ -1,0 +1,120 @@
+/*
+ * light.h - the lights: choosing one, sampling it from a point, its density, what it emits.
+ *
+ * light_pdf_w and sky_light_pdf_w are the densities with which sample_light makes a direction, the
+ * choice of the light included: what multiple importance sampling needs when a ray meets the light.
+ */
+#ifndef RT_KERNELS_LIGHT_LIGHT_H
+#define RT_KERNELS_LIGHT_LIGHT_H
+
+#include "light/area.h"
+#include "light/delta.h"
+#include "light/sample.h"
+#include "light/sky.h"
+#include "light/tree.h"
+
+/* The light that a surface is part of, or RT_NONE. */
+static inline uint surface_light(const struct scene *scene, const struct surface *surface)
+{
+    global const rt_shape *shape = scene->shapes + surface->shape;
+    return shape->first_light == RT_NONE ? RT_NONE
+                                         : shape->first_light + (surface->prim - shape->first_prim);
+}
+
+/* ---- Density ----------------------------------------------------------------- */
+
+/*
+ * The density with which sample_light, from this point, makes the direction in which the light's
+ * point `at` is met.
+ */
+static inline float light_pdf_w(const struct scene *scene, global const rt_light_data *light,
+                                float3 from, const struct surface *at)
+{
+    const float pmf = light_pmf(scene, (uint)(light - scene->lights), from);
+    struct seen_rectangle seen;
+    float d2;
+    if (see_rectangular_light(light, from, &seen))
+        return pmf * seen_rectangle_pdf_w(&seen);
+    if (see_spherical_light(light, from, &d2))
+        return pmf * cap_pdf_w(light->width, d2);
+    const float area = light->kind == RT_LIGHT_SHAPE ? 1.0f / shape_pdf_a(scene, at) : light->area;
+    return pmf / area_spread(area, at->position - from, at->normal);
+}
+
+/* The same for a ray from there that meets nothing, in direction w; there is an environment. */
+static inline float sky_light_pdf_w(const struct scene *scene, float3 from, float3 w)
+{
+    return light_pmf(scene, scene->header->environment.light, from) * sky_pdf_w(scene, w);
+}
+
+/* ---- Sampling ---------------------------------------------------------------- */
+
+/* Samples a light of a kind other than quad, triangle and sphere, which was chosen. */
+INLINE_NEVER bool sample_other_light(const struct scene *scene, global const rt_light_data *light,
+                                     float3 from, float2 u, struct light_sample *sample)
+{
+    if (light->kind == RT_LIGHT_ENVIRONMENT) {
+        sample->distant = true;
+        sample->lift = 0.0f;
+        sample->spread = sample_sky(scene, u, &sample->wi, &sample->radiance);
+        sample->at.position = from;
+        sample->at.normal = -sample->wi;
+        return true;
+    }
+    if (light->kind != RT_LIGHT_SHAPE)
+        return sample_delta_light(sample, light, from);
+
+    const float pdf_a = shape_point(scene, scene->prim_shape[light->prim], u, &sample->at);
+    const float3 towards = sample->at.position - from;
+    sample->wi = unit(towards);
+    sample->spread = area_spread(1.0f / pdf_a, towards, sample->at.normal);
+    sample->lift = dot(sample->wi, sample->at.normal) > 0.0f ? -sample->at.error : sample->at.error;
+    sample->radiance = light_radiance(scene, light, &sample->at, -sample->wi);
+    return true;
+}
+
+/* Samples a light that was chosen; the density of the choice is left out. */
+static inline bool sample_chosen(const struct scene *scene, global const rt_light_data *light,
+                                 float3 from, float2 u, struct light_sample *sample)
+{
+    sample->delta = false;
+    sample->distant = false;
+    const bool sphere = light->kind == RT_LIGHT_SPHERE;
+    if (!sphere && light->kind != RT_LIGHT_QUAD && light->kind != RT_LIGHT_TRIANGLE)
+        return sample_other_light(scene, light, from, u, sample);
+
+    /* The side of a flat light is known at once, that of a sphere at the sampled point. */
+    float height = dot(from - row3(light->a), row3(light->normal));
+    if (!sphere && height <= 0.0f && !(light->flags & RT_LIGHT_TWO_SIDED))
+        return false;
+    sample->spread = sample_area_light(&sample->at, light, from, u);
+    sample->wi = unit(sample->at.position - from);
+    if (sphere)
+        height = -dot(sample->wi, sample->at.normal);
+    sample->lift = height < 0.0f ? -sample->at.error : sample->at.error;
+    sample->radiance = row3(light->emission);
+    if (light->texture != RT_NONE) {
+        locate_on_light(scene, light, &sample->at);
+        sample->radiance *= light_texture(scene, light, &sample->at);
+    }
+    return !sphere || height > 0.0f || (light->flags & RT_LIGHT_TWO_SIDED);
+}
+
+/*
+ * Samples the lights from a point: u.xy the point on the light, u.z the choice. False when nothing
+ * can arrive.
+ */
+static inline bool sample_light(const struct scene *scene, float3 from, float4 u,
+                                struct light_sample *sample)
+{
+    float pmf;
+    if (scene->light_nodes[1].power == 0.0f)
+        return false;
+    const uint light = choose_light(scene, from, u.z, &pmf);
+    if (pmf == 0.0f || !sample_chosen(scene, scene->lights + light, from, u.xy, sample))
+        return false;
+    sample->spread /= pmf;
+    return true;
+}
+
+#endif

@@ -1,0 +1,39 @@
+/*
+ * sample.h - a light as it is seen from a point in the scene, and the ray that asks whether it is.
+ */
+#ifndef RT_KERNELS_LIGHT_SAMPLE_H
+#define RT_KERNELS_LIGHT_SAMPLE_H
+
+#include "accel/intersect.h"
+#include "shape/surface.h"
+
+/* A point on a light, chosen from a point in the scene. */
+struct light_sample {
+    struct surface at; /* position, normal and error only */
+    /* along at.normal, takes the position off the light by its error, to the side of the viewer */
+    float lift;
+    float3 wi; /* unit, towards the light */
+    /*
+     * that arrives if nothing is in between; delta lights: irradiance on a surface that faces them
+     */
+    float3 radiance;
+    /* sr: 1 / pdf_w of the direction, choice of the light included; delta lights: of the choice */
+    float spread;
+    /* no ray can meet it by chance: multiple importance sampling must leave it alone */
+    bool delta;
+    bool distant; /* infinitely far: wi says all of where it is */
+};
+
+/*
+ * The ray from a point that is off its surface to a sampled point of a light, ending just before
+ * it.
+ */
+static inline struct ray shadow_ray(float3 origin, const struct light_sample *sample)
+{
+    if (sample->distant)
+        return make_ray(origin, sample->wi, 0.0f, INFINITY);
+    const float3 target = sample->at.position + sample->lift * sample->at.normal;
+    return make_ray(origin, target - origin, 0.0f, 0.9999f);
+}
+
+#endif

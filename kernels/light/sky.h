@@ -1,0 +1,179 @@
+/*
+ * sky.h - the environment: light from infinitely far in every direction.
+ *
+ * Its image covers the unit square: u is the longitude, 1/2 towards -z and 3/4 towards +x, v the
+ * polar angle from 0 at +y to 1 at -y. Between the centres of pixels the radiance is bilinear;
+ * around the edges u goes on at the other side, and v keeps the outermost row.
+ *
+ * The sampled density is bilinear as well, between values in proportion to radiance and the sine of
+ * the polar angle. Bilinear interpolation is a sum of tents, one a pixel: a pixel is chosen from
+ * the tables and a point of its tent taken, so that the density of a point is exactly the
+ * interpolation of the pixels' probabilities. Where the radiance is not 0, neither is the density.
+ * A tent that reaches over a pole is folded back, which is what keeping the outermost row amounts
+ * to.
+ */
+#ifndef RT_KERNELS_LIGHT_SKY_H
+#define RT_KERNELS_LIGHT_SKY_H
+
+#include "math/frame.h"
+#include "math/lanes.h"
+#include "sample/sample.h"
+#include "scene.h"
+#include "types.h"
+
+/* ---- Between directions and the unit square -------------------------------- */
+
+static inline float2 sky_point(const struct scene *scene, float3 w)
+{
+    const float u = 0.5f + atan2(w.x, -w.z) * (0.5f * M_1_PI_F) + scene->header->environment.turn;
+    return (float2)(u - floor(u), acos(clamp(w.y, -1.0f, 1.0f)) * M_1_PI_F);
+}
+
+static inline float3 sky_direction(const struct scene *scene, float2 point)
+{
+    const float turn = point.x - 0.5f - scene->header->environment.turn;
+    const float2 longitude = sin_cos(2.0f * RT_PI * (turn - floor(turn)));
+    const float2 polar = sin_cos(RT_PI * point.y);
+    return (float3)(polar.x * longitude.x, polar.y, -polar.x * longitude.y);
+}
+
+/* ---- The image and its tables ---------------------------------------------- */
+
+static inline global const float *sky_table(const struct scene *scene, uint row)
+{
+    return (global const float *)((global const uchar *)scene->header + (size_t)row * RT_SCENE_ROW);
+}
+
+/* Four neighbouring pixels and where a point lies between their centres. */
+struct sky_cell {
+    uint left, right, above, below;
+    float2 weight; /* of right and below */
+};
+
+static inline struct sky_cell sky_cell_at(const struct scene *scene, float2 point)
+{
+    global const rt_environment_data *sky = &scene->header->environment;
+    const int width = (int)sky->width, height = (int)sky->height;
+    const float2 place = point * (float2)(width, height) - 0.5f;
+    const float2 corner = floor(place);
+    const int i = (int)corner.x, j = (int)corner.y;
+    struct sky_cell cell;
+    cell.left = (uint)(i < 0 ? width - 1 : min(i, width - 1));
+    cell.right = (uint)(i + 1 < width ? i + 1 : 0);
+    cell.above = (uint)clamp(j, 0, height - 1);
+    cell.below = (uint)clamp(j + 1, 0, height - 1);
+    cell.weight = place - corner;
+    return cell;
+}
+
+static inline float3 sky_radiance_at(const struct scene *scene, float2 point)
+{
+    global const rt_environment_data *sky = &scene->header->environment;
+    global const float4 *texels = (global const float4 *)sky_table(scene, sky->texels);
+    const struct sky_cell cell = sky_cell_at(scene, point);
+    global const float4 *above = texels + (size_t)cell.above * sky->width;
+    global const float4 *below = texels + (size_t)cell.below * sky->width;
+    return mix(mix(above[cell.left], above[cell.right], cell.weight.x),
+               mix(below[cell.left], below[cell.right], cell.weight.x), cell.weight.y)
+        .xyz;
+}
+
+/*
+ * The probability with which a row, and in it the pixels `cell.left` and `cell.right` mixed, are
+ * chosen.
+ */
+static inline float sky_row_share(const struct scene *scene, const struct sky_cell *cell, uint row)
+{
+    global const rt_environment_data *sky = &scene->header->environment;
+    global const float *marginal = sky_table(scene, sky->marginal) + row;
+    global const float *conditional =
+        sky_table(scene, sky->conditional) + (size_t)row * (sky->width + 1u);
+    const float left = conditional[cell->left + 1u] - conditional[cell->left];
+    const float right = conditional[cell->right + 1u] - conditional[cell->right];
+    return (marginal[1] - marginal[0]) * mix(left, right, cell->weight.x);
+}
+
+/* Density over the unit square. */
+static inline float sky_pdf_uv(const struct scene *scene, float2 point)
+{
+    global const rt_environment_data *sky = &scene->header->environment;
+    const struct sky_cell cell = sky_cell_at(scene, point);
+    const float share = mix(sky_row_share(scene, &cell, cell.above),
+                            sky_row_share(scene, &cell, cell.below), cell.weight.y);
+    return share * (float)sky->width * (float)sky->height;
+}
+
+/*
+ * The i with cdf[i] <= u < cdf[i + 1] of a cumulative distribution over `count` cells; *rest is u's
+ * place between the two.
+ */
+static inline uint sky_find(global const float *cdf, uint count, float u, float *rest)
+{
+    uint first = 0u;
+    while (count > 1u) {
+        const uint half_count = count >> 1;
+        first += u < cdf[first + half_count] ? 0u : half_count;
+        count -= half_count;
+    }
+    *rest = clamp((u - cdf[first]) / (cdf[first + 1u] - cdf[first]), 0.0f, 1.0f);
+    return first;
+}
+
+static inline float2 sample_sky_point(const struct scene *scene, float2 u)
+{
+    global const rt_environment_data *sky = &scene->header->environment;
+    float rest_x, rest_y;
+    const uint row = sky_find(sky_table(scene, sky->marginal), sky->height, u.y, &rest_y);
+    global const float *conditional =
+        sky_table(scene, sky->conditional) + (size_t)row * (sky->width + 1u);
+    const uint column = sky_find(conditional, sky->width, u.x, &rest_x);
+    const float2 off = sample_tent((float2)(rest_x, rest_y));
+    const float2 point = ((float2)(column, row) + 0.5f + off) / (float2)(sky->width, sky->height);
+    return (float2)(point.x - floor(point.x), 1.0f - fabs(1.0f - fabs(point.y)));
+}
+
+/* ---- As a light -------------------------------------------------------------- */
+
+static inline bool has_sky(const struct scene *scene)
+{
+    return scene->header->environment.light != RT_NONE;
+}
+
+/* The radiance that comes from direction w. */
+static inline float3 sky_radiance(const struct scene *scene, float3 w)
+{
+    const float3 emission = row3(scene->lights[scene->header->environment.light].emission);
+    return scene->header->environment.width ? emission * sky_radiance_at(scene, sky_point(scene, w))
+                                            : emission;
+}
+
+/*
+ * The density of w by sample_sky. An area du dv of the image is 2 pi^2 sin(pi v) du dv of solid
+ * angle.
+ */
+static inline float sky_pdf_w(const struct scene *scene, float3 w)
+{
+    if (!scene->header->environment.width)
+        return sphere_pdf_w();
+    return sky_pdf_uv(scene, sky_point(scene, w)) /
+           (2.0f * RT_PI * RT_PI * sqrt(w.x * w.x + w.z * w.z));
+}
+
+/*
+ * Samples a direction, in proportion to radiance: writes what comes from there, returns 1 / pdf_w.
+ */
+static inline float sample_sky(const struct scene *scene, float2 u, float3 *w, float3 *radiance)
+{
+    const float3 emission = row3(scene->lights[scene->header->environment.light].emission);
+    if (!scene->header->environment.width) {
+        *w = sample_sphere(u);
+        *radiance = emission;
+        return 1.0f / sphere_pdf_w();
+    }
+    const float2 point = sample_sky_point(scene, u);
+    *w = sky_direction(scene, point);
+    *radiance = emission * sky_radiance_at(scene, point);
+    return 2.0f * RT_PI * RT_PI * sqrt(w->x * w->x + w->z * w->z) / sky_pdf_uv(scene, point);
+}
+
+#endif

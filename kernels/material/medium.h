@@ -1,0 +1,129 @@
+/*
+ * medium.h - which solids a path is inside of, and what happens at their boundaries.
+ *
+ * A path carries up to four materials, that of highest priority first, and among equals the one
+ * entered last; the first is the medium the path runs in. A boundary under the current medium does
+ * not exist for light: the path goes straight through and only the list changes (Schmidt and Budge,
+ * "Simple Nested Dielectrics in Ray Traced Images", JGT 7(2), 2002). When a fifth solid is
+ * entered, the last of the list is forgotten. A path that leaves a solid that is not in its list
+ * started inside of it, or forgot it: it is treated as if it had been there all along.
+ */
+#ifndef RT_KERNELS_MATERIAL_MEDIUM_H
+#define RT_KERNELS_MATERIAL_MEDIUM_H
+
+#include "math/frame.h"
+#include "math/ray.h"
+#include "scene.h"
+#include "shape/surface.h"
+#include "types.h"
+
+#define RT_VACUUM ((uint4)(RT_NONE)) /* the list of a path outside of all solids */
+#define RT_HIDDEN_BOUNDARIES 64u     /* boundaries without effect that a path may cross */
+
+/*
+ * A boundary, as a path meets it. Behind an opaque surface nothing changes, and the index counts as
+ * 1.
+ */
+struct boundary {
+    uint4 beyond; /* the media list on its other side */
+    float eta;    /* index on this side / index on the other */
+    /* false: both sides are the same medium, because another one or more of the same hides it */
+    bool exists;
+};
+
+/* Whether the material's surface is the boundary of a solid, one that light can enter. */
+static inline bool is_transparent(global const rt_material_data *material)
+{
+    const float4 kt = *(global const float4 *)material->kt;
+    const float4 ks = *(global const float4 *)material->ks;
+    return kt.x + kt.y + kt.z > 0.0f ||
+           ((material->flags & RT_MATERIAL_FRESNEL) && ks.x + ks.y + ks.z > 0.0f);
+}
+
+/* The list with one more material: before all that do not have a higher priority. */
+static inline uint4 media_enter(const struct scene *scene, uint4 media, uint material)
+{
+    const uint priority = scene->materials[material].priority;
+    if (media.x == RT_NONE || scene->materials[media.x].priority <= priority)
+        return (uint4)(material, media.xyz);
+    if (media.y == RT_NONE || scene->materials[media.y].priority <= priority)
+        return (uint4)(media.x, material, media.yz);
+    if (media.z == RT_NONE || scene->materials[media.z].priority <= priority)
+        return (uint4)(media.xy, material, media.z);
+    if (media.w == RT_NONE || scene->materials[media.w].priority <= priority)
+        return (uint4)(media.xyz, material);
+    return media;
+}
+
+/* The list without the first entry of the material. */
+static inline uint4 media_leave(uint4 media, uint material)
+{
+    if (media.x == material)
+        return (uint4)(media.yzw, RT_NONE);
+    if (media.y == material)
+        return (uint4)(media.x, media.zw, RT_NONE);
+    if (media.z == material)
+        return (uint4)(media.xy, media.w, RT_NONE);
+    if (media.w == material)
+        return (uint4)(media.xyz, RT_NONE);
+    return media;
+}
+
+static inline float media_ior(const struct scene *scene, uint4 media)
+{
+    return media.x == RT_NONE ? 1.0f : scene->materials[media.x].ior;
+}
+
+/*
+ * What a medium leaves of light after so many metres, which may be infinitely many: Beer and
+ * Lambert's law.
+ */
+static inline float3 medium_transmittance(global const rt_material_data *materials, uint medium,
+                                          float distance)
+{
+    if (medium == RT_NONE)
+        return (float3)(1.0f);
+    const float3 absorption = row3(materials[medium].absorption);
+    return largest3(absorption) > 0.0f ? exp(-absorption * fmin(distance, FLT_MAX))
+                                       : (float3)(1.0f);
+}
+
+/* Crosses the boundary of a solid of this material, from outside (entering) or from inside. */
+static inline struct boundary media_cross(const struct scene *scene, uint4 media, uint material,
+                                          bool entering)
+{
+    struct boundary boundary;
+    if (!entering && !any(media == material))
+        media = media_enter(scene, media, material);
+    boundary.beyond = entering ? media_enter(scene, media, material) : media_leave(media, material);
+    boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
+    boundary.exists = boundary.beyond.x != media.x;
+    return boundary;
+}
+
+/* The boundary that a path meets at a surface of this material. */
+static inline struct boundary media_meet(const struct scene *scene, uint4 media, uint material,
+                                         bool entering)
+{
+    if (is_transparent(scene->materials + material))
+        return media_cross(scene, media, material, entering);
+    struct boundary boundary;
+    boundary.beyond = media;
+    boundary.eta = media_ior(scene, media);
+    boundary.exists = true;
+    return boundary;
+}
+
+/*
+ * Goes straight on through a boundary that does not exist; false when a path has crossed too many:
+ * `hidden` counts.
+ */
+static inline bool pass_boundary(struct ray *ray, uint4 *media, uint *hidden,
+                                 const struct surface *surface, uint4 beyond)
+{
+    ray->origin = leave_surface(surface, ray->direction);
+    *media = beyond;
+    return ++*hidden <= RT_HIDDEN_BOUNDARIES;
+}
+
+#endif

@@ -1,0 +1,140 @@
+/*
+ * texture.h - the colour of a texture at (u, v), and its slope for bump mapping.
+ *
+ * v points up: (u, v) = (0, 0) is the lower left corner of an image, (1, 1) the upper right one.
+ * Texel (i, j), counted from that corner, has its centre at ((i + 1/2) / width, (j + 1/2) /
+ * height); between centres the value is bilinear in linear light. Whatever u and v are, infinite
+ * and NaN too, no read leaves the image.
+ */
+#ifndef RT_KERNELS_MATERIAL_TEXTURE_H
+#define RT_KERNELS_MATERIAL_TEXTURE_H
+
+#include "math/frame.h"
+#include "types.h"
+
+#define TEXTURE_CODES 256
+#define TEXTURE_PATTERN_STEP (1.0f / 128.0f) /* of the slope of checker and gradient, in (s, t) */
+
+/* A coordinate brought into [0,1] as the wrap mode says; 0 for what is not a number. */
+static inline float texture_fold(float x, uint wrap)
+{
+    float r = x;
+    if (wrap == RT_WRAP_REPEAT) {
+        r = x - floor(x);
+    } else if (wrap == RT_WRAP_MIRROR) {
+        r = x - 2.0f * floor(0.5f * x);
+        r = r > 1.0f ? 2.0f - r : r;
+    }
+    return r >= 0.0f ? fmin(r, 1.0f) : 0.0f;
+}
+
+/* The texel for index i, which may be one outside 0 to size - 1 on either side. */
+static inline int texture_index(int i, int size, uint wrap)
+{
+    if (wrap != RT_WRAP_REPEAT)
+        return clamp(i, 0, size - 1);
+    return i < 0 ? size - 1 : (i >= size ? 0 : i);
+}
+
+/* The linear colour of a texel, at its place in the image. */
+static inline float3 texture_texel(global const rt_texture_data *texture, global const uchar *image,
+                                   size_t place)
+{
+    if (texture->format == RT_TEXELS_CODE8) {
+        global const float *decode = (global const float *)image;
+        const uchar4 code = ((global const uchar4 *)(decode + TEXTURE_CODES))[place];
+        return (float3)(decode[code.x], decode[code.y], decode[code.z]);
+    }
+    if (texture->format == RT_TEXELS_GREY)
+        return (float3)(((global const float *)image)[place]);
+    return texture->unit * vload_half4(place, (global const half *)image).xyz;
+}
+
+static inline float3 texture_image(global const rt_texture_data *texture,
+                                   global const uchar *texels, float2 st)
+{
+    global const uchar *image = texels + (size_t)texture->texels * RT_SCENE_ROW;
+    const uint wrap = texture->wrap;
+    const int width = (int)texture->width, height = (int)texture->height;
+
+    /* Find the texel to the lower left and how far the point is from its centre. */
+    const float x = texture_fold(st.x, wrap) * (float)width - 0.5f;
+    const float y = texture_fold(st.y, wrap) * (float)height - 0.5f;
+    const float left = floor(x), bottom = floor(y);
+
+    /* Mix it with its three neighbours. */
+    const size_t i0 = (size_t)texture_index((int)left, width, wrap);
+    const size_t i1 = (size_t)texture_index((int)left + 1, width, wrap);
+    const size_t row0 = (size_t)texture_index((int)bottom, height, wrap) * (size_t)width;
+    const size_t row1 = (size_t)texture_index((int)bottom + 1, height, wrap) * (size_t)width;
+    const float3 below = mix(texture_texel(texture, image, row0 + i0),
+                             texture_texel(texture, image, row0 + i1), x - left);
+    const float3 above = mix(texture_texel(texture, image, row1 + i0),
+                             texture_texel(texture, image, row1 + i1), x - left);
+    return mix(below, above, y - bottom);
+}
+
+/* The linear colour at (s, t). */
+static inline float3 texture_colour(global const rt_texture_data *texture,
+                                    global const uchar *texels, float2 st)
+{
+    if (texture->kind == RT_TEXTURE_IMAGE)
+        return texture_image(texture, texels, st);
+    const float3 a = row3(texture->a), b = row3(texture->b);
+    if (texture->kind == RT_TEXTURE_GRADIENT)
+        return mix(a, b, texture_fold(texture->axis ? st.y : st.x, texture->wrap));
+    /* The sum of two whole numbers is odd when one of them is: in that half of a period of two. */
+    const int is_odd = (texture_fold(0.5f * st.x, RT_WRAP_REPEAT) >= 0.5f) !=
+                       (texture_fold(0.5f * st.y, RT_WRAP_REPEAT) >= 0.5f);
+    return is_odd ? b : a;
+}
+
+static inline float2 texture_point(global const rt_texture_data *texture, float u, float v)
+{
+    return (float2)(texture->scale[0] * u + texture->offset[0],
+                    texture->scale[1] * v + texture->offset[1]);
+}
+
+/* The linear colour at (u, v); `texels` is the table that the texture's rows count from. */
+static inline float3 texture_value(global const rt_texture_data *texture,
+                                   global const uchar *texels, float u, float v)
+{
+    return texture_colour(texture, texels, texture_point(texture, u, v));
+}
+
+/*
+ * A coordinate moved near the unit square, where float resolves small steps, to a point of the same
+ * colour.
+ */
+static inline float texture_near(global const rt_texture_data *texture, float x)
+{
+    const int has_edge = texture->wrap == RT_WRAP_CLAMP && texture->kind != RT_TEXTURE_CHECKER;
+    const float r = has_edge ? clamp(x, -1.0f, 2.0f) : x - 2.0f * floor(0.5f * x);
+    return r >= -1.0f ? r : 0.0f;
+}
+
+/*
+ * The derivatives by u and v of the height, which is the mean of the colour's channels: central
+ * differences over one texel, which makes them continuous, or over 1/64 of a square of a pattern.
+ */
+static inline float2 texture_slope(global const rt_texture_data *texture,
+                                   global const uchar *texels, float u, float v)
+{
+    const int is_image = texture->kind == RT_TEXTURE_IMAGE;
+    const float ds = is_image ? 0.5f / (float)texture->width : TEXTURE_PATTERN_STEP;
+    const float dt = is_image ? 0.5f / (float)texture->height : TEXTURE_PATTERN_STEP;
+    const float2 point = texture_point(texture, u, v);
+    const float s = texture_near(texture, point.x), t = texture_near(texture, point.y);
+
+    /* Divide by the steps as they were rounded. */
+    const float left = s - ds, right = s + ds, below = t - dt, above = t + dt;
+    const float along_s = mean3(texture_colour(texture, texels, (float2)(right, t)) -
+                                texture_colour(texture, texels, (float2)(left, t))) /
+                          (right - left);
+    const float along_t = mean3(texture_colour(texture, texels, (float2)(s, above)) -
+                                texture_colour(texture, texels, (float2)(s, below))) /
+                          (above - below);
+    return (float2)(texture->scale[0] * along_s, texture->scale[1] * along_t);
+}
+
+#endif

@@ -1,0 +1,203 @@
+/*
+ * aim.h - light paths that start towards what caustics come from.
+ *
+ * A path can leave a caustic photon only when it first meets a specular shape, so its start is
+ * drawn anew among those that run into the balls around these shapes: directions within the cones
+ * under which the balls are seen, or, of light from infinitely far, points on their discs. A ball
+ * is chosen in proportion to its solid angle or its disc, so the density is the number of balls
+ * that the start runs into over the sum of all. The flux is weighted by the density that the start
+ * had by light_emit over this one: caustic photons have the same mean as without, and what would
+ * have gone elsewhere is not followed. Where the balls fill no less than what the light shines
+ * into, as around a lamp within one of them, the start is left as it is.
+ *
+ * References:
+ *   Jensen: "Realistic Image Synthesis Using Photon Mapping", 2001, section 5.2 (projection maps).
+ *   Veach, Guibas: "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
+ *     1995 (the one-sample model: choosing in proportion makes the balance heuristic's density the
+ *     sum of all).
+ */
+#ifndef RT_KERNELS_PHOTON_AIM_H
+#define RT_KERNELS_PHOTON_AIM_H
+
+#include "light/emit.h"
+
+/* Where a light shines from a point: a cone of directions. */
+struct lobe_of_light {
+    float3 from, axis;
+    float cosine, sine; /* of the angle between the axis and the edge */
+};
+
+/* ---- Balls seen from a point --------------------------------------------------- */
+
+/*
+ * The solid angle of a ball, 0 when it lies outside the light's cone; the whole sphere when it
+ * holds the point.
+ */
+static inline float target_spread(global const rt_target *target, const struct lobe_of_light *lobe)
+{
+    const float3 towards = row3(target->centre) - lobe->from;
+    const float radius2 = square(target->radius), d2 = dot(towards, towards);
+    if (!(d2 > radius2))
+        return 4.0f * RT_PI;
+    /* They touch unless the angle to the ball's centre is above the sum of both half-angles. */
+    const float sine = target->radius / sqrt(d2), cosine = sqrt(1.0f - radius2 / d2);
+    const float sum_sine = lobe->sine * cosine + lobe->cosine * sine;
+    const float sum_cosine = lobe->cosine * cosine - lobe->sine * sine;
+    const bool touches = sum_sine <= 0.0f || dot(towards, lobe->axis) >= sum_cosine * sqrt(d2);
+    return touches ? 2.0f * RT_PI * cap_height(target->radius, d2) : 0.0f;
+}
+
+/* Whether a ray in this direction runs into a ball that it starts outside of. */
+static inline bool target_is_ahead(global const rt_target *target, float3 from, float3 direction)
+{
+    const float3 towards = row3(target->centre) - from;
+    const float3 off = cross(towards, direction);
+    return dot(towards, direction) > 0.0f && dot(off, off) <= square(target->radius);
+}
+
+/* A direction in the cone of a ball, uniform in solid angle. */
+static inline float3 sample_target(global const rt_target *target, float3 from, float2 u)
+{
+    const float3 towards = row3(target->centre) - from;
+    const float h = u.x * cap_height(target->radius, dot(towards, towards));
+    const float2 arc = sin_cos(2.0f * RT_PI * u.y);
+    return frame_to_world(frame_about(unit(towards)),
+                          (float3)(sqrt(h * (2.0f - h)) * arc.yx, 1.0f - h));
+}
+
+/*
+ * Samples a direction by all balls, of which u.z chooses. Returns 1 / pdf_w: 0 when no ball is in
+ * the light's cone, and `limit` when they fill no less than that, which leaves the direction as it
+ * is.
+ */
+static inline float aim_from_point(const struct scene *scene, const struct lobe_of_light *lobe,
+                                   float limit, float3 u, float3 *direction)
+{
+    const uint count = scene->header->target_count;
+    float sum = 0.0f;
+    for (uint i = 0; i < count; i++)
+        sum += target_spread(scene->targets + i, lobe);
+    if (sum == 0.0f || sum >= limit)
+        return min(sum, limit);
+
+    /* Choose a ball; rounding at the end leaves the last that can be seen. */
+    uint chosen = 0;
+    float before = 0.0f;
+    for (uint i = 0; i < count && before <= u.z * sum; i++) {
+        const float spread = target_spread(scene->targets + i, lobe);
+        before += spread;
+        chosen = spread > 0.0f ? i : chosen;
+    }
+    *direction = sample_target(scene->targets + chosen, lobe->from, u.xy);
+
+    /* Count the balls that could have been chosen for it. */
+    float covers = 1.0f;
+    for (uint i = 0; i < count; i++)
+        if (i != chosen && target_spread(scene->targets + i, lobe) > 0.0f &&
+            target_is_ahead(scene->targets + i, lobe->from, *direction))
+            covers += 1.0f;
+    return sum / covers;
+}
+
+/* ---- Lights that shine from a point ---------------------------------------------- */
+
+/*
+ * The cone of directions into which the light shines from where this path starts, and its solid
+ * angle.
+ */
+static inline struct lobe_of_light lobe_at(global const rt_light_data *light,
+                                           const struct emission *emission, float *solid_angle)
+{
+    struct lobe_of_light lobe;
+    lobe.from = emission->at.position;
+    lobe.axis = emission->direction;
+    lobe.cosine = -1.0f;
+    if (light->kind == RT_LIGHT_SPOT) {
+        lobe.axis = row3(light->b);
+        lobe.cosine = light->c[1];
+    } else if (light->kind != RT_LIGHT_POINT) {
+        lobe.axis = dot(emission->direction, emission->at.normal) < 0.0f ? -emission->at.normal
+                                                                         : emission->at.normal;
+        lobe.cosine = 0.0f;
+    }
+    lobe.sine = sqrt(1.0f - square(lobe.cosine));
+    *solid_angle = 2.0f * RT_PI * (1.0f - lobe.cosine);
+    return lobe;
+}
+
+/* The density of light_emit's directions. */
+static inline float emission_pdf_w(global const rt_light_data *light,
+                                   const struct lobe_of_light *lobe, float3 direction)
+{
+    const float cosine = dot(direction, lobe->axis);
+    if (light->kind == RT_LIGHT_POINT)
+        return sphere_pdf_w();
+    if (light->kind == RT_LIGHT_SPOT)
+        return spot_falloff(light, cosine) / spot_spread(light);
+    return cosine_pdf_w(max(cosine, 0.0f));
+}
+
+static inline void aim_near(const struct scene *scene, global const rt_light_data *light, float3 u,
+                            struct emission *emission)
+{
+    float solid_angle;
+    const struct lobe_of_light lobe = lobe_at(light, emission, &solid_angle);
+    const float spread = aim_from_point(scene, &lobe, solid_angle, u, &emission->direction);
+    if (spread < solid_angle)
+        emission->flux *=
+            spread > 0.0f ? spread * emission_pdf_w(light, &lobe, emission->direction) : 0.0f;
+}
+
+/* ---- Light from infinitely far ----------------------------------------------------- */
+
+/* Points on the disc that light_emit uses, through the balls as they are seen along the light. */
+static inline void aim_far(const struct scene *scene, float3 u, struct emission *emission)
+{
+    const uint count = scene->header->target_count;
+    const float3 w = -emission->direction;
+    const float whole = square(distant_radius(scene));
+    float sum = 0.0f;
+    for (uint i = 0; i < count; i++)
+        sum += square(scene->targets[i].radius);
+    if (sum >= whole)
+        return;
+    emission->flux *= sum / whole;
+    if (count == 0u)
+        return;
+
+    /* Choose a ball, and a point of its disc. */
+    uint chosen = 0;
+    for (float before = square(scene->targets[0].radius);
+         before <= u.z * sum && chosen + 1u < count;)
+        before += square(scene->targets[++chosen].radius);
+    global const rt_target *target = scene->targets + chosen;
+    const struct frame frame = frame_about(w);
+    const float2 p = target->radius * sample_disc(u.xy);
+    const float3 through = row3(target->centre) + (p.x * frame.s + p.y * frame.t);
+    emit_from(emission, distant_start(scene, w, through), -w);
+
+    /* Count the balls that could have been chosen for it. */
+    float covers = 1.0f;
+    for (uint i = 0; i < count; i++) {
+        const float3 off = cross(row3(scene->targets[i].centre) - through, w);
+        if (i != chosen && dot(off, off) <= square(scene->targets[i].radius))
+            covers += 1.0f;
+    }
+    emission->flux /= covers;
+}
+
+/*
+ * Turns a start that light_emit made of these numbers towards what caustics come from; way.w
+ * chooses the ball. The start's flux becomes 0 where no caustic can come of it.
+ */
+static inline void aim_at_caustics(const struct scene *scene, float4 start, float4 way,
+                                   struct emission *emission)
+{
+    global const rt_light_data *light = scene->lights + emission->light;
+    if (light->kind == RT_LIGHT_DIRECTIONAL || light->kind == RT_LIGHT_ENVIRONMENT)
+        aim_far(scene, (float3)(start.xy, way.w), emission);
+    else
+        aim_near(scene, light, (float3)(way.xy, way.w), emission);
+}
+
+#endif

@@ -1,0 +1,82 @@
+/*
+ * hull.h - photon density by the convex hull of the photons, in the tangent plane of a point.
+ *
+ * A disc that reaches over the edge of a surface holds an area where no photon can lie, and up to
+ * half of the light and more is lost there. The hull of the photons stays on the surface. Of n
+ * points spread evenly over a convex region of area a, the hull leaves 1 - E[v]/(n + 1) of a one
+ * point more outside (v: its corners; Efron, "The convex hull of a random set of points",
+ * Biometrika 52, 1965), so that (n - v) points over the hull's area are the density, almost without
+ * bias. The corners, which pushed the hull to where it is, do not count, like the k-th photon of a
+ * disc.
+ */
+#ifndef RT_KERNELS_PHOTON_HULL_H
+#define RT_KERNELS_PHOTON_HULL_H
+
+#include "math/frame.h"
+#include "types.h"
+
+/* The place of a photon in the tangent plane, relative to the gather point. */
+static inline float2 in_plane(global const rt_photon *photon, float3 origin,
+                              const struct frame *frame)
+{
+    const float3 away = row3(photon->position) - origin;
+    return (float2)(dot(away, frame->s), dot(away, frame->t));
+}
+
+static inline float cross2(float2 a, float2 b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+
+/*
+ * Whether the corner after `at` is rather `candidate` than `best`: farther to the right, or farther
+ * along.
+ */
+static inline bool wraps_more(float2 at, float2 candidate, float2 best)
+{
+    const float2 to_candidate = candidate - at, to_best = best - at;
+    const float turn = cross2(to_best, to_candidate);
+    return turn < 0.0f || (turn == 0.0f && dot(to_candidate, to_candidate) > dot(to_best, to_best));
+}
+
+/*
+ * The sum of the photons inside the hull, over its area; walks around it from corner to corner
+ * (Jarvis, "On the identification of the convex hull of a finite set of points in the plane",
+ * Information Processing Letters 2, 1973).
+ */
+static inline float3 hull_density(global const rt_gather_point *point,
+                                  global const rt_photon *photons, global const uint *list,
+                                  uint count)
+{
+    const float3 origin = row3(point->position);
+    const struct frame frame = frame_about(row3(point->normal));
+    float3 inside = (float3)(0.0f);
+    if (count <= 3u)
+        return inside; /* all are corners */
+    float twice_area = 0.0f;
+    uint lowest = 0u;
+    for (uint i = 0u; i < count; i++) {
+        const float2 place = in_plane(photons + list[i], origin, &frame);
+        const float2 low = in_plane(photons + list[lowest], origin, &frame);
+        inside += photons[list[i]].shading * row3(photons[list[i]].flux);
+        if (place.y < low.y || (place.y == low.y && place.x < low.x))
+            lowest = i;
+    }
+    uint corner = lowest;
+    for (uint corners = 0u; corners < count; corners++) {
+        const float2 at = in_plane(photons + list[corner], origin, &frame);
+        uint next = corner == 0u ? 1u : 0u;
+        for (uint i = 0u; i < count; i++)
+            if (i != corner && wraps_more(at, in_plane(photons + list[i], origin, &frame),
+                                          in_plane(photons + list[next], origin, &frame)))
+                next = i;
+        inside -= photons[list[corner]].shading * row3(photons[list[corner]].flux);
+        twice_area += cross2(at, in_plane(photons + list[next], origin, &frame));
+        corner = next;
+        if (corner == lowest)
+            break;
+    }
+    return twice_area > 0.0f ? max(inside, 0.0f) * (2.0f / twice_area) : (float3)(0.0f);
+}
+
+#endif

@@ -1,0 +1,289 @@
+/*
+ * knn.h - the disc around a point whose photons count, by the rules of the host's search
+ * (search.h): it ends at the k-th accepted photon, at the limit on the radius, or at the (16 k)-th
+ * photon of any kind, and the photons strictly nearer count.
+ *
+ * The k-th distance is found by a walk that goes to the nearest child first and collects distances
+ * alone. Whenever its memory is full, the k smallest are selected, and the largest of them bounds
+ * the walk from then on. No lists are kept: knowing the radius, the sum walks the tree again.
+ */
+#ifndef RT_KERNELS_PHOTON_KNN_H
+#define RT_KERNELS_PHOTON_KNN_H
+
+#include "photon/tree.h"
+
+/* Distances found so far: no more than `capacity`, of which the k smallest matter. */
+struct distances {
+    global float *squared;
+    uint count, capacity; /* a multiple of 8, at least k + 16 */
+    uint k;
+    float bound; /* what is not below it does not matter */
+};
+
+INLINE_ALWAYS uint sum_lanes_int(int8 v)
+{
+    const int4 four = v.lo + v.hi;
+    const int2 two = four.lo + four.hi;
+    return (uint)(two.x + two.y);
+}
+
+INLINE_ALWAYS float largest_lane(float8 v)
+{
+    const float4 four = fmax(v.lo, v.hi);
+    const float2 two = fmax(four.lo, four.hi);
+    return fmax(two.x, two.y);
+}
+
+/* How many of the distances are not above a value, and the largest of these. */
+INLINE_ALWAYS uint count_up_to(const struct distances *d, float value, float *largest)
+{
+    global const float *values = d->squared;
+    const uint rows = (d->count + 7u) / 8u;
+    int8 counts = (int8)(0);
+    float8 top = (float8)(0.0f);
+    for (uint i = 0u; i < rows; i++) {
+        const float8 row = vload8(i, values);
+        const int8 below = row <= value;
+        counts -= below;
+        top = lane_max(top, as_float8(as_int8(row) & below));
+    }
+    *largest = largest_lane(top);
+    return sum_lanes_int(counts);
+}
+
+/*
+ * The k-th smallest of the distances, k <= count, all of them below the bound. Squared distances on
+ * a surface are spread evenly, so every other step looks where the k-th would then be; those
+ * between halve the range of the numbers' bits, which are in the order of the numbers. It ends when
+ * exactly k are not above the place looked at.
+ */
+INLINE_ALWAYS float select_distance(const struct distances *d)
+{
+    float largest;
+    uint low = 0u, low_count = 0u; /* fewer than k are not above low - 1 */
+    count_up_to(d, FLT_MAX, &largest);
+    uint high = as_uint(largest), high_count = d->count; /* at least k are not above high */
+
+    for (uint step = 0u; low < high; step++) {
+        uint middle = low + (high - low) / 2u;
+        if (!(step & 1u)) {
+            const float from = as_float(low), span = as_float(high) - from;
+            const float part = ((float)(d->k - low_count) - 0.5f) / (float)(high_count - low_count);
+            middle = clamp(as_uint(from + part * span), low, high - 1u);
+        }
+        const uint count = count_up_to(d, as_float(middle), &largest);
+        if (count == d->k)
+            return largest;
+        if (count > d->k) {
+            high = as_uint(largest);
+            high_count = count;
+        } else {
+            low = middle + 1u;
+            low_count = count;
+        }
+    }
+    return as_float(low);
+}
+
+/* Fills the last row up with what cannot be selected. */
+INLINE_ALWAYS void pad_distances(struct distances *d)
+{
+    for (uint i = d->count; i & 7u; i++)
+        d->squared[i] = INFINITY;
+}
+
+/* Keeps the k smallest; the largest of them is the new bound. */
+INLINE_ALWAYS void shrink_distances(struct distances *d)
+{
+    uint kept = 0u;
+    pad_distances(d);
+    d->bound = select_distance(d);
+    for (uint i = 0u; i < d->count; i += 8u) {
+        const float8 values = vload8(0, d->squared + i);
+        const uint mask = lane_mask(values < d->bound);
+        vstore8(lane_compress(values, mask), 0, d->squared + kept);
+        kept += popcount(mask);
+    }
+    while (kept < d->k) /* with all that are equal to it */
+        d->squared[kept++] = d->bound;
+    d->count = kept;
+}
+
+/* Takes the accepted photons of a block that are below the bound. */
+INLINE_ALWAYS void take_distances(struct distances *d, const struct photon_tree *tree,
+                                  const struct photon_query *query, uint block)
+{
+    global const rt_photon_block *photons = tree->blocks + block;
+    const float8 squared = photon_distances(photons, query);
+    const uint mask = lane_mask(squared < d->bound && photons_accepted(photons, query));
+    if (!mask)
+        return;
+    vstore8(lane_compress(squared, mask), 0, d->squared + d->count);
+    d->count += popcount(mask);
+    if (d->count + 8u > d->capacity)
+        shrink_distances(d);
+}
+
+/* The smallest lane of a vector whose lanes in `mask` alone count; mask is not 0. */
+INLINE_ALWAYS uint nearest_lane(float8 squared, uint mask)
+{
+    float each[8];
+    uint nearest = lane_first(mask);
+    vstore8(squared, 0, each);
+    for (mask &= mask - 1u; mask; mask &= mask - 1u)
+        nearest = each[lane_first(mask)] < each[nearest] ? lane_first(mask) : nearest;
+    return nearest;
+}
+
+/* Nodes still to be walked, and how near they come. */
+struct near_stack {
+    uint entry[RT_PHOTON_STACK];
+    float squared[RT_PHOTON_STACK];
+    uint count;
+};
+
+/* Pushes the children of a node that are in `mask`, the nearest last. */
+INLINE_ALWAYS void push_children(struct near_stack *stack, uint level, uint index, float8 squared,
+                                 uint mask)
+{
+    const uint count = popcount(mask);
+    float each[8];
+    vstore8(squared, 0, each);
+    for (uint at = stack->count + count; mask;) {
+        const uint lane = nearest_lane(squared, mask);
+        at--;
+        stack->entry[at] = ((level - 1u) << WALK_LEVEL_SHIFT) | (8u * index + lane);
+        stack->squared[at] = each[lane];
+        mask &= ~(1u << lane);
+    }
+    stack->count += count;
+}
+
+/*
+ * Takes all accepted photons below the bound, nearest nodes first; those of `enough` photons of any
+ * kind at most. False when it stopped there, with fewer than k accepted.
+ */
+INLINE_ALWAYS bool take_nearest(struct distances *d, const struct photon_tree *tree,
+                                const struct photon_query *query, uint enough)
+{
+    struct near_stack stack;
+    uint looked = 0u;
+    stack.entry[0] = (tree->shape.levels - 1u) << WALK_LEVEL_SHIFT;
+    stack.squared[0] = 0.0f;
+    stack.count = 1u;
+    while (stack.count > 0u) {
+        stack.count--;
+        if (!(stack.squared[stack.count] < d->bound))
+            continue;
+        const uint entry = stack.entry[stack.count], level = entry >> WALK_LEVEL_SHIFT,
+                   index = entry & WALK_INDEX;
+        const float8 squared =
+            box_distances(tree->nodes + tree->shape.first_node[level] + index, query);
+        uint near = lane_mask(squared < d->bound);
+        if (level > 0u) {
+            push_children(&stack, level, index, squared, near);
+            continue;
+        }
+        for (; near; near &= near - 1u)
+            take_distances(d, tree, query, 8u * index + lane_first(near));
+        looked += 64u;
+        if (looked >= enough && d->count < d->k)
+            return false;
+    }
+    return true;
+}
+
+/*
+ * The squared distance of the (look)-th photon of any kind, or the bound when fewer are nearer than
+ * that.
+ */
+INLINE_ALWAYS float look_distance(const struct photon_tree *tree, const struct photon_query *query,
+                                  uint look, float bound)
+{
+    if (count_photons(tree, query, bound, look) < look)
+        return bound;
+    /* The largest number that fewer than `look` are nearer than. */
+    uint low = 0u, high = as_uint(bound);
+    while (high - low > 1u) {
+        const uint middle = low + (high - low) / 2u;
+        if (count_photons(tree, query, as_float(middle), look) < look)
+            low = middle;
+        else
+            high = middle;
+    }
+    return as_float(low);
+}
+
+/*
+ * Takes all accepted photons nearer than a guess, in no particular order; true when they are k or
+ * more. The walk needs no order and seldom a selection, so a good guess makes the search twice as
+ * fast.
+ */
+INLINE_ALWAYS bool take_within(struct distances *d, const struct photon_tree *tree,
+                               const struct photon_query *query, float guess)
+{
+    struct photon_walk walk;
+    uint first, mask;
+    d->count = 0u;
+    d->bound = guess;
+    const struct photon_start root = start_at_root(tree);
+    walk_start(&walk, &root);
+    while (walk_next(&walk, tree, query, d->bound, &first, &mask))
+        for (; mask; mask &= mask - 1u)
+            take_distances(d, tree, query, first + lane_first(mask));
+    return d->count >= d->k;
+}
+
+/*
+ * Takes the k nearest accepted photons below the limit, or as many as the rules allow; the bound is
+ * the squared radius when there are fewer.
+ */
+INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
+                            const struct photon_query *query, const rt_density_params *estimate)
+{
+    const bool larger = tree->shape.photon_count > estimate->look;
+    d->count = 0u;
+    d->bound = estimate->squared_limit;
+    if (take_nearest(d, tree, query, larger ? 2u * estimate->look : 0xffffffffu))
+        return;
+    /*
+     * Few photons fit. Those that do may be far away, but not all of the map is to be searched for
+     * them.
+     */
+    d->count = 0u;
+    d->bound = look_distance(tree, query, estimate->look, estimate->squared_limit);
+    take_nearest(d, tree, query, 0xffffffffu);
+}
+
+/*
+ * The squared radius of the disc around a point; 0 when no photon counts. guess: what it may be,
+ * such as that of a point nearby; 0 for none: it changes the time taken, not the result. scratch:
+ * [estimate->stride]. The rule of the (look)-th photon is left to the caller where k photons were
+ * accepted before it: only the sum shows.
+ */
+INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_query *query,
+                                const rt_density_params *estimate, float guess,
+                                global float *scratch)
+{
+    struct distances d;
+    if (tree->shape.levels == 0u)
+        return 0.0f;
+    d.squared = scratch;
+    d.capacity = estimate->stride;
+    d.k = estimate->k;
+    if (!(guess > 0.0f && guess < estimate->squared_limit && take_within(&d, tree, query, guess)))
+        take_all(&d, tree, query, estimate);
+    if (d.count >= d.k) {
+        pad_distances(&d);
+        return select_distance(&d);
+    }
+    if (d.bound < INFINITY)
+        return d.bound;
+    /* No limit, and the map has too few: the farthest stands for the k-th. */
+    float farthest = 0.0f;
+    for (uint i = 0u; i < d.count; i++)
+        farthest = fmax(farthest, d.squared[i]);
+    return farthest;
+}
+
+#endif

@@ -1,0 +1,124 @@
+/*
+ * sum.h - the density sum over a disc, by walking the tree of photons.
+ */
+#ifndef RT_KERNELS_PHOTON_SUM_H
+#define RT_KERNELS_PHOTON_SUM_H
+
+#include "photon/density.h"
+#include "photon/knn.h"
+
+struct photon_sum {
+    float3 flux_density; /* of the emitted paths together, W/m^2 */
+    float squared_radius;
+    uint count; /* photons that count */
+};
+
+INLINE_ALWAYS float sum_lanes(float8 v)
+{
+    const float4 four = v.lo + v.hi;
+    const float2 two = four.lo + four.hi;
+    return two.x + two.y;
+}
+
+/*
+ * Sums the accepted photons strictly nearer than the radius; returns how many there are of any
+ * kind. The order of summing is that of the tree.
+ */
+INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tree,
+                            const struct photon_start *start, const struct photon_query *query,
+                            const rt_density_params *estimate)
+{
+    const float r2 = sum->squared_radius;
+    float8 red = (float8)(0.0f), green = red, blue = red;
+    struct photon_walk walk;
+    uint first, mask, looked = 0u, count = 0u;
+
+    walk_start(&walk, start);
+    while (walk_next(&walk, tree, query, r2, &first, &mask))
+        for (; mask; mask &= mask - 1u) {
+            global const rt_photon_block *block = tree->blocks + first + lane_first(mask);
+            const float8 d2 = photon_distances(block, query);
+            const int8 inside = d2 < r2;
+            const int8 counted = inside && photons_accepted(block, query);
+            const uint lanes = lane_mask(counted);
+            looked += popcount(lane_mask(inside));
+            if (!lanes)
+                continue;
+            count += popcount(lanes);
+            const float8 k = counted ? density_kernel8(estimate->density, estimate->cone_k, d2, r2)
+                                     : (float8)(0.0f);
+            red = lane_mad(k, vload8(0, block->flux[0]), red);
+            green = lane_mad(k, vload8(0, block->flux[1]), green);
+            blue = lane_mad(k, vload8(0, block->flux[2]), blue);
+        }
+    sum->flux_density = (float3)(sum_lanes(red), sum_lanes(green), sum_lanes(blue));
+    sum->count = count;
+    return looked;
+}
+
+/* The estimate at a point from the k nearest; guess and scratch as for disc_radius. */
+INLINE_NEVER struct photon_sum sum_nearest(const struct photon_tree *tree,
+                                           const struct photon_query *query,
+                                           const rt_density_params *estimate, float guess,
+                                           global float *scratch)
+{
+    const struct photon_start root = start_at_root(tree);
+    struct photon_sum sum;
+    sum.squared_radius = disc_radius(tree, query, estimate, guess, scratch);
+    const uint looked = sum_disc(&sum, tree, &root, query, estimate);
+    if (looked >= estimate->look && tree->shape.photon_count > estimate->look) {
+        sum.squared_radius = look_distance(tree, query, estimate->look, sum.squared_radius);
+        sum_disc(&sum, tree, &root, query, estimate);
+    }
+    return sum;
+}
+
+/*
+ * The estimate from all within a limit on the radius; start: that of a group which the point is in.
+ */
+INLINE_NEVER struct photon_sum sum_within(const struct photon_tree *tree,
+                                          const struct photon_start *start,
+                                          const struct photon_query *query,
+                                          const rt_density_params *estimate, float squared_limit)
+{
+    struct photon_sum sum;
+    sum.squared_radius = tree->shape.levels > 0u ? squared_limit : 0.0f;
+    sum_disc(&sum, tree, start, query, estimate);
+    return sum;
+}
+
+/* Whether a point asks for photons: it has weight, and a place that is finite. */
+static inline bool point_asks(global const rt_gather_point *point)
+{
+    return any(row3(point->weight) != 0.0f) && all(isfinite(row3(point->position)));
+}
+
+/*
+ * The limit on the squared radius at a point when all photons within it count; own_limits: of each
+ * pixel.
+ */
+static inline float point_limit(global const rt_gather_point *point,
+                                const rt_density_params *estimate, global const float *own_limits)
+{
+    return estimate->own_limits > 0.0f ? estimate->own_limits * own_limits[point->pixel]
+                                       : estimate->squared_limit;
+}
+
+/* Where the walks of a group of points begin when all photons within the limit count. */
+static inline struct photon_start start_of_points(const struct photon_tree *tree,
+                                                  global const rt_gather_point *points, uint count,
+                                                  const rt_density_params *estimate,
+                                                  global const float *own_limits)
+{
+    float3 low = (float3)(INFINITY), high = -low;
+    float limit = 0.0f;
+    for (uint i = 0u; i < count; i++)
+        if (point_asks(points + i)) {
+            low = min(low, row3(points[i].position));
+            high = max(high, row3(points[i].position));
+            limit = max(limit, point_limit(points + i, estimate, own_limits));
+        }
+    return start_near(tree, low, high, limit);
+}
+
+#endif

@@ -1,0 +1,165 @@
+/*
+ * torus.h - rays against the torus, in its own space: about z, major radius 1, minor radius m.
+ *
+ * Not the quartic, whose coefficients lose a thin tube, but the signed square h = (r - 1)^2 + z^2 -
+ * m^2 with r the distance from the axis, along the line. With the closest approach k to the axis at
+ * s0 and a = dx^2 + dy^2, r^2 = a (s - s0)^2 + k^2 and h'' = 2 - 2 a k^2 / r^3. So h is concave
+ * where r^3 < a k^2, an interval about s0, and convex on both sides of it: three spans with at most
+ * two roots each. On each, the signs at the ends, or else at the extremum, tell the roots apart,
+ * and Newton's method held between bounds finds them.
+ */
+#ifndef RT_KERNELS_SHAPE_TORUS_H
+#define RT_KERNELS_SHAPE_TORUS_H
+
+#include "shape/canonical.h"
+#include "shape/line.h"
+
+/* the line is cut to the torus' bounds, enlarged by this, where h is well above 0 */
+#define TORUS_ROOM 1.01f
+
+/* h or, on a concave span, -h at s. */
+struct torus_point {
+    float s, h, slope;
+};
+
+static inline struct torus_point torus_at(const struct line *line, float minor, float sign, float s)
+{
+    const float3 p = line->origin + s * line->direction;
+    const float from_axis = length(p.xy), x = from_axis - 1.0f;
+    const float rate = from_axis > 0.0f ? dot(p.xy, line->direction.xy) / from_axis : 0.0f;
+    struct torus_point point;
+    point.s = s;
+    point.h = sign * (x * x + (p.z - minor) * (p.z + minor));
+    point.slope = sign * 2.0f * (x * rate + p.z * line->direction.z);
+    return point;
+}
+
+/* Cuts [lo, hi] to where the line is within the torus' bounds; false when it is nowhere. */
+static inline bool torus_bounds(const struct line *line, float minor, float *lo, float *hi)
+{
+    const float reach = TORUS_ROOM * (1.0f + minor), height = TORUS_ROOM * minor;
+    const float along = dot(line->origin, line->direction);
+    const float3 nearest = line->origin - along * line->direction;
+    const float square_half = reach * reach - dot(nearest, nearest);
+    if (square_half < 0.0f)
+        return false;
+    *lo = fmax(line->lo, -along - sqrt(square_half));
+    *hi = fmin(line->hi, -along + sqrt(square_half));
+    const float z = line->origin.z, dz = line->direction.z;
+    if (dz == 0.0f)
+        return fabs(z) <= height && *lo <= *hi;
+    const float below = (-height - z) / dz, above = (height - z) / dz;
+    *lo = fmax(*lo, fmin(below, above));
+    *hi = fmin(*hi, fmax(below, above));
+    return *lo <= *hi;
+}
+
+/*
+ * The span of s on which h is concave; empty, with its ends alike, where it is convex throughout.
+ */
+static inline float2 torus_concave(const struct line *line)
+{
+    const float2 o = line->origin.xy, d = line->direction.xy;
+    const float a = dot(d, d), across = o.x * d.y - o.y * d.x;
+    if (a < 1e-12f)
+        return (float2)(-INFINITY);
+    const float middle = -dot(o, d) / a, k2 = across * across / a;
+    const float root = cbrt(a * k2), excess = root * root - k2;
+    const float half_width = sqrt(fmax(excess / a, 0.0f));
+    return (float2)(middle - half_width, middle + half_width);
+}
+
+/*
+ * Looks for a point between a and b, where a convex h is not negative and slopes down and up, at
+ * which it is. The tangents at a and b bound h from below: where they meet above 0 there is none.
+ */
+static inline bool torus_dip(const struct line *line, float minor, float sign, struct torus_point a,
+                             struct torus_point b, struct torus_point *dip)
+{
+    for (int i = 0; i < 32; i++) {
+        const float width = b.s - a.s, bend = b.slope - a.slope;
+        const float meet = (b.slope * width - (b.h - a.h)) / bend; /* from a */
+        if (!(bend > 0.0f) || a.h + a.slope * meet > 0.0f)
+            return false;
+        float s = i % 3 == 2 ? a.s + 0.5f * width : a.s - a.slope * width / bend;
+        if (!(s > a.s && s < b.s)) {
+            s = a.s + 0.5f * width;
+            if (!(s > a.s && s < b.s))
+                return false;
+        }
+        *dip = torus_at(line, minor, sign, s);
+        if (dip->h < 0.0f)
+            return true;
+        if (dip->slope < 0.0f)
+            a = *dip;
+        else
+            b = *dip;
+    }
+    return false;
+}
+
+/* The root of a convex h between a point where it is not negative and one where it is. */
+static inline float torus_root(const struct line *line, float minor, float sign,
+                               struct torus_point out, struct torus_point in)
+{
+    /* from here Newton's method comes nearer without passing the root */
+    struct torus_point at = out;
+    for (int i = 0; i < 40; i++) {
+        const float lo = fmin(out.s, in.s), hi = fmax(out.s, in.s);
+        const float step = at.h / at.slope;
+        float s = at.s - step;
+        if (fabs(step) <= 0x1p-24f + 0x1p-23f * fabs(s))
+            return clamp(s, lo, hi);
+        if (!(s > lo && s < hi)) {
+            s = 0.5f * (lo + hi);
+            if (!(s > lo && s < hi))
+                break;
+        }
+        at = torus_at(line, minor, sign, s);
+        if (at.h < 0.0f)
+            in = at;
+        else
+            out = at;
+    }
+    return at.s;
+}
+
+/* The first root on a span between points a and b, on which sign h is convex; infinity for none. */
+static inline float torus_first(const struct line *line, float minor, float sign,
+                                struct torus_point a, struct torus_point b)
+{
+    a.h *= sign, a.slope *= sign;
+    b.h *= sign, b.slope *= sign;
+    if (a.h < 0.0f)
+        return b.h < 0.0f ? INFINITY : torus_root(line, minor, sign, b, a);
+    struct torus_point in = b;
+    if (!(b.h < 0.0f) &&
+        !(a.slope < 0.0f && b.slope > 0.0f && torus_dip(line, minor, sign, a, b, &in)))
+        return INFINITY;
+    return torus_root(line, minor, sign, a, in);
+}
+
+/* The nearest meeting of the line with the torus, or infinity; *part tells in from out. */
+static inline float intersect_torus(float minor, const struct line *line, uint *part)
+{
+    float lo, hi;
+    if (!torus_bounds(line, minor, &lo, &hi))
+        return INFINITY;
+    const float2 concave = torus_concave(line);
+    struct torus_point a = torus_at(line, minor, 1.0f, lo);
+    for (int span = 0; span < 3; span++) {
+        const float end = span == 0 ? fmin(concave.x, hi) : span == 1 ? fmin(concave.y, hi) : hi;
+        if (!(end > a.s))
+            continue;
+        const struct torus_point b = torus_at(line, minor, 1.0f, end);
+        const float s = torus_first(line, minor, span == 1 ? -1.0f : 1.0f, a, b);
+        if (s < INFINITY) {
+            *part = a.h < 0.0f ? PART_LEAVES : 0u;
+            return s;
+        }
+        a = b;
+    }
+    return INFINITY;
+}
+
+#endif

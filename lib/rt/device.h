@@ -1,0 +1,45 @@
+/* rt/device.h - OpenCL devices. Part of rt.h, the manual. */
+#ifndef RT_RT_DEVICE_H
+#define RT_RT_DEVICE_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Device -------------------------------------------------------------------------------------- */
+
+typedef struct rt_device rt_device;
+
+typedef struct rt_device_info {
+    char name[128], platform[128], version[128], driver[128];
+    uint32_t compute_units;
+    uint64_t memory, largest_buffer; /* bytes */
+    int is_cpu;
+} rt_device_info;
+
+/*
+ * All OpenCL devices of this machine, in the order of their numbers. Free *out with
+ * rt_devices_free.
+ */
+RT_API rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error);
+RT_API void rt_devices_free(rt_device_info *devices);
+
+typedef struct rt_device_options {
+    /* a device's number in rt_devices_list, or part of its name or platform; NULL: the first */
+    const char *select;
+    uint32_t threads;    /* host threads, and compute units used of a CPU device; 0: all */
+    uint32_t work_group; /* work-items a work-group; 0: chosen for the device */
+} rt_device_options;
+
+/* Opens an OpenCL device. Fails with RT_ERROR_DEVICE when there is none or none is so named. */
+RT_API rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error);
+RT_API void rt_device_close(rt_device *device);
+RT_API void rt_device_get_info(const rt_device *device, rt_device_info *out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,145 @@
+/* rt/photon.h - photon maps. Part of rt.h, the manual. */
+#ifndef RT_RT_PHOTON_H
+#define RT_RT_PHOTON_H
+
+#include "render.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Photon maps --------------------------------------------------------------------------------- */
+
+/*
+ * An rt_photon_map is the photons of a scene: rt_photon records in the order of the paths that left
+ * them, in one list, or in two when caustic photons are kept apart. Path i of a seed is always the
+ * same path, so a map is the same to the bit whatever the number of threads and the work-group
+ * size, and parts of it can be made apart and merged. Photons that come straight from a light are
+ * stored only with RT_DIRECT_PHOTONS. The paths of caustic photons kept apart start towards
+ * specular shapes only, with as much less flux, so that the mean is that of all paths.
+ */
+typedef enum rt_photon_kind {
+    RT_PHOTONS_GLOBAL = 0, /* all photons, or all but the caustic ones when these are kept apart */
+    RT_PHOTONS_CAUSTIC     /* photons of RT_PHOTON_CAUSTIC, when they are kept apart */
+} rt_photon_kind;
+
+typedef struct rt_emit_options {
+    /*
+     * of which photons, caustic_photons, light_shares, max_depth, seed, sampler, area (the hull:
+     * RT_SAMPLER_INDEPENDENT), direct and hooks count; NULL: the scene's own
+     */
+    const rt_render_options *render;
+    /* make part `part`, counted from 0, of a map in `parts` parts; parts 0 means 1 */
+    uint32_t part, parts;
+} rt_emit_options;
+
+/*
+ * Emits photons from the lights of a scene on the device and collects them; options NULL: the
+ * scene's own. Warns of lights with power that fewer than 100 paths came from (their light is then
+ * noisy by more than 10 %), of a list that is empty or has fewer photons than the k of an estimate,
+ * and of planes under light from infinitely far, which is followed to them only within the sphere
+ * around all finite shapes. Fails with RT_ERROR_USAGE when an option is out of its range,
+ * RT_ERROR_MEMORY as soon as the first paths tell that the photons will be more than fit into the
+ * machine's memory, as does rt_render, RT_CANCELLED when a progress callback asks for it. The
+ * caller owns *out.
+ */
+RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
+                                    const rt_emit_options *options, rt_error *error);
+RT_API void rt_photon_map_destroy(rt_photon_map *map);
+
+typedef struct rt_photon_map_info {
+    uint64_t paths[2];   /* photon paths emitted, by rt_photon_kind */
+    uint64_t photons[2]; /* photons stored */
+    uint64_t rejected;   /* photons left out because they were not finite or lay beyond 1e15 m */
+    uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
+    int split;           /* caustic photons are kept apart */
+    rt_direct direct;
+    rt_sampler sampler; /* that the photons were drawn by */
+    uint32_t max_depth;
+    size_t lights; /* in the ledger */
+} rt_photon_map_info;
+RT_API void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out);
+
+/* Paths first .. first + count - 1 of a seed, which left so many photons. */
+typedef struct rt_path_range {
+    uint64_t first, count, photons;
+    uint32_t seed;
+} rt_path_range;
+
+/*
+ * The ranges of paths that a list is made of, ascending by seed and first, and as many as there are
+ * gaps; its photons follow in this order. Owned by the map.
+ */
+RT_API const rt_path_range *rt_photon_map_ranges(const rt_photon_map *map, rt_photon_kind kind,
+                                                 size_t *count);
+
+/* The photons of a kind and their number; owned by the map. */
+RT_API size_t rt_photon_map_count(const rt_photon_map *map, rt_photon_kind kind);
+RT_API const rt_photon *rt_photon_map_photons(const rt_photon_map *map, rt_photon_kind kind);
+
+/*
+ * The energy ledger of a light: emitted = absorbed + escaped + cut_off + roulette, in W, but for
+ * rounding. A light is a light of the scene, or a whole shape that emits. All of it is a mean over
+ * the photon paths, so that `emitted` differs from the light's power by the luck of how many paths
+ * it got.
+ */
+typedef struct rt_light_ledger {
+    uint32_t shape; /* the shape that emits, or RT_NONE */
+    uint64_t paths; /* photon paths that came from it */
+    double share;   /* of all paths, as was asked for */
+    double power[3];
+    double emitted[3];
+    double absorbed[3]; /* by surfaces */
+    double escaped[3];  /* out of the scene */
+    double cut_off[3];  /* still under way when paths had their longest length */
+    /* what Russian roulette took, less what it gave to the paths that went on: mean zero */
+    double roulette[3];
+} rt_light_ledger;
+
+/*
+ * Writes the first `capacity` rows of the ledger of the paths that filled the global list; returns
+ * how many it has.
+ */
+RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *out, size_t capacity);
+
+/*
+ * Irradiance, W/m^2, at count points on surfaces: positions [count][3] in metres, normals
+ * [count][3] of unit length (to half a percent; RT_ERROR_USAGE names the first point where one is
+ * not), on the side from which light is to count; rgb [count][3], undefined on failure. Of the
+ * options, k, radius, kernel, cone_k, gather and their like for the caustic map count; NULL: their
+ * defaults. Light that is left to shadow rays is not in the map.
+ */
+RT_API rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_device *device,
+                                          const float *positions, const float *normals,
+                                          size_t count, const rt_render_options *options,
+                                          rt_error *error);
+
+/*
+ * Joins maps of the same scene and options made of different seeds or parts; the result does not
+ * depend on their order, and is the map that would have been made at once, to the bit. Fails with
+ * RT_ERROR_INPUT when they do not fit together or hold the same paths. The caller owns *out.
+ */
+RT_API rt_status rt_photon_map_merge(rt_photon_map **out, const rt_photon_map *const *maps,
+                                     size_t count, rt_error *error);
+
+/*
+ * Writes a map to a file and reads it, to the bit. The file appears whole or not at all. Saving
+ * fails with RT_ERROR_OUTPUT; loading with RT_ERROR_INPUT when the file cannot be read or is
+ * damaged, with the reason.
+ */
+RT_API rt_status rt_photon_map_save(const rt_photon_map *map, const char *path, rt_error *error);
+RT_API rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *error);
+
+/*
+ * Writes the photons as the points of a binary PLY file: position, normal, flux in W, direction of
+ * travel, segments of the path, whether caustic, and an 8-bit colour (the flux by the brightest,
+ * sRGB) for viewers; and the shape that it lies on, as rt_hit.shape, and the path and seed that it
+ * is of, which a path of a merged map is known by.
+ */
+RT_API rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,201 @@
+/* rt/render.h - options of a render, and the renderer. Part of rt.h, the manual. */
+#ifndef RT_RT_RENDER_H
+#define RT_RT_RENDER_H
+
+#include "device.h"
+#include "scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Options of a render ------------------------------------------------------------------------- */
+
+typedef enum rt_mode {
+    /*
+     * path tracing with next-event estimation and multiple importance sampling; it leaves out what
+     * lights without size (point, spot, directional) cast by way of smooth mirrors or glass
+     */
+    RT_MODE_PATH = 0,
+    RT_MODE_PHOTON, /* photon mapping */
+    /* emission and direct light at the first hit (mirrors and clear glass are followed) */
+    RT_MODE_DIRECT,
+    /* shading normal n at the first hit as the colour (n + 1) / 2; black where nothing is hit */
+    RT_MODE_NORMALS,
+    /*
+     * the part of the light that the first hit does not absorb: kd + ks + kt, ks of a metal by its
+     * reflectance
+     */
+    RT_MODE_ALBEDO,
+    /* distance along the view axis, metres, mean of the samples that hit; 0 where none does */
+    RT_MODE_DEPTH
+} rt_mode;
+
+/* The name of a mode in lower case, such as "path"; static storage. */
+RT_API const char *rt_mode_name(rt_mode mode);
+/* How photons are found. */
+typedef enum rt_gather {
+    RT_GATHER_AUTO = 0, /* FLANN for the k nearest, the device for all within a radius */
+    RT_GATHER_FLANN,    /* on the host, by FLANN's kd-tree: the k nearest only */
+    /*
+     * on the device, in a tree of its own: the same photons, in less time for any k; with one of
+     * hundreds, 20 times less on a CPU
+     */
+    RT_GATHER_DEVICE
+} rt_gather;
+
+#define RT_K_ALL 0xffffffffu /* for k: all photons within `radius` */
+
+/* A map of photons; see below. */
+typedef struct rt_photon_map rt_photon_map;
+
+/* Everything a render can be told. A scene carries such options as its defaults. */
+typedef struct rt_render_options {
+    uint32_t width, height; /* pixels; 0 means 512 */
+    rt_mode mode;
+    /*
+     * samples a pixel; 0 means 64, in photon mode 16, 1 in each of its passes; no limit with time
+     * or target_error
+     */
+    uint32_t spp;
+    uint32_t max_depth; /* longest path in segments, from the eye or from a light; 0 means 16 */
+    /*
+     * segments from the eye after which Russian roulette may end a path; 0 means 2. From max_depth
+     * on, it ends none: the mean is the same, the time is not
+     */
+    uint32_t roulette_depth;
+    /*
+     * throughput below which it may, with the chance throughput / threshold to go on; from 1e-6 to
+     * 1, 0 means 0.5. 1 ends the most: more samples a second, each noisier
+     */
+    float roulette_threshold;
+    uint32_t seed; /* the same seed gives the same bits */
+    rt_sampler sampler;
+    rt_filter filter;
+    /* of direct light, see common.h; where the photon map is asked, always by light sampling */
+    rt_estimator estimator;
+    int aov; /* 1: also the layers albedo, normal and depth, see rt_film_layer */
+    /*
+     * stop after so many seconds of rendering, but only between passes that give every pixel a
+     * sample: the first one is always finished; 0: no limit
+     */
+    double time;
+    /*
+     * 1: also the layer variance, and the error in rt_film_stats. Samples, or passes, are then
+     * shared by 8 sequences that are independent of each other, which tell the error but are
+     * noisier than one of the same length. Not for a single photon map, whose samples depend on
+     * each other, nor for modes that show no light
+     */
+    int variance;
+    /*
+     * stop when the relative error of the picture, see rt_film_stats, is below this with a
+     * confidence of 95 %, as seen at 32 samples, or passes, 48, 64, 96, 128 and so on; spp, passes
+     * and time are then limits. At most 1; 0: no such end
+     */
+    double target_error;
+    /*
+     * photon paths emitted; 0 means 1 000 000. In passes, those of each pass; 0 means one a pixel
+     */
+    uint64_t photons;
+    /*
+     * nearest photons; 0 means 50. The k-th gives the radius and is not summed. RT_K_ALL: all
+     * photons within `radius`, which must be given
+     */
+    uint32_t k;
+    float radius; /* largest gather radius, metres, at least 1e-15; 0: no limit */
+    rt_gather gather;
+    /*
+     * progressive photon mapping in so many passes, each with fresh photons and eye paths (spp
+     * samples, 0 means 1), that gather all photons within a radius shrinking from pass to pass:
+     * r_{i+1}^2 = r_i^2 (i + alpha)/(i + 1) (Knaus and Zwicker 2011). The film is the mean of the
+     * passes. r_1 is `radius`, or if that is 0 each pixel's own: the distance of its k-th photon in
+     * the first pass, the median of 3 x 3 pixels and at most the mean of all; behind the final
+     * gather that mean. 0 and 1: no passes
+     */
+    uint32_t passes;
+    /* between 0 and 1, the larger the slower the radius shrinks; 0 means 2/3 */
+    float alpha;
+    /* 1: also the layers photon.count and the like, see rt_film_layer; gathers twice */
+    int photon_layers;
+    rt_density kernel; /* density kernel, see common.h */
+    /*
+     * what the flux is divided by; RT_AREA_HULL leaves the density kernel out, and is for the k
+     * nearest by FLANN. It supposes photons that are independent of each other: they are then
+     * emitted by RT_SAMPLER_INDEPENDENT, whatever the sampler of the eye paths
+     */
+    rt_area area;
+    float cone_k; /* constant of the cone kernel; 0 means 1.1 */
+    rt_direct direct;
+    uint32_t final_gather; /* gather after so many diffuse bounces instead of at the first hit */
+    /*
+     * keep caustic photons in a map of their own, filled by so many further paths, aimed at
+     * specular shapes; 0: one map for all
+     */
+    uint64_t caustic_photons;
+    uint32_t caustic_k;   /* nearest photons in the caustic map; 0 means k */
+    float caustic_radius; /* largest gather radius in the caustic map, metres; 0 means radius */
+    rt_density caustic_kernel; /* density kernel of the caustic map */
+    /*
+     * [light_share_count]: what part of the photon paths each light gets, in proportion and in the
+     * order of rt_photon_map_ledger, each from 0 to 1e15; flux is weighted so that the mean stays
+     * the same. NULL: in proportion to power. Not kept in a scene
+     */
+    const float *light_shares;
+    size_t light_share_count;
+    /* use these photons and emit none; NULL: emit. Not kept in a scene */
+    const rt_photon_map *photon_map;
+    const rt_hooks *hooks; /* NULL: none; not kept in a scene */
+} rt_render_options;
+
+/*
+ * The scene's own defaults, which the language's `film` and `render` blocks set. Checked like
+ * rt_render's.
+ */
+RT_API rt_status rt_scene_set_options(rt_scene *scene, const rt_render_options *options,
+                                      rt_error *error);
+RT_API void rt_scene_get_options(const rt_scene *scene, rt_render_options *out);
+
+/* How much a scene holds. */
+typedef struct rt_scene_info {
+    uint64_t shapes, primitives, triangles, materials, lights;
+    int has_camera;
+} rt_scene_info;
+RT_API void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out);
+
+/* ---- Renderer ------------------------------------------------------------------------------------ */
+
+typedef struct rt_renderer rt_renderer;
+
+typedef struct rt_renderer_options {
+    rt_accel accel;
+    const rt_hooks *hooks;
+} rt_renderer_options;
+
+/*
+ * Makes a scene ready on a device: builds the bounding volume hierarchy and uploads. The scene may
+ * be changed or destroyed afterwards; the device must outlive the renderer. A scene without shapes
+ * or without lights is no error here (its picture is black); one that does not fit the device's
+ * memory is.
+ */
+RT_API rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device *device,
+                                    const rt_renderer_options *options, rt_error *error);
+RT_API void rt_renderer_destroy(rt_renderer *renderer);
+
+typedef enum rt_trace_kind {
+    RT_TRACE_CLOSEST, /* the nearest hit */
+    RT_TRACE_ANY      /* whether anything is hit: of rt_hit, only shape != RT_NONE is meaningful */
+} rt_trace_kind;
+
+/*
+ * Follows count rays on the device and writes count hits. Rays must be finite, with an origin whose
+ * coordinates lie within 1e15, a direction of a length from 1e-15 to 1e15, and t_min <= t_max;
+ * t_max may be infinite. Fails with RT_ERROR_USAGE, naming the first ray that is not so.
+ */
+RT_API rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays,
+                          size_t count, rt_hit *hits, rt_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,387 @@
+/* rt/scene.h - scenes, in the language or by calls. Part of rt.h, the manual. */
+#ifndef RT_RT_SCENE_H
+#define RT_RT_SCENE_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Scene --------------------------------------------------------------------------------------- */
+
+typedef struct rt_scene rt_scene;
+
+/* What a scene may be in spite of which it can be rendered; see rt_scene_check. */
+typedef enum rt_finding_kind {
+    RT_FINDING_NONE = 0,
+    RT_FINDING_NO_CAMERA,
+    RT_FINDING_NO_SHAPE,
+    RT_FINDING_NO_LIGHT,        /* and the scene's mode shows light */
+    RT_FINDING_NOTHING_IN_VIEW, /* the camera looks past all shapes */
+    RT_FINDING_EYE_IN_THE_DARK, /* the camera is inside an opaque solid, where there is no light */
+    RT_FINDING_EYE_IN_MEDIUM,   /* the camera is inside a transparent solid: no more than a note */
+    RT_FINDING_LIGHT_SHUT_IN,   /* a light is inside an opaque solid, and the camera is not */
+    /* a shape of glass bounds nothing, not even with others of its material */
+    RT_FINDING_OPEN_GLASS
+} rt_finding_kind;
+
+typedef enum rt_severity {
+    RT_SEVERITY_ERROR = 0,
+    RT_SEVERITY_WARNING, /* allowed, but hardly meant */
+    RT_SEVERITY_NOTE     /* good to know */
+} rt_severity;
+
+/* What is to be said of a scene text. The strings live until the callback returns. */
+typedef struct rt_diagnostic {
+    rt_severity severity;
+    rt_finding_kind finding; /* what rt_scene_check found; else RT_FINDING_NONE */
+    const char *file;
+    /* from 1; column counts bytes; 0 when the file cannot be read at all */
+    int line, column;
+    int length;              /* bytes underlined, at least 1 */
+    const char *message;     /* one line: what was found and what was expected */
+    const char *hint;        /* the nearest known name or a way out, or NULL */
+    const char *source_line; /* the whole line, without newline */
+} rt_diagnostic;
+
+typedef struct rt_load_options {
+    /* told of every error and warning */
+    void (*diagnostic)(void *user, const rt_diagnostic *diagnostic);
+    void *user;
+    /* 1: the scene is to be rendered as it is; tell also what rt_scene_check finds, at its place */
+    int check;
+    /*
+     * told of every file that is read because the text names it, and of the text's own; not of what
+     * a mesh file names in turn
+     */
+    void (*file)(void *user, const char *path);
+} rt_load_options;
+
+/*
+ * Reads a scene from a .rts file. All errors of the text are reported to the diagnostic
+ * callback, in the order of their places; *error gets the first and the number of others.
+ * Files that the text names are looked up relative to the file that names them.
+ * Fails with RT_ERROR_INPUT. The caller owns *out.
+ */
+RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options,
+                               rt_error *error);
+
+/*
+ * The same from a string; `name` stands for the file in messages, NULL means
+ * "text". Files that the text names are looked up relative to the current directory.
+ */
+RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name,
+                                const rt_load_options *options, rt_error *error);
+
+/* An empty scene, to be filled by the calls below. The caller owns *out. */
+RT_API rt_status rt_scene_create(rt_scene **out, rt_error *error);
+RT_API void rt_scene_destroy(rt_scene *scene);
+
+/*
+ * An affine map as the upper three rows of its matrix, for column vectors: world = m (x, y, z, 1).
+ * All zero means the identity. It must be invertible; mirroring is allowed.
+ */
+typedef struct rt_transform {
+    float m[3][4];
+} rt_transform;
+
+/* ---- Textures ------------------------------------------------------------------------------------ */
+
+/*
+ * A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds and wraps are in
+ * common.h. An image with negative values is refused where it is to be a colour; as heights they
+ * are fine.
+ */
+typedef struct rt_texture {
+    rt_texture_kind kind;
+    const char *path; /* image: .png, .ppm, .pgm, .exr or .pfm, decided by content */
+    int linear;       /* image: 1, 8 and 16 bit samples are linear; 0, they are sRGB-encoded */
+    rt_wrap wrap;     /* image and gradient */
+    float a[3], b[3]; /* checker and gradient */
+    float scale[2];   /* u and v are multiplied by this, 0 means 1, ... */
+    float offset[2];  /* ... and then moved by this, before the lookup */
+} rt_texture;
+
+/*
+ * Adds a texture and reads its file. *out is its handle, from 1: 0 stands for "none" wherever a
+ * texture is asked. Fails with RT_ERROR_INPUT, error->field naming the member.
+ */
+RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture,
+                                      rt_error *error);
+
+/* ---- Materials ----------------------------------------------------------------------------------- */
+
+typedef enum rt_fresnel {
+    RT_FRESNEL_OFF = 0, /* ks and kt are used as given */
+    /* ks + kt is split Fr : 1 - Fr by the exact unpolarised equations for ior */
+    RT_FRESNEL_DIELECTRIC,
+    /* ks is multiplied by the exact reflectance of a metal of index eta + i k */
+    RT_FRESNEL_CONDUCTOR
+} rt_fresnel;
+
+/*
+ * A material: fr = kd/pi + ks R + kt T, with kd + ks + kt <= 1 in every channel, plus emission. R
+ * reflects and T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX
+ * distribution (Walter et al. 2007). All zero is black. The part of kt that meets total internal
+ * reflection is reflected. Microfacets scatter light once and lose what meets a second one: a white
+ * metal loses 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5.
+ */
+typedef struct rt_material {
+    float kd[3];         /* diffuse albedo */
+    float ks[3];         /* specular reflectance */
+    float kt[3];         /* specular transmittance */
+    float emission[3];   /* emitted radiance, W/(m^2 sr), on the side of the normal */
+    float ior;           /* index of refraction of the inside; 0 means 1.5 */
+    float eta[3], k[3];  /* RT_FRESNEL_CONDUCTOR: complex index of refraction, by channel */
+    float roughness;     /* GGX alpha of ks and kt, 0 to 1; 0 is perfectly smooth */
+    float absorption[3]; /* Beer-Lambert coefficient of the inside, 1/m */
+    rt_fresnel fresnel;
+    int two_sided; /* 1: emission on both sides */
+    /* nested media: where two solids overlap, the higher priority is inside; >= 0 */
+    int priority;
+    /*
+     * Texture handles; a texture multiplies the colour beside it, and where that is all zero,
+     * stands for it.
+     */
+    uint32_t kd_texture, ks_texture, kt_texture, emission_texture;
+    uint32_t bump_texture; /* mean of its channels is the height, in units of bump_scale */
+    float bump_scale;      /* metres; 0 means 1 */
+} rt_material;
+
+/*
+ * Adds a material; *out is its index, for rt_surface. `name` may be NULL. Fails with
+ * RT_ERROR_INPUT, error->field naming the member, when a value is not finite or out of range.
+ */
+RT_API rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name,
+                                       const rt_material *material, rt_error *error);
+
+/* ---- Shapes -------------------------------------------------------------------------------------- */
+
+/* What every shape has. */
+typedef struct rt_surface {
+    uint32_t material; /* index from rt_scene_add_material */
+    float radiance[3]; /* emitted radiance, W/(m^2 sr); all zero: that of the material */
+    /* or the emitted flux of the whole shape, W, spread evenly over its area (before texture) */
+    float power[3];
+    /* texture handle: multiplies kd, or the radiance when the shape has its own; 0: none */
+    uint32_t texture;
+    rt_transform transform; /* of the shape as its call describes it */
+} rt_surface;
+
+/*
+ * Each call adds one shape and, if out is not NULL, writes its index, the one that rt_hit.shape
+ * gives back. All fail with RT_ERROR_INPUT, error->field naming the parameter, when a value is not
+ * finite, out of range, or the shape has no extent: a radius below 1e-15 m or an area below 1e-30
+ * m^2. Every finite shape can emit; every closed one can be glass.
+ */
+
+/*
+ * The infinite plane through `point`; normal need not be of unit length. u, v: metres along the
+ * plane.
+ */
+RT_API rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3],
+                                    const float normal[3], const rt_surface *surface,
+                                    rt_error *error);
+/* A sphere. u: longitude from +x towards -z, v: latitude from the south pole, both in [0,1]. */
+RT_API rt_status rt_scene_add_sphere(rt_scene *scene, uint32_t *out, const float centre[3],
+                                     float radius, const rt_surface *surface, rt_error *error);
+/*
+ * An ellipsoid with its half-axes along x, y and z; surface->transform rotates it. u, v: as for the
+ * sphere.
+ */
+RT_API rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const float centre[3],
+                                        const float radii[3], const rt_surface *surface,
+                                        rt_error *error);
+/* The parallelogram corner + u edge1 + v edge2; its normal is edge1 x edge2. */
+RT_API rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3],
+                                   const float edge1[3], const float edge2[3],
+                                   const rt_surface *surface, rt_error *error);
+/*
+ * A disc, with a hole when inner_radius > 0. u: angle in [0,1], clockwise seen from the side of the
+ * normal, v: from 0 at the inner to 1 at the outer rim.
+ */
+RT_API rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3],
+                                   const float normal[3], float radius, float inner_radius,
+                                   const rt_surface *surface, rt_error *error);
+/*
+ * A cylinder from a to b, open or closed by caps. u: angle in [0,1], v: height in [0,1]; caps as a
+ * disc.
+ */
+RT_API rt_status rt_scene_add_cylinder(rt_scene *scene, uint32_t *out, const float a[3],
+                                       const float b[3], float radius, int caps,
+                                       const rt_surface *surface, rt_error *error);
+/*
+ * A cone from its base to its apex; apex_radius > 0 makes a frustum. u, v and caps: as for the
+ * cylinder.
+ */
+RT_API rt_status rt_scene_add_cone(rt_scene *scene, uint32_t *out, const float base[3],
+                                   const float apex[3], float radius, float apex_radius, int caps,
+                                   const rt_surface *surface, rt_error *error);
+/*
+ * A torus, minor_radius < major_radius. u: angle around the axis, v: angle around the tube, both in
+ * [0,1].
+ */
+RT_API rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float centre[3],
+                                    const float axis[3], float major_radius, float minor_radius,
+                                    const rt_surface *surface, rt_error *error);
+
+/*
+ * A mesh of triangles, to be placed by instances. positions [vertex_count][3] in metres, indices
+ * [triangle_count][3], counter-clockwise seen from the side of the normal. normals
+ * [vertex_count][3], uv [vertex_count][2] and colours [vertex_count][3] (multiply kd) may be NULL:
+ * flat shading, barycentric u and v, white. The arrays are copied.
+ */
+typedef struct rt_mesh_data {
+    const float *positions, *normals, *uv, *colours;
+    const uint32_t *indices;
+    size_t vertex_count, triangle_count;
+} rt_mesh_data;
+
+/*
+ * Adds a mesh from memory; *out is its handle, for rt_scene_add_instance. It is not seen until it
+ * is placed.
+ */
+RT_API rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *mesh,
+                                   rt_error *error);
+
+/* What a mesh file held. */
+typedef struct rt_mesh_info {
+    size_t vertex_count, triangle_count;
+    size_t degenerate;  /* triangles of zero area, kept but never hit */
+    uint32_t texture;   /* handle of the texture that the file names, or 0 */
+    float lo[3], hi[3]; /* bounds, metres */
+} rt_mesh_info;
+
+typedef enum rt_shading {
+    RT_SHADING_FILE = 0, /* smooth where the file has normals, else flat */
+    RT_SHADING_FLAT,     /* the normals of the file are ignored */
+    /* normals are made: at each vertex the mean of the faces around it, weighted by area */
+    RT_SHADING_SMOOTH
+} rt_shading;
+
+/*
+ * Reads a mesh from a .ply, .obj, .off or .stl file, decided by content. info may be NULL. Fails
+ * with RT_ERROR_INPUT; error->file and, in text files, error->line name the place.
+ */
+RT_API rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path,
+                                    rt_shading shading, rt_mesh_info *info, rt_error *error);
+
+/*
+ * Places a mesh by surface->transform. A mesh that is placed many times takes its memory once, but
+ * for placements that emit. rt_hit.prim is the triangle.
+ */
+RT_API rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh,
+                                       const rt_surface *surface, rt_error *error);
+
+/*
+ * A mesh placed once: rt_scene_add_mesh and rt_scene_add_instance in one call. normals may be NULL;
+ * one that is zero is replaced by that of the triangle.
+ */
+RT_API rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions,
+                                        size_t vertex_count, const uint32_t *indices,
+                                        size_t triangle_count, const float *normals,
+                                        const rt_surface *surface, rt_error *error);
+
+/* ---- Lights -------------------------------------------------------------------------------------- */
+
+/* A point light. Give intensity, or power: power = 4 pi intensity (isotropic). */
+typedef struct rt_point_light {
+    float position[3];
+    float intensity[3]; /* W/sr */
+    float power[3];     /* W */
+} rt_point_light;
+RT_API rt_status rt_scene_add_point_light(rt_scene *scene, const rt_point_light *light,
+                                          rt_error *error);
+
+/*
+ * A spot light: full intensity within inner degrees of the axis, falling smoothly (3x^2 - 2x^3 in
+ * the cosine) to none at outer.
+ */
+typedef struct rt_spot_light {
+    float position[3], target[3];
+    float intensity[3]; /* W/sr, on the axis */
+    float inner, outer; /* half-angles, degrees; outer 0 means 30, inner 0 to outer */
+} rt_spot_light;
+RT_API rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light,
+                                         rt_error *error);
+
+/* Parallel light from infinitely far. */
+typedef struct rt_directional_light {
+    float direction[3];  /* in which the light travels; need not be of unit length */
+    float irradiance[3]; /* on a surface that faces the light, W/m^2 */
+} rt_directional_light;
+RT_API rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_directional_light *light,
+                                                rt_error *error);
+
+/*
+ * Light from all around, infinitely far: constant, or an image of latitude and longitude whose
+ * centre column is seen towards -z and whose top row is +y, turned by `rotation` degrees about y.
+ * One a scene.
+ */
+typedef struct rt_environment {
+    float radiance[3]; /* W/(m^2 sr); multiplies the image; all zero means 1 with an image */
+    const char *path;  /* .exr, .pfm or another image; NULL: constant */
+    float rotation;
+} rt_environment;
+RT_API rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment,
+                                          rt_error *error);
+
+/* ---- Camera -------------------------------------------------------------------------------------- */
+
+typedef enum rt_camera_kind {
+    RT_CAMERA_PERSPECTIVE = 0,
+    RT_CAMERA_ORTHOGRAPHIC, /* parallel rays; `width` metres across */
+    /* all directions: longitude across, latitude down, look_at in the centre */
+    RT_CAMERA_ENVIRONMENT
+} rt_camera_kind;
+
+/* A camera; image x grows to the right of one who stands at eye and looks at look_at. */
+typedef struct rt_camera {
+    rt_camera_kind kind;
+    float eye[3];
+    float look_at[3];
+    float up[3]; /* all zero means (0, 1, 0) */
+    float fov;   /* full horizontal angle, degrees, below 180; 0 means 45 */
+    float width; /* orthographic: metres across; 0 means 2 */
+    /* lens radius, metres, at most 1e15; 0 is a pinhole; an environment camera always is one */
+    float aperture;
+    /*
+     * metres along the view axis to the plane in focus, from 1e-15 to 1e15; 0 means that of
+     * look_at, which has the same range
+     */
+    float focal_distance;
+    uint32_t blades;      /* edges of the aperture, 3 or more; 0: round */
+    float blade_rotation; /* degrees */
+} rt_camera;
+RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error);
+
+/* ---- Checking ------------------------------------------------------------------------------------ */
+
+/* One thing found. The message lives until the callback returns. */
+typedef struct rt_finding {
+    rt_finding_kind kind;
+    rt_severity severity;
+    uint32_t shape; /* the solid or open shape that it is about, or RT_NONE */
+    uint32_t lamp;  /* the shape that shines in it, or RT_NONE, or ... */
+    /* ... the light that is no shape, counted from 0 in the order in which they were added */
+    uint32_t light;
+    const char *message; /* one line */
+} rt_finding;
+
+/*
+ * Tells a callback what makes the picture of a complete scene, with its own options, black or
+ * empty, and of glass without an inside; returns how many warnings there were. There are no false
+ * alarms: solids are spheres, ellipsoids, tori, cylinders and cones with caps, and closed meshes;
+ * what is inside of them is decided in double precision, and a light only counts as shut in when
+ * all of it is. Light that a room of several shapes shuts out is not found, and of many lights the
+ * first 256 are looked at.
+ */
+RT_API size_t rt_scene_check(const rt_scene *scene,
+                             void (*found)(void *user, const rt_finding *finding), void *user);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
