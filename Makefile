@@ -29,36 +29,39 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 # ---- Sources ----------------------------------------------------------------
 
 LIB_SRC := \
-	lib/error.c lib/progress.c lib/version.c \
-	lib/accel/bvh.c lib/accel/collapse.c lib/accel/parallel.c lib/accel/partition.c lib/accel/refs.c \
+	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
+	lib/base/bytes.c lib/base/crc32.c lib/base/error.c lib/base/file.c lib/base/half.c \
+	lib/base/parallel.c lib/base/progress.c lib/base/version.c \
 	lib/device/buffer.c lib/device/device.c lib/device/program.c \
-	lib/image/bytes.c lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c \
-	lib/image/display.c lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/file.c \
-	lib/image/flip.c lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
-	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c lib/image/srgb.c \
-	lib/image/ssim.c \
-	lib/light/environment.c lib/light/lights.c lib/light/tree.c \
-	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/mesh.c lib/mesh/normals.c lib/mesh/obj.c lib/mesh/off.c \
-	lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c lib/mesh/ply_reader.c \
-	lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c lib/mesh/text.c lib/mesh/text_number.c \
-	lib/mesh/unique.c \
-	lib/photon/crc32.c lib/photon/device_gather.c lib/photon/emit.c lib/photon/fingerprint.c \
-	lib/photon/flann_index.c lib/photon/forecast.c lib/photon/gather.c lib/photon/ledger.c lib/photon/map_merge.c \
-	lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c lib/photon/photon_list.c \
-	lib/photon/photon_map.c lib/photon/point_order.c lib/photon/search.c lib/photon/sources.c \
-	lib/photon/tree.c \
-	lib/render/aov.c lib/render/enclose.c lib/render/film.c lib/render/film_image.c lib/render/film_layers.c \
-	lib/render/noise.c lib/render/photon_bias.c lib/render/photon_eye.c lib/render/photon_irradiance.c \
-	lib/render/photon_layers.c lib/render/photon_maps.c lib/render/photon_mode.c lib/render/photon_pass.c \
-	lib/render/photon_passes.c lib/render/render.c lib/render/renderer.c lib/render/replicates.c lib/render/sample_mode.c \
-	lib/render/sobol.c lib/render/student.c lib/render/trace.c \
-	lib/scene/area.c lib/scene/camera.c lib/scene/findings.c lib/scene/hierarchy.c lib/scene/inside.c \
-	lib/scene/light.c lib/scene/material.c lib/scene/mesh.c lib/scene/mesh_file.c lib/scene/options.c \
-	lib/scene/pack.c lib/scene/pack_materials.c lib/scene/pack_shapes.c lib/scene/pack_targets.c \
-	lib/scene/scene.c lib/scene/shape.c lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c \
-	lib/scene/view.c \
-	lib/texture/half.c lib/texture/texture.c
+	lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c \
+	lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/flip.c \
+	lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
+	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c \
+	lib/image/srgb.c lib/image/ssim.c \
+	lib/light/lights.c lib/light/tree.c \
+	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/mesh.c lib/mesh/normals.c lib/mesh/obj.c \
+	lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c \
+	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c \
+	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
+	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c lib/pack/sobol.c \
+	lib/pack/targets.c \
+	lib/photon/device_gather.c lib/photon/emit.c lib/photon/fingerprint.c \
+	lib/photon/flann_index.c lib/photon/forecast.c lib/photon/gather.c lib/photon/ledger.c \
+	lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
+	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/point_order.c \
+	lib/photon/search.c lib/photon/sources.c lib/photon/tree.c \
+	lib/render/aov.c lib/render/enclose.c lib/render/film.c lib/render/film_image.c \
+	lib/render/film_layers.c lib/render/noise.c lib/render/photon_bias.c lib/render/photon_eye.c \
+	lib/render/photon_irradiance.c lib/render/photon_layers.c lib/render/photon_maps.c \
+	lib/render/photon_mode.c lib/render/photon_pass.c lib/render/photon_passes.c \
+	lib/render/render.c lib/render/renderer.c lib/render/replicates.c lib/render/sample_mode.c \
+	lib/render/student.c lib/render/trace.c \
+	lib/scene/area.c lib/scene/camera.c lib/scene/environment.c lib/scene/findings.c \
+	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
+	lib/scene/mesh_file.c lib/scene/options.c lib/scene/scene.c lib/scene/shape.c \
+	lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
+	lib/texture/texture.c
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
@@ -97,15 +100,16 @@ TESTS_QUICK := \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
+	tests/lib/base/test_file.c tests/lib/base/test_half.c \
 	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c tests/lib/image/test_display.c \
-	tests/lib/image/test_exr.c tests/lib/image/test_file.c tests/lib/image/test_flip.c \
+	tests/lib/image/test_exr.c tests/lib/image/test_flip.c \
 	tests/lib/image/test_image.c tests/lib/image/test_image_file.c tests/lib/image/test_netpbm.c \
 	tests/lib/image/test_png.c tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c \
 	tests/lib/image/test_srgb.c tests/lib/image/test_ssim.c \
-	tests/lib/light/test_environment.c \
 	tests/lib/mesh/test_damage.c tests/lib/mesh/test_mesh.c tests/lib/mesh/test_obj.c \
 	tests/lib/mesh/test_off.c tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c \
 	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
+	tests/lib/pack/test_pack.c \
 	tests/lib/photon/test_device_gather.c tests/lib/photon/test_emit.c tests/lib/photon/test_fingerprint.c \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c tests/lib/photon/test_ledger.c \
 	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c tests/lib/photon/test_photon_list.c \
@@ -114,9 +118,9 @@ TESTS_QUICK := \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_materials.c tests/lib/render/test_modes.c tests/lib/render/test_photon_maps.c \
 	tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c \
-	tests/lib/scene/test_findings.c tests/lib/scene/test_pack.c tests/lib/scene/test_scene.c \
+	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c tests/lib/scene/test_scene.c \
 	tests/lib/scene/test_shapes.c \
-	tests/lib/texture/test_half.c tests/lib/texture/test_texture.c \
+	tests/lib/texture/test_texture.c \
 	tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \

@@ -8,7 +8,7 @@
 #include "accel/refs.h"
 #include "accel/tree.h"
 #include "accel/wide.h"
-#include "error.h"
+#include "base/error.h"
 
 struct rt_bvh {
     rt_bvh_input input;

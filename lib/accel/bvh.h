@@ -18,7 +18,7 @@
 
 #include <stdint.h>
 
-#include "progress.h"
+#include "base/progress.h"
 #include "rt.h"
 #include "types.h"
 

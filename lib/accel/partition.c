@@ -8,8 +8,8 @@
 
 #include <string.h>
 
-#include "accel/parallel.h"
 #include "accel/split.h"
+#include "base/parallel.h"
 
 enum { JOB_CHUNKS = 16, EXCHANGE_JOBS = 16 };
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "accel/parallel.h"
+#include "base/parallel.h"
 
 enum { CHUNK = 16384 };
 

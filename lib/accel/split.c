@@ -1,8 +1,8 @@
 /* split.c - bins, their costs, and the choice among them. */
 #include "accel/split.h"
 
-#include "accel/parallel.h"
 #include "accel/partition.h"
+#include "base/parallel.h"
 
 enum { BINS = 32, JOBS = 16 };
 

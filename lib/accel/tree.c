@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
 #include "accel/split.h"
-#include "error.h"
+#include "base/error.h"
+#include "base/parallel.h"
 
 /* Below this depth of the binary tree sets are halved, which bounds the recursion. */
 enum { SAH_DEPTH = 64 };

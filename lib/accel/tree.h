@@ -6,7 +6,7 @@
 
 #include "accel/collapse.h"
 #include "accel/refs.h"
-#include "progress.h"
+#include "base/progress.h"
 #include "rt.h"
 
 typedef struct rt_tree_node {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
+#include "base/parallel.h"
 
 /* A part holds at most so many references. */
 enum { PART_REFS = 16384 };

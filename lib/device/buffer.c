@@ -1,8 +1,8 @@
 /* buffer.c - device memory, kernel arguments and launches. */
 #include <stdio.h>
 
+#include "base/error.h"
 #include "device/device.h"
-#include "error.h"
 
 const char *rt_cl_error_name(cl_int code)
 {

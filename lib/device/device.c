@@ -7,7 +7,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "error.h"
+#include "base/error.h"
 
 enum {
     platforms_max = 16,

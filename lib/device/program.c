@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
+#include "base/progress.h"
 #include "device/device.h"
-#include "error.h"
-#include "progress.h"
 
 /* Copies the first line of a build log that speaks of an error. */
 static void first_error(char *line, size_t size, const char *log)

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "error.h"
+#include "base/error.h"
 
 /* Pictures of one size: linear, [height][width][3], top row first. */
 typedef struct rt_pictures {

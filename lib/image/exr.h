@@ -6,7 +6,7 @@
 #ifndef RT_LIB_IMAGE_EXR_H
 #define RT_LIB_IMAGE_EXR_H
 
-#include "image/bytes.h"
+#include "base/bytes.h"
 #include "image/image.h"
 
 /*

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "error.h"
+#include "base/error.h"
 
 /*
  * The mean of LDR-FLIP over the pixels, 0 to 1, of a and b, linear RGB [height][width][3],

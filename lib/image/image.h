@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "error.h"
+#include "base/error.h"
 
 #define RT_IMAGE_SIDE_MAX 65536u
 #define RT_IMAGE_CHANNELS_MAX 256u

@@ -3,8 +3,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/file.h"
 #include "image/exr.h"
-#include "image/file.h"
 #include "image/netpbm.h"
 #include "image/png.h"
 

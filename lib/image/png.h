@@ -2,7 +2,7 @@
 #ifndef RT_LIB_IMAGE_PNG_H
 #define RT_LIB_IMAGE_PNG_H
 
-#include "image/bytes.h"
+#include "base/bytes.h"
 #include "image/image.h"
 
 /*

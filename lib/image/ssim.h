@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "error.h"
+#include "base/error.h"
 
 /*
  * The mean structural similarity of a and b, linear RGB [height][width][3]: of their luminance,

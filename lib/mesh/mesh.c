@@ -5,7 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "image/file.h"
+#include "base/file.h"
 #include "mesh/canonical.h"
 #include "mesh/formats.h"
 #include "mesh/normals.h"

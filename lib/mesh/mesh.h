@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "error.h"
+#include "base/error.h"
 
 /* Owns its arrays. Every number in them is finite and every index below vertex_count. */
 typedef struct rt_mesh {

@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "error.h"
-#include "progress.h"
+#include "base/error.h"
+#include "base/progress.h"
 
 typedef struct rt_mesh_source {
     const char *path;

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "photon/forecast.h"
 
 /* Bounds of a batch: the memory of its slots, and its length, so that progress moves. */

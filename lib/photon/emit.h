@@ -2,10 +2,10 @@
 #ifndef RT_LIB_PHOTON_EMIT_H
 #define RT_LIB_PHOTON_EMIT_H
 
+#include "base/progress.h"
 #include "device/device.h"
 #include "photon/photon_map.h"
 #include "photon/sources.h"
-#include "progress.h"
 
 /* What emits: a scene's lights, and memory for a batch of paths. Serves any number of emissions. */
 typedef struct rt_emitter rt_emitter;

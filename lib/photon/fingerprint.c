@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "types.h"
 
 static const uint64_t basis = 0xcbf29ce484222325u, prime = 0x100000001b3u;

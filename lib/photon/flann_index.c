@@ -21,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 
 enum { LEAF_SIZE = 16 }; /* points a leaf: the fastest for k = 50 to 500 of 10^5 to 10^6 points */
 

@@ -2,7 +2,7 @@
 
 #include <unistd.h>
 
-#include "error.h"
+#include "base/error.h"
 
 uint64_t rt_physical_memory(void)
 {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
-#include "error.h"
+#include "base/error.h"
+#include "base/parallel.h"
 
 /*
  * Bits of a unit below the flux of one path: rounding is 4e-9 of it, and 10^11 paths fit into a

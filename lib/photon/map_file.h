@@ -40,7 +40,7 @@
 #ifndef RT_LIB_PHOTON_MAP_FILE_H
 #define RT_LIB_PHOTON_MAP_FILE_H
 
-#include "image/bytes.h"
+#include "base/bytes.h"
 #include "photon/photon_map.h"
 
 enum { RT_MAP_VERSION = 2 };

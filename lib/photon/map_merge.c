@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "photon/photon_map.h"
 
 /* A range of one of the maps, and where its photons lie. */

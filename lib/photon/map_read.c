@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
-#include "image/file.h"
-#include "photon/crc32.h"
+#include "base/crc32.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "photon/map_file.h"
 #include "scene/check.h"
 

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
-#include "image/file.h"
-#include "photon/crc32.h"
+#include "base/crc32.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "photon/map_file.h"
 
 const uint8_t rt_map_magic[8] = {0x89, 'R', 'T', 'P', '\r', '\n', 0x1a, '\n'};

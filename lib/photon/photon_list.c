@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "accel/parallel.h"
-#include "error.h"
+#include "base/error.h"
+#include "base/parallel.h"
 
 rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *error)
 {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
-#include "progress.h"
+#include "base/error.h"
+#include "base/progress.h"
 
 rt_photon_settings rt_photon_settings_of(const rt_render_options *o)
 {

@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
-#include "error.h"
+#include "base/error.h"
+#include "base/parallel.h"
 
 enum { CURVE_BITS = 12 }; /* an axis */
 enum { INDEX_BITS = 28 }; /* beside a key in an item */

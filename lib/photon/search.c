@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
-#include "error.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "photon/flann_index.h"
 #include "photon/point_order.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 
 static const void *table(const rt_scene_header *scene, rt_u32 offset)
 {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
-#include "error.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "photon/point_order.h"
 
 enum { NODES_A_JOB = 256 };

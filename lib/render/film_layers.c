@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "render/film.h"
 
 const rt_layer_kind rt_layer_kinds[RT_FILM_LAYERS] = {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 
 /* The hull needs four photons and the k-th to tell of any density. */
 enum { K_LEAST = 2, K_LEAST_HULL = 5 };

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 
 rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *renderer, int on_device,
                                  rt_stage_progress *progress, rt_error *error)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "photon/gather.h"
 #include "photon/photon_map.h"
 #include "photon/point_order.h"

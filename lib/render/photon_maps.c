@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "photon/emit.h"
 #include "photon/fingerprint.h"
 #include "render/renderer.h"

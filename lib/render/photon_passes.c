@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "render/noise.h"
 #include "render/photon_render.h"
 

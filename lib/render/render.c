@@ -2,8 +2,8 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "error.h"
-#include "image/bytes.h"
+#include "base/bytes.h"
+#include "base/error.h"
 #include "render/noise.h"
 #include "render/renderer.h"
 #include "scene/view.h"

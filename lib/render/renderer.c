@@ -3,9 +3,9 @@
 
 #include <stdlib.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "light/lights.h"
-#include "scene/pack.h"
+#include "pack/pack.h"
 
 rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device *device,
                              const rt_renderer_options *options, rt_error *error)

@@ -2,11 +2,11 @@
 #ifndef RT_LIB_RENDER_RENDERER_H
 #define RT_LIB_RENDER_RENDERER_H
 
+#include "base/progress.h"
 #include "device/device.h"
-#include "progress.h"
+#include "pack/pack.h"
 #include "render/film.h"
 #include "rt.h"
-#include "scene/pack.h"
 #include "types.h"
 
 struct rt_renderer {

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "render/aov.h"
 #include "render/noise.h"
 #include "render/renderer.h"

@@ -1,7 +1,7 @@
 /* trace.c - rt_trace: rays in, hits out. */
 #include <math.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "render/renderer.h"
 
 enum { rays_per_batch = 1 << 22 };

@@ -1,5 +1,5 @@
 /* camera.c - the camera of a scene: defaults and ranges. */
-#include "error.h"
+#include "base/error.h"
 #include "scene/check.h"
 #include "scene/scene.h"
 

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "error.h"
-#include "scene/vec.h"
+#include "base/error.h"
+#include "base/vec.h"
 #include "types.h"
 
 /*

@@ -2,12 +2,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
-#include "image/file.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "image/image_file.h"
 #include "image/srgb.h"
-#include "light/environment.h"
 #include "scene/check.h"
+#include "scene/environment.h"
 #include "scene/scene.h"
 
 static const double pi = 3.14159265358979323846;

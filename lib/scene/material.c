@@ -1,7 +1,7 @@
 /* material.c - adding materials to a scene: defaults, ranges, and that none gains energy. */
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "scene/check.h"
 #include "scene/scene.h"
 

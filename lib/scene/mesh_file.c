@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "mesh/mesh.h"
 #include "scene/check.h"
 #include "scene/scene.h"

@@ -1,7 +1,7 @@
 /* options.c - the ranges of render options. */
 #include <math.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "scene/check.h"
 #include "scene/scene.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 
 rt_status rt_scene_create(rt_scene **out, rt_error *error)
 {

@@ -2,7 +2,7 @@
 #ifndef RT_LIB_SCENE_SCENE_H
 #define RT_LIB_SCENE_SCENE_H
 
-#include "image/bytes.h"
+#include "base/bytes.h"
 #include "rt.h"
 #include "scene/transform.h"
 #include "types.h"

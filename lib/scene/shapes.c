@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "error.h"
+#include "base/error.h"
 #include "scene/area.h"
 #include "scene/check.h"
 #include "scene/scene.h"

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error.h"
-#include "image/file.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "image/image_file.h"
 #include "image/srgb.h"
 #include "scene/check.h"

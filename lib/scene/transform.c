@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/vec.h"
+#include "base/vec.h"
 
 /* Entries of an inverse that kernels can still work with. */
 static const double inverse_max = 1e30;

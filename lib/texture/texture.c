@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/half.h"
 #include "image/srgb.h"
-#include "texture/half.h"
 
 enum { codes = 256, half_top_exponent = 14 };
 

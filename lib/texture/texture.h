@@ -13,7 +13,7 @@
 #ifndef RT_LIB_TEXTURE_TEXTURE_H
 #define RT_LIB_TEXTURE_TEXTURE_H
 
-#include "image/bytes.h"
+#include "base/bytes.h"
 #include "image/image.h"
 #include "types.h"
 

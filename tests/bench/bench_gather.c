@@ -15,11 +15,11 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/progress.h"
 #include "lib/photon/points.h"
 #include "photon/device_gather.h"
 #include "photon/point_order.h"
 #include "photon/search.h"
-#include "progress.h"
 
 enum { runs = 5 };
 

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "progress.h"
+#include "base/progress.h"
 #include "rt.h"
 
 enum { runs = 5, side = 512 };

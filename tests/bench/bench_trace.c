@@ -16,9 +16,9 @@
 #include <unistd.h>
 
 #include "accel/bvh.h"
+#include "base/progress.h"
 #include "bench/embree_peer.h"
 #include "device/device.h"
-#include "progress.h"
 #include "render/renderer.h"
 #include "rt.h"
 

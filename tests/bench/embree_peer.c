@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
+#include "base/parallel.h"
 
 enum { CHUNK = 1024 };
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "render/sobol.h"
+#include "pack/sobol.h"
 #include "types.h"
 
 cl_mem rng_scene(void)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/sobol.h"
+#include "pack/sobol.h"
 #include "statistics.h"
 #include "types.h"
 

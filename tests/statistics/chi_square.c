@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
+#include "base/parallel.h"
 #include "chance.h"
 #include "kernels/statistics.h"
 #include "lib/image/scratch.h"

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "scene/vec.h"
+#include "base/vec.h"
 #include "statistics/chi_square.h"
 
 static inline double dot3(const double a[3], const double b[3])

@@ -5,7 +5,7 @@
 #ifndef RT_TESTS_IMAGE_DAMAGE_H
 #define RT_TESTS_IMAGE_DAMAGE_H
 
-#include "image/bytes.h"
+#include "base/bytes.h"
 #include "image/image.h"
 
 typedef rt_status decoder(rt_image **out, const rt_bytes *file, const char *name, rt_error *error);

@@ -2,7 +2,7 @@
 #ifndef RT_TESTS_IMAGE_EXR_SAMPLE_H
 #define RT_TESTS_IMAGE_EXR_SAMPLE_H
 
-#include "image/bytes.h"
+#include "base/bytes.h"
 #include "image/exr_core.h"
 
 typedef struct exr_sample {

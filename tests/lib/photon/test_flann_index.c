@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accel/parallel.h"
+#include "base/parallel.h"
 #include "lib/photon/points.h"
 #include "photon/flann_index.h"
 

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/file.h"
+#include "base/crc32.h"
+#include "base/file.h"
 #include "lib/image/scratch.h"
-#include "photon/crc32.h"
 #include "photon/map_file.h"
 
 static const char scene_text[] =

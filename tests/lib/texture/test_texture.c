@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
+#include "base/half.h"
 #include "image/srgb.h"
-#include "texture/half.h"
 #include "texture/texture.h"
 
 enum { codes = 256 };

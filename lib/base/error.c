@@ -1,0 +1,54 @@
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static void fill(rt_error *error, rt_status status, const char *field, const char *format,
+                 va_list args)
+{
+    memset(error, 0, sizeof *error);
+    error->status = status;
+    if (field)
+        snprintf(error->field, sizeof error->field, "%s", field);
+    vsnprintf(error->message, sizeof error->message, format, args);
+    /* A message is one line, whatever was quoted in it. */
+    for (char *c = error->message; *c; c++)
+        if (*c == '\n' || *c == '\r')
+            *c = ' ';
+}
+
+rt_status rt_fail(rt_error *error, rt_status status, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    if (error)
+        fill(error, status, NULL, format, args);
+    va_end(args);
+    return status;
+}
+
+rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, const char *format,
+                        ...)
+{
+    va_list args;
+    va_start(args, format);
+    if (error)
+        fill(error, status, field, format, args);
+    va_end(args);
+    return status;
+}
+
+rt_status rt_at_file(rt_status status, const char *path, rt_error *error)
+{
+    if (status != RT_OK && status != RT_ERROR_USAGE && error && !error->file[0])
+        snprintf(error->file, sizeof error->file, "%s", path);
+    return status;
+}
+
+int rt_is_missing(const void *pointer, const char *name, rt_error *error)
+{
+    if (!pointer)
+        rt_fail_field(error, RT_ERROR_USAGE, name, "%s is NULL", name);
+    return pointer == NULL;
+}

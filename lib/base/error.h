@@ -1,0 +1,31 @@
+/* error.h - how internal functions report what went wrong. */
+#ifndef RT_LIB_BASE_ERROR_H
+#define RT_LIB_BASE_ERROR_H
+
+#include "rt.h"
+
+#if defined(__GNUC__)
+#define RT_PRINTF(string, first) __attribute__((format(printf, string, first)))
+#else
+#define RT_PRINTF(string, first)
+#endif
+
+/* Fills *error (may be NULL) with status and a one-line message; returns status. */
+rt_status rt_fail(rt_error *error, rt_status status, const char *format, ...) RT_PRINTF(3, 4);
+
+/* The same, naming the option or field at fault, so that a parser can point at its place. */
+rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, const char *format,
+                        ...) RT_PRINTF(4, 5);
+
+/*
+ * Names the file that was worked on in *error (may be NULL) when status is a failure of that work,
+ * unless a file that it names in turn is to blame. Returns status.
+ */
+rt_status rt_at_file(rt_status status, const char *path, rt_error *error);
+
+/*
+ * Whether a pointer that a call cannot do without is NULL; then *error says so as RT_ERROR_USAGE.
+ */
+int rt_is_missing(const void *pointer, const char *name, rt_error *error);
+
+#endif

@@ -1,0 +1,257 @@
+#define _XOPEN_SOURCE 700 /* realpath */
+
+#include "base/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define READ_CHUNK 65536u
+#define NAME_TRIES 1000u
+
+/* Reports errno for path. The precision keeps the cause in the message, however long the path. */
+static rt_status fail_errno(rt_error *error, rt_status status, const char *verb, const char *path,
+                            int code)
+{
+    char cause[128];
+    if (strerror_r(code, cause, sizeof cause) != 0)
+        snprintf(cause, sizeof cause, "error %d", code);
+    return rt_at_file(rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause), path,
+                      error);
+}
+
+/* Reads on until there are `most` bytes, or to the end of the file. */
+static rt_status read_up_to(rt_bytes *bytes, int fd, const char *path, size_t most, rt_error *error)
+{
+    uint8_t chunk[READ_CHUNK];
+    while (bytes->size < most) {
+        size_t left = most - bytes->size;
+        ssize_t count = read(fd, chunk, left < sizeof chunk ? left : sizeof chunk);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
+        if (count == 0)
+            return RT_OK;
+        rt_status status = rt_bytes_put(bytes, bytes->size, chunk, (size_t)count, error);
+        if (status != RT_OK)
+            return status;
+    }
+    return RT_OK;
+}
+
+/* Reads to the end of the file, which is refused when it has more than limit bytes. */
+static rt_status read_all(rt_bytes *bytes, int fd, const char *path, size_t limit, rt_error *error)
+{
+    rt_status status = read_up_to(bytes, fd, path, limit + 1, error);
+    if (status == RT_OK && bytes->size > limit)
+        return rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is larger than %zu bytes",
+                       path, limit);
+    return status;
+}
+
+rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error)
+{
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
+    rt_bytes bytes = {0};
+    rt_status status = read_all(&bytes, fd, path, limit, error);
+    close(fd);
+    if (status == RT_OK)
+        *out = bytes;
+    else
+        rt_bytes_free(&bytes);
+    return rt_at_file(status, path, error);
+}
+
+rt_status rt_file_check_regular(const char *path, rt_error *error)
+{
+    struct stat info;
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
+        return rt_at_file(
+            rt_fail(error, RT_ERROR_INPUT, "cannot read %.350s: it is not a regular file", path),
+            path, error);
+    return RT_OK;
+}
+
+/*
+ * Says by how much a file is longer than its start tells, where that can be known without reading
+ * on.
+ */
+static rt_status fail_longer(int fd, const char *path, uint64_t told, rt_error *error)
+{
+    struct stat info;
+    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && (uint64_t)info.st_size > told)
+        return rt_fail(
+            error, RT_ERROR_INPUT,
+            "cannot read %.350s: it has %llu bytes more than the %llu that its header announces",
+            path, (unsigned long long)((uint64_t)info.st_size - told), (unsigned long long)told);
+    return rt_fail(error, RT_ERROR_INPUT,
+                   "cannot read %.350s: it has more bytes than the %llu that its header announces",
+                   path, (unsigned long long)told);
+}
+
+rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell,
+                            rt_error *error)
+{
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
+    uint64_t told = 0;
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
+    rt_bytes bytes = {0};
+    rt_status status = read_up_to(&bytes, fd, path, start, error);
+    if (status == RT_OK)
+        status = tell(&told, bytes.data, bytes.size, path, error);
+    if (status == RT_OK)
+        status = read_up_to(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told + 1 : SIZE_MAX / 2,
+                            error);
+    if (status == RT_OK && bytes.size > told)
+        status = fail_longer(fd, path, told, error);
+    close(fd);
+    if (status == RT_OK)
+        *out = bytes;
+    else
+        rt_bytes_free(&bytes);
+    return rt_at_file(status, path, error);
+}
+
+/* The functions below return 0, or the errno of what failed. */
+
+static int write_all(int fd, const rt_bytes *bytes)
+{
+    size_t done = 0;
+    while (done < bytes->size) {
+        ssize_t count = write(fd, bytes->data + done, bytes->size - done);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return errno;
+        done += (size_t)count;
+    }
+    return 0;
+}
+
+static int close_file(int fd)
+{
+    /*
+     * After EINTR the descriptor is gone on Linux, and fsync already told whether the data is safe.
+     */
+    return close(fd) != 0 && errno != EINTR ? errno : 0;
+}
+
+static int write_in_place(const char *path, const rt_bytes *bytes)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    if (fd < 0)
+        return errno;
+    int code = write_all(fd, bytes);
+    int close_code = close_file(fd);
+    return code ? code : close_code;
+}
+
+/*
+ * Opens a new file beside target under a name that no other file has. The name does not grow with
+ * target's own, so that a name of the greatest allowed length works too.
+ */
+static int open_temporary(int *fd, char *name, size_t name_size, const char *target)
+{
+    const char *slash = strrchr(target, '/');
+    int directory_length = slash ? (int)(slash - target) + 1 : 0;
+    for (unsigned i = 0; i < NAME_TRIES; i++) {
+        int length = snprintf(name, name_size, "%.*s.rt-%ld-%u.tmp", directory_length, target,
+                              (long)getpid(), i);
+        if (length < 0 || (size_t)length >= name_size)
+            return ENAMETOOLONG;
+        *fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (*fd >= 0)
+            return 0;
+        if (errno != EEXIST)
+            return errno;
+    }
+    return EEXIST;
+}
+
+/*
+ * Writes a temporary file and renames it to target; `old` is target's status or NULL when it is
+ * new.
+ */
+static int replace(const char *target, const struct stat *old, const rt_bytes *bytes)
+{
+    char name[PATH_MAX];
+    int fd;
+    if (old && access(target, W_OK) != 0)
+        return errno;
+    int code = open_temporary(&fd, name, sizeof name, target);
+    if (code)
+        return code;
+    code = write_all(fd, bytes);
+    if (!code && old && fchmod(fd, old->st_mode & 0777) != 0)
+        code = errno;
+    if (!code && fsync(fd) != 0)
+        code = errno;
+    int close_code = close_file(fd);
+    if (!code)
+        code = close_code;
+    if (!code && rename(name, target) != 0)
+        code = errno;
+    if (code)
+        unlink(name);
+    return code;
+}
+
+/* Makes the file that path, a link to nothing, points to. */
+static int make_target(const char *path, const rt_bytes *bytes)
+{
+    /* Its name is known once it is there. */
+    int fd = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return errno;
+    close_file(fd);
+    char *target = realpath(path, NULL);
+    if (!target)
+        return errno;
+    int code = replace(target, NULL, bytes);
+    if (code)
+        unlink(target);
+    free(target);
+    return code;
+}
+
+rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error)
+{
+    if (rt_is_missing(path, "path", error))
+        return RT_ERROR_USAGE;
+    struct stat old, link;
+    int code;
+    if (stat(path, &old) != 0) {
+        code = errno;
+        if (code == ENOENT)
+            code = lstat(path, &link) == 0 ? make_target(path, bytes) : replace(path, NULL, bytes);
+    } else if (S_ISDIR(old.st_mode)) {
+        code = EISDIR;
+    } else if (!S_ISREG(old.st_mode)) {
+        code = write_in_place(path, bytes);
+    } else {
+        /* Replace what a symbolic link points to, not the link. */
+        char *target = realpath(path, NULL);
+        code = target ? replace(target, &old, bytes) : errno;
+        free(target);
+    }
+    return code ? fail_errno(error, RT_ERROR_OUTPUT, "write", path, code) : RT_OK;
+}
+
+rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error)
+{
+    rt_bytes bytes = {(uint8_t *)data, size, size}; /* only read */
+    return rt_file_replace(path, &bytes, error);
+}

@@ -1,0 +1,158 @@
+#include "pack/hierarchy.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+/* ---- Input of the tree of all shapes ---------------------------------------- */
+
+/* The mesh's vertices where the shape places them. */
+static rt_status place_vertices(float **out, const rt_scene *scene, const rt_scene_shape *shape,
+                                rt_error *error)
+{
+    size_t count = scene->meshes[shape->mesh].vertex_count;
+    float *positions = malloc(count * 3 * sizeof *positions);
+    if (!positions)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu vertices", count);
+    for (size_t i = 0; i < count; i++)
+        rt_scene_vertex(scene, shape, i, positions + 3 * i);
+    *out = positions;
+    return RT_OK;
+}
+
+static rt_status list_mesh(rt_hierarchy *h, rt_bvh_mesh *out, const rt_scene *scene, size_t index,
+                           rt_u32 first_prim, rt_error *error)
+{
+    const rt_scene_shape *shape = scene->shapes + index;
+    const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
+    rt_status status = RT_OK;
+    if (shape->has_transform)
+        status = place_vertices(h->positions + index, scene, shape, error);
+    out->positions = shape->has_transform ? h->positions[index] : mesh->positions;
+    out->indices = mesh->indices;
+    out->triangle_count = (uint32_t)mesh->triangle_count;
+    out->first_prim = first_prim;
+    return status;
+}
+
+static void list_quad(rt_bvh_quad *quad, const rt_scene_shape *shape, rt_u32 prim)
+{
+    memcpy(quad->corner, shape->p, sizeof quad->corner);
+    memcpy(quad->edge1, shape->p + 3, sizeof quad->edge1);
+    memcpy(quad->edge2, shape->p + 6, sizeof quad->edge2);
+    quad->prim = prim;
+}
+
+/* A shape with a box of its own: an analytic one or an instance. */
+static void list_box(rt_bvh_analytic *entry, const rt_scene_shape *shape, rt_u32 index)
+{
+    memcpy(entry->lo, shape->lo, sizeof entry->lo);
+    memcpy(entry->hi, shape->hi, sizeof entry->hi);
+    entry->shape = index;
+}
+
+/* Lists all shapes but planes. */
+static rt_status list_shapes(rt_hierarchy *h, rt_bvh_input *input, const rt_scene *scene,
+                             const rt_u32 *first_prim, rt_error *error)
+{
+    size_t shapes = scene->shape_count;
+    rt_status status = RT_OK;
+    h->shape_count = shapes;
+    h->meshes = malloc((shapes + 1) * sizeof *h->meshes);
+    h->quads = malloc((shapes + 1) * sizeof *h->quads);
+    h->analytic = malloc((shapes + 1) * sizeof *h->analytic);
+    h->positions = calloc(shapes + 1, sizeof *h->positions);
+    if (!h->meshes || !h->quads || !h->analytic || !h->positions)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu shapes", shapes);
+    for (size_t i = 0; i < shapes && status == RT_OK; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (shape->kind == RT_SHAPE_TRIANGLES && !rt_scene_is_instance(scene, shape))
+            status = list_mesh(h, h->meshes + input->mesh_count++, scene, i, first_prim[i], error);
+        else if (shape->kind == RT_SHAPE_QUAD)
+            list_quad(h->quads + input->quad_count++, shape, first_prim[i]);
+        else if (shape->kind != RT_SHAPE_PLANE)
+            list_box(h->analytic + input->analytic_count++, shape, (rt_u32)i);
+    }
+    input->meshes = h->meshes;
+    input->quads = h->quads;
+    input->analytic = h->analytic;
+    return status;
+}
+
+/* ---- Trees of meshes ------------------------------------------------------- */
+
+/* Builds the tree of a mesh in its own space, behind those before. */
+static rt_status build_mesh(rt_hierarchy *h, rt_mesh_tree *tree, const rt_scene_mesh *mesh,
+                            uint32_t threads, rt_stage_progress *progress, rt_error *error)
+{
+    rt_bvh_counts counts;
+    tree->input.positions = mesh->positions;
+    tree->input.indices = mesh->indices;
+    tree->input.triangle_count = (uint32_t)mesh->triangle_count;
+    rt_bvh_input input = {.meshes = &tree->input, .mesh_count = 1};
+    rt_status status = rt_bvh_build(&tree->bvh, &input, threads, progress, error);
+    if (status != RT_OK)
+        return status;
+    rt_bvh_get_counts(tree->bvh, &counts);
+    tree->first_node = h->counts.nodes;
+    tree->first_block = h->counts.blocks;
+    tree->block_count = counts.blocks;
+    if ((uint64_t)h->counts.nodes + counts.nodes >= RT_CHILD_INDEX)
+        return rt_fail(error, RT_ERROR_INPUT, "the meshes are more than the hierarchy can hold");
+    h->counts.nodes += counts.nodes;
+    h->counts.blocks += counts.blocks;
+    return RT_OK;
+}
+
+/* ---- All ------------------------------------------------------------------- */
+
+rt_status rt_hierarchy_build(rt_hierarchy *h, const rt_scene *scene, const rt_u32 *first_prim,
+                             uint32_t threads, rt_stage_progress *progress, rt_error *error)
+{
+    rt_bvh_input input;
+    memset(&input, 0, sizeof input);
+    h->trees = calloc(scene->mesh_count + 1, sizeof *h->trees);
+    if (!h->trees)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu meshes", scene->mesh_count);
+    h->mesh_count = scene->mesh_count;
+    rt_status status = list_shapes(h, &input, scene, first_prim, error);
+    if (status == RT_OK)
+        status = rt_bvh_build(&h->top, &input, threads, progress, error);
+    if (status != RT_OK)
+        return status;
+    rt_bvh_get_counts(h->top, &h->top_counts);
+    rt_bvh_get_bounds(h->top, h->lo, h->hi);
+    h->counts = h->top_counts;
+    for (size_t i = 0; i < scene->mesh_count && status == RT_OK; i++)
+        if (scene->meshes[i].placed > 1)
+            status = build_mesh(h, h->trees + i, scene->meshes + i, threads, progress, error);
+    return status;
+}
+
+void rt_hierarchy_write(const rt_hierarchy *h, rt_bvh_node *nodes, rt_tri_block *blocks,
+                        rt_u32 *analytic)
+{
+    rt_bvh_write(h->top, nodes, blocks, analytic, 0, 0);
+    for (size_t i = 0; i < h->mesh_count; i++) {
+        const rt_mesh_tree *tree = h->trees + i;
+        if (tree->bvh)
+            rt_bvh_write(tree->bvh, nodes + tree->first_node, blocks + tree->first_block, NULL,
+                         tree->first_node, tree->first_block);
+    }
+}
+
+void rt_hierarchy_free(rt_hierarchy *h)
+{
+    rt_bvh_destroy(h->top);
+    for (size_t i = 0; i < h->mesh_count; i++)
+        rt_bvh_destroy(h->trees[i].bvh);
+    for (size_t i = 0; i < h->shape_count && h->positions; i++)
+        free(h->positions[i]);
+    free(h->positions);
+    free(h->trees);
+    free(h->meshes);
+    free(h->quads);
+    free(h->analytic);
+    memset(h, 0, sizeof *h);
+}

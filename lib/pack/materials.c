@@ -1,0 +1,63 @@
+/* materials.c - materials, textures and the environment's image. */
+#include <string.h>
+
+#include "pack/packing.h"
+#include "scene/environment.h"
+
+/* A handle of the public interface as an index. */
+static rt_u32 texture_index(uint32_t handle)
+{
+    return handle ? handle - 1 : RT_NONE;
+}
+
+static rt_u32 material_flags(const rt_material *m)
+{
+    return (m->fresnel == RT_FRESNEL_DIELECTRIC ? RT_MATERIAL_FRESNEL : 0) |
+           (m->fresnel == RT_FRESNEL_CONDUCTOR ? RT_MATERIAL_CONDUCTOR : 0) |
+           (m->two_sided ? RT_MATERIAL_TWO_SIDED : 0);
+}
+
+void rt_pack_materials(const rt_packing *p)
+{
+    rt_material_data *out = rt_packing_table(p, p->header.materials);
+    for (size_t i = 0; i < p->scene->material_count; i++, out++) {
+        const rt_material *m = p->scene->materials + i;
+        memcpy(out->kd, m->kd, sizeof out->kd);
+        memcpy(out->ks, m->ks, sizeof out->ks);
+        memcpy(out->kt, m->kt, sizeof out->kt);
+        memcpy(out->eta, m->eta, sizeof out->eta);
+        memcpy(out->k, m->k, sizeof out->k);
+        memcpy(out->absorption, m->absorption, sizeof out->absorption);
+        out->ior = m->ior;
+        out->roughness = m->roughness;
+        out->bump_scale = m->bump_scale;
+        out->priority = (rt_u32)m->priority;
+        out->flags = material_flags(m);
+        out->kd_texture = texture_index(m->kd_texture);
+        out->ks_texture = texture_index(m->ks_texture);
+        out->kt_texture = texture_index(m->kt_texture);
+        out->bump_texture = texture_index(m->bump_texture);
+    }
+}
+
+void rt_pack_textures(const rt_packing *p)
+{
+    rt_texture_data *out = rt_packing_table(p, p->header.textures);
+    for (size_t i = 0; i < p->scene->texture_count; i++)
+        out[i] = p->scene->textures[i].data;
+    if (p->scene->texels.size)
+        memcpy(rt_packing_table(p, p->header.texels), p->scene->texels.data, p->scene->texels.size);
+}
+
+void rt_pack_environment(rt_packing *p)
+{
+    const rt_scene_environment *from = &p->scene->environment;
+    rt_environment_data *e = &p->header.environment;
+    if (!from->texels)
+        return;
+    memcpy(rt_packing_table(p, e->texels), from->texels,
+           (size_t)from->width * from->height * 4 * sizeof(float));
+    e->mean = (float)rt_environment_tabulate(rt_packing_table(p, e->conditional),
+                                             rt_packing_table(p, e->marginal), from->texels,
+                                             from->width, from->height);
+}

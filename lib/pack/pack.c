@@ -1,0 +1,160 @@
+/*
+ * pack.c - lays a scene out in one buffer: hierarchy, shapes, materials, lights, textures, sample
+ * tables.
+ */
+#include "pack/pack.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "light/lights.h"
+#include "light/tree.h"
+#include "pack/packing.h"
+#include "pack/sobol.h"
+
+enum { buffer_alignment = 4096, sobol_entries = 4 * 256 };
+
+void *rt_packing_table(const rt_packing *packing, rt_u32 offset)
+{
+    return (char *)packing->image.data + (size_t)offset * RT_SCENE_ROW;
+}
+
+/* Gives a table its place after those before it. */
+static void place(size_t *rows, rt_u32 *offset, rt_u32 *count, size_t elements, size_t element_size)
+{
+    *offset = (rt_u32)*rows;
+    if (count)
+        *count = (rt_u32)elements;
+    *rows += (elements * element_size + RT_SCENE_ROW - 1) / RT_SCENE_ROW;
+}
+
+static void place_environment(rt_packing *p, size_t *rows)
+{
+    const rt_scene_environment *from = &p->scene->environment;
+    rt_environment_data *e = &p->header.environment;
+    size_t width = from->width, height = from->height;
+    e->width = from->width;
+    e->height = from->height;
+    e->light = from->light;
+    e->turn = from->turn;
+    place(rows, &e->texels, NULL, width * height, 4 * sizeof(float));
+    place(rows, &e->conditional, NULL, width ? height * (width + 1) : 0, sizeof(float));
+    place(rows, &e->marginal, NULL, width ? height + 1 : 0, sizeof(float));
+}
+
+/* Returns the number of rows of the buffer. */
+static size_t place_tables(rt_packing *p)
+{
+    const rt_scene *scene = p->scene;
+    const rt_bvh_counts *trees = &p->hierarchy.counts;
+    rt_scene_header *h = &p->header;
+    rt_u32 blocks;
+    size_t rows = sizeof *h / RT_SCENE_ROW;
+    place(&rows, &h->nodes, &h->node_count, trees->nodes, sizeof(rt_bvh_node));
+    place(&rows, &h->blocks, &blocks, trees->blocks, sizeof(rt_tri_block));
+    h->block_count = p->hierarchy.top_counts.blocks;
+    place(&rows, &h->analytic, &h->analytic_count, trees->analytic, sizeof(rt_u32));
+    place(&rows, &h->planes, &h->plane_count, p->plane_count, sizeof(rt_u32));
+    place(&rows, &h->shapes, &h->shape_count, scene->shape_count, sizeof(rt_shape));
+    place(&rows, &h->prim_shape, &h->prim_count, p->prim_count, sizeof(rt_u32));
+    place(&rows, &h->materials, &h->material_count, scene->material_count,
+          sizeof(rt_material_data));
+    place(&rows, &h->lights, &h->light_count, p->light_count, sizeof(rt_light_data));
+    h->light_leaves = (rt_u32)rt_light_tree_leaves(scene);
+    place(&rows, &h->light_nodes, NULL, 2 * (size_t)h->light_leaves, sizeof(rt_light_node));
+    place(&rows, &h->targets, &h->target_count, rt_targets_count(scene), sizeof(rt_target));
+    place(&rows, &h->transforms, &h->transform_count, p->transform_count,
+          sizeof(rt_transform_data));
+    place(&rows, &h->indices, &h->index_count, p->index_count, sizeof(rt_u32));
+    place(&rows, &h->normals, &h->normal_count, p->normal_count, 4 * sizeof(float));
+    place(&rows, &h->uvs, &h->uv_count, p->uv_count, 2 * sizeof(float));
+    place(&rows, &h->colours, &h->colour_count, p->colour_count, 4 * sizeof(float));
+    place(&rows, &h->textures, &h->texture_count, scene->texture_count, sizeof(rt_texture_data));
+    place(&rows, &h->texels, NULL, scene->texels.size, 1);
+    h->texel_rows = (rt_u32)rows - h->texels;
+    place_environment(p, &rows);
+    place(&rows, &h->sobol, &h->sobol_count, sobol_entries, 4 * sizeof(rt_u32));
+    return rows;
+}
+
+/* Builds the hierarchies and notes their extent. */
+static rt_status build(rt_packing *p, uint32_t threads, rt_stage_progress *progress,
+                       rt_error *error)
+{
+    double diagonal = 0;
+    rt_status status =
+        rt_hierarchy_build(&p->hierarchy, p->scene, p->first_prim, threads, progress, error);
+    if (status != RT_OK)
+        return status;
+    memcpy(p->header.bounds_lo, p->hierarchy.lo, sizeof p->header.bounds_lo);
+    memcpy(p->header.bounds_hi, p->hierarchy.hi, sizeof p->header.bounds_hi);
+    for (int i = 0; i < 3; i++)
+        diagonal = hypot(diagonal, (double)p->header.bounds_hi[i] - p->header.bounds_lo[i]);
+    p->header.radius = (float)(0.5 * diagonal);
+    return RT_OK;
+}
+
+/* Allocates the buffer and fills its tables. */
+static rt_status fill(rt_packing *p, rt_error *error)
+{
+    size_t rows = place_tables(p);
+    if (rows > UINT32_MAX)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu rows of %u bytes",
+                       rows, RT_SCENE_ROW);
+    p->image.bytes = rows * RT_SCENE_ROW;
+    if (posix_memalign(&p->image.data, buffer_alignment, p->image.bytes)) {
+        p->image.data = NULL;
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes",
+                       p->image.bytes);
+    }
+    memset(p->image.data, 0, p->image.bytes);
+    rt_hierarchy_write(&p->hierarchy, rt_packing_table(p, p->header.nodes),
+                       rt_packing_table(p, p->header.blocks),
+                       rt_packing_table(p, p->header.analytic));
+    p->image.light_power = rt_lights_fill(p->scene, p->first_prim, p->header.radius,
+                                          rt_packing_table(p, p->header.lights), p->first_light);
+    rt_pack_shapes(p);
+    rt_pack_targets(p);
+    rt_pack_vertices(p);
+    rt_pack_materials(p);
+    rt_pack_textures(p);
+    rt_pack_environment(p);
+    rt_sobol_table(rt_packing_table(p, p->header.sobol));
+    memcpy(p->image.data, &p->header, sizeof p->header);
+    return rt_light_tree_fill(rt_packing_table(p, p->header.light_nodes), p->scene, &p->header,
+                              rt_packing_table(p, p->header.lights),
+                              rt_packing_table(p, p->header.prim_shape), error);
+}
+
+rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel,
+                        uint32_t threads, rt_stage_progress *progress, rt_error *error)
+{
+    rt_packing p;
+    memset(&p, 0, sizeof p);
+    p.scene = scene;
+    p.header.accel = accel;
+    rt_status status = rt_pack_number(&p, error);
+    if (status == RT_OK)
+        status = build(&p, threads, progress, error);
+    if (status == RT_OK)
+        status = fill(&p, error);
+    if (status == RT_OK)
+        *out = p.image;
+    else
+        free(p.image.data);
+    rt_hierarchy_free(&p.hierarchy);
+    free(p.first_prim);
+    free(p.first_light);
+    free(p.shapes);
+    free(p.meshes);
+    return status;
+}
+
+void rt_scene_image_free(rt_scene_image *image)
+{
+    free(image->data);
+    image->data = NULL;
+    image->bytes = 0;
+}

@@ -1,0 +1,59 @@
+/* packing.h - a scene being packed: what the files that fill the tables share. */
+#ifndef RT_LIB_PACK_PACKING_H
+#define RT_LIB_PACK_PACKING_H
+
+#include "pack/hierarchy.h"
+#include "pack/pack.h"
+
+/*
+ * Where the vertex data of a mesh begin in their tables; RT_NONE where the mesh has none or nothing
+ * asks for them.
+ */
+typedef struct rt_mesh_place {
+    rt_u32 index, normal, uv, colour;
+} rt_mesh_place;
+
+/* Where a shape's entries begin in the tables. */
+typedef struct rt_shape_place {
+    rt_u32 transform;
+    rt_u32 normal; /* of triangles and instances; that of the mesh, or of a placed copy */
+} rt_shape_place;
+
+typedef struct rt_packing {
+    const rt_scene *scene;
+    rt_u32 *first_prim, *first_light; /* [shape_count] */
+    rt_shape_place *shapes;           /* [shape_count] */
+    rt_mesh_place *meshes;            /* [mesh_count] */
+    size_t prim_count, light_count, plane_count, transform_count;
+    size_t index_count, normal_count, uv_count, colour_count;
+    rt_hierarchy hierarchy;
+    rt_scene_header header;
+    rt_scene_image image;
+} rt_packing;
+
+/* The table at this offset of the buffer. */
+void *rt_packing_table(const rt_packing *packing, rt_u32 offset);
+
+/* Counts and numbers what shapes put into tables (shapes.c). */
+rt_status rt_pack_number(rt_packing *packing, rt_error *error);
+
+/*
+ * Fill the tables of shapes, and of what they refer to: primitives, planes, transforms, vertices
+ * (shapes.c).
+ */
+void rt_pack_shapes(const rt_packing *packing);
+void rt_pack_vertices(const rt_packing *packing);
+
+/*
+ * Count and fill the balls around specular shapes; these are one ball when they are too many
+ * (targets.c).
+ */
+size_t rt_targets_count(const rt_scene *scene);
+void rt_pack_targets(const rt_packing *packing);
+
+/* Fill the tables of materials, textures, and of the environment (materials.c). */
+void rt_pack_materials(const rt_packing *packing);
+void rt_pack_textures(const rt_packing *packing);
+void rt_pack_environment(rt_packing *packing);
+
+#endif

@@ -1,0 +1,269 @@
+/* shapes.c - shapes, their primitives, transforms and vertex data. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/vec.h"
+#include "light/lights.h"
+#include "pack/packing.h"
+
+/* ---- Numbering ------------------------------------------------------------- */
+
+static int needs_transform(const rt_packing *p, const rt_scene_shape *shape)
+{
+    switch (shape->kind) {
+    case RT_SHAPE_QUAD:
+        return 0;
+    case RT_SHAPE_TRIANGLES:
+        return rt_scene_is_instance(p->scene, shape);
+    default:
+        return shape->has_transform;
+    }
+}
+
+/* Takes so many entries of a table. */
+static rt_u32 take(size_t *count, size_t entries)
+{
+    size_t first = *count;
+    *count += entries;
+    return (rt_u32)first;
+}
+
+/*
+ * Places the vertex data of a mesh, shared by all that place it, but for normals that a transform
+ * turns.
+ */
+static void number_vertices(rt_packing *p, size_t index)
+{
+    const rt_scene_shape *shape = p->scene->shapes + index;
+    const rt_scene_mesh *mesh = p->scene->meshes + shape->mesh;
+    rt_mesh_place *place = p->meshes + shape->mesh;
+    int is_turned = shape->has_transform && !rt_scene_is_instance(p->scene, shape);
+
+    if (place->index == RT_NONE && (mesh->normals || mesh->uv || mesh->colours))
+        place->index = take(&p->index_count, 3 * mesh->triangle_count);
+    if (place->uv == RT_NONE && mesh->uv)
+        place->uv = take(&p->uv_count, mesh->vertex_count);
+    if (place->colour == RT_NONE && mesh->colours)
+        place->colour = take(&p->colour_count, mesh->vertex_count);
+    if (mesh->normals && is_turned) {
+        p->shapes[index].normal = take(&p->normal_count, mesh->vertex_count);
+    } else if (mesh->normals) {
+        if (place->normal == RT_NONE)
+            place->normal = take(&p->normal_count, mesh->vertex_count);
+        p->shapes[index].normal = place->normal;
+    }
+}
+
+static rt_status allocate(rt_packing *p, rt_error *error)
+{
+    size_t shapes = p->scene->shape_count, meshes = p->scene->mesh_count;
+    p->first_prim = malloc((shapes + 1) * sizeof *p->first_prim);
+    p->first_light = malloc((shapes + 1) * sizeof *p->first_light);
+    p->shapes = malloc((shapes + 1) * sizeof *p->shapes);
+    p->meshes = malloc((meshes + 1) * sizeof *p->meshes);
+    if (!p->first_prim || !p->first_light || !p->shapes || !p->meshes)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu shapes", shapes);
+    memset(p->shapes, 0xff, shapes * sizeof *p->shapes); /* RT_NONE */
+    memset(p->meshes, 0xff, meshes * sizeof *p->meshes);
+    return RT_OK;
+}
+
+rt_status rt_pack_number(rt_packing *p, rt_error *error)
+{
+    rt_status status = allocate(p, error);
+    for (size_t i = 0; i < p->scene->shape_count && status == RT_OK; i++) {
+        const rt_scene_shape *shape = p->scene->shapes + i;
+        p->first_prim[i] = take(&p->prim_count, rt_scene_shape_primitives(p->scene, shape));
+        p->plane_count += shape->kind == RT_SHAPE_PLANE;
+        if (needs_transform(p, shape))
+            p->shapes[i].transform = take(&p->transform_count, 1);
+        if (shape->kind == RT_SHAPE_TRIANGLES)
+            number_vertices(p, i);
+        if (p->prim_count > RT_BLOCK_PRIM - 1 || p->index_count > UINT32_MAX - 1 ||
+            p->normal_count > UINT32_MAX - 1)
+            status = rt_fail(error, RT_ERROR_INPUT, "the scene has more than %u primitives",
+                             RT_BLOCK_PRIM - 1);
+    }
+    p->light_count = rt_lights_count(p->scene);
+    return status;
+}
+
+/* ---- Shapes ---------------------------------------------------------------- */
+
+static void pack_transform(rt_transform_data *out, const rt_affine *to_world)
+{
+    rt_affine inverse;
+    /* there is one: that was checked when the shape was added */
+    rt_affine_inverse(&inverse, to_world);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++) {
+            out->to_world[i][j] = (float)to_world->m[i][j];
+            out->to_object[i][j] = (float)inverse.m[i][j];
+        }
+}
+
+/* What triangles and instances have besides. */
+static void pack_mesh(const rt_packing *p, rt_shape *out, const rt_scene_shape *shape,
+                      rt_u32 first_normal)
+{
+    const rt_scene_mesh *mesh = p->scene->meshes + shape->mesh;
+    const rt_mesh_place *place = p->meshes + shape->mesh;
+    const rt_mesh_tree *tree = p->hierarchy.trees + shape->mesh;
+    out->flags |= (mesh->normals ? RT_SHAPE_SMOOTH : 0) | (mesh->uv ? RT_SHAPE_UV : 0) |
+                  (mesh->colours ? RT_SHAPE_COLOUR : 0);
+    out->first_index = place->index;
+    out->first_normal = first_normal;
+    out->first_uv = place->uv;
+    out->first_colour = place->colour;
+    if (!rt_scene_is_instance(p->scene, shape))
+        return;
+    out->kind = RT_SHAPE_INSTANCE;
+    out->root = tree->first_node;
+    out->first_block = tree->first_block;
+    out->block_count = tree->block_count;
+}
+
+/* Whether the material differs from point to point. */
+static int is_varied(const rt_scene *scene, const rt_shape *shape)
+{
+    const rt_material *m = scene->materials + shape->material;
+    return shape->texture != RT_NONE || (shape->flags & RT_SHAPE_COLOUR) || m->kd_texture ||
+           m->ks_texture || m->kt_texture || m->bump_texture;
+}
+
+/* Whether it only reflects diffusely. */
+static int is_matte(const rt_scene *scene, const rt_shape *shape)
+{
+    const rt_material *m = scene->materials + shape->material;
+    for (int i = 0; i < 3; i++)
+        if (m->ks[i] > 0 || m->kt[i] > 0)
+            return 0;
+    return shape->first_light == RT_NONE;
+}
+
+static int is_flat(const rt_shape *shape)
+{
+    const rt_u32 other = RT_SHAPE_SMOOTH | RT_SHAPE_VARIED | RT_SHAPE_MIRRORED;
+    return (shape->kind == RT_SHAPE_TRIANGLES || shape->kind == RT_SHAPE_QUAD) &&
+           !(shape->flags & other);
+}
+
+static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
+{
+    const rt_scene_shape *shape = p->scene->shapes + index;
+    const rt_surface *surface = &shape->surface;
+    out->kind = shape->kind;
+    out->material = surface->material;
+    out->first_prim = p->first_prim[index];
+    out->prim_count = (rt_u32)rt_scene_shape_primitives(p->scene, shape);
+    out->first_light = p->first_light[index];
+    out->transform = p->shapes[index].transform;
+    out->texture =
+        surface->texture && !rt_surface_has_light(surface) ? surface->texture - 1 : RT_NONE;
+    out->flags = shape->caps ? RT_SHAPE_CAPS : 0;
+    memcpy(out->p, shape->p, sizeof out->p);
+    if (shape->kind == RT_SHAPE_TRIANGLES)
+        pack_mesh(p, out, shape, p->shapes[index].normal);
+    if ((out->kind == RT_SHAPE_TRIANGLES || out->kind == RT_SHAPE_QUAD) &&
+        rt_scene_is_mirrored(shape))
+        out->flags |= RT_SHAPE_MIRRORED;
+    if (is_varied(p->scene, out))
+        out->flags |= RT_SHAPE_VARIED;
+    if (is_matte(p->scene, out))
+        out->flags |= RT_SHAPE_MATTE;
+    if (is_flat(out))
+        out->flags |= RT_SHAPE_FLAT;
+}
+
+void rt_pack_shapes(const rt_packing *p)
+{
+    rt_shape *out = rt_packing_table(p, p->header.shapes);
+    rt_transform_data *transforms = rt_packing_table(p, p->header.transforms);
+    rt_u32 *prim_shape = rt_packing_table(p, p->header.prim_shape),
+           *plane = rt_packing_table(p, p->header.planes);
+
+    for (size_t i = 0; i < p->scene->shape_count; i++) {
+        pack_shape(p, out + i, i);
+        if (out[i].transform != RT_NONE)
+            pack_transform(transforms + out[i].transform, &p->scene->shapes[i].to_world);
+        for (rt_u32 k = 0; k < out[i].prim_count; k++)
+            prim_shape[out[i].first_prim + k] = (rt_u32)i;
+        if (out[i].kind == RT_SHAPE_PLANE)
+            *plane++ = (rt_u32)i;
+    }
+}
+
+/* ---- Vertices -------------------------------------------------------------- */
+
+/* Writes a mesh's normals, of unit length; one of no length stays so. */
+static void pack_normals(float (*out)[4], const rt_scene_mesh *mesh)
+{
+    static const float zero[3];
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        double n[3];
+        rt_vec_sub(n, mesh->normals + 3 * i, zero);
+        double length = rt_vec_length(n);
+        for (int c = 0; c < 3; c++)
+            out[i][c] = length > 0 ? (float)(n[c] / length) : 0;
+    }
+}
+
+/*
+ * Maps them, and scales all alike so that the longest is of unit length: their mix is then that
+ * which is mapped after it was mixed, as instances do.
+ */
+static void map_normals(float (*normals)[4], size_t count, const rt_affine *inverse)
+{
+    double longest = 0;
+    for (size_t i = 0; i < count; i++) {
+        double n[3] = {normals[i][0], normals[i][1], normals[i][2]}, m[3];
+        rt_affine_normal(m, inverse, n);
+        longest = fmax(longest, rt_vec_length(m));
+        for (int c = 0; c < 3; c++)
+            normals[i][c] = (float)m[c];
+    }
+    for (size_t i = 0; i < count && longest > 0; i++)
+        for (int c = 0; c < 3; c++)
+            normals[i][c] = (float)(normals[i][c] / longest);
+}
+
+/* Normals of meshes as they are placed in world space. */
+static void pack_placed_normals(const rt_packing *p)
+{
+    float(*normals)[4] = rt_packing_table(p, p->header.normals);
+    for (size_t i = 0; i < p->scene->shape_count; i++) {
+        const rt_scene_shape *shape = p->scene->shapes + i;
+        rt_u32 first = p->shapes[i].normal;
+        rt_affine inverse;
+        if (shape->kind != RT_SHAPE_TRIANGLES || first == RT_NONE ||
+            first == p->meshes[shape->mesh].normal)
+            continue;
+        rt_affine_inverse(&inverse, &shape->to_world);
+        pack_normals(normals + first, p->scene->meshes + shape->mesh);
+        map_normals(normals + first, p->scene->meshes[shape->mesh].vertex_count, &inverse);
+    }
+}
+
+void rt_pack_vertices(const rt_packing *p)
+{
+    rt_u32 *indices = rt_packing_table(p, p->header.indices);
+    float(*normals)[4] = rt_packing_table(p, p->header.normals);
+    float(*uvs)[2] = rt_packing_table(p, p->header.uvs);
+    float(*colours)[4] = rt_packing_table(p, p->header.colours);
+
+    for (size_t m = 0; m < p->scene->mesh_count; m++) {
+        const rt_scene_mesh *mesh = p->scene->meshes + m;
+        const rt_mesh_place *place = p->meshes + m;
+        if (place->index != RT_NONE)
+            memcpy(indices + place->index, mesh->indices,
+                   3 * mesh->triangle_count * sizeof *indices);
+        if (place->normal != RT_NONE)
+            pack_normals(normals + place->normal, mesh);
+        if (place->uv != RT_NONE)
+            memcpy(uvs + place->uv, mesh->uv, mesh->vertex_count * sizeof *uvs);
+        for (size_t i = 0; place->colour != RT_NONE && i < mesh->vertex_count; i++)
+            memcpy(colours[place->colour + i], mesh->colours + 3 * i, 3 * sizeof(float));
+    }
+    pack_placed_normals(p);
+}

@@ -1,0 +1,26 @@
+/*
+ * environment.h - the distribution by which an environment's image is sampled.
+ *
+ * The image covers the unit square: u from 0 to 1 along a row, v from 0 at the top, +y, to 1 at the
+ * bottom. Each pixel is chosen in proportion to the mean of its channels times the sine of the
+ * polar angle of its row's middle; kernels/light/sky.h says how a direction follows.
+ */
+#ifndef RT_LIB_SCENE_ENVIRONMENT_H
+#define RT_LIB_SCENE_ENVIRONMENT_H
+
+#include <stdint.h>
+
+/*
+ * The mean radiance over the sphere, by channel; texels is [height][width][4], the top row first.
+ */
+void rt_environment_mean(float mean[3], const float *texels, uint32_t width, uint32_t height);
+
+/*
+ * Fills conditional[height][width + 1] and marginal[height + 1], as rt_environment_data describes
+ * them; each begins with 0 and ends with exactly 1. A row without light, and an image without, are
+ * taken as evenly lit. Returns the integral of the sampled function over the unit square.
+ */
+double rt_environment_tabulate(float *conditional, float *marginal, const float *texels,
+                               uint32_t width, uint32_t height);
+
+#endif
