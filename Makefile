@@ -213,7 +213,7 @@ $(B)/rtc: $(TOOL_OBJ) $(B)/librt.a
 # ---- Tests ------------------------------------------------------------------
 
 TEST_LIBS     = $(shell pkg-config --libs cmocka 2>/dev/null)
-TEST_SUPPORT := $(patsubst %.c,$(B)/%.o,$(TEST_SUPPORT_SRC)) $(if $(TEST_KERNEL_SRC),$(B)/test_kernels.o)
+TEST_SUPPORT := $(patsubst %.c,$(B)/%.o,$(TEST_SUPPORT_SRC)) $(B)/test_kernels.o
 TEST_BIN      = $(patsubst tests/%.c,$(B)/tests/%,$(1))
 
 $(B)/test_kernels.c: $(B)/embed $(KERNEL_DEPS) $(TEST_KERNEL_SRC) $(wildcard tests/kernels/*.h) Makefile
@@ -222,20 +222,31 @@ $(B)/test_kernels.c: $(B)/embed $(KERNEL_DEPS) $(TEST_KERNEL_SRC) $(wildcard tes
 $(B)/test_kernels.o: $(B)/test_kernels.c
 	$(CC) $(ALL_CFLAGS) -c -o $@ $<
 
-$(B)/tests/%: $(B)/tests/%.o $(TEST_SUPPORT) $(B)/librt.a
+# An archive, so that each test links only what it uses.
+$(B)/libtests.a: $(TEST_SUPPORT)
+	rm -f $@
+	$(AR) rcs $@ $^
+
+$(B)/tests/%: $(B)/tests/%.o $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
 
+# Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build.
+JOBS     ?= $(shell nproc 2>/dev/null || echo 1)
+MAKE_JOBS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
+RUN_TESTS = tests/run.sh -j $(JOBS)
+
 check-quick: deps
-	+$(MAKE) --no-print-directory run-quick
+	+$(MAKE) --no-print-directory $(MAKE_JOBS) run-quick
 
 check: deps
-	+$(MAKE) --no-print-directory run-all
+	+$(MAKE) --no-print-directory $(MAKE_JOBS) run-all
 
 run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
-	tests/run.sh $(call TEST_BIN,$(TESTS_QUICK))
+	$(RUN_TESTS) $(call TEST_BIN,$(TESTS_QUICK))
 
+# The long ones first, so that none of them is left to run alone.
 run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
-	tests/run.sh $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL)) $(TESTS_SHELL)
+	$(RUN_TESTS) $(call TEST_BIN,$(TESTS_FULL)) $(TESTS_SHELL) $(call TEST_BIN,$(TESTS_QUICK))
 
 # The page of what was compared with what: tests/proof/README.md.
 proof: all $(call TEST_BIN,$(TESTS_PROOF)) $(B)/tests/render/test_reference
@@ -275,7 +286,7 @@ check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
 SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
 check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
-	 $(MAKE) --no-print-directory B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
+	 $(MAKE) --no-print-directory $(MAKE_JOBS) B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
 # Small renders on Oclgrind, which sees reads and writes outside of buffers, races, and wrong calls of OpenCL.
 check-memory: all
