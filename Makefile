@@ -81,7 +81,7 @@ TOOL_SRC := \
 
 KERNEL_SRC := \
 	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl kernels/photon_camera.cl \
-	kernels/photon_emit.cl kernels/photon_film.cl kernels/photon_gather.cl kernels/photon_walk.cl \
+	kernels/photon_emit.cl kernels/photon_film.cl kernels/gather_neighbours.cl kernels/gather_tree.cl \
 	kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
@@ -96,7 +96,7 @@ TESTS_QUICK := \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c \
 	tests/kernels/test_light_tree.c tests/kernels/test_matte.c tests/kernels/test_medium.c \
-	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_rough.c \
+	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
@@ -165,7 +165,7 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl \
 	tests/kernels/film.cl tests/kernels/filter.cl tests/kernels/knn.cl tests/kernels/leave.cl \
 	tests/kernels/light.cl tests/kernels/matte.cl tests/kernels/medium.cl tests/kernels/rng.cl \
-	tests/kernels/rough.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl \
+	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl \
 	tests/kernels/types.cl
 
 # ---- Build ------------------------------------------------------------------

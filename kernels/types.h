@@ -502,8 +502,8 @@ typedef struct rt_density_params {
     rt_u32 stride;
     /* device gather: the k-th photon gives the radius; 0: all within the limit count */
     rt_u32 k;
-    float squared_limit; /* device gather: of the radius, m^2; infinite for no limit */
-    rt_u32 look;         /* device gather: photons looked at, accepted or not, at most */
+    float squared_limit;   /* device gather: of the radius, m^2; infinite for no limit */
+    rt_u32 max_candidates; /* device gather: photons examined, accepted or not, at most */
     /* device gather: gather points that a work-item takes, one after the other */
     rt_u32 points_an_item;
     float scale; /* of the photons' flux: 1 / emitted paths */

@@ -23,7 +23,7 @@
 
 #include "math/frame.h"
 #include "material/material.h"
-#include "bsdf/rough.h"
+#include "bsdf/ggx.h"
 #include "sample/sample.h"
 #include "scene.h"
 #include "shape/surface.h"
@@ -56,11 +56,11 @@ struct bsdf {
 /* One scattering event, survival left out. */
 struct scatter {
     float3 wi; /* unit */
-    /* fr |n.wi| / density, without `squeeze`; 0: the direction is on the wrong side */
+    /* fr |n.wi| / density, without `eta_scale`; 0: the direction is on the wrong side */
     float3 weight;
-    float squeeze; /* (eta_i/eta_t)^2 of a refraction that carries radiance, else 1 */
-    float pdf_w;   /* density of wi by this event, its choice included; delta events: 0 */
-    bool through;  /* wi is on the other side */
+    float eta_scale; /* (eta_i/eta_t)^2 of a refraction that carries radiance, else 1 */
+    float pdf_w;     /* density of wi by this event, its choice included; delta events: 0 */
+    bool through;    /* wi is on the other side */
 };
 
 /*
@@ -75,13 +75,13 @@ static inline void roughen(struct bsdf *bsdf, float alpha)
 }
 
 /* The direction of perfect reflection. */
-static inline float3 reflected_way(const struct bsdf *bsdf)
+static inline float3 reflect_direction(const struct bsdf *bsdf)
 {
     return unit(2.0f * dot(bsdf->wo, bsdf->shading) * bsdf->shading - bsdf->wo);
 }
 
 /* The direction of perfect refraction, where there is one. */
-static inline float3 refracted_way(const struct bsdf *bsdf, float cos_t)
+static inline float3 refract_direction(const struct bsdf *bsdf, float cos_t)
 {
     const float eta = bsdf->specular.eta;
     const float cos_i = dot(bsdf->wo, bsdf->shading);
@@ -98,9 +98,9 @@ static inline void keep_sides(struct bsdf *bsdf)
 {
     const struct split split = split_light(&bsdf->specular, fabs(dot(bsdf->wo, bsdf->shading)));
     const bool stays =
-        dot(bsdf->wo, bsdf->shading) > 0.0f && dot(reflected_way(bsdf), bsdf->normal) > 0.0f;
+        dot(bsdf->wo, bsdf->shading) > 0.0f && dot(reflect_direction(bsdf), bsdf->normal) > 0.0f;
     const bool crosses = largest3(split.refracted) == 0.0f ||
-                         dot(refracted_way(bsdf, split.cos_t), bsdf->normal) < 0.0f;
+                         dot(refract_direction(bsdf, split.cos_t), bsdf->normal) < 0.0f;
     if (!(stays && crosses))
         bsdf->shading = bsdf->normal;
 }
@@ -114,22 +114,22 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
                                   global const rt_material_data *material,
                                   const struct surface *surface, float3 wo, float eta, float3 beta)
 {
-    const struct paint paint = paint_at(scene, material, surface);
+    const struct bsdf_params params = evaluate_material(scene, material, surface);
     const float side = dot(wo, surface->normal) < 0.0f ? -1.0f : 1.0f;
     struct bsdf bsdf;
     bsdf.normal = side * surface->normal;
-    bsdf.shading = side * paint.shading;
+    bsdf.shading = side * params.shading;
     bsdf.wo = wo;
-    bsdf.kd = paint.kd;
+    bsdf.kd = params.kd;
     bsdf.reflected = (float3)(0.0f);
     bsdf.refracted = (float3)(0.0f);
     bsdf.specular.alpha = 0.0f;
     bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
     bsdf.reflection = 0.0f;
     bsdf.refraction = 0.0f;
-    if (largest3(paint.ks + paint.kt) > 0.0f) {
-        bsdf.specular.ks = paint.ks;
-        bsdf.specular.kt = paint.kt;
+    if (largest3(params.ks + params.kt) > 0.0f) {
+        bsdf.specular.ks = params.ks;
+        bsdf.specular.kt = params.kt;
         bsdf.specular.eta = eta;
         bsdf.specular.material = material;
         if (material->roughness >= RT_SMOOTH_ALPHA)
@@ -197,7 +197,7 @@ static inline struct lobe bsdf_rough(const struct bsdf *bsdf, float3 wi)
 {
     const struct frame frame = frame_about(bsdf->shading);
     const float3 way = frame_to_local(frame, wi);
-    struct lobe lobe = rough_eval(&bsdf->specular, frame_to_local(frame, bsdf->wo), way);
+    struct lobe lobe = ggx_eval(&bsdf->specular, frame_to_local(frame, bsdf->wo), way);
     const bool above = way.z > 0.0f;
     const float kept = above == (dot(wi, bsdf->normal) > 0.0f) ? 1.0f : 0.0f;
     lobe.value *= kept * (above ? 1.0f : square(bsdf->specular.eta));
@@ -227,14 +227,14 @@ static inline void scatter_diffuse(struct scatter *scatter, const struct bsdf *b
 
 static inline void scatter_reflected(struct scatter *scatter, const struct bsdf *bsdf)
 {
-    scatter->wi = reflected_way(bsdf);
+    scatter->wi = reflect_direction(bsdf);
     if (dot(scatter->wi, bsdf->normal) > 0.0f)
         scatter->weight = bsdf->reflected / bsdf->reflection;
 }
 
 static inline void scatter_refracted(struct scatter *scatter, const struct bsdf *bsdf)
 {
-    scatter->wi = refracted_way(bsdf, bsdf->cos_t);
+    scatter->wi = refract_direction(bsdf, bsdf->cos_t);
     scatter->through = true;
     if (dot(scatter->wi, bsdf->normal) < 0.0f)
         scatter->weight = bsdf->refracted / bsdf->refraction;
@@ -246,7 +246,7 @@ static inline void scatter_rough(struct scatter *scatter, const struct bsdf *bsd
     const float chosen = bsdf->reflection + bsdf->refraction;
     float3 way;
     const float3 weight =
-        rough_sample(&bsdf->specular, frame_to_local(frame, bsdf->wo), u, &way, &scatter->pdf_w);
+        ggx_sample(&bsdf->specular, frame_to_local(frame, bsdf->wo), u, &way, &scatter->pdf_w);
     scatter->wi = unit(frame_to_world(frame, way));
     scatter->pdf_w *= chosen;
     scatter->through = way.z < 0.0f;
@@ -275,7 +275,7 @@ static inline struct scatter bsdf_scatter(const struct bsdf *bsdf, uint event, f
 {
     struct scatter scatter;
     scatter.weight = (float3)(0.0f);
-    scatter.squeeze = 1.0f;
+    scatter.eta_scale = 1.0f;
     scatter.pdf_w = 0.0f;
     scatter.through = false;
     if (event == EVENT_DIFFUSE)
@@ -289,7 +289,7 @@ static inline struct scatter bsdf_scatter(const struct bsdf *bsdf, uint event, f
     if (transport == CARRY_FLUX)
         scatter.weight *= shading_factor(bsdf, scatter.wi);
     else if (scatter.through)
-        scatter.squeeze = square(bsdf->specular.eta);
+        scatter.eta_scale = square(bsdf->specular.eta);
     return scatter;
 }
 

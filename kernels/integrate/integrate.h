@@ -123,7 +123,7 @@ static inline void connect_light(struct connection *connection, const struct sce
     const float3 arrived =
         medium_transmittance(scene->materials, through ? beyond : path->media.x, distance);
     connection->radiance =
-        path->squeeze * path->beta * (scattered * arrived * sample.radiance * sample.spread);
+        path->eta_scale * path->beta * (scattered * arrived * sample.radiance * sample.spread);
 }
 
 /*
@@ -156,7 +156,7 @@ static inline void ask_photons(struct path *path, const struct gather *gather, b
 {
     global rt_gather_point *point =
         last ? gather->point : gather->caustics + path->diffuse_events * gather->stride;
-    const float3 weight = path->squeeze * path->beta * bsdf_event_weight(bsdf, EVENT_DIFFUSE);
+    const float3 weight = path->eta_scale * path->beta * bsdf_event_weight(bsdf, EVENT_DIFFUSE);
     vstore3(surface->position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
     vstore3(bsdf->wo, 0, point->wo);
@@ -172,7 +172,7 @@ static inline void add_emitted(struct path *path, const struct scene *scene,
                                const uint purpose)
 {
     if (!left_to_photons(purpose, path->diffuse_events, path->pdf_w, path->rough))
-        path->radiance += path->squeeze * path->beta *
+        path->radiance += path->eta_scale * path->beta *
                           emitted_light(scene, params, surface, wo, path->from, path->pdf_w);
 }
 
@@ -185,7 +185,7 @@ static inline void path_begin(struct path *path, const struct scene *scene,
     path->from = ray.origin;
     path->radiance = (float3)(0.0f);
     path->beta = (float3)(1.0f);
-    path->squeeze = 1.0f;
+    path->eta_scale = 1.0f;
     path->pdf_w = 0.0f;
     path->media = vload4(0, scene->header->eye_media) - 1u;
     path->depth = can_follow(&ray) ? 1u : 0u;
@@ -203,7 +203,7 @@ static inline void path_escape(const struct scene *scene, const rt_params *param
     if (!has_sky(scene) || left_to_photons(purpose, path->diffuse_events, path->pdf_w, path->rough))
         return;
     path->radiance +=
-        path->squeeze * path->beta *
+        path->eta_scale * path->beta *
         medium_transmittance(scene->materials, path->media.x, INFINITY) *
         environment_light(scene, params, path->from, path->ray.direction, path->pdf_w);
 }
@@ -215,7 +215,7 @@ static inline void path_scatter(struct path *path, const struct surface *surface
     const struct scatter scatter = bsdf_scatter(bsdf, event, u, CARRY_RADIANCE);
     path->beta *= scatter.weight;
     path->depth = largest3(path->beta) > 0.0f ? path->depth + 1u : 0u;
-    path->squeeze *= scatter.squeeze;
+    path->eta_scale *= scatter.eta_scale;
     path->pdf_w = scatter.pdf_w;
     path->scattered |= path->pdf_w > 0.0f;
     path->from = surface->position;

@@ -66,9 +66,9 @@ static inline bool matte_take(struct matte *matte, uint lane, const struct scene
     } else {
         struct surface *surface = &matte->surfaces[lane];
         *surface = surface_at(scene, &path->ray, hit);
-        const struct paint paint = paint_at(scene, material, surface);
-        surface->shading = paint.shading;
-        matte->kd[lane] = paint.kd;
+        const struct bsdf_params values = evaluate_material(scene, material, surface);
+        surface->shading = values.shading;
+        matte->kd[lane] = values.kd;
         matte->curved |= 1u << lane;
     }
     matte->taken |= 1u << lane;
@@ -314,7 +314,7 @@ INLINE_NEVER void matte_vertices(const struct scene *scene, const rt_params *par
 {
     const struct matte_surface surface = matte_surfaces(matte, paths, hits);
     const struct lanes3 beta = LANES3_OF(paths, .beta), kd = LANES3_OF(matte->kd, );
-    const struct lanes3 weight = scale8(LANES_OF(float8, paths, .squeeze), beta);
+    const struct lanes3 weight = scale8(LANES_OF(float8, paths, .eta_scale), beta);
     matte_connect(scene, &surface, matte->taken, weight, kd, numbers, connections);
     matte_scatter(params, &surface, beta, kd, numbers, matte->taken, paths);
 }

@@ -13,7 +13,7 @@ struct path {
     float3 from;     /* the vertex before: where the ray began */
     float3 radiance; /* gathered so far */
     float3 beta;     /* throughput, without the change of radiance at refraction */
-    float squeeze;   /* which is kept here, and means nothing to roulette */
+    float eta_scale; /* which is kept here, and means nothing to roulette */
     float pdf_w;     /* density of the ray's direction, 0 for the camera and delta events */
     uint4 media;     /* the solids it is inside of */
     uint depth;      /* segments, the one under way included; 0: the path has ended */

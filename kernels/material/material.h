@@ -1,6 +1,6 @@
 /*
- * material.h - a material at one point of a shape: its colours times textures and vertex colours,
- * and its bumps.
+ * material.h - evaluates a material at one point of a shape: its colours times textures and vertex
+ * colours, and the shading normal with its bumps.
  */
 #ifndef RT_KERNELS_MATERIAL_MATERIAL_H
 #define RT_KERNELS_MATERIAL_MATERIAL_H
@@ -11,7 +11,8 @@
 #include "shape/surface.h"
 #include "material/texture.h"
 
-struct paint {
+/* The BSDF parameters of a surface: its material, evaluated. */
+struct bsdf_params {
     float3 kd, ks, kt;
     float3 shading; /* unit normal, on the side of the geometric one */
 };
@@ -31,37 +32,37 @@ static inline float3 textured(const struct scene *scene, const struct surface *s
  * Applies what varies over the shape; where more would be scattered than arrives, all is scaled
  * down alike.
  */
-static inline void vary_paint(struct paint *paint, const struct scene *scene,
-                              global const rt_material_data *material,
-                              const struct surface *surface)
+static inline void apply_variation(struct bsdf_params *params, const struct scene *scene,
+                                   global const rt_material_data *material,
+                                   const struct surface *surface)
 {
-    paint->kd = textured(scene, surface, paint->kd, material->kd_texture);
-    paint->kd = textured(scene, surface, paint->kd, scene->shapes[surface->shape].texture);
-    paint->kd *= vertex_colour(scene, surface);
-    paint->ks = textured(scene, surface, paint->ks, material->ks_texture);
-    paint->kt = textured(scene, surface, paint->kt, material->kt_texture);
-    const float most = largest3(paint->kd + paint->ks + paint->kt);
+    params->kd = textured(scene, surface, params->kd, material->kd_texture);
+    params->kd = textured(scene, surface, params->kd, scene->shapes[surface->shape].texture);
+    params->kd *= vertex_colour(scene, surface);
+    params->ks = textured(scene, surface, params->ks, material->ks_texture);
+    params->kt = textured(scene, surface, params->kt, material->kt_texture);
+    const float most = largest3(params->kd + params->ks + params->kt);
     if (most > 1.0f) {
         const float scale = 1.0f / most;
-        paint->kd *= scale;
-        paint->ks *= scale;
-        paint->kt *= scale;
+        params->kd *= scale;
+        params->ks *= scale;
+        params->kt *= scale;
     }
-    paint->shading = bumped_normal(scene, material, surface);
+    params->shading = bumped_normal(scene, material, surface);
 }
 
-static inline struct paint paint_at(const struct scene *scene,
-                                    global const rt_material_data *material,
-                                    const struct surface *surface)
+static inline struct bsdf_params evaluate_material(const struct scene *scene,
+                                                   global const rt_material_data *material,
+                                                   const struct surface *surface)
 {
-    struct paint paint;
-    paint.kd = row3(material->kd);
-    paint.ks = row3(material->ks);
-    paint.kt = row3(material->kt);
-    paint.shading = surface->shading;
+    struct bsdf_params params;
+    params.kd = row3(material->kd);
+    params.ks = row3(material->ks);
+    params.kt = row3(material->kt);
+    params.shading = surface->shading;
     if (scene->shapes[surface->shape].flags & RT_SHAPE_VARIED)
-        vary_paint(&paint, scene, material, surface);
-    return paint;
+        apply_variation(&params, scene, material, surface);
+    return params;
 }
 
 #endif

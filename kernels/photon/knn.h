@@ -55,7 +55,7 @@ INLINE_ALWAYS uint count_up_to(const struct distances *d, float value, float *la
  * The k-th smallest of the distances, k <= count, all of them below the bound. Squared distances on
  * a surface are spread evenly, so every other step looks where the k-th would then be; those
  * between halve the range of the numbers' bits, which are in the order of the numbers. It ends when
- * exactly k are not above the place looked at.
+ * exactly k are not above the value tried.
  */
 INLINE_ALWAYS float select_distance(const struct distances *d)
 {
@@ -152,7 +152,7 @@ INLINE_ALWAYS void push_children(struct near_stack *stack, uint level, uint inde
     for (uint at = stack->count + count; mask;) {
         const uint lane = nearest_lane(squared, mask);
         at--;
-        stack->entry[at] = ((level - 1u) << WALK_LEVEL_SHIFT) | (8u * index + lane);
+        stack->entry[at] = ((level - 1u) << ENTRY_LEVEL_SHIFT) | (8u * index + lane);
         stack->squared[at] = each[lane];
         mask &= ~(1u << lane);
     }
@@ -167,16 +167,16 @@ INLINE_ALWAYS bool take_nearest(struct distances *d, const struct photon_tree *t
                                 const struct photon_query *query, uint enough)
 {
     struct near_stack stack;
-    uint looked = 0u;
-    stack.entry[0] = (tree->shape.levels - 1u) << WALK_LEVEL_SHIFT;
+    uint candidates = 0u;
+    stack.entry[0] = (tree->shape.levels - 1u) << ENTRY_LEVEL_SHIFT;
     stack.squared[0] = 0.0f;
     stack.count = 1u;
     while (stack.count > 0u) {
         stack.count--;
         if (!(stack.squared[stack.count] < d->bound))
             continue;
-        const uint entry = stack.entry[stack.count], level = entry >> WALK_LEVEL_SHIFT,
-                   index = entry & WALK_INDEX;
+        const uint entry = stack.entry[stack.count], level = entry >> ENTRY_LEVEL_SHIFT,
+                   index = entry & ENTRY_INDEX;
         const float8 squared =
             box_distances(tree->nodes + tree->shape.first_node[level] + index, query);
         uint near = lane_mask(squared < d->bound);
@@ -186,27 +186,29 @@ INLINE_ALWAYS bool take_nearest(struct distances *d, const struct photon_tree *t
         }
         for (; near; near &= near - 1u)
             take_distances(d, tree, query, 8u * index + lane_first(near));
-        looked += 64u;
-        if (looked >= enough && d->count < d->k)
+        candidates += 64u;
+        if (candidates >= enough && d->count < d->k)
             return false;
     }
     return true;
 }
 
 /*
- * The squared distance of the (look)-th photon of any kind, or the bound when fewer are nearer than
+ * The squared distance of the (max_candidates)-th photon of any kind, or the bound when fewer are
+ * nearer than
  * that.
  */
-INLINE_ALWAYS float look_distance(const struct photon_tree *tree, const struct photon_query *query,
-                                  uint look, float bound)
+INLINE_ALWAYS float candidate_distance(const struct photon_tree *tree,
+                                       const struct photon_query *query, uint max_candidates,
+                                       float bound)
 {
-    if (count_photons(tree, query, bound, look) < look)
+    if (count_photons(tree, query, bound, max_candidates) < max_candidates)
         return bound;
-    /* The largest number that fewer than `look` are nearer than. */
+    /* The largest number that fewer than `max_candidates` are nearer than. */
     uint low = 0u, high = as_uint(bound);
     while (high - low > 1u) {
         const uint middle = low + (high - low) / 2u;
-        if (count_photons(tree, query, as_float(middle), look) < look)
+        if (count_photons(tree, query, as_float(middle), max_candidates) < max_candidates)
             low = middle;
         else
             high = middle;
@@ -222,13 +224,13 @@ INLINE_ALWAYS float look_distance(const struct photon_tree *tree, const struct p
 INLINE_ALWAYS bool take_within(struct distances *d, const struct photon_tree *tree,
                                const struct photon_query *query, float guess)
 {
-    struct photon_walk walk;
+    struct tree_traversal traversal;
     uint first, mask;
     d->count = 0u;
     d->bound = guess;
     const struct photon_start root = start_at_root(tree);
-    walk_start(&walk, &root);
-    while (walk_next(&walk, tree, query, d->bound, &first, &mask))
+    traversal_start(&traversal, &root);
+    while (traversal_next(&traversal, tree, query, d->bound, &first, &mask))
         for (; mask; mask &= mask - 1u)
             take_distances(d, tree, query, first + lane_first(mask));
     return d->count >= d->k;
@@ -241,24 +243,25 @@ INLINE_ALWAYS bool take_within(struct distances *d, const struct photon_tree *tr
 INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
                             const struct photon_query *query, const rt_density_params *estimate)
 {
-    const bool larger = tree->shape.photon_count > estimate->look;
+    const bool larger = tree->shape.photon_count > estimate->max_candidates;
     d->count = 0u;
     d->bound = estimate->squared_limit;
-    if (take_nearest(d, tree, query, larger ? 2u * estimate->look : 0xffffffffu))
+    if (take_nearest(d, tree, query, larger ? 2u * estimate->max_candidates : 0xffffffffu))
         return;
     /*
      * Few photons fit. Those that do may be far away, but not all of the map is to be searched for
      * them.
      */
     d->count = 0u;
-    d->bound = look_distance(tree, query, estimate->look, estimate->squared_limit);
+    d->bound = candidate_distance(tree, query, estimate->max_candidates, estimate->squared_limit);
     take_nearest(d, tree, query, 0xffffffffu);
 }
 
 /*
  * The squared radius of the disc around a point; 0 when no photon counts. guess: what it may be,
  * such as that of a point nearby; 0 for none: it changes the time taken, not the result. scratch:
- * [estimate->stride]. The rule of the (look)-th photon is left to the caller where k photons were
+ * [estimate->stride]. The rule of the (max_candidates)-th photon is left to the caller where k
+ * photons were
  * accepted before it: only the sum shows.
  */
 INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_query *query,

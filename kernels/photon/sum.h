@@ -30,18 +30,18 @@ INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tr
 {
     const float r2 = sum->squared_radius;
     float8 red = (float8)(0.0f), green = red, blue = red;
-    struct photon_walk walk;
-    uint first, mask, looked = 0u, count = 0u;
+    struct tree_traversal traversal;
+    uint first, mask, candidates = 0u, count = 0u;
 
-    walk_start(&walk, start);
-    while (walk_next(&walk, tree, query, r2, &first, &mask))
+    traversal_start(&traversal, start);
+    while (traversal_next(&traversal, tree, query, r2, &first, &mask))
         for (; mask; mask &= mask - 1u) {
             global const rt_photon_block *block = tree->blocks + first + lane_first(mask);
             const float8 d2 = photon_distances(block, query);
             const int8 inside = d2 < r2;
             const int8 counted = inside && photons_accepted(block, query);
             const uint lanes = lane_mask(counted);
-            looked += popcount(lane_mask(inside));
+            candidates += popcount(lane_mask(inside));
             if (!lanes)
                 continue;
             count += popcount(lanes);
@@ -53,7 +53,7 @@ INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tr
         }
     sum->flux_density = (float3)(sum_lanes(red), sum_lanes(green), sum_lanes(blue));
     sum->count = count;
-    return looked;
+    return candidates;
 }
 
 /* The estimate at a point from the k nearest; guess and scratch as for disc_radius. */
@@ -65,9 +65,11 @@ INLINE_NEVER struct photon_sum sum_nearest(const struct photon_tree *tree,
     const struct photon_start root = start_at_root(tree);
     struct photon_sum sum;
     sum.squared_radius = disc_radius(tree, query, estimate, guess, scratch);
-    const uint looked = sum_disc(&sum, tree, &root, query, estimate);
-    if (looked >= estimate->look && tree->shape.photon_count > estimate->look) {
-        sum.squared_radius = look_distance(tree, query, estimate->look, sum.squared_radius);
+    const uint candidates = sum_disc(&sum, tree, &root, query, estimate);
+    if (candidates >= estimate->max_candidates &&
+        tree->shape.photon_count > estimate->max_candidates) {
+        sum.squared_radius =
+            candidate_distance(tree, query, estimate->max_candidates, sum.squared_radius);
         sum_disc(&sum, tree, &root, query, estimate);
     }
     return sum;

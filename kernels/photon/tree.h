@@ -91,8 +91,8 @@ INLINE_ALWAYS float8 box_reaches(global const rt_photon_node *node,
 /* ---- A walk ------------------------------------------------------------- */
 
 /* An entry of the stack: a node's level in the upper bits, and its index in that level. */
-#define WALK_LEVEL_SHIFT 28u
-#define WALK_INDEX 0x0fffffffu
+#define ENTRY_LEVEL_SHIFT 28u
+#define ENTRY_INDEX 0x0fffffffu
 
 /*
  * Where walks begin: at the root, or at the few nodes of level 0 that any of a group of points
@@ -107,35 +107,36 @@ struct photon_start {
 INLINE_ALWAYS struct photon_start start_at_root(const struct photon_tree *tree)
 {
     struct photon_start start;
-    start.entry[0] = (tree->shape.levels - 1u) << WALK_LEVEL_SHIFT;
+    start.entry[0] = (tree->shape.levels - 1u) << ENTRY_LEVEL_SHIFT;
     start.count = tree->shape.levels > 0u ? 1u : 0u;
     return start;
 }
 
-struct photon_walk {
+struct tree_traversal {
     uint stack[RT_PHOTON_STACK];
     uint count;
 };
 
-INLINE_ALWAYS void walk_start(struct photon_walk *walk, const struct photon_start *start)
+INLINE_ALWAYS void traversal_start(struct tree_traversal *traversal,
+                                   const struct photon_start *start)
 {
-    walk->count = start->count;
+    traversal->count = start->count;
     for (uint i = 0u; i < start->count; i++)
-        walk->stack[i] = start->entry[i];
+        traversal->stack[i] = start->entry[i];
 }
 
 /*
  * Goes on to the next node of level 0; false at the end. `mask` then has a bit for each of its
  * blocks, from *first on, that comes nearer than the squared radius, which may shrink during a
- * walk.
+ * traversal.
  */
-INLINE_ALWAYS bool walk_next(struct photon_walk *walk, const struct photon_tree *tree,
-                             const struct photon_query *query, float squared_radius, uint *first,
-                             uint *mask)
+INLINE_ALWAYS bool traversal_next(struct tree_traversal *traversal, const struct photon_tree *tree,
+                                  const struct photon_query *query, float squared_radius,
+                                  uint *first, uint *mask)
 {
-    while (walk->count > 0u) {
-        const uint entry = walk->stack[--walk->count];
-        const uint level = entry >> WALK_LEVEL_SHIFT, index = entry & WALK_INDEX;
+    while (traversal->count > 0u) {
+        const uint entry = traversal->stack[--traversal->count];
+        const uint level = entry >> ENTRY_LEVEL_SHIFT, index = entry & ENTRY_INDEX;
         global const rt_photon_node *node = tree->nodes + tree->shape.first_node[level] + index;
         uint near = lane_mask(box_distances(node, query) < squared_radius);
         if (level == 0u) {
@@ -145,8 +146,8 @@ INLINE_ALWAYS bool walk_next(struct photon_walk *walk, const struct photon_tree 
                 return true;
         } else
             for (; near; near &= near - 1u)
-                walk->stack[walk->count++] =
-                    ((level - 1u) << WALK_LEVEL_SHIFT) | (8u * index + lane_first(near));
+                traversal->stack[traversal->count++] =
+                    ((level - 1u) << ENTRY_LEVEL_SHIFT) | (8u * index + lane_first(near));
     }
     return false;
 }
@@ -166,7 +167,7 @@ INLINE_NEVER struct photon_start start_near(const struct photon_tree *tree, floa
     stack[0] = root.entry[0];
     while (entries > 0u) {
         const uint entry = stack[--entries];
-        const uint level = entry >> WALK_LEVEL_SHIFT, index = entry & WALK_INDEX;
+        const uint level = entry >> ENTRY_LEVEL_SHIFT, index = entry & ENTRY_INDEX;
         global const rt_photon_node *node = tree->nodes + tree->shape.first_node[level] + index;
         uint near = lane_mask(box_gaps(node, low, high) < squared_radius);
         if (level == 0u && near) {
@@ -176,7 +177,8 @@ INLINE_NEVER struct photon_start start_near(const struct photon_tree *tree, floa
             continue;
         }
         for (; near; near &= near - 1u)
-            stack[entries++] = ((level - 1u) << WALK_LEVEL_SHIFT) | (8u * index + lane_first(near));
+            stack[entries++] =
+                ((level - 1u) << ENTRY_LEVEL_SHIFT) | (8u * index + lane_first(near));
     }
     start.count = PHOTON_STARTS - free;
     for (uint i = 0u; i < start.count; i++)
@@ -199,10 +201,10 @@ INLINE_ALWAYS uint count_photons(const struct photon_tree *tree, const struct ph
     uint stack[RT_PHOTON_STACK];
     uint entries = 0u, count = 0u;
     if (tree->shape.levels > 0u)
-        stack[entries++] = (tree->shape.levels - 1u) << WALK_LEVEL_SHIFT;
+        stack[entries++] = (tree->shape.levels - 1u) << ENTRY_LEVEL_SHIFT;
     while (entries > 0u && count < enough) {
         const uint entry = stack[--entries];
-        const uint level = entry >> WALK_LEVEL_SHIFT, index = entry & WALK_INDEX;
+        const uint level = entry >> ENTRY_LEVEL_SHIFT, index = entry & ENTRY_INDEX;
         global const rt_photon_node *node = tree->nodes + tree->shape.first_node[level] + index;
         uint near = lane_mask(box_distances(node, query) < squared_radius);
         /* A child that lies inside by more than rounding counts whole. */
@@ -218,7 +220,7 @@ INLINE_ALWAYS uint count_photons(const struct photon_tree *tree, const struct ph
             else if (inside >> lane & 1u)
                 count += photons_under(tree, level - 1u, child);
             else
-                stack[entries++] = ((level - 1u) << WALK_LEVEL_SHIFT) | child;
+                stack[entries++] = ((level - 1u) << ENTRY_LEVEL_SHIFT) | child;
         }
     }
     return min(count, enough);

@@ -53,7 +53,7 @@ rt_status rt_device_gather_prepare(rt_device_gather *g, rt_device *device,
     memset(g, 0, sizeof *g);
     g->estimate = *estimate;
     g->estimate.stride = (rt_u32)stride;
-    g->estimate.look = RT_PHOTON_LOOK_MAX * estimate->k;
+    g->estimate.max_candidates = RT_PHOTON_LOOK_MAX * estimate->k;
     g->estimate.points_an_item = (rt_u32)(least > usual ? least : usual);
 
     rt_status status = rt_photon_tree_build(&g->tree, list, device->threads, error);

@@ -27,7 +27,7 @@ rt_status rt_device_gather_prepare(rt_device_gather *out, rt_device *device,
 void rt_device_gather_release(rt_device_gather *gather);
 
 /*
- * Enqueues the kernel photon_walk, or one of the same arguments, for points first .. first + count
+ * Enqueues the kernel gather_tree, or one of the same arguments, for points first .. first + count
  * - 1.
  */
 rt_status rt_device_gather_launch(const rt_device_gather *gather, rt_device *device,

@@ -29,8 +29,8 @@ typedef struct rt_gather_options {
 
 /*
  * Makes a list ready: builds the search tree and uploads the photons. The list must outlive the
- * gatherer unchanged, as must the device and, on it, the kernel: that of the program photon_walk
- * for the gather on the device, else of photon_gather, both of the same name. k = 0 is for the
+ * gatherer unchanged, as must the device and, on it, the kernel: that of the program gather_tree
+ * for the gather on the device, else of gather_neighbours, both of the same name. k = 0 is for the
  * device only. The caller owns *out.
  */
 rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel,

@@ -11,7 +11,7 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *rendere
 {
     rt_device *device = renderer->device;
     cl_mem any = renderer->scene; /* stands for all buffers that are not touched yet */
-    const char *name = on_device ? "photon_walk" : "photon_gather";
+    const char *name = on_device ? "gather_tree" : "gather_neighbours";
     rt_params params;
     rt_density_params estimate;
     rt_photon_tree tree;

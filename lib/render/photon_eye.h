@@ -14,7 +14,7 @@
 /* The kernels of the eye's half. */
 typedef struct rt_eye_kernels {
     cl_kernel camera; /* photon_camera */
-    cl_kernel gather; /* photon_gather or photon_walk */
+    cl_kernel gather; /* gather_neighbours or gather_tree */
     cl_kernel film;   /* photon_film */
 } rt_eye_kernels;
 

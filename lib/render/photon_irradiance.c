@@ -52,7 +52,7 @@ static rt_status make_gatherer(asking *a, const rt_photon_map *map, rt_photon_ki
 static rt_status prepare(asking *a, const rt_photon_map *map, size_t count, rt_error *error)
 {
     a->capacity = count < RT_GATHER_POINTS_MAX ? count : RT_GATHER_POINTS_MAX;
-    const char *name = a->on_device ? "photon_walk" : "photon_gather";
+    const char *name = a->on_device ? "gather_tree" : "gather_neighbours";
     rt_status status = rt_device_kernel(a->device, &a->kernel, name, name, a->options.hooks, error);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
         if (map->lists[kind].count > 0)

@@ -126,7 +126,7 @@ static void open_device(device_side *d, const problem *p)
         RT_DENSITY_EPANECHNIKOV, 1.1f, 0, p->k, HUGE_VALF, 0, 0, 1, RT_AREA_DISC, 0, {0}};
     rt_error error;
     must(rt_device_open(&d->device, NULL, &error), &error);
-    must(rt_device_kernel(d->device, &d->kernel, "photon_walk", "photon_walk", NULL, &error),
+    must(rt_device_kernel(d->device, &d->kernel, "gather_tree", "gather_tree", NULL, &error),
          &error);
     must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE, p->queries * sizeof *p->points,
                           NULL, "points", &error),

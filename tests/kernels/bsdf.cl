@@ -30,7 +30,7 @@ kernel void reflectance(uint count, global const float2 *in, global float2 *out)
 }
 
 /*
- * Four rows an item: wi and event, weight over survival and squeeze, light and density of the
+ * Four rows an item: wi and event, weight over survival and eta_scale, light and density of the
  * event's lobe at wi, and albedo with the density that was sampled.
  */
 kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
@@ -46,13 +46,13 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
     struct scatter made;
     made.wi = bsdf.normal;
     made.weight = (float3)(0.0f);
-    made.squeeze = 1.0f;
+    made.eta_scale = 1.0f;
     made.pdf_w = 0.0f;
     made.through = false;
     if (event != EVENT_ABSORBED)
         made = bsdf_scatter(&bsdf, event, u.xyw, transport);
     out[4u * i] = (float4)(made.wi, (float)event);
-    out[4u * i + 1u] = (float4)(made.weight / at.beta.w, made.squeeze);
+    out[4u * i + 1u] = (float4)(made.weight / at.beta.w, made.eta_scale);
     const struct lobe lobe =
         event == EVENT_ROUGH ? bsdf_rough(&bsdf, made.wi) : bsdf_diffuse(&bsdf, made.wi);
     out[4u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);

@@ -20,7 +20,7 @@ typedef struct situation {
 /* An event; eval and eval_pdf_w: light and density of its lobe at wi. */
 typedef struct bsdf_draw {
     float wi[3], event;
-    float weight[3], squeeze; /* over survival */
+    float weight[3], eta_scale; /* over survival */
     float eval[3], eval_pdf_w;
     float albedo[3], pdf_w;
 } bsdf_draw;

@@ -21,9 +21,9 @@ kernel void follow_parameters(uint count, global const rt_scene_header *header,
         return;
     const struct surface surface = surface_at(&scene, &ray, &hit);
     const struct tangents along = tangents_at(&scene, &surface);
-    const struct paint paint =
-        paint_at(&scene, scene.materials + scene.shapes[surface.shape].material, &surface);
+    const struct bsdf_params params =
+        evaluate_material(&scene, scene.materials + scene.shapes[surface.shape].material, &surface);
     out[2u * i] = (float8)(surface.position, surface.u, surface.normal, surface.v);
     out[2u * i + 1u] = (float8)(along.u, 0.0f, along.v, 0.0f);
-    bumped[i] = (float4)(paint.shading, 0.0f);
+    bumped[i] = (float4)(params.shading, 0.0f);
 }

@@ -5,7 +5,7 @@
 #include "photon/sum.h"
 
 /*
- * lists: [item_count][params.slots]; the arguments before them are those of photon_walk, in its
+ * lists: [item_count][params.slots]; the arguments before them are those of gather_tree, in its
  * order.
  */
 kernel void neighbours(const rt_params params, const rt_density_params estimate,
@@ -51,10 +51,10 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     disc.squared_radius = sum.squared_radius;
     disc.asked = sum.count;
     disc.pixel = points[item].pixel;
-    struct photon_walk walk;
+    struct tree_traversal traversal;
     uint first, mask;
-    walk_start(&walk, &start);
-    while (walk_next(&walk, &tree, &query, sum.squared_radius, &first, &mask))
+    traversal_start(&traversal, &start);
+    while (traversal_next(&traversal, &tree, &query, sum.squared_radius, &first, &mask))
         for (; mask; mask &= mask - 1u) {
             const uint index = first + lane_first(mask);
             global const rt_photon_block *block = blocks + index;

@@ -181,7 +181,7 @@ static void delta_directions_obey_the_laws_of_reflection_and_refraction(void **s
         }
 }
 
-static void radiance_is_squeezed_by_refraction_and_flux_is_not(void **state)
+static void radiance_is_scaled_at_refraction_and_flux_is_not(void **state)
 {
     const situation at = flat(1 / 1.5f);
     (void)state;
@@ -190,7 +190,7 @@ static void radiance_is_squeezed_by_refraction_and_flux_is_not(void **state)
         for (int i = 0; i < n; i++) {
             double factor =
                 results[i].event == refracted && transport == carry_radiance ? 1 / 2.25 : 1;
-            assert_float_equal(results[i].squeeze, factor, 1e-6);
+            assert_float_equal(results[i].eta_scale, factor, 1e-6);
         }
     }
 }
@@ -256,9 +256,9 @@ static void rough_events_carry_their_lobe(void **state)
             through += r->wi[2] < 0;
             assert_float_equal(r->pdf_w, r->eval_pdf_w, 1e-2 * r->pdf_w);
             for (int c = 0; c < 3; c++)
-                assert_float_equal(r->weight[c] * r->pdf_w * r->squeeze, r->eval[c],
+                assert_float_equal(r->weight[c] * r->pdf_w * r->eta_scale, r->eval[c],
                                    1e-2 * r->eval[c]);
-            assert_float_equal(r->squeeze, r->wi[2] < 0 ? 1 / 2.25 : 1, 1e-6);
+            assert_float_equal(r->eta_scale, r->wi[2] < 0 ? 1 / 2.25 : 1, 1e-6);
         }
         material.roughness = 9e-4f;
         scatter(&material, &at, carry_radiance);
@@ -319,7 +319,7 @@ int main(void)
         statistical_test(events_come_as_often_as_the_coefficients_say),
         statistical_test(diffuse_density_is_what_is_sampled),
         cmocka_unit_test(delta_directions_obey_the_laws_of_reflection_and_refraction),
-        cmocka_unit_test(radiance_is_squeezed_by_refraction_and_flux_is_not),
+        cmocka_unit_test(radiance_is_scaled_at_refraction_and_flux_is_not),
         cmocka_unit_test(shading_normals_leak_no_light),
         cmocka_unit_test(rough_events_carry_their_lobe),
         cmocka_unit_test(flux_is_corrected_for_shading_normals),

@@ -128,7 +128,7 @@ static void sampled_light_is_the_light_that_is_evaluated(void **state)
                          draws);
             for (int c = 0; c < 3; c++) {
                 for (int i = 0; i < n; i++)
-                    values[i] = spreads(draws + i) ? draws[i].weight[c] * draws[i].squeeze : 0;
+                    values[i] = spreads(draws + i) ? draws[i].weight[c] * draws[i].eta_scale : 0;
                 expect_mean(values, n, truth.light[c], 2e-4, materials[m].name);
             }
         }
@@ -192,13 +192,13 @@ static void light_goes_both_ways_alike(void **state)
         evaluate_scatter(&materials[m].material, back, (const float(*)[4])wo, pairs, back_values);
         for (int i = 0; i < pairs; i++) {
             const int through = wi[i][2] < 0;
-            const double squeeze = through ? (double)there[i].eta * there[i].eta : 1;
+            const double eta_scale = through ? (double)there[i].eta * there[i].eta : 1;
             /* Near the horizon a rounding of the direction is too much for float32. */
             if (fabs(wi[i][2]) < 0.02 || wo[i][2] < 0.02)
                 continue;
             for (int c = 0; c < 3; c++) {
                 const double f = (forth_values[i].diffuse[c] + forth_values[i].rough[c]) /
-                                 fabs(wi[i][2]) / squeeze;
+                                 fabs(wi[i][2]) / eta_scale;
                 const double b = (back_values[i].diffuse[c] + back_values[i].rough[c]) / wo[i][2];
                 compared += f > 1e-4;
                 across += through && f > 1e-4;

@@ -69,7 +69,7 @@ static void expected_radiance(double out[3], const rt_photon_list *map,
 }
 
 /* The two ways to gather. */
-static const char *const programs[] = {"photon_gather", "photon_walk"};
+static const char *const programs[] = {"gather_neighbours", "gather_tree"};
 
 /*
  * Gathers twice at the points behind `before` others, which are left alone; discs is what was

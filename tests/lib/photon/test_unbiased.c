@@ -87,7 +87,7 @@ static rt_gather_point *make_points(int at_edge)
 static void estimate(const rt_photon_list *map, const rt_gather_options *options, int at_edge,
                      double *mean, double *error_of_mean)
 {
-    static const char *const programs[] = {"photon_gather", "photon_walk"};
+    static const char *const programs[] = {"gather_neighbours", "gather_tree"};
     const char *program = programs[options->on_device];
     rt_gather_point *points = make_points(at_edge);
     rt_gather_disc *discs = calloc(estimates, sizeof *discs);

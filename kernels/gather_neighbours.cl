@@ -1,5 +1,5 @@
 /*
- * photon_gather.cl - the density sum over the neighbours that the host found: each work-item adds
+ * gather_neighbours.cl - the density sum over the neighbours that the host found: each work-item adds
  * to a gather point's radiance what the point makes of the photons around it.
  */
 #include "photon/density.h"
@@ -26,9 +26,9 @@ static inline float3 disc_density(const rt_density_params *estimate, float3 posi
  * points: those from params.first_item on; lists: rows of estimate.stride photon
  * indices, one a point, nearest first, which also is the order of summing.
  */
-KERNEL photon_gather(const rt_params params, const rt_density_params estimate,
-                     global rt_gather_point *points, global const rt_gather_disc *discs,
-                     global const uint *lists, global const rt_photon *photons)
+KERNEL gather_neighbours(const rt_params params, const rt_density_params estimate,
+                         global rt_gather_point *points, global const rt_gather_disc *discs,
+                         global const uint *lists, global const rt_photon *photons)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count || discs[item].count == 0u)

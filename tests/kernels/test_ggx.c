@@ -1,5 +1,5 @@
 /*
- * test_rough.c - rough reflection and refraction: sampling against evaluation, reciprocity, energy;
+ * test_ggx.c - rough reflection and refraction: sampling against evaluation, reciprocity, energy;
  * metals' reflectance.
  */
 #include "support.h"
@@ -44,7 +44,7 @@ static void sample(const rt_material_data *material, boundary b, double cosine)
     uint32_t seed = test_seed(5), count = n;
     float wo[4];
     view(wo, cosine);
-    cl_kernel kernel = test_kernel("rough", "sample_rough");
+    cl_kernel kernel = test_kernel("ggx", "sample_ggx");
     cl_mem m = test_buffer(sizeof *material, material), out = test_buffer(sizeof results, NULL);
     rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(m), RT_ARG(b), RT_ARG(wo), RT_ARG(out)};
     test_run(kernel, args, 6, n);
@@ -59,7 +59,7 @@ static void evaluate(const char *name, const rt_material_data *material, boundar
 {
     float wo[4];
     view(wo, cosine);
-    cl_kernel kernel = test_kernel("rough", name);
+    cl_kernel kernel = test_kernel("ggx", name);
     cl_mem m = test_buffer(sizeof *material, material),
            in = test_buffer(count * sizeof *directions, directions);
     cl_mem made = test_buffer(count * sizeof *out, NULL);
@@ -158,14 +158,14 @@ static void light_goes_both_ways_alike(void **state)
         for (int f = 0; f < 2; f++) {
             const boundary b = {0.4f, 0.5f, alphas[a], 1 / 1.5f};
             const rt_material_data *material = f ? &dielectric : &plain;
-            evaluate("evaluate_rough", material, b, cosine, (const float(*)[4])directions, count,
+            evaluate("evaluate_ggx", material, b, cosine, (const float(*)[4])directions, count,
                      there);
             evaluate("evaluate_back", material, b, cosine, (const float(*)[4])directions, count,
                      back);
             for (int i = 0; i < count; i++) {
                 int through = directions[i][2] < 0;
-                double squeeze = through ? (double)b.eta * b.eta : 1;
-                double f1 = there[i][0] / fabs(directions[i][2]) * squeeze,
+                double eta_scale = through ? (double)b.eta * b.eta : 1;
+                double f1 = there[i][0] / fabs(directions[i][2]) * eta_scale,
                        f2 = back[i][0] / cosine;
                 refracted += through && f1 > 0;
                 assert_float_equal(f1, f2, 2e-3 * (f1 + f2) + 1e-7);
@@ -196,7 +196,7 @@ static double kept_on_average(const rt_material_data *material, boundary b)
 }
 
 /*
- * No lobe gains; a white metal and clear glass lose what rough.h states, which is light that met
+ * No lobe gains; a white metal and clear glass lose what ggx.h states, which is light that met
  * two facets.
  */
 static void a_white_furnace_loses_what_meets_two_facets(void **state)
@@ -277,7 +277,7 @@ static void the_narrowest_lobe_is_the_smooth_boundary(void **state)
 static void reflect(const float eta[4], const float k[4], const float *cosines, uint32_t count,
                     float (*out)[4])
 {
-    cl_kernel kernel = test_kernel("rough", "reflect_metal");
+    cl_kernel kernel = test_kernel("ggx", "reflect_metal");
     cl_mem in = test_buffer(count * sizeof *cosines, cosines),
            made = test_buffer(count * sizeof *out, NULL);
     float index[4], loss[4];
@@ -344,5 +344,5 @@ int main(void)
         cmocka_unit_test(metals_reflect_by_complex_fresnel),
         cmocka_unit_test(known_metals_have_their_reflectance),
     };
-    return cmocka_run_group_tests_name("kernels/rough", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("kernels/ggx", tests, NULL, NULL);
 }

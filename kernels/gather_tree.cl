@@ -1,5 +1,5 @@
 /*
- * photon_walk.cl - the gather on the device: each work-item finds the photons around a few gather
+ * gather_tree.cl - the gather on the device: each work-item finds the photons around a few gather
  * points in the tree, and adds to their radiance what the points make of them.
  */
 #include "entry.h"
@@ -11,7 +11,7 @@
  * at each point, without the lists; own_limits: of each pixel, not read where estimate.own_limits
  * is 0.
  */
-KERNEL photon_walk(const rt_params params, const rt_density_params estimate,
+KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
                    global rt_gather_point *points, global rt_gather_disc *discs,
                    const rt_photon_tree shape, global const rt_photon_node *nodes,
                    global const rt_photon_block *blocks, global float *scratch,

@@ -1,6 +1,6 @@
-/* rough.cl - the lobes of one rough boundary and the reflectance of metals, for their tests. */
+/* ggx.cl - the lobes of one rough boundary and the reflectance of metals, for their tests. */
 #include "sample/rng.h"
-#include "bsdf/rough.h"
+#include "bsdf/ggx.h"
 
 /* A boundary: ks, kt, alpha and eta. */
 static struct specular boundary_of(global const rt_material_data *material, float4 numbers)
@@ -15,8 +15,8 @@ static struct specular boundary_of(global const rt_material_data *material, floa
 }
 
 /* Three rows an item: wi and the density sampled, weight, light and density by evaluation at wi. */
-kernel void sample_rough(uint seed, uint count, global const rt_material_data *material,
-                         const float4 numbers, const float4 wo, global float4 *out)
+kernel void sample_ggx(uint seed, uint count, global const rt_material_data *material,
+                       const float4 numbers, const float4 wo, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -25,23 +25,22 @@ kernel void sample_rough(uint seed, uint count, global const rt_material_data *m
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 7u, 2u)) >> 8) * 0x1p-24f;
     float3 wi;
     float pdf_w;
-    const float3 weight = rough_sample(&specular, wo.xyz, u.xyz, &wi, &pdf_w);
-    const struct lobe lobe = rough_eval(&specular, wo.xyz, wi);
+    const float3 weight = ggx_sample(&specular, wo.xyz, u.xyz, &wi, &pdf_w);
+    const struct lobe lobe = ggx_eval(&specular, wo.xyz, wi);
     out[3u * i] = (float4)(wi, pdf_w);
     out[3u * i + 1u] = (float4)(weight, 0.0f);
     out[3u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
 }
 
 /* A row an item: light from directions[i] to wo, with its density. */
-kernel void evaluate_rough(uint count, global const rt_material_data *material,
-                           const float4 numbers, const float4 wo, global const float4 *directions,
-                           global float4 *out)
+kernel void evaluate_ggx(uint count, global const rt_material_data *material, const float4 numbers,
+                         const float4 wo, global const float4 *directions, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
         return;
     const struct specular specular = boundary_of(material, numbers);
-    const struct lobe lobe = rough_eval(&specular, wo.xyz, directions[i].xyz);
+    const struct lobe lobe = ggx_eval(&specular, wo.xyz, directions[i].xyz);
     out[i] = (float4)(lobe.value, lobe.pdf_w);
 }
 
@@ -57,7 +56,7 @@ kernel void evaluate_back(uint count, global const rt_material_data *material, c
     struct specular specular = boundary_of(material, numbers);
     if (side < 0.0f)
         specular.eta = 1.0f / specular.eta;
-    const struct lobe lobe = rough_eval(&specular, side * wi, side * wo.xyz);
+    const struct lobe lobe = ggx_eval(&specular, side * wi, side * wo.xyz);
     out[i] = (float4)(lobe.value, lobe.pdf_w);
 }
 

@@ -111,7 +111,7 @@ static inline float facet_pdf_w(const struct specular *specular, float3 wo, floa
 }
 
 /* Light from wi to wo, by reflection or refraction as the side of wi says. */
-static inline struct lobe rough_eval(const struct specular *specular, float3 wo, float3 wi)
+static inline struct lobe ggx_eval(const struct specular *specular, float3 wo, float3 wi)
 {
     struct lobe lobe;
     lobe.value = (float3)(0.0f);
@@ -140,8 +140,8 @@ static inline struct lobe rough_eval(const struct specular *specular, float3 wo,
  * Writes the density of wi, 0 for what counts as smooth, and returns fr |n.wi| over the true
  * density; 0: the light is lost.
  */
-static inline float3 rough_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
-                                  float *pdf_w)
+static inline float3 ggx_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
+                                float *pdf_w)
 {
     const float3 h = sample_visible_normal(specular->alpha, wo, u.xy);
     const float cos_o = dot(wo, h);
