@@ -40,8 +40,8 @@ LIB_SRC := \
 	lib/image/png_read.c lib/image/png_write.c lib/image/ppm_read.c lib/image/ppm_write.c \
 	lib/image/srgb.c lib/image/ssim.c \
 	lib/light/lights.c lib/light/tree.c \
-	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/mesh.c lib/mesh/normals.c lib/mesh/obj.c \
-	lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c \
+	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/load.c lib/mesh/mesh.c lib/mesh/normals.c \
+	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c \
 	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c lib/pack/sobol.c \
@@ -141,7 +141,7 @@ TESTS_FULL  += $(TESTS_PROOF)
 TESTS_SHELL := \
 	tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
-	tests/proof/test_page.sh \
+	tests/proof/test_page.sh tests/test_includes.sh \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#include "accel/tree.h"
-
 /*
  * Costs of a visit: a node's eight boxes with the sorting of those met, and a leaf's eight
  * triangles, took about as long where this was tuned. The leaves are given, so only the node's cost

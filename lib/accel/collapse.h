@@ -7,22 +7,11 @@
  * Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", High Performance Graphics 2017,
  * section 3).
  */
-#ifndef RT_ACCEL_COLLAPSE_H
-#define RT_ACCEL_COLLAPSE_H
+#ifndef RT_LIB_ACCEL_COLLAPSE_H
+#define RT_LIB_ACCEL_COLLAPSE_H
 
-#include <stdint.h>
-
+#include "accel/tree_node.h"
 #include "types.h"
-
-struct rt_tree_node;
-
-/*
- * How a node of the binary tree is represented by at most j roots: left[j] of them in its left
- * child and the others in the right one, or, where left[j] is 0, by j - 1 roots.
- */
-typedef struct rt_collapse_choice {
-    uint8_t left[RT_BVH_WIDTH]; /* of j = index + 1; left[0] has no meaning */
-} rt_collapse_choice;
 
 /* Least cost of a subtree by at most j roots, at index j - 1. */
 typedef struct rt_collapse_cost {
@@ -30,23 +19,22 @@ typedef struct rt_collapse_cost {
 } rt_collapse_cost;
 
 /* For a node without children. */
-rt_collapse_cost rt_collapse_leaf(struct rt_tree_node *node);
+rt_collapse_cost rt_collapse_leaf(rt_tree_node *node);
 
 /* For a node whose children have these costs. */
-rt_collapse_cost rt_collapse_inner(struct rt_tree_node *node, const rt_collapse_cost *left,
+rt_collapse_cost rt_collapse_inner(rt_tree_node *node, const rt_collapse_cost *left,
                                    const rt_collapse_cost *right);
 
 /*
  * The same with roots divided evenly whatever their cost, so that three binary levels make a wide
  * one.
  */
-rt_collapse_cost rt_collapse_even(struct rt_tree_node *node);
+rt_collapse_cost rt_collapse_even(rt_tree_node *node);
 
 /*
  * The nodes that are the children of the wide node made of `node`, the largest area first: a ray
  * that asks only whether anything is hit tries them in this order. Returns their number, 1 to 8.
  */
-int rt_collapse_children(const struct rt_tree_node *node,
-                         const struct rt_tree_node *out[RT_BVH_WIDTH]);
+int rt_collapse_children(const rt_tree_node *node, const rt_tree_node *out[RT_BVH_WIDTH]);
 
 #endif

@@ -8,7 +8,6 @@
 
 #include <string.h>
 
-#include "accel/split.h"
 #include "base/parallel.h"
 
 enum { JOB_CHUNKS = 16, EXCHANGE_JOBS = 16 };
@@ -32,7 +31,7 @@ static int is_left(const rt_ref *ref, const rt_plane_split *plane)
 /* Keeps the order on both sides; free of branches that could be mispredicted. */
 static uint32_t partition_chunk(rt_ref *refs, uint32_t count, const rt_plane_split *plane)
 {
-    rt_ref right[RT_SPLIT_CHUNK];
+    rt_ref right[RT_PARTITION_CHUNK];
     uint32_t lefts = 0, rights = 0;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t left = (uint32_t)is_left(&refs[i], plane);
@@ -52,9 +51,9 @@ static void partition_chunks(void *user, uint32_t index)
     const uint32_t first = index * JOB_CHUNKS;
     const uint32_t end = first + JOB_CHUNKS < job->chunks ? first + JOB_CHUNKS : job->chunks;
     for (uint32_t c = first; c < end; c++) {
-        const uint32_t begin = c * RT_SPLIT_CHUNK;
+        const uint32_t begin = c * RT_PARTITION_CHUNK;
         const uint32_t left = job->count - begin;
-        const uint32_t length = left < RT_SPLIT_CHUNK ? left : RT_SPLIT_CHUNK;
+        const uint32_t length = left < RT_PARTITION_CHUNK ? left : RT_PARTITION_CHUNK;
         job->lefts[c] = partition_chunk(job->refs + begin, length, job->plane);
     }
 }
@@ -67,8 +66,9 @@ typedef struct run {
 /* The part of the chunk's right side before the boundary, or of its left side behind it. */
 static run misplaced_run(const partition_job *job, uint32_t chunk, int rights)
 {
-    const uint32_t begin = chunk * RT_SPLIT_CHUNK;
-    const uint32_t end = job->count - begin < RT_SPLIT_CHUNK ? job->count : begin + RT_SPLIT_CHUNK;
+    const uint32_t begin = chunk * RT_PARTITION_CHUNK;
+    const uint32_t end =
+        job->count - begin < RT_PARTITION_CHUNK ? job->count : begin + RT_PARTITION_CHUNK;
     const uint32_t middle = begin + job->lefts[chunk];
     const uint32_t edge = job->boundary;
     run r = {chunk, 0, 0};
@@ -126,8 +126,8 @@ static void exchange(void *user, uint32_t index)
 uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads,
                       uint32_t *scratch)
 {
-    partition_job job = {refs, count, plane, scratch, (count + RT_SPLIT_CHUNK - 1) / RT_SPLIT_CHUNK,
-                         0,    0};
+    partition_job job = {
+        refs, count, plane, scratch, (count + RT_PARTITION_CHUNK - 1) / RT_PARTITION_CHUNK, 0, 0};
     if (job.chunks <= 1)
         return partition_chunk(refs, count, plane);
 

@@ -1,10 +1,13 @@
 /* partition.h - reorders references by the side of a plane. */
-#ifndef RT_ACCEL_PARTITION_H
-#define RT_ACCEL_PARTITION_H
+#ifndef RT_LIB_ACCEL_PARTITION_H
+#define RT_LIB_ACCEL_PARTITION_H
 
 #include <stdint.h>
 
 #include "accel/refs.h"
+
+/* References are partitioned by chunks of this length, then exchanged between chunks. */
+#define RT_PARTITION_CHUNK 1024u
 
 /* A plane between bins: left are the references whose bin along `axis` is below `bin`. */
 typedef struct rt_plane_split {
@@ -16,7 +19,7 @@ typedef struct rt_plane_split {
 
 /*
  * Moves the left references before the others; returns their number. The order does not depend on
- * threads.
+ * threads. scratch has room for count / RT_PARTITION_CHUNK + 1 numbers.
  */
 uint32_t rt_partition(rt_ref *refs, uint32_t count, const rt_plane_split *plane, uint32_t threads,
                       uint32_t *scratch);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "types.h"
 
 enum { CHUNK = 16384 };
 

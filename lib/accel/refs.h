@@ -1,10 +1,10 @@
 /* refs.h - the builder's references to primitives: their bounds and where they come from. */
-#ifndef RT_ACCEL_REFS_H
-#define RT_ACCEL_REFS_H
+#ifndef RT_LIB_ACCEL_REFS_H
+#define RT_LIB_ACCEL_REFS_H
 
 #include <stdint.h>
 
-#include "accel/bvh.h"
+#include "accel/input.h"
 #include "accel/vec4.h"
 
 /* Sources that are not a mesh; below them, the number of the mesh. */

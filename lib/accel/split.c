@@ -3,6 +3,7 @@
 
 #include "accel/partition.h"
 #include "base/parallel.h"
+#include "types.h"
 
 enum { BINS = 32, JOBS = 16 };
 

@@ -6,8 +6,8 @@
  * side being its area times the blocks of eight that it fills; or at the median, where depth must
  * be bounded.
  */
-#ifndef RT_ACCEL_SPLIT_H
-#define RT_ACCEL_SPLIT_H
+#ifndef RT_LIB_ACCEL_SPLIT_H
+#define RT_LIB_ACCEL_SPLIT_H
 
 #include <stdint.h>
 
@@ -18,9 +18,6 @@
  * them.
  */
 #define RT_SPLIT_PARALLEL 65536u
-
-/* References are partitioned by chunks of this length, then exchanged between chunks. */
-#define RT_SPLIT_CHUNK 1024u
 
 typedef struct rt_set {
     rt_ref *refs;
@@ -34,7 +31,7 @@ rt_set rt_set_make(rt_ref *refs, uint32_t count, uint32_t threads);
 
 /*
  * Reorders the set, which has at least two references, and returns how many of them, at least one
- * and not all, make the left side. scratch has room for count / RT_SPLIT_CHUNK + 1 numbers.
+ * and not all, make the left side. scratch has room for count / RT_PARTITION_CHUNK + 1 numbers.
  */
 uint32_t rt_split_sah(const rt_set *set, uint32_t threads, uint32_t *scratch);
 uint32_t rt_split_median(const rt_set *set);

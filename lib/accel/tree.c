@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accel/collapse.h"
+#include "accel/partition.h"
 #include "accel/split.h"
 #include "base/error.h"
 #include "base/parallel.h"
@@ -154,7 +156,7 @@ static rt_collapse_cost close_node(const builder *b, rt_tree_node *node,
 
 static rt_collapse_cost grow(builder *b, rt_tree_node *node, int depth, rt_tree_arena *arena)
 {
-    uint32_t scratch[RT_SPLIT_PARALLEL / RT_SPLIT_CHUNK + 1];
+    uint32_t scratch[RT_SPLIT_PARALLEL / RT_PARTITION_CHUNK + 1];
     const rt_set set = open_node(b, node, 1);
     if (fits_leaf(&set) || !divide(b, node, &set, depth, arena, 1, scratch))
         return rt_collapse_leaf(node);
@@ -247,7 +249,7 @@ static uint64_t estimate_work(uint32_t count)
 
 static rt_status build(builder *b, rt_tree *tree)
 {
-    b->scratch = malloc((b->count / RT_SPLIT_CHUNK + 1) * sizeof *b->scratch);
+    b->scratch = malloc((b->count / RT_PARTITION_CHUNK + 1) * sizeof *b->scratch);
     if (b->scratch == NULL)
         return RT_ERROR_MEMORY;
     tree->root.first = 0;

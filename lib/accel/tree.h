@@ -1,20 +1,13 @@
 /* tree.h - the binary tree that comes before the eight-wide one. */
-#ifndef RT_ACCEL_TREE_H
-#define RT_ACCEL_TREE_H
+#ifndef RT_LIB_ACCEL_TREE_H
+#define RT_LIB_ACCEL_TREE_H
 
 #include <stdint.h>
 
-#include "accel/collapse.h"
 #include "accel/refs.h"
+#include "accel/tree_node.h"
 #include "base/progress.h"
 #include "rt.h"
-
-typedef struct rt_tree_node {
-    float lo[3], hi[3];
-    struct rt_tree_node *children; /* two; NULL where the references can be one leaf */
-    uint32_t first, count;         /* its references */
-    rt_collapse_choice choice;
-} rt_tree_node;
 
 typedef enum rt_split_rule {
     RT_SPLIT_RULE_SAH,   /* best cost; no bound on depth */

@@ -4,8 +4,8 @@
  * GCC's and clang's vector extension; the fourth lane carries whatever lies behind three floats
  * in memory and is ignored.
  */
-#ifndef RT_ACCEL_VEC4_H
-#define RT_ACCEL_VEC4_H
+#ifndef RT_LIB_ACCEL_VEC4_H
+#define RT_LIB_ACCEL_VEC4_H
 
 #include <float.h>
 #include <math.h>

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accel/collapse.h"
 #include "base/parallel.h"
 
 /* A part holds at most so many references. */

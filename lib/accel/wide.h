@@ -2,13 +2,14 @@
  * wide.h - numbers and writes the eight-wide nodes and leaves that a collapsed binary tree stands
  * for.
  */
-#ifndef RT_ACCEL_WIDE_H
-#define RT_ACCEL_WIDE_H
+#ifndef RT_LIB_ACCEL_WIDE_H
+#define RT_LIB_ACCEL_WIDE_H
 
 #include <stdint.h>
 
-#include "accel/bvh.h"
+#include "accel/input.h"
 #include "accel/tree.h"
+#include "types.h"
 
 /* Places in the three output arrays. */
 typedef struct rt_wide_cursor {

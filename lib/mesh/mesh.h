@@ -1,11 +1,8 @@
-/* mesh.h - a triangle mesh read from a file: PLY, OBJ, OFF or STL. */
+/* mesh.h - a triangle mesh as it was read from a file. */
 #ifndef RT_LIB_MESH_MESH_H
 #define RT_LIB_MESH_MESH_H
 
-#include <stddef.h>
 #include <stdint.h>
-
-#include "base/error.h"
 
 /* Owns its arrays. Every number in them is finite and every index below vertex_count. */
 typedef struct rt_mesh {
@@ -34,19 +31,7 @@ typedef struct rt_mesh {
     uint64_t zero_area; /* triangles without area; they are kept in indices */
 } rt_mesh;
 
-/*
- * Reads a mesh. The format is told by the content, else by the name's ending. Reports RT_STAGE_LOAD
- * to the hooks (may be NULL), and to the log what was left out or made up. Fails with
- * RT_ERROR_INPUT, error->file and, in a text file, error->line set; RT_ERROR_MEMORY; or
- * RT_CANCELLED. The caller destroys *out.
- */
-rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, rt_error *error);
+/* Frees the mesh with its arrays; NULL is none. */
 void rt_mesh_destroy(rt_mesh *mesh);
-
-/*
- * Gives a mesh smooth normals: at each vertex the mean of the faces around it, weighted by area.
- * Replaces those it has. Fails with RT_ERROR_MEMORY.
- */
-rt_status rt_mesh_smooth(rt_mesh *mesh, rt_error *error);
 
 #endif

@@ -1,8 +1,11 @@
+/* normals.c - normals of vertices from the triangles around them, and triangles without area. */
 #include "mesh/normals.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/error.h"
 
 /*
  * Twice the area of a triangle times its normal, in double: float coordinates cannot overflow it.

@@ -18,7 +18,7 @@ enum { buffer_alignment = 4096, sobol_entries = 4 * 256 };
 
 void *rt_packing_table(const rt_packing *packing, rt_u32 offset)
 {
-    return (char *)packing->image.data + (size_t)offset * RT_SCENE_ROW;
+    return (char *)packing->data + (size_t)offset * RT_SCENE_ROW;
 }
 
 /* Gives a table its place after those before it. */
@@ -96,25 +96,24 @@ static rt_status build(rt_packing *p, uint32_t threads, rt_stage_progress *progr
     return RT_OK;
 }
 
-/* Allocates the buffer and fills its tables. */
-static rt_status fill(rt_packing *p, rt_error *error)
+/* Allocates the buffer and fills its tables; *light_power is that of all lights, W. */
+static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
 {
     size_t rows = place_tables(p);
     if (rows > UINT32_MAX)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu rows of %u bytes",
                        rows, RT_SCENE_ROW);
-    p->image.bytes = rows * RT_SCENE_ROW;
-    if (posix_memalign(&p->image.data, buffer_alignment, p->image.bytes)) {
-        p->image.data = NULL;
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes",
-                       p->image.bytes);
+    p->bytes = rows * RT_SCENE_ROW;
+    if (posix_memalign(&p->data, buffer_alignment, p->bytes)) {
+        p->data = NULL;
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes", p->bytes);
     }
-    memset(p->image.data, 0, p->image.bytes);
+    memset(p->data, 0, p->bytes);
     rt_hierarchy_write(&p->hierarchy, rt_packing_table(p, p->header.nodes),
                        rt_packing_table(p, p->header.blocks),
                        rt_packing_table(p, p->header.analytic));
-    p->image.light_power = rt_lights_fill(p->scene, p->first_prim, p->header.radius,
-                                          rt_packing_table(p, p->header.lights), p->first_light);
+    *light_power = rt_lights_fill(p->scene, p->first_prim, p->header.radius,
+                                  rt_packing_table(p, p->header.lights), p->first_light);
     rt_pack_shapes(p);
     rt_pack_targets(p);
     rt_pack_vertices(p);
@@ -122,7 +121,7 @@ static rt_status fill(rt_packing *p, rt_error *error)
     rt_pack_textures(p);
     rt_pack_environment(p);
     rt_sobol_table(rt_packing_table(p, p->header.sobol));
-    memcpy(p->image.data, &p->header, sizeof p->header);
+    memcpy(p->data, &p->header, sizeof p->header);
     return rt_light_tree_fill(rt_packing_table(p, p->header.light_nodes), p->scene, &p->header,
                               rt_packing_table(p, p->header.lights),
                               rt_packing_table(p, p->header.prim_shape), error);
@@ -131,19 +130,24 @@ static rt_status fill(rt_packing *p, rt_error *error)
 rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel,
                         uint32_t threads, rt_stage_progress *progress, rt_error *error)
 {
+    double light_power = 0;
     rt_packing p;
     memset(&p, 0, sizeof p);
     p.scene = scene;
     p.header.accel = accel;
     rt_status status = rt_pack_number(&p, error);
-    if (status == RT_OK)
-        status = build(&p, threads, progress, error);
-    if (status == RT_OK)
-        status = fill(&p, error);
-    if (status == RT_OK)
-        *out = p.image;
-    else
-        free(p.image.data);
+    if (status != RT_OK)
+        goto out;
+    status = build(&p, threads, progress, error);
+    if (status != RT_OK)
+        goto out;
+    status = fill(&p, &light_power, error);
+    if (status != RT_OK)
+        goto out;
+    *out = (rt_scene_image){p.data, p.bytes, light_power};
+    p.data = NULL;
+out:
+    free(p.data);
     rt_hierarchy_free(&p.hierarchy);
     free(p.first_prim);
     free(p.first_light);

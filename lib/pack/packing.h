@@ -3,7 +3,7 @@
 #define RT_LIB_PACK_PACKING_H
 
 #include "pack/hierarchy.h"
-#include "pack/pack.h"
+#include "scene/scene.h"
 
 /*
  * Where the vertex data of a mesh begin in their tables; RT_NONE where the mesh has none or nothing
@@ -28,7 +28,8 @@ typedef struct rt_packing {
     size_t index_count, normal_count, uv_count, colour_count;
     rt_hierarchy hierarchy;
     rt_scene_header header;
-    rt_scene_image image;
+    void *data; /* the buffer of rt_scene_image, once it is allocated */
+    size_t bytes;
 } rt_packing;
 
 /* The table at this offset of the buffer. */

@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "mesh/mesh.h"
+#include "mesh/load.h"
+#include "mesh/normals.h"
 #include "scene/check.h"
 #include "scene/scene.h"
 

@@ -17,7 +17,7 @@
 #include <cmocka.h>
 
 #include "corpus/manifest.h"
-#include "mesh/mesh.h"
+#include "mesh/load.h"
 
 #define SECONDS 2
 

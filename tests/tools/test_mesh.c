@@ -19,7 +19,7 @@
 #include <cmocka.h>
 
 #include "lib/image/scratch.h"
-#include "mesh/mesh.h"
+#include "mesh/load.h"
 #include "tools/expect.h"
 #include "tools/spawn.h"
 

@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-#include "mesh/mesh.h"
+#include "mesh/load.h"
 
 /* A file under construction; all zero is empty. */
 typedef struct sample {

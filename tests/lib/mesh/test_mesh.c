@@ -15,6 +15,7 @@
 
 #include "lib/image/scratch.h"
 #include "lib/mesh/sample.h"
+#include "mesh/normals.h"
 
 #define PLY                                                                                        \
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float " \

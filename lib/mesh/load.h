@@ -1,0 +1,16 @@
+/* load.h - reads a triangle mesh from a file: PLY, OBJ, OFF or STL. */
+#ifndef RT_LIB_MESH_LOAD_H
+#define RT_LIB_MESH_LOAD_H
+
+#include "mesh/mesh.h"
+#include "rt.h"
+
+/*
+ * Reads a mesh. The format is told by the content, else by the name's ending. Reports RT_STAGE_LOAD
+ * to the hooks (may be NULL), and to the log what was left out or made up. Fails with
+ * RT_ERROR_INPUT, error->file and, in a text file, error->line set; RT_ERROR_MEMORY; or
+ * RT_CANCELLED. The caller destroys *out.
+ */
+rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, rt_error *error);
+
+#endif
