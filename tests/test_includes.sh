@@ -247,7 +247,8 @@ END
 
 self_test
 read_tree .
-[ "$(wc -l <"$work/edges")" -gt 100 ] || echo "few includes: is this the repository's root?" >>"$work/lost"
+[ "$(wc -l <"$work/edges")" -gt 100 ] ||
+    echo "few includes: is this the repository?" >>"$work/lost"
 check every_include_names_a_file "$work/lost"
 unit_circles >"$work/offences"
 check no_circle_of_units "$work/offences"
