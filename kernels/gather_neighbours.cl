@@ -1,6 +1,6 @@
 /*
- * gather_neighbours.cl - the density sum over the neighbours that the host found: each work-item adds
- * to a gather point's radiance what the point makes of the photons around it.
+ * gather_neighbours.cl - the neighbour-list gather: each work-item adds to the radiance of a gather
+ * point what the point's lobe scatters of the photons that the host found around it.
  */
 #include "photon/density.h"
 #include "entry.h"

@@ -1,6 +1,6 @@
 /*
- * gather_tree.cl - the gather on the device: each work-item finds the photons around a few gather
- * points in the tree, and adds to their radiance what the points make of them.
+ * gather_tree.cl - the tree gather: each work-item finds the photons around a few gather points in
+ * the tree of photons, and adds to their radiance what the points' lobes scatter of them.
  */
 #include "entry.h"
 #include "photon/sum.h"

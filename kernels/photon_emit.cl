@@ -13,7 +13,7 @@
  * where the map is asked, that is the longest path of path tracing.
  *
  * Each path keeps account of its flux: what surfaces absorb is taken off as their albedo says,
- * whatever event is chosen, and the difference that the choice makes is booked as roulette, whose
+ * whatever lobe is chosen, and the difference that the choice makes is booked as roulette, whose
  * mean is zero.
  *
  * References:
@@ -159,14 +159,14 @@ static bool scatter_path(struct light_path *path, const struct surface *surface,
     const float3 arrived = path->flux;
     const float3 kept = arrived * bsdf_albedo(bsdf);
     const float survival = min(1.0f, largest3(kept) / largest3(arrived));
-    const uint event = bsdf_choose(bsdf, survival, u.z);
+    const uint lobe = bsdf_choose(bsdf, survival, u.z);
     path->absorbed += arrived - kept;
     path->roulette += kept;
     path->flux = (float3)(0.0f);
-    if (event == EVENT_ABSORBED)
+    if (lobe == RT_LOBE_NONE)
         return false;
-    const struct scatter scatter = bsdf_scatter(bsdf, event, u.xyw, CARRY_FLUX);
-    const float3 chosen = arrived * (bsdf_event_weight(bsdf, event) / survival);
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u.xyw, CARRY_FLUX);
+    const float3 chosen = arrived * (bsdf_lobe_weight(bsdf, lobe) / survival);
     path->flux = arrived * (scatter.weight / survival);
     path->roulette -= chosen;
     path->absorbed += chosen - path->flux; /* at shading normals */
@@ -174,7 +174,7 @@ static bool scatter_path(struct light_path *path, const struct surface *surface,
         return false;
     path->ray = make_ray(leave_surface(surface, scatter.wi), scatter.wi, 0.0f, INFINITY);
     path->straight = false;
-    path->scattered |= event == EVENT_DIFFUSE || event == EVENT_ROUGH;
+    path->scattered |= !lobe_is_delta(lobe);
     if (scatter.through)
         path->media = beyond;
     path->depth++;
@@ -198,8 +198,8 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         start_path(&path, scene, shares, sampler, for_caustics, account) && can_follow(&path.ray);
     while (alive && path.depth < params->max_depth) {
         /*
-         * Draw the numbers of the next event: they hang on nothing, so a processor makes them while
-         * it waits below.
+         * Draw the numbers of the next vertex: they depend on nothing, so a processor makes them
+         * while it waits below.
          */
         const float4 u = sampler_set(sampler, set_scatter(path.depth - 1u));
 
@@ -234,7 +234,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         if (bsdf_is_diffuse(&bsdf) && is_stored(&path, params))
             leave_photon(&path, params, &surface, &bsdf, index, slots);
 
-        /* Choose an event, or absorption, and go on. */
+        /* Choose a lobe, or absorption, and go on. */
         alive = scatter_path(&path, &surface, &bsdf, boundary.beyond, u);
         if (!alive)
             end = RT_END_ABSORBED;

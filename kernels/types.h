@@ -179,6 +179,22 @@ typedef struct rt_material_data {
 } rt_material_data;
 RT_SIZE(rt_material_data, 112);
 
+/* ---- Lobes -------------------------------------------------------------- */
+
+/*
+ * The lobes that a BSDF is made of, X(NAME, name, is_delta, is_gathered): kernels/bsdf/name.h holds
+ * the lobe RT_LOBE_NAME. A delta lobe scatters into one direction. A gathered lobe is rough enough
+ * for photon density: photons are stored, and gathered, where a surface has one.
+ */
+#define RT_LOBES(X)                                                                                \
+    X(LAMBERT, lambert, 0, 1)                                                                      \
+    X(SPECULAR_REFLECTION, specular_reflection, 1, 0)                                              \
+    X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0)                                          \
+    X(GGX, ggx, 0, 0)
+
+#define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_gathered) RT_LOBE_##NAME,
+enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOBE_COUNT };
+
 /* ---- Textures ---------------------------------------------------------- */
 
 /*

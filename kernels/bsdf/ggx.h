@@ -1,18 +1,21 @@
 /*
- * rough.h - specular reflection and refraction, at a smooth boundary and at one of GGX microfacets.
+ * ggx.h - the lobe of a rough boundary: reflection and refraction by GGX microfacets.
  *
- * A smooth boundary reflects and refracts about its normal. A rough one is made of facets that do,
- * each by its own angle. Light is scattered once, and what would meet a second facet is lost, so a
- * rough surface never gains light, and is darker than a smooth one by this much of what it gets:
+ *   reflected   fr |n.wi| = R(wo.h) D(h) G2(wo, wi) / (4 n.wo)
+ *   refracted   fr |n.wi| = T(wo.h) D(h) G2(wo, wi) |wo.h| |wi.h| / (n.wo (eta wo.h + wi.h)^2)
+ *
+ * Each facet is a smooth boundary about its own normal h. Light is scattered once, and what would
+ * meet a second facet is lost, so a rough surface never gains light, and is darker than a smooth
+ * one by this much of what it gets:
  *
  *   alpha                                         0.01   0.1    0.2    0.5    1
  *   white metal, normal view / all directions     0/0    1/3    5/8   31/30  69/59  %
  *   clear glass, normal view / all directions     0/0    0/1    1/2    3/8   10/20  %
  *   the same from inside                          0/0    1/3    4/10  24/30  58/52  %
  *
- * Directions are unit vectors in the frame of the surface, wo.z > 0, or 0 by rounding. eta is the
- * index on the side of wo over that on the other. Refracted light is given as flux; radiance is to
- * be scaled by eta^2.
+ * The functions named facets_ are in the frame of the surface, wo.z > 0, or 0 by rounding. eta is
+ * the index on the side of wo over that on the other. Refracted light is given as flux there;
+ * radiance is to be scaled by eta^2.
  *
  * References:
  *   Walter, Marschner, Li, Torrance: "Microfacet Models for Refraction through Rough Surfaces",
@@ -20,67 +23,17 @@
  *   Heitz: "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2),
  *     2014.
  */
-#ifndef RT_KERNELS_BSDF_ROUGH_H
-#define RT_KERNELS_BSDF_ROUGH_H
+#ifndef RT_KERNELS_BSDF_GGX_H
+#define RT_KERNELS_BSDF_GGX_H
 
-#include "bsdf/fresnel.h"
+#include "bsdf/lobe.h"
 #include "bsdf/microfacet.h"
-#include "types.h"
 
 /*
  * With indices as close as this, refraction hardly bends light: its density is too narrow for
  * float32, and light sampling leaves it alone as it does a smooth boundary.
  */
 #define RT_MATCHED_INDEX 1e-2f
-
-/* The specular part of a material at one point. */
-struct specular {
-    float3 ks, kt;
-    float eta;
-    float alpha;
-    global const rt_material_data *material; /* whether and which Fresnel equations hold */
-};
-
-/* What a facet does with light. */
-struct split {
-    float3 reflected, refracted;
-    float cos_t;  /* of the refracted direction */
-    float chance; /* of reflection, where one of the two is chosen */
-};
-
-/* A direction of one lobe. */
-struct lobe {
-    float3 value; /* fr |n.wi| */
-    float pdf_w;  /* per steradian */
-};
-
-/*
- * Splits light between reflection and refraction at a boundary met with this cosine. A metal's
- * index is relative to the medium it lies in, whose index eta then is.
- */
-static inline struct split split_light(const struct specular *specular, float cos_i)
-{
-    global const rt_material_data *material = specular->material;
-    const float3 both = specular->ks + specular->kt;
-    struct split split;
-    const float reflectance = fresnel(cos_i, specular->eta, &split.cos_t);
-    if (material->flags & RT_MATERIAL_CONDUCTOR) {
-        const float inverse = 1.0f / specular->eta;
-        split.reflected = specular->ks * fresnel_conductor(cos_i, row3(material->eta) * inverse,
-                                                           row3(material->k) * inverse);
-        split.refracted = (float3)(0.0f);
-    } else if (material->flags & RT_MATERIAL_FRESNEL) {
-        split.reflected = reflectance * both;
-        split.refracted = (1.0f - reflectance) * both;
-    } else {
-        const bool total = reflectance >= 1.0f;
-        split.reflected = total ? both : specular->ks;
-        split.refracted = total ? (float3)(0.0f) : specular->kt;
-    }
-    const float r = mean3(split.reflected), t = mean3(split.refracted);
-    split.chance = r > 0.0f ? r / (r + t) : 0.0f;
-    return split;
-}
 
 static inline bool is_matched(const struct specular *specular)
 {
@@ -111,24 +64,22 @@ static inline float facet_pdf_w(const struct specular *specular, float3 wo, floa
 }
 
 /* Light from wi to wo, by reflection or refraction as the side of wi says. */
-static inline struct lobe ggx_eval(const struct specular *specular, float3 wo, float3 wi)
+static inline struct lobe_value facets_eval(const struct specular *specular, float3 wo, float3 wi)
 {
-    struct lobe lobe;
-    lobe.value = (float3)(0.0f);
-    lobe.pdf_w = 0.0f;
     const bool reflects = wi.z > 0.0f;
     if (wi.z == 0.0f || (!reflects && is_matched(specular)))
-        return lobe;
+        return no_light();
 
     /* Find the facet that does it, and see that both directions are on the right sides of it. */
     float3 h = unit(reflects ? wo + wi : specular->eta * wo + wi);
     h = h.z < 0.0f ? -h : h;
     const float cos_o = dot(wo, h), cos_i = dot(wi, h);
     if (cos_o <= 0.0f || (reflects ? cos_i <= 0.0f : cos_i >= 0.0f))
-        return lobe;
+        return no_light();
 
     const struct split split = split_light(specular, cos_o);
     const float facets = facet_pdf_w(specular, wo, wi, h);
+    struct lobe_value lobe;
     lobe.pdf_w = facets * (reflects ? split.chance : 1.0f - split.chance);
     lobe.value =
         (reflects ? split.reflected : split.refracted) * (facets * unshadowed(specular, wo, wi));
@@ -140,8 +91,8 @@ static inline struct lobe ggx_eval(const struct specular *specular, float3 wo, f
  * Writes the density of wi, 0 for what counts as smooth, and returns fr |n.wi| over the true
  * density; 0: the light is lost.
  */
-static inline float3 ggx_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
-                                float *pdf_w)
+static inline float3 facets_sample(const struct specular *specular, float3 wo, float3 u, float3 *wi,
+                                   float *pdf_w)
 {
     const float3 h = sample_visible_normal(specular->alpha, wo, u.xy);
     const float cos_o = dot(wo, h);
@@ -157,6 +108,45 @@ static inline float3 ggx_sample(const struct specular *specular, float3 wo, floa
         *pdf_w = chance * facet_pdf_w(specular, wo, *wi, h);
     return (reflects ? split.reflected : split.refracted) *
            (unshadowed(specular, wo, *wi) / chance);
+}
+
+/* For a path that carries radiance. */
+static inline struct lobe_value ggx_eval(const struct bsdf *bsdf, float3 wi)
+{
+    const struct frame frame = frame_about(bsdf->shading);
+    const float3 wi_local = frame_to_local(frame, wi);
+    struct lobe_value lobe =
+        facets_eval(&bsdf->specular, frame_to_local(frame, bsdf->wo), wi_local);
+    const bool above = wi_local.z > 0.0f;
+    const float kept = above == (dot(wi, bsdf->normal) > 0.0f) ? 1.0f : 0.0f;
+    lobe.value *= kept * (above ? 1.0f : square(bsdf->specular.eta));
+    lobe.pdf_w *= kept;
+    return lobe;
+}
+
+static inline float ggx_pdf_w(const struct bsdf *bsdf, float3 wi)
+{
+    return ggx_eval(bsdf, wi).pdf_w;
+}
+
+static inline struct lobe_sample ggx_sample(const struct bsdf *bsdf, float3 u)
+{
+    const struct frame frame = frame_about(bsdf->shading);
+    float3 wi_local;
+    struct lobe_sample sample;
+    const float3 weight = facets_sample(&bsdf->specular, frame_to_local(frame, bsdf->wo), u,
+                                        &wi_local, &sample.pdf_w);
+    sample.wi = unit(frame_to_world(frame, wi_local));
+    sample.through = wi_local.z < 0.0f;
+    sample.weight =
+        sample.through == (dot(sample.wi, bsdf->normal) < 0.0f) ? weight : (float3)(0.0f);
+    return sample;
+}
+
+/* That of the smooth boundary, an upper bound: what is lost between facets is not taken off. */
+static inline float3 ggx_albedo(const struct bsdf *bsdf)
+{
+    return bsdf->reflected + bsdf->refracted;
 }
 
 #endif

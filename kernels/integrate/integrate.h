@@ -91,7 +91,7 @@ INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params
 
 /* What counts of a lobe's light from a sampled point; `alone`: not weighted. */
 static inline float3 counted(const rt_params *params, const struct light_sample *sample,
-                             struct lobe lobe, bool alone)
+                             struct lobe_value lobe, bool alone)
 {
     if (alone || sample->delta)
         return lobe.value;
@@ -113,9 +113,9 @@ static inline void connect_light(struct connection *connection, const struct sce
         return;
     float3 scattered = (float3)(0.0f);
     if (!(last && params->direct == RT_DIRECT_PHOTONS))
-        scattered = counted(params, &sample, bsdf_diffuse(bsdf, sample.wi), last);
+        scattered = counted(params, &sample, bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
     if (bsdf_is_rough(bsdf))
-        scattered += counted(params, &sample, bsdf_rough(bsdf, sample.wi), false);
+        scattered += counted(params, &sample, bsdf_eval(bsdf, RT_LOBE_GGX, sample.wi), false);
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;
     connection->ray = shadow_ray(surface->position + lift * bsdf->normal, &sample);
@@ -156,7 +156,7 @@ static inline void ask_photons(struct path *path, const struct gather *gather, b
 {
     global rt_gather_point *point =
         last ? gather->point : gather->caustics + path->diffuse_events * gather->stride;
-    const float3 weight = path->eta_scale * path->beta * bsdf_event_weight(bsdf, EVENT_DIFFUSE);
+    const float3 weight = path->eta_scale * path->beta * bsdf_lobe_weight(bsdf, bsdf->diffuse_lobe);
     vstore3(surface->position, 0, point->position);
     vstore3(bsdf->normal, 0, point->normal);
     vstore3(bsdf->wo, 0, point->wo);
@@ -208,11 +208,11 @@ static inline void path_escape(const struct scene *scene, const rt_params *param
         environment_light(scene, params, path->from, path->ray.direction, path->pdf_w);
 }
 
-/* Goes on from a surface by the chosen event, by u in [0,1)^3. */
+/* Goes on from a surface by the chosen lobe, by u in [0,1)^3. */
 static inline void path_scatter(struct path *path, const struct surface *surface,
-                                const struct bsdf *bsdf, uint event, float3 u, uint4 beyond)
+                                const struct bsdf *bsdf, uint lobe, float3 u, uint4 beyond)
 {
-    const struct scatter scatter = bsdf_scatter(bsdf, event, u, CARRY_RADIANCE);
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, CARRY_RADIANCE);
     path->beta *= scatter.weight;
     path->depth = largest3(path->beta) > 0.0f ? path->depth + 1u : 0u;
     path->eta_scale *= scatter.eta_scale;
@@ -268,28 +268,29 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
                       last);
 
     /*
-     * Choose an event, or the end of the path by roulette, which spares nothing where the path ends
+     * Choose a lobe, or the end of the path by roulette, which spares nothing where the path ends
      * anyway.
      */
     const float survival =
         last ? 1.0f : survival_chance(params, path->depth, path->beta * bsdf_albedo(&bsdf));
-    const uint event = bsdf_choose(&bsdf, survival, u.hi.z);
-    if (event == EVENT_ABSORBED) {
+    const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
+    if (lobe == RT_LOBE_NONE) {
         path->depth = 0u;
         return;
     }
     path->beta *= 1.0f / survival;
 
-    /* In photon mapping, ask for photons at each diffuse event. */
-    if (purpose == FOLLOW_TO_GATHER && event == EVENT_DIFFUSE) {
+    /* In photon mapping, ask for photons wherever the lobe is gathered. */
+    const bool gathered = lobe_is_gathered(lobe);
+    if (purpose == FOLLOW_TO_GATHER && gathered) {
         ask_photons(path, gather, last, &surface, &bsdf, material_index);
         if (last)
             return;
     }
-    path->rough = event == EVENT_ROUGH || (path->rough && event != EVENT_DIFFUSE);
+    path->rough = !gathered && (path->rough || !lobe_is_delta(lobe));
 
-    /* Take the event's direction and go on. */
-    path_scatter(path, &surface, &bsdf, event, u.hi.xyw, boundary.beyond);
+    /* Sample a direction of the lobe and go on. */
+    path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
 }
 
 /*

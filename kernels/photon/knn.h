@@ -195,8 +195,7 @@ INLINE_ALWAYS bool take_nearest(struct distances *d, const struct photon_tree *t
 
 /*
  * The squared distance of the (max_candidates)-th photon of any kind, or the bound when fewer are
- * nearer than
- * that.
+ * nearer than that.
  */
 INLINE_ALWAYS float candidate_distance(const struct photon_tree *tree,
                                        const struct photon_query *query, uint max_candidates,
@@ -261,8 +260,7 @@ INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
  * The squared radius of the disc around a point; 0 when no photon counts. guess: what it may be,
  * such as that of a point nearby; 0 for none: it changes the time taken, not the result. scratch:
  * [estimate->stride]. The rule of the (max_candidates)-th photon is left to the caller where k
- * photons were
- * accepted before it: only the sum shows.
+ * photons were accepted before it: only the sum shows.
  */
 INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_query *query,
                                 const rt_density_params *estimate, float guess,

@@ -49,12 +49,12 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
     made.eta_scale = 1.0f;
     made.pdf_w = 0.0f;
     made.through = false;
-    if (event != EVENT_ABSORBED)
+    if (event != RT_LOBE_NONE)
         made = bsdf_scatter(&bsdf, event, u.xyw, transport);
     out[4u * i] = (float4)(made.wi, (float)event);
     out[4u * i + 1u] = (float4)(made.weight / at.beta.w, made.eta_scale);
-    const struct lobe lobe =
-        event == EVENT_ROUGH ? bsdf_rough(&bsdf, made.wi) : bsdf_diffuse(&bsdf, made.wi);
+    const struct lobe_value lobe =
+        bsdf_eval(&bsdf, event == RT_LOBE_GGX ? RT_LOBE_GGX : bsdf.diffuse_lobe, made.wi);
     out[4u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
     out[4u * i + 3u] = (float4)(bsdf_albedo(&bsdf), made.pdf_w);
 }
@@ -73,7 +73,7 @@ kernel void events(uint seed, uint count, global const rt_scene_header *header,
     struct scatter made;
     made.wi = bsdf.normal;
     made.pdf_w = 0.0f;
-    if (event != EVENT_ABSORBED)
+    if (event != RT_LOBE_NONE)
         made = bsdf_scatter(&bsdf, event, u.xyw, CARRY_RADIANCE);
     out[2u * i] = (float4)(made.wi, made.pdf_w);
     out[2u * i + 1u] = (float4)((float)event, 0.0f, 0.0f, 0.0f);
@@ -91,12 +91,9 @@ kernel void evaluate(uint count, global const rt_scene_header *header,
         return;
     const struct situation at = situations[i];
     const struct bsdf bsdf = situated(header, &at);
-    const struct lobe smooth = bsdf_diffuse(&bsdf, wi[i].xyz);
-    struct lobe rough;
-    rough.value = (float3)(0.0f);
-    rough.pdf_w = 0.0f;
-    if (bsdf_is_rough(&bsdf))
-        rough = bsdf_rough(&bsdf, wi[i].xyz);
+    const struct lobe_value smooth = bsdf_eval(&bsdf, bsdf.diffuse_lobe, wi[i].xyz);
+    const struct lobe_value rough =
+        bsdf_is_rough(&bsdf) ? bsdf_eval(&bsdf, RT_LOBE_GGX, wi[i].xyz) : no_light();
     out[2u * i] = (float4)(smooth.value, smooth.pdf_w);
     out[2u * i + 1u] = (float4)(rough.value, rough.pdf_w);
 }
@@ -118,7 +115,7 @@ kernel void albedo(uint seed, uint count, global const rt_scene_header *header,
     for (uint k = 0u; k < samples; k++) {
         const float4 u = convert_float4(pcg4d((uint4)(i, k, 8u, 6u + seed)) >> 8) * 0x1p-24f;
         const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
-        if (event == EVENT_ABSORBED)
+        if (event == RT_LOBE_NONE)
             continue;
         const float3 kept = bsdf_scatter(&bsdf, event, u.xyw, CARRY_FLUX).weight;
         sum += kept;

@@ -6,9 +6,18 @@
 
 #include "types.h"
 
-/* As enum transport and enum event of bsdf.h. */
+/* As enum transport of bsdf.h. */
 enum { carry_radiance, carry_flux };
-enum { absorbed, diffuse, reflected, refracted, rough, event_count };
+
+/* What a path chooses: a lobe, or to be absorbed. */
+enum {
+    diffuse = RT_LOBE_LAMBERT,
+    reflected = RT_LOBE_SPECULAR_REFLECTION,
+    refracted = RT_LOBE_SPECULAR_TRANSMISSION,
+    rough = RT_LOBE_GGX,
+    absorbed = RT_LOBE_NONE,
+    event_count
+};
 
 /* How a path meets the surface; eta: index on the side of wo over that on the other. */
 typedef struct situation {

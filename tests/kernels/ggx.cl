@@ -25,8 +25,8 @@ kernel void sample_ggx(uint seed, uint count, global const rt_material_data *mat
     const float4 u = convert_float4(pcg4d((uint4)(i, seed, 7u, 2u)) >> 8) * 0x1p-24f;
     float3 wi;
     float pdf_w;
-    const float3 weight = ggx_sample(&specular, wo.xyz, u.xyz, &wi, &pdf_w);
-    const struct lobe lobe = ggx_eval(&specular, wo.xyz, wi);
+    const float3 weight = facets_sample(&specular, wo.xyz, u.xyz, &wi, &pdf_w);
+    const struct lobe_value lobe = facets_eval(&specular, wo.xyz, wi);
     out[3u * i] = (float4)(wi, pdf_w);
     out[3u * i + 1u] = (float4)(weight, 0.0f);
     out[3u * i + 2u] = (float4)(lobe.value, lobe.pdf_w);
@@ -40,7 +40,7 @@ kernel void evaluate_ggx(uint count, global const rt_material_data *material, co
     if (i >= count)
         return;
     const struct specular specular = boundary_of(material, numbers);
-    const struct lobe lobe = ggx_eval(&specular, wo.xyz, directions[i].xyz);
+    const struct lobe_value lobe = facets_eval(&specular, wo.xyz, directions[i].xyz);
     out[i] = (float4)(lobe.value, lobe.pdf_w);
 }
 
@@ -56,7 +56,7 @@ kernel void evaluate_back(uint count, global const rt_material_data *material, c
     struct specular specular = boundary_of(material, numbers);
     if (side < 0.0f)
         specular.eta = 1.0f / specular.eta;
-    const struct lobe lobe = ggx_eval(&specular, side * wi, side * wo.xyz);
+    const struct lobe_value lobe = facets_eval(&specular, side * wi, side * wo.xyz);
     out[i] = (float4)(lobe.value, lobe.pdf_w);
 }
 

@@ -115,7 +115,9 @@ static void events_come_as_often_as_the_coefficients_say(void **state)
     (void)state;
     for (int with_fresnel = 0; with_fresnel < 2; with_fresnel++) {
         uint32_t counts[event_count] = {0};
-        double delta = 1.8, expected[4] = {0, 0.6 * n / sum, 0.6 * n / sum, 1.2 * n / sum};
+        double delta = 1.8;
+        double expected[event_count] = {
+            [diffuse] = 0.6 * n / sum, [reflected] = 0.6 * n / sum, [refracted] = 1.2 * n / sum};
         if (with_fresnel) {
             material.flags = RT_MATERIAL_FRESNEL;
             expected[reflected] = r * delta * n / sum;
@@ -124,7 +126,7 @@ static void events_come_as_often_as_the_coefficients_say(void **state)
         scatter(&material, &at, carry_radiance);
         for (int i = 0; i < n; i++)
             counts[(int)results[i].event]++;
-        expect_counts(counts, expected, 4, "events");
+        expect_counts(counts, expected, event_count, "events");
     }
 }
 

@@ -1,0 +1,53 @@
+/*
+ * boundary.h - the specular part of a material at a point: how much light its boundary reflects and
+ * how much it refracts.
+ */
+#ifndef RT_KERNELS_BSDF_BOUNDARY_H
+#define RT_KERNELS_BSDF_BOUNDARY_H
+
+#include "bsdf/fresnel.h"
+#include "types.h"
+
+struct specular {
+    float3 ks, kt;
+    float eta;                               /* index on the side of wo over that on the other */
+    float alpha;                             /* roughness of GGX; 0: smooth */
+    global const rt_material_data *material; /* whether and which Fresnel equations hold */
+};
+
+/* What a boundary, or a facet of one, does with light. */
+struct split {
+    float3 reflected, refracted;
+    float cos_t;  /* of the refracted direction */
+    float chance; /* of reflection, where one of the two is chosen */
+};
+
+/*
+ * Splits light between reflection and refraction at a boundary met with this cosine. A metal's
+ * index is relative to the medium it lies in, whose index eta then is.
+ */
+static inline struct split split_light(const struct specular *specular, float cos_i)
+{
+    global const rt_material_data *material = specular->material;
+    const float3 both = specular->ks + specular->kt;
+    struct split split;
+    const float reflectance = fresnel(cos_i, specular->eta, &split.cos_t);
+    if (material->flags & RT_MATERIAL_CONDUCTOR) {
+        const float inverse = 1.0f / specular->eta;
+        split.reflected = specular->ks * fresnel_conductor(cos_i, row3(material->eta) * inverse,
+                                                           row3(material->k) * inverse);
+        split.refracted = (float3)(0.0f);
+    } else if (material->flags & RT_MATERIAL_FRESNEL) {
+        split.reflected = reflectance * both;
+        split.refracted = (1.0f - reflectance) * both;
+    } else {
+        const bool total = reflectance >= 1.0f;
+        split.reflected = total ? both : specular->ks;
+        split.refracted = total ? (float3)(0.0f) : specular->kt;
+    }
+    const float r = mean3(split.reflected), t = mean3(split.refracted);
+    split.chance = r > 0.0f ? r / (r + t) : 0.0f;
+    return split;
+}
+
+#endif
