@@ -6,7 +6,6 @@
 #include "camera/camera.h"
 #include "entry.h"
 #include "camera/film.h"
-#include "shape/surface_at.h"
 #include "accel/traverse.h"
 
 /*

@@ -34,9 +34,7 @@ KERNEL trace_closest(global const rt_scene_header *scene_data, global const rt_r
     rt_hit hit = no_hit();
     if (can_follow(&ray) && closest_hit(&scene, &ray, &found)) {
         struct surface surface = surface_at(&scene, &ray, &found);
-        global const rt_shape *shape = scene.shapes + surface.shape;
-        if (shape->kind == RT_SHAPE_SPHERE)
-            locate_on_sphere(&surface, &scene, shape);
+        surface_uv(&surface, &scene);
         hit.t = found.t;
         hit.u = surface.u;
         hit.v = surface.v;

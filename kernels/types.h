@@ -83,29 +83,7 @@ RT_SIZE(rt_hit, 32);
 
 /* ---- Shapes and materials ---------------------------------------------- */
 
-/*
- * Kinds of shape. Sphere and plane are in world space; the other analytic shapes are given in a
- * space of their own, where they are as simple as below, and their transform places them there. A
- * transform maps normals by the transpose of its inverse, so that what is outside stays outside
- * even when it mirrors.
- */
-#define RT_SHAPE_TRIANGLES 0u /* a mesh in world space, geometry in rt_tri_block */
-#define RT_SHAPE_QUAD 1u      /* one parallelogram, geometry in rt_tri_block */
-/* p[0..2] centre, p[3] radius; a transform turns the normal to that of u and v */
-#define RT_SHAPE_SPHERE 2u
-/*
- * p[0..2] a point, p[4..6] unit normal; infinite, kept beside the tree; a transform maps the point
- * to x = u, y = v
- */
-#define RT_SHAPE_PLANE 3u
-#define RT_SHAPE_ELLIPSOID 4u /* the unit sphere */
-#define RT_SHAPE_DISC 5u      /* z = 0, p[0] <= radius <= 1, normal +z */
-#define RT_SHAPE_CYLINDER 6u  /* radius 1 about z, z in [0, 1] */
-#define RT_SHAPE_CONE 7u      /* about z, radius 1 at z = 0 and p[0] <= 1 at z = 1 */
-#define RT_SHAPE_TORUS 8u     /* about z, major radius 1, minor radius p[0] < 1 */
-/* a mesh with a tree of its own, placed by the transform; one primitive */
-#define RT_SHAPE_INSTANCE 9u
-
+/* The kinds of shape and what each keeps in p: shape/shapes.h. */
 #define RT_SHAPE_SMOOTH 1u /* flag: its vertices have normals */
 #define RT_SHAPE_UV 2u     /* flag: its vertices have texture coordinates */
 #define RT_SHAPE_COLOUR 4u /* flag: its vertices have colours */
@@ -114,12 +92,12 @@ RT_SIZE(rt_hit, 32);
 #define RT_SHAPE_MIRRORED 16u
 /* flag: textures, vertex colours or bumps make the material differ from point to point */
 #define RT_SHAPE_VARIED 32u
-#define RT_SHAPE_MATTE 64u /* flag: only diffuse, and does not shine */
+#define RT_SHAPE_MATTE 64u /* flag: only diffuse, and does not emit */
 /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 #define RT_SHAPE_FLAT 128u
 
 typedef struct rt_shape {
-    rt_u32 kind;       /* RT_SHAPE_* */
+    rt_u32 kind;       /* rt_shape_kind */
     rt_u32 flags;      /* RT_SHAPE_* flags */
     rt_u32 material;   /* index in materials */
     rt_u32 first_prim; /* its primitives are first_prim .. first_prim + prim_count - 1 */
@@ -138,7 +116,7 @@ typedef struct rt_shape {
     rt_u32 first_block;  /* instance: blocks of the mesh's tree, one after the other */
     rt_u32 block_count;
     rt_u32 reserved;
-    float p[8]; /* parameters of analytic shapes, as the kind says */
+    float p[8]; /* parameters, as the header of the shape says */
 } rt_shape;
 RT_SIZE(rt_shape, 96);
 

@@ -16,8 +16,8 @@
 /*
  * Whether the ray can be followed: its numbers are finite and small enough for what make_ray_slabs
  * does with them. A comparison with NaN fails, so without this the boxes of unused lanes would be
- * met. closest_hit and occluded ask for such rays; it is asked where a path begins, for a bounce's
- * direction is a unit vector.
+ * hit. closest_hit and occluded require such rays; it is checked where a path begins, for the
+ * direction of a bounce is a unit vector.
  */
 INLINE_ALWAYS bool can_follow(const struct ray *ray)
 {
@@ -69,7 +69,8 @@ INLINE_ALWAYS float8 plane_distance(global const rt_bvh_node *node, uint row, fl
 }
 
 /*
- * Tests the node's children; returns a bit for each whose box is met in [t_min, t_max], and where.
+ * Tests the node's children; returns a bit for each whose box the ray enters in [t_min, t_max], and
+ * where.
  */
 INLINE_ALWAYS uint intersect_boxes(global const rt_bvh_node *node, const struct ray_slabs *slabs,
                                    float t_min, float t_max, float8 *entry)

@@ -16,7 +16,7 @@
 #include "light/light.h"
 #include "material/material.h"
 #include "integrate/path_state.h"
-#include "shape/surface_at.h"
+#include "shape/shapes.h"
 
 /* What is noted of matte vertices before they are taken on together. */
 struct matte {

@@ -74,7 +74,8 @@ static inline float last_plane(const struct scene *scene, float3 from, float3 w)
     const struct ray ray = make_ray(from, w, 0.0f, INFINITY);
     float last = 0.0f;
     for (uint i = 0; i < scene->header->plane_count; i++) {
-        const float t = intersect_plane(scene->shapes + scene->planes[i], &ray);
+        uint part;
+        const float t = plane_intersect(scene->shapes + scene->planes[i], &ray, &part);
         last = t < INFINITY ? max(last, t) : last;
     }
     return last;

@@ -6,9 +6,8 @@
 #define RT_KERNELS_MATERIAL_MATERIAL_H
 
 #include "material/bump.h"
-#include "shape/mesh.h"
 #include "scene.h"
-#include "shape/surface.h"
+#include "shape/shapes.h"
 #include "material/texture.h"
 
 /* The BSDF parameters of a surface: its material, evaluated. */

@@ -1,5 +1,5 @@
 /*
- * line.h - a ray in a shape's own space, made ready for finding roots along it.
+ * line.h - a ray in object space, made ready for finding roots along it.
  */
 #ifndef RT_KERNELS_SHAPE_LINE_H
 #define RT_KERNELS_SHAPE_LINE_H
@@ -7,10 +7,10 @@
 #include "math/ray.h"
 
 /*
- * The points origin + s direction, lo <= s <= hi, with a unit direction; s in lengths of the
- * shape's space. A ray from afar starts anew where it comes nearest to the middle, so that what
- * follows works with small numbers; one from near keeps its origin to the bit, so that its side of
- * a surface stays known.
+ * The points origin + s direction, lo <= s <= hi, with a unit direction; s in lengths of
+ * object space. The line of a ray from afar starts where it is nearest to the middle, so that what
+ * follows works with small numbers; that of a ray from near keeps the ray's origin to the bit, so
+ * that its side of a surface stays known.
  */
 struct line {
     float3 origin, direction;

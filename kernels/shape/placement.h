@@ -1,5 +1,5 @@
 /*
- * placement.h - shapes that are given in a space of their own, and their way to the world and back.
+ * placement.h - the map of a shape between object space and the world.
  *
  * With L the linear part of the map and c the image of the origin, a world point x lies at
  * inverse(L) (x - c): the difference first, which is exact near the shape, so that shapes far from
@@ -43,20 +43,23 @@ static inline float3 point_to_object(global const rt_transform_data *placement, 
 }
 
 /*
- * The normal in the shape's space, not of unit length, of a surface with this normal in the world.
+ * The normal in object space, not of unit length, of a surface with this normal in the world.
  */
 static inline float3 normal_to_object(global const rt_transform_data *placement, float3 normal)
 {
     return map_transposed(placement->to_world, normal);
 }
 
-/* The normal in the world, not of unit length: what is outside stays outside, mirrored or not. */
+/*
+ * The normal in the world, not of unit length: what is outside stays outside, even where the map
+ * mirrors.
+ */
 static inline float3 normal_to_world(global const rt_transform_data *placement, float3 normal)
 {
     return map_transposed(placement->to_object, normal);
 }
 
-/* The ray in the shape's space; its t is the world's. */
+/* The ray in object space; its t is the world's. */
 static inline struct ray ray_to_object(global const rt_transform_data *placement,
                                        const struct ray *ray)
 {
@@ -77,8 +80,8 @@ static inline float area_stretch(global const rt_transform_data *placement, floa
 }
 
 /*
- * A bound, along each axis of the shape's space, on what rounding does to its point p on the way to
- * the world, where it is x, off the surface there, and back.
+ * A bound, along each axis of object space, on what rounding does to the point p when it is mapped
+ * to the world, where it is x, moved off the surface there, and mapped back.
  */
 static inline float3 placement_error(global const rt_transform_data *placement, float3 p, float3 x)
 {
@@ -98,9 +101,9 @@ static inline float3 point_to_world(global const rt_transform_data *placement, f
 }
 
 /*
- * Sets position, normal and error of a surface point from its own space: position p, unit normal n,
- * and how far off along n a ray must start there. To that comes what mapping adds along n; a
- * distance along n is one along the world's normal over |inverse transpose of L n|.
+ * Sets position, normal and error of a surface point from object space: position p, unit normal n,
+ * and how far off along n a ray must start there. Mapping adds its own error along n. A distance
+ * along n is one along the world's normal over |inverse transpose of L n|.
  */
 static inline void place_surface(struct surface *surface, global const rt_transform_data *placement,
                                  float3 p, float3 n, float error)

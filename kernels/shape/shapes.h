@@ -1,98 +1,266 @@
 /*
- * shapes.h - rays against the shapes that are not kept in blocks, but instances.
+ * shapes.h - the list of shapes, and the functions that go by the kind of a shape.
+ *
+ * Both compilers read the list. From it come the kinds below; for the device the switches of this
+ * file, which call the functions of the shapes' own headers; for the host the table of classes in
+ * lib/shape/class.c. A shape is added by a row, its header included below, and lib/shape/NAME.c.
  */
 #ifndef RT_KERNELS_SHAPE_SHAPES_H
 #define RT_KERNELS_SHAPE_SHAPES_H
 
-#include "math/lanes.h"
-#include "shape/line.h"
-#include "shape/placement.h"
-#include "math/ray.h"
-#include "shape/round.h"
-#include "scene.h"
-#include "shape/torus.h"
-#include "types.h"
-
-/* sqrt(x y), also where the product, of squares both, is out of a float's range. */
-static inline float root_of_product(float x, float y)
-{
-    const float product = x * y;
-    return product >= 1e-30f && product < INFINITY ? sqrt(product) : sqrt(x) * sqrt(y);
-}
+/*
+ * X(KIND, name, number). rt_shape.kind holds the number; it must not change, because files of
+ * photon maps hold a hash of it.
+ *
+ * Shapes of triangles or parallelograms, kept in blocks (rt_tri_block). Hits on blocks need no
+ * switch: triangle.h serves them all. accel/ intersects them, those of an instance in its own tree.
+ */
+#define RT_BLOCK_SHAPES(X) X(TRIANGLES, triangles, 0) X(QUAD, quad, 1) X(INSTANCE, instance, 9)
 
 /*
- * The nearest t in [t_min, t_max] at which the ray meets the sphere about `centre`, or infinity;
- * *part tells in from out. The discriminant and the smaller root are computed without cancellation:
- * Haines, Gunther and Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray
- * Tracing Gems, 2019, chapter 7.
+ * Shapes in world space. name.h has
+ *   float name_intersect(shape, ray, uint *part)   the nearest t in [t_min, t_max], or infinity;
+ *                                                  *part: see object_point.h
+ *   void name_surface(surface, scene, shape, ray, hit)
+ *   struct tangents name_tangents(scene, shape, surface)
  */
-static inline float intersect_sphere(float3 centre, float radius, const struct ray *ray, uint *part)
-{
-    const float3 f = ray->origin - centre;
-    const float3 d = ray->direction;
-    const float a = dot(d, d);
-    const float b = -dot(f, d);
-    const float3 nearest = f + (b / a) * d; /* from the centre to the line's nearest point */
-    const float h = (radius - length(nearest)) * (radius + length(nearest));
-    if (!(h >= 0.0f))
-        return INFINITY;
-    const float q = b + copysign(root_of_product(a, h), b);
-    const float distance = length(f);
-    const float c = (distance - radius) * (distance + radius);
-    const float t0 = c / q, t1 = q / a;
-    const float near = t0 < t1 ? t0 : t1, far = t0 < t1 ? t1 : t0;
-    if (near >= ray->t_min && near <= ray->t_max)
-        return near;
-    *part = PART_LEAVES;
-    return far >= ray->t_min && far <= ray->t_max ? far : INFINITY;
-}
+#define RT_WORLD_SHAPES(X) X(SPHERE, sphere, 2) X(PLANE, plane, 3)
 
-/* The t in [t_min, t_max] at which the ray meets the plane, or infinity. */
-static inline float intersect_plane(global const rt_shape *plane, const struct ray *ray)
-{
-    const float3 normal = vload3(0, plane->p + 4);
-    const float t = dot(normal, vload3(0, plane->p) - ray->origin) / dot(normal, ray->direction);
-    return t >= ray->t_min && t <= ray->t_max ? t : INFINITY;
-}
+/*
+ * Shapes in object space, where they are as simple as their headers say; their transform places
+ * them. It maps normals by the transpose of its inverse, so that what is outside stays outside even
+ * when it mirrors. With ray, point p, unit normal n and u in [0,1)^2 in object space, name.h has
+ *   float name_intersect(shape, ray, uint *part)
+ *   struct object_point name_hit(shape, placement, ray, p, part)
+ *   struct tangents name_tangents(shape, p, n)
+ *   struct object_point name_sample(shape, placement, u)
+ *   float name_sample_pdf_a(shape, placement, n, stretch)   density of name_sample over the area in
+ *                                                           the world; stretch: see area_stretch
+ */
+#define RT_PLACED_SHAPES(X)                                                                        \
+    X(ELLIPSOID, ellipsoid, 4)                                                                     \
+    X(DISC, disc, 5)                                                                               \
+    X(CYLINDER, cylinder, 6)                                                                       \
+    X(CONE, cone, 7)                                                                               \
+    X(TORUS, torus, 8)
 
-/* The same for the disc in its own space. */
-static inline float intersect_disc(float hole, const struct ray *ray)
-{
-    const float t = -ray->origin.z / ray->direction.z;
-    const float from_axis = length(ray->origin.xy + t * ray->direction.xy);
-    return t >= ray->t_min && t <= ray->t_max && from_axis >= hole && from_axis <= 1.0f ? t
-                                                                                        : INFINITY;
-}
+#define RT_SHAPES(X) RT_BLOCK_SHAPES(X) RT_WORLD_SHAPES(X) RT_PLACED_SHAPES(X)
 
-/* The same for the shapes that a transform places; *part as intersect_shape has it. */
+#define RT_SHAPE_KIND(KIND, name, number) RT_SHAPE_##KIND = number,
+typedef enum rt_shape_kind { RT_SHAPES(RT_SHAPE_KIND) } rt_shape_kind;
+#undef RT_SHAPE_KIND
+
+#ifdef __OPENCL_VERSION__
+
+#include "math/lanes.h"
+#include "math/ray.h"
+#include "scene.h"
+#include "shape/cone.h"
+#include "shape/cylinder.h"
+#include "shape/disc.h"
+#include "shape/ellipsoid.h"
+#include "shape/object_point.h"
+#include "shape/placement.h"
+#include "shape/plane.h"
+#include "shape/quad.h"
+#include "shape/sphere.h"
+#include "shape/surface.h"
+#include "shape/torus.h"
+#include "shape/triangle.h"
+#include "types.h"
+
+/* ---- Intersection ----------------------------------------------------------- */
+
+/* The nearest t in [t_min, t_max] at which the ray meets a shape in object space, or infinity. */
 INLINE_NEVER float intersect_placed(const struct scene *scene, global const rt_shape *shape,
                                     const struct ray *ray, uint *part)
 {
-    const struct ray own = ray_to_object(scene->transforms + shape->transform, ray);
-    if (shape->kind == RT_SHAPE_ELLIPSOID)
-        return intersect_sphere((float3)(0.0f), 1.0f, &own, part);
-    if (shape->kind == RT_SHAPE_DISC)
-        return intersect_disc(shape->p[0], &own);
-    const struct line line = make_line(&own);
-    const float s = shape->kind == RT_SHAPE_TORUS ? intersect_torus(shape->p[0], &line, part)
-                                                  : intersect_round(shape, &line, part);
-    return s < INFINITY ? line_t(&line, ray, s) : INFINITY;
+    const struct ray object_ray = ray_to_object(scene->transforms + shape->transform, ray);
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        return name##_intersect(shape, &object_ray, part);
+        RT_PLACED_SHAPES(CASE)
+#undef CASE
+    }
+    return INFINITY;
 }
 
 /*
  * The nearest t in [t_min, t_max] at which the ray meets a shape that is not kept in blocks, or
- * infinity; *part is the part of a cylinder or cone that it meets, with PART_LEAVES where it goes
- * out of a curved shape.
+ * infinity; *part is the part of the shape that it meets.
  */
 INLINE_NEVER float intersect_shape(const struct scene *scene, global const rt_shape *shape,
                                    const struct ray *ray, uint *part)
 {
     *part = 0u;
-    if (shape->kind == RT_SHAPE_SPHERE)
-        return intersect_sphere(vload3(0, shape->p), shape->p[3], ray, part);
-    if (shape->kind == RT_SHAPE_PLANE)
-        return intersect_plane(shape, ray);
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        return name##_intersect(shape, ray, part);
+        RT_WORLD_SHAPES(CASE)
+#undef CASE
+    }
     return intersect_placed(scene, shape, ray, part);
 }
 
+/* ---- Surface ---------------------------------------------------------------- */
+
+static inline void placed_surface(struct surface *surface, const struct scene *scene,
+                                  global const rt_shape *shape, const struct ray *ray,
+                                  const struct hit *hit)
+{
+    global const rt_transform_data *placement = scene->transforms + shape->transform;
+    const struct ray object_ray = ray_to_object(placement, ray);
+    const float3 p = object_ray.origin + hit->t * object_ray.direction;
+    struct object_point point;
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        point = name##_hit(shape, placement, &object_ray, p, (uint)hit->u);                        \
+        break;
+        RT_PLACED_SHAPES(CASE)
+#undef CASE
+    }
+    place_point(surface, placement, &point);
+}
+
+/*
+ * Turns a hit of closest_hit, found with this ray, into a surface; u and v may be left out where
+ * neither texture nor light needs them, see surface_uv.
+ */
+static inline struct surface surface_at(const struct scene *scene, const struct ray *ray,
+                                        const struct hit *hit)
+{
+    struct surface surface;
+    surface.prim = hit->prim;
+    surface.shape = scene->prim_shape[hit->prim];
+    surface.slot = hit->slot;
+    surface.weights = (float2)(0.0f);
+    surface.triangle = 0u;
+    global const rt_shape *shape = scene->shapes + surface.shape;
+    if (!(hit->slot & RT_SLOT_ANALYTIC)) {
+        triangle_surface(&surface, scene, hit);
+        return surface;
+    }
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        name##_surface(&surface, scene, shape, ray, hit);                                          \
+        return surface;
+        RT_WORLD_SHAPES(CASE)
+#undef CASE
+    }
+    placed_surface(&surface, scene, shape, ray, hit);
+    return surface;
+}
+
+/* Sets u and v of a surface where surface_at may have left them out. */
+static inline void surface_uv(struct surface *surface, const struct scene *scene)
+{
+    global const rt_shape *shape = scene->shapes + surface->shape;
+    if (shape->kind == RT_SHAPE_SPHERE)
+        locate_on_sphere(surface, scene, shape);
+}
+
+/* ---- Bump frame ------------------------------------------------------------- */
+
+static inline struct tangents placed_tangents(const struct scene *scene,
+                                              global const rt_shape *shape,
+                                              const struct surface *surface)
+{
+    global const rt_transform_data *placement = scene->transforms + shape->transform;
+    const float3 p = point_to_object(placement, surface->position);
+    const float3 n = unit(normal_to_object(placement, surface->normal));
+    struct tangents along;
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        along = name##_tangents(shape, p, n);                                                      \
+        break;
+        RT_PLACED_SHAPES(CASE)
+#undef CASE
+    }
+    along.u = map_vector(placement->to_world, along.u);
+    along.v = map_vector(placement->to_world, along.v);
+    return along;
+}
+
+/* The derivatives of a surface's position by its u and v. */
+static inline struct tangents tangents_at(const struct scene *scene, const struct surface *surface)
+{
+    global const rt_shape *shape = scene->shapes + surface->shape;
+    if (!(surface->slot & RT_SLOT_ANALYTIC))
+        return block_tangents(scene, shape, surface);
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        return name##_tangents(scene, shape, surface);
+        RT_WORLD_SHAPES(CASE)
+#undef CASE
+    }
+    return placed_tangents(scene, shape, surface);
+}
+
+/* ---- Area sampling ---------------------------------------------------------- */
+
+/*
+ * A placed shape is sampled evenly, or evenly over each of its parts, in object space. The
+ * placement, with cofactors C, stretches a surface element of unit normal n by |C n|, so the
+ * density over the world's area is the even one over |C n|.
+ */
+
+/* The density over the world's area at a point with this normal in object space, of any length. */
+static inline float placed_pdf_a(const struct scene *scene, global const rt_shape *shape,
+                                 float3 normal)
+{
+    global const rt_transform_data *placement = scene->transforms + shape->transform;
+    const float3 n = unit(normal);
+    const float stretch = area_stretch(placement, n);
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        return name##_sample_pdf_a(shape, placement, n, stretch);
+        RT_PLACED_SHAPES(CASE)
+#undef CASE
+    }
+    return 0.0f;
+}
+
+/*
+ * A point of a placed shape (shape: its index), for u in [0,1)^2. Fills *at as surface_at does for
+ * a hit there, and returns pdf_a, its density over the shape's area in the world, 1/m^2.
+ */
+static inline float shape_point(const struct scene *scene, uint shape_index, float2 u,
+                                struct surface *at)
+{
+    global const rt_shape *shape = scene->shapes + shape_index;
+    global const rt_transform_data *placement = scene->transforms + shape->transform;
+    struct object_point point;
+    switch (shape->kind) {
+#define CASE(KIND, name, number)                                                                   \
+    case RT_SHAPE_##KIND:                                                                          \
+        point = name##_sample(shape, placement, u);                                                \
+        break;
+        RT_PLACED_SHAPES(CASE)
+#undef CASE
+    }
+    at->shape = shape_index;
+    at->prim = shape->first_prim;
+    at->triangle = 0u;
+    at->weights = (float2)(0.0f);
+    at->slot = shape_index | RT_SLOT_ANALYTIC;
+    place_point(at, placement, &point);
+    return placed_pdf_a(scene, shape, point.normal);
+}
+
+/* The density, 1/m^2, with which shape_point makes a point that surface_at or shape_point gave. */
+static inline float shape_pdf_a(const struct scene *scene, const struct surface *at)
+{
+    global const rt_shape *shape = scene->shapes + at->shape;
+    return placed_pdf_a(scene, shape,
+                        normal_to_object(scene->transforms + shape->transform, at->normal));
+}
+
+#endif
 #endif

@@ -1,10 +1,10 @@
 /*
- * surface.h - what a hit looks like as a surface, and the origins of rays that leave it.
+ * surface.h - a point on a surface, and the origins of rays that leave it.
  *
- * The position comes from the primitive, not from origin + t direction, and carries a bound on
- * its rounding error, so that rays leave by just as much as is needed, at any scale. Errors are
- * bounded by gamma(n) = n e / (1 - n e), e = 2^-24 (Higham, "Accuracy and Stability of Numerical
- * Algorithms", 2002, section 3.1; for rays, Pharr, Jakob and Humphreys, "Physically Based
+ * The position comes from the primitive, not from origin + t direction, and carries a bound on its
+ * rounding error, so that rays start off the surface by just as much as is needed, at any scale.
+ * Errors are bounded by gamma(n) = n e / (1 - n e), e = 2^-24 (Higham, "Accuracy and Stability of
+ * Numerical Algorithms", 2002, section 3.1; for rays, Pharr, Jakob and Humphreys, "Physically Based
  * Rendering", 3rd ed., section 3.9).
  */
 #ifndef RT_KERNELS_SHAPE_SURFACE_H
@@ -26,6 +26,11 @@ struct surface {
     uint prim;      /* primitive of the scene */
     uint triangle;  /* triangle of the mesh; 0 for the other shapes */
     uint slot;      /* of the hit, see RT_SLOT_ANALYTIC */
+};
+
+/* Derivatives of the position by u and v, metres. */
+struct tangents {
+    float3 u, v;
 };
 
 /*

@@ -1,18 +1,20 @@
 /*
- * torus.h - rays against the torus, in its own space: about z, major radius 1, minor radius m.
+ * torus.h - the torus: in object space about z, of major radius 1 and minor radius m = p[0] < 1.
  *
- * Not the quartic, whose coefficients lose a thin tube, but the signed square h = (r - 1)^2 + z^2 -
- * m^2 with r the distance from the axis, along the line. With the closest approach k to the axis at
- * s0 and a = dx^2 + dy^2, r^2 = a (s - s0)^2 + k^2 and h'' = 2 - 2 a k^2 / r^3. So h is concave
- * where r^3 < a k^2, an interval about s0, and convex on both sides of it: three spans with at most
- * two roots each. On each, the signs at the ends, or else at the extremum, tell the roots apart,
- * and Newton's method held between bounds finds them.
+ * Rays are intersected without the quartic, whose coefficients lose a thin tube. The function along
+ * the line is the signed square h = (r - 1)^2 + z^2 - m^2, with r the distance from the axis. With
+ * the closest approach k to the axis at s0 and a = dx^2 + dy^2, r^2 = a (s - s0)^2 + k^2 and h'' =
+ * 2 - 2 a k^2 / r^3. So h is concave where r^3 < a k^2, an interval about s0, and convex on both
+ * sides of it: three spans with at most two roots each. On each, the signs at the ends, or else at
+ * the extremum, tell the roots apart, and Newton's method held between bounds finds them.
  */
 #ifndef RT_KERNELS_SHAPE_TORUS_H
 #define RT_KERNELS_SHAPE_TORUS_H
 
-#include "shape/canonical.h"
 #include "shape/line.h"
+#include "shape/object_point.h"
+
+/* ---- Intersection ----------------------------------------------------------- */
 
 /* the line is cut to the torus' bounds, enlarged by this, where h is well above 0 */
 #define TORUS_ROOM 1.01f
@@ -70,8 +72,9 @@ static inline float2 torus_concave(const struct line *line)
 }
 
 /*
- * Looks for a point between a and b, where a convex h is not negative and slopes down and up, at
- * which it is. The tangents at a and b bound h from below: where they meet above 0 there is none.
+ * Looks for a point between a and b at which a convex h is negative; it is not at a, where it
+ * slopes down, nor at b, where it slopes up. The tangents at a and b bound h from below: where they
+ * meet above 0 there is none.
  */
 static inline bool torus_dip(const struct line *line, float minor, float sign, struct torus_point a,
                              struct torus_point b, struct torus_point *dip)
@@ -98,7 +101,7 @@ static inline bool torus_dip(const struct line *line, float minor, float sign, s
     return false;
 }
 
-/* The root of a convex h between a point where it is not negative and one where it is. */
+/* The root of a convex h between a point `out`, where h >= 0, and a point `in`, where h < 0. */
 static inline float torus_root(const struct line *line, float minor, float sign,
                                struct torus_point out, struct torus_point in)
 {
@@ -139,7 +142,7 @@ static inline float torus_first(const struct line *line, float minor, float sign
     return torus_root(line, minor, sign, a, in);
 }
 
-/* The nearest meeting of the line with the torus, or infinity; *part tells in from out. */
+/* The nearest s at which the line meets the torus, or infinity. */
 static inline float intersect_torus(float minor, const struct line *line, uint *part)
 {
     float lo, hi;
@@ -154,12 +157,101 @@ static inline float intersect_torus(float minor, const struct line *line, uint *
         const struct torus_point b = torus_at(line, minor, 1.0f, end);
         const float s = torus_first(line, minor, span == 1 ? -1.0f : 1.0f, a, b);
         if (s < INFINITY) {
-            *part = a.h < 0.0f ? PART_LEAVES : 0u;
+            *part = a.h < 0.0f ? PART_EXITS : 0u;
             return s;
         }
         a = b;
     }
     return INFINITY;
+}
+
+static inline float torus_intersect(global const rt_shape *shape, const struct ray *ray, uint *part)
+{
+    const struct line line = make_line(ray);
+    const float s = intersect_torus(shape->p[0], &line, part);
+    return s < INFINITY ? line_t(&line, ray, s) : INFINITY;
+}
+
+/* ---- Surface ---------------------------------------------------------------- */
+
+static inline struct object_point torus_point(global const rt_shape *shape, float3 p)
+{
+    struct object_point point;
+    const float minor = shape->p[0];
+    const float from_axis = length(p.xy);
+    const float2 outwards = from_axis > 0.0f ? p.xy / from_axis : (float2)(1.0f, 0.0f);
+    const float2 tube = (float2)(from_axis - 1.0f, p.z); /* from the middle of the tube */
+    const float distance = length(tube);
+    const float2 n = distance > 0.0f ? tube / distance : (float2)(1.0f, 0.0f);
+    point.position = (float3)(outwards * (1.0f + minor * n.x), minor * n.y);
+    point.normal = (float3)(outwards * n.x, n.y);
+    point.error = gamma_bound(16.0f);
+    point.u = turns(p.y, p.x);
+    point.v = turns(tube.y, tube.x);
+    return point;
+}
+
+static inline struct object_point torus_hit(global const rt_shape *shape,
+                                            global const rt_transform_data *placement,
+                                            const struct ray *ray, float3 p, uint part)
+{
+    (void)placement;
+    struct object_point point = torus_point(shape, p);
+    point.normal = facing_normal(point.normal, ray->direction, part & PART_EXITS);
+    return point;
+}
+
+static inline struct tangents torus_tangents(global const rt_shape *shape, float3 p, float3 n)
+{
+    (void)shape, (void)n;
+    const float from_axis = length(p.xy);
+    const float2 outwards = from_axis > 0.0f ? p.xy / from_axis : (float2)(1.0f, 0.0f);
+    struct tangents along;
+    along.u = 2.0f * RT_PI * (float3)(-p.y, p.x, 0.0f);
+    along.v = 2.0f * RT_PI * (float3)(-p.z * outwards, from_axis - 1.0f);
+    return along;
+}
+
+/* ---- Area sampling ---------------------------------------------------------- */
+
+/*
+ * The angle around the tube at u of the cumulative distribution of 1 + m cos(angle): Kepler's
+ * equation angle + m sin(angle) = 2 pi u, by Newton's method kept between bounds.
+ */
+static inline float tube_angle(float m, float u)
+{
+    const float mean = 2.0f * RT_PI * u;
+    float lo = 0.0f, hi = 2.0f * RT_PI, angle = mean;
+    for (int i = 0; i < 24; i++) {
+        const float excess = angle + m * sin(angle) - mean;
+        if (excess > 0.0f)
+            hi = angle;
+        else
+            lo = angle;
+        const float next = angle - excess / (1.0f + m * cos(angle));
+        if (fabs(next - angle) < 1e-6f)
+            break;
+        angle = next > lo && next < hi ? next : 0.5f * (lo + hi);
+    }
+    return angle;
+}
+
+static inline struct object_point torus_sample(global const rt_shape *shape,
+                                               global const rt_transform_data *placement, float2 u)
+{
+    (void)placement;
+    const float turn = 2.0f * RT_PI * u.y;
+    const float angle = tube_angle(shape->p[0], u.x), radius = 1.0f + shape->p[0] * cos(angle);
+    return torus_point(shape,
+                       (float3)(radius * cos(turn), radius * sin(turn), shape->p[0] * sin(angle)));
+}
+
+static inline float torus_sample_pdf_a(global const rt_shape *shape,
+                                       global const rt_transform_data *placement, float3 n,
+                                       float stretch)
+{
+    (void)placement, (void)n;
+    return 1.0f / (4.0f * square(RT_PI) * shape->p[0] * stretch);
 }
 
 #endif

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "shape/shapes.h"
 #include "types.h"
 
 static const uint64_t basis = 0xcbf29ce484222325u, prime = 0x100000001b3u;

@@ -5,6 +5,7 @@
 #include "base/bytes.h"
 #include "rt.h"
 #include "scene/transform.h"
+#include "shape/shapes.h"
 #include "types.h"
 
 /* A texture, and the bounds of its colours that energy is checked with. */

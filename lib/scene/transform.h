@@ -47,7 +47,7 @@ void rt_affine_normal(double out[3], const rt_affine *inverse, const double n[3]
 
 /*
  * A right-handed frame x, y, n about a unit vector; y points up where n is not vertical, as
- * kernels/surface.h has it.
+ * kernels/shape/surface.h has it.
  */
 void rt_frame_about(const double n[3], double x[3], double y[3]);
 

@@ -1,5 +1,5 @@
 /* shape_sample.cl - points of a scene's first shape, for their test. */
-#include "shape/shape_sample.h"
+#include "shape/shapes.h"
 
 /*
  * For each of u: position and pdf_a, normal and the pdf_a asked for afterwards, and the surface's u

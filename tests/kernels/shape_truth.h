@@ -6,6 +6,7 @@
 #define RT_TESTS_KERNELS_SHAPE_TRUTH_H
 
 #include "rt.h"
+#include "shape/shapes.h"
 #include "types.h"
 
 /* A shape in its own space and the map to the world. */

@@ -1,12 +1,16 @@
 /*
- * mesh.h - surfaces of triangles and parallelograms, and what meshes keep at their vertices.
+ * triangle.h - the triangles of meshes and the parallelograms, which are kept eight to a block:
+ * their surface, what meshes keep at their vertices, and points on emissive ones.
+ *
+ * They are in world space; where their shape has a transform, it is an instance (instance.h), and
+ * they are in the mesh's object space. accel/intersect.h intersects them.
  */
-#ifndef RT_KERNELS_SHAPE_MESH_H
-#define RT_KERNELS_SHAPE_MESH_H
+#ifndef RT_KERNELS_SHAPE_TRIANGLE_H
+#define RT_KERNELS_SHAPE_TRIANGLE_H
 
-#include "shape/placement.h"
 #include "math/ray.h"
 #include "scene.h"
+#include "shape/placement.h"
 #include "shape/surface.h"
 #include "types.h"
 
@@ -69,7 +73,7 @@ static inline void mesh_shading(struct surface *surface, const struct scene *sce
                    v * normals[corner[2]].xyz;
     if (!(dot(mixed, mixed) > 1e-12f))
         return;
-    if (shape->kind == RT_SHAPE_INSTANCE)
+    if (shape->transform != RT_NONE)
         mixed = normal_to_world(scene->transforms + shape->transform, mixed);
     surface->shading =
         mixed * (rsqrt(dot(mixed, mixed)) * (dot(mixed, surface->normal) < 0.0f ? -1.0f : 1.0f));
@@ -89,11 +93,11 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
     const float3 v0 = block_vertex(block->v0, lane);
     const float3 e1 = block_vertex(block->v1, lane) - v0;
     const float3 e2 = block_vertex(block->v2, lane) - v0;
-    const bool is_instance = shape->kind == RT_SHAPE_INSTANCE;
+    const bool is_placed = shape->transform != RT_NONE;
 
     surface->weights = (float2)(hit->u, hit->v);
     surface->triangle =
-        is_instance ? block->prim[lane] & RT_BLOCK_PRIM : surface->prim - shape->first_prim;
+        is_placed ? block->prim[lane] & RT_BLOCK_PRIM : surface->prim - shape->first_prim;
     const float3 position = v0 + (hit->u * e1 + hit->v * e2);
     const float3 across = cross(e1, e2);
     const float twice_area = length(across);
@@ -104,7 +108,7 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
     const float sliver = fmin(size * size / twice_area, 64.0f);
     const float error =
         gamma_bound(4.0f) * dot(reach, fabs(normal)) + gamma_bound(2.0f) * size * sliver;
-    if (is_instance) {
+    if (is_placed) {
         place_surface(surface, scene->transforms + shape->transform, position, normal, error);
     } else {
         surface->position = position;
@@ -113,6 +117,68 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
     }
     mesh_parameters(surface, scene, shape);
     mesh_shading(surface, scene, shape);
+}
+
+/*
+ * By the edges of the triangle or parallelogram; zero where texture coordinates do not span it.
+ */
+static inline struct tangents block_tangents(const struct scene *scene,
+                                             global const rt_shape *shape,
+                                             const struct surface *surface)
+{
+    global const rt_tri_block *block = scene->blocks + (surface->slot >> 3);
+    const uint lane = surface->slot & 7u;
+    const float3 v0 = block_vertex(block->v0, lane);
+    struct tangents along;
+    along.u = block_vertex(block->v1, lane) - v0;
+    along.v = block_vertex(block->v2, lane) - v0;
+    if (shape->flags & RT_SHAPE_UV) {
+        global const uint *corner = mesh_corners(scene, shape, surface->triangle);
+        global const float2 *uvs = scene->uvs + shape->first_uv;
+        const float2 a = uvs[corner[1]] - uvs[corner[0]], b = uvs[corner[2]] - uvs[corner[0]];
+        const float det = a.x * b.y - a.y * b.x;
+        const float scale = det != 0.0f ? 1.0f / det : 0.0f;
+        const float3 e1 = along.u, e2 = along.v;
+        along.u = scale * (b.y * e1 - a.y * e2);
+        along.v = scale * (a.x * e2 - b.x * e1);
+    }
+    if (shape->transform != RT_NONE) {
+        global const rt_transform_data *placement = scene->transforms + shape->transform;
+        along.u = map_vector(placement->to_world, along.u);
+        along.v = map_vector(placement->to_world, along.v);
+    }
+    return along;
+}
+
+/* ---- Area sampling ---------------------------------------------------------- */
+
+/*
+ * The point of an emissive quad or triangle at these lengths along its edges; its error bound
+ * covers a, the edges and the sum.
+ */
+static inline void flat_point(struct surface *at, global const rt_light_data *light, float2 lengths)
+{
+    const float3 a = row3(light->a);
+    at->position = a + (lengths.x * row3(light->b) + lengths.y * row3(light->c));
+    at->normal = row3(light->normal);
+    at->error = gamma_bound(8.0f) *
+                (fabs(a.x) + fabs(a.y) + fabs(a.z) + 2.0f * (light->width + light->height));
+}
+
+/*
+ * Sets u and v of such a point from its lengths along the edges, which need not be at right angles.
+ */
+static inline void locate_flat_point(const struct scene *scene, global const rt_light_data *light,
+                                     struct surface *at)
+{
+    global const rt_shape *shape = scene->shapes + scene->prim_shape[light->prim];
+    const float3 away = at->position - row3(light->a);
+    const float b = dot(away, row3(light->b)), c = dot(away, row3(light->c)),
+                bc = dot(row3(light->b), row3(light->c));
+    at->weights =
+        (float2)((b - bc * c) / light->width, (c - bc * b) / light->height) / (1.0f - bc * bc);
+    at->triangle = light->prim - shape->first_prim;
+    mesh_parameters(at, scene, shape);
 }
 
 #endif

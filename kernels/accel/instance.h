@@ -1,0 +1,70 @@
+/*
+ * instance.h - a mesh with its own tree, placed by a transform. Its hits are hits on blocks, whose
+ * surface is in shape/triangle.h.
+ */
+#ifndef RT_KERNELS_ACCEL_INSTANCE_H
+#define RT_KERNELS_ACCEL_INSTANCE_H
+
+#include "accel/tree.h"
+#include "shape/placement.h"
+
+/*
+ * Tests the triangles of an instance, through the tree of its mesh, with the ray in object
+ * space. That tree has a stack of its own, so each of the two levels may be as deep as the builder
+ * allows.
+ */
+INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray,
+                                global const rt_shape *shape, struct hit *hit)
+{
+    const struct ray object_ray = ray_to_object(scene->transforms + shape->transform, ray);
+    if (!can_follow(&object_ray))
+        return;
+    const struct ray_frame frame = make_ray_frame(&object_ray);
+    /*
+     * Within the mesh prim is the triangle; a triangle as near as the hit so far wins if the
+     * instance comes first.
+     */
+    struct hit nearest = *hit;
+    nearest.prim = shape->first_prim < hit->prim ? RT_NONE : 0u;
+    nearest.slot = RT_NONE;
+    if (scene->header->accel == RT_ACCEL_BVH) {
+        const struct ray_slabs slabs = make_ray_slabs(&object_ray);
+        struct stack stack;
+        uint count = start_at(&stack, shape->root), leaf;
+        while (next_leaf(scene, &slabs, object_ray.t_min, nearest.t, &stack, &count, &leaf))
+            test_block(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX, &nearest);
+    } else {
+        for (uint i = 0; i < shape->block_count; i++)
+            test_block(scene, &object_ray, &frame, shape->first_block + i, &nearest);
+    }
+    if (nearest.slot == RT_NONE)
+        return;
+    *hit = nearest;
+    hit->prim = shape->first_prim;
+}
+
+/* Whether the ray meets the instance. */
+INLINE_NEVER bool instance_occludes(const struct scene *scene, const struct ray *ray,
+                                    global const rt_shape *shape)
+{
+    const struct ray object_ray = ray_to_object(scene->transforms + shape->transform, ray);
+    if (!can_follow(&object_ray))
+        return false;
+    const struct ray_frame frame = make_ray_frame(&object_ray);
+    if (scene->header->accel == RT_ACCEL_BVH) {
+        const struct ray_slabs slabs = make_ray_slabs(&object_ray);
+        uint stack[RT_BVH_STACK];
+        uint count = 1u, leaf;
+        stack[0] = shape->root;
+        while (next_leaf_any(scene, &slabs, &object_ray, stack, &count, &leaf))
+            if (block_occludes(scene, &object_ray, &frame, leaf & RT_CHILD_INDEX))
+                return true;
+        return false;
+    }
+    for (uint i = 0; i < shape->block_count; i++)
+        if (block_occludes(scene, &object_ray, &frame, shape->first_block + i))
+            return true;
+    return false;
+}
+
+#endif

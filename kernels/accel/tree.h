@@ -1,0 +1,196 @@
+/*
+ * tree.h - walks through a tree of eight-wide nodes: from leaf to leaf in the order in which a ray
+ * meets them, or in any order until something is hit. A leaf is a block of triangles, an analytic
+ * shape or an instance.
+ */
+#ifndef RT_KERNELS_ACCEL_TREE_H
+#define RT_KERNELS_ACCEL_TREE_H
+
+#include "accel/boxes.h"
+#include "accel/intersect.h"
+#include "math/lanes.h"
+#include "math/ray.h"
+#include "scene.h"
+#include "types.h"
+
+/* ---- The nearest hit -------------------------------------------------------- */
+
+/*
+ * Takes the nearest of the block's hits in `mask` into *hit when it is nearer still and not before
+ * t_min.
+ */
+INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *found, uint mask,
+                                   float t_min, global const rt_tri_block *block, uint index)
+{
+    const float8 scale = 1.0f / found->det;
+    float t[8], u[8], v[8];
+    vstore8(found->t * scale, 0, t);
+    vstore8(found->u * scale, 0, u);
+    vstore8(found->v * scale, 0, v);
+    for (; mask; mask &= mask - 1u) {
+        const uint lane = lane_first(mask);
+        const uint prim = block->prim[lane] & RT_BLOCK_PRIM;
+        if (t[lane] >= t_min && (t[lane] < hit->t || (t[lane] == hit->t && prim < hit->prim))) {
+            hit->t = t[lane];
+            hit->u = u[lane];
+            hit->v = v[lane];
+            hit->prim = prim;
+            hit->slot = index * RT_BVH_WIDTH + lane;
+        }
+    }
+}
+
+/*
+ * Lets hits as far as the nearest through, ties included, and a rounding beyond: take_block_hits
+ * compares exactly.
+ */
+INLINE_ALWAYS void test_block(const struct scene *scene, const struct ray *ray,
+                              const struct ray_frame *frame, uint index, struct hit *hit)
+{
+    global const rt_tri_block *block = scene->blocks + index;
+    const float reach = hit->t + fabs(hit->t) * 0x1p-22f;
+    struct block_hits found;
+    const uint mask = intersect_block(block, frame, ray->t_min, reach, &found);
+    if (mask)
+        take_block_hits(hit, &found, mask, ray->t_min, block, index);
+}
+
+/* Children still to visit, and where the ray enters them, the nearest of each node last. */
+struct stack {
+    uint child[RT_BVH_STACK];
+    float entry[RT_BVH_STACK];
+};
+
+/* Fills the stack with a root; returns its count. */
+INLINE_ALWAYS uint start_at(struct stack *stack, uint root)
+{
+    stack->child[0] = root;
+    stack->entry[0] = -INFINITY;
+    return 1u;
+}
+
+/* Returns the nearest of the node's children in `mask`, which is not 0, and pushes the others. */
+INLINE_ALWAYS uint push_farther(struct stack *stack, uint *count, global const rt_bvh_node *node,
+                                uint mask, float8 entry)
+{
+    const uint first = lane_first(mask);
+    mask &= mask - 1u;
+    if (!mask)
+        return node->child[first];
+
+    float distance[8];
+    vstore8(entry, 0, distance);
+    const uint second = lane_first(mask);
+    if (!(mask & (mask - 1u))) {
+        const uint a = node->child[first], b = node->child[second];
+        const bool in_order = distance[first] <= distance[second];
+        stack->child[*count] = in_order ? b : a;
+        stack->entry[*count] = in_order ? distance[second] : distance[first];
+        (*count)++;
+        return in_order ? a : b;
+    }
+
+    /* Three and more are rare: sort them in. */
+    const uint base = *count;
+    stack->child[base] = node->child[first];
+    stack->entry[base] = distance[first];
+    uint top = base + 1u;
+    for (; mask; mask &= mask - 1u) {
+        const uint lane = lane_first(mask);
+        uint at = top++;
+        for (; at > base && stack->entry[at - 1u] < distance[lane]; at--) {
+            stack->entry[at] = stack->entry[at - 1u];
+            stack->child[at] = stack->child[at - 1u];
+        }
+        stack->entry[at] = distance[lane];
+        stack->child[at] = node->child[lane];
+    }
+    *count = top - 1u;
+    return stack->child[*count];
+}
+
+/* Takes the last child pushed that begins no farther than t; false when there is none. */
+INLINE_ALWAYS bool pop_nearer(const struct stack *stack, uint *count, float t, uint *child)
+{
+    do {
+        if (*count == 0u)
+            return false;
+        (*count)--;
+    } while (stack->entry[*count] > t);
+    *child = stack->child[*count];
+    return true;
+}
+
+/*
+ * Goes on to the next leaf that begins no farther than t, always to the nearest child of a node
+ * first; false when there is none. The stack begins with the root.
+ */
+INLINE_ALWAYS bool next_leaf(const struct scene *scene, const struct ray_slabs *slabs, float t_min,
+                             float t, struct stack *stack, uint *count, uint *leaf)
+{
+    uint child;
+    while (pop_nearer(stack, count, t, &child)) {
+        uint mask = 1u;
+        while (!(child & RT_CHILD_LEAF)) {
+            global const rt_bvh_node *node = scene->nodes + child;
+            float8 entry;
+            mask = intersect_boxes(node, slabs, t_min, t, &entry);
+            if (!mask)
+                break;
+            child = push_farther(stack, count, node, mask, entry);
+        }
+        if (mask) {
+            *leaf = child;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- Any hit ---------------------------------------------------------------- */
+
+/*
+ * Returns the first child hit, and pushes the others in reverse: the builder put the largest first.
+ */
+INLINE_ALWAYS uint push_later(uint *stack, uint *count, global const rt_bvh_node *node, uint mask)
+{
+    const uint first = lane_first(mask);
+    for (mask &= mask - 1u; mask;) {
+        const uint lane = lane_last(mask);
+        stack[(*count)++] = node->child[lane];
+        mask ^= 1u << lane;
+    }
+    return node->child[first];
+}
+
+/* Goes on to the next leaf hit; false when there is none. The stack begins with the root. */
+INLINE_ALWAYS bool next_leaf_any(const struct scene *scene, const struct ray_slabs *slabs,
+                                 const struct ray *ray, uint *stack, uint *count, uint *leaf)
+{
+    while (*count) {
+        uint child = stack[--(*count)];
+        uint mask = 1u;
+        while (!(child & RT_CHILD_LEAF)) {
+            global const rt_bvh_node *node = scene->nodes + child;
+            float8 entry;
+            mask = intersect_boxes(node, slabs, ray->t_min, ray->t_max, &entry);
+            if (!mask)
+                break;
+            child = push_later(stack, count, node, mask);
+        }
+        if (mask) {
+            *leaf = child;
+            return true;
+        }
+    }
+    return false;
+}
+
+INLINE_ALWAYS bool block_occludes(const struct scene *scene, const struct ray *ray,
+                                  const struct ray_frame *frame, uint index)
+{
+    struct block_hits found;
+    return intersect_block(scene->blocks + index, frame, ray->t_min, ray->t_max, &found) != 0u;
+}
+
+#endif
