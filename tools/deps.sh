@@ -59,7 +59,8 @@ int main(void)
     if (clGetPlatformIDs(16, platforms, &count) != CL_SUCCESS)
         return 1;
     for (i = 0; i < count && i < 16; i++)
-        if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, 0, NULL, &devices) == CL_SUCCESS && devices > 0)
+        if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, 0, NULL, &devices) == CL_SUCCESS &&
+            devices > 0)
             return 0;
     return 1;
 }

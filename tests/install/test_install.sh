@@ -1,6 +1,6 @@
 #!/bin/sh
-# test_install.sh - `make install` gives a tree that a C program builds against as the manual says, that shadows
-# nothing of glibc's, and that `make uninstall` takes away again.
+# test_install.sh - `make install` gives a tree that a C program builds against as the manual says,
+# that shadows nothing of glibc's, and that `make uninstall` takes away again.
 set -u
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
@@ -25,7 +25,9 @@ check() {
 }
 
 # The running make's flags and job server are not for this one.
-install_with() { env -u MAKEFLAGS -u MAKELEVEL make --no-print-directory "$1" DESTDIR="$root" PREFIX="$prefix"; }
+install_with() {
+    env -u MAKEFLAGS -u MAKELEVEL make --no-print-directory "$1" DESTDIR="$root" PREFIX="$prefix"
+}
 
 is_same() { diff "$1" "$2"; }
 is_empty() { [ ! -s "$1" ] || { cat "$1"; return 1; }; }
@@ -60,7 +62,8 @@ check library_has_its_own_soname is_same "$work/expected" "$work/soname"
 
 # No name that -lrt or a program linked with it could find.
 find "$root" -name 'librt.*' >"$work/shadows"
-PATH=$PATH:/sbin:/usr/sbin ldconfig -p | awk '$1 ~ /^librt\.so/ && $NF !~ /\/librt\.so\.1$/' >>"$work/shadows"
+PATH=$PATH:/sbin:/usr/sbin ldconfig -p |
+    awk '$1 ~ /^librt\.so/ && $NF !~ /\/librt\.so\.1$/' >>"$work/shadows"
 check glibc_alone_is_called_librt is_empty "$work/shadows"
 
 check installed_command_runs env LD_LIBRARY_PATH="$libdir" "$root$prefix/bin/rtc" --version
@@ -69,16 +72,18 @@ check installed_command_runs env LD_LIBRARY_PATH="$libdir" "$root$prefix/bin/rtc
 
 echo '#include <rt/rt.h>' >"$work/header.c"
 cp "$work/header.c" "$work/header.cc"
-check header_is_strict_c99 cc -std=c99 -pedantic -Wall -Wextra -Wstrict-prototypes -Wconversion -Werror -I"$includedir" \
-    -fsyntax-only "$work/header.c"
-check header_is_cpp c++ -std=c++98 -pedantic -Wall -Wextra -Wno-long-long -Werror -I"$includedir" -fsyntax-only \
-    "$work/header.cc"
+check header_is_strict_c99 cc -std=c99 -pedantic -Wall -Wextra -Wstrict-prototypes -Wconversion \
+    -Werror -I"$includedir" -fsyntax-only "$work/header.c"
+check header_is_cpp c++ -std=c++98 -pedantic -Wall -Wextra -Wno-long-long \
+    -Werror -I"$includedir" -fsyntax-only "$work/header.cc"
 
 # ---- The example of the manual ---------------------------------------------------
 
 # From the header's first comment, and from the README's block of C.
-example=$(awk '/^ \*     cc / { exit } on { sub(/^ \*(     )?/, ""); print } /A COMPLETE EXAMPLE/ { on = 1 }' \
-    "$includedir/rt/rt.h" | sed '/./,$!d')
+example=$(awk '
+    /^ \*     cc / { exit }
+    on { sub(/^ \*(     )?/, ""); print }
+    /A COMPLETE EXAMPLE/ { on = 1 }' "$includedir/rt/rt.h" | sed '/./,$!d')
 printf '%s\n' "$example" >"$work/example.c"
 sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' >"$work/readme.c"
 check readme_has_the_same_example is_same "$work/example.c" "$work/readme.c"
@@ -88,15 +93,22 @@ export PKG_CONFIG_PATH="$libdir/pkgconfig" PKG_CONFIG_SYSROOT_DIR="$root"
 cd "$work" || exit 1
 
 # As the manual says: cc example.c $(pkg-config --cflags --libs librt-render)
+# shellcheck disable=SC2046 # a list of flags
 build_example() { cc -o "$1" example.c $(pkg-config --cflags --libs librt-render); }
 build_static() {
-    flags=$(pkg-config --cflags --static --libs librt-render | sed 's/-lrt-render/-l:librt-render.a/')
+    flags=$(pkg-config --cflags --static --libs librt-render |
+        sed 's/-lrt-render/-l:librt-render.a/')
+    # shellcheck disable=SC2086 # a list of flags
     cc -o "$1" example.c $flags
 }
 
 # The example prints three equal positive numbers, for all is white in it.
-says_radiance() { LD_LIBRARY_PATH=$libdir ./"$1" >"$1.out" && cat "$1.out" && is_radiance "$1.out"; }
-is_radiance() { awk '{ exit !(NR == 1 && NF == 4 && $1 == "radiance" && $2 > 0 && $3 == $2 && $4 == $2) }' "$1"; }
+says_radiance() {
+    LD_LIBRARY_PATH=$libdir ./"$1" >"$1.out" && cat "$1.out" && is_radiance "$1.out"
+}
+is_radiance() {
+    awk '{ exit !(NR == 1 && NF == 4 && $1 == "radiance" && $2 > 0 && $3 == $2 && $4 == $2) }' "$1"
+}
 
 check example_builds build_example shared
 check example_renders_into_memory says_radiance shared

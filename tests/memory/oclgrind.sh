@@ -1,10 +1,11 @@
 #!/bin/sh
-# oclgrind.sh - small renders in every mode on Oclgrind (https://github.com/jrprice/Oclgrind, in Debian: oclgrind),
-# a simulated OpenCL device that watches each access of each work-item.
+# oclgrind.sh - small renders in every mode on Oclgrind (https://github.com/jrprice/Oclgrind, in
+# Debian: oclgrind), a simulated OpenCL device that watches each access of each work-item.
 #
-# None may read or write outside of a buffer, race with another work-item or call OpenCL wrongly. The device is made
-# an awkward one: with more compute units than cores, which cannot be divided, and work-groups of 4 at most. Being no
-# Clang to the kernels, it gets their plainest code.
+# None may read or write outside of a buffer, race with another work-item or call OpenCL wrongly.
+# The device is made an awkward one: with more compute units than cores, which cannot be divided,
+# and work-groups of 4 at most. Being no Clang to the kernels, it gets their plainest code.
+# shellcheck disable=SC2086 # $photons is a list of options
 set -u
 
 rtc=${RTC:-build/rtc}
@@ -18,8 +19,8 @@ render() {
     what=$1 scene=$2
     shift 2
     oclgrind --check-api --data-races --compute-units 64 --max-wgsize 4 --log "$work/log" \
-        --build-options '-O0 -U__clang__' "$rtc" "$scene" --width 8 --height 8 --seed 1 --max-depth 6 --quiet \
-        --out "$work/out.exr" "$@" >"$work/said" 2>&1
+        --build-options '-O0 -U__clang__' "$rtc" "$scene" --width 8 --height 8 --seed 1 \
+        --max-depth 6 --quiet --out "$work/out.exr" "$@" >"$work/said" 2>&1
     status=$?
     if [ "$status" -eq 0 ] && [ ! -s "$work/log" ]; then
         echo "ok $what"
@@ -40,19 +41,22 @@ for scene in "$here"/lamps.rts "$here"/media.rts "$here"/../../scenes/primitives
 done
 lamps=$here/lamps.rts media=$here/media.rts
 render 'no hierarchy' "$media" --spp 1 --accel none
-render 'independent samples, light sampling' "$lamps" --spp 2 --sampler independent --estimator light
+render 'independent samples, light sampling' "$lamps" --spp 2 --sampler independent \
+    --estimator light
 render 'scattering alone, a filter' "$lamps" --spp 2 --estimator bsdf --filter mitchell
 render 'the variance' "$media" --spp 32 --width 4 --height 4 --variance
 render 'layers' "$lamps" --spp 2 --aov
 render 'the layers of photons' "$media" $photons --aov --photon-layers
 render 'passes' "$media" $photons --passes 3
-render 'a caustic map and a final gather on the device' "$media" $photons --caustic-photons 300 --final-gather 1 \
-    --gather device
+render 'a caustic map and a final gather on the device' "$media" $photons --caustic-photons 300 \
+    --final-gather 1 --gather device
 render 'a final gather by FLANN' "$media" $photons --final-gather 2
 render 'the hull' "$lamps" $photons --area hull
-render 'all photons within a radius' "$media" --mode photon --spp 1 --photons 300 --k all --radius 0.3 --direct photons
+render 'all photons within a radius' "$media" --mode photon --spp 1 --photons 300 \
+    --k all --radius 0.3 --direct photons
 render 'fewer photons than asked for' "$media" --mode photon --spp 1 --photons 3 --gather device
-render 'a tree of several levels' "$media" --mode photon --spp 1 --photons 8000 --width 4 --height 4 --gather device
+render 'a tree of several levels' "$media" --mode photon --spp 1 --photons 8000 \
+    --width 4 --height 4 --gather device
 for kernel in box cone gaussian silverman; do
     render "the kernel $kernel" "$media" $photons --kernel $kernel --gather device
 done

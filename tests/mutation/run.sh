@@ -1,16 +1,20 @@
 #!/bin/sh
-# run.sh - plants physical errors in a copy of the sources, one at a time, and tells which of them the tests catch.
+# run.sh - plants physical errors in a copy of the sources, one at a time, and tells which of them
+# the tests catch.
 #
 #   tests/mutation/run.sh [NAME...]
 #
-# NAME: a mutation of mutations.txt; all of them by default. The copy is built and tested as it is first: a test that
-# fails there proves nothing. Then each mutation is planted, and its tests run until one fails. What passes them all
-# meets the other tests of light, and only what passes those has survived.
+# NAME: a mutation of mutations.txt; all of them by default. The copy is built and tested as it is
+# first: a test that fails there proves nothing. Then each mutation is planted, and its tests run
+# until one fails. What passes them all meets the other tests of light, and only what passes those
+# has survived.
 #
-# The last line is `N of N caught`. Status: 0; 1 when more than one in thirty survive; 2 when a mutation does not fit
-# the sources or does not build, or the tests fail without it.
+# The last line is `N of N caught`. Status: 0; 1 when more than one in thirty survive; 2 when a
+# mutation does not fit the sources or does not build, or the tests fail without it.
 #
-# RT_MUTATION_DIR is the directory of the copy, build/mutation by default; two runs at once need two.
+# RT_MUTATION_DIR is the directory of the copy, build/mutation by default; two runs at once need
+# two.
+# shellcheck disable=SC2046,SC2086 # names of tests and mutations are lists of words
 set -u
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -34,16 +38,19 @@ die() {
     exit 2
 }
 
-# Brings the copy to the state of the sources; what is the same there keeps its date, and need not be built again.
+# Brings the copy to the state of the sources; what is the same there keeps its date, and need not
+# be built again.
 refresh() {
-    (cd "$root" && find Makefile lib kernels dsl tools tests scenes -type f) | while IFS= read -r file; do
-        cmp -s "$root/$file" "$tree/$file" && continue
-        mkdir -p "$tree/$(dirname "$file")"
-        cp "$root/$file" "$tree/$file" || exit 1
-    done || die "cannot copy the sources to $tree"
+    (cd "$root" && find Makefile lib kernels dsl tools tests scenes -type f) |
+        while IFS= read -r source; do
+            cmp -s "$root/$source" "$tree/$source" && continue
+            mkdir -p "$tree/$(dirname "$source")"
+            cp "$root/$source" "$tree/$source" || exit 1
+        done || die "cannot copy the sources to $tree"
 }
 
-# passes TEST: builds a test of the copy and runs it. What does not build, for the host or the device, ends it all.
+# passes TEST: builds a test of the copy and runs it. What does not build, for the host or the
+# device, ends it all.
 passes() {
     make -s -C "$tree" -j "$jobs" "build/tests/$1" >"$log" 2>&1 || fail_with_log "$1 does not build"
     (cd "$tree" && sh tests/run.sh "build/tests/$1") >"$log" 2>&1 && return 0
@@ -62,7 +69,8 @@ first_failure() {
     printf '%s' "${failure:-$(sed -n 's/^FAIL .* failed, \(.*\) ([0-9]* s)$/\1/p' "$log")}"
 }
 
-# find_catch TEST...: sets `caught` to the test that fails, and in it what does; empty when all pass.
+# find_catch TEST...: sets `caught` to the test that fails, and in it what does; empty when all
+# pass.
 find_catch() {
     caught=
     for test in "$@"; do
@@ -87,8 +95,8 @@ expect_passes() {
 }
 
 plant_mutation() {
-    plant "$(mutation_field "$name" old)" "$(mutation_field "$name" new)" <"$root/$file" >"$tree/$file" ||
-        die "$name does not fit $file"
+    plant "$(mutation_field "$name" old)" "$(mutation_field "$name" new)" \
+        <"$root/$file" >"$tree/$file" || die "$name does not fit $file"
 }
 
 take_back() { cp "$root/$file" "$tree/$file"; }

@@ -1,4 +1,6 @@
+# shellcheck shell=sh
 # table.sh - reads mutations.txt and plants what it says. To be sourced; $table is the file.
+: "${table:?}"
 
 # All names, in order.
 mutation_names() { sed -n 's/^mutation  *//p' "$table"; }
@@ -13,8 +15,8 @@ mutation_field() {
 # Tests that all survivors meet.
 mutation_rest() { sed -n 's/^rest  *//p' "$table"; }
 
-# plant OLD NEW <FILE: the file with its only OLD replaced by NEW; white space does not count, so that OLD may run over
-# several lines of the file. Fails where OLD is not there, or more than once.
+# plant OLD NEW <FILE: the file with its only OLD replaced by NEW; white space does not count, so
+# that OLD may run over several lines of the file. Fails where OLD is not there, or more than once.
 plant() {
     OLD=$1 NEW=$2 awk '
         { text = text $0 "\n" }

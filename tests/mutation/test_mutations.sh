@@ -1,6 +1,6 @@
 #!/bin/sh
-# test_mutations.sh - every mutation fits the sources as they are: its text is there once, and the Makefile has its
-# tests.
+# test_mutations.sh - every mutation fits the sources as they are: its text is there once, and the
+# Makefile has its tests.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -25,23 +25,27 @@ fault() {
     done
     file=$root/$(mutation_field "$1" file)
     [ -f "$file" ] || { echo 'no such file;' && return; }
-    plant "$(mutation_field "$1" old)" "$(mutation_field "$1" new)" <"$file" 2>&1 >/dev/null
-    plant "$(mutation_field "$1" old)" "$(mutation_field "$1" new)" <"$file" 2>/dev/null | cmp -s - "$file" &&
-        echo 'nothing changes;'
+    old=$(mutation_field "$1" old) new=$(mutation_field "$1" new)
+    plant "$old" "$new" <"$file" 2>&1 >/dev/null
+    planted=$(plant "$old" "$new" <"$file" 2>/dev/null)
+    [ "$planted" != "$(cat "$file")" ] || echo 'nothing changes;'
+    # shellcheck disable=SC2046 # a list of tests
     missing_tests $(mutation_field "$1" tests)
 }
 
 # missing_tests TEST...: those that the Makefile does not list.
 missing_tests() {
     for test in "$@"; do
-        grep -qE "(^|[[:space:]])tests/$test\\.c([[:space:]]|\$)" "$root/Makefile" || echo "no test $test;"
+        grep -qE "(^|[[:space:]])tests/$test\\.c([[:space:]]|\$)" "$root/Makefile" ||
+            echo "no test $test;"
     done
 }
 
 # plants NAME WANTED OLD NEW TEXT: what plant makes of a text; `refused` when it does not.
 plants() {
     got=$(printf '%s\n' "$5" | plant "$3" "$4" 2>/dev/null) || got=refused
-    [ "$got" = "$2" ] && verdict "$1" '' || verdict "$1" "'$got', not '$2'"
+    [ "$got" = "$2" ] && why='' || why="'$got', not '$2'"
+    verdict "$1" "$why"
 }
 
 plants text_is_replaced 'a/b & "c\n"' 'x*[' '& "c\n"' 'a/b x*['
@@ -52,6 +56,7 @@ plants text_that_is_there_twice_is_refused refused 'x' 'y' 'x + x'
 for name in $(mutation_names); do
     verdict "$name" "$(fault "$name" | tr '\n' ' ')"
 done
+# shellcheck disable=SC2046 # a list of tests
 verdict rest "$(missing_tests $(mutation_rest) | tr '\n' ' ')"
 repeated=$(mutation_names | sort | uniq -d)
 verdict names_are_different "$repeated"

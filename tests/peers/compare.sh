@@ -3,11 +3,12 @@
 #
 #   tests/peers/compare.sh [SCENE]...
 #
-# Run from the top directory after `make`. Needs `pip install mitsuba` for $PYTHON (default python3). Each scene is
-# written twice, as NAME.rts and in mitsuba_scenes.py. Pictures and signed differences stay in build/peers. SPP
-# (default 1024) are the samples a pixel of both; the caustic gets four times as many. The status is 0 only when every
-# scene agrees: no 16x16 block has a mean off by more than 1 % (2 % for the caustic) and four standard errors. Where
-# RT_PROOF_ROWS names a file, the section on Mitsuba of the page of the proof is added to that file.
+# Run from the top directory after `make`. Needs `pip install mitsuba` for $PYTHON (default
+# python3). Each scene is written twice, as NAME.rts and in mitsuba_scenes.py. Pictures and signed
+# differences stay in build/peers. SPP (default 1024) are the samples a pixel of both; the caustic
+# gets four times as many. The status is 0 only when every scene agrees: no 16x16 block has a mean
+# off by more than 1 % (2 % for the caustic) and four standard errors. Where RT_PROOF_ROWS names a
+# file, the section on Mitsuba of the page of the proof is added to that file.
 set -eu
 
 rtc=${RTC:-build/rtc}
@@ -17,7 +18,7 @@ out=build/peers
 here=tests/peers
 
 "$python" -c 'import mitsuba' 2>/dev/null || {
-    echo "compare.sh: $python has no module mitsuba, which this comparison is with: $python -m pip install mitsuba" >&2
+    echo "compare.sh: $python has no module mitsuba: $python -m pip install mitsuba" >&2
     exit 2
 }
 mkdir -p $out
@@ -26,20 +27,20 @@ mkdir -p $out
 # field NAME: what `rtc compare` printed behind "NAME: ".
 field() { sed -n "s/^$1: //p" "$out/$scene.txt"; }
 
-page_columns='scene | by | peer | mean ratio expected | ours | standard error | off by standard errors | blocks off | '\
-'worst block, of what is allowed'
 page_row() {
-    field ratio | awk -v scene="$scene" -v samples="$samples" -v blocks="$blocks" -v worst="$worst" '{
-        printf "| %s | path | Mitsuba 3, %d samples a pixel | 1 | %s | %.1e | %+.2f | %s | %s |\n",
-               scene, samples, $1, $3, ($1 - 1) / $3, blocks, worst
-    }'
+    field ratio | awk -v scene="$scene" -v samples="$samples" -v blocks="$blocks" \
+        -v worst="$worst" '{
+            printf "- %s, path: Mitsuba 3, %d samples a pixel\n", scene, samples
+            printf "  mean ratio %s, off by %+.2f standard errors of %.1e; ", $1, ($1 - 1) / $3, $3
+            printf "%s blocks off, worst %s\n", blocks, worst
+        }'
 }
 
 failed=0
 [ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass stage
-printf '%-12s %8s %8s  %-20s %-11s %-10s %s\n' scene samples seconds 'mean ratio' 'blocks off' RMSE \
-    'worst block, of what is allowed'
-printf '| %s |\n|---|---|---|---|---|---|---|---|---|\n' "$page_columns" >$out/rows.md
+printf '%-12s %8s %8s  %-20s %-11s %-10s %s\n' scene samples seconds 'mean ratio' \
+    'blocks off' RMSE 'worst block, of what is allowed'
+: >$out/rows.md
 for scene in "$@"; do
     samples=$spp
     tolerance=0.01
@@ -50,15 +51,17 @@ for scene in "$@"; do
     file=scenes/$scene.rts
     [ -e "$file" ] || file=$here/$scene.rts
     started=$(date +%s)
-    "$rtc" "$file" --mode path --spp $samples --seed 1 --out "$out/$scene.exr" --progress none --quiet
-    "$python" $here/mitsuba_render.py "$scene" $samples "$out/$scene-mitsuba.exr"
+    "$rtc" "$file" --mode path --spp "$samples" --seed 1 --out "$out/$scene.exr" \
+        --progress none --quiet
+    "$python" $here/mitsuba_render.py "$scene" "$samples" "$out/$scene-mitsuba.exr"
     "$rtc" compare "$out/$scene.exr" "$out/$scene-mitsuba.exr" --tolerance $tolerance --max-off 0 \
-        --out "$out/$scene-difference.png" >"$out/$scene.txt" 2>"$out/$scene.err" || failed=$((failed + 1))
+        --out "$out/$scene-difference.png" >"$out/$scene.txt" 2>"$out/$scene.err" ||
+        failed=$((failed + 1))
     [ -s "$out/$scene.txt" ] || { cat "$out/$scene.err" >&2; exit 1; }
     blocks="$(field 'blocks off') of $(field blocks)"
     worst=$(sed -n 's/^worst block: .*, \(.*\) of what is allowed$/\1/p' "$out/$scene.txt")
-    printf '%-12s %8d %8d  %-20s %-11s %-10s %s\n' "$scene" $samples $(($(date +%s) - started)) "$(field ratio)" \
-        "$blocks" "$(field rmse)" "$worst"
+    printf '%-12s %8d %8d  %-20s %-11s %-10s %s\n' "$scene" "$samples" \
+        $(($(date +%s) - started)) "$(field ratio)" "$blocks" "$(field rmse)" "$worst"
     page_row >>$out/rows.md
 done
 if [ $failed -gt 0 ]; then
@@ -66,4 +69,6 @@ if [ $failed -gt 0 ]; then
     exit 1
 fi
 echo "all agree"
-[ -z "${RT_PROOF_ROWS:-}" ] || { printf '\n## Against Mitsuba 3\n\n'; cat $out/rows.md; } >>"$RT_PROOF_ROWS"
+if [ -n "${RT_PROOF_ROWS:-}" ]; then
+    { printf '\n## Against Mitsuba 3\n\n'; cat $out/rows.md; } >>"$RT_PROOF_ROWS"
+fi

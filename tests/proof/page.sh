@@ -3,9 +3,9 @@
 #
 #   tests/proof/page.sh PROGRAM...
 #
-# The page is replaced only when every program passes. Its sections on other programs are measured anew where these
-# are to be had, and kept as they are where not: reference renders in RT_REFERENCE, Mitsuba for $PYTHON (default
-# python3).
+# The page is replaced only when every program passes. Its sections on other programs are measured
+# anew where these are to be had, and kept as they are where not: reference renders in RT_REFERENCE,
+# Mitsuba for $PYTHON (default python3).
 set -eu
 
 page=tests/proof/README.md
@@ -17,22 +17,28 @@ cat >"$made" <<'END'
 
 Written by `make proof`; the same checks run in `make check`.
 
-Every scene below is rendered 32 times, each time with another seed. The spread of the 32 results gives the standard
-error of their mean, to which 10^-6 of the value is added for single precision; nothing is assumed of pixels or
-samples. A check fails where the mean is off by more than 6.9 standard errors, which chance brings in less than one of
-10^7 (Student's t distribution, 31 degrees of freedom). Where two ways to render are compared, so is every pixel, with a
-limit for all of them together. Seeds are fixed: a test that passes does so again. What was measured may differ in its
-last digits on another machine.
+Every scene below is rendered 32 times, each time with another seed. The scatter of the 32 results
+gives the standard error of their mean, to which 10^-6 of the value is added for single precision;
+nothing is assumed of pixels or samples. A check fails where the mean is off by more than 6.9
+standard errors, which happens by chance in less than one of 10^7 checks (Student's t distribution,
+31 degrees of freedom). Where two ways to render are compared, so is every pixel, with a limit for
+all of them together. Seeds are fixed: a test that passes does so again. What was measured may
+differ in its last digits on another machine.
 
-`path` is path tracing, `direct` the mode of that name; `photons` has all light at diffuse surfaces from the photon map,
-in which a closed form is smoothed by the density kernel as the map is; `photons and shadow rays` leaves direct light
-to shadow rays. L is radiance, E irradiance, P power, I intensity, a albedo, R reflectance and T what passes.
+Each entry names the scene, how it was rendered or what was measured of it, and the closed form or
+the peer beside it. `path` is path tracing, `direct` the mode of that name; `photons` takes all
+light at diffuse surfaces from the photon map, and its closed form is smoothed by the density
+kernel as the map is; `photons and shadow rays` leaves direct light to shadow rays. L is radiance,
+E irradiance, P power, I intensity, a albedo, R reflectance and T transmittance. The relative RMSE
+of a converging mean is told at 1, 4, 16, 64 and 256 samples a pixel.
 
-The last two sections are about another program, Mitsuba 3: renders of it that were made once, of three box scenes, with
-2048 samples a pixel (8192 for the caustic), and renders that `make check-peers` makes of these and two more, from
-scenes written for it separately (see [../peers/mitsuba_scenes.py](../peers/mitsuba_scenes.py)). There the mean ratio is
-over all pixels, with a standard error from the noise of both pictures; a picture agrees where no block of 16x16 pixels
-has a mean off by more than 1 % (2 % for the caustic) and by more than four standard errors in any channel.
+The last two sections are about another program, Mitsuba 3: renders of it that were made once, of
+three box scenes, with 2048 samples a pixel (8192 for the caustic), and renders that `make
+check-peers` makes of these and two more, from scenes written for it separately (see
+[../peers/mitsuba_scenes.py](../peers/mitsuba_scenes.py)). There the mean ratio, 1 where both agree,
+is over all pixels, with a standard error from the noise of both pictures. A picture agrees where no
+block of 16x16 pixels has a mean off by more than 1 % (2 % for the caustic) and by more than four
+standard errors in any channel; the worst block is told as a part of what is allowed.
 END
 
 # The program adds its section, or is shown where it fails.
@@ -51,7 +57,8 @@ keep() {
     }
     echo "page.sh: '$1' is kept: $2" >&2
     echo >>"$made"
-    awk -v title="## $1" '/^## / { within = $0 == title } within { print }' "$page" | sed '$ { /^$/d; }' >>"$made"
+    awk -v title="## $1" '/^## / { within = $0 == title } within { print }' "$page" |
+        sed '$ { /^$/d; }' >>"$made"
 }
 
 for program in "$@"; do

@@ -116,8 +116,8 @@ static int is_wrong(double off, double checks)
 void proof_check(proof_row row, double expected, const proof_values *values)
 {
     estimate e = estimate_of(values, expected, expected);
-    page_row(proof_text("%s | %s | %s | %.6g", row.scene, row.by, row.truth, expected),
-             proof_text("%.6g | %.1e | %+.2f", e.mean, e.error, e.off));
+    page_row(proof_text("%s, %s: %s\n  expected %.6g,", row.scene, row.by, row.truth, expected),
+             proof_text("ours %.6g: off by %+.2f standard errors of %.1e", e.mean, e.off, e.error));
     if (is_wrong(e.off, 1))
         fail_msg("%s by %s, %s: %.8g, should be %.8g; %+.1f standard errors of %.2g", row.scene,
                  row.by, row.truth, e.mean, expected, e.off, e.error);
@@ -170,9 +170,10 @@ void proof_same(proof_row row, const proof_films *a, const proof_films *peer)
     proof_values x = proof_mean(a, 1), y = proof_mean(peer, 1), d = difference(&x, &y);
     estimate ours = estimate_of(&x, 0, 0), theirs = estimate_of(&y, 0, 0),
              e = estimate_of(&d, 0, ours.mean);
-    page_row(proof_text("%s | %s | %s", row.scene, row.by, row.truth),
-             proof_text("%.6g | %.6g | %.1e | %+.2f, worst of %d %+.2f", theirs.mean, ours.mean,
-                        e.error, e.off, (int)count, worst_off));
+    page_row(proof_text("%s, %s: %s\n ", row.scene, row.by, row.truth),
+             proof_text("expected %.6g, ours %.6g: off by %+.2f standard errors of %.1e; "
+                        "worst of %d %+.2f",
+                        theirs.mean, ours.mean, e.off, e.error, (int)count, worst_off));
     if (is_wrong(e.off, 1))
         fail_msg("%s by %s and by %s: mean %.8g and %.8g, %+.1f standard errors", row.scene, row.by,
                  row.truth, ours.mean, theirs.mean, e.off);
@@ -184,6 +185,5 @@ void proof_same(proof_row row, const proof_films *a, const proof_films *peer)
 
 void proof_page(const char *title)
 {
-    page_section(title, "scene | by | closed form or peer | expected | ours | standard error | off "
-                        "by standard errors");
+    page_section(title);
 }

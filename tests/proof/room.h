@@ -1,5 +1,5 @@
 /*
- * room.h - a closed room: coloured walls, a lamp in the ceiling, a diffuse, a glossy and a mirror
+ * room.h - a closed room: coloured walls, an area light in the ceiling, a diffuse, a glossy and a mirror
  * ball.
  */
 #ifndef RT_TESTS_PROOF_ROOM_H

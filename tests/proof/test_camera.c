@@ -80,7 +80,7 @@ static double middle_of_pixels(double x0, double x1)
 }
 
 /*
- * Three lamps, red, green and blue, squares of 0.2 m across the view, at places right, up and ahead
+ * Three area lights, red, green and blue, squares of 0.2 m across the view, at places right, up and ahead
  * of the eye.
  */
 static void squares_by_their_projection(void **state)
@@ -90,7 +90,7 @@ static void squares_by_their_projection(void **state)
     static const rt_render_options options = {.width = 60, .height = 40, .spp = 16};
     double scale = 60 / (2 * tan(25 * pi / 180));
     vector x, y;
-    char lamps[2048] = "";
+    char lights[2048] = "";
     proof_films films;
     (void)state;
     cross_unit(x, ahead, up);
@@ -101,7 +101,7 @@ static void squares_by_their_projection(void **state)
             corner[i] = eye[i] + (places[k][0] - 0.1) * x[i] + (places[k][1] - 0.1) * y[i] +
                         places[k][2] * ahead[i];
         strcat(
-            lamps,
+            lights,
             proof_text("quad { corner %.9g %.9g %.9g  edge1 %.9g %.9g %.9g  edge2 %.9g %.9g %.9g\n"
                        "  material lamp  radiance %d %d %d }\n",
                        corner[0], corner[1], corner[2], 0.2 * x[0], 0.2 * x[1], 0.2 * x[2],
@@ -110,7 +110,7 @@ static void squares_by_their_projection(void **state)
     proof_render(&films,
                  proof_text("camera { eye 1 2 -3  look_at 1.6 1.52 -2.36  up 0.1 1 0.2  fov 50 }\n"
                             "material lamp { }\n%s",
-                            lamps),
+                            lights),
                  &options);
     for (int k = 0; k < 3; k++) {
         const double *p = places[k];
@@ -126,7 +126,7 @@ static void squares_by_their_projection(void **state)
 /* Spheres, seen by parallel rays and all around. */
 static void other_cameras(void **state)
 {
-    static const char lamps[] =
+    static const char lights[] =
         "material lamp { }\nsphere { centre 0.5 0.3 2  radius 0.1  material lamp  radiance 1 0 0 "
         "}\n"
         "sphere { centre -0.8 0 3  radius 0.1  material lamp  radiance 0 1 0 }\n"
@@ -138,7 +138,7 @@ static void other_cameras(void **state)
     proof_render(
         &films,
         proof_text("camera { projection orthographic  eye 0 0 -5  look_at 0 0 0  width 4 }\n%s",
-                   lamps),
+                   lights),
         &options);
     const double expected[3][3] = {{15, 7, pi}, {28, 10, pi}, {13, 14, pi}};
     for (int k = 0; k < 3; k++)
@@ -172,12 +172,12 @@ static double blur_radius(double z, double width)
     return aperture * fabs(1 / z - 1 / focus) * width / (2 * half_view);
 }
 
-static const char *lens(const char *lamp)
+static const char *lens(const char *light)
 {
     return proof_text("camera { eye 0 0 0  look_at 0 0 1  fov (2 * atan(0.125))  aperture 0.1  "
                       "focal_distance 2 }\n"
                       "material black { }\n%s",
-                      lamp);
+                      light);
 }
 
 /* The part of a disc of radius 1 on one side of the line at t. */
@@ -197,7 +197,7 @@ static double column(double x, double r)
 }
 
 /*
- * A half plane that shines on the left, before and behind the plane in focus: each column has its
+ * An emissive half plane on the left, before and behind the plane in focus: each column has its
  * part of the disc.
  */
 static void edges_through_a_lens(void **state)
@@ -229,7 +229,7 @@ static void edges_through_a_lens(void **state)
 
 /*
  * A small disc: the variance of the light's column is that of the disc of confusion, D^2/16, that
- * of the lamp's image, and 1/12, which the pixels add (Sheppard). Its light is that of a pinhole.
+ * of the light's image, and 1/12, which the pixels add (Sheppard). Its light is that of a pinhole.
  */
 static void discs_of_confusion(void **state)
 {
@@ -253,7 +253,7 @@ static void discs_of_confusion(void **state)
         const char *scene = proof_text("point at %g m, lens focused at 2 m", z);
         proof_check((proof_row){scene, "diameter in pixels", "2 a abs(1/z - 1/f), projected"},
                     2 * blur_radius(z, 48), &square);
-        proof_check((proof_row){scene, "area in pixels", "that of the lamp, projected"},
+        proof_check((proof_row){scene, "area in pixels", "that of the light, projected"},
                     pi * own * own, &sum);
         proof_free(&films);
     }
@@ -264,8 +264,8 @@ static void discs_of_confusion(void **state)
 static const rt_render_options window = {.width = 4, .height = 4, .spp = 4};
 
 /*
- * A gradient is 2 + 3 v, seen through a very small window at right angles to a point of a shape
- * that shines.
+ * A gradient is 2 + 3 v, seen through a very small window at right angles to a point of an
+ * emissive shape.
  */
 static void gradients_at_known_places(void **state)
 {

@@ -98,10 +98,11 @@ static void expect_slope(const char *scene, const char *text, rt_sampler sampler
     mean_and_error(&slopes, &slope, &error);
     chance_spend(PROOF_FALSE_ALARM);
     const int is_sobol = sampler == RT_SAMPLER_SOBOL;
-    page_row(proof_text("%s | %s | %s%g", scene, is_sobol ? "Sobol" : "independent",
-                        is_sobol ? "below " : "", bound),
-             proof_text("%.3f | %.3f | %.4f | %.4f | %.4f | %.4f | %.4f", slope, error, rmse[0],
-                        rmse[2], rmse[4], rmse[6], rmse[8]));
+    page_row(
+        proof_text("%s, %s: slope %s%g\n ", scene, is_sobol ? "Sobol" : "independent",
+                   is_sobol ? "below " : "", bound),
+        proof_text("measured %.3f, standard error %.3f; relative RMSE %.4f, %.4f, %.4f, %.4f, %.4f",
+                   slope, error, rmse[0], rmse[2], rmse[4], rmse[6], rmse[8]));
     if (!(slope < bound + 6.9 * error && (is_sobol || slope > bound - 6.9 * error)))
         fail_msg("%s, sampler %d: slope %.4f with a standard error of %.4f", scene, sampler, slope,
                  error);
@@ -116,23 +117,21 @@ static void expect_slope(const char *scene, const char *text, rt_sampler sampler
 static void independent_samples_by_the_root(void **state)
 {
     (void)state;
-    expect_slope("lamp over a floor", LAMP_OVER_FLOOR, RT_SAMPLER_INDEPENDENT, -0.5);
+    expect_slope("area light over a floor", LAMP_OVER_FLOOR, RT_SAMPLER_INDEPENDENT, -0.5);
     expect_slope("room", ROOM, RT_SAMPLER_INDEPENDENT, -0.5);
 }
 
 static void sobol_points_faster(void **state)
 {
     (void)state;
-    expect_slope("lamp over a floor", LAMP_OVER_FLOOR, RT_SAMPLER_SOBOL, -0.7);
+    expect_slope("area light over a floor", LAMP_OVER_FLOOR, RT_SAMPLER_SOBOL, -0.7);
     expect_slope("room", ROOM, RT_SAMPLER_SOBOL, -0.52);
 }
 
 static void the_page_has_the_rows(void **state)
 {
     (void)state;
-    page_section("Convergence", "scene | sampler | slope expected | slope | standard error | "
-                                "relative RMSE at 1 sample | 4 | 16 | "
-                                "64 | 256");
+    page_section("Convergence");
 }
 
 int main(void)

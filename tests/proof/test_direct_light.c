@@ -1,5 +1,5 @@
 /*
- * test_direct_light.c - the light of one lamp on a white floor, whose radiance is its irradiance
+ * test_direct_light.c - the light of one emitter on a white floor, whose radiance is its irradiance
  * over pi.
  *
  * The camera looks straight down on a square of the floor. The truth is the mean of the closed form
@@ -80,20 +80,21 @@ static double smoothed(double x, double z)
     return sum / (rings * spokes);
 }
 
-static void expect_by_paths(const char *scene, const char *truth, irradiance *e, const char *lamp)
+static void expect_by_paths(const char *scene, const char *truth, irradiance *e, const char *light)
 {
-    const char *text = proof_text(FLOOR "%s", lamp);
+    const char *text = proof_text(FLOOR "%s", light);
     proof_radiance((proof_row){scene, "path", truth}, mean_of_square(e) / pi, text, &path);
     proof_radiance((proof_row){scene, "direct", truth}, mean_of_square(e) / pi, text, &direct);
 }
 
 /* By path tracing, by direct light alone, and all from the photon map. */
-static void expect_irradiance(const char *scene, const char *truth, irradiance *e, const char *lamp)
+static void expect_irradiance(const char *scene, const char *truth, irradiance *e,
+                              const char *light)
 {
-    expect_by_paths(scene, truth, e, lamp);
+    expect_by_paths(scene, truth, e, light);
     sharp = e;
     proof_radiance((proof_row){scene, "photons", truth}, mean_of_square(smoothed) / pi,
-                   proof_text(FLOOR "%s", lamp), &map);
+                   proof_text(FLOOR "%s", light), &map);
 }
 
 /* ---- Lights without size ---------------------------------------------------------- */
@@ -169,7 +170,7 @@ static void spots_suns_and_skies(void **state)
         "light spot { position 0 0.7 0  target 0 0 0  intensity 3  inner 40  outer 60 }");
     expect_irradiance("directional light", "E cos / pi", of_sun,
                       "light directional { direction 1 -2 1  irradiance 3 }");
-    expect_irradiance("even environment", "L", of_sky, "light environment { radiance 2 }");
+    expect_irradiance("uniform environment", "L", of_sky, "light environment { radiance 2 }");
 }
 
 /* ---- Polygons --------------------------------------------------------------------- */
@@ -240,7 +241,7 @@ static void polygons(void **state)
         "triangle { a -0.3 0.6 -0.2  b 0.4 0.8 -0.2  c -0.1 0.9 0.4  material black  radiance 5 }");
 }
 
-/* ---- Round lamps ------------------------------------------------------------------ */
+/* ---- Round area lights ------------------------------------------------------------------ */
 
 /* Radiance 5 of a ball; Snyder's factor where the horizon cuts it. */
 static double of_ball(double cx, double cy, double r, double x, double z)
@@ -283,7 +284,7 @@ static double of_ring(double x, double z)
     return of_disc(x, z) - of_round(0.25, 0.7, hypot(x - 0.2, z));
 }
 
-static void round_lamps(void **state)
+static void round_lights(void **state)
 {
     (void)state;
     expect_irradiance("sphere", "L cos (r/d)^2", of_sphere,
@@ -306,7 +307,7 @@ static double of_three(double x, double z)
     return of_wall(x, z) + of_ball(-0.88, 0.3, 0.18, x, z) + 0.1 * of_point(x, z);
 }
 
-static void lamps_add_up(void **state)
+static void lights_add_up(void **state)
 {
     (void)state;
     expect_irradiance(
@@ -316,13 +317,13 @@ static void lamps_add_up(void **state)
         "light point { position 0.2 1 0.1  intensity 0.3 }\n");
 }
 
-/* The camera looks at the lamp itself, whose outside shines evenly. */
+/* The camera looks at the area light itself, whose outside has the same radiance everywhere. */
 static void power_is_pi_times_area_times_radiance(void **state)
 {
     static const struct {
         const char *name, *law, *shape;
         double area_by_pi;
-    } lamps[] = {
+    } lights[] = {
         {"parallelogram", "P / (pi area)", "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 1",
          4 / PI},
         {"triangle", "P / (pi area)", "triangle { a -1 0 -1  b 0 0 2  c 2 0 -1", 4.5 / PI},
@@ -342,14 +343,14 @@ static void power_is_pi_times_area_times_radiance(void **state)
          4 * PI * 0.6 * 0.2},
     };
     (void)state;
-    for (size_t i = 0; i < sizeof lamps / sizeof *lamps; i++) {
+    for (size_t i = 0; i < sizeof lights / sizeof *lights; i++) {
         const char *text = proof_text(
             "camera { projection orthographic  eye 0 3 0  look_at 0 0 0  up 0 0 -1  width 0.1 }\n"
             "material black { }\n%s  material black  power 7 }",
-            lamps[i].shape);
+            lights[i].shape);
         proof_radiance(
-            (proof_row){proof_text("%s of a power", lamps[i].name), "path", lamps[i].law},
-            7 / (pi * pi * lamps[i].area_by_pi), text, &path);
+            (proof_row){proof_text("%s of a power", lights[i].name), "path", lights[i].law},
+            7 / (pi * pi * lights[i].area_by_pi), text, &path);
     }
 }
 
@@ -366,8 +367,8 @@ int main(void)
         cmocka_unit_test(shadows),
         cmocka_unit_test(spots_suns_and_skies),
         cmocka_unit_test(polygons),
-        cmocka_unit_test(round_lamps),
-        cmocka_unit_test(lamps_add_up),
+        cmocka_unit_test(round_lights),
+        cmocka_unit_test(lights_add_up),
         cmocka_unit_test(power_is_pi_times_area_times_radiance),
         cmocka_unit_test(the_page_has_the_rows),
     };

@@ -1,9 +1,9 @@
 /*
  * test_enclosures.c - light that is reflected without end: in closed spheres and boxes, and of
- * bodies in even light.
+ * bodies under a uniform sky.
  *
- * In a sphere of radius r and albedo a, every point gets the same light from every other: a lamp of
- * power P that shines evenly on the wall gives the irradiance P / (4 pi r^2) (1 + a + a^2 + ...)
+ * In a sphere of radius r and albedo a, every point gets the same light from every other: a light of
+ * power P that illuminates the wall evenly gives the irradiance P / (4 pi r^2) (1 + a + a^2 + ...)
  * (Ulbricht's integrating sphere). Where walls both shine with L and reflect a, the radiance is L /
  * (1 - a) everywhere, whatever the shape (the white furnace).
  */
@@ -77,7 +77,7 @@ static void depth_by_depth(void **state)
     }
 }
 
-/* Light that was reflected is even, wherever the lamp is. A small part of the wall is seen. */
+/* Reflected light is uniform, wherever the light is. A small part of the wall is seen. */
 static void off_centre(void **state)
 {
     static const char text[] = ULBRICHT
@@ -85,11 +85,11 @@ static void off_centre(void **state)
         "camera { projection orthographic  eye 0 0 0  look_at 0 1 0  up 0 0 1  width 0.01 }\n";
     double d2 = 1 + 0.4 * 0.4, straight = 7 / (4 * pi) / (d2 * sqrt(d2)) * 0.5 / pi;
     (void)state;
-    proof_radiance((proof_row){"integrating sphere, lamp off centre", "path",
-                               "direct light + a^2/(1 - a) P/(2 pi r)^2/pi"},
+    proof_radiance((proof_row){"integrating sphere, off centre", "path",
+                               "direct + a^2/(1 - a) P/(2 pi r)^2/pi"},
                    straight + 0.5 * reflected(0.5, 62), text, &path);
-    proof_radiance((proof_row){"integrating sphere, lamp off centre", "photons and shadow rays",
-                               "direct light + a^2/(1 - a) P/(2 pi r)^2/pi"},
+    proof_radiance((proof_row){"integrating sphere, off centre", "photons and shadow rays",
+                               "direct + a^2/(1 - a) P/(2 pi r)^2/pi"},
                    straight + 0.5 * reflected(0.5, 62), text,
                    &(rt_render_options){.width = 8,
                                         .height = 8,
@@ -111,9 +111,9 @@ static void closed_furnaces(void **state)
         const char *name, *material;
         double a;
     } walls[] = {
-        {"sphere that shines, diffuse", "kd 0.7", 0.7},
-        {"sphere that shines, mirror", "ks 0.7", 0.7},
-        {"sphere that shines, diffuse and mirror", "kd 0.3  ks 0.4", 0.7},
+        {"emissive sphere, diffuse", "kd 0.7", 0.7},
+        {"emissive sphere, mirror", "ks 0.7", 0.7},
+        {"emissive sphere, diffuse and mirror", "kd 0.3  ks 0.4", 0.7},
     };
     (void)state;
     for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
@@ -147,8 +147,8 @@ static void box_furnace(void **state)
     for (int e = 0; e < 3; e++) {
         rt_render_options options = path;
         options.estimator = (rt_estimator)e;
-        proof_radiance((proof_row){"box that shines, diffuse", estimators[e], "L / (1 - a)"}, 2,
-                       text, &options);
+        proof_radiance((proof_row){"emissive box, diffuse", estimators[e], "L / (1 - a)"}, 2, text,
+                       &options);
     }
 }
 
@@ -157,7 +157,7 @@ static void metal_furnace(void **state)
 {
     (void)state;
     proof_radiance(
-        (proof_row){"sphere that shines, metal, seen from its centre", "path", "L / (1 - R(0))"},
+        (proof_row){"emissive sphere, metal, seen from its centre", "path", "L / (1 - R(0))"},
         0.6 / (1 - optics_fresnel(1, 0.42 + 2.35 * I)),
         "camera { eye 0 0 0  look_at 0.2 0.1 1  fov 90 }\n"
         "material wall { emission 0.6  two_sided true  ks 1  fresnel conductor  eta 0.42  k 2.35 "
@@ -166,7 +166,7 @@ static void metal_furnace(void **state)
         &path);
 }
 
-/* ---- Bodies in even light ------------------------------------------------------------- */
+/* ---- Bodies under a uniform sky ------------------------------------------------------------- */
 
 /* A ball fills the view. */
 static void balls_in_even_light(void **state)
@@ -189,7 +189,8 @@ static void balls_in_even_light(void **state)
     options.max_depth = 1000;
     for (size_t i = 0; i < sizeof balls / sizeof *balls; i++)
         proof_radiance(
-            (proof_row){proof_text("%s in even light", balls[i].name), "path", balls[i].truth},
+            (proof_row){proof_text("%s under a uniform sky", balls[i].name), "path",
+                        balls[i].truth},
             balls[i].expected,
             proof_text(
                 "camera { eye 0 0 -2  look_at 0 0 0  fov 40 }\nlight environment { radiance 1 }\n"
@@ -221,8 +222,8 @@ static void plates_in_even_light(void **state)
             double expected = plates[i].alpha > 0 ? optics_rough(cos(angle), plates[i].alpha, index)
                                                   : optics_fresnel(cos(angle), index);
             proof_radiance(
-                (proof_row){proof_text("plate of %s in even light, from %d degrees", plates[i].name,
-                                       degrees[a]),
+                (proof_row){proof_text("plate of %s under a uniform sky, from %d degrees",
+                                       plates[i].name, degrees[a]),
                             "path", plates[i].alpha > 0 ? "integral of the GGX lobe" : "R L"},
                 expected,
                 proof_text(
@@ -239,7 +240,7 @@ static void plates_in_even_light(void **state)
 static void the_page_has_the_rows(void **state)
 {
     (void)state;
-    proof_page("Light that is reflected without end");
+    proof_page("Enclosures and white furnaces");
 }
 
 int main(void)

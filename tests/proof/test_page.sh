@@ -1,5 +1,6 @@
 #!/bin/sh
-# test_page.sh - tests/proof/page.sh keeps the sections that cannot be measured here, and fails where one is missing.
+# test_page.sh - tests/proof/page.sh keeps the sections that cannot be measured here, and fails
+# where one is missing.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d) || exit 1
@@ -28,7 +29,8 @@ check() {
     fi
 }
 
-# refuses NAME MISSING TITLE...: a page of these sections stays as it is, and the missing one is named.
+# refuses NAME MISSING TITLE...: a page of these sections stays as it is, and the missing one is
+# named.
 refuses() {
     name=$1 missing=$2
     shift 2
@@ -39,10 +41,12 @@ refuses() {
 }
 
 write_page 'Direct light' 'Against renders that are kept' 'Against Mitsuba 3'
-make_page && grep -qx 'rows of Against renders that are kept' "$page" && grep -qx 'rows of Against Mitsuba 3' "$page"
+make_page && grep -qx 'rows of Against renders that are kept' "$page" &&
+    grep -qx 'rows of Against Mitsuba 3' "$page"
 check sections_that_are_not_measured_are_kept $?
 ! grep -q 'rows of Direct light' "$page"
 check sections_that_are_measured_are_not $?
 refuses missing_renders_are_told 'Against renders that are kept' 'Against Mitsuba 3'
-refuses missing_peer_is_told 'Against Mitsuba 3' 'Against renders that are kept' 'Against Mitsuba 3 or 4'
+refuses missing_peer_is_told 'Against Mitsuba 3' \
+    'Against renders that are kept' 'Against Mitsuba 3 or 4'
 exit $bad

@@ -22,9 +22,9 @@ static const rt_render_options path = {.width = 8, .height = 8, .spp = 32, .max_
 /* ---- Two mirrors --------------------------------------------------------------------- */
 
 /*
- * The camera stands between mirrors at x = -1 and x = 1 and looks down the corridor at a lamp that
+ * The camera stands between mirrors at x = -1 and x = 1 and looks down the corridor at a light that
  * closes it, 10 m away. Its film spans the slopes -1.5 to 1.5 in 60 columns: the k-th image of the
- * lamp has the slopes from 0.2 k - 0.1 to 0.2 k + 0.1.
+ * light has the slopes from 0.2 k - 0.1 to 0.2 k + 0.1.
  */
 static void endless_corridor(void **state)
 {
@@ -55,14 +55,14 @@ static void endless_corridor(void **state)
 
 /* ---- The slab ------------------------------------------------------------------------- */
 
-static double passed(double r, double e)
+static double transmitted(double r, double e)
 {
     return e * (1 - r) * (1 - r) / (1 - r * r * e * e);
 }
 
-static double thrown_back(double r, double e)
+static double reflected(double r, double e)
 {
-    return r + r * e * passed(r, e);
+    return r + r * e * transmitted(r, e);
 }
 
 /*
@@ -91,16 +91,16 @@ static void slabs(void **state)
                    s = sin(angle) / 1.5;
             double e = exp(-absorption[i] * 0.5 / sqrt(1 - s * s));
             const char *what =
-                proof_text("%s slab, from %d degrees", i ? "smoky" : "clear", degrees[a]);
-            proof_radiance((proof_row){proof_text("light through a %s", what), "path",
+                proof_text("%s slab, from %d degrees", i ? "an absorbing" : "a clear", degrees[a]);
+            proof_radiance((proof_row){proof_text("light through %s", what), "path",
                                        "e (1-R)^2/(1 - R^2 e^2)"},
-                           passed(r, e),
+                           transmitted(r, e),
                            slab(angle, absorption[i],
                                 "plane { point 0 0 -2  normal 0 0 1  material black }\n"),
                            &path);
-            proof_radiance((proof_row){proof_text("light thrown back by a %s", what), "path",
+            proof_radiance((proof_row){proof_text("light reflected by %s", what), "path",
                                        "R + R e^2 (1-R)^2/(1 - R^2 e^2)"},
-                           thrown_back(r, e),
+                           reflected(r, e),
                            slab(angle, absorption[i],
                                 "plane { point 0 0 2  normal 0 0 -1  material black }\n"),
                            &path);
@@ -109,12 +109,12 @@ static void slabs(void **state)
 
 /* ---- Floors under glass ---------------------------------------------------------------- */
 
-static double thrown_back_by_slab(double cos_i)
+static double reflected_by_slab(double cos_i)
 {
-    return thrown_back(optics_fresnel(cos_i, 1.5), 1);
+    return reflected(optics_fresnel(cos_i, 1.5), 1);
 }
 
-static double thrown_back_by_water(double cos_i)
+static double reflected_by_water(double cos_i)
 {
     return optics_fresnel(cos_i, 1.33);
 }
@@ -141,14 +141,14 @@ static const rt_render_options caustics = {.width = 8,
 
 static void floors_under_a_slab(void **state)
 {
-    double back = optics_diffuse_mean(thrown_back_by_slab), gain = 1 / (1 - 0.6 * back);
-    double straight = passed(optics_fresnel(2 / sqrt(6), 1.5), 1);
+    double back = optics_diffuse_mean(reflected_by_slab), gain = 1 / (1 - 0.6 * back);
+    double straight = transmitted(optics_fresnel(2 / sqrt(6), 1.5), 1);
     const char *sky = UNDER_SLAB("light environment { radiance 1 }\n");
     (void)state;
-    proof_radiance((proof_row){"floor under a slab, even environment", "path",
+    proof_radiance((proof_row){"floor under a slab, uniform environment", "path",
                                "a T L/(1 - a (1 - T)), T of diffuse light"},
                    0.6 * (1 - back) * gain, sky, &path);
-    proof_radiance((proof_row){"floor under a slab, even environment", "photons",
+    proof_radiance((proof_row){"floor under a slab, uniform environment", "photons",
                                "a T L/(1 - a (1 - T)), T of diffuse light"},
                    0.6 * (1 - back) * gain, sky, &caustics);
     proof_radiance((proof_row){"floor under a slab, directional light", "photons",
@@ -170,7 +170,7 @@ static void floors_under_a_slab(void **state)
 
 static void pools(void **state)
 {
-    double enters = 1 - optics_diffuse_mean(thrown_back_by_water), n2 = 1.33 * 1.33;
+    double enters = 1 - optics_diffuse_mean(reflected_by_water), n2 = 1.33 * 1.33;
     double bottom = 0.6 * enters / (1 - 0.6 * (1 - enters / n2)),
            out = (1 - optics_fresnel(1, 1.33)) / n2;
     static const char inside[] = POOL("eye 0 0.05 0  look_at 0 0 0"),
@@ -211,8 +211,8 @@ static void total_reflection(void **state)
 {
     static const char sky[] =
         "light environment { radiance 1 }\nplane { point 0 0 -3  normal 0 0 1  material black }\n";
-    static const char lamp[] = "quad { corner -999 -999 -3  edge1 1998 0 0  edge2 0 1998 0  "
-                               "material black  radiance 1 }\n";
+    static const char light[] = "quad { corner -999 -999 -3  edge1 1998 0 0  edge2 0 1998 0  "
+                                "material black  radiance 1 }\n";
     static const double beside[] = {-30, -5, -1, -0.1, -0.01, 0.01, 0.1, 1, 30};
     double critical = asin(1 / 1.5);
     (void)state;
@@ -224,22 +224,24 @@ static void total_reflection(void **state)
         proof_radiance(
             (proof_row){proof_text("sky seen in glass, %s", where), "path", "n^2 (1 - R) L"},
             2.25 * (1 - r), in_glass(angle, sky), &path);
-        proof_radiance((proof_row){proof_text("lamp in glass, mirrored in the surface, %s", where),
-                                   "path", "R L"},
-                       r, in_glass(angle, lamp), &path);
+        proof_radiance(
+            (proof_row){proof_text("area light in glass, mirrored in the surface, %s", where),
+                        "path", "R L"},
+            r, in_glass(angle, light), &path);
     }
 }
 
-/* From outside, a lamp in glass. */
-static void lamps_in_glass(void **state)
+/* From outside, a area light in glass. */
+static void lights_in_glass(void **state)
 {
     static const int degrees[] = {0, 60};
     (void)state;
     for (int a = 0; a < 2; a++) {
         double angle = degrees[a] * pi / 180;
         proof_radiance(
-            (proof_row){proof_text("lamp in glass, seen from outside at %d degrees", degrees[a]),
-                        "path", "(1 - R) L/n^2"},
+            (proof_row){
+                proof_text("area light in glass, seen from outside at %d degrees", degrees[a]),
+                "path", "(1 - R) L/n^2"},
             (1 - optics_fresnel(cos(angle), 1.5)) / 2.25,
             proof_text(
                 "camera { projection orthographic  width 0.1  eye %.9g 0 %.9g  look_at 0 0 0 }\n"
@@ -257,12 +259,12 @@ static void radiance_in_glass(void **state)
 {
     (void)state;
     proof_radiance(
-        (proof_row){"even light, seen in a ball of glass", "path", "n^2 L"}, 2.25,
+        (proof_row){"uniform sky, seen in a ball of glass", "path", "n^2 L"}, 2.25,
         "camera { eye 0 0 0  look_at 0.2 0.1 1  fov 90 }\nlight environment { radiance 1 }\n"
         "material glass { kt 1  ior 1.5 }\nsphere { centre 0 0 0  radius 1  material glass }\n",
         &path);
     proof_radiance(
-        (proof_row){"even light, seen in a slab of glass", "path", "n^2 L"}, 2.25,
+        (proof_row){"uniform sky, seen in a slab of glass", "path", "n^2 L"}, 2.25,
         "camera { eye 0 0 0.5  look_at 0 0 2  fov 50 }\nlight environment { radiance 1 }\n"
         "material glass { kt 1  ior 1.5 }\nplane { point 0 0 0  normal 0 0 -1  material glass }\n"
         "plane { point 0 0 1  normal 0 0 1  material glass }\n",
@@ -280,7 +282,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(endless_corridor),    cmocka_unit_test(slabs),
         cmocka_unit_test(floors_under_a_slab), cmocka_unit_test(pools),
-        cmocka_unit_test(total_reflection),    cmocka_unit_test(lamps_in_glass),
+        cmocka_unit_test(total_reflection),    cmocka_unit_test(lights_in_glass),
         cmocka_unit_test(radiance_in_glass),   cmocka_unit_test(the_page_has_the_rows),
     };
     return cmocka_run_group_tests_name("proof/specular", tests, NULL, NULL);

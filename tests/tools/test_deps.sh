@@ -52,7 +52,8 @@ check nothing_missing_succeeds status_is 0
 
 run "$work/fake:$PATH" PKG_CONFIG=false sh "$deps"
 check missing_updates_the_package_lists called '^apt-get update'
-check missing_installs_only_what_is_missing called '^apt-get install .*--no-install-recommends .*libpng-dev'
+check missing_installs_only_what_is_missing \
+    called '^apt-get install .*--no-install-recommends .*libpng-dev'
 check compiler_there_is_not_installed eval '! called " gcc"'
 check still_missing_after_install_fails status_is 1
 check still_missing_after_install_is_said says 'not usable'

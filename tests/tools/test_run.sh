@@ -81,5 +81,6 @@ expect missing_program_is_a_failure 1 '0 passed, 1 failed' "$work/none"
 expect timeout_is_a_failure 1 '1 passed, 1 failed' "$work/slow.sh"
 expect crash_is_a_failure 1 '1 passed, 1 failed' "$work/crash"
 expect false_alarms_have_a_budget 0 '2 passed, 0 failed' "$work/cmocka_lucky" "$work/cmocka_lucky"
-expect too_many_false_alarms_are_a_failure 1 '2 passed, 1 failed' "$work/cmocka_lucky" "$work/cmocka_unlucky"
+expect too_many_false_alarms_are_a_failure 1 '2 passed, 1 failed' \
+    "$work/cmocka_lucky" "$work/cmocka_unlucky"
 exit $bad
