@@ -50,8 +50,8 @@ static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
 {
     if (finding->light != RT_NONE)
         return origins->lights.items[finding->light];
-    if (finding->lamp != RT_NONE)
-        return origins->shapes.items[finding->lamp];
+    if (finding->emitter != RT_NONE)
+        return origins->shapes.items[finding->emitter];
     switch (finding->kind) {
     case RT_FINDING_OPEN_GLASS:
         return origins->shapes.items[finding->shape];

@@ -1,3 +1,4 @@
+/* bytes.c - appends to a growing array of bytes. */
 #include "base/bytes.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* error.c - fills the error that a failing call leaves to its caller. */
 #include "base/error.h"
 
 #include <stdarg.h>

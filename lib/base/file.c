@@ -1,3 +1,4 @@
+/* file.c - reads whole files, and replaces them so that no reader sees half of one. */
 #define _XOPEN_SOURCE 700 /* realpath */
 
 #include "base/file.h"
@@ -64,11 +65,13 @@ rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *
         return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
     rt_bytes bytes = {0};
     rt_status status = read_all(&bytes, fd, path, limit, error);
+    if (status != RT_OK)
+        goto out;
+    *out = bytes;
+    bytes = (rt_bytes){0};
+out:
     close(fd);
-    if (status == RT_OK)
-        *out = bytes;
-    else
-        rt_bytes_free(&bytes);
+    rt_bytes_free(&bytes);
     return rt_at_file(status, path, error);
 }
 
@@ -82,10 +85,7 @@ rt_status rt_file_check_regular(const char *path, rt_error *error)
     return RT_OK;
 }
 
-/*
- * Says by how much a file is longer than its start tells, where that can be known without reading
- * on.
- */
+/* By how much a file is longer than its header announces, where a regular file tells. */
 static rt_status fail_longer(int fd, const char *path, uint64_t told, rt_error *error)
 {
     struct stat info;
@@ -110,18 +110,24 @@ rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_fi
         return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
     rt_bytes bytes = {0};
     rt_status status = read_up_to(&bytes, fd, path, start, error);
-    if (status == RT_OK)
-        status = tell(&told, bytes.data, bytes.size, path, error);
-    if (status == RT_OK)
-        status = read_up_to(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told + 1 : SIZE_MAX / 2,
-                            error);
-    if (status == RT_OK && bytes.size > told)
+    if (status != RT_OK)
+        goto out;
+    status = tell(&told, bytes.data, bytes.size, path, error);
+    if (status != RT_OK)
+        goto out;
+    status =
+        read_up_to(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told + 1 : SIZE_MAX / 2, error);
+    if (status != RT_OK)
+        goto out;
+    if (bytes.size > told) {
         status = fail_longer(fd, path, told, error);
+        goto out;
+    }
+    *out = bytes;
+    bytes = (rt_bytes){0};
+out:
     close(fd);
-    if (status == RT_OK)
-        *out = bytes;
-    else
-        rt_bytes_free(&bytes);
+    rt_bytes_free(&bytes);
     return rt_at_file(status, path, error);
 }
 

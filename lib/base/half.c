@@ -1,3 +1,4 @@
+/* half.c - rounds a float to a half. */
 #include "base/half.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* progress.c - stages, the clock, and the messages of the log. */
 #include "base/progress.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* canonical.c - fills the plain form: vertices by number, faces as fans of triangles. */
 #include "mesh/canonical.h"
 
 #include <stdlib.h>

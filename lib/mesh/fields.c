@@ -1,3 +1,4 @@
+/* fields.c - numbers of a line, checked, and growing lists of them. */
 #include "mesh/fields.h"
 
 #include <float.h>

@@ -87,19 +87,25 @@ rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, r
     rt_canonical canonical = {0};
     rt_mesh *mesh = NULL;
     rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_LOAD);
-    if (status == RT_OK)
-        status = read_canonical(&canonical, path, &progress, error);
-    if (status == RT_OK)
-        status = rt_mesh_from_canonical(&mesh, &canonical, path, &progress, error);
+    if (status != RT_OK)
+        goto out;
+    status = read_canonical(&canonical, path, &progress, error);
+    if (status != RT_OK)
+        goto out;
+    status = rt_mesh_from_canonical(&mesh, &canonical, path, &progress, error);
+    rt_canonical_free(&canonical); /* now, for it is as large as the mesh */
+    if (status != RT_OK)
+        goto out;
+    status = finish(mesh, path, hooks, error);
+    if (status != RT_OK)
+        goto out;
+    status = rt_stage_end(&progress, NULL);
+    if (status != RT_OK)
+        goto out;
+    *out = mesh;
+    mesh = NULL;
+out:
     rt_canonical_free(&canonical);
-    if (status == RT_OK)
-        status = finish(mesh, path, hooks, error);
-    if (status == RT_OK)
-        status = rt_stage_end(&progress, NULL);
-    if (status == RT_OK) {
-        *out = mesh;
-        return RT_OK;
-    }
     rt_mesh_destroy(mesh);
     if (status == RT_CANCELLED)
         rt_fail(error, RT_CANCELLED, "cancelled while reading %.400s", path);

@@ -1,3 +1,6 @@
+/*
+ * openmesh.c - writes the header of the canonical form and takes over what OpenMesh reads from it.
+ */
 #include "mesh/openmesh.h"
 
 #include <stdio.h>

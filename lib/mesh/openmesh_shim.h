@@ -1,6 +1,4 @@
-/*
- * openmesh_shim.h - the way to OpenMesh, which is C++: the only C++ in the library lies behind it.
- */
+/* openmesh_shim.h - calls OpenMesh, which is C++; no other C++ is in the library. */
 #ifndef RT_LIB_MESH_OPENMESH_SHIM_H
 #define RT_LIB_MESH_OPENMESH_SHIM_H
 

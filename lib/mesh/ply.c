@@ -1,3 +1,4 @@
+/* ply.c - reads the elements of a PLY file in the order in which they stand. */
 #include "mesh/formats.h"
 
 #include <stdlib.h>

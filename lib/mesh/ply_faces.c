@@ -1,3 +1,4 @@
+/* ply_faces.c - polygons and strips of a PLY file as triangles. */
 #include "mesh/ply_faces.h"
 
 #include <stdlib.h>

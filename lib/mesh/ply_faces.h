@@ -6,7 +6,7 @@
 #include "mesh/ply_reader.h"
 #include "mesh/unique.h"
 
-/* Faces on their way into a mesh. Set mesh, vertex_count and by_corner; the rest is zero. */
+/* Faces while they are read. Set mesh, vertex_count and by_corner; the rest is zero. */
 typedef struct rt_ply_faces {
     rt_canonical *mesh;
     uint64_t vertex_count; /* of the file */

@@ -1,3 +1,4 @@
+/* ply_header.c - parses the header of a PLY file, and bounds what it may announce. */
 #include "mesh/ply_header.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* ply_reader.c - reads values and lists, each checked against the bytes that are left. */
 #include "mesh/ply_reader.h"
 
 #include <float.h>

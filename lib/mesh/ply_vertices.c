@@ -1,3 +1,4 @@
+/* ply_vertices.c - finds the properties that a mesh needs and reads them, by row or by column. */
 #include "mesh/ply_vertices.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* source.c - errors, log and progress of the mesh readers. */
 #include "mesh/source.h"
 
 #include <limits.h>

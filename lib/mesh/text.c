@@ -1,3 +1,4 @@
+/* text.c - lines and tokens of a text in memory. */
 #include "mesh/text.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* unique.c - a hash table of keys with linear probing. */
 #include "mesh/unique.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* hierarchy.c - lists the primitives of a scene and builds its trees. */
 #include "pack/hierarchy.h"
 
 #include <stdlib.h>

@@ -7,7 +7,7 @@
 
 /*
  * Where the vertex data of a mesh begin in their tables; RT_NONE where the mesh has none or nothing
- * asks for them.
+ * uses them.
  */
 typedef struct rt_mesh_place {
     rt_u32 index, normal, uv, colour;

@@ -362,9 +362,9 @@ RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, r
 typedef struct rt_finding {
     rt_finding_kind kind;
     rt_severity severity;
-    uint32_t shape; /* the solid or open shape that it is about, or RT_NONE */
-    uint32_t lamp;  /* the shape that shines in it, or RT_NONE, or ... */
-    /* ... the light that is no shape, counted from 0 in the order in which they were added */
+    uint32_t shape;   /* the solid or open shape that it is about, or RT_NONE */
+    uint32_t emitter; /* the area light inside it, or RT_NONE, or ... */
+    /* ... the delta light, counted from 0 in the order in which they were added */
     uint32_t light;
     const char *message; /* one line */
 } rt_finding;

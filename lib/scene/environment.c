@@ -1,9 +1,23 @@
+/*
+ * environment.c - the environment of a scene: its image, the mean of that, and the distribution by
+ * which it is sampled.
+ */
 #include "scene/environment.h"
 
 #include <math.h>
-#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/image_file.h"
+#include "image/srgb.h"
+#include "scene/check.h"
+#include "scene/scene.h"
 
 static const double pi = 3.14159265358979323846;
+
+/* ---- Mean and distribution ------------------------------------------------- */
 
 /* Sine of the polar angle in the middle of a row. */
 static double row_sine(uint32_t row, uint32_t height)
@@ -57,4 +71,87 @@ double rt_environment_tabulate(float *conditional, float *marginal, const float 
     }
     normalise(marginal, height, total);
     return total / height;
+}
+
+/* ---- The image ------------------------------------------------------------- */
+
+/* Copies the image's colours, decoded. */
+static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, const char *path,
+                             rt_error *error)
+{
+    uint32_t channels[3];
+    size_t count = (size_t)image->width * image->height;
+    if (rt_image_rgb_channels(channels, image, NULL) != RT_OK) {
+        uint32_t grey = image->channel_count == 1 ? 0 : rt_image_channel(image, "Y");
+        if (grey == RT_IMAGE_NO_CHANNEL)
+            return rt_fail(error, RT_ERROR_INPUT,
+                           "environment: %.350s has neither the channels R, G and B nor Y", path);
+        channels[0] = channels[1] = channels[2] = grey;
+    }
+    out->texels = calloc(count, 4 * sizeof *out->texels);
+    if (!out->texels)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for an environment of %zu pixels",
+                       count);
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            float value = image->data[i * image->channel_count + channels[c]];
+            if (!(value >= 0 && value <= 1e30f))
+                return rt_fail(error, RT_ERROR_INPUT,
+                               "environment: %.300s has the value %g at pixel (%zu, %zu)", path,
+                               value, i % image->width, i / image->width);
+            out->texels[4 * i + (size_t)c] = image->is_srgb ? (float)rt_srgb_decode(value) : value;
+        }
+    out->width = image->width;
+    out->height = image->height;
+    return RT_OK;
+}
+
+static rt_status read_environment(rt_scene_environment *out, const char *path, rt_error *error)
+{
+    rt_image *image = NULL;
+    rt_status status = rt_file_check_regular(path, error);
+    if (status != RT_OK)
+        goto out;
+    status = rt_image_read(&image, path, error);
+    if (status != RT_OK)
+        goto out;
+    status = copy_texels(out, image, path, error);
+    if (status != RT_OK)
+        goto out;
+    rt_environment_mean(out->mean, out->texels, out->width, out->height);
+out:
+    if (status != RT_OK && error)
+        snprintf(error->field, sizeof error->field, "path");
+    rt_image_destroy(image);
+    return rt_at_file(status, path, error);
+}
+
+rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment,
+                                   rt_error *error)
+{
+    rt_scene_light l = {.kind = RT_LIGHT_ENVIRONMENT};
+    rt_scene_environment made = {.mean = {1, 1, 1}};
+    rt_status status = rt_check_colour(environment->radiance, "environment", "radiance", error);
+    if (status != RT_OK)
+        return status;
+    if (scene->environment.light != RT_NONE)
+        return rt_fail(error, RT_ERROR_INPUT, "environment: a scene has only one");
+    if (!(fabsf(environment->rotation) <= 1e6f))
+        return rt_fail_field(error, RT_ERROR_INPUT, "rotation",
+                             "environment: rotation is %g degrees", environment->rotation);
+    memcpy(l.emission, environment->radiance, sizeof l.emission);
+    if (environment->path) {
+        status = read_environment(&made, environment->path, error);
+        if (rt_is_black(l.emission))
+            l.emission[0] = l.emission[1] = l.emission[2] = 1;
+    }
+    made.turn = (float)(environment->rotation / 360.0 - floor(environment->rotation / 360.0));
+    made.light = (rt_u32)scene->light_count;
+    if (status == RT_OK)
+        status = rt_scene_take_light(scene, &l, error);
+    if (status == RT_OK)
+        scene->environment = made;
+    else
+        free(made.texels);
+    return status;
 }

@@ -1,5 +1,5 @@
 /*
- * environment.h - the distribution by which an environment's image is sampled.
+ * environment.h - the mean of an environment's image, and the distribution by which it is sampled.
  *
  * The image covers the unit square: u from 0 to 1 along a row, v from 0 at the top, +y, to 1 at the
  * bottom. Each pixel is chosen in proportion to the mean of its channels times the sine of the

@@ -1,6 +1,6 @@
 /*
- * findings.c - rt_scene_check: what a scene may hold but is hardly meant to, such as what makes its
- * picture black.
+ * findings.c - rt_scene_check: what is allowed in a scene but is probably a mistake, such as what
+ * makes its picture black.
  */
 #include <stdarg.h>
 
@@ -9,12 +9,12 @@
 #include "scene/view.h"
 
 /*
- * Lamps, and open shapes of glass, that are looked at: a mistake in a row of them is seen in its
- * first ones.
+ * Most lights, and most open shapes of glass, that are checked: of a row of copies the first show
+ * the mistake.
  */
-enum { looked_at_most = 256 };
+enum { checked_max = 256 };
 
-/* A check under way. */
+/* The state of one check. */
 typedef struct inspection {
     const rt_scene *scene;
     void (*found)(void *user, const rt_finding *finding);
@@ -59,37 +59,6 @@ int rt_mode_shows_light(rt_mode mode)
     return mode == RT_MODE_PATH || mode == RT_MODE_PHOTON || mode == RT_MODE_DIRECT;
 }
 
-int rt_scene_has_light(const rt_scene *scene)
-{
-    for (size_t i = 0; i < scene->light_count; i++)
-        if (!rt_is_black(scene->lights[i].emission))
-            return 1;
-    for (size_t i = 0; i < scene->shape_count; i++)
-        if (scene->shapes[i].emits)
-            return 1;
-    return 0;
-}
-
-static int has_light_without_size(const rt_scene *scene)
-{
-    for (size_t i = 0; i < scene->light_count; i++)
-        if (scene->lights[i].kind != RT_LIGHT_ENVIRONMENT &&
-            !rt_is_black(scene->lights[i].emission))
-            return 1;
-    return 0;
-}
-
-int rt_scene_casts_hidden_caustics(const rt_scene *scene)
-{
-    int casts = 0, shows = 0;
-    for (size_t i = 0; i < scene->shape_count; i++) {
-        const rt_material *m = scene->materials + scene->shapes[i].surface.material;
-        casts |= m->roughness < RT_SMOOTH_ALPHA && !(rt_is_black(m->ks) && rt_is_black(m->kt));
-        shows |= !rt_is_black(m->kd);
-    }
-    return casts && shows && has_light_without_size(scene);
-}
-
 static void find_missing(inspection *in)
 {
     const rt_scene *scene = in->scene;
@@ -127,7 +96,7 @@ static int overlaps(const rt_scene_shape *a, const rt_scene_shape *b)
     return 1;
 }
 
-/* Whether light may be inside a solid: of a lamp in it, or of its own where it shines inwards. */
+/* Whether light may be inside a solid: of a light in it, or of its own where it emits inwards. */
 static int may_be_lit_inside(const rt_scene *scene, const rt_scene_shape *solid, int is_inverted)
 {
     if (solid->emits && (is_inverted || scene->materials[solid->surface.material].two_sided))
@@ -140,16 +109,14 @@ static int may_be_lit_inside(const rt_scene *scene, const rt_scene_shape *solid,
             return 1;
     }
     for (size_t i = 0; i < scene->shape_count; i++) {
-        const rt_scene_shape *lamp = scene->shapes + i;
-        if (lamp->emits && lamp != solid && overlaps(lamp, solid))
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (shape->emits && shape != solid && overlaps(shape, solid))
             return 1;
     }
     return 0;
 }
 
-/*
- * Says of the first opaque solid that shuts the camera in, or else of the first of all around it.
- */
+/* Reports the first opaque solid around the camera, or else the first transparent one. */
 static void find_eye_inside(inspection *in)
 {
     const rt_scene *scene = in->scene;
@@ -175,61 +142,61 @@ static void find_eye_inside(inspection *in)
             shape_name(scene->shapes[medium.shape].kind));
 }
 
-/* ---- Lamps ----------------------------------------------------------------- */
+/* ---- Lights ----------------------------------------------------------------- */
 
-/* A light that is no shape, or a shape that shines. */
-typedef struct lamp {
-    const rt_scene_light *light;
+/* A point or spot light, or else an area light. */
+typedef struct light {
+    const rt_scene_light *delta;
     const rt_scene_shape *shape;
-} lamp;
+} light;
 
-static int contains_lamp(const rt_scene *scene, const rt_scene_shape *solid, const lamp *lamp)
+static int contains_light(const rt_scene *scene, const rt_scene_shape *solid, const light *light)
 {
-    if (lamp->shape)
-        return lamp->shape != solid && rt_shape_contains_bounds(scene, solid, lamp->shape);
-    const float *p = lamp->light->position;
+    if (light->shape)
+        return light->shape != solid && rt_shape_contains_bounds(scene, solid, light->shape);
+    const float *p = light->delta->position;
     return rt_shape_contains(scene, solid, (const double[3]){p[0], p[1], p[2]});
 }
 
-/* Says so when the lamp is in an opaque solid and the camera is not. */
-static void find_lamp_inside(inspection *in, const lamp *lamp)
+/* Reports a light that is in an opaque solid, where the camera is not. */
+static void find_light_inside(inspection *in, const light *light)
 {
     const rt_scene *scene = in->scene;
     const float *eye = scene->camera.eye;
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *solid = scene->shapes + i;
         if (rt_material_is_transparent(scene->materials + solid->surface.material) ||
-            !contains_lamp(scene, solid, lamp) ||
+            !contains_light(scene, solid, light) ||
             rt_shape_contains(scene, solid, (const double[3]){eye[0], eye[1], eye[2]}))
             continue;
         rt_finding hidden = finding_of(RT_FINDING_LIGHT_SHUT_IN);
         hidden.shape = (uint32_t)i;
-        if (lamp->shape)
-            hidden.lamp = (uint32_t)(lamp->shape - scene->shapes);
+        if (light->shape)
+            hidden.emitter = (uint32_t)(light->shape - scene->shapes);
         else
-            hidden.light = (uint32_t)(lamp->light - scene->lights);
+            hidden.light = (uint32_t)(light->delta - scene->lights);
         say(in, hidden, "this light is inside an opaque %s and never seen",
             shape_name(solid->kind));
         return;
     }
 }
 
-static void find_lamps_inside(inspection *in)
+static void find_lights_inside(inspection *in)
 {
     const rt_scene *scene = in->scene;
-    int looked_at = 0;
-    for (size_t i = 0; i < scene->light_count && looked_at < looked_at_most; i++) {
-        const lamp lamp = {.light = scene->lights + i};
-        if (lamp.light->kind == RT_LIGHT_POINT || lamp.light->kind == RT_LIGHT_SPOT) {
-            find_lamp_inside(in, &lamp);
-            looked_at++;
+    int checked = 0;
+    for (size_t i = 0; i < scene->light_count && checked < checked_max; i++) {
+        const light light = {.delta = scene->lights + i};
+        if (light.delta->kind == RT_LIGHT_POINT || light.delta->kind == RT_LIGHT_SPOT) {
+            find_light_inside(in, &light);
+            checked++;
         }
     }
-    for (size_t i = 0; i < scene->shape_count && looked_at < looked_at_most; i++) {
-        const lamp lamp = {.shape = scene->shapes + i};
-        if (lamp.shape->emits) {
-            find_lamp_inside(in, &lamp);
-            looked_at++;
+    for (size_t i = 0; i < scene->shape_count && checked < checked_max; i++) {
+        const light light = {.shape = scene->shapes + i};
+        if (light.shape->emits) {
+            find_light_inside(in, &light);
+            checked++;
         }
     }
 }
@@ -248,9 +215,14 @@ static int is_open(const rt_scene *scene, const rt_scene_shape *shape)
     case RT_SHAPE_CYLINDER:
     case RT_SHAPE_CONE:
         return !shape->caps;
-    default:
+    case RT_SHAPE_SPHERE:
+    case RT_SHAPE_ELLIPSOID:
+    case RT_SHAPE_PLANE:
+    case RT_SHAPE_TORUS:
+    case RT_SHAPE_INSTANCE:
         return 0;
     }
+    return 0;
 }
 
 /*
@@ -285,12 +257,12 @@ static int may_bound(const rt_scene *scene, uint32_t material)
 static void find_open_glass(inspection *in)
 {
     const rt_scene *scene = in->scene;
-    int looked_at = 0;
-    for (size_t i = 0; i < scene->shape_count && looked_at < looked_at_most; i++) {
+    int checked = 0;
+    for (size_t i = 0; i < scene->shape_count && checked < checked_max; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         if (!is_open(scene, shape) || !is_glass(scene->materials + shape->surface.material))
             continue;
-        looked_at++;
+        checked++;
         if (may_bound(scene, shape->surface.material))
             continue;
         rt_finding open = finding_of(RT_FINDING_OPEN_GLASS);
@@ -310,7 +282,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     if (scene->has_camera) {
         find_empty_view(&in);
         find_eye_inside(&in);
-        find_lamps_inside(&in);
+        find_lights_inside(&in);
     }
     return in.warnings;
 }

@@ -1,24 +1,16 @@
-/* light.c - adding lights that are no shapes to a scene. */
-#include <stdlib.h>
+/* light.c - delta lights: point, spot and directional; and what is known of all lights. */
 #include <string.h>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "image/image_file.h"
-#include "image/srgb.h"
 #include "scene/check.h"
-#include "scene/environment.h"
 #include "scene/scene.h"
 
 static const double pi = 3.14159265358979323846;
 
-/*
- * The edge of a spot is at least so wide in the cosine, for what is sharper has no slope in
- * float32.
- */
+/* Least width of a spot's edge, in the cosine: a sharper one has no slope in float32. */
 static const float edge_min = 1e-5f;
 
-static rt_status add_light(rt_scene *scene, const rt_scene_light *light, rt_error *error)
+rt_status rt_scene_take_light(rt_scene *scene, const rt_scene_light *light, rt_error *error)
 {
     rt_status status = rt_grow((void **)&scene->lights, &scene->light_room, scene->light_count,
                                sizeof *light, error);
@@ -43,7 +35,7 @@ rt_status rt_scene_add_point_light(rt_scene *scene, const rt_point_light *light,
     memcpy(l.position, light->position, sizeof l.position);
     for (int c = 0; c < 3; c++)
         l.emission[c] = has_power ? (float)(light->power[c] / (4 * pi)) : light->intensity[c];
-    return add_light(scene, &l, error);
+    return rt_scene_take_light(scene, &l, error);
 }
 
 /* The unit vector of v; 0 when it has no length. */
@@ -85,7 +77,7 @@ rt_status rt_scene_add_spot_light(rt_scene *scene, const rt_spot_light *light, r
         l.inner = l.outer + edge_min;
     memcpy(l.position, light->position, sizeof l.position);
     memcpy(l.emission, light->intensity, sizeof l.emission);
-    return add_light(scene, &l, error);
+    return rt_scene_take_light(scene, &l, error);
 }
 
 rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_directional_light *light,
@@ -106,82 +98,38 @@ rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_directional_l
         return rt_fail_field(error, RT_ERROR_INPUT, "direction",
                              "directional light: direction is zero");
     memcpy(l.emission, light->irradiance, sizeof l.emission);
-    return add_light(scene, &l, error);
+    return rt_scene_take_light(scene, &l, error);
 }
 
-/* Copies the image's colours, decoded. */
-static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, const char *path,
-                             rt_error *error)
+/* ---- All lights of a scene --------------------------------------------------- */
+
+int rt_scene_has_light(const rt_scene *scene)
 {
-    uint32_t channels[3];
-    size_t count = (size_t)image->width * image->height;
-    if (rt_image_rgb_channels(channels, image, NULL) != RT_OK) {
-        uint32_t grey = image->channel_count == 1 ? 0 : rt_image_channel(image, "Y");
-        if (grey == RT_IMAGE_NO_CHANNEL)
-            return rt_fail(error, RT_ERROR_INPUT,
-                           "environment: %.350s has neither the channels R, G and B nor Y", path);
-        channels[0] = channels[1] = channels[2] = grey;
+    for (size_t i = 0; i < scene->light_count; i++)
+        if (!rt_is_black(scene->lights[i].emission))
+            return 1;
+    for (size_t i = 0; i < scene->shape_count; i++)
+        if (scene->shapes[i].emits)
+            return 1;
+    return 0;
+}
+
+static int has_delta_light(const rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].kind != RT_LIGHT_ENVIRONMENT &&
+            !rt_is_black(scene->lights[i].emission))
+            return 1;
+    return 0;
+}
+
+int rt_scene_casts_hidden_caustics(const rt_scene *scene)
+{
+    int casts = 0, shows = 0;
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_material *m = scene->materials + scene->shapes[i].surface.material;
+        casts |= m->roughness < RT_SMOOTH_ALPHA && !(rt_is_black(m->ks) && rt_is_black(m->kt));
+        shows |= !rt_is_black(m->kd);
     }
-    out->texels = calloc(count, 4 * sizeof *out->texels);
-    if (!out->texels)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for an environment of %zu pixels",
-                       count);
-    for (size_t i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++) {
-            float value = image->data[i * image->channel_count + channels[c]];
-            if (!(value >= 0 && value <= 1e30f))
-                return rt_fail(error, RT_ERROR_INPUT,
-                               "environment: %.300s has the value %g at pixel (%zu, %zu)", path,
-                               value, i % image->width, i / image->width);
-            out->texels[4 * i + (size_t)c] = image->is_srgb ? (float)rt_srgb_decode(value) : value;
-        }
-    out->width = image->width;
-    out->height = image->height;
-    return RT_OK;
-}
-
-static rt_status read_environment(rt_scene_environment *out, const char *path, rt_error *error)
-{
-    rt_image *image = NULL;
-    rt_status status = rt_file_check_regular(path, error);
-    if (status == RT_OK)
-        status = rt_image_read(&image, path, error);
-    if (status == RT_OK)
-        status = copy_texels(out, image, path, error);
-    if (status == RT_OK)
-        rt_environment_mean(out->mean, out->texels, out->width, out->height);
-    else if (error)
-        snprintf(error->field, sizeof error->field, "path");
-    rt_image_destroy(image);
-    return rt_at_file(status, path, error);
-}
-
-rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment,
-                                   rt_error *error)
-{
-    rt_scene_light l = {.kind = RT_LIGHT_ENVIRONMENT};
-    rt_scene_environment made = {.mean = {1, 1, 1}};
-    rt_status status = rt_check_colour(environment->radiance, "environment", "radiance", error);
-    if (status != RT_OK)
-        return status;
-    if (scene->environment.light != RT_NONE)
-        return rt_fail(error, RT_ERROR_INPUT, "environment: a scene has only one");
-    if (!(fabsf(environment->rotation) <= 1e6f))
-        return rt_fail_field(error, RT_ERROR_INPUT, "rotation",
-                             "environment: rotation is %g degrees", environment->rotation);
-    memcpy(l.emission, environment->radiance, sizeof l.emission);
-    if (environment->path) {
-        status = read_environment(&made, environment->path, error);
-        if (rt_is_black(l.emission))
-            l.emission[0] = l.emission[1] = l.emission[2] = 1;
-    }
-    made.turn = (float)(environment->rotation / 360.0 - floor(environment->rotation / 360.0));
-    made.light = (rt_u32)scene->light_count;
-    if (status == RT_OK)
-        status = add_light(scene, &l, error);
-    if (status == RT_OK)
-        scene->environment = made;
-    else
-        free(made.texels);
-    return status;
+    return casts && shows && has_delta_light(scene);
 }

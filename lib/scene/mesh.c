@@ -127,15 +127,17 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
     made.uv = copy(mesh->uv, mesh->vertex_count, 2 * sizeof(float), &good);
     made.colours = copy(mesh->colours, mesh->vertex_count, 3 * sizeof(float), &good);
     made.indices = copy(mesh->indices, mesh->triangle_count, 3 * sizeof(uint32_t), &good);
-    if (!good)
+    if (!good) {
         status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu triangles",
                          mesh->triangle_count);
-    else
-        rt_scene_mesh_survey(&made);
-    if (status == RT_OK)
-        status = check_area(&made, error);
-    if (status == RT_OK)
-        status = rt_scene_take_mesh(scene, out, &made, error);
+        goto out;
+    }
+    rt_scene_mesh_survey(&made);
+    status = check_area(&made, error);
+    if (status != RT_OK)
+        goto out;
+    status = rt_scene_take_mesh(scene, out, &made, error);
+out:
     if (status != RT_OK)
         rt_scene_mesh_free(&made);
     return status;

@@ -53,6 +53,33 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, cons
     return status;
 }
 
+/* Gives the mesh the normals that the caller asks for. */
+static rt_status shade(rt_mesh *mesh, rt_shading shading, rt_error *error)
+{
+    switch (shading) {
+    case RT_SHADING_FILE:
+        return RT_OK;
+    case RT_SHADING_FLAT:
+        free(mesh->normals);
+        mesh->normals = NULL;
+        return RT_OK;
+    case RT_SHADING_SMOOTH:
+        return rt_mesh_smooth(mesh, error);
+    }
+    return RT_OK;
+}
+
+static void tell(rt_mesh_info *info, const rt_scene_mesh *mesh, size_t degenerate, uint32_t texture)
+{
+    memset(info, 0, sizeof *info);
+    info->vertex_count = mesh->vertex_count;
+    info->triangle_count = mesh->triangle_count;
+    info->degenerate = degenerate;
+    info->texture = texture;
+    memcpy(info->lo, mesh->lo, sizeof info->lo);
+    memcpy(info->hi, mesh->hi, sizeof info->hi);
+}
+
 rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, rt_shading shading,
                              rt_mesh_info *info, rt_error *error)
 {
@@ -65,28 +92,22 @@ rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, r
         return rt_fail_field(error, RT_ERROR_INPUT, "shading", "mesh: there is no shading %d",
                              (int)shading);
     rt_status status = rt_mesh_load(&mesh, path, NULL, error);
-    if (status == RT_OK && shading == RT_SHADING_SMOOTH)
-        status = rt_mesh_smooth(mesh, error);
-    if (status == RT_OK && shading == RT_SHADING_FLAT) {
-        free(mesh->normals);
-        mesh->normals = NULL;
-    }
-    if (status == RT_OK && mesh->texture)
+    if (status != RT_OK)
+        goto out;
+    status = shade(mesh, shading, error);
+    if (status != RT_OK)
+        goto out;
+    if (mesh->texture) {
         status = add_texture(scene, &texture, path, mesh->texture, error);
-    if (status == RT_OK)
-        status = take_loaded(scene, out, mesh, path, error);
+        if (status != RT_OK)
+            goto out;
+    }
+    status = take_loaded(scene, out, mesh, path, error);
+    if (status == RT_OK && info)
+        tell(info, scene->meshes + *out, (size_t)mesh->zero_area, texture);
+out:
     if (status != RT_OK && error && !error->field[0])
         snprintf(error->field, sizeof error->field, "path");
-    if (status == RT_OK && info) {
-        const rt_scene_mesh *made = scene->meshes + *out;
-        memset(info, 0, sizeof *info);
-        info->vertex_count = made->vertex_count;
-        info->triangle_count = made->triangle_count;
-        info->degenerate = (size_t)mesh->zero_area;
-        info->texture = texture;
-        memcpy(info->lo, made->lo, sizeof info->lo);
-        memcpy(info->hi, made->hi, sizeof info->hi);
-    }
     rt_mesh_destroy(mesh);
     return rt_at_file(status, path, error);
 }

@@ -47,7 +47,7 @@ typedef struct rt_scene_shape {
     float lo[3], hi[3]; /* bounds, world space; not of a plane */
 } rt_scene_shape;
 
-/* A light that is no shape. */
+/* A delta light, or the environment. */
 typedef struct rt_scene_light {
     rt_u32 kind;                     /* RT_LIGHT_* */
     float position[3], direction[3]; /* as rt_light_data.a and b */
@@ -146,19 +146,21 @@ rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const
 rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who,
                                rt_error *error);
 
-/*
- * Whether anything in the scene shines; whether a mode shows that, and no property of surfaces
- * instead.
- */
+/* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);
+
+/* Whether a mode shows light, and not a property of surfaces. */
 int rt_mode_shows_light(rt_mode mode);
 
 /*
- * Whether lights without size (point, spot and directional) and smooth mirrors or glass may cast
- * caustics on a diffuse shape: light that path tracing misses, for no path from the eye meets such
- * a light by way of them.
+ * Whether delta lights (point, spot and directional) and smooth mirrors or glass may cast caustics
+ * on a diffuse shape. Path tracing misses this light: no path from the eye that passes a specular
+ * surface meets a delta light.
  */
 int rt_scene_casts_hidden_caustics(const rt_scene *scene);
+
+/* Appends a light; checked already. */
+rt_status rt_scene_take_light(rt_scene *scene, const rt_scene_light *light, rt_error *error);
 
 /* Appends a mesh, taking its arrays over; checked already. */
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh,

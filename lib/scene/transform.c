@@ -1,3 +1,4 @@
+/* transform.c - affine maps: products, inverses, cofactors. */
 #include "scene/transform.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* view.c - the rays of a camera, and which shapes they may meet. */
 #include "scene/view.h"
 
 #include <math.h>

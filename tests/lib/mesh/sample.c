@@ -1,3 +1,4 @@
+/* sample.c - meshes written to files, and read back. */
 #include "lib/mesh/sample.h"
 
 #include <math.h>

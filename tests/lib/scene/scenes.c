@@ -1,3 +1,4 @@
+/* scenes.c - scenes that several tests share. */
 #include "lib/scene/scenes.h"
 
 #include <string.h>

@@ -352,10 +352,10 @@ static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
     EXPECT(cases);
     told t = findings_of(cases[1].text);
     assert_int_equal(t.last.severity, RT_SEVERITY_NOTE);
-    assert_true(t.last.shape == 0 && t.last.lamp == RT_NONE && t.last.light == RT_NONE);
+    assert_true(t.last.shape == 0 && t.last.emitter == RT_NONE && t.last.light == RT_NONE);
 }
 
-static void a_lamp_in_a_solid_is_told(void **state)
+static void a_light_in_a_solid_is_reported(void **state)
 {
     static const scene_case cases[] = {
         {MATERIALS VIEW SUN BALL "light point { position 0 0 0.9 intensity 1 }",
@@ -372,9 +372,9 @@ static void a_lamp_in_a_solid_is_told(void **state)
     (void)state;
     EXPECT(cases);
     told t = findings_of(cases[0].text);
-    assert_true(t.last.shape == 0 && t.last.lamp == RT_NONE && t.last.light == 1);
+    assert_true(t.last.shape == 0 && t.last.emitter == RT_NONE && t.last.light == 1);
     t = findings_of(cases[2].text);
-    assert_true(t.last.shape == 0 && t.last.lamp == 1 && t.last.light == RT_NONE);
+    assert_true(t.last.shape == 0 && t.last.emitter == 1 && t.last.light == RT_NONE);
 }
 
 int main(void)
@@ -386,7 +386,7 @@ int main(void)
         cmocka_unit_test(a_camera_that_looks_past_all_is_told),
         cmocka_unit_test(glass_without_an_inside_is_told),
         cmocka_unit_test(a_camera_in_a_solid_is_told_where_that_is_dark),
-        cmocka_unit_test(a_lamp_in_a_solid_is_told),
+        cmocka_unit_test(a_light_in_a_solid_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
