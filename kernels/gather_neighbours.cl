@@ -2,24 +2,25 @@
  * gather_neighbours.cl - the neighbour-list gather: each work-item adds to the radiance of a gather
  * point what the point's lobe scatters of the photons that the host found around it.
  */
-#include "photon/density.h"
 #include "entry.h"
+#include "photon/density.h"
+#include "photon/gather_point.h"
 #include "photon/hull.h"
-#include "photon/reflect.h"
 
-static inline float3 disc_density(const rt_density_params *estimate, float3 position,
-                                  global const rt_photon *photons, global const uint *list,
-                                  rt_gather_disc disc)
+/* The sum over a disc, each photon weighted by the density kernel. */
+static inline float3 disc_sum(const rt_density_params *estimate, float3 position,
+                              const struct bsdf *bsdf, global const rt_photon *photons,
+                              global const uint *list, rt_gather_disc disc)
 {
-    float3 flux_density = (float3)(0.0f);
+    float3 sum = (float3)(0.0f);
     for (uint i = 0; i < disc.count; i++) {
         global const rt_photon *photon = photons + list[i];
         const float3 away = row3(photon->position) - position;
         const float k = density_kernel(estimate->density, estimate->cone_k, dot(away, away),
                                        disc.squared_radius);
-        flux_density += (k * photon->shading) * row3(photon->flux);
+        sum += (k * photon->shading) * photon_term(bsdf, photon);
     }
-    return flux_density;
+    return sum;
 }
 
 /*
@@ -37,11 +38,12 @@ KERNEL gather_neighbours(const rt_params params, const rt_density_params estimat
     const rt_gather_disc disc = discs[item];
     points += params.first_item + item;
     const float3 position = row3(points->position);
-    float3 flux_density;
+    const struct bsdf bsdf = bsdf_of_point(points);
+    float3 sum;
 
     if (estimate.area == RT_AREA_HULL)
-        flux_density = hull_density(points, photons, list, disc.count);
+        sum = hull_sum(position, &bsdf, photons, list, disc.count);
     else
-        flux_density = disc_density(&estimate, position, photons, list, disc);
-    add_reflected(points, estimate.scale * flux_density);
+        sum = disc_sum(&estimate, position, &bsdf, photons, list, disc);
+    add_scattered(points, estimate.scale * sum);
 }

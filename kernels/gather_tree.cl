@@ -4,7 +4,7 @@
  */
 #include "entry.h"
 #include "photon/sum.h"
-#include "photon/reflect.h"
+#include "photon/gather_point.h"
 
 /*
  * points: those from params.first_item on; scratch: [items][estimate.stride]; discs: what was found
@@ -32,9 +32,7 @@ KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
         start = start_of_points(&tree, points + begin, end - begin, &estimate, own_limits);
 
     for (uint i = begin; i < end; i++) {
-        struct photon_query query;
-        query.position = row3(points[i].position);
-        query.normal = row3(points[i].normal);
+        const struct photon_query query = query_of_point(points + i);
         rt_gather_disc disc;
         disc.count = 0u;
         disc.squared_radius = 0.0f;
@@ -50,7 +48,7 @@ KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
             disc.count = sum.count;
             disc.squared_radius = sum.squared_radius;
             if (sum.count > 0u)
-                add_reflected(points + i, estimate.scale * sum.flux_density);
+                add_scattered(points + i, estimate.scale * sum.scattered);
         }
         discs[i] = disc;
     }

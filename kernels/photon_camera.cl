@@ -6,22 +6,7 @@
 #include "entry.h"
 #include "camera/film.h"
 #include "integrate/integrate.h"
-
-/* A point that asks for nothing. */
-static void clear_point(global rt_gather_point *point, uint pixel, uint sample, float film_weight)
-{
-    const float3 zero = (float3)(0.0f);
-    vstore3(zero, 0, point->position);
-    vstore3(zero, 0, point->normal);
-    vstore3(zero, 0, point->weight);
-    vstore3(zero, 0, point->wo);
-    vstore3(zero, 0, point->radiance);
-    point->pixel = pixel;
-    point->material = 0u;
-    point->sample = sample;
-    point->film_weight = film_weight;
-    point->reserved = 0u;
-}
+#include "photon/gather_point.h"
 
 /*
  * points: [item_count], in the order of items; caustics: [params.final_gather][stride], a row for
@@ -44,9 +29,9 @@ KERNEL photon_camera(const rt_params params, global const rt_scene_header *heade
     gather.point = points + item;
     gather.caustics = caustics + item;
     gather.stride = stride;
-    clear_point(gather.point, index, params.first_sample, film_weight);
+    clear_gather_point(gather.point, index, params.first_sample, film_weight);
     for (uint i = 0u; i < params.final_gather; i++)
-        clear_point(gather.caustics + i * stride, index, params.first_sample, film_weight);
+        clear_gather_point(gather.caustics + i * stride, index, params.first_sample, film_weight);
     const float3 radiance = follow_path(&scene, &params, &sampler, ray, FOLLOW_TO_GATHER, &gather);
     vstore3(radiance, 0, points[item].radiance);
 }

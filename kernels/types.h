@@ -465,16 +465,21 @@ typedef struct rt_gather_point {
     float normal[3]; /* unit, on the side of wo */
     rt_u32 material;
     /*
-     * of the radiance reflected diffusely on its way to the film, kd included; 0: nothing to gather
+     * of the scattered radiance on its way to the film, with kd where the lobe is Lambert's; 0:
+     * nothing to gather
      */
     float weight[3];
     rt_u32 sample;
     float wo[3];
     float film_weight; /* 1 or -1, of the sample in its pixel */
     float radiance[3]; /* what the camera path already gathered: emission and direct light */
+    rt_u32 lobe;       /* RT_LOBE_*, one that is gathered; its parameters follow */
+    float kd[3];
+    float roughness;
+    float shading[3]; /* unit shading normal, on the side of wo */
     rt_u32 reserved;
 } rt_gather_point;
-RT_SIZE(rt_gather_point, 80);
+RT_SIZE(rt_gather_point, 112);
 
 /*
  * The photons that count at a gather point, nearest first in the point's row of the neighbour
@@ -533,8 +538,9 @@ typedef struct rt_photon_block {
     float position[3][8];
     float normal[3][8];
     float flux[3][8]; /* rt_photon's flux times its factor `shading`, W */
+    float wi[3][8];
 } rt_photon_block;
-RT_SIZE(rt_photon_block, 288);
+RT_SIZE(rt_photon_block, 384);
 
 typedef struct rt_photon_tree {
     rt_u32 levels; /* 0 for an empty map */

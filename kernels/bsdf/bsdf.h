@@ -22,11 +22,7 @@
 #ifndef RT_KERNELS_BSDF_BSDF_H
 #define RT_KERNELS_BSDF_BSDF_H
 
-#include "bsdf/ggx.h"
-#include "bsdf/lambert.h"
-#include "bsdf/lobe.h"
-#include "bsdf/specular_reflection.h"
-#include "bsdf/specular_transmission.h"
+#include "bsdf/dispatch.h"
 #include "material/material.h"
 #include "scene.h"
 #include "shape/surface.h"
@@ -47,62 +43,6 @@ struct scatter {
     float pdf_w;     /* density of wi, the choice of the lobe included; delta lobes: 0 */
     bool through;    /* wi is on the other side */
 };
-
-/* ---- Dispatch over the lobes ---------------------------------------------------- */
-
-#define EVAL_CASE(NAME, name, is_delta, is_gathered)                                               \
-    case RT_LOBE_##NAME:                                                                           \
-        return name##_eval(bsdf, wi);
-
-/* fr |n.wi| of a lobe, and its density of wi. */
-static inline struct lobe_value lobe_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
-{
-    switch (lobe) {
-        RT_LOBES(EVAL_CASE)
-    }
-    return no_light();
-}
-
-#define PDF_CASE(NAME, name, is_delta, is_gathered)                                                \
-    case RT_LOBE_##NAME:                                                                           \
-        return name##_pdf_w(bsdf, wi);
-
-static inline float lobe_pdf_w(const struct bsdf *bsdf, uint lobe, float3 wi)
-{
-    switch (lobe) {
-        RT_LOBES(PDF_CASE)
-    }
-    return 0.0f;
-}
-
-#define SAMPLE_CASE(NAME, name, is_delta, is_gathered)                                             \
-    case RT_LOBE_##NAME:                                                                           \
-        return name##_sample(bsdf, u);
-
-static inline struct lobe_sample lobe_sample(const struct bsdf *bsdf, uint lobe, float3 u)
-{
-    switch (lobe) {
-        RT_LOBES(SAMPLE_CASE)
-    }
-    struct lobe_sample none;
-    none.wi = bsdf->normal;
-    none.weight = (float3)(0.0f);
-    none.pdf_w = 0.0f;
-    none.through = false;
-    return none;
-}
-
-#define ALBEDO_CASE(NAME, name, is_delta, is_gathered)                                             \
-    case RT_LOBE_##NAME:                                                                           \
-        return name##_albedo(bsdf);
-
-static inline float3 lobe_albedo(const struct bsdf *bsdf, uint lobe)
-{
-    switch (lobe) {
-        RT_LOBES(ALBEDO_CASE)
-    }
-    return (float3)(0.0f);
-}
 
 /* ---- Making the mixture ---------------------------------------------------------- */
 
@@ -177,6 +117,7 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
     bsdf.refracted = (float3)(0.0f);
     bsdf.specular.alpha = 0.0f;
     bsdf.diffuse_lobe = RT_LOBE_LAMBERT;
+    bsdf.roughness = material->roughness;
     bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
     bsdf.reflection = 0.0f;
     bsdf.refraction = 0.0f;

@@ -37,6 +37,7 @@ struct bsdf {
     /* probabilities of the lobes, given survival; all 0: black */
     float diffuse, reflection, refraction;
     uint diffuse_lobe; /* RT_LOBE_* that scatters kd */
+    float roughness;   /* of it, 0 to 1 */
     /* alpha 0: smooth; the rest is set only where there is a specular part */
     struct specular specular;
 };

@@ -30,6 +30,7 @@
 #include "integrate/matte.h"
 #include "material/medium.h"
 #include "integrate/path_state.h"
+#include "photon/gather_point.h"
 #include "sample/rng.h"
 #include "accel/traverse.h"
 
@@ -156,12 +157,7 @@ static inline void ask_photons(struct path *path, const struct gather *gather, b
 {
     global rt_gather_point *point =
         last ? gather->point : gather->caustics + path->diffuse_events * gather->stride;
-    const float3 weight = path->eta_scale * path->beta * bsdf_lobe_weight(bsdf, bsdf->diffuse_lobe);
-    vstore3(surface->position, 0, point->position);
-    vstore3(bsdf->normal, 0, point->normal);
-    vstore3(bsdf->wo, 0, point->wo);
-    vstore3(weight, 0, point->weight);
-    point->material = material;
+    set_gather_point(point, surface->position, bsdf, material, path->eta_scale * path->beta);
     path->depth = last ? 0u : path->depth;
     path->diffuse_events++;
 }

@@ -13,6 +13,7 @@
 #define RT_KERNELS_PHOTON_HULL_H
 
 #include "math/frame.h"
+#include "photon/gather_point.h"
 #include "types.h"
 
 /* The place of a photon in the tangent plane, relative to the gather point. */
@@ -44,12 +45,10 @@ static inline bool wraps_more(float2 at, float2 candidate, float2 best)
  * (Jarvis, "On the identification of the convex hull of a finite set of points in the plane",
  * Information Processing Letters 2, 1973).
  */
-static inline float3 hull_density(global const rt_gather_point *point,
-                                  global const rt_photon *photons, global const uint *list,
-                                  uint count)
+static inline float3 hull_sum(float3 origin, const struct bsdf *bsdf,
+                              global const rt_photon *photons, global const uint *list, uint count)
 {
-    const float3 origin = row3(point->position);
-    const struct frame frame = frame_about(row3(point->normal));
+    const struct frame frame = frame_about(bsdf->normal);
     float3 inside = (float3)(0.0f);
     if (count <= 3u)
         return inside; /* all are corners */
@@ -58,7 +57,7 @@ static inline float3 hull_density(global const rt_gather_point *point,
     for (uint i = 0u; i < count; i++) {
         const float2 place = in_plane(photons + list[i], origin, &frame);
         const float2 low = in_plane(photons + list[lowest], origin, &frame);
-        inside += photons[list[i]].shading * row3(photons[list[i]].flux);
+        inside += photons[list[i]].shading * photon_term(bsdf, photons + list[i]);
         if (place.y < low.y || (place.y == low.y && place.x < low.x))
             lowest = i;
     }
@@ -70,7 +69,7 @@ static inline float3 hull_density(global const rt_gather_point *point,
             if (i != corner && wraps_more(at, in_plane(photons + list[i], origin, &frame),
                                           in_plane(photons + list[next], origin, &frame)))
                 next = i;
-        inside -= photons[list[corner]].shading * row3(photons[list[corner]].flux);
+        inside -= photons[list[corner]].shading * photon_term(bsdf, photons + list[corner]);
         twice_area += cross2(at, in_plane(photons + list[next], origin, &frame));
         corner = next;
         if (corner == lowest)

@@ -5,10 +5,12 @@
 #define RT_KERNELS_PHOTON_SUM_H
 
 #include "photon/density.h"
+#include "photon/gather_point.h"
 #include "photon/knn.h"
 
 struct photon_sum {
-    float3 flux_density; /* of the emitted paths together, W/m^2 */
+    /* sum of flux K, of the emitted paths together, W/m^2, or of fr flux K: see gather_point.h */
+    float3 scattered;
     float squared_radius;
     uint count; /* photons that count */
 };
@@ -20,16 +22,32 @@ INLINE_ALWAYS float sum_lanes(float8 v)
     return two.x + two.y;
 }
 
+/* Adds fr flux K of the photons of a block that are in `lanes`. */
+INLINE_ALWAYS float3 add_by_lobe(float3 sum, const struct bsdf *bsdf,
+                                 global const rt_photon_block *block, float8 k, uint lanes)
+{
+    float weights[8];
+    vstore8(k, 0, weights);
+    for (; lanes; lanes &= lanes - 1u) {
+        const uint i = lane_first(lanes);
+        const float3 flux = (float3)(block->flux[0][i], block->flux[1][i], block->flux[2][i]);
+        const float3 wi = (float3)(block->wi[0][i], block->wi[1][i], block->wi[2][i]);
+        sum += weights[i] * fr_of_point(bsdf, wi) * flux;
+    }
+    return sum;
+}
+
 /*
  * Sums the accepted photons strictly nearer than the radius; returns how many there are of any
- * kind. The order of summing is that of the tree.
+ * kind. The order of summing is that of the tree. *bsdf: 0 where fr is constant.
  */
-INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tree,
-                            const struct photon_start *start, const struct photon_query *query,
-                            const rt_density_params *estimate)
+INLINE_ALWAYS uint sum_photons(struct photon_sum *sum, const struct photon_tree *tree,
+                               const struct photon_start *start, const struct photon_query *query,
+                               const rt_density_params *estimate, const struct bsdf *bsdf)
 {
     const float r2 = sum->squared_radius;
     float8 red = (float8)(0.0f), green = red, blue = red;
+    float3 by_lobe = (float3)(0.0f);
     struct tree_traversal traversal;
     uint first, mask, candidates = 0u, count = 0u;
 
@@ -47,13 +65,35 @@ INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tr
             count += popcount(lanes);
             const float8 k = counted ? density_kernel8(estimate->density, estimate->cone_k, d2, r2)
                                      : (float8)(0.0f);
+            if (bsdf) {
+                by_lobe = add_by_lobe(by_lobe, bsdf, block, k, lanes);
+                continue;
+            }
             red = lane_mad(k, vload8(0, block->flux[0]), red);
             green = lane_mad(k, vload8(0, block->flux[1]), green);
             blue = lane_mad(k, vload8(0, block->flux[2]), blue);
         }
-    sum->flux_density = (float3)(sum_lanes(red), sum_lanes(green), sum_lanes(blue));
+    sum->scattered = bsdf ? by_lobe : (float3)(sum_lanes(red), sum_lanes(green), sum_lanes(blue));
     sum->count = count;
     return candidates;
+}
+
+/* By the eval of the point's lobe, for each photon. */
+INLINE_NEVER uint sum_by_lobe(struct photon_sum *sum, const struct photon_tree *tree,
+                              const struct photon_start *start, const struct photon_query *query,
+                              const rt_density_params *estimate)
+{
+    const struct bsdf bsdf = bsdf_of_point(query->point);
+    return sum_photons(sum, tree, start, query, estimate, &bsdf);
+}
+
+INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tree,
+                            const struct photon_start *start, const struct photon_query *query,
+                            const rt_density_params *estimate)
+{
+    return SELDOM(!point_is_constant(query->point))
+               ? sum_by_lobe(sum, tree, start, query, estimate)
+               : sum_photons(sum, tree, start, query, estimate, 0);
 }
 
 /* The estimate at a point from the k nearest; guess and scratch as for disc_radius. */

@@ -19,11 +19,21 @@ struct photon_tree {
     global const rt_photon_block *blocks;
 };
 
-/* Where photons are asked for. */
+/* A query point: photons are searched around it. */
 struct photon_query {
     float3 position;
     float3 normal;
+    global const rt_gather_point *point; /* whose lobe scatters them */
 };
+
+static inline struct photon_query query_of_point(global const rt_gather_point *point)
+{
+    struct photon_query query;
+    query.position = row3(point->position);
+    query.normal = row3(point->normal);
+    query.point = point;
+    return query;
+}
 
 INLINE_ALWAYS float8 squared_length8(float8 x, float8 y, float8 z)
 {

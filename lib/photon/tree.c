@@ -44,6 +44,7 @@ static void fill_block(rt_photon_block *block, const rt_photon_list *list, const
             block->position[axis][lane] = photon ? photon->position[axis] : HUGE_VALF;
             block->normal[axis][lane] = photon ? photon->normal[axis] : 0;
             block->flux[axis][lane] = photon ? photon->flux[axis] * photon->shading : 0;
+            block->wi[axis][lane] = photon ? photon->wi[axis] : 0;
         }
     }
 }

@@ -21,9 +21,7 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     tree.shape = shape;
     tree.nodes = nodes;
     tree.blocks = blocks;
-    struct photon_query query;
-    query.position = row3(points[item].position);
-    query.normal = row3(points[item].normal);
+    const struct photon_query query = query_of_point(points + item);
     global float *own = scratch + (size_t)item * estimate.stride;
     struct photon_start start = start_at_root(&tree);
     struct photon_sum sum;

@@ -1,0 +1,108 @@
+/*
+ * gather_point.h - where an eye path gathers photons: what it leaves there, and what the lobe of
+ * the point scatters of the photons around it.
+ *
+ *   L(x, wo) = sum over the photons p near x of fr(x, wo, w_p) flux_p K(|x - x_p|)      Jensen 1996
+ *
+ * with flux_p the flux of its path over the number of emitted paths, and fr the point's lobe, by
+ * the same eval as paths use. Lambert's fr is kd/pi for every photon: there the point's weight has
+ * kd, and the sum of the flux density alone is multiplied by the rest.
+ *
+ * Photons are as dense as the geometric surface makes them, while reflection goes by the shading
+ * normal: photon.shading is the ratio of the two cosines (Veach 1997, section 5.3).
+ */
+#ifndef RT_KERNELS_PHOTON_GATHER_POINT_H
+#define RT_KERNELS_PHOTON_GATHER_POINT_H
+
+#include "bsdf/dispatch.h"
+#include "math/frame.h"
+#include "math/lanes.h"
+#include "types.h"
+
+/* A point that gathers nothing. */
+static inline void clear_gather_point(global rt_gather_point *point, uint pixel, uint sample,
+                                      float film_weight)
+{
+    const float3 zero = (float3)(0.0f);
+    vstore3(zero, 0, point->position);
+    vstore3(zero, 0, point->normal);
+    vstore3(zero, 0, point->weight);
+    vstore3(zero, 0, point->wo);
+    vstore3(zero, 0, point->radiance);
+    vstore3(zero, 0, point->kd);
+    vstore3(zero, 0, point->shading);
+    point->pixel = pixel;
+    point->material = 0u;
+    point->sample = sample;
+    point->film_weight = film_weight;
+    point->lobe = RT_LOBE_LAMBERT;
+    point->roughness = 0.0f;
+    point->reserved = 0u;
+}
+
+/* Gathers photons at a surface, by its diffuse lobe; throughput: from there to the film. */
+static inline void set_gather_point(global rt_gather_point *point, float3 position,
+                                    const struct bsdf *bsdf, uint material, float3 throughput)
+{
+    const float3 fixed = bsdf->diffuse_lobe == RT_LOBE_LAMBERT ? bsdf->kd : (float3)(1.0f);
+    vstore3(position, 0, point->position);
+    vstore3(bsdf->normal, 0, point->normal);
+    vstore3(bsdf->wo, 0, point->wo);
+    vstore3(bsdf->kd, 0, point->kd);
+    vstore3(bsdf->shading, 0, point->shading);
+    point->material = material;
+    point->lobe = bsdf->diffuse_lobe;
+    point->roughness = bsdf->roughness;
+    vstore3(throughput * (fixed / bsdf->diffuse), 0, point->weight);
+}
+
+/* The surface at a point, as far as gathered lobes read it. */
+static inline struct bsdf bsdf_of_point(global const rt_gather_point *point)
+{
+    struct bsdf bsdf;
+    bsdf.kd = row3(point->kd);
+    bsdf.reflected = bsdf.refracted = (float3)(0.0f);
+    bsdf.normal = row3(point->normal);
+    bsdf.shading = row3(point->shading);
+    bsdf.wo = row3(point->wo);
+    bsdf.diffuse = 1.0f;
+    bsdf.reflection = bsdf.refraction = 0.0f;
+    bsdf.diffuse_lobe = point->lobe;
+    bsdf.roughness = point->roughness;
+    return bsdf;
+}
+
+/* Whether the point's fr is the same for all photons. */
+static inline bool point_is_constant(global const rt_gather_point *point)
+{
+    return point->lobe == RT_LOBE_LAMBERT;
+}
+
+/* fr of the point's lobe, for light from wi. */
+INLINE_NEVER float3 fr_of_point(const struct bsdf *bsdf, float3 wi)
+{
+    const float cosine = dot(wi, bsdf->shading);
+    return cosine > 0.0f ? lobe_eval(bsdf, bsdf->diffuse_lobe, wi).value / cosine : (float3)(0.0f);
+}
+
+/* What a photon adds to the sum: its flux, times fr where that is not constant. */
+static inline float3 photon_term(const struct bsdf *bsdf, global const rt_photon *photon)
+{
+    const float3 flux = row3(photon->flux);
+    return bsdf->diffuse_lobe == RT_LOBE_LAMBERT ? flux
+                                                 : fr_of_point(bsdf, row3(photon->wi)) * flux;
+}
+
+/*
+ * Adds what the point scatters, on its way to the film, to its radiance; sum: that of flux_p K, and
+ * of fr flux_p K where fr is not constant.
+ */
+static inline void add_scattered(global rt_gather_point *point, float3 sum)
+{
+    float3 weight = row3(point->weight);
+    if (point_is_constant(point))
+        weight = weight / RT_PI;
+    vstore3(row3(point->radiance) + weight * sum, 0, point->radiance);
+}
+
+#endif
