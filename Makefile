@@ -59,15 +59,17 @@ LIB_SRC := \
 	lib/render/student.c lib/render/trace.c \
 	lib/scene/area.c lib/scene/camera.c lib/scene/environment.c lib/scene/findings.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
-	lib/scene/mesh_file.c lib/scene/options.c lib/scene/scene.c lib/scene/shape.c \
+	lib/scene/mesh_file.c lib/scene/scene.c lib/scene/shape.c \
 	lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
+	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
+	lib/setting/table.c lib/setting/word.c \
 	lib/texture/texture.c
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/idle.c dsl/lexer.c dsl/load.c \
-	dsl/names.c dsl/number.c dsl/origin.c dsl/parse_block.c dsl/parse_expression.c dsl/parse_setting.c \
+	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c dsl/load.c \
+	dsl/names.c dsl/no_effect.c dsl/origin.c dsl/parse_block.c dsl/parse_expression.c dsl/parse_entry.c \
 	dsl/parser.c dsl/reader.c dsl/report.c dsl/schema.c dsl/scope.c dsl/source.c dsl/suggest.c \
 	dsl/transform.c
 
@@ -90,8 +92,8 @@ KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
 # Quick tests, the slower ones of `check`, and shell tests. tests/X/test_y.c makes build/tests/X/test_y.
 TESTS_QUICK := \
 	tests/test_api.c tests/test_chance.c \
-	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c tests/dsl/test_number.c \
-	tests/dsl/test_reference.c tests/dsl/test_robustness.c tests/dsl/test_suggest.c \
+	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c \
+	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c \
@@ -145,6 +147,7 @@ TESTS_SHELL := \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \
+	dsl/reference.c \
 	tests/chance.c tests/support.c \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
@@ -175,7 +178,7 @@ TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench check check-corpus check-memory check-mutation check-peers check-quick check-reference \
-	check-samples check-sanitize clean demo deps help install need-deps proof run-all run-quick study \
+	check-samples check-sanitize clean demo deps docs help install need-deps proof run-all run-quick study \
 	uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -326,12 +329,19 @@ demo: deps
 	+$(MAKE) --no-print-directory all
 	$(B)/rtc scenes/cornell.rts --mode photon --out cornell.png --out cornell.exr
 
+# The lists of fields in the reference page, from the tables in the source.
+docs: $(B)/docs
+	$(B)/docs dsl/reference.md
+
+$(B)/docs: $(B)/dsl/docs.o $(B)/dsl/reference.o $(B)/librt.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
+
 # ---- Installation -----------------------------------------------------------
 
 REALNAME    := librt-render.so.$(VERSION)
 BINDIR      ?= $(PREFIX)/bin
 INCLUDEDIR  ?= $(PREFIX)/include
-PUBLIC_H    := $(addprefix lib/rt/,base.h device.h film.h image.h photon.h render.h scene.h)
+PUBLIC_H    := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h render.h scene.h setting.h)
 INSTALLED    = $(BINDIR)/rtc $(LIBDIR)/pkgconfig/librt-render.pc \
                $(addprefix $(INCLUDEDIR)/rt/,rt.h common.h $(notdir $(PUBLIC_H))) \
                $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a)
@@ -370,6 +380,7 @@ help:
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'
 	@echo 'make study           numbers and pictures on photon mapping; study-k, -paths, -direct, -kernels ... make one'
+	@echo 'make docs            writes the lists of fields in dsl/reference.md from the source'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'

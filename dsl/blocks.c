@@ -10,10 +10,6 @@
     {                                                                                              \
         RT_RANGE_ANY, 0, 0                                                                         \
     }
-#define ABOVE_TO(low, high)                                                                        \
-    {                                                                                              \
-        RT_RANGE_ABOVE, low, high                                                                  \
-    }
 #define FROM_TO(low, high)                                                                         \
     {                                                                                              \
         RT_RANGE_CLOSED, low, high                                                                 \
@@ -26,10 +22,7 @@
 #define LENGTH FROM_TO(1e-15, 1e15)
 #define LENGTH_OR_ZERO FROM_TO(0, 1e15)
 #define LIGHT FROM_TO(0, 1e28)
-#define HALF_TURN                                                                                  \
-    {                                                                                              \
-        RT_RANGE_CLOSED, 1e-3, 180                                                                 \
-    }
+#define HALF_TURN FROM_TO(1e-3, 180)
 #define DIRECTION                                                                                  \
     {                                                                                              \
         RT_RANGE_DIRECTION, 0, 0                                                                   \
@@ -39,31 +32,19 @@
         RT_RANGE_NOT_ZERO, 0, 0                                                                    \
     }
 
-#define UINT32_LAST 4294967295.0
 #define INTEGER_LAST 2147483647.0
 
-/* The order of each list is that of its enum in rt.h or common.h. */
-static const char *const modes[] = {"path", "photon", "direct", "normals", "albedo", "depth", NULL};
-static const char *const filters[] = {"box", "tent", "gaussian", "mitchell", NULL};
-static const char *const projections[] = {"perspective", "orthographic", "environment", NULL};
-static const char *const patterns[] = {"image", "checker", "gradient", NULL};
-static const char *const wraps[] = {"repeat", "mirror", "clamp", NULL};
-static const char *const fresnels[] = {"off", "dielectric", "conductor", NULL};
-static const char *const shadings[] = {"file", "flat", "smooth", NULL};
-static const char *const samplers[] = {"sobol", "independent", NULL};
-static const char *const estimators[] = {"mis", "light", "bsdf", NULL};
-static const char *const gathers[] = {"auto", "flann", "device", NULL};
-static const char *const areas[] = {"disc", "hull", NULL};
-static const char *const directs[] = {"nee", "photons", NULL};
-static const char *const kernels[] = {"epanechnikov",    "box", "cone", "gaussian", "silverman",
-                                      "gaussian_jensen", NULL};
+static const rt_word projections[] = {RT_CAMERA_KINDS(RT_WORD) RT_WORD_END};
+static const rt_word patterns[] = {RT_TEXTURE_KINDS(RT_WORD) RT_WORD_END};
+static const rt_word wraps[] = {RT_WRAPS(RT_WORD) RT_WORD_END};
+static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
+static const rt_word shadings[] = {RT_SHADINGS(RT_WORD) RT_WORD_END};
 
 /* ---- Fields -------------------------------------------------------------- */
 
 /* Shorthands for the rows: type and need. */
 #define NUMBER RT_FIELD_NUMBER
 #define INTEGER RT_FIELD_INTEGER
-#define COUNT_OR_ALL RT_FIELD_COUNT
 #define PAIR RT_FIELD_PAIR
 #define VECTOR RT_FIELD_VECTOR
 #define COLOUR RT_FIELD_COLOUR
@@ -78,260 +59,297 @@ static const char *const kernels[] = {"epanechnikov",    "box", "cone", "gaussia
 #define ALL_OR_NONE RT_NEED_ALL_OR_NONE
 #define ALL_OR_NONE_TOO RT_NEED_ALL_OR_NONE_TOO
 
+/* A row inside a macro. */
+#define ROW(...)                                                                                   \
+    {                                                                                              \
+        __VA_ARGS__                                                                                \
+    }
+
 /* What every shape has, and what every finite shape has besides. */
+#define SURFACE_BUT_TEXTURE(type)                                                                  \
+    ROW("material", RT_FIELD_MATERIAL, REQUIRED, ANY, "", "", NULL, AT(type, surface.material),    \
+        "what it is made of"),                                                                     \
+        ROW("translate", RT_FIELD_TRANSLATE, OPTIONAL, ANY, "m", "none", NULL,                     \
+            AT(type, surface.transform), "moves it; see [Transforms](#transforms)"),               \
+        ROW("rotate", RT_FIELD_ROTATE, OPTIONAL, DIRECTION, "degrees", "none", NULL,               \
+            AT(type, surface.transform),                                                           \
+            "turns it about an axis through the origin (three numbers) by an angle, "              \
+            "counter-clockwise seen against the axis"),                                            \
+        ROW("scale", RT_FIELD_SCALE, OPTIONAL, NOT_ZERO, "", "none", NULL,                         \
+            AT(type, surface.transform), "scales it about the origin, alike or by x, y and z"),    \
+        ROW("matrix", RT_FIELD_MATRIX, OPTIONAL, ANY, "", "none", NULL,                            \
+            AT(type, surface.transform),                                                           \
+            "any affine map: three rows of four, the last column the translation")
+#define SURFACE_TEXTURE(type, help)                                                                \
+    ROW("texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.texture), help)
 #define SURFACE(type)                                                                              \
-    {"material", RT_FIELD_MATERIAL, REQUIRED, ANY, "", "", NULL, AT(type, surface.material)},      \
-        {"texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.texture)},          \
-        {"translate", RT_FIELD_TRANSLATE,         OPTIONAL, ANY, "m", "none",                      \
-         NULL,        AT(type, surface.transform)},                                                \
-        {"rotate",  RT_FIELD_ROTATE, OPTIONAL, DIRECTION,                                          \
-         "degrees", "none",          NULL,     AT(type, surface.transform)},                       \
-        {"scale", RT_FIELD_SCALE, OPTIONAL, NOT_ZERO,                                              \
-         "",      "none",         NULL,     AT(type, surface.transform)},                          \
-    {                                                                                              \
-        "matrix", RT_FIELD_MATRIX, OPTIONAL, ANY, "", "none", NULL, AT(type, surface.transform)    \
-    }
-#define LAMP(type)                                                                                 \
-    {"radiance",   COLOUR,                                                                         \
-     AT_MOST_ONE,  LIGHT,                                                                          \
-     "W/(m^2 sr)", "that of the material",                                                         \
-     NULL,         AT(type, surface.radiance)},                                                    \
-    {                                                                                              \
-        "power", COLOUR, AT_MOST_ONE, LIGHT, "W", "none", NULL, AT(type, surface.power)            \
-    }
+    SURFACE_TEXTURE(type, "multiplies kd of the material, or `radiance` or `power` where the "     \
+                          "shape has one of its own"),                                             \
+        SURFACE_BUT_TEXTURE(type)
+#define EMISSION(type)                                                                             \
+    ROW("radiance", COLOUR, AT_MOST_ONE, LIGHT, "W/(m^2 sr)", "that of the material", NULL,        \
+        AT(type, surface.radiance),                                                                \
+        "makes it an area light: emitted radiance, instead of the material's emission"),           \
+        ROW("power", COLOUR, AT_MOST_ONE, LIGHT, "W", "none", NULL, AT(type, surface.power),       \
+            "makes it an area light: emitted flux of the whole shape; not together with "          \
+            "`radiance`")
 
 static const rt_field camera_fields[] = {
-    {"projection", CHOICE, OPTIONAL, ANY, "", "perspective", projections, AT(rt_camera, kind)},
-    {"eye", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, eye)},
-    {"look_at", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, look_at)},
-    {"up", VECTOR, OPTIONAL, DIRECTION, "", "0 1 0", NULL, AT(rt_camera, up)},
-    {"fov", NUMBER, OPTIONAL, BETWEEN(0, 180), "degrees", "45", NULL, AT(rt_camera, fov)},
-    {"width", NUMBER, OPTIONAL, LENGTH, "m", "2", NULL, AT(rt_camera, width)},
-    {"aperture", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_camera, aperture)},
+    {"projection", CHOICE, OPTIONAL, ANY, "", "perspective", projections, AT(rt_camera, kind),
+     "perspective: all rays pass the eye; orthographic: all are parallel, nothing gets smaller "
+     "with distance; environment: all directions, longitude across and latitude down, look_at in "
+     "the middle"},
+    {"eye", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, eye), "where the camera stands"},
+    {"look_at", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, look_at),
+     "the point in the middle of the picture"},
+    {"up", VECTOR, OPTIONAL, DIRECTION, "", "0 1 0", NULL, AT(rt_camera, up),
+     "the direction that points up in the picture; not along the view"},
+    {"fov", NUMBER, OPTIONAL, BETWEEN(0, 180), "degrees", "45", NULL, AT(rt_camera, fov),
+     "of a perspective camera: full horizontal angle of view"},
+    {"width", NUMBER, OPTIONAL, LENGTH, "m", "2", NULL, AT(rt_camera, width),
+     "of what an orthographic camera sees, from left to right"},
+    {"aperture", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_camera, aperture),
+     "radius of the lens; 0 is a pinhole, where all is sharp"},
     {"focal_distance", NUMBER, OPTIONAL, LENGTH, "m", "that of look_at", NULL,
-     AT(rt_camera, focal_distance)},
-    {"blades", INTEGER, OPTIONAL, FROM_TO(3, 64), "", "round", NULL, AT(rt_camera, blades)},
-    {"blade_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_camera, blade_rotation)},
-};
-
-static const rt_field film_fields[] = {
-    {"width", INTEGER, OPTIONAL, FROM_TO(1, 65536), "pixels", "512", NULL,
-     AT(rt_render_options, width)},
-    {"height", INTEGER, OPTIONAL, FROM_TO(1, 65536), "pixels", "512", NULL,
-     AT(rt_render_options, height)},
-    {"filter", CHOICE, OPTIONAL, ANY, "", "box", filters, AT(rt_render_options, filter)},
-};
-
-static const rt_field render_fields[] = {
-    {"mode", CHOICE, OPTIONAL, ANY, "", "path", modes, AT(rt_render_options, mode)},
-    {"spp", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "64, in mode photon 16, in passes 1", NULL,
-     AT(rt_render_options, spp)},
-    {"max_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "16", NULL,
-     AT(rt_render_options, max_depth)},
-    {"roulette_depth", INTEGER, OPTIONAL, FROM_TO(1, 4096), "segments", "2", NULL,
-     AT(rt_render_options, roulette_depth)},
-    {"roulette_threshold", NUMBER, OPTIONAL, FROM_TO(1e-6, 1), "", "0.5", NULL,
-     AT(rt_render_options, roulette_threshold)},
-    {"seed", INTEGER, OPTIONAL, FROM_TO(0, UINT32_LAST), "", "0", NULL,
-     AT(rt_render_options, seed)},
-    {"sampler", CHOICE, OPTIONAL, ANY, "", "sobol", samplers, AT(rt_render_options, sampler)},
-    {"estimator", CHOICE, OPTIONAL, ANY, "", "mis", estimators, AT(rt_render_options, estimator)},
-    {"time", NUMBER, OPTIONAL, ABOVE_TO(0, 1e9), "s", "no limit", NULL,
-     AT(rt_render_options, time)},
-    {"target_error", NUMBER, OPTIONAL, ABOVE_TO(0, 1), "", "none", NULL,
-     AT(rt_render_options, target_error)},
-    {"photons", INTEGER, OPTIONAL, FROM_TO(1, 4e9), "", "1000000, in passes one a pixel", NULL,
-     AT(rt_render_options, photons)},
-    {"k", COUNT_OR_ALL, OPTIONAL, FROM_TO(2, 65536), "", "50", NULL, AT(rt_render_options, k)},
-    {"radius", NUMBER, OPTIONAL, LENGTH, "m", "no limit", NULL, AT(rt_render_options, radius)},
-    {"gather", CHOICE, OPTIONAL, ANY, "", "auto", gathers, AT(rt_render_options, gather)},
-    {"passes", INTEGER, OPTIONAL, FROM_TO(1, 16777216), "", "1", NULL,
-     AT(rt_render_options, passes)},
-    {"alpha", NUMBER, OPTIONAL, BETWEEN(0, 1), "", "2/3", NULL, AT(rt_render_options, alpha)},
-    {"kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels, AT(rt_render_options, kernel)},
-    {"cone_k", NUMBER, OPTIONAL, FROM_TO(1, 1e6), "", "1.1", NULL, AT(rt_render_options, cone_k)},
-    {"area", CHOICE, OPTIONAL, ANY, "", "disc", areas, AT(rt_render_options, area)},
-    {"direct", CHOICE, OPTIONAL, ANY, "", "nee", directs, AT(rt_render_options, direct)},
-    {"final_gather", INTEGER, OPTIONAL, FROM_TO(0, 4096), "bounces", "0", NULL,
-     AT(rt_render_options, final_gather)},
-    {"caustic_photons", INTEGER, OPTIONAL, FROM_TO(0, 4e9), "", "0", NULL,
-     AT(rt_render_options, caustic_photons)},
-    {"caustic_k", COUNT_OR_ALL, OPTIONAL, FROM_TO(2, 65536), "", "that of k", NULL,
-     AT(rt_render_options, caustic_k)},
-    {"caustic_radius", NUMBER, OPTIONAL, LENGTH, "m", "that of radius", NULL,
-     AT(rt_render_options, caustic_radius)},
-    {"caustic_kernel", CHOICE, OPTIONAL, ANY, "", "epanechnikov", kernels,
-     AT(rt_render_options, caustic_kernel)},
-    {"aov", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, aov)},
-    {"photon_layers", BOOLEAN, OPTIONAL, ANY, "", "false", NULL,
-     AT(rt_render_options, photon_layers)},
-    {"variance", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_render_options, variance)},
+     AT(rt_camera, focal_distance), "distance along the view to the plane in focus"},
+    {"blades", INTEGER, OPTIONAL, FROM_TO(3, 64), "", "round", NULL, AT(rt_camera, blades),
+     "edges of the lens opening, seen in what is out of focus: 3 to 64; left out, it is round"},
+    {"blade_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_camera, blade_rotation),
+     "turns that opening, counter-clockwise in the picture; at 0 a corner points to the right"},
 };
 
 static const rt_field texture_fields[] = {
-    {"pattern", CHOICE, OPTIONAL, ANY, "", "image", patterns, AT(rt_texture, kind)},
-    {"file", FILE_NAME, OPTIONAL, ANY, "", "required of an image", NULL, AT(rt_texture, path)},
-    {"linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_texture, linear)},
-    {"a", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, a)},
-    {"b", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, b)},
-    {"wrap", CHOICE, OPTIONAL, ANY, "", "repeat", wraps, AT(rt_texture, wrap)},
-    {"scale", PAIR, OPTIONAL, NOT_ZERO, "", "1 1", NULL, AT(rt_texture, scale)},
-    {"offset", PAIR, OPTIONAL, ANY, "", "0 0", NULL, AT(rt_texture, offset)},
+    {"pattern", CHOICE, OPTIONAL, ANY, "", "image", patterns, AT(rt_texture, kind),
+     "where the colours come from: an image file, squares of a and b with sides of 1 in u and v, "
+     "or a change from a at v = 0 to b at v = 1"},
+    {"file", FILE_NAME, OPTIONAL, ANY, "", "required of an image", NULL, AT(rt_texture, path),
+     "a .png, .ppm, .pgm, .exr or .pfm"},
+    {"linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_texture, linear),
+     "of an image: true: the numbers of the file are light, or heights; false: 8 and 16 bit files "
+     "hold sRGB, as pictures do"},
+    {"a", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, a),
+     "of a checker: the first square; of a gradient: below"},
+    {"b", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, b),
+     "of a checker: the other square; of a gradient: above"},
+    {"wrap", CHOICE, OPTIONAL, ANY, "", "repeat", wraps, AT(rt_texture, wrap),
+     "beyond 0 to 1, an image or gradient is repeated, mirrored, or goes on as at its edge"},
+    {"scale", PAIR, OPTIONAL, NOT_ZERO, "", "1 1", NULL, AT(rt_texture, scale),
+     "u and v are multiplied by this: 4 4 shows the texture four times each way"},
+    {"offset", PAIR, OPTIONAL, ANY, "", "0 0", NULL, AT(rt_texture, offset),
+     "and then moved by this"},
 };
 
 static const rt_field material_fields[] = {
-    {"kd", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kd)},
-    {"ks", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, ks)},
-    {"kt", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kt)},
-    {"emission", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission)},
-    {"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL, AT(rt_material, ior)},
-    {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel)},
+    {"kd", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kd), "diffuse albedo"},
+    {"ks", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, ks),
+     "specular reflectance: a mirror, or, with roughness, a glossy lobe"},
+    {"kt", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kt),
+     "specular transmittance: refraction"},
+    {"emission", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission),
+     "emitted radiance; leaves the side of the normal"},
+    {"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL, AT(rt_material, ior),
+     "index of refraction of the inside"},
+    {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel),
+     "off: ks and kt are used as given; dielectric: ks + kt is split between reflection and "
+     "refraction by the Fresnel equations for ior; conductor: ks is multiplied by the reflectance "
+     "of a metal of index eta + i k"},
     {"eta", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "required of a conductor", NULL,
-     AT(rt_material, eta)},
-    {"k", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "0", NULL, AT(rt_material, k)},
-    {"roughness", NUMBER, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, roughness)},
-    {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption)},
-    {"two_sided", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, two_sided)},
+     AT(rt_material, eta), "of a conductor: index of refraction, by channel"},
+    {"k", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "0", NULL, AT(rt_material, k),
+     "of a conductor: extinction, by channel"},
+    {"roughness", NUMBER, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, roughness),
+     "of ks and kt: alpha of the GGX distribution of microfacets; below 0.001 is smooth. Light "
+     "that meets two facets is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5"},
+    {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption),
+     "of the inside, by channel: light is weakened to exp(-absorption) a metre; colours thick "
+     "glass"},
+    {"two_sided", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, two_sided),
+     "true: emission leaves both sides"},
     {"priority", INTEGER, OPTIONAL, FROM_TO(0, INTEGER_LAST), "", "0", NULL,
-     AT(rt_material, priority)},
-    {"kd_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kd_texture)},
-    {"ks_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, ks_texture)},
-    {"kt_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kt_texture)},
+     AT(rt_material, priority),
+     "where solids overlap, the material of higher priority fills the overlap"},
+    {"kd_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kd_texture),
+     "multiplies kd; where kd is left out, stands for it"},
+    {"ks_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, ks_texture),
+     "the same for ks"},
+    {"kt_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kt_texture),
+     "the same for kt"},
     {"emission_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL,
-     AT(rt_material, emission_texture)},
-    {"bump_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, bump_texture)},
-    {"bump_scale", NUMBER, OPTIONAL, NOT_ZERO, "m", "1", NULL, AT(rt_material, bump_scale)},
+     AT(rt_material, emission_texture), "the same for emission"},
+    {"bump_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, bump_texture),
+     "its brightness is a height that bends the shading normal"},
+    {"bump_scale", NUMBER, OPTIONAL, NOT_ZERO, "m", "1", NULL, AT(rt_material, bump_scale),
+     "height of a brightness of 1"},
 };
 
 static const rt_field point_light_fields[] = {
-    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_point_light, position)},
+    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_point_light, position), "where it is"},
     {"intensity", COLOUR, ONE_OF, LIGHT, "W/sr", "this or power is required", NULL,
-     AT(rt_point_light, intensity)},
+     AT(rt_point_light, intensity), "radiant intensity, the same in every direction"},
     {"power", COLOUR, ONE_OF, LIGHT, "W", "this or intensity is required", NULL,
-     AT(rt_point_light, power)},
+     AT(rt_point_light, power), "emitted flux; 4 pi times the intensity"},
 };
 
 static const rt_field spot_light_fields[] = {
-    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, position)},
-    {"target", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, target)},
-    {"intensity", COLOUR, REQUIRED, LIGHT, "W/sr", "", NULL, AT(rt_spot_light, intensity)},
-    {"outer", NUMBER, OPTIONAL, HALF_TURN, "degrees", "30", NULL, AT(rt_spot_light, outer)},
-    {"inner", NUMBER, OPTIONAL, FROM_TO(0, 180), "degrees", "0", NULL, AT(rt_spot_light, inner)},
+    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, position), "where it is"},
+    {"target", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, target),
+     "a point on its axis"},
+    {"intensity", COLOUR, REQUIRED, LIGHT, "W/sr", "", NULL, AT(rt_spot_light, intensity),
+     "radiant intensity on the axis"},
+    {"outer", NUMBER, OPTIONAL, HALF_TURN, "degrees", "30", NULL, AT(rt_spot_light, outer),
+     "angle from the axis at which the light ends"},
+    {"inner", NUMBER, OPTIONAL, FROM_TO(0, 180), "degrees", "0", NULL, AT(rt_spot_light, inner),
+     "angle up to which it is at its full; at most outer; between the two it falls smoothly"},
 };
 
 static const rt_field directional_light_fields[] = {
-    {"direction", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_directional_light, direction)},
-    {"irradiance", COLOUR, REQUIRED, LIGHT, "W/m^2", "", NULL,
-     AT(rt_directional_light, irradiance)},
+    {"direction", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_directional_light, direction),
+     "in which the light travels; of any length"},
+    {"irradiance", COLOUR, REQUIRED, LIGHT, "W/m^2", "", NULL, AT(rt_directional_light, irradiance),
+     "on a surface that faces the light"},
 };
 
 static const rt_field environment_light_fields[] = {
     {"radiance", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "1 with an image, else 0", NULL,
-     AT(rt_environment, radiance)},
-    {"file", FILE_NAME, OPTIONAL, ANY, "", "none", NULL, AT(rt_environment, path)},
-    {"rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_environment, rotation)},
+     AT(rt_environment, radiance), "seen in every direction; multiplies the image"},
+    {"file", FILE_NAME, OPTIONAL, ANY, "", "none", NULL, AT(rt_environment, path),
+     "an image of latitude and longitude: .exr, .pfm, .png or .ppm; its middle column is seen "
+     "towards -z, its top row is +y"},
+    {"rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_environment, rotation),
+     "turns the image about y, to the left as seen from inside"},
 };
 
 static const rt_field plane_fields[] = {
-    {"point", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_plane_fields, point)},
-    {"normal", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_plane_fields, normal)},
+    {"point", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_plane_fields, point),
+     "any point of the plane"},
+    {"normal", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_plane_fields, normal),
+     "perpendicular to the plane; of any length"},
     SURFACE(rt_plane_fields),
 };
 
 static const rt_field sphere_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_sphere_fields, centre)},
-    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_sphere_fields, radius)},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_sphere_fields, centre), "the middle"},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_sphere_fields, radius),
+     "of the sphere"},
     SURFACE(rt_sphere_fields),
-    LAMP(rt_sphere_fields),
+    EMISSION(rt_sphere_fields),
 };
 
 static const rt_field triangle_fields[] = {
-    {"a", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_triangle_fields, corners[0])},
-    {"b", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_triangle_fields, corners[1])},
-    {"c", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_triangle_fields, corners[2])},
-    {"na", VECTOR, ALL_OR_NONE, DIRECTION, "", "flat", NULL, AT(rt_triangle_fields, normals[0])},
-    {"nb", VECTOR, ALL_OR_NONE, DIRECTION, "", "flat", NULL, AT(rt_triangle_fields, normals[1])},
-    {"nc", VECTOR, ALL_OR_NONE, DIRECTION, "", "flat", NULL, AT(rt_triangle_fields, normals[2])},
-    {"uva", PAIR, ALL_OR_NONE_TOO, ANY, "", "0 0", NULL, AT(rt_triangle_fields, uv[0])},
-    {"uvb", PAIR, ALL_OR_NONE_TOO, ANY, "", "1 0", NULL, AT(rt_triangle_fields, uv[1])},
-    {"uvc", PAIR, ALL_OR_NONE_TOO, ANY, "", "0 1", NULL, AT(rt_triangle_fields, uv[2])},
+    {"a", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_triangle_fields, corners[0]), "first corner"},
+    {"b", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_triangle_fields, corners[1]),
+     "second corner"},
+    {"c", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_triangle_fields, corners[2]),
+     "third corner; counter-clockwise seen from the side of the normal"},
+    {"na", VECTOR, ALL_OR_NONE, DIRECTION, "", "flat", NULL, AT(rt_triangle_fields, normals[0]),
+     "shading normal at a, of any length; give all three or none"},
+    {"nb", VECTOR, ALL_OR_NONE, DIRECTION, "", "flat", NULL, AT(rt_triangle_fields, normals[1]),
+     "shading normal at b"},
+    {"nc", VECTOR, ALL_OR_NONE, DIRECTION, "", "flat", NULL, AT(rt_triangle_fields, normals[2]),
+     "shading normal at c"},
+    {"uva", PAIR, ALL_OR_NONE_TOO, ANY, "", "0 0", NULL, AT(rt_triangle_fields, uv[0]),
+     "texture coordinates at a; give all three or none"},
+    {"uvb", PAIR, ALL_OR_NONE_TOO, ANY, "", "1 0", NULL, AT(rt_triangle_fields, uv[1]),
+     "texture coordinates at b"},
+    {"uvc", PAIR, ALL_OR_NONE_TOO, ANY, "", "0 1", NULL, AT(rt_triangle_fields, uv[2]),
+     "texture coordinates at c"},
     SURFACE(rt_triangle_fields),
-    LAMP(rt_triangle_fields),
+    EMISSION(rt_triangle_fields),
 };
 
 static const rt_field quad_fields[] = {
-    {"corner", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_quad_fields, corner)},
-    {"edge1", VECTOR, REQUIRED, DIRECTION, "m", "", NULL, AT(rt_quad_fields, edge1)},
-    {"edge2", VECTOR, REQUIRED, DIRECTION, "m", "", NULL, AT(rt_quad_fields, edge2)},
+    {"corner", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_quad_fields, corner), "one corner"},
+    {"edge1", VECTOR, REQUIRED, DIRECTION, "m", "", NULL, AT(rt_quad_fields, edge1),
+     "from it to the next corner"},
+    {"edge2", VECTOR, REQUIRED, DIRECTION, "m", "", NULL, AT(rt_quad_fields, edge2),
+     "from it to the other neighbour; the normal is edge1 x edge2 (right hand: thumb edge1, "
+     "forefinger edge2, middle finger the normal)"},
     SURFACE(rt_quad_fields),
-    LAMP(rt_quad_fields),
+    EMISSION(rt_quad_fields),
 };
 
 static const rt_field disc_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_disc_fields, centre)},
-    {"normal", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_disc_fields, normal)},
-    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_disc_fields, radius)},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_disc_fields, centre), "the middle"},
+    {"normal", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_disc_fields, normal),
+     "perpendicular to the disc, on the side that shines; of any length"},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_disc_fields, radius),
+     "of the outer rim"},
     {"inner_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL,
-     AT(rt_disc_fields, inner_radius)},
+     AT(rt_disc_fields, inner_radius), "of the hole; less than radius"},
     SURFACE(rt_disc_fields),
-    LAMP(rt_disc_fields),
+    EMISSION(rt_disc_fields),
 };
 
 static const rt_field cylinder_fields[] = {
-    {"a", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cylinder_fields, a)},
-    {"b", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cylinder_fields, b)},
-    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_cylinder_fields, radius)},
-    {"caps", BOOLEAN, OPTIONAL, ANY, "", "true", NULL, AT(rt_cylinder_fields, caps)},
+    {"a", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cylinder_fields, a), "middle of one end"},
+    {"b", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cylinder_fields, b),
+     "middle of the other end"},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_cylinder_fields, radius),
+     "of the cylinder"},
+    {"caps", BOOLEAN, OPTIONAL, ANY, "", "true", NULL, AT(rt_cylinder_fields, caps),
+     "true: closed by discs at both ends; false: an open tube"},
     SURFACE(rt_cylinder_fields),
-    LAMP(rt_cylinder_fields),
+    EMISSION(rt_cylinder_fields),
 };
 
 static const rt_field cone_fields[] = {
-    {"base", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cone_fields, base)},
-    {"apex", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cone_fields, apex)},
-    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_cone_fields, radius)},
+    {"base", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cone_fields, base),
+     "middle of the wide end"},
+    {"apex", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_cone_fields, apex),
+     "the tip, or middle of the narrow end"},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_cone_fields, radius), "at the base"},
     {"apex_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL,
-     AT(rt_cone_fields, apex_radius)},
-    {"caps", BOOLEAN, OPTIONAL, ANY, "", "true", NULL, AT(rt_cone_fields, caps)},
+     AT(rt_cone_fields, apex_radius), "at the apex: more than 0 makes a frustum; at most radius"},
+    {"caps", BOOLEAN, OPTIONAL, ANY, "", "true", NULL, AT(rt_cone_fields, caps),
+     "true: closed by discs; false: open"},
     SURFACE(rt_cone_fields),
-    LAMP(rt_cone_fields),
+    EMISSION(rt_cone_fields),
 };
 
 static const rt_field ellipsoid_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_ellipsoid_fields, centre)},
-    {"radii", VECTOR, REQUIRED, LENGTH, "m", "", NULL, AT(rt_ellipsoid_fields, radii)},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_ellipsoid_fields, centre), "the middle"},
+    {"radii", VECTOR, REQUIRED, LENGTH, "m", "", NULL, AT(rt_ellipsoid_fields, radii),
+     "half-axes along x, y and z; rotate turns them"},
     SURFACE(rt_ellipsoid_fields),
-    LAMP(rt_ellipsoid_fields),
+    EMISSION(rt_ellipsoid_fields),
 };
 
 static const rt_field torus_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_torus_fields, centre)},
-    {"axis", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_torus_fields, axis)},
-    {"major_radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_torus_fields, major_radius)},
-    {"minor_radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_torus_fields, minor_radius)},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_torus_fields, centre),
+     "the middle of the hole"},
+    {"axis", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_torus_fields, axis),
+     "perpendicular to the ring; of any length"},
+    {"major_radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_torus_fields, major_radius),
+     "from the centre to the middle of the tube"},
+    {"minor_radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(rt_torus_fields, minor_radius),
+     "of the tube; less than major_radius"},
     SURFACE(rt_torus_fields),
-    LAMP(rt_torus_fields),
+    EMISSION(rt_torus_fields),
 };
 
 #define MESH_FILE(type)                                                                            \
-    {"file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(type, path)},                              \
-    {                                                                                              \
-        "shading", CHOICE, OPTIONAL, ANY, "", "file", shadings, AT(type, shading)                  \
-    }
+    ROW("file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(type, path),                            \
+        "a .ply, .obj, .off or .stl; told apart by content"),                                      \
+        ROW("shading", CHOICE, OPTIONAL, ANY, "", "file", shadings, AT(type, shading),             \
+            "where shading normals come from")
+#define MESH_SURFACE(type)                                                                         \
+    SURFACE_TEXTURE(type,                                                                          \
+                    "multiplies kd; left out, the texture that the mesh file names, if any"),      \
+        SURFACE_BUT_TEXTURE(type)
 
 static const rt_field mesh_fields[] = {
     MESH_FILE(rt_mesh_fields),
 };
 
 static const rt_field instance_fields[] = {
-    SURFACE(rt_mesh_fields),
-    LAMP(rt_mesh_fields),
+    MESH_SURFACE(rt_mesh_fields),
+    EMISSION(rt_mesh_fields),
 };
 
 static const rt_field model_fields[] = {
     MESH_FILE(rt_mesh_fields),
-    SURFACE(rt_mesh_fields),
-    LAMP(rt_mesh_fields),
+    MESH_SURFACE(rt_mesh_fields),
+    EMISSION(rt_mesh_fields),
 };
 
 /* ---- Blocks -------------------------------------------------------------- */
@@ -340,8 +358,8 @@ static const rt_field model_fields[] = {
 
 const rt_block rt_blocks[RT_BLOCK_COUNT] = {
     {RT_BLOCK_CAMERA, "camera", NULL, RT_BLOCK_ONCE, FIELDS(camera_fields)},
-    {RT_BLOCK_FILM, "film", NULL, RT_BLOCK_ONCE, FIELDS(film_fields)},
-    {RT_BLOCK_RENDER, "render", NULL, RT_BLOCK_ONCE, FIELDS(render_fields)},
+    {RT_BLOCK_FILM, "film", NULL, RT_BLOCK_ONCE, NULL, 0},
+    {RT_BLOCK_RENDER, "render", NULL, RT_BLOCK_ONCE, NULL, 0},
     {RT_BLOCK_TEXTURE, "texture", NULL, RT_BLOCK_NAMED, FIELDS(texture_fields)},
     {RT_BLOCK_MATERIAL, "material", NULL, RT_BLOCK_NAMED, FIELDS(material_fields)},
     {RT_BLOCK_POINT_LIGHT, "light", "point", 0, FIELDS(point_light_fields)},

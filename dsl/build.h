@@ -5,7 +5,7 @@
 #include "dsl/schema.h"
 
 /*
- * Fills *fields with what a block has before its settings are applied: the defaults, or for `film`
+ * Fills *fields with what a block has before its entries are applied: the defaults, or for `film`
  * and `render` what the scene has so far, as they share one struct.
  */
 void rt_build_begin(rt_block_fields *fields, const rt_block *block, const rt_scene *scene);

@@ -1,3 +1,4 @@
+/* check.c - from the values of a block, as written, to its struct. */
 #include "dsl/check.h"
 
 #include <float.h>
@@ -8,24 +9,24 @@
 #include "dsl/suggest.h"
 #include "dsl/transform.h"
 
-static rt_place place_of_values(const rt_setting *setting)
+static rt_place place_of_values(const rt_entry *entry)
 {
-    return rt_place_join(setting->values[0].place, setting->values[setting->value_count - 1].place);
+    return rt_place_join(entry->values[0].place, entry->values[entry->value_count - 1].place);
 }
 
 /* ---- Numbers ------------------------------------------------------------- */
 
-/* Evaluates the values of a setting to single numbers; one number alone is repeated to three. */
-static int evaluate(const rt_checker *checker, const rt_setting *setting,
+/* Evaluates the values of an entry to single numbers; one number alone is repeated to three. */
+static int evaluate(const rt_checker *checker, const rt_entry *entry,
                     double out[RT_FIELD_VALUES_MAX])
 {
     rt_value value;
     int count = 0;
-    for (int i = 0; i < setting->value_count; i++) {
-        if (!rt_expression_evaluate(&value, &setting->values[i], checker->operations,
+    for (int i = 0; i < entry->value_count; i++) {
+        if (!rt_expression_evaluate(&value, &entry->values[i], checker->operations,
                                     &checker->scope->constants, checker->reports))
             return 0;
-        int numbers = value.is_vector || setting->value_count == 1 ? 3 : 1;
+        int numbers = value.is_vector || entry->value_count == 1 ? 3 : 1;
         for (int c = 0; c < numbers && count < RT_FIELD_VALUES_MAX; c++)
             out[count++] = value.v[c];
     }
@@ -38,10 +39,10 @@ static int is_integer(const rt_field *field)
 }
 
 /* A number as it will be stored: single precision, unless the member is a double. */
-static int check_number(const rt_checker *checker, const rt_setting *setting, rt_place place,
+static int check_number(const rt_checker *checker, const rt_entry *entry, rt_place place,
                         double *number)
 {
-    const rt_field *field = setting->field;
+    const rt_field *field = entry->field;
     const double written = *number;
     char phrase[RT_PHRASE_SIZE];
     if (is_integer(field)) {
@@ -64,7 +65,7 @@ static int check_number(const rt_checker *checker, const rt_setting *setting, rt
          */
         rt_report_error(checker->reports, place, "'%s' is %.10g; it must be %s", field->name,
                         rt_range_holds(field->range, written) ? *number : written,
-                        rt_range_phrase(phrase, field->range));
+                        rt_range_phrase(phrase, sizeof phrase, field->range));
         return 0;
     }
     return 1;
@@ -86,19 +87,18 @@ static void store_scalar(const rt_field *field, double number, unsigned char *me
     }
 }
 
-static int check_numbers(const rt_checker *checker, const rt_setting *setting,
-                         unsigned char *member)
+static int check_numbers(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
-    const rt_field *field = setting->field;
+    const rt_field *field = entry->field;
     int is_scalar = field->type == RT_FIELD_NUMBER || is_integer(field);
     int count = is_scalar ? 1 : field->type == RT_FIELD_PAIR ? 2 : 3;
     double numbers[RT_FIELD_VALUES_MAX];
     float stored[3];
-    if (!evaluate(checker, setting, numbers))
+    if (!evaluate(checker, entry, numbers))
         return 0;
     for (int i = 0; i < count; i++) {
-        rt_place place = setting->values[setting->value_count == count ? i : 0].place;
-        if (!check_number(checker, setting, place, &numbers[i]))
+        rt_place place = entry->values[entry->value_count == count ? i : 0].place;
+        if (!check_number(checker, entry, place, &numbers[i]))
             return 0;
         stored[i] = (float)numbers[i];
     }
@@ -108,7 +108,7 @@ static int check_numbers(const rt_checker *checker, const rt_setting *setting,
     }
     if (field->range.kind == RT_RANGE_DIRECTION && stored[0] == 0 && stored[1] == 0 &&
         stored[2] == 0) {
-        rt_report_error(checker->reports, place_of_values(setting), "'%s' must not be zero",
+        rt_report_error(checker->reports, place_of_values(entry), "'%s' must not be zero",
                         field->name);
         return 0;
     }
@@ -117,21 +117,20 @@ static int check_numbers(const rt_checker *checker, const rt_setting *setting,
 }
 
 /* One step of a transform. */
-static int check_step(const rt_checker *checker, const rt_setting *setting, rt_steps *steps)
+static int check_step(const rt_checker *checker, const rt_entry *entry, rt_steps *steps)
 {
-    const rt_field *field = setting->field;
+    const rt_field *field = entry->field;
     int count = field->type == RT_FIELD_MATRIX ? 12 : field->type == RT_FIELD_ROTATE ? 4 : 3;
     double numbers[RT_FIELD_VALUES_MAX];
-    if (setting->is_broken || !evaluate(checker, setting, numbers))
+    if (entry->is_broken || !evaluate(checker, entry, numbers))
         return 0;
     for (int i = 0; i < count; i++)
-        if (!check_number(checker, setting,
-                          setting->values[setting->value_count == count ? i : 0].place,
+        if (!check_number(checker, entry, entry->values[entry->value_count == count ? i : 0].place,
                           &numbers[i]))
             return 0;
     if (field->range.kind == RT_RANGE_DIRECTION && numbers[0] == 0 && numbers[1] == 0 &&
         numbers[2] == 0) {
-        rt_report_error(checker->reports, place_of_values(setting),
+        rt_report_error(checker->reports, place_of_values(entry),
                         "the axis of '%s' must not be zero", field->name);
         return 0;
     }
@@ -147,41 +146,38 @@ static void store_transform(const rt_steps *steps, const rt_statement *statement
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
             transform.m[i][j] = (float)steps->m[i][j];
-    for (size_t i = 0; i < statement->block->field_count && steps->count > 0; i++)
-        if (rt_field_is_transform(&statement->block->fields[i]))
-            memcpy((unsigned char *)fields + statement->block->fields[i].offset, &transform,
-                   sizeof transform);
+    const rt_field *field;
+    for (size_t i = 0; (field = rt_block_field(statement->block, i)) && steps->count > 0; i++)
+        if (rt_field_is_transform(field))
+            memcpy((unsigned char *)fields + field->offset, &transform, sizeof transform);
 }
 
 /* ---- Words --------------------------------------------------------------- */
 
-static void report_choice(const rt_checker *checker, const rt_setting *setting,
-                          const char *const *choices)
+static void report_choice(const rt_checker *checker, const rt_entry *entry)
 {
     char quote[RT_QUOTE_SIZE], phrase[RT_PHRASE_SIZE];
-    rt_text word = rt_place_text(&setting->word);
+    rt_text word = rt_place_text(&entry->word);
     rt_suggestion suggestion = rt_suggestion_begin(word);
-    for (size_t i = 0; choices[i]; i++)
-        rt_suggestion_offer_word(&suggestion, choices[i]);
-    rt_report_error(checker->reports, setting->word, "'%s' takes %s, found '%s'",
-                    setting->field->name, rt_field_phrase(phrase, setting->field),
+    for (const rt_word *known = rt_field_words(entry->field); known->name; known++)
+        rt_suggestion_offer_word(&suggestion, known->name);
+    rt_report_error(checker->reports, entry->word, "'%s' takes %s, found '%s'", entry->field->name,
+                    rt_field_phrase(phrase, sizeof phrase, entry->field),
                     rt_text_quote(quote, word));
     if (suggestion.best.at)
         rt_report_hint(checker->reports, "did you mean '%s'?", suggestion.best.at);
 }
 
-static int check_choice(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+static int check_choice(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
-    static const char *const booleans[] = {"false", "true", NULL};
-    const char *const *choices =
-        setting->field->type == RT_FIELD_BOOLEAN ? booleans : setting->field->choices;
-    for (int i = 0; choices[i]; i++)
-        if (rt_text_equal(rt_place_text(&setting->word), choices[i])) {
-            memcpy(member, &i, sizeof i);
-            return 1;
-        }
-    report_choice(checker, setting, choices);
-    return 0;
+    rt_text text = rt_place_text(&entry->word);
+    const rt_word *word = rt_word_find(rt_field_words(entry->field), text.at, text.length);
+    if (!word) {
+        report_choice(checker, entry);
+        return 0;
+    }
+    memcpy(member, &word->value, sizeof word->value);
+    return 1;
 }
 
 const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, rt_place place,
@@ -207,11 +203,11 @@ const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, 
     return NULL;
 }
 
-static int check_name(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+static int check_name(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
-    const char *kind = setting->field->type == RT_FIELD_MATERIAL ? "material" : "texture";
-    const rt_names *names = rt_scope_names(checker->scope, setting->field->type);
-    const rt_name *name = rt_check_known(checker, names, setting->word, kind);
+    const char *kind = entry->field->type == RT_FIELD_MATERIAL ? "material" : "texture";
+    const rt_names *names = rt_scope_names(checker->scope, entry->field->type);
+    const rt_name *name = rt_check_known(checker, names, entry->word, kind);
     if (!name)
         return 0;
     memcpy(member, &name->index, sizeof name->index);
@@ -219,14 +215,14 @@ static int check_name(const rt_checker *checker, const rt_setting *setting, unsi
 }
 
 /* The path of a file, relative to the text that names it. */
-static int check_file(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+static int check_file(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
-    rt_text name = rt_place_text(&setting->word);
+    rt_text name = rt_place_text(&entry->word);
     if (name.length == 0) {
-        rt_report_error(checker->reports, setting->word, "the name of the file is empty");
+        rt_report_error(checker->reports, entry->word, "the name of the file is empty");
         return 0;
     }
-    *checker->path = rt_source_resolve(setting->word.source, name);
+    *checker->path = rt_source_resolve(entry->word.source, name);
     if (!*checker->path) {
         checker->reports->out_of_memory = 1;
         return 0;
@@ -236,34 +232,30 @@ static int check_file(const rt_checker *checker, const rt_setting *setting, unsi
 }
 
 /* A number, or the word `all` in its place. */
-static int check_count(const rt_checker *checker, const rt_setting *setting, unsigned char *member)
+static int check_count(const rt_checker *checker, const rt_entry *entry, unsigned char *member)
 {
-    static const uint32_t all = RT_K_ALL;
-    if (setting->value_count > 0)
-        return check_numbers(checker, setting, member);
-    memcpy(member, &all, sizeof all);
-    return 1;
+    return entry->value_count > 0 ? check_numbers(checker, entry, member)
+                                  : check_choice(checker, entry, member);
 }
 
-static int check_setting(const rt_checker *checker, const rt_setting *setting,
-                         rt_block_fields *fields)
+static int check_entry(const rt_checker *checker, const rt_entry *entry, rt_block_fields *fields)
 {
-    unsigned char *member = (unsigned char *)fields + setting->field->offset;
-    if (setting->is_broken)
+    unsigned char *member = (unsigned char *)fields + entry->field->offset;
+    if (entry->is_broken)
         return 0;
-    switch (setting->field->type) {
+    switch (entry->field->type) {
     case RT_FIELD_BOOLEAN:
     case RT_FIELD_CHOICE:
-        return check_choice(checker, setting, member);
+        return check_choice(checker, entry, member);
     case RT_FIELD_MATERIAL:
     case RT_FIELD_TEXTURE:
-        return check_name(checker, setting, member);
+        return check_name(checker, entry, member);
     case RT_FIELD_COUNT:
-        return check_count(checker, setting, member);
+        return check_count(checker, entry, member);
     case RT_FIELD_FILE:
-        return check_file(checker, setting, member);
+        return check_file(checker, entry, member);
     default:
-        return check_numbers(checker, setting, member);
+        return check_numbers(checker, entry, member);
     }
 }
 
@@ -274,31 +266,32 @@ static void join_group(char out[RT_PHRASE_SIZE], const rt_block *block, rt_field
                        const char *conjunction)
 {
     size_t used = 0, left = 0;
-    for (size_t i = 0; i < block->field_count; i++)
-        left += block->fields[i].need == need;
-    for (size_t i = 0; i < block->field_count && used < RT_PHRASE_SIZE; i++) {
-        if (block->fields[i].need != need)
+    const rt_field *field;
+    for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++)
+        left += field->need == need;
+    for (size_t i = 0; (field = rt_block_field(block, i)) && used < RT_PHRASE_SIZE; i++) {
+        if (field->need != need)
             continue;
         const char *after = --left == 0 ? "" : left == 1 ? conjunction : ", ";
-        used += (size_t)snprintf(out + used, RT_PHRASE_SIZE - used, "'%s'%s", block->fields[i].name,
-                                 after);
+        used += (size_t)snprintf(out + used, RT_PHRASE_SIZE - used, "'%s'%s", field->name, after);
     }
 }
 
 static int check_group(const rt_checker *checker, const rt_statement *statement, rt_field_need need)
 {
     const rt_block *block = statement->block;
-    const rt_setting *last = NULL;
+    const rt_entry *last = NULL;
     int size = 0, given = 0;
     char group[RT_PHRASE_SIZE], title[RT_BLOCK_TITLE_SIZE];
-    for (size_t i = 0; i < block->field_count; i++) {
-        if (block->fields[i].need != need)
+    const rt_field *field;
+    for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++) {
+        if (field->need != need)
             continue;
-        const rt_setting *setting = rt_statement_setting(statement, &block->fields[i]);
+        const rt_entry *entry = rt_statement_entry(statement, field);
         size++;
-        given += setting != NULL;
-        if (setting && (!last || setting->name.order > last->name.order))
-            last = setting;
+        given += entry != NULL;
+        if (entry && (!last || entry->name.order > last->name.order))
+            last = entry;
     }
     rt_block_title(title, block);
     if (need == RT_NEED_ALL_OR_NONE || need == RT_NEED_ALL_OR_NONE_TOO) {
@@ -328,12 +321,11 @@ static int check_required(const rt_checker *checker, const rt_statement *stateme
     size_t used = 0;
     if (statement->is_incomplete)
         return 1;
-    for (size_t i = 0; i < block->field_count && used < sizeof list; i++) {
-        const rt_field *field = &block->fields[i];
-        if (field->need == RT_NEED_REQUIRED && !rt_statement_setting(statement, field))
+    const rt_field *field;
+    for (size_t i = 0; (field = rt_block_field(block, i)) && used < sizeof list; i++)
+        if (field->need == RT_NEED_REQUIRED && !rt_statement_entry(statement, field))
             used += (size_t)snprintf(list + used, sizeof list - used, "%s'%s'", used ? ", " : "",
                                      field->name);
-    }
     if (used == 0)
         return 1;
     rt_report_error(checker->reports, statement->place, "%s needs %s", rt_block_title(title, block),
@@ -347,10 +339,10 @@ int rt_check_block(const rt_checker *checker, const rt_statement *statement,
     int is_good = !statement->is_broken;
     rt_steps steps;
     rt_steps_begin(&steps);
-    for (int i = 0; i < statement->setting_count; i++) {
-        const rt_setting *setting = &statement->settings[i];
-        is_good &= rt_field_is_transform(setting->field) ? check_step(checker, setting, &steps)
-                                                         : check_setting(checker, setting, fields);
+    for (int i = 0; i < statement->entry_count; i++) {
+        const rt_entry *entry = &statement->entries[i];
+        is_good &= rt_field_is_transform(entry->field) ? check_step(checker, entry, &steps)
+                                                       : check_entry(checker, entry, fields);
     }
     store_transform(&steps, statement, fields);
     is_good &= check_required(checker, statement);

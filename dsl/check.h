@@ -22,7 +22,7 @@ const rt_name *rt_check_known(const rt_checker *checker, const rt_names *names, 
                               const char *kind);
 
 /*
- * Stores the value of every setting of a block into *fields, which holds the defaults, and reports
+ * Stores the value of every entry of a block into *fields, which holds the defaults, and reports
  * what is wrong. Returns whether the block can be built.
  */
 int rt_check_block(const rt_checker *checker, const rt_statement *statement,

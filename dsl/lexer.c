@@ -1,8 +1,7 @@
+/* lexer.c - from text to tokens. */
 #include "dsl/lexer.h"
 
 #include <string.h>
-
-#include "dsl/number.h"
 
 static int is_letter(char c)
 {
@@ -170,8 +169,8 @@ static void read_number(rt_lexer *lexer, rt_token *token)
 
     char quote[RT_QUOTE_SIZE];
     rt_text text = rt_place_text(&token->place);
-    rt_number_result result = rt_number_read(&token->number, text);
-    token->is_broken = result != RT_NUMBER_OK;
+    rt_number_result result = rt_number_read(&token->number, text.at, text.length);
+    token->is_broken = result == RT_NUMBER_MALFORMED || result == RT_NUMBER_TOO_LARGE;
     if (result == RT_NUMBER_MALFORMED) {
         rt_report_error(lexer->reports, token->place, "'%s' is not a number",
                         rt_text_quote(quote, text));

@@ -10,11 +10,11 @@ static rt_text text_of(const rt_token *token)
     return rt_place_text(&token->place);
 }
 
-const rt_setting *rt_statement_setting(const rt_statement *statement, const rt_field *field)
+const rt_entry *rt_statement_entry(const rt_statement *statement, const rt_field *field)
 {
-    for (int i = 0; i < statement->setting_count; i++)
-        if (statement->settings[i].field == field)
-            return &statement->settings[i];
+    for (int i = 0; i < statement->entry_count; i++)
+        if (statement->entries[i].field == field)
+            return &statement->entries[i];
     return NULL;
 }
 
@@ -23,12 +23,13 @@ static void hint_fields(rt_parser *parser, const rt_block *block)
 {
     char list[RT_PHRASE_SIZE * 2] = "", title[RT_BLOCK_TITLE_SIZE];
     size_t used = 0;
-    for (size_t i = 0; i < block->field_count; i++) {
-        size_t length = strlen(block->fields[i].name);
+    const rt_field *field;
+    for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++) {
+        size_t length = strlen(field->name);
         if (used + length + 2 > sizeof list)
             break;
         list[used++] = ' ';
-        memcpy(list + used, block->fields[i].name, length + 1);
+        memcpy(list + used, field->name, length + 1);
         used += length;
     }
     rt_report_hint(parser->reports, "the fields of %s are:%s", rt_block_title(title, block), list);
@@ -40,8 +41,7 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
     char quote[RT_QUOTE_SIZE], title[RT_BLOCK_TITLE_SIZE];
     rt_text text = rt_place_text(&place);
     rt_suggestion suggestion = rt_suggestion_begin(text);
-    for (size_t i = 0; i < block->field_count; i++)
-        rt_suggestion_offer_word(&suggestion, block->fields[i].name);
+    rt_suggestion_offer_fields(&suggestion, block);
     rt_report_error(parser->reports, place, "unknown field '%s' in %s", rt_text_quote(quote, text),
                     rt_block_title(title, block));
     if (!suggestion.best.at || rt_text_is_unit(text)) {
@@ -56,12 +56,12 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
 
     /* The field that was meant counts as given, so that it is not reported as missing too. */
     const rt_field *meant = rt_schema_field(block, suggestion.best);
-    if (!rt_statement_setting(statement, meant) && statement->setting_count < RT_SETTINGS_MAX) {
-        rt_setting *setting = &statement->settings[statement->setting_count++];
-        memset(setting, 0, sizeof *setting);
-        setting->field = meant;
-        setting->name = place;
-        setting->is_broken = 1;
+    if (!rt_statement_entry(statement, meant) && statement->entry_count < RT_ENTRIES_MAX) {
+        rt_entry *entry = &statement->entries[statement->entry_count++];
+        memset(entry, 0, sizeof *entry);
+        entry->field = meant;
+        entry->name = place;
+        entry->is_broken = 1;
     }
 }
 
@@ -91,31 +91,31 @@ static void parse_field(rt_parser *parser, rt_statement *statement)
         parse_unknown_field(parser, statement);
         return;
     }
-    rt_setting setting;
-    memset(&setting, 0, sizeof setting);
-    setting.field = field;
-    setting.name = rt_parser_take(parser).place;
-    rt_parse_setting(parser, statement->block, &setting);
-    statement->is_broken |= setting.is_broken;
+    rt_entry entry;
+    memset(&entry, 0, sizeof entry);
+    entry.field = field;
+    entry.name = rt_parser_take(parser).place;
+    rt_parse_entry(parser, statement->block, &entry);
+    statement->is_broken |= entry.is_broken;
     /* it may have run over others */
-    statement->is_incomplete |= setting.is_broken && field->type == RT_FIELD_FILE;
+    statement->is_incomplete |= entry.is_broken && field->type == RT_FIELD_FILE;
 
-    const rt_setting *earlier =
-        rt_field_is_transform(field) ? NULL : rt_statement_setting(statement, field);
-    if (!earlier && statement->setting_count < RT_SETTINGS_MAX) {
-        statement->settings[statement->setting_count++] = setting;
+    const rt_entry *earlier =
+        rt_field_is_transform(field) ? NULL : rt_statement_entry(statement, field);
+    if (!earlier && statement->entry_count < RT_ENTRIES_MAX) {
+        statement->entries[statement->entry_count++] = entry;
         return;
     }
     if (!earlier) {
-        if (statement->setting_count == RT_SETTINGS_MAX && !statement->is_incomplete)
-            rt_report_error(parser->reports, setting.name, "a block holds at most %d fields",
-                            RT_SETTINGS_MAX);
+        if (statement->entry_count == RT_ENTRIES_MAX && !statement->is_incomplete)
+            rt_report_error(parser->reports, entry.name, "a block holds at most %d fields",
+                            RT_ENTRIES_MAX);
         statement->is_broken = statement->is_incomplete = 1;
         return;
     }
     statement->is_broken = 1;
     if (rt_text_equal(rt_place_text(&earlier->name), field->name)) { /* not a misspelt one */
-        rt_report_error(parser->reports, setting.name, "'%s' is given twice", field->name);
+        rt_report_error(parser->reports, entry.name, "'%s' is given twice", field->name);
         rt_report_hint(parser->reports, "first at line %d", earlier->name.line);
     }
 }

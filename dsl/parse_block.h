@@ -1,4 +1,4 @@
-/* parse_block.h - blocks, and the settings inside. */
+/* parse_block.h - blocks, and the entries inside. */
 #ifndef RT_DSL_PARSE_BLOCK_H
 #define RT_DSL_PARSE_BLOCK_H
 
@@ -7,7 +7,7 @@
 /* Parses a block whose first word comes next. Returns 0 when nothing of it could be understood. */
 int rt_parse_block(rt_parser *parser, rt_statement *statement);
 
-/* Parses what follows the name of a field, which was just taken (parse_setting.c). */
-void rt_parse_setting(rt_parser *parser, const rt_block *block, rt_setting *setting);
+/* Parses what follows the name of a field, which was just taken (parse_entry.c). */
+void rt_parse_entry(rt_parser *parser, const rt_block *block, rt_entry *entry);
 
 #endif

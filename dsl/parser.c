@@ -74,9 +74,10 @@ int rt_parser_hint_operator(rt_parser *parser, const rt_token *token)
     return 1;
 }
 
-rt_place rt_parser_take_word(rt_parser *parser, int *is_broken)
+rt_place rt_parser_take_hyphenated(rt_parser *parser, int *is_joined)
 {
     rt_place place = rt_parser_take(parser).place;
+    *is_joined = 0;
     for (;;) {
         const rt_token *hyphen = rt_parser_peek(parser, 0);
         if (hyphen->kind != '-' || hyphen->space_before)
@@ -86,9 +87,17 @@ rt_place rt_parser_take_word(rt_parser *parser, int *is_broken)
             break;
         rt_parser_take(parser);
         place = rt_place_join(place, rt_parser_take(parser).place);
-        *is_broken = 1;
+        *is_joined = 1;
     }
-    if (*is_broken) {
+    return place;
+}
+
+rt_place rt_parser_take_word(rt_parser *parser, int *is_broken)
+{
+    int is_joined;
+    rt_place place = rt_parser_take_hyphenated(parser, &is_joined);
+    *is_broken |= is_joined;
+    if (is_joined) {
         char quote[RT_QUOTE_SIZE];
         rt_report_error(parser->reports, place, "'%s' is not a name",
                         rt_text_quote(quote, rt_place_text(&place)));
@@ -396,7 +405,7 @@ int rt_parser_next(rt_parser *parser, rt_statement *statement)
     while (!rt_reports_full(parser->reports)) {
         parser->operations->count = 0;
         parser->depth = 0;
-        memset(statement, 0, offsetof(rt_statement, settings));
+        memset(statement, 0, offsetof(rt_statement, entries));
 
         const rt_token *token = rt_parser_peek(parser, 0);
         int understood = 0;

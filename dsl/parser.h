@@ -14,14 +14,14 @@
 #include "dsl/scope.h"
 
 /* A field as it is written. */
-typedef struct rt_setting {
+typedef struct rt_entry {
     const rt_field *field;
     rt_place name;
     rt_place word; /* the word given, or the text of a string */
     rt_expression values[RT_FIELD_VALUES_MAX];
     int value_count;
     int is_broken; /* has an error already reported */
-} rt_setting;
+} rt_entry;
 
 typedef enum rt_statement_kind {
     RT_STATEMENT_LET,
@@ -31,7 +31,7 @@ typedef enum rt_statement_kind {
     RT_STATEMENT_END     /* the '}' of a repeat */
 } rt_statement_kind;
 
-#define RT_SETTINGS_MAX 64 /* in one block */
+#define RT_ENTRIES_MAX 64 /* in one block */
 
 typedef struct rt_statement {
     rt_statement_kind kind;
@@ -44,12 +44,12 @@ typedef struct rt_statement {
     const rt_block *block;
     int is_broken;     /* has an error already reported: not to be built */
     int is_incomplete; /* fields may be missing because of an error already reported */
-    int setting_count;
-    rt_setting settings[RT_SETTINGS_MAX]; /* last: only the first setting_count are ever written */
+    int entry_count;
+    rt_entry entries[RT_ENTRIES_MAX]; /* last: only the first entry_count are ever written */
 } rt_statement;
 
-/* The setting of a field in a block, or NULL. */
-const rt_setting *rt_statement_setting(const rt_statement *statement, const rt_field *field);
+/* The entry of a field in a block, or NULL. */
+const rt_entry *rt_statement_entry(const rt_statement *statement, const rt_field *field);
 
 typedef struct rt_parser {
     rt_lexer lexer;
@@ -105,7 +105,12 @@ rt_place rt_parser_expected_place(rt_parser *parser);
  */
 int rt_parser_hint_operator(rt_parser *parser, const rt_token *token);
 
-/* Takes a word, joining `red-wall` into one mistake; the next token must be a word. */
+/*
+ * Takes a word, and what hyphens join to it, as in `gaussian-jensen`; the next token must be a word.
+ */
+rt_place rt_parser_take_hyphenated(rt_parser *parser, int *is_joined);
+
+/* Takes a name, which has no hyphens: `red-wall` is one mistake. The next token must be a word. */
 rt_place rt_parser_take_word(rt_parser *parser, int *is_broken);
 
 /* Whether the next tokens are a call: a word and, touching it, a parenthesis. */

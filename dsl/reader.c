@@ -6,7 +6,7 @@
 
 #include "dsl/build.h"
 #include "dsl/check.h"
-#include "dsl/idle.h"
+#include "dsl/no_effect.h"
 #include "dsl/parser.h"
 
 rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_error *error)
@@ -99,19 +99,19 @@ static int check_once(rt_reader *reader, const rt_statement *statement)
 }
 
 /*
- * The setting that a refusal is about: by its name, a step of the transform, or the file that was
+ * The entry that a refusal is about: by its name, a step of the transform, or the file that was
  * read.
  */
-static const rt_setting *setting_at_fault(const rt_statement *statement, const rt_error *error)
+static const rt_entry *entry_at_fault(const rt_statement *statement, const rt_error *error)
 {
-    const rt_setting *found = NULL;
-    for (int i = 0; i < statement->setting_count; i++) {
-        const rt_field *field = statement->settings[i].field;
+    const rt_entry *found = NULL;
+    for (int i = 0; i < statement->entry_count; i++) {
+        const rt_field *field = statement->entries[i].field;
         int is_it = strcmp(error->field, field->name) == 0 ||
                     (strcmp(error->field, "transform") == 0 && rt_field_is_transform(field)) ||
                     (strcmp(error->field, "path") == 0 && field->type == RT_FIELD_FILE);
         if (is_it)
-            found = &statement->settings[i];
+            found = &statement->entries[i];
     }
     return found;
 }
@@ -119,13 +119,12 @@ static const rt_setting *setting_at_fault(const rt_statement *statement, const r
 /* Points at the field that the scene refused, or else at the block. */
 static void report_refusal(rt_reader *reader, const rt_statement *statement, const rt_error *error)
 {
-    const rt_setting *setting = setting_at_fault(statement, error);
+    const rt_entry *entry = entry_at_fault(statement, error);
     rt_place place = statement->place;
-    if (setting && setting->value_count > 0)
-        place = rt_place_join(setting->values[0].place,
-                              setting->values[setting->value_count - 1].place);
-    else if (setting)
-        place = setting->word;
+    if (entry && entry->value_count > 0)
+        place = rt_place_join(entry->values[0].place, entry->values[entry->value_count - 1].place);
+    else if (entry)
+        place = entry->word;
     if (error->file[0] && error->line > 0)
         rt_report_error(&reader->reports, place, "%s:%d: %s", error->file, error->line,
                         error->message);
@@ -209,7 +208,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
     if (is_good)
         is_good = build(reader, statement, &fields, &as);
     if (is_good && !reader->is_further_turn)
-        rt_idle_warn(statement, &fields, &reader->reports);
+        rt_no_effect_warn(statement, &fields, &reader->reports);
     if (is_good && reader->options->check &&
         !rt_origins_add(&reader->origins, block, statement->place))
         reader->reports.out_of_memory = 1;

@@ -1,6 +1,6 @@
+/* schema.c - finds blocks and fields in the tables of the language. */
 #include "dsl/schema.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -31,11 +31,30 @@ int rt_schema_has_kinds(rt_text word)
     return 0;
 }
 
+/* The index-th setting of `film`, or of `render`, which has all others; or NULL. */
+static const rt_field *setting_field(const rt_block *block, size_t index)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    for (size_t i = 0; i < count; i++)
+        if ((settings[i].topic == RT_TOPIC_FILM) == (block->id == RT_BLOCK_FILM) && index-- == 0)
+            return &settings[i].field;
+    return NULL;
+}
+
+const rt_field *rt_block_field(const rt_block *block, size_t index)
+{
+    if (!block->fields)
+        return setting_field(block, index);
+    return index < block->field_count ? &block->fields[index] : NULL;
+}
+
 const rt_field *rt_schema_field(const rt_block *block, rt_text name)
 {
-    for (size_t i = 0; i < block->field_count; i++)
-        if (rt_text_equal(name, block->fields[i].name))
-            return &block->fields[i];
+    const rt_field *field;
+    for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++)
+        if (rt_text_equal(name, field->name))
+            return field;
     return NULL;
 }
 
@@ -49,84 +68,4 @@ const char *rt_block_title(char out[RT_BLOCK_TITLE_SIZE], const rt_block *block)
     snprintf(out, RT_BLOCK_TITLE_SIZE, "%s%s%s", block->word, block->kind ? " " : "",
              block->kind ? block->kind : "");
     return out;
-}
-
-/* "a, b or c" */
-static void join_choices(char out[RT_PHRASE_SIZE], const char *const *choices)
-{
-    size_t used = 0;
-    out[0] = '\0';
-    for (size_t i = 0; choices[i] && used < RT_PHRASE_SIZE; i++) {
-        const char *before = i == 0 ? "" : choices[i + 1] ? ", " : " or ";
-        used += (size_t)snprintf(out + used, RT_PHRASE_SIZE - used, "%s%s", before, choices[i]);
-    }
-}
-
-const char *rt_field_phrase(char out[RT_PHRASE_SIZE], const rt_field *field)
-{
-    static const char *const phrases[] = {
-        [RT_FIELD_NUMBER] = "a number",
-        [RT_FIELD_INTEGER] = "a whole number",
-        [RT_FIELD_COUNT] = "a whole number or all",
-        [RT_FIELD_PAIR] = "two numbers",
-        [RT_FIELD_VECTOR] = "three numbers",
-        [RT_FIELD_COLOUR] = "one or three numbers",
-        [RT_FIELD_BOOLEAN] = "true or false",
-        [RT_FIELD_CHOICE] = "",
-        [RT_FIELD_MATERIAL] = "the name of a material",
-        [RT_FIELD_TEXTURE] = "the name of a texture",
-        [RT_FIELD_FILE] = "a file name in quotes",
-        [RT_FIELD_TRANSLATE] = "three numbers",
-        [RT_FIELD_ROTATE] = "four numbers",
-        [RT_FIELD_SCALE] = "one or three numbers",
-        [RT_FIELD_MATRIX] = "twelve numbers",
-    };
-    if (field->type == RT_FIELD_CHOICE)
-        join_choices(out, field->choices);
-    else
-        snprintf(out, RT_PHRASE_SIZE, "%s", phrases[field->type]);
-    return out;
-}
-
-const char *rt_range_phrase(char out[RT_PHRASE_SIZE], rt_range range)
-{
-    switch (range.kind) {
-    case RT_RANGE_ANY:
-        out[0] = '\0';
-        break;
-    case RT_RANGE_ABOVE:
-        snprintf(out, RT_PHRASE_SIZE, "greater than %.10g, at most %.10g", range.low, range.high);
-        break;
-    case RT_RANGE_CLOSED:
-        snprintf(out, RT_PHRASE_SIZE, "from %.10g to %.10g", range.low, range.high);
-        break;
-    case RT_RANGE_BETWEEN:
-        snprintf(out, RT_PHRASE_SIZE, "between %.10g and %.10g, both excluded", range.low,
-                 range.high);
-        break;
-    case RT_RANGE_DIRECTION:
-    case RT_RANGE_NOT_ZERO:
-        snprintf(out, RT_PHRASE_SIZE, "not zero");
-        break;
-    }
-    return out;
-}
-
-int rt_range_holds(rt_range range, double value)
-{
-    switch (range.kind) {
-    case RT_RANGE_ABOVE:
-        return value > range.low && value <= range.high;
-    case RT_RANGE_CLOSED:
-        /* it may be rounded to float */
-        return value >= fmin(range.low, (float)range.low) && value <= range.high;
-    case RT_RANGE_BETWEEN:
-        return value > range.low && value < range.high;
-    case RT_RANGE_NOT_ZERO:
-        return value != 0;
-    case RT_RANGE_ANY:
-    case RT_RANGE_DIRECTION: /* concerns the vector as a whole */
-        break;
-    }
-    return 1;
 }

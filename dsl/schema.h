@@ -2,75 +2,15 @@
  * schema.h - the blocks of the language and their fields, as tables.
  *
  * One table drives checking, the "expected" part of messages, suggestions and the
- * tests of the reference page. A block's fields are stored into its plain struct
- * at the offsets that the table gives.
+ * reference page. A block's fields are stored into its plain struct at the offsets
+ * that the table gives.
  */
 #ifndef RT_DSL_SCHEMA_H
 #define RT_DSL_SCHEMA_H
 
 #include "dsl/source.h"
 
-/* What a field's value is, and how it is stored. */
-typedef enum rt_field_type {
-    RT_FIELD_NUMBER,   /* float, or double by the member's size */
-    RT_FIELD_INTEGER,  /* uint32_t, or uint64_t by the member's size */
-    RT_FIELD_COUNT,    /* uint32_t, or RT_K_ALL for the word `all` */
-    RT_FIELD_PAIR,     /* float[2] */
-    RT_FIELD_VECTOR,   /* float[3] */
-    RT_FIELD_COLOUR,   /* float[3]; one number is a grey */
-    RT_FIELD_BOOLEAN,  /* int */
-    RT_FIELD_CHOICE,   /* int: position among the choices */
-    RT_FIELD_MATERIAL, /* uint32_t: index of the material of that name */
-    RT_FIELD_TEXTURE,  /* uint32_t: handle of the texture of that name */
-    RT_FIELD_FILE,     /* const char *: path; at most one a block */
-    /*
-     * Steps of a transform, all into one rt_transform, in the order in which they stand; each may
-     * stand often.
-     */
-    RT_FIELD_TRANSLATE, /* three numbers */
-    RT_FIELD_ROTATE,    /* axis and degrees */
-    RT_FIELD_SCALE,     /* one or three numbers */
-    RT_FIELD_MATRIX     /* twelve numbers, row by row */
-} rt_field_type;
-
 #define RT_FIELD_VALUES_MAX 12 /* numbers that a field takes */
-
-/* Which fields a block must give. Those of one block marked with a group need form that group. */
-typedef enum rt_field_need {
-    RT_NEED_OPTIONAL,
-    RT_NEED_REQUIRED,
-    RT_NEED_ONE_OF,         /* group: exactly one */
-    RT_NEED_AT_MOST_ONE,    /* group: one or none */
-    RT_NEED_ALL_OR_NONE,    /* group: all or none */
-    RT_NEED_ALL_OR_NONE_TOO /* a second such group */
-} rt_field_need;
-
-/* Which numbers a field takes; of a vector or colour, each component. */
-typedef enum rt_range_kind {
-    RT_RANGE_ANY,
-    RT_RANGE_ABOVE,     /* greater than low, at most high */
-    RT_RANGE_CLOSED,    /* low to high, both included */
-    RT_RANGE_BETWEEN,   /* low to high, both excluded */
-    RT_RANGE_DIRECTION, /* any vector but zero; of a rotation, the axis */
-    RT_RANGE_NOT_ZERO   /* each number */
-} rt_range_kind;
-
-typedef struct rt_range {
-    rt_range_kind kind;
-    double low, high;
-} rt_range;
-
-typedef struct rt_field {
-    const char *name;
-    rt_field_type type;
-    rt_field_need need;
-    rt_range range;
-    const char *unit; /* as the reference prints it; "" for none */
-    /* the value when the field is left out, as the reference prints it; "" for none */
-    const char *fallback;
-    const char *const *choices; /* of RT_FIELD_CHOICE, ended by NULL */
-    size_t offset, size;        /* of the member in the block's struct */
-} rt_field;
 
 typedef enum rt_block_id {
     RT_BLOCK_CAMERA,
@@ -108,6 +48,7 @@ typedef struct rt_block {
     const char *word;
     const char *kind; /* the second word, as in `light point`; NULL for none */
     unsigned flags;
+    /* of `film` and `render` NULL: their fields are settings of rt.h, see rt_block_field */
     const rt_field *fields;
     size_t field_count;
 } rt_block;
@@ -199,7 +140,10 @@ const rt_block *rt_schema_find(rt_text word, const rt_text *kind);
 int rt_schema_is_block(rt_text word);
 int rt_schema_has_kinds(rt_text word);
 
-/* The field of a block, or NULL. */
+/* A block's fields, from 0 on; NULL behind the last. */
+const rt_field *rt_block_field(const rt_block *block, size_t index);
+
+/* The field of that name, or NULL. */
 const rt_field *rt_schema_field(const rt_block *block, rt_text name);
 
 /* Whether a field is a step of a transform. */
@@ -209,12 +153,6 @@ int rt_field_is_transform(const rt_field *field);
 #define RT_BLOCK_TITLE_SIZE 48
 const char *rt_block_title(char out[RT_BLOCK_TITLE_SIZE], const rt_block *block);
 
-/* "one or three numbers", "true or false", ...: what a field takes. */
-#define RT_PHRASE_SIZE 160
-const char *rt_field_phrase(char out[RT_PHRASE_SIZE], const rt_field *field);
-
-/* "from 0 to 1", ...; "" for any. Whether a number lies in a range. */
-const char *rt_range_phrase(char out[RT_PHRASE_SIZE], rt_range range);
-int rt_range_holds(rt_range range, double value);
+#define RT_PHRASE_SIZE 160 /* room for what a field takes, in words */
 
 #endif

@@ -1,6 +1,9 @@
 /*
- * common.h - what the public header, the host code and the device kernels all share:
- * rays, hits and the names of choices. Both compilers read this file.
+ * common.h - what the public header, the host code and the device kernels all share: rays, hits,
+ * photons and enums. Both compilers read this file.
+ *
+ * Beside an enum that a text can name stands its list, X(constant, word, help): the only place of
+ * these words. The scene language, the command line and the reference page take them from there.
  */
 #ifndef RT_COMMON_H
 #define RT_COMMON_H
@@ -46,14 +49,9 @@ typedef struct rt_photon {
 } rt_photon;
 
 /*
- * Density kernels K(d) over a disc of radius r, t = d/r; each integrates to 1 over the disc:
- *   box           1 / (pi r^2)
- *   cone          (1 - t/c) / ((1 - 2/(3c)) pi r^2), c >= 1                   Jensen 1996
- *   gaussian      a [1 - (1 - exp(-b t^2/2)) / (1 - exp(-b))] / (pi r^2), b = 1.953, a normalised
- *   epanechnikov  2 (1 - t^2) / (pi r^2)
- *   silverman     3 (1 - t^2)^2 / (pi r^2)
- * gaussian-jensen is the Gaussian with the often printed a = 0.918, which returns about 53 % of
- * the density: for comparison only.
+ * Density kernels K(d) over a disc of radius r, t = d/r; each integrates to 1 over the disc. Cone:
+ * Jensen 1996, c is cone_k. Gaussian: b = 1.953, a = 1.7283 normalises it; gaussian-jensen has the
+ * often printed a = 0.918.
  */
 typedef enum rt_density {
     RT_DENSITY_EPANECHNIKOV = 0,
@@ -64,61 +62,95 @@ typedef enum rt_density {
     RT_DENSITY_GAUSSIAN_JENSEN
 } rt_density;
 
-typedef enum rt_sampler {
-    RT_SAMPLER_SOBOL = 0,  /* Owen-scrambled Sobol, Burley 2020 */
-    RT_SAMPLER_INDEPENDENT /* independent random numbers */
-} rt_sampler;
+#define RT_DENSITIES(X)                                                                            \
+    X(RT_DENSITY_EPANECHNIKOV, "epanechnikov", "2 (1 - t^2) / (pi r^2)")                           \
+    X(RT_DENSITY_BOX, "box", "1 / (pi r^2)")                                                       \
+    X(RT_DENSITY_CONE, "cone", "(1 - t/c) / ((1 - 2/(3c)) pi r^2), c = `cone_k`")                  \
+    X(RT_DENSITY_GAUSSIAN, "gaussian",                                                             \
+      "a (1 - (1 - exp(-b t^2/2)) / (1 - exp(-b))) / (pi r^2), b = 1.953, a = 1.7283")             \
+    X(RT_DENSITY_SILVERMAN, "silverman", "3 (1 - t^2)^2 / (pi r^2)")                               \
+    X(RT_DENSITY_GAUSSIAN_JENSEN, "gaussian-jensen",                                               \
+      "the Gaussian with the often printed a = 0.918, which loses 47 % of the light; "             \
+      "for comparison only")
+
+typedef enum rt_sampler { RT_SAMPLER_SOBOL = 0, RT_SAMPLER_INDEPENDENT } rt_sampler;
+
+#define RT_SAMPLERS(X)                                                                             \
+    X(RT_SAMPLER_SOBOL, "sobol", "Owen-scrambled Sobol points (Burley 2020)")                      \
+    X(RT_SAMPLER_INDEPENDENT, "independent", "independent random numbers")
 
 typedef enum rt_texture_kind {
-    RT_TEXTURE_IMAGE = 0, /* bilinear lookup in an image */
-    RT_TEXTURE_CHECKER,   /* unit squares: a where floor(u) + floor(v) is even, else b */
-    RT_TEXTURE_GRADIENT   /* from a at v = 0 to b at v = 1 */
+    RT_TEXTURE_IMAGE = 0,
+    RT_TEXTURE_CHECKER,
+    RT_TEXTURE_GRADIENT
 } rt_texture_kind;
 
-/* How an image or gradient goes on outside the unit square; a checker has no end. */
+#define RT_TEXTURE_KINDS(X)                                                                        \
+    X(RT_TEXTURE_IMAGE, "image", "an image file, interpolated bilinearly")                         \
+    X(RT_TEXTURE_CHECKER, "checker", "unit squares: a where floor(u) + floor(v) is even, else b")  \
+    X(RT_TEXTURE_GRADIENT, "gradient", "from a at v = 0 to b at v = 1")
+
+/* How an image or gradient continues outside the unit square; a checker has no end. */
 typedef enum rt_wrap { RT_WRAP_REPEAT = 0, RT_WRAP_MIRROR, RT_WRAP_CLAMP } rt_wrap;
+
+#define RT_WRAPS(X)                                                                                \
+    X(RT_WRAP_REPEAT, "repeat", "repeated")                                                        \
+    X(RT_WRAP_MIRROR, "mirror", "mirrored")                                                        \
+    X(RT_WRAP_CLAMP, "clamp", "continued by the colour at its edge")
 
 /*
  * Reconstruction filters; each sample is placed by importance sampling of the filter, so pixels
  * stay independent.
  */
 typedef enum rt_filter {
-    RT_FILTER_BOX = 0,  /* half a pixel to each side */
-    RT_FILTER_TENT,     /* 1 pixel */
-    RT_FILTER_GAUSSIAN, /* standard deviation 0.5 pixel, cut at 1.5 */
-    RT_FILTER_MITCHELL  /* Mitchell and Netravali 1988, B = C = 1/3, 2 pixels */
+    RT_FILTER_BOX = 0,
+    RT_FILTER_TENT,
+    RT_FILTER_GAUSSIAN,
+    RT_FILTER_MITCHELL
 } rt_filter;
 
+#define RT_FILTERS(X)                                                                              \
+    X(RT_FILTER_BOX, "box", "the pixel alone")                                                     \
+    X(RT_FILTER_TENT, "tent", "falls linearly to zero 1 pixel from the centre")                    \
+    X(RT_FILTER_GAUSSIAN, "gaussian", "standard deviation 0.5 pixel, cut at 1.5 pixels")           \
+    X(RT_FILTER_MITCHELL, "mitchell", "Mitchell and Netravali 1988, B = C = 1/3, 2 pixels")
+
 /*
- * How light that comes straight from a lamp is estimated where a surface scatters it. All have the
- * same mean. Light that no scattered ray can meet (point, spot, directional) is always sampled, and
- * what is seen by way of mirrors and clear glass always comes from the ray that meets it.
+ * How direct light of area lights and the environment is estimated where a surface scatters it. All
+ * have the same mean. Delta lights (point, spot, directional) are always sampled; an emitter seen
+ * through smooth mirrors or glass always counts where the scattered ray meets it.
  */
 typedef enum rt_estimator {
-    RT_ESTIMATOR_MIS = 0, /* both of the others, combined by the power heuristic */
-    RT_ESTIMATOR_LIGHT,   /* points sampled on lights */
-    RT_ESTIMATOR_BSDF     /* directions sampled from the material that happen to meet a light */
+    RT_ESTIMATOR_MIS = 0,
+    RT_ESTIMATOR_LIGHT,
+    RT_ESTIMATOR_BSDF
 } rt_estimator;
 
-typedef enum rt_accel {
-    RT_ACCEL_BVH = 0,
-    RT_ACCEL_NONE /* every primitive is tested, for comparison */
-} rt_accel;
+#define RT_ESTIMATORS(X)                                                                           \
+    X(RT_ESTIMATOR_MIS, "mis", "both of the others, combined by the power heuristic")              \
+    X(RT_ESTIMATOR_LIGHT, "light", "points sampled on lights")                                     \
+    X(RT_ESTIMATOR_BSDF, "bsdf", "directions sampled from the BSDF that meet an emitter")
 
-typedef enum rt_direct {
-    /* direct light by shadow rays; photons straight from a light are not stored */
-    RT_DIRECT_NEE = 0,
-    RT_DIRECT_PHOTONS /* all light at a diffuse surface comes from the map */
-} rt_direct;
+typedef enum rt_accel { RT_ACCEL_BVH = 0, RT_ACCEL_NONE } rt_accel;
 
-/* The area that photons are taken to be spread over. */
-typedef enum rt_area {
-    RT_AREA_DISC = 0, /* the disc that they lie in, photons weighted by the density kernel */
-    /*
-     * their convex hull in the tangent plane, those at its corners left out: true at the edges of
-     * surfaces as well, a little noisier elsewhere
-     */
-    RT_AREA_HULL
-} rt_area;
+#define RT_ACCELS(X)                                                                               \
+    X(RT_ACCEL_BVH, "bvh", "a bounding volume hierarchy")                                          \
+    X(RT_ACCEL_NONE, "none", "every primitive is tested, for comparison")
+
+/* Where direct light comes from in photon mode. */
+typedef enum rt_direct { RT_DIRECT_NEE = 0, RT_DIRECT_PHOTONS } rt_direct;
+
+#define RT_DIRECTS(X)                                                                              \
+    X(RT_DIRECT_NEE, "nee", "shadow rays; photons straight from a light are not stored")           \
+    X(RT_DIRECT_PHOTONS, "photons", "the photon map")
+
+/* The area over which an estimate spreads its photons. */
+typedef enum rt_area { RT_AREA_DISC = 0, RT_AREA_HULL } rt_area;
+
+#define RT_AREAS(X)                                                                                \
+    X(RT_AREA_DISC, "disc", "the disc that they lie in, weighted by the density kernel")           \
+    X(RT_AREA_HULL, "hull",                                                                        \
+      "their convex hull in the tangent plane, those at its corners left out: free of "            \
+      "boundary bias, a little noisier elsewhere")
 
 #endif

@@ -8,56 +8,6 @@
 #include "render/renderer.h"
 #include "scene/view.h"
 
-/*
- * Where roulette may end a path. Measured variance times time of thresholds 1, 1/2, 1/4 and 1/8,
- * from the second segment on: 1, 0.60, 0.53, 0.56 in a closed room under a point light, 1, 0.76,
- * 0.76, 0.81 under an area lamp, 1, 0.72, 0.78, 0.85 with a mirror and a glass ball, 1, 0.79, 0.83,
- * 0.93 among shapes under a sky. Of the good ones 1/2 gives the most samples a second.
- */
-enum { roulette_depth_default = 2 };
-static const float roulette_threshold_default = 0.5f;
-
-/* Replaces zeros by the defaults that the public header states. */
-void rt_options_complete(rt_render_options *o)
-{
-    if (o->width == 0)
-        o->width = RT_FILM_SIDE;
-    if (o->height == 0)
-        o->height = RT_FILM_SIDE;
-    if (o->passes == 0)
-        o->passes = 1;
-    if (o->alpha == 0)
-        o->alpha = 2 / 3.0f;
-    if (o->spp == 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
-        o->spp = 1;
-    if (o->spp == 0)
-        o->spp = o->time > 0 || o->target_error > 0 ? RT_SPP_MAX
-                 : o->mode == RT_MODE_PHOTON        ? 16
-                                                    : 64;
-    if (o->max_depth == 0)
-        o->max_depth = 16;
-    if (o->roulette_depth == 0)
-        o->roulette_depth = roulette_depth_default;
-    if (o->roulette_threshold == 0)
-        o->roulette_threshold = roulette_threshold_default;
-    if (o->photons == 0)
-        o->photons = o->passes > 1 ? (uint64_t)o->width * o->height : 1000000;
-    if (o->k == 0)
-        o->k = 50;
-    if (o->cone_k == 0)
-        o->cone_k = 1.1f;
-    if (o->caustic_k == 0)
-        o->caustic_k = o->k;
-    if (o->caustic_radius == 0)
-        o->caustic_radius = o->radius;
-}
-
-const char *rt_mode_name(rt_mode mode)
-{
-    static const char *const names[] = {"path", "photon", "direct", "normals", "albedo", "depth"};
-    return (unsigned)mode < sizeof names / sizeof *names ? names[mode] : "unknown";
-}
-
 rt_params rt_params_make(const rt_render_options *options)
 {
     rt_params p;

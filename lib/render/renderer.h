@@ -7,6 +7,7 @@
 #include "pack/pack.h"
 #include "render/film.h"
 #include "rt.h"
+#include "setting/options.h"
 #include "types.h"
 
 struct rt_renderer {
@@ -18,9 +19,6 @@ struct rt_renderer {
     rt_render_options options; /* the scene's own */
     double build_seconds;
 };
-
-/* Replaces zeros by the defaults that the public header states. */
-void rt_options_complete(rt_render_options *options);
 
 /*
  * Whether the photons of a loaded map can be used in a render: they are of its scene and fit its

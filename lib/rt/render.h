@@ -12,37 +12,40 @@ extern "C" {
 /* ---- Options of a render ------------------------------------------------------------------------- */
 
 typedef enum rt_mode {
-    /*
-     * path tracing with next-event estimation and multiple importance sampling; it leaves out what
-     * lights without size (point, spot, directional) cast by way of smooth mirrors or glass
-     */
     RT_MODE_PATH = 0,
-    RT_MODE_PHOTON, /* photon mapping */
-    /* emission and direct light at the first hit (mirrors and clear glass are followed) */
+    RT_MODE_PHOTON,
     RT_MODE_DIRECT,
-    /* shading normal n at the first hit as the colour (n + 1) / 2; black where nothing is hit */
     RT_MODE_NORMALS,
-    /*
-     * the part of the light that the first hit does not absorb: kd + ks + kt, ks of a metal by its
-     * reflectance
-     */
     RT_MODE_ALBEDO,
-    /* distance along the view axis, metres, mean of the samples that hit; 0 where none does */
     RT_MODE_DEPTH
 } rt_mode;
 
-/* The name of a mode in lower case, such as "path"; static storage. */
+/* The modes: X(constant, word, help), as in common.h. */
+#define RT_MODES(X)                                                                                \
+    X(RT_MODE_PATH, "path",                                                                        \
+      "path tracing with next-event estimation and multiple importance sampling; it leaves out "   \
+      "light that delta lights cast by way of smooth mirrors or glass")                            \
+    X(RT_MODE_PHOTON, "photon", "photon mapping")                                                  \
+    X(RT_MODE_DIRECT, "direct",                                                                    \
+      "emission and direct light at the first hit; mirrors and clear glass are followed")          \
+    X(RT_MODE_NORMALS, "normals",                                                                  \
+      "shading normal n of the first hit as the colour (n + 1) / 2; black where nothing is hit")   \
+    X(RT_MODE_ALBEDO, "albedo",                                                                    \
+      "kd + ks + kt of the first hit as a colour, ks of a metal by its reflectance")               \
+    X(RT_MODE_DEPTH, "depth",                                                                      \
+      "distance along the view axis in metres, mean of the samples that hit; 0 where none does")
+
+/* The word of a mode, such as "path"; static storage. */
 RT_API const char *rt_mode_name(rt_mode mode);
+
 /* How photons are found. */
-typedef enum rt_gather {
-    RT_GATHER_AUTO = 0, /* FLANN for the k nearest, the device for all within a radius */
-    RT_GATHER_FLANN,    /* on the host, by FLANN's kd-tree: the k nearest only */
-    /*
-     * on the device, in a tree of its own: the same photons, in less time for any k; with one of
-     * hundreds, 20 times less on a CPU
-     */
-    RT_GATHER_DEVICE
-} rt_gather;
+typedef enum rt_gather { RT_GATHER_AUTO = 0, RT_GATHER_FLANN, RT_GATHER_DEVICE } rt_gather;
+
+#define RT_GATHERS(X)                                                                              \
+    X(RT_GATHER_AUTO, "auto", "flann for the k nearest, device for all within a radius")           \
+    X(RT_GATHER_FLANN, "flann",                                                                    \
+      "neighbour lists from FLANN's kd-tree on the host; k nearest only")                          \
+    X(RT_GATHER_DEVICE, "device", "a kd-tree on the device: the same photons in less time")
 
 #define RT_K_ALL 0xffffffffu /* for k: all photons within `radius` */
 

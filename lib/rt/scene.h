@@ -113,12 +113,18 @@ RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_t
 /* ---- Materials ----------------------------------------------------------------------------------- */
 
 typedef enum rt_fresnel {
-    RT_FRESNEL_OFF = 0, /* ks and kt are used as given */
-    /* ks + kt is split Fr : 1 - Fr by the exact unpolarised equations for ior */
+    RT_FRESNEL_OFF = 0,
     RT_FRESNEL_DIELECTRIC,
-    /* ks is multiplied by the exact reflectance of a metal of index eta + i k */
     RT_FRESNEL_CONDUCTOR
 } rt_fresnel;
+
+/* X(constant, word, help), as in common.h. */
+#define RT_FRESNELS(X)                                                                             \
+    X(RT_FRESNEL_OFF, "off", "ks and kt are used as given")                                        \
+    X(RT_FRESNEL_DIELECTRIC, "dielectric",                                                         \
+      "ks + kt is split Fr : 1 - Fr by the exact unpolarised Fresnel equations for ior")           \
+    X(RT_FRESNEL_CONDUCTOR, "conductor",                                                           \
+      "ks is multiplied by the exact reflectance of a metal of index eta + i k")
 
 /*
  * A material: fr = kd/pi + ks R + kt T, with kd + ks + kt <= 1 in every channel, plus emission. R
@@ -253,12 +259,14 @@ typedef struct rt_mesh_info {
     float lo[3], hi[3]; /* bounds, metres */
 } rt_mesh_info;
 
-typedef enum rt_shading {
-    RT_SHADING_FILE = 0, /* smooth where the file has normals, else flat */
-    RT_SHADING_FLAT,     /* the normals of the file are ignored */
-    /* normals are made: at each vertex the mean of the faces around it, weighted by area */
-    RT_SHADING_SMOOTH
-} rt_shading;
+typedef enum rt_shading { RT_SHADING_FILE = 0, RT_SHADING_FLAT, RT_SHADING_SMOOTH } rt_shading;
+
+/* X(constant, word, help), as in common.h. */
+#define RT_SHADINGS(X)                                                                             \
+    X(RT_SHADING_FILE, "file", "smooth where the file has normals, else flat")                     \
+    X(RT_SHADING_FLAT, "flat", "the normals of the file are ignored")                              \
+    X(RT_SHADING_SMOOTH, "smooth",                                                                 \
+      "each vertex gets the mean normal of the faces around it, weighted by area")
 
 /*
  * Reads a mesh from a .ply, .obj, .off or .stl file, decided by content. info may be NULL. Fails
@@ -331,10 +339,16 @@ RT_API rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment 
 
 typedef enum rt_camera_kind {
     RT_CAMERA_PERSPECTIVE = 0,
-    RT_CAMERA_ORTHOGRAPHIC, /* parallel rays; `width` metres across */
-    /* all directions: longitude across, latitude down, look_at in the centre */
+    RT_CAMERA_ORTHOGRAPHIC,
     RT_CAMERA_ENVIRONMENT
 } rt_camera_kind;
+
+/* X(constant, word, help), as in common.h. */
+#define RT_CAMERA_KINDS(X)                                                                         \
+    X(RT_CAMERA_PERSPECTIVE, "perspective", "all rays pass through the eye")                       \
+    X(RT_CAMERA_ORTHOGRAPHIC, "orthographic", "parallel rays, `width` metres across")              \
+    X(RT_CAMERA_ENVIRONMENT, "environment",                                                        \
+      "all directions: longitude across, latitude down, look_at in the middle")
 
 /* A camera; image x grows to the right of one who stands at eye and looks at look_at. */
 typedef struct rt_camera {

@@ -7,6 +7,7 @@
 #include "scene/check.h"
 #include "scene/inside.h"
 #include "scene/view.h"
+#include "setting/options.h"
 
 /*
  * Most lights, and most open shapes of glass, that are checked: of a row of copies the first show
@@ -76,10 +77,10 @@ static void find_missing(inspection *in)
 static void find_empty_view(inspection *in)
 {
     const rt_scene *scene = in->scene;
-    const rt_render_options *options = &scene->options;
+    rt_render_options options = scene->options;
     rt_camera_data camera;
-    rt_view_aim(&camera, &scene->camera, options->width ? options->width : RT_FILM_SIDE,
-                options->height ? options->height : RT_FILM_SIDE);
+    rt_options_complete(&options);
+    rt_view_aim(&camera, &scene->camera, options.width, options.height);
     for (size_t i = 0; i < scene->shape_count; i++)
         if (rt_view_may_see(&camera, scene->shapes + i))
             return;

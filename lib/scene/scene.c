@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "setting/options.h"
 
 rt_status rt_scene_create(rt_scene **out, rt_error *error)
 {

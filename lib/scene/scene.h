@@ -170,13 +170,4 @@ void rt_scene_mesh_free(rt_scene_mesh *mesh);
 /* Sets a mesh's area and bounds from its arrays. */
 void rt_scene_mesh_survey(rt_scene_mesh *mesh);
 
-/* Most samples that a pixel can have. */
-enum { RT_SPP_MAX = 1 << 24 };
-
-/* Pixels of a side of the film that is not given. */
-enum { RT_FILM_SIDE = 512 };
-
-/* Checks options for values out of their range; used for the scene's own and for rt_render's. */
-rt_status rt_options_check(const rt_render_options *options, rt_error *error);
-
 #endif

@@ -105,7 +105,8 @@ static void choices_match_their_enums(void **state)
                    {"cone", RT_DENSITY_CONE},
                    {"gaussian", RT_DENSITY_GAUSSIAN},
                    {"silverman", RT_DENSITY_SILVERMAN},
-                   {"gaussian_jensen", RT_DENSITY_GAUSSIAN_JENSEN}};
+                   {"gaussian_jensen", RT_DENSITY_GAUSSIAN_JENSEN},
+                   {"gaussian-jensen", RT_DENSITY_GAUSSIAN_JENSEN}};
     static collected c;
     (void)state;
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++) {
@@ -458,7 +459,8 @@ static void all_stands_for_a_number_of_photons(void **state)
     static collected c;
     rt_render_options o;
     const char *text =
-        "let all = 7\nrender { k all\n caustic_k (all) spp (all) radius 1 photon_layers true }";
+        "let all = 7\nrender { k all\n caustic_k (all) caustic_photons 9 spp (all) radius 1 "
+        "photon_layers true }";
     (void)state;
     collect_text(&c, text);
     expect_clean(&c, text);

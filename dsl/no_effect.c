@@ -1,4 +1,9 @@
-#include "dsl/idle.h"
+/*
+ * no_effect.c - fields that are given but have no effect beside the others of their block.
+ *
+ * Those of `film` and `render` are settings, whose needs stand in the table of rt/setting.h.
+ */
+#include "dsl/no_effect.h"
 
 #include <string.h>
 
@@ -60,20 +65,9 @@ static int is_no_image(const rt_block_fields *fields)
     return fields->texture.kind != RT_TEXTURE_IMAGE;
 }
 
-static int has_disc(const rt_block_fields *fields)
-{
-    return fields->options.area == RT_AREA_DISC;
-}
-
-static int has_cone(const rt_block_fields *fields)
-{
-    return fields->options.kernel == RT_DENSITY_CONE ||
-           fields->options.caustic_kernel == RT_DENSITY_CONE;
-}
-
 /* ---- The table ------------------------------------------------------------ */
 
-/* A field of a block, and what it does nothing without. */
+/* A field of a block, and without what it has no effect. */
 static const struct {
     rt_block_id block;
     const char *field;
@@ -96,10 +90,6 @@ static const struct {
     {RT_BLOCK_TEXTURE, "linear", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "a", is_no_image, "'pattern checker' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "b", is_no_image, "'pattern checker' or 'pattern gradient'"},
-    {RT_BLOCK_RENDER, "kernel", has_disc, "'area disc'"},
-    {RT_BLOCK_RENDER, "caustic_kernel", has_disc, "'area disc'"},
-    {RT_BLOCK_RENDER, "cone_k", has_disc, "'area disc'"},
-    {RT_BLOCK_RENDER, "cone_k", has_cone, "'kernel cone' or 'caustic_kernel cone'"},
 };
 
 /* The texture that stands for a colour of a material when that is black, or 0. */
@@ -112,41 +102,63 @@ static uint32_t texture_beside(const char *field, const rt_material *m)
                                             : 0;
 }
 
-/*
- * Whether a setting is a colour for which 0 counts as left out: something else, which is not black,
- * stands for it.
- */
-static int is_idle_black(const rt_statement *statement, const rt_setting *setting,
-                         const rt_block_fields *fields)
+/* Whether an entry is a colour for which 0 counts as left out, because another field stands for it. */
+static int is_black_left_out(const rt_statement *statement, const rt_entry *entry,
+                             const rt_block_fields *fields)
 {
-    const rt_field *field = rt_schema_field(statement->block, rt_place_text(&setting->name));
+    const rt_field *field = entry->field;
     float colour[3];
-    int is_lamp = field->need == RT_NEED_AT_MOST_ONE;
+    int is_emission = field->need == RT_NEED_AT_MOST_ONE;
     int is_sky = statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path;
     int is_textured = statement->block->id == RT_BLOCK_MATERIAL &&
                       texture_beside(field->name, &fields->material) != 0;
-    if (field->type != RT_FIELD_COLOUR || !(is_lamp || is_sky || is_textured))
+    if (field->type != RT_FIELD_COLOUR || !(is_emission || is_sky || is_textured))
         return 0;
     memcpy(colour, (const unsigned char *)fields + field->offset, sizeof colour);
     return is_black(colour);
 }
 
-void rt_idle_warn(const rt_statement *statement, const rt_block_fields *fields, rt_reports *reports)
+/* Whether a need is about the mode, which the command line often chooses. */
+static int concerns_mode(const rt_setting_need *need)
 {
-    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
-        if (needs[i].block != statement->block->id || needs[i].has_effect(fields))
-            continue;
-        for (int j = 0; j < statement->setting_count; j++)
-            if (rt_text_equal(rt_place_text(&statement->settings[j].name), needs[i].field))
-                rt_report_warning(reports, statement->settings[j].name,
-                                  "'%s' has no effect without %s", needs[i].field,
-                                  needs[i].without);
-    }
-    for (int j = 0; j < statement->setting_count; j++) {
-        char quote[RT_QUOTE_SIZE];
-        if (is_idle_black(statement, &statement->settings[j], fields))
-            rt_report_warning(reports, statement->settings[j].name,
-                              "'%s' of 0 has no effect: it counts as left out",
-                              rt_text_quote(quote, rt_place_text(&statement->settings[j].name)));
-    }
+    for (int i = 0; i < RT_CONDITIONS_MAX; i++)
+        if (need->any[i].test != RT_TEST_NONE && strcmp(need->any[i].setting, "mode") == 0)
+            return 1;
+    return 0;
+}
+
+/* Warns where an entry of a `render` block needs another setting. */
+static void warn_setting(const rt_entry *entry, const rt_render_options *options,
+                         rt_reports *reports)
+{
+    const rt_setting *setting = rt_setting_find(entry->field->name);
+    char phrase[RT_PHRASE_SIZE];
+    for (const rt_setting_need *need = setting->needs; need && need->otherwise; need++)
+        if (!concerns_mode(need) && !rt_setting_need_met(need, options))
+            rt_report_warning(
+                reports, entry->name, "'%s' has no effect %s", entry->field->name,
+                rt_setting_text(phrase, sizeof phrase, need->otherwise, RT_NAME_QUOTED));
+}
+
+static void warn_entry(const rt_statement *statement, const rt_entry *entry,
+                       const rt_block_fields *fields, rt_reports *reports)
+{
+    const rt_block_id block = statement->block->id;
+    if (block == RT_BLOCK_RENDER)
+        warn_setting(entry, &fields->options, reports);
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
+        if (needs[i].block == block && strcmp(needs[i].field, entry->field->name) == 0 &&
+            !needs[i].has_effect(fields))
+            rt_report_warning(reports, entry->name, "'%s' has no effect without %s", needs[i].field,
+                              needs[i].without);
+    if (is_black_left_out(statement, entry, fields))
+        rt_report_warning(reports, entry->name, "'%s' of 0 has no effect: it counts as left out",
+                          entry->field->name);
+}
+
+void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fields,
+                       rt_reports *reports)
+{
+    for (int i = 0; i < statement->entry_count; i++)
+        warn_entry(statement, &statement->entries[i], fields, reports);
 }

@@ -1,5 +1,5 @@
 /*
- * parse_setting.c - what follows the name of a field.
+ * parse_entry.c - what follows the name of a field.
  *
  * Fields are not delimited: a value list ends when the field has what it takes, or where
  * a word that is a field of the block begins the next one.
@@ -12,7 +12,7 @@
 /* A field, the block around it and how messages name it. */
 typedef struct rt_context {
     const rt_block *block;
-    rt_setting *setting;
+    rt_entry *entry;
     char phrase[RT_PHRASE_SIZE]; /* what the field takes */
 } rt_context;
 
@@ -54,8 +54,7 @@ static int is_value(rt_parser *parser, const rt_block *block)
 static int is_near_field(const rt_block *block, const rt_token *token)
 {
     rt_suggestion suggestion = rt_suggestion_begin(rt_place_text(&token->place));
-    for (size_t i = 0; i < block->field_count; i++)
-        rt_suggestion_offer_word(&suggestion, block->fields[i].name);
+    rt_suggestion_offer_fields(&suggestion, block);
     return suggestion.best.at != NULL;
 }
 
@@ -87,12 +86,12 @@ static int takes_one(rt_field_type type)
 /*
  * Whether the field has the values it takes, as far as is known: a colour of one number may go on.
  */
-static int is_complete(const rt_setting *setting)
+static int is_complete(const rt_entry *entry)
 {
     int numbers = 0;
-    for (int i = 0; i < setting->value_count; i++)
-        numbers += setting->values[i].is_vector ? 3 : 1;
-    return numbers >= numbers_of(setting->field->type);
+    for (int i = 0; i < entry->value_count; i++)
+        numbers += entry->values[i].is_vector ? 3 : 1;
+    return numbers >= numbers_of(entry->field->type);
 }
 
 /* Whether the next token is taken as one more value. */
@@ -104,10 +103,10 @@ static int value_follows(rt_parser *parser, const rt_context *context)
     if (token->kind != RT_TOKEN_WORD || is_field(context->block, token) || token->first_on_line)
         return 0;
     /* An unknown word: a misspelt constant where a value must follow, else a misspelt field. */
-    const rt_setting *setting = context->setting;
-    if (setting->value_count == 0)
+    const rt_entry *entry = context->entry;
+    if (entry->value_count == 0)
         return 1;
-    return !(takes_one(setting->field->type) && setting->value_count == 1) &&
+    return !(takes_one(entry->field->type) && entry->value_count == 1) &&
            !is_near_field(context->block, token);
 }
 
@@ -119,35 +118,34 @@ static void skip_separators(rt_parser *parser, rt_context *context)
         int kind = token->kind;
         if (kind != ',' && kind != ';' && kind != '=' && kind != ':')
             return;
-        if (!context->setting->is_broken) {
+        if (!context->entry->is_broken) {
             rt_report_error(parser->reports, token->place, "unexpected '%c' in '%s'", kind,
-                            context->setting->field->name);
+                            context->entry->field->name);
             if (kind == '=' || kind == ':')
                 rt_report_hint(parser->reports,
                                "the value follows the name of its field, without a sign");
             else
                 rt_report_hint(parser->reports, "numbers and fields are separated by spaces");
         }
-        context->setting->is_broken = 1;
+        context->entry->is_broken = 1;
         rt_parser_take(parser);
     }
 }
 
 static void report_count(rt_parser *parser, const rt_context *context)
 {
-    const rt_setting *setting = context->setting;
+    const rt_entry *entry = context->entry;
     const rt_token *token = rt_parser_peek(parser, 0);
     char found[RT_FOUND_SIZE];
     if (token->kind == RT_TOKEN_END)
         return; /* the block is reported as not closed */
-    if (setting->value_count > 0) {
-        rt_place place =
-            rt_place_join(setting->name, setting->values[setting->value_count - 1].place);
-        rt_report_error(parser->reports, place, "'%s' takes %s, found %s", setting->field->name,
-                        context->phrase, count_word(setting->value_count));
+    if (entry->value_count > 0) {
+        rt_place place = rt_place_join(entry->name, entry->values[entry->value_count - 1].place);
+        rt_report_error(parser->reports, place, "'%s' takes %s, found %s", entry->field->name,
+                        context->phrase, count_word(entry->value_count));
         return;
     }
-    rt_report_error(parser->reports, setting->name, "'%s' takes %s, found %s", setting->field->name,
+    rt_report_error(parser->reports, entry->name, "'%s' takes %s, found %s", entry->field->name,
                     context->phrase, rt_parser_found(found, token));
     if (is_constant(parser, token)) {
         rt_report_hint(parser->reports,
@@ -156,24 +154,24 @@ static void report_count(rt_parser *parser, const rt_context *context)
     }
 }
 
-/* Checks the number and the kinds of the values of a setting without errors so far. */
+/* Checks the number and the kinds of the values of an entry without errors so far. */
 static void check_values(rt_parser *parser, const rt_context *context)
 {
-    rt_setting *setting = context->setting;
-    rt_field_type type = setting->field->type;
-    int is_triple = numbers_of(type) == 3, is_grey = takes_one(type) && setting->value_count == 1;
-    for (int i = 0; i < setting->value_count; i++)
-        if (setting->values[i].is_vector && !(is_triple && setting->value_count == 1) &&
+    rt_entry *entry = context->entry;
+    rt_field_type type = entry->field->type;
+    int is_triple = numbers_of(type) == 3, is_grey = takes_one(type) && entry->value_count == 1;
+    for (int i = 0; i < entry->value_count; i++)
+        if (entry->values[i].is_vector && !(is_triple && entry->value_count == 1) &&
             !(type == RT_FIELD_ROTATE && i == 0)) {
-            rt_report_error(parser->reports, setting->values[i].place,
-                            "'%s' takes %s, found a vector", setting->field->name,
+            rt_report_error(parser->reports, entry->values[i].place,
+                            "'%s' takes %s, found a vector", entry->field->name,
                             is_triple ? "three numbers or one vector" : context->phrase);
-            setting->is_broken = 1;
+            entry->is_broken = 1;
             return;
         }
-    if (!is_complete(setting) && !is_grey) {
+    if (!is_complete(entry) && !is_grey) {
         report_count(parser, context);
-        setting->is_broken = 1;
+        entry->is_broken = 1;
     }
 }
 
@@ -182,45 +180,45 @@ static void check_values(rt_parser *parser, const rt_context *context)
  */
 static void check_end(rt_parser *parser, const rt_context *context)
 {
-    rt_setting *setting = context->setting;
+    rt_entry *entry = context->entry;
     const rt_token *token = rt_parser_peek(parser, 0);
     char found[RT_FOUND_SIZE];
     if (is_operator(token)) {
         rt_report_error(parser->reports, token->place, "unexpected '%c' after the value of '%s'",
-                        token->kind, setting->field->name);
+                        token->kind, entry->field->name);
         if (!rt_parser_hint_operator(parser, token))
             rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
     } else if (is_value(parser, context->block) || token->kind == RT_TOKEN_STRING) {
         rt_report_error(parser->reports, token->place, "'%s' takes %s, found one more: %s",
-                        setting->field->name, context->phrase, rt_parser_found(found, token));
+                        entry->field->name, context->phrase, rt_parser_found(found, token));
     } else {
         return;
     }
-    setting->is_broken = 1;
+    entry->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
 }
 
 static void parse_numbers(rt_parser *parser, rt_context *context)
 {
-    rt_setting *setting = context->setting;
+    rt_entry *entry = context->entry;
     for (;;) {
         skip_separators(parser, context);
-        if (is_complete(setting) || !value_follows(parser, context))
+        if (is_complete(entry) || !value_follows(parser, context))
             break;
-        rt_expression *value = &setting->values[setting->value_count++];
+        rt_expression *value = &entry->values[entry->value_count++];
         parser->depth = 0;
         int parsed = rt_parse_value(parser, value);
-        setting->is_broken |= value->is_broken;
+        entry->is_broken |= value->is_broken;
         if (!parsed) {
             rt_parser_skip_value(parser, context->block);
             return;
         }
     }
     /* `1 h/2 0` is no missing value, but arithmetic without parentheses. */
-    int is_cut_short = setting->value_count > 0 && is_operator(rt_parser_peek(parser, 0));
-    if (!setting->is_broken && !is_cut_short)
+    int is_cut_short = entry->value_count > 0 && is_operator(rt_parser_peek(parser, 0));
+    if (!entry->is_broken && !is_cut_short)
         check_values(parser, context);
-    if (!setting->is_broken)
+    if (!entry->is_broken)
         check_end(parser, context);
     else
         rt_parser_skip_value(parser, context->block);
@@ -232,42 +230,38 @@ static int is_known_word(const rt_parser *parser, const rt_field *field, rt_text
     const rt_names *names = rt_scope_names(parser->scope, field->type);
     if (names)
         return rt_names_find(names, word) != RT_NAME_NONE;
-    if (field->type == RT_FIELD_BOOLEAN)
-        return rt_text_equal(word, "true") || rt_text_equal(word, "false");
-    if (field->type == RT_FIELD_COUNT)
-        return rt_text_equal(word, "all");
-    for (size_t i = 0; field->choices[i]; i++)
-        if (rt_text_equal(word, field->choices[i]))
-            return 1;
-    return 0;
+    return rt_word_find(rt_field_words(field), word.at, word.length) != NULL;
 }
 
 static void parse_word(rt_parser *parser, rt_context *context)
 {
-    rt_setting *setting = context->setting;
+    rt_entry *entry = context->entry;
     char found[RT_FOUND_SIZE];
     skip_separators(parser, context);
     const rt_token *token = rt_parser_peek(parser, 0);
     int is_known = token->kind == RT_TOKEN_WORD &&
-                   is_known_word(parser, setting->field, rt_place_text(&token->place));
+                   is_known_word(parser, entry->field, rt_place_text(&token->place));
     if (is_known || (token->kind == RT_TOKEN_WORD && !is_field(context->block, token) &&
                      !token->first_on_line)) {
-        int is_broken = 0;
-        setting->word = rt_parser_take_word(parser, &is_broken);
-        setting->is_broken |= is_broken;
+        int is_joined = 0, is_broken = 0;
+        if (entry->field->type == RT_FIELD_CHOICE)
+            entry->word = rt_parser_take_hyphenated(parser, &is_joined);
+        else
+            entry->word = rt_parser_take_word(parser, &is_broken);
+        entry->is_broken |= is_broken;
         skip_separators(parser, context);
-        if (!setting->is_broken)
+        if (!entry->is_broken)
             check_end(parser, context);
         return;
     }
     /* The mistake is where the value is missing, or the wrong value itself. */
     int is_missing = token->kind == RT_TOKEN_WORD || token->kind == '}';
-    if (!setting->is_broken &&
+    if (!entry->is_broken &&
         token->kind != RT_TOKEN_END) /* else the block is reported as not closed */
-        rt_report_error(parser->reports, is_missing ? setting->name : token->place,
-                        "'%s' takes %s, found %s", setting->field->name, context->phrase,
+        rt_report_error(parser->reports, is_missing ? entry->name : token->place,
+                        "'%s' takes %s, found %s", entry->field->name, context->phrase,
                         rt_parser_found(found, token));
-    setting->is_broken = 1;
+    entry->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
 }
 
@@ -277,7 +271,7 @@ static void parse_count(rt_parser *parser, rt_context *context)
     skip_separators(parser, context);
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind == RT_TOKEN_WORD &&
-        is_known_word(parser, context->setting->field, rt_place_text(&token->place)))
+        is_known_word(parser, context->entry->field, rt_place_text(&token->place)))
         parse_word(parser, context);
     else
         parse_numbers(parser, context);
@@ -285,29 +279,29 @@ static void parse_count(rt_parser *parser, rt_context *context)
 
 static void parse_string(rt_parser *parser, rt_context *context)
 {
-    rt_setting *setting = context->setting;
+    rt_entry *entry = context->entry;
     char found[RT_FOUND_SIZE];
     skip_separators(parser, context);
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind == RT_TOKEN_STRING) {
         rt_token string = rt_parser_take(parser);
-        setting->is_broken |= string.is_broken;
-        setting->word = string.place;
-        setting->word.offset++;
-        setting->word.column++;
-        setting->word.length = string.is_broken ? 0 : string.place.length - 2;
-        if (!setting->is_broken)
+        entry->is_broken |= string.is_broken;
+        entry->word = string.place;
+        entry->word.offset++;
+        entry->word.column++;
+        entry->word.length = string.is_broken ? 0 : string.place.length - 2;
+        if (!entry->is_broken)
             check_end(parser, context);
         return;
     }
     int is_missing = token->kind == '}' || is_field(context->block, token);
-    if (!setting->is_broken && token->kind != RT_TOKEN_END)
-        rt_report_error(parser->reports, is_missing ? setting->name : token->place,
-                        "'%s' takes %s, found %s", setting->field->name, context->phrase,
+    if (!entry->is_broken && token->kind != RT_TOKEN_END)
+        rt_report_error(parser->reports, is_missing ? entry->name : token->place,
+                        "'%s' takes %s, found %s", entry->field->name, context->phrase,
                         rt_parser_found(found, token));
-    if (!setting->is_broken && !is_missing && token->kind == RT_TOKEN_WORD)
+    if (!entry->is_broken && !is_missing && token->kind == RT_TOKEN_WORD)
         rt_report_hint(parser->reports, "file names stand in double quotes");
-    setting->is_broken = 1;
+    entry->is_broken = 1;
     /* A name without quotes, as in images/wood.png, goes on to the next space. */
     if (token->kind == RT_TOKEN_WORD && !is_missing && !token->first_on_line)
         do
@@ -318,13 +312,13 @@ static void parse_string(rt_parser *parser, rt_context *context)
     rt_parser_skip_value(parser, context->block);
 }
 
-void rt_parse_setting(rt_parser *parser, const rt_block *block, rt_setting *setting)
+void rt_parse_entry(rt_parser *parser, const rt_block *block, rt_entry *entry)
 {
     rt_context context;
     context.block = block;
-    context.setting = setting;
-    rt_field_phrase(context.phrase, setting->field);
-    switch (setting->field->type) {
+    context.entry = entry;
+    rt_field_phrase(context.phrase, sizeof context.phrase, entry->field);
+    switch (entry->field->type) {
     case RT_FIELD_BOOLEAN:
     case RT_FIELD_CHOICE:
     case RT_FIELD_MATERIAL:

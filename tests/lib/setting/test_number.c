@@ -1,3 +1,5 @@
+/* test_number.c - the reader of numbers. */
+#include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,12 +11,11 @@
 
 #include <cmocka.h>
 
-#include "dsl/number.h"
+#include "rt.h"
 
 static rt_number_result read_number(double *out, const char *text)
 {
-    rt_text slice = {text, strlen(text)};
-    return rt_number_read(out, slice);
+    return rt_number_read(out, text, strlen(text));
 }
 
 static void decimal_numbers_round_as_strtod(void **state)
@@ -51,7 +52,10 @@ static void decimal_numbers_round_as_strtod(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         double value = -1, expected = strtod(texts[i], NULL);
-        assert_int_equal(read_number(&value, texts[i]), RT_NUMBER_OK);
+        rt_number_result result = read_number(&value, texts[i]);
+        int is_small = expected < FLT_MIN && strpbrk(texts[i], "123456789") &&
+                       strcspn(texts[i], "123456789") < strcspn(texts[i], "eE");
+        assert_int_equal(result, is_small ? RT_NUMBER_TOO_SMALL : RT_NUMBER_OK);
         assert_true(value == expected);
     }
     for (int i = 0; i < 100000; i++) {
@@ -63,21 +67,34 @@ static void decimal_numbers_round_as_strtod(void **state)
             continue;
         memcpy(&number, &pattern, sizeof number);
         snprintf(text, sizeof text, "%.17g", number);
-        assert_int_equal(read_number(&value, text), RT_NUMBER_OK);
+        rt_number_result result = read_number(&value, text);
+        assert_true(result == RT_NUMBER_OK || result == RT_NUMBER_TOO_SMALL);
         assert_true(value == number);
     }
 }
 
 static void what_is_no_number_is_refused(void **state)
 {
-    static const char *const texts[] = {"",   ".",   "e5",  ".e5", "1e",  "1e-", "1.2.3",
-                                        "1 ", "0x1", "inf", "nan", "1,5", "+1",  "-1"};
+    static const char *const texts[] = {"",    ".",   "e5",  ".e5", "1e", "1e-", "1.2.3", "1 ",
+                                        "0x1", "inf", "nan", "1,5", "+",  "--1", "- 1"};
     double value;
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         assert_int_equal(read_number(&value, texts[i]), RT_NUMBER_MALFORMED);
     assert_int_equal(read_number(&value, "1e309"), RT_NUMBER_TOO_LARGE);
     assert_int_equal(read_number(&value, "1e99999999999999999999"), RT_NUMBER_TOO_LARGE);
+}
+
+static void a_sign_may_stand_before(void **state)
+{
+    double value;
+    (void)state;
+    assert_int_equal(read_number(&value, "-1.5e1"), RT_NUMBER_OK);
+    assert_true(value == -15);
+    assert_int_equal(read_number(&value, "+2"), RT_NUMBER_OK);
+    assert_true(value == 2);
+    assert_int_equal(read_number(&value, "-0.1e-60"), RT_NUMBER_TOO_SMALL);
+    assert_int_equal(read_number(&value, "-1e400"), RT_NUMBER_TOO_LARGE);
 }
 
 /* The point is a point even where the program's locale writes a comma. */
@@ -99,6 +116,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(decimal_numbers_round_as_strtod),
         cmocka_unit_test(what_is_no_number_is_refused),
+        cmocka_unit_test(a_sign_may_stand_before),
         cmocka_unit_test(the_locale_does_not_matter),
     };
     return cmocka_run_group_tests_name("number", tests, NULL, NULL);

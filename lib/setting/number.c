@@ -1,5 +1,7 @@
-#include "dsl/number.h"
+/* number.c - from the spelling of a number to its value, whatever the locale. */
+#include "rt/field.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,34 +39,43 @@ static void add_digit(rt_digits *d, char c, int after_point)
     }
 }
 
-rt_number_result rt_number_read(double *out, rt_text text)
+/* Reads the digits and the point; returns where they end. */
+static const char *read_mantissa(rt_digits *d, const char *c, const char *end)
 {
-    rt_digits d = {{0}, 0, 0, 0, 0};
-    const char *c = text.at, *end = text.at + text.length;
-
-    /* Mantissa. */
     for (; c < end && is_digit(*c); c++)
-        add_digit(&d, *c, 0);
+        add_digit(d, *c, 0);
     if (c < end && *c == '.')
         for (c++; c < end && is_digit(*c); c++)
-            add_digit(&d, *c, 1);
-    if (!d.seen)
-        return RT_NUMBER_MALFORMED;
+            add_digit(d, *c, 1);
+    return c;
+}
 
-    /* Exponent. */
-    if (c < end && (*c == 'e' || *c == 'E')) {
-        long exponent = 0;
-        int negative = 0;
-        c++;
-        if (c < end && (*c == '+' || *c == '-'))
-            negative = *c++ == '-';
-        if (c == end || !is_digit(*c))
-            return RT_NUMBER_MALFORMED;
-        for (; c < end && is_digit(*c); c++)
-            if (exponent < 10 * EXPONENT_MAX)
-                exponent = 10 * exponent + (*c - '0');
-        d.exponent += negative ? -exponent : exponent;
-    }
+/* Reads an exponent, if there is one; returns where it ends, or NULL where it has no digits. */
+static const char *read_exponent(rt_digits *d, const char *c, const char *end)
+{
+    long exponent = 0;
+    int negative = 0;
+    if (c == end || (*c != 'e' && *c != 'E'))
+        return c;
+    c++;
+    if (c < end && (*c == '+' || *c == '-'))
+        negative = *c++ == '-';
+    if (c == end || !is_digit(*c))
+        return NULL;
+    for (; c < end && is_digit(*c); c++)
+        if (exponent < 10 * EXPONENT_MAX)
+            exponent = 10 * exponent + (*c - '0');
+    d->exponent += negative ? -exponent : exponent;
+    return c;
+}
+
+rt_number_result rt_number_read(double *out, const char *text, size_t length)
+{
+    rt_digits d = {{0}, 0, 0, 0, 0};
+    const char *c = text, *end = text + length;
+    int negative = length > 0 && *c == '-';
+    c = read_mantissa(&d, c + (length > 0 && (*c == '-' || *c == '+')), end);
+    c = d.seen ? read_exponent(&d, c, end) : NULL;
     if (c != end)
         return RT_NUMBER_MALFORMED;
 
@@ -79,6 +90,7 @@ rt_number_result rt_number_read(double *out, rt_text text)
     }
     char spelling[DIGITS_MAX + 32];
     snprintf(spelling, sizeof spelling, "%.*se%ld", d.count, d.digits, d.exponent);
-    *out = strtod(spelling, NULL);
-    return isinf(*out) ? RT_NUMBER_TOO_LARGE : RT_NUMBER_OK;
+    double size = strtod(spelling, NULL);
+    *out = negative ? -size : size;
+    return isinf(size) ? RT_NUMBER_TOO_LARGE : size < FLT_MIN ? RT_NUMBER_TOO_SMALL : RT_NUMBER_OK;
 }

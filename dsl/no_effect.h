@@ -1,0 +1,11 @@
+/* no_effect.h - fields that are given but have no effect beside the others of their block. */
+#ifndef RT_DSL_NO_EFFECT_H
+#define RT_DSL_NO_EFFECT_H
+
+#include "dsl/parser.h"
+
+/* Warns of each such field of a sound block, whose values are in fields. */
+void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fields,
+                       rt_reports *reports);
+
+#endif

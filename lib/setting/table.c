@@ -1,0 +1,250 @@
+/*
+ * table.c - every setting of a render: name, type, range, unit, default, words, help, and what it
+ * needs to have an effect. To add one, add its member to rt_render_options and its row here.
+ */
+#include <stddef.h>
+
+#include "rt/setting.h"
+
+/* ---- Words ------------------------------------------------------------------ */
+
+static const rt_word modes[] = {RT_MODES(RT_WORD) RT_WORD_END};
+static const rt_word filters[] = {RT_FILTERS(RT_WORD) RT_WORD_END};
+static const rt_word samplers[] = {RT_SAMPLERS(RT_WORD) RT_WORD_END};
+static const rt_word estimators[] = {RT_ESTIMATORS(RT_WORD) RT_WORD_END};
+static const rt_word gathers[] = {RT_GATHERS(RT_WORD) RT_WORD_END};
+static const rt_word areas[] = {RT_AREAS(RT_WORD) RT_WORD_END};
+static const rt_word directs[] = {RT_DIRECTS(RT_WORD) RT_WORD_END};
+static const rt_word densities[] = {RT_DENSITIES(RT_WORD) RT_WORD_END};
+
+const char *rt_mode_name(rt_mode mode)
+{
+    size_t count = sizeof modes / sizeof *modes - 1;
+    return (unsigned)mode < count ? modes[mode].name : "unknown";
+}
+
+/* ---- Needs ------------------------------------------------------------------ */
+
+#define IS(setting, value)                                                                         \
+    {                                                                                              \
+        setting, RT_TEST_IS, value                                                                 \
+    }
+#define IS_NOT(setting, value)                                                                     \
+    {                                                                                              \
+        setting, RT_TEST_IS_NOT, value                                                             \
+    }
+#define ABOVE(setting, value)                                                                      \
+    {                                                                                              \
+        setting, RT_TEST_ABOVE, value                                                              \
+    }
+#define END                                                                                        \
+    {                                                                                              \
+        {{NULL, RT_TEST_NONE, 0}}, NULL                                                            \
+    }
+
+#define LIGHT_IS_SHOWN                                                                             \
+    {                                                                                              \
+        {IS("mode", RT_MODE_PATH), IS("mode", RT_MODE_DIRECT), IS("mode", RT_MODE_PHOTON)},        \
+            "in a `mode` that shows no light"                                                      \
+    }
+#define PHOTON_MODE                                                                                \
+    {                                                                                              \
+        {IS("mode", RT_MODE_PHOTON)}, "outside `mode` photon"                                      \
+    }
+#define HAS_CAUSTIC_MAP                                                                            \
+    {                                                                                              \
+        {ABOVE("caustic_photons", 0)}, "without `caustic_photons`"                                 \
+    }
+#define HAS_KERNEL                                                                                 \
+    {                                                                                              \
+        {IS("area", RT_AREA_DISC)}, "with `area` hull"                                             \
+    }
+#define HAS_CONE                                                                                   \
+    {                                                                                              \
+        {IS("kernel", RT_DENSITY_CONE), IS("caustic_kernel", RT_DENSITY_CONE)},                    \
+            "without `kernel` cone or `caustic_kernel` cone"                                       \
+    }
+
+/* In photon mode the camera path ends at the first diffuse surface unless there is a final gather. */
+static const rt_setting_need camera_path_needs[] = {
+    LIGHT_IS_SHOWN,
+    {{IS_NOT("mode", RT_MODE_PHOTON), ABOVE("final_gather", 0)},
+     "in `mode` photon without `final_gather`"},
+    END};
+static const rt_setting_need light_needs[] = {LIGHT_IS_SHOWN, END};
+static const rt_setting_need photon_needs[] = {PHOTON_MODE, END};
+static const rt_setting_need pass_needs[] = {
+    PHOTON_MODE, {{ABOVE("passes", 1)}, "without `passes`"}, END};
+/* Passes gather within a radius, and look for the k-th photon where none is given. */
+static const rt_setting_need k_needs[] = {
+    PHOTON_MODE,
+    {{{"passes", RT_TEST_BELOW, 2}, IS("radius", 0)}, "with `passes` and `radius`"},
+    END};
+static const rt_setting_need kernel_needs[] = {PHOTON_MODE, HAS_KERNEL, END};
+static const rt_setting_need cone_needs[] = {PHOTON_MODE, HAS_KERNEL, HAS_CONE, END};
+static const rt_setting_need caustic_needs[] = {PHOTON_MODE, HAS_CAUSTIC_MAP, END};
+static const rt_setting_need caustic_kernel_needs[] = {PHOTON_MODE, HAS_CAUSTIC_MAP, HAS_KERNEL,
+                                                       END};
+static const rt_setting_need caustic_k_needs[] = {
+    PHOTON_MODE,
+    HAS_CAUSTIC_MAP,
+    {{{"passes", RT_TEST_BELOW, 2}, IS("radius", 0)}, "with `passes` and `radius`"},
+    {{{"passes", RT_TEST_BELOW, 2}, IS("caustic_radius", 0)}, "with `passes` and `caustic_radius`"},
+    END};
+
+/* ---- The table -------------------------------------------------------------- */
+
+#define FIELD(member, type, kind, low, high, unit, fallback, words, help)                          \
+    {                                                                                              \
+#member, type, RT_NEED_OPTIONAL,                                                           \
+            {kind, low, high }, unit, fallback, words, offsetof(rt_render_options, member),        \
+             sizeof(((rt_render_options *)0)->member), help                                        \
+    }
+#define WHOLE(member, low, high, unit, fallback, help)                                             \
+    FIELD(member, RT_FIELD_INTEGER, RT_RANGE_CLOSED, low, high, unit, fallback, NULL, help)
+#define COUNT(member, fallback, help)                                                              \
+    FIELD(member, RT_FIELD_COUNT, RT_RANGE_CLOSED, 2, 65536, "", fallback, NULL, help)
+#define REAL(member, kind, low, high, unit, fallback, help)                                        \
+    FIELD(member, RT_FIELD_NUMBER, kind, low, high, unit, fallback, NULL, help)
+#define RADIUS(member, fallback, help)                                                             \
+    REAL(member, RT_RANGE_ZERO_OR, 1e-15, 1e15, "m", fallback, help)
+#define CHOICE(member, words, fallback, help)                                                      \
+    FIELD(member, RT_FIELD_CHOICE, RT_RANGE_ANY, 0, 0, "", fallback, words, help)
+#define SWITCH(member, help)                                                                       \
+    FIELD(member, RT_FIELD_BOOLEAN, RT_RANGE_ANY, 0, 0, "", "false", NULL, help)
+
+static const rt_setting settings[] = {
+    {WHOLE(width, 1, 65536, "pixels", "512", "columns of the picture"), RT_TOPIC_FILM, 0, NULL},
+    {WHOLE(height, 1, 65536, "pixels", "512",
+           "rows of the picture; pixels are square, so this sets the vertical angle of view"),
+     RT_TOPIC_FILM, 0, NULL},
+    {CHOICE(filter, filters, "box", "reconstruction filter"), RT_TOPIC_FILM, 0, NULL},
+
+    {CHOICE(mode, modes, "path", "what is rendered, and how"), RT_TOPIC_RENDER, 0, NULL},
+    {WHOLE(spp, 1, 16777216, "", "64; in `mode` photon 16, with `passes` 1",
+           "samples per pixel; with `passes`, in each of them"),
+     RT_TOPIC_RENDER, 0, NULL},
+    {WHOLE(max_depth, 1, 4096, "segments", "16",
+           "longest path in segments, from the camera or from a light; 1 shows emitters alone, 2 "
+           "adds direct light"),
+     RT_TOPIC_RENDER, RT_SETTING_EMITS, light_needs},
+    /*
+     * Measured variance times time of thresholds 1, 1/2, 1/4 and 1/8, from the second segment on:
+     * 1, 0.60, 0.53, 0.56 in a closed room under a point light, 1, 0.76, 0.76, 0.81 under an area
+     * light, 1, 0.72, 0.78, 0.85 with a mirror and a glass ball, 1, 0.79, 0.83, 0.93 among shapes
+     * under a sky. Of the good ones 1/2 gives the most samples a second.
+     */
+    {WHOLE(roulette_depth, 1, 4096, "segments", "2",
+           "segments from the camera after which Russian roulette may end a path; from `max_depth` "
+           "on it ends none: the mean is the same, the time is not"),
+     RT_TOPIC_RENDER, 0, camera_path_needs},
+    {REAL(roulette_threshold, RT_RANGE_CLOSED, 1e-6, 1, "", "0.5",
+          "throughput below which Russian roulette may end a path; it survives with probability "
+          "throughput / threshold. 1 ends the most paths: more samples a second, each noisier"),
+     RT_TOPIC_RENDER, 0, camera_path_needs},
+    {WHOLE(seed, 0, 4294967295.0, "", "0",
+           "another seed gives other noise; the same seed gives the same bits"),
+     RT_TOPIC_RENDER, RT_SETTING_EMITS, NULL},
+    {CHOICE(sampler, samplers, "sobol", "where samples come from"), RT_TOPIC_RENDER,
+     RT_SETTING_EMITS, NULL},
+    {CHOICE(estimator, estimators, "mis",
+            "how direct light of area lights and of the environment is sampled; the mean is the "
+            "same, the noise is not"),
+     RT_TOPIC_RENDER, 0, camera_path_needs},
+    {REAL(time, RT_RANGE_CLOSED, 0, 1e9, "s", "0, no limit",
+          "stop rendering after so long, once every pixel has a sample; without `spp`, go on until "
+          "then. The first emission of photons is not cut short"),
+     RT_TOPIC_RENDER, 0, NULL},
+    {REAL(target_error, RT_RANGE_CLOSED, 0, 1, "", "0, none",
+          "stop when the relative RMSE of the picture is below this with 95 % confidence; `spp`, "
+          "`passes` and `time` are then limits. In `mode` photon it needs `passes`, and tells the "
+          "noise, not the bias of gathering"),
+     RT_TOPIC_RENDER, 0, NULL},
+
+    {WHOLE(photons, 1, 4e9, "", "1000000; with `passes` one per pixel",
+           "photon paths emitted; with `passes`, in each of them"),
+     RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
+    {COUNT(
+         k, "50",
+         "nearest photons of an estimate; the k-th gives the radius and is not summed. all: every "
+         "photon within `radius`, which must be given. `area` hull takes 5 or more"),
+     RT_TOPIC_PHOTON, 0, k_needs},
+    {RADIUS(radius, "0, no limit", "largest gather radius; with `passes`, that of the first pass"),
+     RT_TOPIC_PHOTON, 0, photon_needs},
+    {CHOICE(gather, gathers, "auto", "where photons are found"), RT_TOPIC_PHOTON, 0, photon_needs},
+    {WHOLE(passes, 1, 16777216, "", "1",
+           "progressive photon mapping: so many passes, each with fresh photons and camera paths, "
+           "gathered within a radius that shrinks from pass to pass. Without `radius` it begins, "
+           "for each pixel, with the distance of its k-th photon"),
+     RT_TOPIC_PHOTON, 0, photon_needs},
+    {REAL(alpha, RT_RANGE_BETWEEN, 0, 1, "", "2/3",
+          "how slowly the radius of `passes` shrinks; near 1 it hardly does"),
+     RT_TOPIC_PHOTON, 0, pass_needs},
+    {CHOICE(kernel, densities, "epanechnikov",
+            "density kernel: the weight of a photon at the distance t times the gather radius r"),
+     RT_TOPIC_PHOTON, 0, kernel_needs},
+    {REAL(cone_k, RT_RANGE_CLOSED, 1, 1e6, "", "1.1", "constant of the cone kernel"),
+     RT_TOPIC_PHOTON, 0, cone_needs},
+    {CHOICE(area, areas, "disc",
+            "area over which an estimate spreads its photons. hull takes the k nearest by FLANN, "
+            "leaves the density kernel out, is not for `passes`, and has photons emitted by "
+            "`sampler` independent, which it supposes"),
+     RT_TOPIC_PHOTON, 0, photon_needs},
+    {CHOICE(direct, directs, "nee", "where direct light comes from"), RT_TOPIC_PHOTON,
+     RT_SETTING_EMITS, photon_needs},
+    {WHOLE(final_gather, 0, 4096, "bounces", "0",
+           "gather after so many diffuse bounces instead of at the first diffuse surface"),
+     RT_TOPIC_PHOTON, 0, photon_needs},
+    {WHOLE(caustic_photons, 0, 4e9, "", "0",
+           "keep caustic photons (light, mirrors or glass, diffuse surface) in a map of their own, "
+           "filled by so many further photon paths, aimed at specular shapes; 0: one map for all"),
+     RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
+    {COUNT(caustic_k, "that of `k`", "nearest photons in the caustic map, as `k`"), RT_TOPIC_PHOTON,
+     0, caustic_k_needs},
+    {RADIUS(caustic_radius, "0, that of `radius`", "largest gather radius in the caustic map"),
+     RT_TOPIC_PHOTON, 0, caustic_needs},
+    {CHOICE(caustic_kernel, densities, "epanechnikov", "density kernel of the caustic map"),
+     RT_TOPIC_PHOTON, 0, caustic_kernel_needs},
+
+    {SWITCH(aov, "add the layers albedo, normal and depth to an .exr"), RT_TOPIC_LAYER,
+     RT_SETTING_ADDS, NULL},
+    {SWITCH(photon_layers,
+            "add the layers photon.count, photon.radius, photon.density, photon.variance and "
+            "photon.bias to an .exr; gathering takes twice as long"),
+     RT_TOPIC_LAYER, RT_SETTING_ADDS, photon_needs},
+    {SWITCH(variance,
+            "estimate the error of the picture, as `target_error` does, and add the layer variance "
+            "to an .exr"),
+     RT_TOPIC_LAYER, 0, NULL},
+};
+
+const rt_setting *rt_settings(size_t *count)
+{
+    if (count)
+        *count = sizeof settings / sizeof *settings;
+    return settings;
+}
+
+/* ---- Every enumerator has its word ------------------------------------------- */
+
+#define CASE(constant, word, help)                                                                 \
+    case constant:                                                                                 \
+        return 1;
+#define LISTS(type, list)                                                                          \
+    static inline int type##_has_word(type value)                                                  \
+    {                                                                                              \
+        switch (value) {                                                                           \
+            list(CASE)                                                                             \
+        }                                                                                          \
+        return 0;                                                                                  \
+    }
+
+/* The compiler warns of an enumerator that its list leaves out. */
+LISTS(rt_mode, RT_MODES)
+LISTS(rt_filter, RT_FILTERS)
+LISTS(rt_sampler, RT_SAMPLERS)
+LISTS(rt_estimator, RT_ESTIMATORS)
+LISTS(rt_gather, RT_GATHERS)
+LISTS(rt_area, RT_AREAS)
+LISTS(rt_direct, RT_DIRECTS)
+LISTS(rt_density, RT_DENSITIES)
