@@ -1,8 +1,6 @@
 /* refs.c - fills the references from the input's arrays. */
 #include "accel/refs.h"
 
-#include <math.h>
-
 #include "base/parallel.h"
 #include "types.h"
 

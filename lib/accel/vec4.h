@@ -7,7 +7,6 @@
 #ifndef RT_LIB_ACCEL_VEC4_H
 #define RT_LIB_ACCEL_VEC4_H
 
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>

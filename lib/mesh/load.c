@@ -1,8 +1,6 @@
 /* load.c - reads a file, hands its canonical form to OpenMesh and completes the normals. */
 #include "mesh/load.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 

@@ -5,7 +5,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "mesh/openmesh_shim.h"
 #include "mesh/ply_reader.h"

@@ -3,7 +3,6 @@
 #define RT_LIB_SCENE_CHECK_H
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/error.h"

@@ -3,6 +3,7 @@
  * makes its picture black.
  */
 #include <stdarg.h>
+#include <stdio.h>
 
 #include "scene/check.h"
 #include "scene/inside.h"

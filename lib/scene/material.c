@@ -1,5 +1,5 @@
 /* material.c - adding materials to a scene: defaults, ranges, and that none gains energy. */
-#include <string.h>
+#include <stdio.h>
 
 #include "base/error.h"
 #include "scene/check.h"

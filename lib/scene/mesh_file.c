@@ -1,4 +1,5 @@
 /* mesh_file.c - adding meshes from files to a scene. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

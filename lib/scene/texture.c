@@ -1,5 +1,5 @@
 /* texture.c - adding textures to a scene. */
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"

@@ -2,7 +2,6 @@
 #include "scene/transform.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/vec.h"
 
