@@ -56,8 +56,8 @@ static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
     case RT_FINDING_OPEN_GLASS:
         return origins->shapes.items[finding->shape];
     case RT_FINDING_NOTHING_IN_VIEW:
-    case RT_FINDING_EYE_IN_THE_DARK:
-    case RT_FINDING_EYE_IN_MEDIUM:
+    case RT_FINDING_CAMERA_IN_OPAQUE:
+    case RT_FINDING_CAMERA_IN_MEDIUM:
         return origins->camera;
     default:
         return (rt_place){origins->text, 0, 0, 0, 0, 0};
@@ -69,7 +69,7 @@ static void report(void *user, const rt_finding *finding)
     reporting *r = user;
     rt_place place = place_of(r->origins, finding);
     /* The turns of a repeat are at one place: say once what is wrong there. */
-    if (finding->kind == RT_FINDING_LIGHT_SHUT_IN || finding->kind == RT_FINDING_OPEN_GLASS) {
+    if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || finding->kind == RT_FINDING_OPEN_GLASS) {
         if (place.source == r->last.source && place.offset == r->last.offset)
             return;
         r->last = place;

@@ -86,41 +86,42 @@ rt_status rt_file_check_regular(const char *path, rt_error *error)
 }
 
 /* By how much a file is longer than its header announces, where a regular file tells. */
-static rt_status fail_longer(int fd, const char *path, uint64_t told, rt_error *error)
+static rt_status fail_longer(int fd, const char *path, uint64_t announced, rt_error *error)
 {
     struct stat info;
-    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && (uint64_t)info.st_size > told)
+    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && (uint64_t)info.st_size > announced)
         return rt_fail(
             error, RT_ERROR_INPUT,
             "cannot read %.350s: it has %llu bytes more than the %llu that its header announces",
-            path, (unsigned long long)((uint64_t)info.st_size - told), (unsigned long long)told);
+            path, (unsigned long long)((uint64_t)info.st_size - announced),
+            (unsigned long long)announced);
     return rt_fail(error, RT_ERROR_INPUT,
                    "cannot read %.350s: it has more bytes than the %llu that its header announces",
-                   path, (unsigned long long)told);
+                   path, (unsigned long long)announced);
 }
 
-rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell,
-                            rt_error *error)
+rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_file_size *size_of,
+                             rt_error *error)
 {
     if (rt_is_missing(path, "path", error))
         return RT_ERROR_USAGE;
-    uint64_t told = 0;
+    uint64_t announced = 0;
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
     rt_bytes bytes = {0};
-    rt_status status = read_up_to(&bytes, fd, path, start, error);
+    rt_status status = read_up_to(&bytes, fd, path, header, error);
     if (status != RT_OK)
         goto out;
-    status = tell(&told, bytes.data, bytes.size, path, error);
+    status = size_of(&announced, bytes.data, bytes.size, path, error);
     if (status != RT_OK)
         goto out;
-    status =
-        read_up_to(&bytes, fd, path, told < SIZE_MAX / 2 ? (size_t)told + 1 : SIZE_MAX / 2, error);
+    status = read_up_to(&bytes, fd, path,
+                        announced < SIZE_MAX / 2 ? (size_t)announced + 1 : SIZE_MAX / 2, error);
     if (status != RT_OK)
         goto out;
-    if (bytes.size > told) {
-        status = fail_longer(fd, path, told, error);
+    if (bytes.size > announced) {
+        status = fail_longer(fd, path, announced, error);
         goto out;
     }
     *out = bytes;

@@ -11,22 +11,22 @@
 rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error);
 
 /*
- * Whether what is at path, if there is anything, is a regular file: for names that stand in other
- * files. A pipe or a device might never end, and a pipe that none writes to not even open. Fails
- * with RT_ERROR_INPUT.
+ * Fails with RT_ERROR_INPUT when path is there but no regular file, for names that stand in other
+ * files: a device may never end, and opening a pipe without a writer blocks.
  */
 rt_status rt_file_check_regular(const char *path, rt_error *error);
 
-/* What the first `size` bytes of a file say of the size of the whole. */
-typedef rt_status rt_file_size(uint64_t *out, const uint8_t *start, size_t size, const char *path,
+/* Reads the size of a whole file from its header, the first `size` bytes. */
+typedef rt_status rt_file_size(uint64_t *out, const uint8_t *header, size_t size, const char *path,
                                rt_error *error);
 
 /*
- * The same for a file whose first `start` bytes tell its size: what is no such file is not read to
- * its end, which may be far. The file is opened once and read on, so that it may be a pipe.
+ * The same for a file whose first `header` bytes hold its size: a file of another kind, which may
+ * be long, is not read to its end. The file is opened once, so that it may be a pipe. Fails also
+ * where the file goes on beyond that size.
  */
-rt_status rt_file_read_told(rt_bytes *out, const char *path, size_t start, rt_file_size *tell,
-                            rt_error *error);
+rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_file_size *size_of,
+                             rt_error *error);
 
 /*
  * Makes path hold exactly these bytes, or leaves it as it was: they go to a temporary file in the

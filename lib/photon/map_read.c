@@ -323,7 +323,7 @@ rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *er
 {
     rt_bytes bytes = {0};
     rt_status status =
-        rt_file_read_told(&bytes, path, RT_MAP_HEADER, rt_photon_map_file_size, error);
+        rt_file_read_sized(&bytes, path, RT_MAP_HEADER, rt_photon_map_file_size, error);
     if (status == RT_OK)
         status = rt_photon_map_decode(out, bytes.data, bytes.size, path, error);
     rt_bytes_free(&bytes);

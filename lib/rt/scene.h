@@ -19,9 +19,12 @@ typedef enum rt_finding_kind {
     RT_FINDING_NO_SHAPE,
     RT_FINDING_NO_LIGHT,        /* and the scene's mode shows light */
     RT_FINDING_NOTHING_IN_VIEW, /* the camera looks past all shapes */
-    RT_FINDING_EYE_IN_THE_DARK, /* the camera is inside an opaque solid, where there is no light */
-    RT_FINDING_EYE_IN_MEDIUM,   /* the camera is inside a transparent solid: no more than a note */
-    RT_FINDING_LIGHT_SHUT_IN,   /* a light is inside an opaque solid, and the camera is not */
+    /* the camera is inside an opaque solid, where there is no light */
+    RT_FINDING_CAMERA_IN_OPAQUE,
+    /* the camera is inside a transparent solid: no more than a note */
+    RT_FINDING_CAMERA_IN_MEDIUM,
+    /* a light is inside an opaque solid, and the camera is not */
+    RT_FINDING_LIGHT_IN_OPAQUE,
     /* a shape of glass bounds nothing, not even with others of its material */
     RT_FINDING_OPEN_GLASS
 } rt_finding_kind;

@@ -35,7 +35,7 @@ static const char *shape_name(rt_u32 kind)
 }
 
 /* Passes a finding on with a message of this form. */
-static void say(inspection *in, rt_finding finding, const char *format, ...)
+static void report(inspection *in, rt_finding finding, const char *format, ...)
 {
     char message[256];
     va_list args;
@@ -50,7 +50,7 @@ static void say(inspection *in, rt_finding finding, const char *format, ...)
 static rt_finding finding_of(rt_finding_kind kind)
 {
     rt_severity severity =
-        kind == RT_FINDING_EYE_IN_MEDIUM ? RT_SEVERITY_NOTE : RT_SEVERITY_WARNING;
+        kind == RT_FINDING_CAMERA_IN_MEDIUM ? RT_SEVERITY_NOTE : RT_SEVERITY_WARNING;
     return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, NULL};
 }
 
@@ -65,12 +65,13 @@ static void find_missing(inspection *in)
 {
     const rt_scene *scene = in->scene;
     if (!scene->has_camera)
-        say(in, finding_of(RT_FINDING_NO_CAMERA), "the scene has no camera: it cannot be rendered");
+        report(in, finding_of(RT_FINDING_NO_CAMERA),
+               "the scene has no camera: it cannot be rendered");
     if (scene->shape_count == 0)
-        say(in, finding_of(RT_FINDING_NO_SHAPE),
-            "the scene has no shapes: there is nothing to see");
+        report(in, finding_of(RT_FINDING_NO_SHAPE),
+               "the scene has no shapes: there is nothing to see");
     if (rt_mode_shows_light(scene->options.mode) && !rt_scene_has_light(scene))
-        say(in, finding_of(RT_FINDING_NO_LIGHT), "the scene has no light: its picture is black");
+        report(in, finding_of(RT_FINDING_NO_LIGHT), "the scene has no light: its picture is black");
 }
 
 /* ---- The camera ------------------------------------------------------------ */
@@ -86,8 +87,8 @@ static void find_empty_view(inspection *in)
         if (rt_view_may_see(&camera, scene->shapes + i))
             return;
     if (scene->shape_count > 0)
-        say(in, finding_of(RT_FINDING_NOTHING_IN_VIEW),
-            "the camera looks past all shapes: none is in its view");
+        report(in, finding_of(RT_FINDING_NOTHING_IN_VIEW),
+               "the camera looks past all shapes: none is in its view");
 }
 
 static int overlaps(const rt_scene_shape *a, const rt_scene_shape *b)
@@ -119,12 +120,12 @@ static int may_be_lit_inside(const rt_scene *scene, const rt_scene_shape *solid,
 }
 
 /* Reports the first opaque solid around the camera, or else the first transparent one. */
-static void find_eye_inside(inspection *in)
+static void find_camera_inside(inspection *in)
 {
     const rt_scene *scene = in->scene;
     const float *eye = scene->camera.eye;
-    rt_finding medium = finding_of(RT_FINDING_EYE_IN_MEDIUM),
-               dark = finding_of(RT_FINDING_EYE_IN_THE_DARK);
+    rt_finding medium = finding_of(RT_FINDING_CAMERA_IN_MEDIUM),
+               dark = finding_of(RT_FINDING_CAMERA_IN_OPAQUE);
     for (size_t i = 0; i < scene->shape_count; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         int side = rt_shape_contains(scene, shape, (const double[3]){eye[0], eye[1], eye[2]});
@@ -134,14 +135,14 @@ static void find_eye_inside(inspection *in)
             medium.shape = medium.shape == RT_NONE ? (uint32_t)i : medium.shape;
         } else if (!may_be_lit_inside(scene, shape, side < 0)) {
             dark.shape = (uint32_t)i;
-            say(in, dark, "the camera is inside an opaque %s, where there is no light",
-                shape_name(shape->kind));
+            report(in, dark, "the camera is inside an opaque %s, where there is no light",
+                   shape_name(shape->kind));
             return;
         }
     }
     if (medium.shape != RT_NONE)
-        say(in, medium, "the camera is inside a transparent %s",
-            shape_name(scene->shapes[medium.shape].kind));
+        report(in, medium, "the camera is inside a transparent %s",
+               shape_name(scene->shapes[medium.shape].kind));
 }
 
 /* ---- Lights ----------------------------------------------------------------- */
@@ -171,14 +172,14 @@ static void find_light_inside(inspection *in, const light *light)
             !contains_light(scene, solid, light) ||
             rt_shape_contains(scene, solid, (const double[3]){eye[0], eye[1], eye[2]}))
             continue;
-        rt_finding hidden = finding_of(RT_FINDING_LIGHT_SHUT_IN);
+        rt_finding hidden = finding_of(RT_FINDING_LIGHT_IN_OPAQUE);
         hidden.shape = (uint32_t)i;
         if (light->shape)
             hidden.emitter = (uint32_t)(light->shape - scene->shapes);
         else
             hidden.light = (uint32_t)(light->delta - scene->lights);
-        say(in, hidden, "this light is inside an opaque %s and never seen",
-            shape_name(solid->kind));
+        report(in, hidden, "this light is inside an opaque %s and never seen",
+               shape_name(solid->kind));
         return;
     }
 }
@@ -269,9 +270,9 @@ static void find_open_glass(inspection *in)
             continue;
         rt_finding open = finding_of(RT_FINDING_OPEN_GLASS);
         open.shape = (uint32_t)i;
-        say(in, open,
-            "an open shape of glass has no inside: light that has crossed it goes on as in the "
-            "glass");
+        report(in, open,
+               "an open shape of glass has no inside: light that has crossed it goes on as in the "
+               "glass");
     }
 }
 
@@ -283,7 +284,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     find_open_glass(&in);
     if (scene->has_camera) {
         find_empty_view(&in);
-        find_eye_inside(&in);
+        find_camera_inside(&in);
         find_lights_inside(&in);
     }
     return in.warnings;

@@ -20,7 +20,7 @@ void rt_scene_mesh_free(rt_scene_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-void rt_scene_mesh_survey(rt_scene_mesh *mesh)
+void rt_scene_mesh_measure(rt_scene_mesh *mesh)
 {
     mesh->area = 0;
     for (size_t i = 0; i < mesh->triangle_count; i++) {
@@ -132,7 +132,7 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
                          mesh->triangle_count);
         goto out;
     }
-    rt_scene_mesh_survey(&made);
+    rt_scene_mesh_measure(&made);
     status = check_area(&made, error);
     if (status != RT_OK)
         goto out;

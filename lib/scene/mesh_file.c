@@ -39,7 +39,7 @@ static rt_status take_loaded(rt_scene *scene, uint32_t *out, rt_mesh *mesh, cons
     made.uv = mesh->uv;
     made.colours = mesh->colours;
     made.indices = mesh->indices;
-    rt_scene_mesh_survey(&made);
+    rt_scene_mesh_measure(&made);
     if (!(made.area > 0))
         return rt_fail(error, RT_ERROR_INPUT, "%.400s holds no triangle with an area", path);
     for (int i = 0; i < 3; i++)

@@ -168,6 +168,6 @@ rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh
 void rt_scene_mesh_free(rt_scene_mesh *mesh);
 
 /* Sets a mesh's area and bounds from its arrays. */
-void rt_scene_mesh_survey(rt_scene_mesh *mesh);
+void rt_scene_mesh_measure(rt_scene_mesh *mesh);
 
 #endif

@@ -483,7 +483,7 @@ static void what_a_check_finds_stands_at_its_place(void **state)
     assert_int_equal(c.items[0].finding, RT_FINDING_NOTHING_IN_VIEW);
     assert_true(c.items[0].line == 3 && c.items[0].column == 1 &&
                 c.items[0].severity == RT_SEVERITY_WARNING);
-    assert_int_equal(c.items[1].finding, RT_FINDING_LIGHT_SHUT_IN);
+    assert_int_equal(c.items[1].finding, RT_FINDING_LIGHT_IN_OPAQUE);
     assert_true(c.items[1].line == 6 && c.items[1].column == 2);
     assert_string_equal(c.items[1].hint, "the sphere is at text:2");
     collected_free(&c);
@@ -492,7 +492,7 @@ static void what_a_check_finds_stands_at_its_place(void **state)
                    "camera { eye 0 0 0 look_at 0 0 9 }\n");
     assert_int_equal(c.count, 2);
     assert_true(c.items[0].finding == RT_FINDING_NO_LIGHT && c.items[0].line == 0);
-    assert_true(c.items[1].finding == RT_FINDING_EYE_IN_MEDIUM && c.items[1].line == 3);
+    assert_true(c.items[1].finding == RT_FINDING_CAMERA_IN_MEDIUM && c.items[1].line == 3);
     assert_int_equal(c.items[1].severity, RT_SEVERITY_NOTE);
     collected_free(&c);
 

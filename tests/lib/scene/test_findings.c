@@ -326,9 +326,9 @@ static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
 {
     static const scene_case cases[] = {
         {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material white }" VIEW,
-         RT_FINDING_EYE_IN_THE_DARK},
+         RT_FINDING_CAMERA_IN_OPAQUE},
         {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material glass }" VIEW,
-         RT_FINDING_EYE_IN_MEDIUM},
+         RT_FINDING_CAMERA_IN_MEDIUM},
         /*
          * A room with a lamp in it, by its walls, or of glowing walls, is none; a lamp whose light
          * goes outwards is.
@@ -341,10 +341,10 @@ static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
          RT_FINDING_NONE},
         {MATERIALS "sphere { centre 0 0 0 radius 9 material glow }" VIEW, RT_FINDING_NONE},
         {MATERIALS "sphere { centre 0 0 0 radius 9 material lamp }" VIEW,
-         RT_FINDING_EYE_IN_THE_DARK},
+         RT_FINDING_CAMERA_IN_OPAQUE},
         {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 0 10 0 "
                    "intensity 1 }" VIEW,
-         RT_FINDING_EYE_IN_THE_DARK},
+         RT_FINDING_CAMERA_IN_OPAQUE},
         {MATERIALS SUN "cylinder { a -1 0 -5 b 1 0 -5 radius 1 caps false material white }" VIEW,
          RT_FINDING_NONE},
     };
@@ -359,10 +359,10 @@ static void a_light_in_a_solid_is_reported(void **state)
 {
     static const scene_case cases[] = {
         {MATERIALS VIEW SUN BALL "light point { position 0 0 0.9 intensity 1 }",
-         RT_FINDING_LIGHT_SHUT_IN},
+         RT_FINDING_LIGHT_IN_OPAQUE},
         {MATERIALS VIEW SUN BALL "light point { position 0 0 1.1 intensity 1 }", RT_FINDING_NONE},
         {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 0.5 0 0 edge2 0 0.5 0 material lamp }",
-         RT_FINDING_LIGHT_SHUT_IN},
+         RT_FINDING_LIGHT_IN_OPAQUE},
         {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 2 0 0 edge2 0 0.5 0 material lamp }",
          RT_FINDING_NONE},
         {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material glass } light point { position 0 "
