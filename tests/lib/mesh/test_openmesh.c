@@ -1,5 +1,5 @@
 /*
- * The way through OpenMesh: no face is lost, nothing leaves as an exception, one file does not
+ * Reading through OpenMesh: no face is lost, nothing leaves as an exception, one file does not
  * colour the next.
  */
 #include <pthread.h>

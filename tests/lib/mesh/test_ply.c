@@ -300,7 +300,7 @@ static void binary_data_begins_right_after_the_header(void **state)
     }
 }
 
-static void texture_file_is_told_with_its_spaces(void **state)
+static void texture_file_keeps_its_spaces(void **state)
 {
     (void)state;
     rt_mesh *mesh = sample_accept(
@@ -365,7 +365,7 @@ static void float_colours_keep_every_bit(void **state)
     rt_mesh_destroy(mesh);
 }
 
-static void faces_without_area_are_told_apart(void **state)
+static void faces_without_area_are_counted(void **state)
 {
     (void)state;
     static const unsigned three[] = {0, 1, 2, 0, 0, 1, 0, 1, 3};
@@ -403,11 +403,11 @@ int main(void)
         cmocka_unit_test(elements_come_in_any_order),
         cmocka_unit_test(line_ends_and_white_space_do_not_matter),
         cmocka_unit_test(binary_data_begins_right_after_the_header),
-        cmocka_unit_test(texture_file_is_told_with_its_spaces),
+        cmocka_unit_test(texture_file_keeps_its_spaces),
         cmocka_unit_test(texture_coordinates_by_face_split_vertices),
         cmocka_unit_test(integer_colours_and_coordinates_are_scaled_to_one),
         cmocka_unit_test(float_colours_keep_every_bit),
-        cmocka_unit_test(faces_without_area_are_told_apart),
+        cmocka_unit_test(faces_without_area_are_counted),
         cmocka_unit_test(what_follows_the_data_is_ignored),
     };
     return cmocka_run_group_tests_name("mesh/ply", tests, scratch_enter, scratch_leave);

@@ -158,7 +158,7 @@ static void instances_have_trees_of_their_own(void **state)
 }
 
 /* A mesh placed once, or one that emits, lies in the tree of all shapes, in world space. */
-static void single_and_shining_meshes_are_baked(void **state)
+static void single_and_emissive_meshes_are_baked(void **state)
 {
     rt_scene *scene = new_scene();
     uint32_t mesh = add_sheet(scene, 2);
@@ -207,13 +207,13 @@ static void materials_and_textures_reach_their_tables(void **state)
                      .absorption = {1, 2, 3},
                      .two_sided = 1};
     rt_surface surface = {.material = 1, .texture = 1},
-               lamp = {.radiance = {2, 2, 2}, .texture = 1};
+               emitter = {.radiance = {2, 2, 2}, .texture = 1};
     (void)state;
     expect_ok(rt_scene_add_texture(scene, &m.ks_texture, &checker, &error), &error);
     m.bump_texture = m.ks_texture;
     expect_ok(rt_scene_add_material(scene, NULL, NULL, &m, &error), &error);
     expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error);
-    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &lamp, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &emitter, &error), &error);
     rt_scene_image image = pack(scene);
     const rt_scene_header *h = header(&image);
     const rt_material_data *materials = table(&image, h->materials);
@@ -282,7 +282,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_thousand_instances_take_the_memory_of_one),
         cmocka_unit_test(instances_have_trees_of_their_own),
-        cmocka_unit_test(single_and_shining_meshes_are_baked),
+        cmocka_unit_test(single_and_emissive_meshes_are_baked),
         cmocka_unit_test(materials_and_textures_reach_their_tables),
         cmocka_unit_test(matte_and_flat_shapes_are_told_and_lights_by_area),
     };

@@ -211,7 +211,7 @@ static told findings_of(const char *text)
 }
 
 #define MATERIALS                                                                                  \
-    "material white { kd 0.5 }\nmaterial glass { kt 1 fresnel dielectric }\nmaterial lamp { "      \
+    "material white { kd 0.5 }\nmaterial glass { kt 1 fresnel dielectric }\nmaterial emitter { "   \
     "emission 1 }\n"                                                                               \
     "material glow { emission 1 two_sided true }\n"
 #define VIEW "camera { eye 0 0 -5 look_at 0 0 0 }\n"
@@ -235,7 +235,7 @@ static void expect_findings(const scene_case *cases, size_t count)
 
 #define EXPECT(cases) expect_findings(cases, sizeof cases / sizeof *cases)
 
-static void what_is_missing_is_told(void **state)
+static void what_is_missing_is_reported(void **state)
 {
     static const scene_case cases[] = {
         {MATERIALS VIEW BALL SUN, RT_FINDING_NONE},
@@ -243,7 +243,7 @@ static void what_is_missing_is_told(void **state)
         {MATERIALS VIEW SUN, RT_FINDING_NO_SHAPE},
         {MATERIALS VIEW BALL, RT_FINDING_NO_LIGHT},
         {MATERIALS VIEW BALL "light point { position 0 3 0 intensity 0 }", RT_FINDING_NO_LIGHT},
-        {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material lamp }", RT_FINDING_NONE},
+        {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material emitter }", RT_FINDING_NONE},
         {MATERIALS VIEW BALL "render { mode normals }", RT_FINDING_NONE},
         {MATERIALS VIEW BALL "render { mode photon }", RT_FINDING_NO_LIGHT},
     };
@@ -255,7 +255,7 @@ static void what_is_missing_is_told(void **state)
  * Each view looks along +z and sees 45 degrees, from -22.5 to 22.5 in x, and in a square picture in
  * y.
  */
-static void a_camera_that_looks_past_all_is_told(void **state)
+static void a_camera_that_sees_no_shape_is_reported(void **state)
 {
     static const scene_case cases[] = {
         {MATERIALS SUN BALL "camera { eye 0 0 -5 look_at 0 0 -9 }", RT_FINDING_NOTHING_IN_VIEW},
@@ -291,7 +291,7 @@ static void a_camera_that_looks_past_all_is_told(void **state)
     EXPECT(cases);
 }
 
-static void glass_without_an_inside_is_told(void **state)
+static void glass_without_an_inside_is_reported(void **state)
 {
 #define GLASS MATERIALS VIEW SUN "material clear { kt 1 ior 1.5 }\n"
 #define FACE(z) "quad { corner 0 0 " z " edge1 1 0 0 edge2 0 1 0 material clear }\n"
@@ -322,7 +322,7 @@ static void glass_without_an_inside_is_told(void **state)
     EXPECT(cases);
 }
 
-static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
+static void a_camera_in_a_dark_solid_is_reported(void **state)
 {
     static const scene_case cases[] = {
         {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material white }" VIEW,
@@ -330,17 +330,17 @@ static void a_camera_in_a_solid_is_told_where_that_is_dark(void **state)
         {MATERIALS SUN "sphere { centre 0 0 -5 radius 1 material glass }" VIEW,
          RT_FINDING_CAMERA_IN_MEDIUM},
         /*
-         * A room with a lamp in it, by its walls, or of glowing walls, is none; a lamp whose light
-         * goes outwards is.
+         * A room is no such solid where a light or a wall emits inside it; a sphere that emits
+         * outwards is one.
          */
         {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 1 0 0 "
                    "intensity 1 }" VIEW,
          RT_FINDING_NONE},
         {MATERIALS "sphere { centre 0 0 0 radius 9 material white }"
-                   "quad { corner 0 0 0 edge1 1 0 0 edge2 0 1 0 material lamp }" VIEW,
+                   "quad { corner 0 0 0 edge1 1 0 0 edge2 0 1 0 material emitter }" VIEW,
          RT_FINDING_NONE},
         {MATERIALS "sphere { centre 0 0 0 radius 9 material glow }" VIEW, RT_FINDING_NONE},
-        {MATERIALS "sphere { centre 0 0 0 radius 9 material lamp }" VIEW,
+        {MATERIALS "sphere { centre 0 0 0 radius 9 material emitter }" VIEW,
          RT_FINDING_CAMERA_IN_OPAQUE},
         {MATERIALS "sphere { centre 0 0 0 radius 9 material white } light point { position 0 10 0 "
                    "intensity 1 }" VIEW,
@@ -361,9 +361,9 @@ static void a_light_in_a_solid_is_reported(void **state)
         {MATERIALS VIEW SUN BALL "light point { position 0 0 0.9 intensity 1 }",
          RT_FINDING_LIGHT_IN_OPAQUE},
         {MATERIALS VIEW SUN BALL "light point { position 0 0 1.1 intensity 1 }", RT_FINDING_NONE},
-        {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 0.5 0 0 edge2 0 0.5 0 material lamp }",
+        {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 0.5 0 0 edge2 0 0.5 0 material emitter }",
          RT_FINDING_LIGHT_IN_OPAQUE},
-        {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 2 0 0 edge2 0 0.5 0 material lamp }",
+        {MATERIALS VIEW BALL "quad { corner 0 0 0 edge1 2 0 0 edge2 0 0.5 0 material emitter }",
          RT_FINDING_NONE},
         {MATERIALS VIEW "sphere { centre 0 0 0 radius 1 material glass } light point { position 0 "
                         "0 0 intensity 1 }",
@@ -382,10 +382,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_in_solids_are_those_of_their_equations),
         cmocka_unit_test(only_closed_shapes_have_an_inside),
-        cmocka_unit_test(what_is_missing_is_told),
-        cmocka_unit_test(a_camera_that_looks_past_all_is_told),
-        cmocka_unit_test(glass_without_an_inside_is_told),
-        cmocka_unit_test(a_camera_in_a_solid_is_told_where_that_is_dark),
+        cmocka_unit_test(what_is_missing_is_reported),
+        cmocka_unit_test(a_camera_that_sees_no_shape_is_reported),
+        cmocka_unit_test(glass_without_an_inside_is_reported),
+        cmocka_unit_test(a_camera_in_a_dark_solid_is_reported),
         cmocka_unit_test(a_light_in_a_solid_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -98,7 +98,7 @@ static void negative_texels_are_refused_as_colours(void **state)
     rt_scene *scene = new_scene();
     rt_image *image = NULL;
     rt_texture texture = {.path = "heights.pfm"};
-    rt_surface surface = {0}, lamp = {.radiance = {1, 1, 1}};
+    rt_surface surface = {0}, emitter = {.radiance = {1, 1, 1}};
     uint32_t heights;
     rt_error error;
     (void)state;
@@ -122,10 +122,11 @@ static void negative_texels_are_refused_as_colours(void **state)
         assert_non_null(
             strstr(error.message, "has the value -0.5 at pixel (1, 1) from the top left"));
     }
-    surface.texture = lamp.texture = heights;
+    surface.texture = emitter.texture = heights;
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error,
                    "texture");
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &lamp, &error), &error, "texture");
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &emitter, &error), &error,
+                   "texture");
 
     rt_material bumpy = {.kd = {0.5f, 0.5f, 0.5f}, .bump_texture = heights};
     expect_ok(rt_scene_add_material(scene, NULL, NULL, &bumpy, &error), &error);
@@ -204,7 +205,7 @@ static void shapes_without_extent_are_refused(void **state)
 static void sizes_beyond_float_are_refused_with_the_true_range(void **state)
 {
     rt_scene *scene = new_scene();
-    rt_surface surface = {0}, lamp = {.power = {1e10f, 0, 0}},
+    rt_surface surface = {0}, emitter = {.power = {1e10f, 0, 0}},
                dazzling = {.radiance = {1e29f, 0, 0}};
     rt_error error;
     static const float x[3] = {1e-14f, 0, 0}, y[3] = {0, 1e-17f, 0};
@@ -218,7 +219,7 @@ static void sizes_beyond_float_are_refused_with_the_true_range(void **state)
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 2e15f, &surface, &error), &error,
                    "radius");
     expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1e-15f, &surface, &error), &error);
-    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1e-15f, &lamp, &error), &error,
+    expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1e-15f, &emitter, &error), &error,
                    "power");
     assert_non_null(strstr(error.message, "1e+28"));
     expect_refused(rt_scene_add_quad(scene, NULL, origin, x, y, &surface, &error), &error, "edge2");
