@@ -8,8 +8,9 @@
  * directives keep the driver's messages true to the files. Bytes rather than string literals,
  * because C99 promises only 4095 characters of those. OUT.c defines
  *
- *     const rt_kernel_source SYMBOL[];    (declared in device/program.h; the last entry has a NULL
- *                                         name)
+ *     const rt_kernel_source SYMBOL[];
+ *
+ * whose last entry has a NULL name; see device/kernel_source.h.
  */
 #include <libgen.h>
 #include <stdio.h>
@@ -106,7 +107,7 @@ int main(int argc, char **argv)
     FILE *out = fopen(argv[1], "w");
     if (!out)
         fail("cannot be written", argv[1]);
-    fprintf(out, "/* Made by tools/embed.c. */\n#include \"device/program.h\"\n");
+    fprintf(out, "/* Made by tools/embed.c. */\n#include \"device/kernel_source.h\"\n");
     for (int i = first; i < argc; i++) {
         static included seen;
         seen.count = 0;

@@ -10,7 +10,7 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
-#include "device/program.h"
+#include "device/kernel_source.h"
 #include "rt.h"
 
 enum { RT_PROGRAMS_MAX = 32 };

@@ -1,12 +1,11 @@
 /* program.c - building OpenCL programs and making kernels of them. */
-#include "device/program.h"
+#include "device/device.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "device/device.h"
 
 /* Copies the first line of a build log that speaks of an error. */
 static void first_error(char *line, size_t size, const char *log)

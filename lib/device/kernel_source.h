@@ -1,6 +1,6 @@
-/* program.h - the OpenCL sources that the library carries in itself. */
-#ifndef RT_LIB_DEVICE_PROGRAM_H
-#define RT_LIB_DEVICE_PROGRAM_H
+/* kernel_source.h - the OpenCL sources that are embedded in the library. */
+#ifndef RT_LIB_DEVICE_KERNEL_SOURCE_H
+#define RT_LIB_DEVICE_KERNEL_SOURCE_H
 
 #include <stddef.h>
 
