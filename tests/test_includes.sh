@@ -7,8 +7,8 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 bad=0
 
-# Headers of kernels/ that the host compiler reads too. For the device shapes.h goes on to the headers
-# of the shapes.
+# Headers of kernels/ that the host compiler reads too. For the device shapes.h goes on to the
+# headers of the shapes.
 shared='kernels/common.h kernels/types.h kernels/shape/shapes.h'
 
 # check NAME FILE: the test passes when FILE, which lists offences, is empty.
@@ -174,21 +174,30 @@ upward() {
         !allowed($1, $2) { print $1 " -> " $2 }' "$work/edges"
 }
 
-# headers_alone: those that the host compiler refuses as a file of their own. A list that its user
-# gives a meaning to, by a macro, is no header.
+# alone COMPILER...: of the headers on standard input, those that it refuses as files of their own,
+# with the first error of each.
+alone() {
+    xargs -P 2 -n 8 "$@" -fsyntax-only -Ikernels 2>&1 |
+        awk -F : '/: (fatal )?error: |^xargs: / && !seen[$1]++'
+}
+
+# headers KIND: those of the host or of the device. What is written to be included with macros
+# defined, some .inc.h or a list of members, is no header.
+headers() {
+    grep '\.h$' "$work/files" | grep -v -e '\.inc\.h$' -e '/type_members\.h$' |
+        if [ "$1" = host ]; then grep -v '^kernels/'; else grep '^kernels/'; fi
+}
+
 headers_alone() {
-    grep '\.h$' "$work/files" | while read -r header; do
-        case $header in
-        kernels/*) echo " $shared " | grep -q " $header " || continue ;;
-        */type_members.h) continue ;;
-        esac
-        echo "$header"
-    done >"$work/headers"
-    # shellcheck disable=SC2046,SC2086 # flags are words
-    xargs -P 4 -n 12 ${CC:-cc} -std=c99 -fsyntax-only -Wall -Wextra -Werror -x c \
-        -D_POSIX_C_SOURCE=200809L -Ilib -Ikernels -I. -Itests \
-        $(pkg-config --cflags OpenCL OpenEXR libpng 2>/dev/null | sed 's/-I/-isystem /g') \
-        -Wno-unused-function <"$work/headers" 2>&1 | grep -E ': (fatal )?error: '
+    # shellcheck disable=SC2046,SC2086 # commands and flags are words
+    { headers host && echo "$shared" | tr ' ' '\n' | grep -Fx -f "$work/files"; } |
+        alone ${CC:-cc} -x c -std=c99 -Wall -Wextra -Werror -Wno-unused-function \
+            -D_POSIX_C_SOURCE=200809L -Ilib -I. -Itests \
+            $(pkg-config --cflags OpenCL OpenEXR libpng 2>/dev/null | sed 's/-I/-isystem /g')
+    clang=$(command -v clang clang-19 clang-16 clang-15 clang-14 | head -n 1)
+    [ -z "$clang" ] || headers device |
+        alone "$clang" -x cl -cl-std=CL1.2 -Xclang -finclude-default-header \
+            -Xclang -fdeclare-opencl-builtins -D__OPENCL_VERSION__=120 -Wno-everything
 }
 
 # plant PATH INCLUDED...: a file of the made tree that includes these.
@@ -243,6 +252,11 @@ lib/scene/camera.c -> kernels/math/ray.h
 END
     diff "$work/planted" "$work/seen" >"$work/offences"
     check planted_circles_and_arrows_are_seen "$work/offences"
+    echo 'undeclared x;' >>"$work/tree/lib/scene/light.h"
+    (cd "$work/tree" && headers_alone) >"$work/seen"
+    grep -v '^lib/scene/light.h:1:' "$work/seen" >"$work/offences"
+    [ -s "$work/seen" ] || echo 'a planted error is not seen' >"$work/offences"
+    check planted_errors_of_headers_are_seen "$work/offences"
     rm -f "$work/lost"
 }
 
