@@ -4,6 +4,33 @@
  */
 #include "photon/sum.h"
 
+/* Lists the photons of the disc that sum found; returns the disc. */
+static rt_gather_disc list_photons(const struct photon_tree *tree, const struct photon_start *start,
+                                   const struct photon_query *query, const struct photon_sum *sum,
+                                   uint slots, global uint *list)
+{
+    rt_gather_disc disc;
+    disc.count = 0u;
+    disc.squared_radius = sum->squared_radius;
+    disc.asked = sum->count;
+    struct tree_traversal traversal;
+    uint first, mask;
+    traversal_start(&traversal, start);
+    while (traversal_next(&traversal, tree, query, sum->squared_radius, &first, &mask))
+        for (; mask; mask &= mask - 1u) {
+            const uint index = first + lane_first(mask);
+            global const rt_photon_block *block = tree->blocks + index;
+            uint lanes = lane_mask(photon_distances(block, query) < sum->squared_radius &&
+                                   photons_accepted(block, query));
+            for (; lanes; lanes &= lanes - 1u) {
+                if (disc.count < slots)
+                    list[disc.count] = 8u * index + lane_first(lanes);
+                disc.count++;
+            }
+        }
+    return disc;
+}
+
 /*
  * lists: [item_count][params.slots]; the arguments before them are those of gather_tree, in its
  * order.
@@ -44,26 +71,8 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
                               own);
     }
 
-    rt_gather_disc disc;
-    disc.count = 0u;
-    disc.squared_radius = sum.squared_radius;
-    disc.asked = sum.count;
+    rt_gather_disc disc = list_photons(&tree, &start, &query, &sum, params.slots,
+                                       lists + (size_t)item * params.slots);
     disc.pixel = points[item].pixel;
-    struct tree_traversal traversal;
-    uint first, mask;
-    traversal_start(&traversal, &start);
-    while (traversal_next(&traversal, &tree, &query, sum.squared_radius, &first, &mask))
-        for (; mask; mask &= mask - 1u) {
-            const uint index = first + lane_first(mask);
-            global const rt_photon_block *block = blocks + index;
-            uint lanes = lane_mask(photon_distances(block, &query) < sum.squared_radius &&
-                                   photons_accepted(block, &query));
-            for (; lanes; lanes &= lanes - 1u) {
-                if (disc.count < params.slots)
-                    lists[(size_t)item * params.slots + disc.count] =
-                        8u * index + lane_first(lanes);
-                disc.count++;
-            }
-        }
     discs[item] = disc;
 }

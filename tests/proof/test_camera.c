@@ -263,63 +263,58 @@ static void discs_of_confusion(void **state)
 
 static const rt_render_options window = {.width = 4, .height = 4, .spp = 4};
 
-/*
- * A gradient is 2 + 3 v, seen through a very small window at right angles to a point of an
- * emissive shape.
- */
+/* Points of emissive shapes, and v there. */
+static const struct {
+    const char *name, *shape;
+    double at[3], normal[3], v;
+} gradients[] = {
+    {"quad", "quad { corner 0 0 0  edge1 2 0 0  edge2 0 1 0", {0.5, 0.75, 0}, {0, 0, 1}, 0.75},
+    {"triangle",
+     "triangle { a 0 0 0  b 2 0 0  c 0 1 0  uva 0 0.1  uvb 0 0.5  uvc 0 0.9",
+     {0.5, 0.25, 0},
+     {0, 0, 1},
+     0.4},
+    {"sphere",
+     "sphere { centre 0 0 0  radius 1",
+     {0.8, -0.6, 0},
+     {0.8, -0.6, 0},
+     0.2951672353008665},
+    {"ellipsoid",
+     "ellipsoid { centre 0 0 0  radii 2 1 1",
+     {0, 0.8, 0.6},
+     {0, 0.8, 0.6},
+     0.7951672353008665},
+    {"ring",
+     "disc { centre 0 0 0  normal 0 0 1  radius 2  inner_radius 1",
+     {0, 1.25, 0},
+     {0, 0, 1},
+     0.25},
+    {"cylinder", "cylinder { a 0 0 0  b 0 2 0  radius 1", {0, 0.5, 1}, {0, 0, 1}, 0.25},
+    {"cap of a cylinder", "cylinder { a 0 0 0  b 0 2 0  radius 1", {0.25, 2, 0}, {0, 1, 0}, 0.25},
+    {"cone", "cone { base 0 0 0  apex 0 1 0  radius 1", {0, 0.25, 0.75}, {0, 1, 1}, 0.25},
+    {"torus, outside",
+     "torus { centre 0 0 0  axis 0 0 1  major_radius 2  minor_radius 1",
+     {2, 0, 1},
+     {0, 0, 1},
+     0.25},
+};
+
+/* A gradient is 2 + 3 v, seen through a very small window at right angles to the surface. */
 static void gradients_at_known_places(void **state)
 {
-    static const struct {
-        const char *name, *shape;
-        double at[3], normal[3], v;
-    } looks[] = {
-        {"quad", "quad { corner 0 0 0  edge1 2 0 0  edge2 0 1 0", {0.5, 0.75, 0}, {0, 0, 1}, 0.75},
-        {"triangle",
-         "triangle { a 0 0 0  b 2 0 0  c 0 1 0  uva 0 0.1  uvb 0 0.5  uvc 0 0.9",
-         {0.5, 0.25, 0},
-         {0, 0, 1},
-         0.4},
-        {"sphere",
-         "sphere { centre 0 0 0  radius 1",
-         {0.8, -0.6, 0},
-         {0.8, -0.6, 0},
-         0.2951672353008665},
-        {"ellipsoid",
-         "ellipsoid { centre 0 0 0  radii 2 1 1",
-         {0, 0.8, 0.6},
-         {0, 0.8, 0.6},
-         0.7951672353008665},
-        {"ring",
-         "disc { centre 0 0 0  normal 0 0 1  radius 2  inner_radius 1",
-         {0, 1.25, 0},
-         {0, 0, 1},
-         0.25},
-        {"cylinder", "cylinder { a 0 0 0  b 0 2 0  radius 1", {0, 0.5, 1}, {0, 0, 1}, 0.25},
-        {"cap of a cylinder",
-         "cylinder { a 0 0 0  b 0 2 0  radius 1",
-         {0.25, 2, 0},
-         {0, 1, 0},
-         0.25},
-        {"cone", "cone { base 0 0 0  apex 0 1 0  radius 1", {0, 0.25, 0.75}, {0, 1, 1}, 0.25},
-        {"torus, outside",
-         "torus { centre 0 0 0  axis 0 0 1  major_radius 2  minor_radius 1",
-         {2, 0, 1},
-         {0, 0, 1},
-         0.25},
-    };
     (void)state;
-    for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) {
-        const double *p = looks[i].at, *n = looks[i].normal;
+    for (size_t i = 0; i < sizeof gradients / sizeof *gradients; i++) {
+        const double *p = gradients[i].at, *n = gradients[i].normal;
         proof_radiance(
-            (proof_row){proof_text("gradient, %s", looks[i].name),
-                        proof_text("v = %.4g", looks[i].v), "2 + 3 v"},
-            2 + 3 * looks[i].v,
+            (proof_row){proof_text("gradient, %s", gradients[i].name),
+                        proof_text("v = %.4g", gradients[i].v), "2 + 3 v"},
+            2 + 3 * gradients[i].v,
             proof_text("camera { projection orthographic  width 1e-4  look_at %.9g %.9g %.9g  eye "
                        "%.9g %.9g %.9g\n"
                        "  up 0.3 0.2 -0.1 }\n"
                        "texture steps { pattern gradient  a 2  b 5 }\nmaterial black { }\n"
                        "%s  material black  radiance 1  texture steps }\n",
-                       p[0], p[1], p[2], p[0] + n[0], p[1] + n[1], p[2] + n[2], looks[i].shape),
+                       p[0], p[1], p[2], p[0] + n[0], p[1] + n[1], p[2] + n[2], gradients[i].shape),
             &window);
     }
 }
@@ -348,7 +343,7 @@ static void images_at_known_places(void **state)
     static const struct {
         const char *what, *options;
         double u, v, expected;
-    } looks[] = {
+    } gradients[] = {
         {"middle of the lower left texel", "", 0.125, 0.25, 1},
         {"middle of the upper left texel", "", 0.125, 0.75, 16},
         {"middle of the lower right texel", "", 0.875, 0.25, 8},
@@ -364,18 +359,18 @@ static void images_at_known_places(void **state)
     };
     (void)state;
     write_texels("texels.exr", 4, 2, texels);
-    for (size_t i = 0; i < sizeof looks / sizeof *looks; i++)
+    for (size_t i = 0; i < sizeof gradients / sizeof *gradients; i++)
         proof_radiance(
-            (proof_row){proof_text("image, %s", looks[i].what),
-                        proof_text("u, v = %g, %g", looks[i].u, looks[i].v), "bilinear"},
-            looks[i].expected,
+            (proof_row){proof_text("image, %s", gradients[i].what),
+                        proof_text("u, v = %g, %g", gradients[i].u, gradients[i].v), "bilinear"},
+            gradients[i].expected,
             proof_text("camera { projection orthographic  width 1e-9  eye %.9g %.9g 1  look_at "
                        "%.9g %.9g 0 }\n"
                        "texture numbers { file \"texels.exr\"  %s }\nmaterial black { }\n"
                        "quad { corner 0 0 0  edge1 4 0 0  edge2 0 2 0  material black  radiance 1  "
                        "texture numbers }\n",
-                       4 * looks[i].u, 2 * looks[i].v, 4 * looks[i].u, 2 * looks[i].v,
-                       looks[i].options),
+                       4 * gradients[i].u, 2 * gradients[i].v, 4 * gradients[i].u,
+                       2 * gradients[i].v, gradients[i].options),
             &window);
 }
 

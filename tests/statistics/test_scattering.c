@@ -214,35 +214,52 @@ static void light_goes_both_ways_alike(void **state)
 
 /* ---- Energy -------------------------------------------------------------------------------- */
 
-/* Over angles, roughnesses, indices and the ways to split light. */
+/* Angles, roughnesses, indices of refraction, and materials that split light differently. */
+static const double angles[] = {1, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.01};
+static const double indices[] = {1 / 2.4, 1 / 1.5, 1 / 1.33, 1 / 1.0003, 1.0003, 1.33, 1.5, 2.4};
+static const float alphas[] = {0, 1e-3f, 0.01f, 0.1f, 0.3f, 0.6f, 1};
+static const rt_material_data whites[] = {
+    {.kd = ALL(1)},
+    {.ks = ALL(1)},
+    {.ks = ALL(0.5f), .kt = ALL(0.5f)},
+    {.kt = ALL(1), .flags = RT_MATERIAL_FRESNEL},
+    {.kd = ALL(0.25f), .ks = ALL(0.25f), .kt = ALL(0.5f)},
+    {.kd = ALL(0.5f), .kt = ALL(0.5f), .flags = RT_MATERIAL_FRESNEL},
+    {.kd = {0.7f, 0.2f, 0.1f}, .ks = {0.2f, 0.2f, 0.1f}, .kt = {0.1f, 0.6f, 0.8f}},
+    {.kd = {0.7f, 0.2f, 0.1f},
+     .ks = {0.2f, 0.2f, 0.1f},
+     .kt = {0.1f, 0.6f, 0.8f},
+     .flags = RT_MATERIAL_FRESNEL},
+    {.ks = ALL(1), GOLD},
+    {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD},
+    {.ks = ALL(1), .eta = ALL(0.05f), .k = ALL(8), .flags = RT_MATERIAL_CONDUCTOR},
+};
+enum { samples = 2048, angle_count = 8, index_count = 8, situations = angle_count * index_count };
+
+/* Whether the albedo that was found is at most 1 in every channel, by its mean and in no sample. */
+static void compare_albedo(const rt_material_data *material, size_t number,
+                           const bsdf_albedo *found, int place)
+{
+    /*
+     * What is the same in all channels, with a reflectance that is no metal's, keeps no more in any
+     * sample.
+     */
+    const int is_grey =
+        material->kd[0] == material->kd[1] && !(material->flags & RT_MATERIAL_CONDUCTOR);
+    for (int c = 0; c < 3; c++) {
+        const double mean = found->mean[c], variance = found->square[c] - mean * mean;
+        const double error = sqrt(fmax(0, variance) / samples);
+        const double excess = mean - 1 - 1e-5;
+        const double chance = excess > 0 ? chance_of_student(excess / error, samples - 1) : 1;
+        chance_compare(is_grey && !(found->most <= 1 + 1e-5) ? 0 : chance,
+                       "material %zu, alpha %g, cosine %g, index %g: keeps %g +- %g, at most %g",
+                       number, material->roughness, angles[place % angle_count],
+                       indices[place / angle_count], mean, error, found->most);
+    }
+}
+
 static void nothing_gives_back_more_than_it_gets(void **state)
 {
-    static const double angles[] = {1, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.01};
-    static const double indices[] = {1 / 2.4, 1 / 1.5, 1 / 1.33, 1 / 1.0003,
-                                     1.0003,  1.33,    1.5,      2.4};
-    static const float alphas[] = {0, 1e-3f, 0.01f, 0.1f, 0.3f, 0.6f, 1};
-    static const rt_material_data whites[] = {
-        {.kd = ALL(1)},
-        {.ks = ALL(1)},
-        {.ks = ALL(0.5f), .kt = ALL(0.5f)},
-        {.kt = ALL(1), .flags = RT_MATERIAL_FRESNEL},
-        {.kd = ALL(0.25f), .ks = ALL(0.25f), .kt = ALL(0.5f)},
-        {.kd = ALL(0.5f), .kt = ALL(0.5f), .flags = RT_MATERIAL_FRESNEL},
-        {.kd = {0.7f, 0.2f, 0.1f}, .ks = {0.2f, 0.2f, 0.1f}, .kt = {0.1f, 0.6f, 0.8f}},
-        {.kd = {0.7f, 0.2f, 0.1f},
-         .ks = {0.2f, 0.2f, 0.1f},
-         .kt = {0.1f, 0.6f, 0.8f},
-         .flags = RT_MATERIAL_FRESNEL},
-        {.ks = ALL(1), GOLD},
-        {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD},
-        {.ks = ALL(1), .eta = ALL(0.05f), .k = ALL(8), .flags = RT_MATERIAL_CONDUCTOR},
-    };
-    enum {
-        samples = 2048,
-        angle_count = 8,
-        index_count = 8,
-        situations = angle_count * index_count
-    };
     static situation at[situations];
     static bsdf_albedo found[situations];
     (void)state;
@@ -251,28 +268,10 @@ static void nothing_gives_back_more_than_it_gets(void **state)
     for (size_t w = 0; w < sizeof whites / sizeof *whites; w++)
         for (size_t a = 0; a < sizeof alphas / sizeof *alphas; a++) {
             rt_material_data material = whites[w];
-            /*
-             * What is the same in all channels, with a reflectance that is no metal's, keeps no
-             * more in any sample.
-             */
-            const int is_grey =
-                material.kd[0] == material.kd[1] && !(material.flags & RT_MATERIAL_CONDUCTOR);
             material.roughness = alphas[a];
             measure_albedo(&material, at, samples, situations, found);
             for (int i = 0; i < situations; i++)
-                for (int c = 0; c < 3; c++) {
-                    const double mean = found[i].mean[c],
-                                 variance = found[i].square[c] - mean * mean;
-                    const double error = sqrt(fmax(0, variance) / samples);
-                    const double excess = mean - 1 - 1e-5;
-                    const double chance =
-                        excess > 0 ? chance_of_student(excess / error, samples - 1) : 1;
-                    chance_compare(
-                        is_grey && !(found[i].most <= 1 + 1e-5) ? 0 : chance,
-                        "material %zu, alpha %g, cosine %g, index %g: keeps %g +- %g, at most %g",
-                        w, alphas[a], angles[i % angle_count], indices[i / angle_count], mean,
-                        error, found[i].most);
-                }
+                compare_albedo(&material, w, found + i, i);
         }
 }
 
