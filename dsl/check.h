@@ -4,7 +4,8 @@
 #ifndef RT_DSL_CHECK_H
 #define RT_DSL_CHECK_H
 
-#include "dsl/parser.h"
+#include "dsl/scope.h"
+#include "dsl/statement.h"
 
 /* What checking looks things up in. */
 typedef struct rt_checker {

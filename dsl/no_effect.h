@@ -2,7 +2,7 @@
 #ifndef RT_DSL_NO_EFFECT_H
 #define RT_DSL_NO_EFFECT_H
 
-#include "dsl/parser.h"
+#include "dsl/statement.h"
 
 /* Warns of each such field of a sound block, whose values are in fields. */
 void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fields,

@@ -10,14 +10,6 @@ static rt_text text_of(const rt_token *token)
     return rt_place_text(&token->place);
 }
 
-const rt_entry *rt_statement_entry(const rt_statement *statement, const rt_field *field)
-{
-    for (int i = 0; i < statement->entry_count; i++)
-        if (statement->entries[i].field == field)
-            return &statement->entries[i];
-    return NULL;
-}
-
 /* Lists the fields of a block as a hint. */
 static void hint_fields(rt_parser *parser, const rt_block *block)
 {

@@ -1,13 +1,12 @@
 #include "dsl/reader.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "dsl/build.h"
 #include "dsl/check.h"
 #include "dsl/no_effect.h"
-#include "dsl/parser.h"
+#include "dsl/parse_statement.h"
 
 rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_error *error)
 {
@@ -375,7 +374,7 @@ static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *stat
 static void read_statements(rt_reader *reader, rt_parser *parser, rt_statement *statement,
                             rt_operations *operations, int *is_closed)
 {
-    while (!must_stop(reader) && rt_parser_next(parser, statement)) {
+    while (!must_stop(reader) && rt_parse_statement(parser, statement)) {
         switch (statement->kind) {
         case RT_STATEMENT_LET:
             read_let(reader, statement, operations);

@@ -1,3 +1,4 @@
+/* scope.c - counts, forgets and warns of names. */
 #include "dsl/scope.h"
 
 #define UNUSED_MAX 100 /* names of one table that are warned of */
@@ -46,4 +47,11 @@ void rt_scope_free(rt_scope *scope)
     rt_names_free(&scope->materials);
     rt_names_free(&scope->textures);
     rt_names_free(&scope->meshes);
+}
+
+const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type)
+{
+    return type == RT_FIELD_MATERIAL  ? &scope->materials
+           : type == RT_FIELD_TEXTURE ? &scope->textures
+                                      : NULL;
 }

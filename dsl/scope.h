@@ -2,7 +2,9 @@
 #ifndef RT_DSL_SCOPE_H
 #define RT_DSL_SCOPE_H
 
+#include "dsl/names.h"
 #include "dsl/report.h"
+#include "dsl/schema.h"
 
 /* Each kind of name by itself. All zero is none. */
 typedef struct rt_scope {
@@ -24,6 +26,9 @@ void rt_scope_forget(rt_scope *scope, const rt_scope_counts *counts);
  * libraries.
  */
 void rt_scope_warn(const rt_scope *scope, const rt_scope_counts *counts, rt_reports *reports);
+
+/* The table of the names that a field takes, or NULL. */
+const rt_names *rt_scope_names(const rt_scope *scope, rt_field_type type);
 
 void rt_scope_free(rt_scope *scope);
 
