@@ -1,0 +1,128 @@
+/*
+ * light_path.h - a photon path: its start at a light, its events, and the account of its flux.
+ *
+ * What surfaces absorb is taken off as their albedo says, whatever lobe is chosen, and the
+ * difference that the choice makes is booked as roulette, whose mean is zero: so emitted flux =
+ * absorbed + left + roulette, but for rounding.
+ *
+ * References:
+ *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, chapter 5
+ *     (flux is not scaled at refraction, radiance is).
+ */
+#ifndef RT_KERNELS_PHOTON_LIGHT_PATH_H
+#define RT_KERNELS_PHOTON_LIGHT_PATH_H
+
+#include "bsdf/bsdf.h"
+#include "light/emit.h"
+#include "material/medium.h"
+#include "photon/aim.h"
+#include "sample/rng.h"
+#include "shape/surface.h"
+
+/* A path under way. */
+struct light_path {
+    struct ray ray;
+    float3 flux;
+    float3 absorbed, roulette; /* as rt_path_account says */
+    uint4 media;
+    uint depth;     /* segments, the one under way included */
+    uint hidden;    /* boundaries crossed that a stronger medium hides */
+    bool straight;  /* nothing was met yet: a shadow ray would find the light */
+    bool scattered; /* by some event other than a delta one */
+    uint photons;   /* that it stored */
+    uint rejected;  /* and that it did not, because they were not finite */
+};
+
+/* Whether it came through delta events only. */
+static inline bool is_caustic(const struct light_path *path)
+{
+    return !path->straight && !path->scattered;
+}
+
+/*
+ * Starts a path and its account, aimed when it is for caustics alone; false when there is no light.
+ */
+static inline bool start_light_path(struct light_path *path, const struct scene *scene,
+                              global const rt_light_share *shares, const struct sampler *sampler,
+                              bool for_caustics, rt_path_account *account)
+{
+    struct emission emission;
+    const float8 u = sampler_pair(sampler, SET_START); /* and SET_EMISSION, the set after it */
+    bool lit = light_emit(scene, shares, u.lo, u.hi, &emission);
+    path->flux = path->absorbed = path->roulette = (float3)(0.0f);
+    path->media = RT_VACUUM;
+    path->photons = path->rejected = 0u;
+    account->light = RT_NONE;
+    if (lit && for_caustics) {
+        aim_at_caustics(scene, u.lo, u.hi, &emission);
+        lit = largest3(emission.flux) > 0.0f;
+    }
+    if (lit) {
+        path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction,
+                             0.0f, INFINITY);
+        path->flux = emission.flux;
+        path->media = (uint4)(vload3(0, scene->lights[emission.light].media), 0u) - 1u;
+        account->light = emission.light;
+    }
+    vstore3(path->flux, 0, account->emitted);
+    path->depth = 1u;
+    path->hidden = 0u;
+    path->straight = true;
+    path->scattered = false;
+    return lit;
+}
+
+/* Closes the account of a path that ended so. */
+static inline void end_light_path(const struct light_path *path, uint end, rt_path_account *account)
+{
+    vstore3(path->absorbed, 0, account->absorbed);
+    account->photons = path->photons;
+    vstore3(path->flux, 0, account->left);
+    account->end = end;
+    vstore3(path->roulette, 0, account->roulette);
+    account->rejected = path->rejected;
+}
+
+/* Loses what the medium absorbs over a distance; false when nothing is left. */
+static inline bool cross_medium(struct light_path *path, const struct scene *scene, float distance)
+{
+    const float3 passed =
+        path->flux * medium_transmittance(scene->materials, path->media.x, distance);
+    path->absorbed += path->flux - passed;
+    path->flux = passed;
+    return largest3(path->flux) > 0.0f;
+}
+
+/*
+ * Scatters the path at a surface; false when it ends. Survival keeps the flux of all photons alike:
+ * it is the share of the strongest channel that the surface leaves.
+ */
+static inline bool scatter_light_path(struct light_path *path, const struct surface *surface,
+                                const struct bsdf *bsdf, uint4 beyond, float4 u)
+{
+    const float3 arrived = path->flux;
+    const float3 kept = arrived * bsdf_albedo(bsdf);
+    const float survival = min(1.0f, largest3(kept) / largest3(arrived));
+    const uint lobe = bsdf_choose(bsdf, survival, u.z);
+    path->absorbed += arrived - kept;
+    path->roulette += kept;
+    path->flux = (float3)(0.0f);
+    if (lobe == RT_LOBE_NONE)
+        return false;
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u.xyw, CARRY_FLUX);
+    const float3 chosen = arrived * (bsdf_lobe_weight(bsdf, lobe) / survival);
+    path->flux = arrived * (scatter.weight / survival);
+    path->roulette -= chosen;
+    path->absorbed += chosen - path->flux; /* at shading normals */
+    if (!(largest3(path->flux) > 0.0f))
+        return false;
+    path->ray = make_ray(leave_surface(surface, scatter.wi), scatter.wi, 0.0f, INFINITY);
+    path->straight = false;
+    path->scattered |= !lobe_is_delta(lobe);
+    if (scatter.through)
+        path->media = beyond;
+    path->depth++;
+    return true;
+}
+
+#endif

@@ -1,0 +1,59 @@
+/*
+ * store.h - where a photon is stored: which surfaces and maps take one, and what it holds.
+ */
+#ifndef RT_KERNELS_PHOTON_STORE_H
+#define RT_KERNELS_PHOTON_STORE_H
+
+#include "bsdf/bsdf.h"
+#include "photon/light_path.h"
+#include "shape/surface.h"
+#include "types.h"
+
+/*
+ * Whether the map under way takes a photon here; what comes straight from a light may be left to
+ * shadow rays.
+ */
+static inline bool is_stored(const struct light_path *path, const rt_params *params)
+{
+    if (params->store == RT_STORE_CAUSTIC)
+        return is_caustic(path);
+    if (params->store == RT_STORE_GLOBAL && is_caustic(path))
+        return false;
+    return !(path->straight && params->direct == RT_DIRECT_NEE);
+}
+
+static inline rt_photon make_photon(const struct light_path *path, const struct surface *surface,
+                                    const struct bsdf *bsdf, uint index)
+{
+    rt_photon photon;
+    vstore3(surface->position, 0, photon.position);
+    photon.path = index;
+    vstore3(bsdf->wo, 0, photon.wi);
+    photon.flags = (path->depth << 8) | (is_caustic(path) ? RT_PHOTON_CAUSTIC : 0u);
+    vstore3(path->flux, 0, photon.flux);
+    photon.shading = max(dot(bsdf->wo, bsdf->shading), 0.0f) / dot(bsdf->wo, bsdf->normal);
+    vstore3(bsdf->normal, 0, photon.normal);
+    photon.shape = surface->shape;
+    return photon;
+}
+
+static inline bool photon_is_finite(const rt_photon *photon)
+{
+    return all(fabs(vload3(0, photon->position)) <= RT_COORDINATE_MAX) &&
+           all(isfinite(vload3(0, photon->wi))) && all(isfinite(vload3(0, photon->flux))) &&
+           all(isfinite(vload3(0, photon->normal))) && isfinite(photon->shading);
+}
+
+/* Stores a photon at a surface, in the next slot of the path's column. */
+static inline void store_photon(struct light_path *path, const rt_params *params,
+                                const struct surface *surface, const struct bsdf *bsdf, uint index,
+                                global rt_photon *slots)
+{
+    const rt_photon photon = make_photon(path, surface, bsdf, index);
+    if (photon_is_finite(&photon))
+        slots[path->photons++ * params->slots] = photon;
+    else
+        path->rejected++;
+}
+
+#endif
