@@ -20,7 +20,7 @@
 #include "photon/light_path.h"
 #include "photon/store.h"
 #include "sample/rng.h"
-#include "shape/surface_at.h"
+#include "shape/shapes.h"
 
 /*
  * Follows a path from its start to its end: photons go to the slots of its column, from the first

@@ -92,7 +92,7 @@ RT_SIZE(rt_hit, 32);
 #define RT_SHAPE_MIRRORED 16u
 /* flag: textures, vertex colours or bumps make the material differ from point to point */
 #define RT_SHAPE_VARIED 32u
-#define RT_SHAPE_MATTE 64u /* flag: only diffuse, and does not emit */
+#define RT_SHAPE_MATTE 64u /* flag: Lambert's lobe alone, and no emission */
 /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 #define RT_SHAPE_FLAT 128u
 
@@ -153,7 +153,7 @@ typedef struct rt_material_data {
     float absorption[3]; /* of the inside, 1/m */
     rt_u32 bump_texture; /* indices in textures; RT_NONE: none */
     rt_u32 kd_texture, ks_texture, kt_texture;
-    rt_u32 reserved;
+    rt_u32 diffuse_lobe; /* RT_LOBE_* that scatters kd, one that is gathered */
 } rt_material_data;
 RT_SIZE(rt_material_data, 112);
 

@@ -116,7 +116,7 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
     bsdf.reflected = (float3)(0.0f);
     bsdf.refracted = (float3)(0.0f);
     bsdf.specular.alpha = 0.0f;
-    bsdf.diffuse_lobe = RT_LOBE_LAMBERT;
+    bsdf.diffuse_lobe = material->diffuse_lobe;
     bsdf.roughness = material->roughness;
     bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
     bsdf.reflection = 0.0f;

@@ -43,8 +43,9 @@ static inline bool is_caustic(const struct light_path *path)
  * Starts a path and its account, aimed when it is for caustics alone; false when there is no light.
  */
 static inline bool start_light_path(struct light_path *path, const struct scene *scene,
-                              global const rt_light_share *shares, const struct sampler *sampler,
-                              bool for_caustics, rt_path_account *account)
+                                    global const rt_light_share *shares,
+                                    const struct sampler *sampler, bool for_caustics,
+                                    rt_path_account *account)
 {
     struct emission emission;
     const float8 u = sampler_pair(sampler, SET_START); /* and SET_EMISSION, the set after it */
@@ -98,7 +99,7 @@ static inline bool cross_medium(struct light_path *path, const struct scene *sce
  * it is the share of the strongest channel that the surface leaves.
  */
 static inline bool scatter_light_path(struct light_path *path, const struct surface *surface,
-                                const struct bsdf *bsdf, uint4 beyond, float4 u)
+                                      const struct bsdf *bsdf, uint4 beyond, float4 u)
 {
     const float3 arrived = path->flux;
     const float3 kept = arrived * bsdf_albedo(bsdf);

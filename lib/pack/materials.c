@@ -33,6 +33,7 @@ void rt_pack_materials(const rt_packing *p)
         out->bump_scale = m->bump_scale;
         out->priority = (rt_u32)m->priority;
         out->flags = material_flags(m);
+        out->diffuse_lobe = rt_material_diffuse_lobe(m);
         out->kd_texture = texture_index(m->kd_texture);
         out->ks_texture = texture_index(m->ks_texture);
         out->kt_texture = texture_index(m->kt_texture);

@@ -132,14 +132,14 @@ static int is_varied(const rt_scene *scene, const rt_shape *shape)
            m->ks_texture || m->kt_texture || m->bump_texture;
 }
 
-/* Whether it only reflects diffusely. */
+/* Whether it has Lambert's lobe alone, and emits nothing. */
 static int is_matte(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
     for (int i = 0; i < 3; i++)
         if (m->ks[i] > 0 || m->kt[i] > 0)
             return 0;
-    return shape->first_light == RT_NONE;
+    return rt_material_diffuse_lobe(m) == RT_LOBE_LAMBERT && shape->first_light == RT_NONE;
 }
 
 static int is_flat(const rt_shape *shape)

@@ -118,6 +118,12 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
     return m->fresnel == RT_FRESNEL_CONDUCTOR ? check_conductor(m, who, error) : RT_OK;
 }
 
+rt_u32 rt_material_diffuse_lobe(const rt_material *material)
+{
+    (void)material;
+    return RT_LOBE_LAMBERT;
+}
+
 rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name,
                                 const rt_material *material, rt_error *error)
 {

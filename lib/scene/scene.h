@@ -125,6 +125,9 @@ int rt_scene_is_mirrored(const rt_scene_shape *shape);
 rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who,
                              rt_error *error);
 
+/* The RT_LOBE_* that scatters a material's kd. */
+rt_u32 rt_material_diffuse_lobe(const rt_material *material);
+
 /*
  * Whether kd + ks + kt <= 1 wherever textures are brightest, a shape's own included; its handle may
  * be 0. The error names `field`, or, when that is NULL, the coefficient.
