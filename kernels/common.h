@@ -53,17 +53,14 @@ typedef struct rt_photon {
  * Jensen 1996, c is cone_k. Gaussian: b = 1.953, a = 1.7283 normalises it; gaussian-jensen has the
  * often printed a = 0.918.
  */
-/* X(NAME, name) for each: RT_DENSITY_NAME is density_name of kernels/photon/density.h. */
-#define RT_DENSITIES(X)                                                                            \
-    X(EPANECHNIKOV, epanechnikov)                                                                  \
-    X(BOX, box)                                                                                    \
-    X(CONE, cone)                                                                                  \
-    X(GAUSSIAN, gaussian)                                                                          \
-    X(SILVERMAN, silverman)                                                                        \
-    X(GAUSSIAN_JENSEN, gaussian_jensen)
-
-#define RT_DENSITY_ENUMERATOR(NAME, name) RT_DENSITY_##NAME,
-typedef enum rt_density { RT_DENSITIES(RT_DENSITY_ENUMERATOR) RT_DENSITY_COUNT } rt_density;
+typedef enum rt_density {
+    RT_DENSITY_EPANECHNIKOV = 0,
+    RT_DENSITY_BOX,
+    RT_DENSITY_CONE,
+    RT_DENSITY_GAUSSIAN,
+    RT_DENSITY_SILVERMAN,
+    RT_DENSITY_GAUSSIAN_JENSEN
+} rt_density;
 
 #define RT_DENSITIES(X)                                                                            \
     X(RT_DENSITY_EPANECHNIKOV, "epanechnikov", "2 (1 - t^2) / (pi r^2)")                           \

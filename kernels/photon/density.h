@@ -29,49 +29,10 @@
 #define GAUSSIAN_A 1.728309f
 #define GAUSSIAN_A_JENSEN 0.918f
 
-/* ---- Each kernel, at t2 = t^2 in [0,1], over that of the box ------------------------------ */
-
-static inline float8 density_epanechnikov(float8 t2, float cone_k)
-{
-    return 2.0f * (1.0f - t2);
-}
-
-static inline float8 density_box(float8 t2, float cone_k)
-{
-    return (float8)(1.0f);
-}
-
-static inline float8 density_cone(float8 t2, float cone_k)
-{
-    return (1.0f - sqrt(t2) / cone_k) / (1.0f - 2.0f / (3.0f * cone_k));
-}
-
-static inline float8 density_gaussian_of(float8 t2, float a)
+static inline float8 gaussian8(float8 t2, float a)
 {
     return a * (1.0f - (1.0f - exp(-0.5f * GAUSSIAN_B * t2)) / (1.0f - exp(-GAUSSIAN_B)));
 }
-
-static inline float8 density_gaussian(float8 t2, float cone_k)
-{
-    return density_gaussian_of(t2, GAUSSIAN_A);
-}
-
-static inline float8 density_silverman(float8 t2, float cone_k)
-{
-    return 3.0f * (1.0f - t2) * (1.0f - t2);
-}
-
-static inline float8 density_gaussian_jensen(float8 t2, float cone_k)
-{
-    return density_gaussian_of(t2, GAUSSIAN_A_JENSEN);
-}
-
-/* ---- Dispatch ------------------------------------------------------------------------------ */
-
-#define DENSITY_CASE(NAME, name)                                                                   \
-    case RT_DENSITY_##NAME:                                                                        \
-        k = density_##name(t2, cone_k);                                                            \
-        break;
 
 /*
  * K, 1/m^2, at squared distances d2 from the centre of a disc of squared radius r2; zero outside
@@ -86,7 +47,24 @@ static inline float8 density_kernel8(uint density, float cone_k, float8 d2, floa
     if (!(r2 > 0.0f))
         return (float8)(0.0f);
     switch (density) {
-        RT_DENSITIES(DENSITY_CASE)
+    case RT_DENSITY_EPANECHNIKOV:
+        k = 2.0f * (1.0f - t2);
+        break;
+    case RT_DENSITY_BOX:
+        k = (float8)(1.0f);
+        break;
+    case RT_DENSITY_CONE:
+        k = (1.0f - sqrt(t2) / cone_k) / (1.0f - 2.0f / (3.0f * cone_k));
+        break;
+    case RT_DENSITY_GAUSSIAN:
+        k = gaussian8(t2, GAUSSIAN_A);
+        break;
+    case RT_DENSITY_SILVERMAN:
+        k = 3.0f * (1.0f - t2) * (1.0f - t2);
+        break;
+    case RT_DENSITY_GAUSSIAN_JENSEN:
+        k = gaussian8(t2, GAUSSIAN_A_JENSEN);
+        break;
     }
     return d2 <= r2 ? box * k : (float8)(0.0f);
 }
