@@ -46,17 +46,21 @@ LIB_SRC := \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
 	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c lib/pack/sobol.c \
 	lib/pack/targets.c \
-	lib/photon/device_gather.c lib/photon/emit.c lib/photon/fingerprint.c \
-	lib/photon/flann_index.c lib/photon/forecast.c lib/photon/gather.c lib/photon/ledger.c \
-	lib/photon/map_merge.c lib/photon/map_ply.c lib/photon/map_read.c lib/photon/map_write.c \
-	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/point_order.c \
-	lib/photon/search.c lib/photon/sources.c lib/photon/tree.c \
-	lib/render/aov.c lib/render/enclose.c lib/render/film.c lib/render/film_image.c \
-	lib/render/film_layers.c lib/render/noise.c lib/render/photon_bias.c lib/render/photon_eye.c \
-	lib/render/photon_irradiance.c lib/render/photon_layers.c lib/render/photon_maps.c \
-	lib/render/photon_mode.c lib/render/photon_pass.c lib/render/photon_passes.c \
-	lib/render/render.c lib/render/renderer.c lib/render/replicates.c lib/render/sample_mode.c \
-	lib/render/student.c lib/render/trace.c \
+	lib/film/film.c lib/film/layers.c lib/film/noise.c lib/film/replicates.c lib/film/student.c \
+	lib/film/write.c \
+	lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/render.c \
+	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
+	lib/mode/path/path.c \
+	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
+	lib/mode/photon/first_radius.c lib/mode/photon/layers.c lib/mode/photon/passes.c \
+	lib/mode/photon/photon.c lib/mode/photon/photon_render.c lib/mode/photon/queries.c \
+	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \
+	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c lib/photon/gather_neighbours.c \
+	lib/photon/map_check.c lib/photon/map_emit.c lib/photon/map_merge.c lib/photon/map_ply.c \
+	lib/photon/map_read.c lib/photon/map_write.c lib/photon/neighbour_search.c \
+	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_tree.c \
+	lib/photon/point_order.c lib/photon/sources.c lib/photon/gather_tree.c \
+	lib/render/enclose.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/area.c lib/scene/camera.c lib/scene/environment.c lib/scene/findings.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
 	lib/scene/mesh_file.c lib/scene/scene.c lib/scene/shape.c \
@@ -112,14 +116,14 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_off.c tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c \
 	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
 	tests/lib/pack/test_pack.c \
-	tests/lib/photon/test_device_gather.c tests/lib/photon/test_emit.c tests/lib/photon/test_fingerprint.c \
+	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_emit.c tests/lib/photon/test_fingerprint.c \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c tests/lib/photon/test_ledger.c \
 	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c tests/lib/photon/test_photon_list.c \
-	tests/lib/photon/test_point_order.c tests/lib/photon/test_search.c \
-	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/render/test_first_radius.c \
+	tests/lib/photon/test_point_order.c tests/lib/photon/test_neighbour_search.c \
+	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/mode/test_first_radius.c \
 	tests/lib/render/test_lights.c \
-	tests/lib/render/test_materials.c tests/lib/render/test_modes.c tests/lib/render/test_photon_maps.c \
-	tests/lib/render/test_replicates.c tests/lib/render/test_student.c tests/lib/render/test_vertices.c \
+	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c tests/lib/photon/test_photon_maps.c \
+	tests/lib/film/test_replicates.c tests/lib/film/test_student.c tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c tests/lib/scene/test_scene.c \
 	tests/lib/scene/test_shapes.c \
 	tests/lib/texture/test_texture.c \
@@ -128,9 +132,9 @@ TESTS_QUICK := \
 TESTS_FULL  := \
 	tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c \
-	tests/lib/render/test_noise.c tests/lib/render/test_photon_bias.c tests/lib/render/test_photon_film.c \
-	tests/lib/render/test_photon_glass.c tests/lib/render/test_photon_hull.c tests/lib/render/test_photon_mode.c \
-	tests/lib/render/test_progressive.c \
+	tests/lib/film/test_noise.c tests/lib/mode/test_photon_bias.c tests/lib/mode/test_photon_film.c \
+	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c tests/lib/mode/test_photon_mode.c \
+	tests/lib/mode/test_progressive.c \
 	tests/render/test_samples.c \
 	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c \
 	tests/tools/test_compare.c tests/tools/test_determinism.c tests/tools/test_mesh.c \
@@ -156,7 +160,7 @@ TEST_SUPPORT_SRC := \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
 	tests/lib/photon/emitted.c tests/lib/photon/points.c \
-	tests/lib/render/photon_room.c \
+	tests/lib/mode/photon_room.c \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \

@@ -1,3 +1,4 @@
+/* emit.c - photon paths run on the device in batches, their photons taken into a map. */
 #include "photon/emit.h"
 
 #include <stdlib.h>
@@ -5,9 +6,13 @@
 
 #include "base/error.h"
 #include "photon/forecast.h"
+#include "render/prepare.h"
 
 /* Bounds of a batch: the memory of its slots, and its length, so that progress moves. */
 enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 15 };
+
+/* Arguments of the kernel: rt_params, the scene, and then buffers. */
+enum { EMIT_ARGUMENTS = 5 };
 
 struct rt_emitter {
     rt_device *device;
@@ -21,6 +26,17 @@ struct rt_emitter {
     cl_mem accounts; /* rt_path_account [paths] */
     uint64_t memory; /* bytes that the photons of a map must fit into; 0: any */
 };
+
+rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene,
+                                 rt_stage_progress *progress, rt_error *error)
+{
+    rt_params params;
+    memset(&params, 0, sizeof params);
+    rt_arg args[EMIT_ARGUMENTS] = {RT_ARG(params), RT_ARG(scene), RT_ARG(scene), RT_ARG(scene),
+                                   RT_ARG(scene)};
+    return rt_kernel_prepare(device, out, "photon_emit", "photon_emit", args, EMIT_ARGUMENTS,
+                             progress, error);
+}
 
 rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kernel, cl_mem scene,
                             const float *shares, size_t share_count, rt_error *error)
@@ -149,18 +165,18 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
                               uint64_t first, uint64_t count, rt_stage_progress *progress,
                               rt_error *error)
 {
-    rt_arg args[RT_EMIT_ARGUMENTS] = {{sizeof *p, p},
-                                      RT_ARG(e->scene),
-                                      RT_ARG(e->shares),
-                                      RT_ARG(e->photons),
-                                      RT_ARG(e->accounts)};
+    rt_arg args[EMIT_ARGUMENTS] = {{sizeof *p, p},
+                                   RT_ARG(e->scene),
+                                   RT_ARG(e->shares),
+                                   RT_ARG(e->photons),
+                                   RT_ARG(e->accounts)};
     const rt_photon_list *list = map->lists + kind;
     size_t before = list->count, others = before + map->lists[!kind].count;
     rt_status status = RT_OK;
     for (uint64_t done = 0; done < count && status == RT_OK; done += p->item_count) {
         p->first_item = (rt_u32)(first + done);
         p->item_count = (rt_u32)(count - done < e->paths ? count - done : e->paths);
-        status = rt_kernel_args(e->kernel, args, RT_EMIT_ARGUMENTS, error);
+        status = rt_kernel_args(e->kernel, args, EMIT_ARGUMENTS, error);
         if (status == RT_OK)
             status = rt_launch(e->device, e->kernel, p->item_count, error);
         if (status == RT_OK)

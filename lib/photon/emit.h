@@ -10,8 +10,12 @@
 /* What emits: a scene's lights, and memory for a batch of paths. Serves any number of emissions. */
 typedef struct rt_emitter rt_emitter;
 
-/* How many arguments photon_emit has; the first are rt_params, the scene, and then buffers. */
-enum { RT_EMIT_ARGUMENTS = 5 };
+/*
+ * Makes the kernel photon_emit, compiled ahead of its first launch, as part of a stage. scene: any
+ * buffer. The caller releases *out.
+ */
+rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene,
+                                 rt_stage_progress *progress, rt_error *error);
 
 /*
  * Makes ready to emit from a scene on a device. kernel: photon_emit of the program of that name;

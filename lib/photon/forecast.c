@@ -1,3 +1,4 @@
+/* forecast.c - how many photons are to come, beside the memory of this machine. */
 #include "photon/forecast.h"
 
 #include <unistd.h>

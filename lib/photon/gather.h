@@ -1,12 +1,14 @@
 /*
- * gather.h - asks a photon list for the light that gather points reflect.
+ * gather.h - the light that gather points reflect, estimated from a list of photons.
  *
- * The nearest photons are found on the host, by FLANN, or on the device; the sum over them, with
- * the material, is taken on the device either way: shading exists once.
+ * There are two searches for the photons near a point: neighbour lists, made on the host by FLANN
+ * and sent to the device, and a tree that the device walks itself. The sum over the photons, with
+ * the material, is taken on the device either way, so shading exists once.
  */
 #ifndef RT_LIB_PHOTON_GATHER_H
 #define RT_LIB_PHOTON_GATHER_H
 
+#include "base/progress.h"
 #include "device/device.h"
 #include "photon/photon_list.h"
 #include "types.h"
@@ -16,22 +18,36 @@ typedef struct rt_gatherer rt_gatherer;
 /* The most gather points that are taken at once. */
 enum { RT_GATHER_POINTS_MAX = 1 << 16 };
 
+typedef enum rt_photon_search {
+    RT_SEARCH_NEIGHBOURS, /* neighbour lists from the host, by FLANN: k nearest only */
+    RT_SEARCH_TREE        /* a tree on the device */
+} rt_photon_search;
+
 /* How to gather. */
 typedef struct rt_gather_options {
     /* nearest photons; the k-th gives the radius and does not count. 0: all within max_radius */
     uint32_t k;
     float max_radius; /* metres; 0: no limit, which k = 0 must have */
     rt_density density;
-    float cone_k;  /* constant of the cone kernel, at least 1 */
-    rt_area area;  /* the hull is for the host only */
-    int on_device; /* find the photons on the device, in a tree, instead of on the host by FLANN */
+    float cone_k; /* constant of the cone kernel, at least 1 */
+    rt_area area; /* the hull is for neighbour lists only */
+    rt_photon_search search;
 } rt_gather_options;
+
+/* The name of the program, and of the kernel in it, that sums the photons of a search. */
+const char *rt_gather_kernel_name(rt_photon_search search);
+
+/*
+ * Makes that kernel, compiled ahead of its first launch, as part of a stage. any: a buffer that
+ * stands for all of its arguments; it is left alone. The caller releases *out.
+ */
+rt_status rt_gather_kernel_prepare(cl_kernel *out, rt_device *device, rt_photon_search search,
+                                   cl_mem any, rt_stage_progress *progress, rt_error *error);
 
 /*
  * Makes a list ready: builds the search tree and uploads the photons. The list must outlive the
- * gatherer unchanged, as must the device and, on it, the kernel: that of the program gather_tree
- * for the gather on the device, else of gather_neighbours, both of the same name. k = 0 is for the
- * device only. The caller owns *out.
+ * gatherer unchanged, as must the device and, on it, the kernel, which is that of the search. The
+ * caller owns *out.
  */
 rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel,
                              const rt_photon_list *list, const rt_gather_options *options,
@@ -50,8 +66,8 @@ size_t rt_gatherer_capacity(const rt_gatherer *gatherer);
 
 /*
  * Adds to the radiance of points first .. first + count - 1 of a buffer of rt_gather_point their
- * weight times what the material makes of the photons around them. discs [count], if not NULL, is
- * what was found.
+ * weight times the radiance that the material reflects of the photons around them. discs [count],
+ * if not NULL, is what was found.
  */
 rt_status rt_gatherer_add(rt_gatherer *gatherer, cl_mem points, size_t first, size_t count,
                           rt_gather_disc *discs, rt_error *error);

@@ -1,3 +1,4 @@
+/* ledger.c - flux booked in whole numbers of a small unit, light by light. */
 #include "photon/ledger.h"
 
 #include <math.h>

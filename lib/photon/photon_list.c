@@ -1,3 +1,4 @@
+/* photon_list.c - photons of many paths put one behind the other. */
 #include "photon/photon_list.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* photon_map.c - a photon map as an object, and warnings about its photons. */
 #include "photon/photon_map.h"
 
 #include <stdio.h>
@@ -104,7 +105,7 @@ size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *out, size
 }
 
 /*
- * Paths below which the light of a lamp is noisy by more than 1 / sqrt(100), and lamps that a
+ * Paths below which the light of an emitter is noisy by more than 1 / sqrt(100), and lights that a
  * warning names.
  */
 enum { PATHS_ENOUGH = 100, LIGHTS_NAMED = 4 };

@@ -92,7 +92,7 @@ typedef struct sorting {
     int shift; /* of the digit */
     float low[SHARES][3], high[SHARES][3];
     double middle[3], reach; /* where most photons are: so far from there, along each axis */
-    double origin[3], scale; /* of squeezed positions, to cells of the curve */
+    double origin[3], scale; /* of compressed positions, to cells of the curve */
     curve curve;
     size_t (*bins)[BINS]; /* [SHARES], counts, then where each share's items of a bin go */
 } sorting;
@@ -150,7 +150,7 @@ static void find_most(sorting *s)
 }
 
 /* Along an axis: in units of the reach from the middle, and within [-2, 2] however far out. */
-static double squeeze(const sorting *s, float x, int axis)
+static double compress(const sorting *s, float x, int axis)
 {
     double from = (x - s->middle[axis]) / s->reach, far = fabs(from);
     return far <= 1 ? from : copysign(2 - 1 / far, from);
@@ -166,8 +166,8 @@ static void set_cells(sorting *s)
             low = s->low[i][axis] < low ? s->low[i][axis] : low;
             high = s->high[i][axis] > high ? s->high[i][axis] : high;
         }
-        s->origin[axis] = squeeze(s, low, axis);
-        largest = fmax(largest, squeeze(s, high, axis) - s->origin[axis]);
+        s->origin[axis] = compress(s, low, axis);
+        largest = fmax(largest, compress(s, high, axis) - s->origin[axis]);
     }
     s->scale = largest > 0 ? (1 << CURVE_BITS) * (1 - 1e-9) / largest : 0;
 }
@@ -179,7 +179,7 @@ static void key_share(void *user, uint32_t share)
         uint32_t cell[3];
         for (int axis = 0; axis < 3; axis++)
             cell[axis] =
-                (uint32_t)((squeeze(s, position(s, i)[axis], axis) - s->origin[axis]) * s->scale);
+                (uint32_t)((compress(s, position(s, i)[axis], axis) - s->origin[axis]) * s->scale);
         s->from[i] = hilbert_key(&s->curve, cell) << INDEX_BITS | i;
     }
 }

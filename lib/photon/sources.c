@@ -1,3 +1,4 @@
+/* sources.c - entries of the light table joined to lights, and their shares of the paths. */
 #include "photon/sources.h"
 
 #include <math.h>

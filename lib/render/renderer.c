@@ -1,11 +1,35 @@
-/* renderer.c - a scene made ready on a device: hierarchy, tables, upload. */
+/* renderer.c - hierarchy and tables built, and the scene uploaded. */
 #include "render/renderer.h"
 
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/error.h"
-#include "light/lights.h"
-#include "pack/pack.h"
+#include "render/enclose.h"
+#include "scene/view.h"
+
+/* What later calls need of the scene itself. */
+static void note_scene(rt_renderer *renderer, const rt_scene *scene)
+{
+    renderer->camera = scene->camera;
+    renderer->has_camera = scene->has_camera;
+    renderer->has_light = rt_scene_has_light(scene);
+    renderer->casts_hidden_caustics = rt_scene_casts_hidden_caustics(scene);
+    renderer->options = scene->options;
+}
+
+/* Gives the device its copy of the scene; a CPU device works on the host's memory. */
+static rt_status upload(rt_renderer *renderer, rt_error *error)
+{
+    rt_device *device = renderer->device;
+    cl_mem_flags flags = CL_MEM_READ_WRITE | (device->info.is_cpu ? CL_MEM_USE_HOST_PTR : 0);
+    rt_status status = rt_buffer_create(device, &renderer->scene, flags, renderer->image.bytes,
+                                        renderer->image.data, "the scene", error);
+    if (status == RT_OK && !device->info.is_cpu)
+        rt_scene_image_free(&renderer->image);
+    return status;
+}
 
 rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device *device,
                              const rt_renderer_options *options, rt_error *error)
@@ -24,26 +48,16 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
     if (!renderer)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a renderer");
     renderer->device = device;
-    renderer->camera = scene->camera;
-    renderer->has_camera = scene->has_camera;
-    renderer->has_light = rt_scene_has_light(scene);
-    renderer->casts_hidden_caustics = rt_scene_casts_hidden_caustics(scene);
-    renderer->options = scene->options;
+    note_scene(renderer, scene);
 
     rt_status status = rt_stage_begin(&progress, options->hooks, RT_STAGE_BUILD);
     if (status == RT_OK)
         status = rt_scene_pack(&renderer->image, scene, options->accel, device->threads, &progress,
                                error);
-    if (status == RT_OK) {
-        /* A CPU device works on the host's memory; another gets its copy. */
-        cl_mem_flags flags = CL_MEM_READ_WRITE | (device->info.is_cpu ? CL_MEM_USE_HOST_PTR : 0);
-        status = rt_buffer_create(device, &renderer->scene, flags, renderer->image.bytes,
-                                  renderer->image.data, "the scene", error);
-    }
-    if (status == RT_OK && !device->info.is_cpu)
-        rt_scene_image_free(&renderer->image);
     if (status == RT_OK)
-        status = rt_renderer_enclose(renderer, scene, rt_lights_count(scene), &progress, error);
+        status = upload(renderer, error);
+    if (status == RT_OK)
+        status = rt_enclose(device, renderer->scene, scene, &progress, error);
     if (status == RT_OK)
         status = rt_stage_end(&progress, &renderer->build_seconds);
     if (status == RT_OK)
@@ -60,4 +74,30 @@ void rt_renderer_destroy(rt_renderer *renderer)
     rt_buffer_release(renderer->scene);
     rt_scene_image_free(&renderer->image);
     free(renderer);
+}
+
+rt_params rt_params_make(const rt_render_options *options)
+{
+    rt_params p;
+    memset(&p, 0, sizeof p);
+    p.width = options->width;
+    p.height = options->height;
+    p.seed = options->seed;
+    p.sampler = options->sampler;
+    p.max_depth = options->max_depth;
+    p.final_gather = options->final_gather;
+    p.direct = options->direct;
+    p.estimator = options->estimator;
+    p.roulette_depth = options->roulette_depth;
+    p.roulette_threshold = options->roulette_threshold;
+    return p;
+}
+
+rt_status rt_renderer_aim(rt_renderer *renderer, const rt_render_options *options, rt_error *error)
+{
+    rt_camera_data camera;
+    rt_view_aim(&camera, &renderer->camera, options->width, options->height);
+    camera.filter = options->filter;
+    return rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera),
+                           sizeof camera, &camera, error);
 }

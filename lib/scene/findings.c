@@ -56,11 +56,6 @@ static rt_finding finding_of(rt_finding_kind kind)
 
 /* ---- What is missing ------------------------------------------------------- */
 
-int rt_mode_shows_light(rt_mode mode)
-{
-    return mode == RT_MODE_PATH || mode == RT_MODE_PHOTON || mode == RT_MODE_DIRECT;
-}
-
 static void find_missing(inspection *in)
 {
     const rt_scene *scene = in->scene;

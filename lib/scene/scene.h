@@ -152,9 +152,6 @@ rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const 
 /* Whether anything in the scene emits light. */
 int rt_scene_has_light(const rt_scene *scene);
 
-/* Whether a mode shows light, and not a property of surfaces. */
-int rt_mode_shows_light(rt_mode mode);
-
 /*
  * Whether delta lights (point, spot and directional) and smooth mirrors or glass may cast caustics
  * on a diffuse shape. Path tracing misses this light: no path from the eye that passes a specular

@@ -13,4 +13,7 @@ rt_status rt_options_check(const rt_render_options *options, rt_error *error);
 /* Puts the defaults where zero stands for them. */
 void rt_options_complete(rt_render_options *options);
 
+/* Whether a mode shows light, and not a property of surfaces. */
+int rt_mode_shows_light(rt_mode mode);
+
 #endif

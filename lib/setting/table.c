@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "rt/setting.h"
+#include "setting/options.h"
 
 /* ---- Words ------------------------------------------------------------------ */
 
@@ -64,6 +65,13 @@ const char *rt_mode_name(rt_mode mode)
         {IS("kernel", RT_DENSITY_CONE), IS("caustic_kernel", RT_DENSITY_CONE)},                    \
             "without `kernel` cone or `caustic_kernel` cone"                                       \
     }
+
+int rt_mode_shows_light(rt_mode mode)
+{
+    static const rt_setting_need shown = LIGHT_IS_SHOWN;
+    const rt_render_options options = {.mode = mode};
+    return rt_setting_need_met(&shown, &options);
+}
 
 /* In photon mode the camera path ends at the first diffuse surface unless there is a final gather. */
 static const rt_setting_need camera_path_needs[] = {

@@ -17,9 +17,9 @@
 
 #include "base/progress.h"
 #include "lib/photon/points.h"
-#include "photon/device_gather.h"
+#include "photon/gather_tree.h"
 #include "photon/point_order.h"
-#include "photon/search.h"
+#include "photon/neighbour_search.h"
 
 enum { runs = 5 };
 
@@ -117,7 +117,7 @@ typedef struct device_side {
     cl_mem points;
     rt_gather_point *in_order; /* [queries], along the curve */
     uint64_t *order;           /* [2][queries] */
-    rt_device_gather gather;
+    rt_tree_gather gather;
 } device_side;
 
 static void open_device(device_side *d, const problem *p)
@@ -134,14 +134,14 @@ static void open_device(device_side *d, const problem *p)
     d->in_order = allocate(p->queries, sizeof *d->in_order);
     d->order = allocate(2 * p->queries, sizeof *d->order);
     double began = rt_clock();
-    must(rt_device_gather_prepare(&d->gather, d->device, &p->map, &estimate, p->queries, &error),
+    must(rt_tree_gather_prepare(&d->gather, d->device, &p->map, &estimate, p->queries, &error),
          &error);
     printf("the device's tree takes %.3f s to build\n", rt_clock() - began);
 }
 
 static void close_device(device_side *d)
 {
-    rt_device_gather_release(&d->gather);
+    rt_tree_gather_release(&d->gather);
     rt_buffer_release(d->points);
     rt_kernel_release(d->kernel);
     free(d->in_order);
@@ -162,7 +162,7 @@ static void gather_on_device(device_side *d, const problem *p)
                          &error),
          &error);
     must(
-        rt_device_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error),
+        rt_tree_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error),
         &error);
     must(rt_buffer_read(d->device, d->gather.discs, 0, p->queries * sizeof *p->discs, p->discs,
                         &error),
@@ -181,7 +181,7 @@ static void compete(problem *p)
     struct FLANNParameters parameters = DEFAULT_FLANN_PARAMETERS;
     double plain[runs], ours[runs], device[runs];
     device_side d;
-    rt_photon_search *search = NULL;
+    rt_neighbour_search *search = NULL;
     rt_error error;
     float speedup;
 
@@ -193,7 +193,7 @@ static void compete(problem *p)
     parameters.leaf_max_size = 10;
     flann_index_t tree =
         flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
-    must(rt_photon_search_create(&search, &p->map, p->k, HUGE_VALF, p->threads, &error), &error);
+    must(rt_neighbour_search_create(&search, &p->map, p->k, HUGE_VALF, p->threads, &error), &error);
 
     open_device(&d, p);
     gather_on_device(&d, p); /* the driver compiles at the first launch */
@@ -203,7 +203,7 @@ static void compete(problem *p)
         flann_find_nearest_neighbors_index_float(tree, p->places, (int)p->queries, p->indices,
                                                  p->squared, (int)p->k, &parameters);
         double t1 = rt_clock();
-        must(rt_photon_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs,
+        must(rt_neighbour_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs,
                                    &error),
              &error);
         plain[run] = t1 - t0;
@@ -218,7 +218,7 @@ static void compete(problem *p)
     report("device", p, device, flann);
     close_device(&d);
     flann_free_index_float(tree, &parameters);
-    rt_photon_search_destroy(search);
+    rt_neighbour_search_destroy(search);
 }
 
 int main(int argc, char **argv)

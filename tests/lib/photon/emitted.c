@@ -1,3 +1,4 @@
+/* emitted.c - photon maps of a room, by the public interface. */
 #include "lib/photon/emitted.h"
 
 #include "photon/map_file.h"

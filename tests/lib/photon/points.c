@@ -1,3 +1,4 @@
+/* points.c - reproducible random points. */
 #include "lib/photon/points.h"
 
 /* PCG-XSH-RR (O'Neill, "PCG: A Family of Simple Fast Space-Efficient ... Generators", 2014). */

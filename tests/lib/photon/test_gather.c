@@ -79,7 +79,7 @@ static void gather(const rt_photon_list *map, rt_gather_options options, size_t 
                    rt_gather_point *points, rt_gather_disc *discs)
 {
     size_t bytes = (before + point_count) * sizeof *points;
-    const char *program = programs[options.on_device];
+    const char *program = programs[options.search];
     rt_gatherer *gatherer = NULL;
     cl_kernel kernel = NULL;
     cl_mem buffer = test_buffer(bytes, points);
@@ -145,7 +145,7 @@ static void both_ways_give_the_same_light(void **state)
     (void)state;
     for (size_t way = 0; way < sizeof ways / sizeof *ways; way++) {
         rt_gather_options on_device = ways[way];
-        on_device.on_device = 1;
+        on_device.search = RT_SEARCH_TREE;
         make_points(host);
         make_points(device);
         gather(&map, ways[way], 0, host, discs);

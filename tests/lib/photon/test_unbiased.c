@@ -88,7 +88,7 @@ static void estimate(const rt_photon_list *map, const rt_gather_options *options
                      double *mean, double *error_of_mean)
 {
     static const char *const programs[] = {"gather_neighbours", "gather_tree"};
-    const char *program = programs[options->on_device];
+    const char *program = programs[options->search];
     rt_gather_point *points = make_points(at_edge);
     rt_gather_disc *discs = calloc(estimates, sizeof *discs);
     rt_gatherer *gatherer = NULL;

@@ -1,0 +1,111 @@
+/* film.c - a film made, resolved to means, and read by the caller. */
+#include "film/film.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error)
+{
+    size_t count = (size_t)options->width * options->height;
+    rt_film *film = calloc(1, sizeof *film);
+
+    if (film) {
+        film->options = *options;
+        film->options.hooks = NULL;
+        film->options.photon_map = NULL;
+        film->options.light_shares = NULL;
+        film->options.light_share_count = 0;
+        film->pixels = calloc(count, sizeof *film->pixels);
+        film->rgb = calloc(count, 3 * sizeof *film->rgb);
+    }
+    if (!film || !film->pixels || !film->rgb) {
+        rt_film_destroy(film);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film of %u x %u pixels",
+                       options->width, options->height);
+    }
+    *out = film;
+    return RT_OK;
+}
+
+void rt_film_destroy(rt_film *film)
+{
+    if (!film)
+        return;
+    rt_ledger_free(&film->ledger);
+    free(film->pixels);
+    free(film->rgb);
+    free(film->layer_sums);
+    rt_film_layers_free(&film->layers);
+    free(film);
+}
+
+size_t rt_film_pixels(const rt_film *film)
+{
+    return (size_t)film->options.width * film->options.height;
+}
+
+double rt_film_sum(const rt_film_pixel *pixel, int channel)
+{
+    return (double)pixel->sum[channel] - pixel->lost[channel];
+}
+
+double rt_film_divisor(const rt_film_pixel *pixel)
+{
+    double weight = pixel->weight, count = pixel->count;
+    return fabs(weight) >= 0.25 * count ? weight : count;
+}
+
+void rt_film_resolve(rt_film *film)
+{
+    size_t count = rt_film_pixels(film);
+    uint32_t fewest = film->pixels[0].count;
+
+    film->stats.rejected = 0;
+    for (size_t i = 0; i < count; i++) {
+        const rt_film_pixel *p = film->pixels + i;
+        for (int c = 0; c < 3; c++)
+            film->rgb[3 * i + c] =
+                p->count > 0 ? (float)((p->sum[c] - p->lost[c]) / rt_film_divisor(p)) : 0;
+        if (p->count < fewest)
+            fewest = p->count;
+        film->stats.rejected += p->rejected;
+    }
+    film->stats.spp = fewest;
+}
+
+const float *rt_film_rgb(const rt_film *film)
+{
+    return film->rgb;
+}
+
+const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels)
+{
+    for (int i = 0; i < RT_FILM_LAYER_COUNT; i++)
+        if (film->layers.data[i] && strcmp(name, rt_layer_infos[i].name) == 0) {
+            if (channels)
+                *channels = rt_layer_infos[i].channels;
+            return film->layers.data[i];
+        }
+    return NULL;
+}
+
+void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height)
+{
+    *width = film->options.width;
+    *height = film->options.height;
+}
+
+void rt_film_get_stats(const rt_film *film, rt_film_stats *out)
+{
+    *out = film->stats;
+}
+
+size_t rt_film_get_ledger(const rt_film *film, rt_light_ledger *out, size_t capacity)
+{
+    for (size_t i = 0; i < film->ledger.count && i < capacity; i++)
+        rt_ledger_read(&film->ledger, i, out + i);
+    return film->ledger.count;
+}

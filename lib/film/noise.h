@@ -1,0 +1,90 @@
+/*
+ * noise.h - how far a picture is from the mean that it estimates.
+ *
+ * The samples of one scrambled Sobol sequence depend on each other, so the spread among them says
+ * nothing of the error of their mean. Where the error is to be estimated, R independent sequences
+ * share the samples (replicates.h; in photon mapping each has photons of its own), and the spread
+ * among them tells the variance of a pixel (Owen 1997: internal replication).
+ *
+ * A pixel is a quotient of sums, Q = sum of S_r over sum of W_r. S_r is the weighted radiance of
+ * replicate r and W_r its sum of weights, which is the number of its samples unless the filter has
+ * negative parts. The variance of Q is that of the ratio estimator (Cochran 1977, section 2.11),
+ *
+ *   var Q = R/(R - 1) sum over r of z_r^2 / (sum of W_r)^2,    z_r = S_r - Q W_r,
+ *
+ * or s^2/R of the replicates' means when all W_r are the same. With 95 % confidence the pixel's
+ * mean lies within t sqrt(var Q) of Q, t two-sided of Student's distribution with R - 1 degrees of
+ * freedom.
+ *
+ * The relative error of the picture is sqrt(mean of var Q) / mean of Q, means over all pixels and
+ * channels: the expected root mean squared error over the mean radiance. The mean of var Q has no
+ * bias. Its root is low by at most 3.5 %, where all pixels err as one (the mean of the square root
+ * of a chi-square of 7 degrees); where they do not, by less than 100 renders would show. The true
+ * error lies, with 95 % confidence, below a bound found from the share of each replicate,
+ *
+ *   q_r = mean of R/(R - 1) z_r^2 / (sum of W_r)^2,
+ *
+ * whose sum is the mean of var Q. R q_r is spread like the mean squared error of the picture
+ * itself, or more, because the sum of all replicates is closer to normal than one. Where errors of
+ * pixels are correlated, as those are that share photons, both are spread more. So with s the
+ * standard deviation of q_r over their mean, and as if their logarithm were normal, the error is at
+ * most
+ *
+ *   relative error times exp(t s sqrt(1 + 1/R) / 2),    t one-sided.
+ *
+ * With few replicates s says nothing (of two, z_1 = -z_2), so there is no bound until all have
+ * samples.
+ *
+ * References:
+ *   Owen: "Monte Carlo Variance of Scrambled Net Quadrature", SIAM Journal on Numerical Analysis
+ *     34(5), 1997.
+ *   Cochran: "Sampling Techniques", third edition, Wiley 1977.
+ */
+#ifndef RT_LIB_FILM_NOISE_H
+#define RT_LIB_FILM_NOISE_H
+
+#include <stddef.h>
+
+#include "device/device.h"
+#include "film/film.h"
+#include "film/replicates.h"
+#include "rt.h"
+
+/* The sums of a film by replicate, and the errors estimated from them. */
+typedef struct rt_noise rt_noise;
+
+/* Whether the options ask for an estimate of the error. */
+int rt_noise_wanted(const rt_render_options *options);
+
+/* For a film of so many pixels; the caller owns *out. */
+rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_error *error);
+void rt_noise_destroy(rt_noise *noise);
+
+/* Reads the film's sums from the device; what was added since the last time is this range. */
+rt_status rt_noise_read(rt_noise *noise, const rt_sample_range *range, rt_device *device,
+                        cl_mem pixels, rt_film *film, rt_error *error);
+
+/*
+ * Estimates the error where it is due, all replicates having `length` samples or passes: at the
+ * lengths that rt_replicate_grow gives, so seldom that the chance to find it small by luck stays
+ * near that of a single test. Returns whether its bound is at most `target`, from a length of 4 on
+ * and if target is above 0.
+ */
+int rt_noise_test(rt_noise *noise, uint32_t length, double target);
+
+/* The relative error at the last test; negative before. */
+double rt_noise_last(const rt_noise *noise);
+
+/*
+ * The fraction of the work to `target` that is done, with replicates of this length; 0 before the
+ * first test, or without target.
+ */
+double rt_noise_progress(const rt_noise *noise, double length, double target);
+
+/*
+ * Makes the film's layer `variance` and the figures of its stats; neither with fewer than two
+ * replicates.
+ */
+rt_status rt_noise_resolve(const rt_noise *noise, rt_film *film, rt_error *error);
+
+#endif

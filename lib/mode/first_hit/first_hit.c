@@ -1,0 +1,47 @@
+/*
+ * first_hit.c - the modes that show a layer of the first hit: normals, albedo and depth. They have
+ * no kernel of their own: what is shown is a layer of layers.h.
+ */
+#include "mode/modes.h"
+#include "mode/pixel_samples.h"
+
+/* (n + 1) / 2, faded to black by the part of the samples that miss. */
+static void show_normals(float rgb[3], const rt_film *film, size_t i)
+{
+    size_t pixels = rt_film_pixels(film);
+    const rt_film_pixel *normal = film->layer_sums + RT_LAYER_NORMAL * pixels + i;
+    const rt_film_pixel *depth = film->layer_sums + RT_LAYER_DEPTH * pixels + i;
+    float covered = (float)(rt_film_sum(depth, 2) / rt_film_divisor(normal));
+    for (int c = 0; c < 3; c++)
+        rgb[c] = 0.5f * (film->layers.data[RT_FILM_NORMAL][3 * i + c] + covered);
+}
+
+static void show_albedo(float rgb[3], const rt_film *film, size_t i)
+{
+    for (int c = 0; c < 3; c++)
+        rgb[c] = film->layers.data[RT_FILM_ALBEDO][3 * i + c];
+}
+
+static void show_depth(float rgb[3], const rt_film *film, size_t i)
+{
+    for (int c = 0; c < 3; c++)
+        rgb[c] = film->layers.data[RT_FILM_DEPTH][i];
+}
+
+const rt_mode_class rt_mode_normals = {
+    .state_size = sizeof(rt_pixel_samples),
+    .run = rt_pixel_samples_run,
+    .show = show_normals,
+};
+
+const rt_mode_class rt_mode_albedo = {
+    .state_size = sizeof(rt_pixel_samples),
+    .run = rt_pixel_samples_run,
+    .show = show_albedo,
+};
+
+const rt_mode_class rt_mode_depth = {
+    .state_size = sizeof(rt_pixel_samples),
+    .run = rt_pixel_samples_run,
+    .show = show_depth,
+};

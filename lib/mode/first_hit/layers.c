@@ -1,0 +1,102 @@
+/* layers.c - the kernel aov launched beside a mode, and layers made from its sums. */
+#include "mode/first_hit/layers.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "render/prepare.h"
+
+/* ---- On the device ---------------------------------------------------------- */
+
+rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *renderer,
+                                      rt_film *film, rt_stage_progress *progress, rt_error *error)
+{
+    size_t pixels = rt_film_pixels(film), count = RT_LAYER_COUNT * pixels;
+    rt_params none;
+    memset(&none, 0, sizeof none);
+
+    out->renderer = renderer;
+    film->layer_sums = calloc(count, sizeof *film->layer_sums);
+    if (!film->layer_sums)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels",
+                       pixels);
+    rt_status status = rt_film_layers_add(&film->layers, RT_LAYERS_FIRST_HIT, pixels, error);
+    if (status == RT_OK)
+        status = rt_buffer_create(renderer->device, &out->sums, CL_MEM_READ_WRITE,
+                                  count * sizeof *film->layer_sums, film->layer_sums,
+                                  "the layers of the film", error);
+    rt_arg args[] = {RT_ARG(none), RT_ARG(renderer->scene), RT_ARG(out->sums)};
+    if (status == RT_OK)
+        status = rt_kernel_prepare(renderer->device, &out->kernel, "aov", "aov", args, 3, progress,
+                                   error);
+    return status;
+}
+
+void rt_first_hit_layers_release(rt_first_hit_layers *layers)
+{
+    rt_kernel_release(layers->kernel);
+    rt_buffer_release(layers->sums);
+    memset(layers, 0, sizeof *layers);
+}
+
+rt_status rt_first_hit_layers_add(rt_first_hit_layers *layers, const rt_params *params,
+                                  rt_error *error)
+{
+    rt_arg first = {sizeof *params, params};
+    if (!layers->kernel)
+        return RT_OK;
+    rt_status status = rt_kernel_args(layers->kernel, &first, 1, error);
+    return status == RT_OK
+               ? rt_launch(layers->renderer->device, layers->kernel, params->item_count, error)
+               : status;
+}
+
+rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *film,
+                                   rt_error *error)
+{
+    size_t bytes = RT_LAYER_COUNT * rt_film_pixels(film) * sizeof *film->layer_sums;
+    return layers->kernel ? rt_buffer_read(layers->renderer->device, layers->sums, 0, bytes,
+                                           film->layer_sums, error)
+                          : RT_OK;
+}
+
+/* ---- In the film ------------------------------------------------------------ */
+
+/* What a sum is divided by. */
+typedef enum divisor {
+    BY_WEIGHT, /* that of the film: the sum of the filter's weights, or the number of samples */
+    BY_HITS    /* the number of samples that hit */
+} divisor;
+
+/* From which sums each layer is made: channels 0, 1 and 2 of one of RT_LAYER_COUNT. */
+static const struct {
+    rt_film_layer_id layer;
+    rt_u32 sums;
+    divisor by;
+} layer_sources[] = {
+    {RT_FILM_ALBEDO, RT_LAYER_ALBEDO, BY_WEIGHT},
+    {RT_FILM_NORMAL, RT_LAYER_NORMAL, BY_WEIGHT},
+    {RT_FILM_DEPTH, RT_LAYER_DEPTH, BY_HITS},
+};
+
+void rt_first_hit_layers_resolve(rt_film *film)
+{
+    size_t pixels = rt_film_pixels(film);
+    if (!film->layer_sums)
+        return;
+    for (size_t s = 0; s < sizeof layer_sources / sizeof *layer_sources; s++) {
+        const rt_film_pixel *sums = film->layer_sums + layer_sources[s].sums * pixels;
+        const rt_film_pixel *depth = film->layer_sums + RT_LAYER_DEPTH * pixels;
+        uint32_t channels = rt_layer_infos[layer_sources[s].layer].channels;
+        float *means = film->layers.data[layer_sources[s].layer];
+        for (size_t i = 0; i < pixels; i++) {
+            double by = layer_sources[s].by == BY_HITS ? rt_film_sum(depth + i, 1)
+                                                       : rt_film_divisor(sums + i);
+            if (sums[i].count == 0 || (layer_sources[s].by == BY_HITS && !(by > 0)))
+                continue;
+            for (uint32_t c = 0; c < channels; c++)
+                means[channels * i + c] = (float)(rt_film_sum(sums + i, (int)c) / by);
+        }
+    }
+}

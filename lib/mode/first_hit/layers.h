@@ -1,0 +1,38 @@
+/*
+ * layers.h - layers of the film that say what the first surface is like, summed by the kernel aov
+ * over the samples that the picture has.
+ */
+#ifndef RT_LIB_MODE_FIRST_HIT_LAYERS_H
+#define RT_LIB_MODE_FIRST_HIT_LAYERS_H
+
+#include "base/progress.h"
+#include "film/film.h"
+#include "render/renderer.h"
+
+/* The layers of a render under way; all zero: none. */
+typedef struct rt_first_hit_layers {
+    rt_renderer *renderer;
+    cl_kernel kernel;
+    cl_mem sums; /* rt_film_pixel [RT_LAYER_COUNT][height][width] */
+} rt_first_hit_layers;
+
+/*
+ * Makes room in the film and on the device, and the kernel ready, as part of the stage `compile`.
+ * rt_first_hit_layers_release undoes it, also after a failure; what is in the film stays.
+ */
+rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *renderer,
+                                      rt_film *film, rt_stage_progress *progress, rt_error *error);
+void rt_first_hit_layers_release(rt_first_hit_layers *layers);
+
+/* Adds the items and samples of params; does not wait. Does nothing where there are no layers. */
+rt_status rt_first_hit_layers_add(rt_first_hit_layers *layers, const rt_params *params,
+                                  rt_error *error);
+
+/* Copies the sums to the film. Does nothing where there are no layers. */
+rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *film,
+                                   rt_error *error);
+
+/* Makes the film's layers, means and ids, from the sums, if there are any. */
+void rt_first_hit_layers_resolve(rt_film *film);
+
+#endif

@@ -1,0 +1,50 @@
+/*
+ * mode.h - what a mode of rendering is. Each has a folder here, and modes.c lists them.
+ */
+#ifndef RT_LIB_MODE_MODE_H
+#define RT_LIB_MODE_MODE_H
+
+#include "base/progress.h"
+#include "film/film.h"
+#include "film/noise.h"
+#include "mode/first_hit/layers.h"
+#include "render/renderer.h"
+
+/* A render under way, as rt_render hands it to a mode. */
+typedef struct rt_render_job {
+    rt_renderer *renderer;
+    const rt_render_options *options; /* complete */
+    rt_film *film;
+    rt_noise *noise;             /* or NULL where the error is not estimated */
+    rt_first_hit_layers *layers; /* summed beside the picture; without a kernel: none */
+} rt_render_job;
+
+/* Its word, and what it shows, stand in RT_MODES beside the enum. */
+typedef struct rt_mode_class {
+    int has_noise;     /* it is made of independent replicates, whose spread is its error */
+    size_t state_size; /* bytes of what prepare, run and release share; zero before prepare */
+
+    /* Fails where complete options do not fit together in this mode; or NULL. */
+    rt_status (*check)(const rt_render_options *options, rt_error *error);
+
+    /* Compiles the kernels, as part of the stage `compile`; or NULL. */
+    rt_status (*prepare)(const rt_render_job *job, void *state, rt_stage_progress *progress,
+                         rt_error *error);
+
+    /*
+     * Fills film->pixels, the layers and the film's stats, adding to job->layers the samples that
+     * the picture has. On RT_CANCELLED the film holds the samples so far.
+     */
+    rt_status (*run)(const rt_render_job *job, void *state, rt_error *error);
+
+    /* Frees what the state holds, also after a failure; or NULL. */
+    void (*release)(void *state);
+
+    /* For modes that show a layer of the first hit: what film->rgb has for pixel i; else NULL. */
+    void (*show)(float rgb[3], const rt_film *film, size_t i);
+} rt_mode_class;
+
+/* The class of a mode, which must be one of rt_mode. */
+const rt_mode_class *rt_mode_class_of(rt_mode mode);
+
+#endif

@@ -1,0 +1,11 @@
+/* emission.h - the photons of one pass. */
+#ifndef RT_LIB_MODE_PHOTON_EMISSION_H
+#define RT_LIB_MODE_PHOTON_EMISSION_H
+
+#include "mode/photon/photon_render.h"
+
+/* Fills the map, unless one is given, with the photons of a pass, and counts them. */
+rt_status rt_photon_render_emit(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
+                                rt_error *error);
+
+#endif

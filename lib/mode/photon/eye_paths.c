@@ -1,0 +1,312 @@
+/* eye_paths.c - batches of eye paths followed, gathered for and added to the film. */
+#include "mode/photon/eye_paths.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "render/prepare.h"
+
+/* ---- Kernels and memory ----------------------------------------------------- */
+
+rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *renderer,
+                                 rt_photon_search search, rt_stage_progress *progress,
+                                 rt_error *error)
+{
+    rt_device *device = renderer->device;
+    cl_mem any = renderer->scene; /* stands for all buffers that are not touched yet */
+    rt_params params;
+    rt_u32 stride = 0;
+    memset(&params, 0, sizeof params);
+    rt_arg camera[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(any), RT_ARG(stride)};
+    rt_arg film[] = {RT_ARG(params), RT_ARG(any), RT_ARG(any), RT_ARG(stride), RT_ARG(any)};
+
+    memset(out, 0, sizeof *out);
+    rt_status status = rt_kernel_prepare(device, &out->camera, "photon_camera", "photon_camera",
+                                         camera, 5, progress, error);
+    if (status == RT_OK)
+        status = rt_gather_kernel_prepare(&out->gather, device, search, any, progress, error);
+    if (status == RT_OK)
+        status = rt_kernel_prepare(device, &out->film, "photon_film", "photon_film", film, 5,
+                                   progress, error);
+    return status;
+}
+
+void rt_eye_kernels_release(rt_eye_kernels *kernels)
+{
+    rt_kernel_release(kernels->camera);
+    rt_kernel_release(kernels->gather);
+    rt_kernel_release(kernels->film);
+    memset(kernels, 0, sizeof *kernels);
+}
+
+static rt_status create_layers(rt_eye_paths *paths, rt_error *error)
+{
+    if (!paths->job->options->photon_layers)
+        return RT_OK;
+    paths->host_points = malloc((1 + paths->rows) * paths->capacity * sizeof *paths->host_points);
+    if (!paths->host_points)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the layers of %zu points",
+                       paths->capacity);
+    rt_status status = rt_photon_bias_create(&paths->bias, paths->job->renderer->device,
+                                             paths->capacity, paths->rows, error);
+    return status == RT_OK
+               ? rt_photon_layers_create(&paths->layers, rt_film_pixels(paths->job->film), error)
+               : status;
+}
+
+static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
+{
+    rt_device *device = paths->job->renderer->device;
+    rt_film *film = paths->job->film;
+    size_t bytes = paths->capacity * sizeof(rt_gather_point);
+    rt_status status = rt_buffer_create(device, &paths->points, CL_MEM_READ_WRITE, bytes, NULL,
+                                        "gather points", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &paths->earlier, CL_MEM_READ_WRITE, paths->rows * bytes,
+                                  NULL, "gather points of caustics", error);
+    if (status == RT_OK)
+        status = create_layers(paths, error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &paths->pixels, CL_MEM_READ_WRITE,
+                                  rt_film_pixels(film) * sizeof *film->pixels, film->pixels,
+                                  "the film", error);
+    return status;
+}
+
+rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
+                              const rt_eye_kernels *kernels, rt_error *error)
+{
+    const rt_render_options *o = job->options;
+    size_t pixels = rt_film_pixels(job->film);
+    memset(paths, 0, sizeof *paths);
+    paths->job = job;
+    paths->kernels = *kernels;
+    paths->rows = o->final_gather < o->max_depth ? o->final_gather : o->max_depth;
+    paths->capacity = RT_GATHER_POINTS_MAX / (1 + paths->rows);
+    if (pixels < paths->capacity)
+        paths->capacity = pixels;
+
+    paths->discs = malloc(2 * paths->capacity * sizeof *paths->discs);
+    if (!paths->discs)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points",
+                       paths->capacity);
+    paths->more_discs = paths->discs + paths->capacity;
+    return create_buffers(paths, error);
+}
+
+void rt_eye_paths_release(rt_eye_paths *paths)
+{
+    rt_buffer_release(paths->points);
+    rt_buffer_release(paths->earlier);
+    rt_buffer_release(paths->pixels);
+    free(paths->discs);
+    free(paths->layers);
+    free(paths->host_points);
+    rt_photon_bias_release(&paths->bias);
+    memset(paths, 0, sizeof *paths);
+}
+
+/* ---- A batch: paths, queries, film ------------------------------------------ */
+
+/* Follows one eye path of each of params->item_count pixels. */
+static rt_status follow_paths(rt_eye_paths *paths, rt_params *params, rt_error *error)
+{
+    const rt_renderer *renderer = paths->job->renderer;
+    rt_u32 stride = (rt_u32)paths->capacity;
+    rt_arg args[] = {{sizeof *params, params},
+                     RT_ARG(renderer->scene),
+                     RT_ARG(paths->points),
+                     RT_ARG(paths->earlier),
+                     RT_ARG(stride)};
+    params->final_gather = paths->rows;
+    rt_status status =
+        rt_kernel_args(paths->kernels.camera, args, sizeof args / sizeof *args, error);
+    return status == RT_OK
+               ? rt_launch(renderer->device, paths->kernels.camera, params->item_count, error)
+               : status;
+}
+
+/* Counts the query points at ends of paths; caustic: what the caustic query found, or NULL. */
+static void count_ends(const rt_gather_disc *discs, const rt_gather_disc *caustic, size_t count,
+                       rt_film_stats *stats)
+{
+    for (size_t i = 0; i < count; i++) {
+        stats->gathers += discs[i].asked;
+        stats->gathers_at_ends += discs[i].asked;
+        stats->gathers_empty +=
+            discs[i].asked && discs[i].count == 0 && !(caustic && caustic[i].count > 0);
+    }
+}
+
+static void count_earlier(const rt_gather_disc *discs, size_t count, rt_film_stats *stats)
+{
+    for (size_t i = 0; i < count; i++)
+        stats->gathers += discs[i].asked;
+}
+
+/* Makes one query at the points of a row, and for the layers the finer one as well. */
+static rt_status gather(rt_eye_paths *paths, const rt_queries *queries, rt_query query, size_t row,
+                        size_t count, rt_error *error)
+{
+    rt_gatherer *gatherer = queries->gatherers[query];
+    cl_mem points = row == 0 ? paths->points : paths->earlier;
+    size_t first = row == 0 ? 0 : (row - 1) * paths->capacity;
+    rt_gather_disc *discs = query == RT_QUERY_GLOBAL ? paths->discs : paths->more_discs;
+    if (paths->layers)
+        return rt_photon_bias_add(&paths->bias, gatherer, queries->finer + query, points, first,
+                                  row, count, discs, error);
+    return rt_gatherer_add(gatherer, points, first, count, discs, error);
+}
+
+/* Makes all queries of a batch. A point counts as a query once, however many lists there are. */
+static rt_status gather_all(rt_eye_paths *paths, const rt_queries *queries, size_t count,
+                            rt_error *error)
+{
+    rt_film_stats *stats = &paths->job->film->stats;
+    int global = queries->gatherers[RT_QUERY_GLOBAL] != NULL;
+    int caustic = queries->gatherers[RT_QUERY_CAUSTIC] != NULL;
+    rt_status status = RT_OK;
+    if (paths->layers)
+        status = rt_photon_bias_begin(&paths->bias, paths->points, paths->earlier, count, error);
+    if (status == RT_OK && global)
+        status = gather(paths, queries, RT_QUERY_GLOBAL, 0, count, error);
+    if (status == RT_OK && caustic)
+        status = gather(paths, queries, RT_QUERY_CAUSTIC, 0, count, error);
+    if (status == RT_OK && global)
+        count_ends(paths->discs, caustic ? paths->more_discs : NULL, count, stats);
+    if (!queries->gatherers[RT_QUERY_EARLIER])
+        return status;
+    for (rt_u32 row = 1; row <= paths->rows && status == RT_OK; row++) {
+        status = gather(paths, queries, RT_QUERY_EARLIER, row, count, error);
+        if (status == RT_OK)
+            count_earlier(paths->more_discs, count, stats);
+    }
+    return status;
+}
+
+/* Adds a batch that was gathered for to the layers. */
+static rt_status add_to_layers(rt_eye_paths *paths, const rt_queries *queries, size_t count,
+                               rt_error *error)
+{
+    rt_device *device = paths->job->renderer->device;
+    rt_gather_point *points = paths->host_points, *earlier = points + paths->capacity;
+    size_t row = paths->capacity * sizeof *points;
+    if (!paths->layers)
+        return RT_OK;
+    if (!queries->gatherers[RT_QUERY_GLOBAL])
+        memset(paths->discs, 0, count * sizeof *paths->discs);
+    rt_status status =
+        rt_buffer_read(device, paths->points, 0, count * sizeof *points, points, error);
+    if (status == RT_OK)
+        status = rt_buffer_read(device, paths->earlier, 0, paths->rows * row, earlier, error);
+    if (status == RT_OK)
+        rt_photon_layers_add(paths->layers, points, paths->discs, paths->bias.sums, count, earlier,
+                             paths->rows, paths->capacity);
+    return status;
+}
+
+static rt_status add_to_film(rt_eye_paths *paths, const rt_params *params, rt_error *error)
+{
+    rt_u32 stride = (rt_u32)paths->capacity;
+    rt_arg args[] = {{sizeof *params, params},
+                     RT_ARG(paths->points),
+                     RT_ARG(paths->earlier),
+                     RT_ARG(stride),
+                     RT_ARG(paths->pixels)};
+    rt_status status = rt_kernel_args(paths->kernels.film, args, sizeof args / sizeof *args, error);
+    return status == RT_OK ? rt_launch(paths->job->renderer->device, paths->kernels.film,
+                                       params->item_count, error)
+                           : status;
+}
+
+/* ---- A sample of the film --------------------------------------------------- */
+
+/* What is done with a batch of eye paths that were followed. */
+typedef rt_status batch_work(rt_eye_paths *paths, const rt_queries *queries,
+                             const rt_params *params, void *data, rt_error *error);
+
+/* Follows one eye path of every pixel, a batch at a time, and does the work on each batch. */
+static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, uint32_t sample,
+                            batch_work *work, void *data, rt_stage_progress *progress,
+                            rt_error *error)
+{
+    uint32_t pixels = (uint32_t)rt_film_pixels(paths->job->film);
+    size_t batch = rt_queries_capacity(queries, paths->capacity);
+    rt_params params = rt_params_make(paths->job->options);
+    rt_status status = RT_OK;
+
+    params.first_sample = sample;
+    params.sample_count = 1;
+    params.replicate = paths->replicate;
+    for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
+        params.first_item = done;
+        params.item_count = pixels - done < batch ? pixels - done : (uint32_t)batch;
+        status = follow_paths(paths, &params, error);
+        if (status == RT_OK)
+            status = work(paths, queries, &params, data, error);
+        if (status == RT_OK)
+            status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
+    }
+    return status;
+}
+
+/* Makes the queries, and adds their radiance to the film and its layers. */
+static rt_status add_batch(rt_eye_paths *paths, const rt_queries *queries, const rt_params *params,
+                           void *data, rt_error *error)
+{
+    (void)data;
+    rt_status status = gather_all(paths, queries, params->item_count, error);
+    if (status == RT_OK)
+        status = add_to_layers(paths, queries, params->item_count, error);
+    if (status == RT_OK)
+        status = add_to_film(paths, params, error);
+    if (status == RT_OK)
+        status = rt_first_hit_layers_add(paths->job->layers, params, error);
+    return status;
+}
+
+rt_status rt_eye_paths_sample(rt_eye_paths *paths, const rt_queries *queries, uint32_t sample,
+                              rt_stage_progress *progress, rt_error *error)
+{
+    return each_batch(paths, queries, sample, add_batch, NULL, progress, error);
+}
+
+/* Of rt_eye_paths_radii. */
+typedef struct radii {
+    rt_query query;
+    float *squared;
+} radii;
+
+/* Notes the squared radii of the discs at the points of a batch, by pixel. */
+static rt_status note_radii(rt_eye_paths *paths, const rt_queries *queries, const rt_params *params,
+                            void *data, rt_error *error)
+{
+    const radii *r = data;
+    cl_mem points = r->query == RT_QUERY_EARLIER ? paths->earlier : paths->points;
+    rt_status status = rt_gatherer_add(queries->gatherers[r->query], points, 0, params->item_count,
+                                       paths->discs, error);
+    for (uint32_t i = 0; i < params->item_count && status == RT_OK; i++)
+        r->squared[paths->discs[i].pixel] =
+            paths->discs[i].count > 0 ? paths->discs[i].squared_radius : 0;
+    return status;
+}
+
+rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_query query,
+                             uint32_t sample, float *squared, rt_stage_progress *progress,
+                             rt_error *error)
+{
+    radii r = {query, squared};
+    return each_batch(paths, queries, sample, note_radii, &r, progress, error);
+}
+
+rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)
+{
+    rt_film *film = paths->job->film;
+    rt_status status =
+        rt_buffer_read(paths->job->renderer->device, paths->pixels, 0,
+                       rt_film_pixels(film) * sizeof *film->pixels, film->pixels, error);
+    return status == RT_OK && paths->layers ? rt_photon_layers_resolve(film, paths->layers, error)
+                                            : status;
+}

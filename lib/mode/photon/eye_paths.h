@@ -1,0 +1,66 @@
+/*
+ * eye_paths.h - the camera's half of photon mapping: paths from the camera to gather points, the
+ * queries there, and the film that they are added to.
+ */
+#ifndef RT_LIB_MODE_PHOTON_EYE_PATHS_H
+#define RT_LIB_MODE_PHOTON_EYE_PATHS_H
+
+#include "mode/mode.h"
+#include "mode/photon/layers.h"
+#include "mode/photon/queries.h"
+
+/* The kernels of the camera's half. */
+typedef struct rt_eye_kernels {
+    cl_kernel camera; /* photon_camera */
+    cl_kernel gather; /* that of rt_gather_kernel_prepare */
+    cl_kernel film;   /* photon_film */
+} rt_eye_kernels;
+
+/* Eye paths under way, a batch at a time. */
+typedef struct rt_eye_paths {
+    const rt_render_job *job;
+    rt_eye_kernels kernels;
+    uint32_t replicate; /* of the samples to come */
+    rt_u32 rows;        /* earlier gather points of a path: diffuse bounces of the final gather */
+    size_t capacity;    /* paths a batch */
+    cl_mem points;      /* rt_gather_point [capacity], the ends of paths */
+    cl_mem earlier;     /* rt_gather_point [rows][capacity] */
+    cl_mem pixels;      /* rt_film_pixel, the film on the device */
+    rt_gather_disc *discs;        /* [capacity], what the global query found */
+    rt_gather_disc *more_discs;   /* [capacity], what the caustic or an earlier query found */
+    rt_photon_layer_sum *layers;  /* one a pixel, or NULL when there are none */
+    rt_gather_point *host_points; /* for the layers: [1 + rows][capacity] points */
+    rt_photon_bias bias;          /* likewise */
+} rt_eye_paths;
+
+/* Builds the kernels, as part of the stage `compile`. Release with rt_eye_kernels_release. */
+rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *renderer,
+                                 rt_photon_search search, rt_stage_progress *progress,
+                                 rt_error *error);
+void rt_eye_kernels_release(rt_eye_kernels *kernels);
+
+/* Makes memory for batches, and the film on the device. rt_eye_paths_release undoes it. */
+rt_status rt_eye_paths_create(rt_eye_paths *out, const rt_render_job *job,
+                              const rt_eye_kernels *kernels, rt_error *error);
+void rt_eye_paths_release(rt_eye_paths *paths);
+
+/*
+ * Gives each pixel the sample of this number. The gathers of the film's stats grow by the points
+ * that queried a map. Reports fractions of the part of the stage that progress is set to.
+ */
+rt_status rt_eye_paths_sample(rt_eye_paths *paths, const rt_queries *queries, uint32_t sample,
+                              rt_stage_progress *progress, rt_error *error);
+
+/*
+ * The squared radius of each pixel, [height][width], m^2, that one sample finds by the gatherer of
+ * this query at the end of its path or, for RT_QUERY_EARLIER, at its first diffuse bounce; 0 where
+ * there are no photons or no gather point. The film is left alone.
+ */
+rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_query query,
+                             uint32_t sample, float *squared, rt_stage_progress *progress,
+                             rt_error *error);
+
+/* Reads the film from the device, and makes its layers. */
+rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error);
+
+#endif

@@ -1,0 +1,183 @@
+/*
+ * photon.c - the mode photon: light paths fill a photon map, then eye paths gather from it the
+ * light that arrives where they end; once, or in passes.
+ */
+#include "base/error.h"
+#include "mode/modes.h"
+#include "mode/photon/emission.h"
+#include "mode/photon/passes.h"
+#include "photon/map_check.h"
+
+/* ---- Options ---------------------------------------------------------------- */
+
+/* What the search by neighbour lists, and by the tree, cannot do. */
+static rt_status check_gather(const rt_render_options *o, rt_error *error)
+{
+    int all = o->k == RT_K_ALL || o->caustic_k == RT_K_ALL, in_passes = o->passes > 1;
+    if (o->gather == RT_GATHER_FLANN && (all || in_passes))
+        return rt_fail_field(error, RT_ERROR_USAGE, "gather",
+                             "FLANN finds the k nearest photons only; %s, gather on the device",
+                             in_passes ? "in passes" : "for all within a radius");
+    if (o->area == RT_AREA_HULL && (all || in_passes || o->gather == RT_GATHER_DEVICE))
+        return rt_fail_field(
+            error, RT_ERROR_USAGE, "area",
+            "the hull is for the k nearest photons by FLANN, not for passes or the device");
+    if (o->k == RT_K_ALL && o->radius == 0)
+        return rt_fail_field(error, RT_ERROR_USAGE, "k",
+                             "to gather all photons within a radius, give the radius");
+    if (o->caustic_k == RT_K_ALL && o->caustic_radius == 0)
+        return rt_fail_field(error, RT_ERROR_USAGE, "caustic_k",
+                             "to gather all photons within a radius, give the caustic_radius");
+    return RT_OK;
+}
+
+static rt_status check(const rt_render_options *o, rt_error *error)
+{
+    if (rt_noise_wanted(o) && o->passes < 2)
+        return rt_fail_field(
+            error, RT_ERROR_USAGE, o->target_error > 0 ? "target_error" : "variance",
+            "the samples of one photon map share its photons, so that they cannot tell its error; "
+            "give passes");
+    rt_status status = check_gather(o, error);
+    if (status != RT_OK)
+        return status;
+    if ((uint64_t)o->passes * o->spp > UINT32_MAX)
+        return rt_fail_field(error, RT_ERROR_USAGE, "passes",
+                             "%u passes of %u samples are more than the %lu possible", o->passes,
+                             o->spp, (unsigned long)UINT32_MAX);
+    if (o->passes > 1 && o->photon_map)
+        return rt_fail_field(error, RT_ERROR_USAGE, "passes",
+                             "a photon map that is there already has one pass");
+    return RT_OK;
+}
+
+/* ---- Preparation ------------------------------------------------------------ */
+
+static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,
+                         rt_error *error)
+{
+    rt_photon_render *r = state;
+    const rt_render_options *o = job->options;
+    rt_status status = RT_OK;
+
+    r->job = job;
+    r->in_passes = o->passes > 1;
+    r->search = o->gather == RT_GATHER_DEVICE || r->in_passes || o->k == RT_K_ALL ||
+                        o->caustic_k == RT_K_ALL
+                    ? RT_SEARCH_TREE
+                    : RT_SEARCH_NEIGHBOURS;
+    r->in_use = o->photon_map ? o->photon_map : &r->map;
+    if (o->photon_map)
+        status = rt_photon_map_check(o->photon_map, job->renderer, o, error);
+    else
+        status = rt_emit_kernel_prepare(&r->emit, job->renderer->device, job->renderer->scene,
+                                        progress, error);
+    return status == RT_OK
+               ? rt_eye_kernels_prepare(&r->eye_kernels, job->renderer, r->search, progress, error)
+               : status;
+}
+
+/* ---- A render without passes ------------------------------------------------ */
+
+/* Runs on a thread of its own, because the building of large trees takes long. */
+static rt_status open_queries(void *data)
+{
+    rt_photon_render *r = data;
+    rt_status status = RT_OK;
+    for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++)
+        if (rt_photon_render_list(r, query)) {
+            status = rt_photon_render_open(r, query, r->options + query, &r->error);
+            if (status == RT_OK)
+                status = rt_photon_render_open_finer(r, query, r->options + query, &r->error);
+        }
+    return status;
+}
+
+/* Builds the search trees, then samples the film, as one stage. */
+static rt_status gather(rt_photon_render *r, rt_error *error)
+{
+    rt_stage_progress progress;
+    rt_status status = rt_stage_begin(&progress, r->job->options->hooks, RT_STAGE_GATHER);
+    if (status == RT_OK)
+        status = rt_stage_run(&progress, open_queries, r);
+    if (status != RT_OK) {
+        if (status != RT_CANCELLED && error)
+            *error = r->error;
+        return status;
+    }
+    status = rt_photon_render_sample(r, 0, &progress, error);
+    if (status == RT_OK || status == RT_CANCELLED) {
+        rt_status end = rt_stage_end(&progress, &r->job->film->stats.gather_seconds);
+        status = status == RT_OK ? end : status;
+    }
+    return status;
+}
+
+/* Emission, then gathering, each a stage. */
+static rt_status render_once(rt_photon_render *r, rt_error *error)
+{
+    const rt_hooks *hooks = r->job->options->hooks;
+    rt_film_stats *stats = &r->job->film->stats;
+    rt_stage_progress progress;
+
+    rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_EMIT);
+    if (status == RT_OK)
+        status = rt_photon_render_emit(r, 0, &progress, error);
+    if (status != RT_OK)
+        return status;
+    rt_log(hooks, "%llu photons stored of %llu paths", (unsigned long long)stats->photons_stored,
+           (unsigned long long)stats->photons_emitted);
+    status = rt_stage_end(&progress, &stats->emit_seconds);
+    return status == RT_OK ? gather(r, error) : status;
+}
+
+/* ---- The whole -------------------------------------------------------------- */
+
+/* Warns of light that is missing, or all noise. */
+static void warn(const rt_photon_render *r)
+{
+    const rt_render_options *o = r->job->options;
+    const rt_film *film = r->job->film;
+    const rt_film_stats *stats = &film->stats;
+    if (r->emitter)
+        rt_emitter_warn_reach(r->emitter, o->hooks);
+    rt_photon_map_warn_starved(r->in_use, &film->ledger, stats->passes, o->k, o->caustic_k,
+                               o->hooks);
+    if (stats->gathers_empty > stats->gathers_at_ends / 2)
+        rt_warn(o->hooks,
+                "%llu of the %llu points that asked for photons found none: the light that photons "
+                "bring is missing there, or all noise; a larger radius or more photons help",
+                (unsigned long long)stats->gathers_empty,
+                (unsigned long long)stats->gathers_at_ends);
+}
+
+static rt_status run(const rt_render_job *job, void *state, rt_error *error)
+{
+    (void)job;
+    rt_photon_render *r = state;
+    rt_status status = rt_photon_render_begin(r, error);
+    if (status != RT_OK)
+        return status;
+    status = r->in_passes ? rt_photon_render_passes(r, error) : render_once(r, error);
+    if (status == RT_OK)
+        warn(r);
+    if (status == RT_OK || status == RT_CANCELLED) {
+        rt_status read = rt_eye_paths_read(&r->eye_paths, error);
+        status = read == RT_OK ? status : read;
+    }
+    return status;
+}
+
+static void release(void *state)
+{
+    rt_photon_render_free(state);
+}
+
+const rt_mode_class rt_mode_photon = {
+    .has_noise = 1,
+    .state_size = sizeof(rt_photon_render),
+    .check = check,
+    .prepare = prepare,
+    .run = run,
+    .release = release,
+};

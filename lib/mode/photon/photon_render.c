@@ -1,0 +1,118 @@
+/* photon_render.c - gatherers opened by query, and samples of the film taken with them. */
+#include "mode/photon/photon_render.h"
+
+#include <string.h>
+
+/* How each query gathers by the options of the render. */
+static void set_gather_options(rt_photon_render *r)
+{
+    const rt_render_options *o = r->job->options;
+    r->options[RT_QUERY_GLOBAL] =
+        (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->search};
+    r->options[RT_QUERY_CAUSTIC] = (rt_gather_options){
+        o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, o->area, r->search};
+    r->options[RT_QUERY_EARLIER] =
+        r->options[r->in_use->settings.split ? RT_QUERY_CAUSTIC : RT_QUERY_GLOBAL];
+    for (rt_query query = 0; query < RT_QUERIES; query++) {
+        r->first_radius[query] = r->options[query].max_radius;
+        if (r->options[query].k == RT_K_ALL)
+            r->options[query].k = 0;
+    }
+}
+
+rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
+{
+    const rt_render_options *o = r->job->options;
+    const rt_renderer *renderer = r->job->renderer;
+    r->map.settings = rt_photon_settings_of(o);
+    set_gather_options(r);
+    rt_status status = rt_eye_paths_create(&r->eye_paths, r->job, &r->eye_kernels, error);
+    if (status == RT_OK && !o->photon_map)
+        status = rt_emitter_create(&r->emitter, renderer->device, r->emit, renderer->scene,
+                                   o->light_shares, o->light_share_count, error);
+    r->began = rt_clock();
+    return status;
+}
+
+void rt_photon_render_free(rt_photon_render *r)
+{
+    rt_queries_close(&r->queries);
+    for (int i = 0; i < RT_QUERIES; i++)
+        rt_buffer_release(r->first_radii[i]);
+    rt_eye_paths_release(&r->eye_paths);
+    rt_emitter_destroy(r->emitter);
+    rt_photon_list_clear(&r->caustics);
+    rt_photon_map_free(&r->map);
+    rt_eye_kernels_release(&r->eye_kernels);
+    rt_kernel_release(r->emit);
+    memset(r, 0, sizeof *r);
+}
+
+uint32_t rt_photon_render_replicates(const rt_photon_render *r)
+{
+    return r->job->noise ? RT_REPLICATES : 1;
+}
+
+const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_query query)
+{
+    const rt_photon_list *lists = r->in_use->lists;
+    int split = r->in_use->settings.split != 0;
+    switch (query) {
+    case RT_QUERY_GLOBAL:
+        return lists + RT_PHOTONS_GLOBAL;
+    case RT_QUERY_CAUSTIC:
+        return split ? lists + RT_PHOTONS_CAUSTIC : NULL;
+    case RT_QUERY_EARLIER:
+        if (r->job->options->final_gather == 0)
+            return NULL;
+        return split ? lists + RT_PHOTONS_CAUSTIC : &r->caustics;
+    case RT_QUERIES:
+        break;
+    }
+    return NULL;
+}
+
+rt_status rt_photon_render_open(rt_photon_render *r, rt_query query,
+                                const rt_gather_options *options, rt_error *error)
+{
+    return rt_gatherer_create(r->queries.gatherers + query, r->job->renderer->device,
+                              r->eye_kernels.gather, rt_photon_render_list(r, query), options,
+                              error);
+}
+
+rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_query query,
+                                      const rt_gather_options *options, rt_error *error)
+{
+    rt_finer *finer = r->queries.finer + query;
+    rt_gather_options fine;
+    if (!r->job->options->photon_layers || !rt_photon_bias_finer(&fine, &finer->factor, options))
+        return RT_OK;
+    return rt_gatherer_create(&finer->gatherer, r->job->renderer->device, r->eye_kernels.gather,
+                              rt_photon_render_list(r, query), &fine, error);
+}
+
+double rt_photon_render_elapsed(const rt_photon_render *r)
+{
+    double time = r->job->options->time, part = time > 0 ? (rt_clock() - r->began) / time : 0;
+    return part < 1 ? part : 1;
+}
+
+rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_progress *progress,
+                                  rt_error *error)
+{
+    double from = progress->from, span = progress->to - progress->from;
+    uint32_t spp = r->job->options->spp;
+    rt_status status = RT_OK;
+
+    for (uint32_t i = 0; i < spp && status == RT_OK; i++) {
+        double by_samples = from + span * i / spp, by_time = rt_photon_render_elapsed(r);
+        if (!r->in_passes && by_time > by_samples)
+            rt_stage_part(progress, by_time, by_time);
+        else
+            rt_stage_part(progress, by_samples, from + span * (i + 1) / spp);
+        status = rt_eye_paths_sample(&r->eye_paths, &r->queries, first + i, progress, error);
+        if (rt_photon_render_elapsed(r) >= 1)
+            break;
+    }
+    return status;
+}

@@ -1,0 +1,62 @@
+/*
+ * photon_render.h - a render by photon mapping under way: the map in use, its gatherers, and the
+ * sampling of the film with them.
+ */
+#ifndef RT_LIB_MODE_PHOTON_PHOTON_RENDER_H
+#define RT_LIB_MODE_PHOTON_PHOTON_RENDER_H
+
+#include "mode/mode.h"
+#include "mode/photon/eye_paths.h"
+#include "photon/emit.h"
+#include "photon/photon_map.h"
+
+typedef struct rt_photon_render {
+    const rt_render_job *job;
+    int in_passes;
+    rt_photon_search search;
+    cl_kernel emit;
+    rt_eye_kernels eye_kernels;
+    rt_emitter *emitter;
+    rt_photon_map map;           /* what is emitted */
+    const rt_photon_map *in_use; /* that, or the one of the options */
+    /* for the final gather, copies out of the global list where there is no caustic list */
+    rt_photon_list caustics;
+    rt_eye_paths eye_paths;
+    /* how each query gathers without passes; each pass has a radius of its own */
+    rt_gather_options options[RT_QUERIES];
+    rt_queries queries;
+    double first_radius[RT_QUERIES]; /* of the passes, the largest; 0 while unknown */
+    /* squared, of each pixel, float; NULL where one holds for all */
+    cl_mem first_radii[RT_QUERIES];
+    double began;   /* rt_clock() at the start of emission, for options->time */
+    rt_error error; /* of the thread that builds search trees */
+} rt_photon_render;
+
+/* Starts the clock, and makes the emitter and the memory for eye paths. */
+rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error);
+
+/* Frees all that the render holds. */
+void rt_photon_render_free(rt_photon_render *r);
+
+/* How many replicates passes take turns at, so that the error can be estimated. */
+uint32_t rt_photon_render_replicates(const rt_photon_render *r);
+
+/* The photons that a query is of; NULL when the render does not make it. */
+const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_query query);
+
+/* Makes the gatherer of a query. */
+rt_status rt_photon_render_open(rt_photon_render *r, rt_query query,
+                                const rt_gather_options *options, rt_error *error);
+
+/* Where layers are asked for, makes the finer gatherer beside that of a query. */
+rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_query query,
+                                      const rt_gather_options *options, rt_error *error);
+
+/* Gives every pixel samples from `first` on, until there are enough or time is up. */
+rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_progress *progress,
+                                  rt_error *error);
+
+/* The fraction of options->time that is gone, 0 to 1; 0 without. */
+double rt_photon_render_elapsed(const rt_photon_render *r);
+
+#endif

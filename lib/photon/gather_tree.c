@@ -1,0 +1,95 @@
+/* gather_tree.c - the tree of photons uploaded, and the kernel that walks it. */
+#include "photon/gather_tree.h"
+
+#include <string.h>
+
+#include "base/error.h"
+#include "photon/neighbour_search.h"
+
+/*
+ * Scratch memory of all work-items together, in floats, and points that one takes on a CPU, where
+ * few run at once.
+ */
+enum { SCRATCH_MAX = 1 << 24, POINTS_AN_ITEM_CPU = 16 };
+
+/*
+ * Room for the distances of one search: twice k, so that the selection of the k smallest is rare,
+ * and whole rows of eight.
+ */
+static size_t distances(rt_u32 k)
+{
+    return k == 0 ? 0 : ((size_t)2 * k + 64) / 8 * 8;
+}
+
+static rt_status create_buffers(rt_tree_gather *g, rt_device *device, size_t capacity,
+                                rt_error *error)
+{
+    size_t items = (capacity + g->estimate.points_an_item - 1) / g->estimate.points_an_item;
+    /* A CPU device works on the host's memory; another gets its copy. */
+    cl_mem_flags flags = CL_MEM_READ_ONLY | (device->info.is_cpu ? CL_MEM_USE_HOST_PTR : 0);
+    size_t nodes = g->tree.node_count * sizeof *g->tree.nodes;
+    size_t blocks = g->tree.shape.block_count * sizeof *g->tree.blocks;
+    rt_status status = rt_buffer_create(device, &g->nodes, nodes ? flags : CL_MEM_READ_ONLY, nodes,
+                                        nodes ? g->tree.nodes : NULL, "the photon tree", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &g->blocks, blocks ? flags : CL_MEM_READ_ONLY, blocks,
+                                  blocks ? g->tree.blocks : NULL, "the photons of the tree", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &g->scratch, CL_MEM_READ_WRITE,
+                                  items * g->estimate.stride * sizeof(float), NULL,
+                                  "distances of photons", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(device, &g->discs, CL_MEM_READ_WRITE,
+                                  capacity * sizeof(rt_gather_disc), NULL, "gather discs", error);
+    return status;
+}
+
+rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_photon_list *list,
+                                 const rt_density_params *estimate, size_t capacity,
+                                 rt_error *error)
+{
+    size_t stride = distances(estimate->k),
+           least = (capacity * stride + SCRATCH_MAX - 1) / SCRATCH_MAX;
+    size_t usual = device->info.is_cpu ? POINTS_AN_ITEM_CPU : 1;
+    memset(g, 0, sizeof *g);
+    g->estimate = *estimate;
+    g->estimate.stride = (rt_u32)stride;
+    g->estimate.max_candidates = RT_CANDIDATES_MAX * estimate->k;
+    g->estimate.points_an_item = (rt_u32)(least > usual ? least : usual);
+
+    rt_status status = rt_photon_tree_build(&g->tree, list, device->threads, error);
+    if (status == RT_OK)
+        status = create_buffers(g, device, capacity, error);
+    if (status == RT_OK && !device->info.is_cpu) {
+        rt_photon_tree shape = g->tree.shape;
+        rt_photon_tree_free(&g->tree);
+        g->tree.shape = shape;
+    }
+    return status;
+}
+
+void rt_tree_gather_release(rt_tree_gather *g)
+{
+    rt_buffer_release(g->nodes);
+    rt_buffer_release(g->blocks);
+    rt_buffer_release(g->scratch);
+    rt_buffer_release(g->discs);
+    rt_photon_tree_free(&g->tree);
+    memset(g, 0, sizeof *g);
+}
+
+rt_status rt_tree_gather_launch(const rt_tree_gather *g, rt_device *device, cl_kernel kernel,
+                                cl_mem points, size_t first, size_t count, rt_error *error)
+{
+    size_t each = g->estimate.points_an_item;
+    rt_params params;
+    memset(&params, 0, sizeof params);
+    params.first_item = (rt_u32)first;
+    params.item_count = (rt_u32)count;
+    cl_mem own_limits = g->own_limits ? g->own_limits : g->scratch; /* which is not read */
+    rt_arg args[] = {RT_ARG(params),    RT_ARG(g->estimate),   RT_ARG(points),
+                     RT_ARG(g->discs),  RT_ARG(g->tree.shape), RT_ARG(g->nodes),
+                     RT_ARG(g->blocks), RT_ARG(g->scratch),    RT_ARG(own_limits)};
+    rt_status status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
+    return status == RT_OK ? rt_launch(device, kernel, (count + each - 1) / each, error) : status;
+}

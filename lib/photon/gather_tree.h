@@ -1,0 +1,33 @@
+/* gather_tree.h - gathering by a tree of photons: the device walks it and sums what it finds. */
+#ifndef RT_LIB_PHOTON_GATHER_TREE_H
+#define RT_LIB_PHOTON_GATHER_TREE_H
+
+#include "device/device.h"
+#include "photon/photon_tree.h"
+
+typedef struct rt_tree_gather {
+    rt_photon_tree_data tree; /* on the host; freed when the device has its copy */
+    cl_mem nodes, blocks;
+    cl_mem scratch;    /* float [items][stride] */
+    cl_mem discs;      /* rt_gather_disc [capacity] */
+    cl_mem own_limits; /* the caller's, see estimate.own_limits; NULL without */
+    rt_density_params estimate;
+} rt_tree_gather;
+
+/*
+ * Builds and uploads the tree of a list, for gathers of up to `capacity` points; estimate: density,
+ * cone_k, k, squared_limit and scale. rt_tree_gather_release undoes it, also after a failure.
+ */
+rt_status rt_tree_gather_prepare(rt_tree_gather *out, rt_device *device, const rt_photon_list *list,
+                                 const rt_density_params *estimate, size_t capacity,
+                                 rt_error *error);
+void rt_tree_gather_release(rt_tree_gather *gather);
+
+/*
+ * Enqueues the kernel gather_tree, or one of the same arguments, for points first .. first + count
+ * - 1.
+ */
+rt_status rt_tree_gather_launch(const rt_tree_gather *gather, rt_device *device, cl_kernel kernel,
+                                cl_mem points, size_t first, size_t count, rt_error *error);
+
+#endif

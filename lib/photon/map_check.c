@@ -1,0 +1,47 @@
+/* map_check.c - a loaded map beside the scene and the options of a render. */
+#include "photon/map_check.h"
+
+#include <stddef.h>
+
+#include "base/error.h"
+#include "photon/fingerprint.h"
+
+/* Only a file that was tampered with can have others: the photons of a scene lie on its shapes. */
+static rt_status check_shapes(const rt_photon_map *map, const rt_renderer *renderer,
+                              rt_error *error)
+{
+    rt_u32 count;
+    rt_status status =
+        rt_buffer_read(renderer->device, renderer->scene, offsetof(rt_scene_header, shape_count),
+                       sizeof count, &count, error);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+        for (size_t i = 0; i < map->lists[kind].count; i++)
+            if (map->lists[kind].photons[i].shape >= count)
+                return rt_fail(error, RT_ERROR_INPUT,
+                               "the photon map has a photon on shape %u of a scene of %u shapes",
+                               map->lists[kind].photons[i].shape, count);
+    return status;
+}
+
+rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *renderer,
+                              const rt_render_options *options, rt_error *error)
+{
+    uint64_t scene;
+    rt_status status = rt_scene_fingerprint(&scene, renderer->device, renderer->scene, error);
+    if (status != RT_OK)
+        return status;
+    if (map->settings.scene != scene)
+        return rt_fail(
+            error, RT_ERROR_INPUT,
+            "the photon map was emitted in another scene, or in this one before it was changed");
+    if (map->settings.direct != options->direct)
+        return rt_fail_field(error, RT_ERROR_USAGE, "direct", "the photon map %s direct light",
+                             map->settings.direct == RT_DIRECT_PHOTONS ? "already holds"
+                                                                       : "does not hold");
+    if (map->settings.max_depth != options->max_depth)
+        rt_warn(options->hooks,
+                "the photon map holds paths of at most %u segments, and max_depth is %u",
+                map->settings.max_depth, options->max_depth);
+    rt_photon_map_warn_even(map, options->area, options->hooks);
+    return check_shapes(map, renderer, error);
+}

@@ -1,0 +1,12 @@
+/* map_check.h - whether the photons of a loaded map can be used in a render. */
+#ifndef RT_LIB_PHOTON_MAP_CHECK_H
+#define RT_LIB_PHOTON_MAP_CHECK_H
+
+#include "photon/photon_map.h"
+#include "render/renderer.h"
+
+/* Fails where a map is not of the renderer's scene or does not fit the options' direct light. */
+rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *renderer,
+                              const rt_render_options *options, rt_error *error);
+
+#endif

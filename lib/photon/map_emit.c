@@ -1,0 +1,104 @@
+/* map_emit.c - rt_photon_map_emit: a photon map by itself, emitted from a renderer's scene. */
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "photon/emit.h"
+#include "photon/fingerprint.h"
+#include "render/renderer.h"
+#include "setting/options.h"
+
+/* An emission under way. */
+typedef struct emission {
+    rt_renderer *renderer;
+    const rt_emit_options *how;
+    rt_render_options options; /* complete */
+    cl_kernel kernel;
+    rt_emitter *emitter;
+    rt_photon_map *map;
+} emission;
+
+static rt_status compile(emission *e, rt_error *error)
+{
+    rt_stage_progress progress;
+    rt_status status = rt_stage_begin(&progress, e->options.hooks, RT_STAGE_COMPILE);
+    if (status == RT_OK)
+        status = rt_emit_kernel_prepare(&e->kernel, e->renderer->device, e->renderer->scene,
+                                        &progress, error);
+    return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
+}
+
+/* Emits this part of `paths` paths into one of the map's lists. */
+static rt_status emit_part(emission *e, rt_photon_kind kind, uint64_t paths,
+                           rt_stage_progress *progress, rt_error *error)
+{
+    uint64_t parts = e->how->parts ? e->how->parts : 1, part = e->how->part;
+    /* part * paths / parts, without overflow. */
+    uint64_t first = paths / parts * part + paths % parts * part / parts;
+    uint64_t end = paths / parts * (part + 1) + paths % parts * (part + 1) / parts;
+    return rt_emitter_emit(e->emitter, e->map, kind, e->options.seed, first, end - first, progress,
+                           error);
+}
+
+static rt_status emit(emission *e, rt_error *error)
+{
+    const rt_render_options *o = &e->options;
+    rt_stage_progress progress;
+
+    e->map->settings = rt_photon_settings_of(o);
+    rt_status status = rt_scene_fingerprint(&e->map->settings.scene, e->renderer->device,
+                                            e->renderer->scene, error);
+    if (status == RT_OK)
+        status = rt_emitter_create(&e->emitter, e->renderer->device, e->kernel, e->renderer->scene,
+                                   o->light_shares, o->light_share_count, error);
+    if (status == RT_OK)
+        status = rt_stage_begin(&progress, o->hooks, RT_STAGE_EMIT);
+    if (status == RT_OK)
+        status = emit_part(e, RT_PHOTONS_GLOBAL, o->photons, &progress, error);
+    if (status == RT_OK && o->caustic_photons > 0)
+        status = emit_part(e, RT_PHOTONS_CAUSTIC, o->caustic_photons, &progress, error);
+    if (status != RT_OK)
+        return status;
+    rt_emitter_warn_reach(e->emitter, o->hooks);
+    rt_photon_map_warn_starved(e->map, &e->map->ledger, 0, o->k, o->caustic_k, o->hooks);
+    return rt_stage_end(&progress, NULL);
+}
+
+static rt_status check_parts(const rt_emit_options *how, rt_error *error)
+{
+    uint32_t parts = how->parts ? how->parts : 1;
+    if (how->part >= parts)
+        return rt_fail_field(error, RT_ERROR_USAGE, "part",
+                             "part %u of %u, counted from 0, does not exist", how->part, parts);
+    return RT_OK;
+}
+
+rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
+                             const rt_emit_options *options, rt_error *error)
+{
+    if (rt_is_missing(renderer, "renderer", error))
+        return RT_ERROR_USAGE;
+    static const rt_emit_options defaults;
+    emission e = {.renderer = renderer, .how = options ? options : &defaults};
+
+    e.options = e.how->render ? *e.how->render : renderer->options;
+    rt_status status = rt_options_check(&e.options, error);
+    if (status == RT_OK)
+        status = check_parts(e.how, error);
+    if (status != RT_OK)
+        return status;
+    e.options.passes = 1;
+    rt_options_complete(&e.options);
+    e.map = calloc(1, sizeof *e.map);
+    if (!e.map)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");
+    status = compile(&e, error);
+    if (status == RT_OK)
+        status = emit(&e, error);
+    if (status == RT_OK)
+        *out = e.map;
+    else
+        rt_photon_map_destroy(e.map);
+    rt_emitter_destroy(e.emitter);
+    rt_kernel_release(e.kernel);
+    return status == RT_CANCELLED ? rt_fail(error, RT_CANCELLED, "cancelled") : status;
+}

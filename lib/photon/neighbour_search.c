@@ -1,0 +1,285 @@
+/* neighbour_search.c - candidates from FLANN, ranked on all threads. */
+#include "photon/neighbour_search.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "photon/flann_index.h"
+#include "photon/point_order.h"
+
+/* Neighbours that a thread asks for at a time, 16 bytes each: few enough to stay in its cache. */
+enum { NEIGHBOURS_A_JOB = 1 << 16 };
+
+struct rt_neighbour_search {
+    rt_flann_index *index;
+    float (*normals)[3]; /* of the photons */
+    size_t count;        /* photons */
+    uint32_t k;
+    float squared_limit; /* of the radius */
+    uint32_t threads;
+};
+
+/* Positions alone, as the tree wants them, or normals alone, close together in memory. */
+static float (*copy_vectors(const rt_photon_list *map, size_t member))[3]
+{
+    float(*vectors)[3] = malloc((map->count ? map->count : 1) * sizeof *vectors);
+    if (vectors)
+        for (size_t i = 0; i < map->count; i++)
+            memcpy(vectors[i], (const char *)(map->photons + i) + member, sizeof *vectors);
+    return vectors;
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* The most candidates of one point. */
+static size_t max_candidates(const rt_neighbour_search *search)
+{
+    return smaller(search->count, (size_t)RT_CANDIDATES_MAX * search->k);
+}
+
+rt_status rt_neighbour_search_create(rt_neighbour_search **out, const rt_photon_list *map,
+                                     uint32_t k, float max_radius, uint32_t threads,
+                                     rt_error *error)
+{
+    rt_neighbour_search *search = calloc(1, sizeof *search);
+    float(*positions)[3] = copy_vectors(map, offsetof(rt_photon, position));
+    rt_status status = RT_OK;
+
+    if (!search || !positions) {
+        free(search);
+        free(positions);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to search %zu photons", map->count);
+    }
+    search->count = map->count;
+    search->normals = copy_vectors(map, offsetof(rt_photon, normal));
+    search->k = k;
+    search->squared_limit = max_radius * max_radius;
+    search->threads = threads;
+    if (!search->normals)
+        status = rt_fail(error, RT_ERROR_MEMORY, "no memory to search %zu photons", map->count);
+    if (status == RT_OK)
+        status = rt_flann_index_create(&search->index, positions[0], map->count, error);
+    free(positions);
+    if (status == RT_OK)
+        *out = search;
+    else
+        rt_neighbour_search_destroy(search);
+    return status;
+}
+
+void rt_neighbour_search_destroy(rt_neighbour_search *search)
+{
+    if (!search)
+        return;
+    rt_flann_index_destroy(search->index);
+    free(search->normals);
+    free(search);
+}
+
+size_t rt_neighbour_search_stride(const rt_neighbour_search *search)
+{
+    return smaller(search->count, search->k);
+}
+
+/*
+ * Whether there is anything to gather; the tree must not be given a point that is not finite.
+ */
+static int is_query(const rt_gather_point *point)
+{
+    const float *p = point->position, *w = point->weight;
+    return (w[0] != 0 || w[1] != 0 || w[2] != 0) && isfinite(p[0]) && isfinite(p[1]) &&
+           isfinite(p[2]);
+}
+
+static int is_accepted(const float a[3], const float b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > RT_PHOTON_NORMAL_COSINE;
+}
+
+/*
+ * Ranks the candidates of a point, nearest first. Returns 1 with the disc complete, or 0 when more
+ * candidates are needed.
+ */
+static int rank(const rt_neighbour_search *search, const rt_gather_point *point, const int *found,
+                const float *squared, size_t candidates, rt_u32 *list, rt_gather_disc *disc)
+{
+    rt_u32 accepted = 0;
+    size_t last = 0; /* place of the photon accepted last */
+
+    disc->squared_radius = search->squared_limit;
+    for (size_t j = 0; j < candidates && squared[j] < search->squared_limit; j++) {
+        if (!is_accepted(search->normals[found[j]], point->normal))
+            continue;
+        last = j;
+        if (accepted + 1 == search->k) {
+            disc->squared_radius = squared[j];
+            disc->count = accepted;
+            return 1;
+        }
+        list[accepted++] = (rt_u32)found[j];
+    }
+    disc->count = accepted;
+    if (squared[candidates - 1] >= search->squared_limit)
+        return 1;
+    if (candidates == search->count) {
+        if (search->squared_limit < HUGE_VALF)
+            return 1;
+        /* No limit, and the map has too few: the farthest stands for the k-th. */
+        disc->squared_radius = accepted ? squared[last] : 0;
+        disc->count = accepted ? accepted - 1 : 0;
+        return 1;
+    }
+    if (candidates == max_candidates(search)) {
+        disc->squared_radius = squared[candidates - 1];
+        disc->count = accepted - (accepted && last == candidates - 1);
+        return 1;
+    }
+    return 0;
+}
+
+/* Points whose nearest photons are candidates, a row of them for each point. */
+typedef struct ranking {
+    const rt_neighbour_search *search;
+    const rt_gather_point *points;
+    const rt_u32 *queries; /* [count], which points */
+    size_t count, candidates;
+    size_t points_a_job;
+    rt_u32 *lists;
+    rt_gather_disc *discs;
+    unsigned char *failed; /* [jobs], set where memory ran out */
+} ranking;
+
+/*
+ * Finds and ranks the candidates of a share of the points; a disc that needs more gets a negative
+ * squared radius.
+ */
+static void rank_share(void *user, uint32_t index)
+{
+    const ranking *l = user;
+    const rt_neighbour_search *search = l->search;
+    const rt_u32 *queries = l->queries + index * l->points_a_job;
+    size_t count = smaller(l->points_a_job, l->count - index * l->points_a_job);
+    size_t row = l->candidates;
+    float(*positions)[3] = malloc(count * sizeof *positions);
+    int *found = malloc(count * row * sizeof *found);
+    float *squared = malloc(count * row * sizeof *squared);
+
+    l->failed[index] = !positions || !found || !squared;
+    for (size_t i = 0; i < count && !l->failed[index]; i++)
+        memcpy(positions[i], l->points[queries[i]].position, sizeof *positions);
+    if (!l->failed[index])
+        l->failed[index] = rt_flann_index_nearest(search->index, positions[0], count, row, found,
+                                                  squared, NULL) != RT_OK;
+    for (size_t i = 0; i < count && !l->failed[index]; i++) {
+        rt_u32 *list = l->lists + queries[i] * rt_neighbour_search_stride(search);
+        rt_gather_disc *disc = l->discs + queries[i];
+        if (!rank(search, l->points + queries[i], found + i * row, squared + i * row, row, list,
+                  disc))
+            disc->squared_radius = -1;
+    }
+    free(positions);
+    free(found);
+    free(squared);
+}
+
+/*
+ * Ranks so many candidates of the points in queries[*count], on all threads; those that need more
+ * stay in queries, and *count becomes their number.
+ */
+static rt_status rank_all(const rt_neighbour_search *search, const rt_gather_point *points,
+                          rt_u32 *queries, size_t *count, size_t candidates, rt_u32 *lists,
+                          rt_gather_disc *discs, rt_error *error)
+{
+    ranking l = {search, points, queries, *count, candidates, 1, lists, discs, NULL};
+    size_t left = 0;
+    int failed = 0;
+
+    if (candidates < NEIGHBOURS_A_JOB)
+        l.points_a_job = NEIGHBOURS_A_JOB / candidates;
+    size_t jobs = (*count + l.points_a_job - 1) / l.points_a_job;
+    l.failed = calloc(jobs, 1);
+    if (l.failed)
+        rt_parallel(search->threads, (uint32_t)jobs, rank_share, &l);
+    for (size_t i = 0; i < jobs && l.failed; i++)
+        failed |= l.failed[i];
+    if (!l.failed || failed) {
+        free(l.failed);
+        return rt_fail(error, RT_ERROR_MEMORY,
+                       "no memory for the %zu nearest photons of %zu points", candidates, *count);
+    }
+    free(l.failed);
+    for (size_t i = 0; i < *count; i++)
+        if (discs[queries[i]].squared_radius < 0)
+            queries[left++] = queries[i];
+    *count = left;
+    return RT_OK;
+}
+
+/*
+ * Finds the query points, in the order of a curve: those near each other visit the same nodes of
+ * the tree.
+ */
+static rt_status find_queries(rt_u32 *queries, size_t *count, const rt_gather_point *points,
+                              size_t point_count, uint32_t threads, rt_error *error)
+{
+    float(*positions)[3] = malloc((point_count ? point_count : 1) * sizeof *positions);
+    uint64_t *items = malloc((point_count ? point_count : 1) * 2 * sizeof *items);
+    rt_status status = RT_OK;
+    size_t n = 0;
+
+    if (!positions || !items) {
+        free(positions);
+        free(items);
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to find photons at %zu points",
+                       point_count);
+    }
+    for (size_t i = 0; i < point_count; i++)
+        if (is_query(points + i)) {
+            memcpy(positions[n], points[i].position, sizeof *positions);
+            queries[n++] = (rt_u32)i;
+        }
+    if (n > 0)
+        status =
+            rt_point_order(items, items + n, positions[0], sizeof *positions, n, threads, error);
+    /* The keys have served: the points take their place, and then go where they belong. */
+    for (size_t i = 0; i < n && status == RT_OK; i++)
+        items[i] = queries[items[i] & RT_POINT_ORDER_INDEX];
+    for (size_t i = 0; i < n && status == RT_OK; i++)
+        queries[i] = (rt_u32)items[i];
+    free(positions);
+    free(items);
+    *count = n;
+    return status;
+}
+
+rt_status rt_neighbour_search_find(const rt_neighbour_search *search, const rt_gather_point *points,
+                                   size_t count, rt_u32 *lists, rt_gather_disc *discs,
+                                   rt_error *error)
+{
+    rt_u32 *queries = malloc((count ? count : 1) * sizeof *queries);
+    size_t left = 0;
+
+    if (!queries)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to find photons at %zu points", count);
+    for (size_t i = 0; i < count; i++)
+        discs[i] = (rt_gather_disc){.pixel = points[i].pixel};
+    rt_status status = find_queries(queries, &left, points, count, search->threads, error);
+    for (size_t i = 0; i < left && status == RT_OK; i++)
+        discs[queries[i]].asked = 1;
+    if (search->count == 0)
+        left = 0;
+    /* Most points are done with k candidates; the others take twice as many, and again. */
+    for (size_t candidates = rt_neighbour_search_stride(search); left > 0 && status == RT_OK;) {
+        status = rank_all(search, points, queries, &left, candidates, lists, discs, error);
+        candidates = smaller(2 * candidates, max_candidates(search));
+    }
+    free(queries);
+    return status;
+}

@@ -1,0 +1,33 @@
+/*
+ * photon_tree.h - the tree of photons that the device gathers from; see rt_photon_tree in types.h.
+ *
+ * The order of the photons is Hilbert's curve through the box around them, by 12 bits an axis;
+ * photons of one cell of the curve keep the order of the map. So the same map makes the same tree,
+ * whatever the threads.
+ */
+#ifndef RT_LIB_PHOTON_PHOTON_TREE_H
+#define RT_LIB_PHOTON_PHOTON_TREE_H
+
+#include "photon/photon_list.h"
+#include "types.h"
+
+/* The tree in host memory. All zero is that of no photons. */
+typedef struct rt_photon_tree_data {
+    rt_photon_tree shape;
+    size_t node_count;
+    rt_photon_node *nodes;   /* [node_count], on a 64-byte boundary, as are the blocks */
+    rt_photon_block *blocks; /* [shape.block_count] */
+    void *memory;            /* that holds both */
+} rt_photon_tree_data;
+
+/* The most photons of a tree. */
+enum { RT_PHOTON_TREE_MAX = 1 << 28 };
+
+/* Builds the tree of a list, which is not referred to afterwards, on `threads` threads. */
+rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list,
+                               uint32_t threads, rt_error *error);
+
+/* Frees what the tree holds and empties it. */
+void rt_photon_tree_free(rt_photon_tree_data *tree);
+
+#endif

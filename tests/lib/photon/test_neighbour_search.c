@@ -1,0 +1,207 @@
+/* test_neighbour_search.c - which photons count at a point, and how large their disc is. */
+#include "support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/photon/points.h"
+#include "photon/neighbour_search.h"
+
+static const float up[3] = {0, 1, 0}, down[3] = {0, -1, 0}, sideways[3] = {1, 0, 0};
+
+static rt_photon photon_at(float x, float y, float z, const float normal[3])
+{
+    rt_photon photon;
+    memset(&photon, 0, sizeof photon);
+    photon.position[0] = x;
+    photon.position[1] = y;
+    photon.position[2] = z;
+    memcpy(photon.normal, normal, sizeof photon.normal);
+    memcpy(photon.wi, normal, sizeof photon.wi);
+    return photon;
+}
+
+/* A point on the plane y = 0, lit from above. */
+static rt_gather_point point_at(float x, float z)
+{
+    rt_gather_point point;
+    memset(&point, 0, sizeof point);
+    point.position[0] = x;
+    point.position[2] = z;
+    memcpy(point.normal, up, sizeof point.normal);
+    point.weight[1] = 1;
+    return point;
+}
+
+/* Asks once; list must have room for k entries. */
+static rt_gather_disc ask(rt_photon *photons, size_t count, uint32_t k, float max_radius,
+                          rt_gather_point point, rt_u32 *list)
+{
+    rt_photon_list map = {photons, count, count, count, 0};
+    rt_neighbour_search *search = NULL;
+    rt_gather_disc disc;
+    rt_error error;
+    expect_ok(rt_neighbour_search_create(&search, &map, k, max_radius, 2, &error), &error);
+    expect_ok(rt_neighbour_search_find(search, &point, 1, list, &disc, &error), &error);
+    rt_neighbour_search_destroy(search);
+    return disc;
+}
+
+/* Photons at x = 1, 2, ... , count, all facing up. */
+static void fill_row(rt_photon *photons, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        photons[i] = photon_at((float)(i + 1), 0, 0, up);
+}
+
+static void the_kth_gives_the_radius_and_does_not_count(void **state)
+{
+    rt_photon photons[20];
+    rt_u32 list[5];
+    (void)state;
+    fill_row(photons, 20);
+    rt_gather_disc disc = ask(photons, 20, 5, INFINITY, point_at(0, 0), list);
+    assert_int_equal(disc.count, 4);
+    assert_true(disc.squared_radius == 25);
+    for (rt_u32 i = 0; i < 4; i++)
+        assert_int_equal(list[i], i);
+}
+
+static void all_inside_the_limit_count_when_they_are_fewer_than_k(void **state)
+{
+    rt_photon photons[20];
+    rt_u32 list[10];
+    (void)state;
+    fill_row(photons, 20);
+    rt_gather_disc disc = ask(photons, 20, 10, 6.5f, point_at(0, 0), list);
+    assert_int_equal(disc.count, 6);
+    assert_true(disc.squared_radius == 6.5f * 6.5f);
+    /* Also when the whole map lies inside. */
+    disc = ask(photons, 3, 10, 6.5f, point_at(0, 0), list);
+    assert_int_equal(disc.count, 3);
+    assert_true(disc.squared_radius == 6.5f * 6.5f);
+    /* A limit that is not reached changes nothing. */
+    disc = ask(photons, 20, 5, 6.5f, point_at(0, 0), list);
+    assert_int_equal(disc.count, 4);
+    assert_true(disc.squared_radius == 25);
+}
+
+static void the_farthest_stands_for_the_kth_in_a_small_map(void **state)
+{
+    rt_photon photons[4];
+    rt_u32 list[4];
+    (void)state;
+    fill_row(photons, 4);
+    rt_gather_disc disc = ask(photons, 4, 50, INFINITY, point_at(0, 0), list);
+    assert_int_equal(disc.count, 3);
+    assert_true(disc.squared_radius == 16);
+    disc = ask(photons, 1, 50, INFINITY, point_at(0, 0), list);
+    assert_int_equal(disc.count, 0);
+    disc = ask(photons, 0, 50, INFINITY, point_at(0, 0), list);
+    assert_int_equal(disc.count, 0);
+}
+
+static void photons_that_face_elsewhere_are_rejected_before_ranking(void **state)
+{
+    enum { each = 400, k = 25 };
+    static rt_photon photons[3 * each];
+    rt_u32 list[k];
+    (void)state;
+    /*
+     * Nearer than each photon that fits lie one of the other side of a thin floor and one of a
+     * wall.
+     */
+    for (size_t i = 0; i < each; i++) {
+        float x = (float)(i + 1);
+        photons[3 * i] = photon_at(x - 0.5f, -1e-3f, 0, down);
+        photons[3 * i + 1] = photon_at(x - 0.25f, 1e-3f, 0, sideways);
+        photons[3 * i + 2] = photon_at(x, 0, 0, up);
+    }
+    rt_gather_disc disc = ask(photons, 3 * each, k, INFINITY, point_at(0, 0), list);
+    assert_int_equal(disc.count, k - 1);
+    assert_true(disc.squared_radius == k * k);
+    for (rt_u32 i = 0; i < k - 1; i++)
+        assert_int_equal(list[i], 3 * i + 2);
+    /* And those that do not fit do not count inside a limit either. */
+    disc = ask(photons, 3 * each, k, 10.1f, point_at(0, 0), list);
+    assert_int_equal(disc.count, 10);
+}
+
+static void a_surface_that_no_photon_fits_has_none(void **state)
+{
+    enum { count = 5000 };
+    static rt_photon photons[count];
+    rt_u32 list[20];
+    (void)state;
+    for (size_t i = 0; i < count; i++)
+        photons[i] = photon_at((float)i, 0, 0, down);
+    rt_gather_disc disc = ask(photons, count, 20, INFINITY, point_at(0, 0), list);
+    assert_int_equal(disc.count, 0);
+}
+
+static void points_without_weight_or_place_are_not_asked(void **state)
+{
+    rt_photon photons[20];
+    rt_gather_point points[3] = {point_at(0, 0), point_at(0, 0), point_at(NAN, 0)};
+    rt_gather_disc discs[3];
+    rt_photon_list map = {photons, 20, 20, 20, 0};
+    rt_neighbour_search *search = NULL;
+    rt_u32 lists[3 * 5];
+    rt_error error;
+    (void)state;
+    fill_row(photons, 20);
+    points[0].weight[1] = 0;
+    expect_ok(rt_neighbour_search_create(&search, &map, 5, INFINITY, 1, &error), &error);
+    expect_ok(rt_neighbour_search_find(search, points, 3, lists, discs, &error), &error);
+    rt_neighbour_search_destroy(search);
+    assert_int_equal(discs[0].asked, 0);
+    assert_int_equal(discs[1].asked, 1);
+    assert_int_equal(discs[2].asked, 0);
+    assert_int_equal(discs[0].count, 0);
+    assert_int_equal(discs[1].count, 4);
+    assert_int_equal(discs[2].count, 0);
+}
+
+static void many_points_at_once_find_what_one_finds(void **state)
+{
+    enum { count = 3000, asked = 2000, k = 30 };
+    static rt_photon photons[count];
+    static rt_gather_point points[asked];
+    static rt_gather_disc discs[asked];
+    static rt_u32 lists[asked * k], list[k];
+    points_stream stream = {3};
+    rt_photon_list map = {photons, count, count, count, 0};
+    rt_neighbour_search *search = NULL;
+    rt_error error;
+    (void)state;
+    for (size_t i = 0; i < count; i++) {
+        float x = points_uniform(&stream), z = points_uniform(&stream);
+        photons[i] = photon_at(x, 0, z, i % 3 ? up : x < 0.5f ? down : up);
+    }
+    for (size_t i = 0; i < asked; i++)
+        points[i] = point_at(points_uniform(&stream), points_uniform(&stream));
+    expect_ok(rt_neighbour_search_create(&search, &map, k, 0.06f, 2, &error), &error);
+    expect_ok(rt_neighbour_search_find(search, points, asked, lists, discs, &error), &error);
+    rt_neighbour_search_destroy(search);
+    for (size_t i = 0; i < asked; i += 97) {
+        rt_gather_disc disc = ask(photons, count, k, 0.06f, points[i], list);
+        assert_int_equal(disc.count, discs[i].count);
+        assert_true(disc.squared_radius == discs[i].squared_radius);
+        assert_memory_equal(list, lists + i * k, disc.count * sizeof *list);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_kth_gives_the_radius_and_does_not_count),
+        cmocka_unit_test(all_inside_the_limit_count_when_they_are_fewer_than_k),
+        cmocka_unit_test(the_farthest_stands_for_the_kth_in_a_small_map),
+        cmocka_unit_test(photons_that_face_elsewhere_are_rejected_before_ranking),
+        cmocka_unit_test(a_surface_that_no_photon_fits_has_none),
+        cmocka_unit_test(points_without_weight_or_place_are_not_asked),
+        cmocka_unit_test(many_points_at_once_find_what_one_finds),
+    };
+    return cmocka_run_group_tests_name("lib/photon/neighbour_search", tests, NULL, NULL);
+}
