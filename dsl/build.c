@@ -1,3 +1,4 @@
+/* build.c - hands the fields of checked blocks to the calls of the public interface. */
 #include "dsl/build.h"
 
 #include <string.h>

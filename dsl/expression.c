@@ -1,3 +1,4 @@
+/* expression.c - evaluates postfix expressions and says why one has no value. */
 #include "dsl/expression.h"
 
 #include "dsl/function.h"

@@ -1,3 +1,4 @@
+/* function.c - the functions of arithmetic, by name. */
 #include "dsl/function.h"
 
 #include <math.h>

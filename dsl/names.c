@@ -1,3 +1,4 @@
+/* names.c - a hash table from words to what they name. */
 #include "dsl/names.h"
 
 #include <stdlib.h>

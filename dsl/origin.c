@@ -1,3 +1,4 @@
+/* origin.c - remembers places by object, and reports findings there. */
 #include "dsl/origin.h"
 
 #include <stdlib.h>

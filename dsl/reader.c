@@ -1,3 +1,4 @@
+/* reader.c - the statements of a text, one after another: includes, repeats, blocks. */
 #include "dsl/reader.h"
 
 #include <stdlib.h>

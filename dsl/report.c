@@ -1,3 +1,4 @@
+/* report.c - orders reports by place, adds hints and hands them on. */
 #include "dsl/report.h"
 
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* source.c - reads texts, and compares and quotes parts of them. */
 #include "dsl/source.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* transform.c - multiplies the steps of a transform. */
 #include "dsl/transform.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* chance.c - spends the allowed rate of false alarms, and repeats suspect runs. */
 #include "chance.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* support.c - opens the device, and runs kernels of the tests' own. */
 #include "support.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* exr_core.c - keeps what OpenEXRCore complains of, and orders channels. */
 #include "image/exr_core.h"
 
 #include <stdio.h>

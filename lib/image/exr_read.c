@@ -1,3 +1,4 @@
+/* exr_read.c - decodes OpenEXR: attributes, scan lines and tiles. */
 #include "image/exr.h"
 
 #include <stdlib.h>

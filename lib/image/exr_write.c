@@ -1,3 +1,4 @@
+/* exr_write.c - encodes OpenEXR by scan lines. */
 #include "image/exr.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* image.c - creates images, and finds their channels and attributes. */
 #include "image/image.h"
 
 #include <stdlib.h>

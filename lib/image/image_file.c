@@ -1,3 +1,4 @@
+/* image_file.c - chooses the format of a file, by its content or by its name. */
 #include "image/image_file.h"
 
 #include <string.h>

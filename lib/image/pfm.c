@@ -1,3 +1,4 @@
+/* pfm.c - encodes and decodes PFM. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* png_write.c - encodes PNG by libpng. */
 #include "image/png.h"
 
 #include <png.h>

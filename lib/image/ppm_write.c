@@ -1,3 +1,4 @@
+/* ppm_write.c - encodes binary PPM. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,3 +1,4 @@
+/* srgb.c - the sRGB transfer function, both ways. */
 #include "image/srgb.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* lights.c - fills the table of lights, and gives each its part of all power. */
 #include "light/lights.h"
 
 #include <math.h>

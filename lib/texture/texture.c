@@ -1,3 +1,4 @@
+/* texture.c - chooses the form in which texels are stored, and writes them. */
 #include "texture/texture.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* embree_peer.c - builds and traces by Embree, or does nothing without it. */
 #include "bench/embree_peer.h"
 
 #ifdef RT_HAVE_EMBREE

@@ -1,3 +1,4 @@
+/* manifest.c - reads MANIFEST.tsv line by line. */
 #include "corpus/manifest.h"
 
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* collect.c - parses a text and keeps its diagnostics. */
 #include "tests/dsl/collect.h"
 
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* test_lexer.c - tokens, their places, and texts that are none. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

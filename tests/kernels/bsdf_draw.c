@@ -1,3 +1,4 @@
+/* bsdf_draw.c - runs the kernels of bsdf.cl. */
 #include "bsdf_draw.h"
 
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* light_draw.c - runs the kernels of light.cl. */
 #include "light_draw.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* rays.c - makes scenes and rays, and traces them on the device. */
 #include "kernels/rays.h"
 
 #include <stdlib.h>

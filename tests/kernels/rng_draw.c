@@ -1,3 +1,4 @@
+/* rng_draw.c - runs the kernels of rng.cl. */
 #include "kernels/rng_draw.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* statistics.c - means, counts and their chances. */
 #include "statistics.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* optics.c - closed forms of reflectance, and integrals of them. */
 #include "proof/optics.h"
 
 #include <math.h>

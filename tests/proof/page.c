@@ -1,3 +1,4 @@
+/* page.c - collects rows, and writes or checks a section of the page. */
 #include "proof/page.h"
 
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* proof.c - renders, compares means with what they should be, and keeps the rows. */
 #include "proof/proof.h"
 
 #include <math.h>

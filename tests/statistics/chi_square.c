@@ -1,3 +1,4 @@
+/* chi_square.c - counts samples in cells, and compares the counts with the density. */
 #include "statistics/chi_square.h"
 
 #include <math.h>

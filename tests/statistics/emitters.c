@@ -1,3 +1,4 @@
+/* emitters.c - scenes with one area light, and points on it. */
 #include "statistics/emitters.h"
 
 #include <stdlib.h>

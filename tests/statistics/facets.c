@@ -1,3 +1,4 @@
+/* facets.c - Fresnel's equations, and the distribution and masking of microfacets. */
 #include "statistics/facets.h"
 
 #include <complex.h>

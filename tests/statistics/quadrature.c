@@ -1,3 +1,4 @@
+/* quadrature.c - adaptive Gauss-Legendre rules in two variables. */
 #include "statistics/quadrature.h"
 
 #include <math.h>

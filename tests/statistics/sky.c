@@ -1,3 +1,4 @@
+/* sky.c - makes a sky, and computes its radiance and density. */
 #include "statistics/sky.h"
 
 #include <string.h>

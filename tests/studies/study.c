@@ -1,3 +1,4 @@
+/* study.c - opens a scene, renders it and measures errors. */
 #include "studies/study.h"
 
 #include <math.h>

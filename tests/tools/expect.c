@@ -1,3 +1,4 @@
+/* expect.c - compares what rtc said and wrote with what is expected. */
 #include "expect.h"
 
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* spawn.c - starts build/rtc, reads its output and waits for it. */
 #define _XOPEN_SOURCE 700
 #include "spawn.h"
 

@@ -1,3 +1,4 @@
+/* damage.c - truncates files, and flips their bits. */
 #include "damage.h"
 
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* exr_sample.c - writes OpenEXR files by OpenEXRCore. */
 #include "exr_sample.h"
 
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* pictures.c - a texture, and copies of it with changes. */
 #include "lib/image/pictures.h"
 
 #include <math.h>

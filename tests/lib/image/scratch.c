@@ -1,3 +1,4 @@
+/* scratch.c - makes, fills and removes a temporary directory. */
 #include "scratch.h"
 
 #include <dirent.h>
