@@ -1,5 +1,6 @@
 #include "kernels/shape_truth.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -151,13 +152,28 @@ static real value(const real *c, int degree, real x)
     return sum;
 }
 
-/* The root between lo and hi, by Newton's method, halving where that leads out. */
+/* How far rounding may put a value of the polynomial off, for |x| <= reach. */
+static real rounding(const real *c, int degree, real reach)
+{
+    real sum = 0;
+    for (int i = degree; i >= 0; i--)
+        sum = sum * reach + fabsl(c[i]);
+    return 2 * LDBL_EPSILON * sum;
+}
+
+/*
+ * The root between lo and hi, by Newton's method, halving where that leads out, until the value
+ * there is rounding alone.
+ */
 static real root_between(const real *c, const real *slope, int degree, real lo, real hi)
 {
     const int rises = value(c, degree, lo) < 0;
+    const real zero = rounding(c, degree, fmaxl(fabsl(lo), fabsl(hi)));
     real x = 0.5L * (lo + hi), before = lo;
     for (int i = 0; i < 100 && fabsl(x - before) > 1e-17L; i++) {
         const real y = value(c, degree, x);
+        if (fabsl(y) <= zero)
+            break;
         if ((y < 0) == rises)
             lo = x;
         else

@@ -257,8 +257,8 @@ static void first_compile_keeps_reporting(void **state)
     snprintf(cache, sizeof cache, "/tmp/rtc-cache-%ld", (long)getpid());
     scratch_write("a.rts", small_scene);
     assert_int_equal(mkdir(cache, 0777), 0);
-    run run = run_rtc("POCL_CACHE_DIR=%s rtc a.rts --spp 1 --mode photon --photons 1000 --progress "
-                      "json --out a.pfm",
+    run run = run_rtc("POCL_CACHE_DIR=%s rtc a.rts --spp 1 --mode direct --progress json "
+                      "--out a.pfm",
                       cache);
     char remove[96];
     snprintf(remove, sizeof remove, "rm -rf %s", cache);
