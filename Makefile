@@ -19,11 +19,11 @@ PKG_LIBS    = $(shell pkg-config --libs OpenCL libpng 2>/dev/null) -lOpenEXRCore
 
 WARNINGS := -Wall -Wextra -pedantic
 WERROR   ?= $(if $(CI),-Werror)
-ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread -D_POSIX_C_SOURCE=200809L \
-             -Ilib -Ikernels -I. -Itests $(PKG_CFLAGS) $(CFLAGS)
-# For the one C++ file, the way to OpenMesh.
-CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden -fPIC -pthread -Ilib \
-             $(PKG_CFLAGS) $(CFLAGS)
+ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread \
+             -D_POSIX_C_SOURCE=200809L -Ilib -Ikernels -I. -Itests $(PKG_CFLAGS) $(CFLAGS)
+# For the one C++ file, which calls OpenMesh.
+CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden \
+             -fPIC -pthread -Ilib $(PKG_CFLAGS) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 
 # ---- Sources ----------------------------------------------------------------
@@ -41,12 +41,15 @@ LIB_SRC := \
 	lib/image/srgb.c lib/image/ssim.c \
 	lib/light/lights.c lib/light/tree.c \
 	lib/mesh/canonical.c lib/mesh/fields.c lib/mesh/load.c lib/mesh/mesh.c lib/mesh/normals.c \
-	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c lib/mesh/ply_header.c \
+	lib/mesh/obj.c lib/mesh/off.c lib/mesh/openmesh.c lib/mesh/ply.c lib/mesh/ply_faces.c \
+	lib/mesh/ply_header.c \
 	lib/mesh/ply_reader.c lib/mesh/ply_vertices.c lib/mesh/source.c lib/mesh/stl.c \
 	lib/mesh/text.c lib/mesh/text_number.c lib/mesh/unique.c \
-	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c lib/pack/sobol.c \
+	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c \
+	lib/pack/sobol.c \
 	lib/pack/targets.c \
-	lib/film/film.c lib/film/layers.c lib/film/noise.c lib/film/replicates.c lib/film/student.c \
+	lib/film/film.c lib/film/layers.c lib/film/noise.c lib/film/replicates.c \
+	lib/film/student.c \
 	lib/film/write.c \
 	lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/render.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
@@ -55,7 +58,8 @@ LIB_SRC := \
 	lib/mode/photon/first_radius.c lib/mode/photon/layers.c lib/mode/photon/passes.c \
 	lib/mode/photon/photon.c lib/mode/photon/photon_render.c lib/mode/photon/queries.c \
 	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \
-	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c lib/photon/gather_neighbours.c \
+	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c \
+	lib/photon/gather_neighbours.c \
 	lib/photon/map_check.c lib/photon/map_emit.c lib/photon/map_merge.c lib/photon/map_ply.c \
 	lib/photon/map_read.c lib/photon/map_write.c lib/photon/neighbour_search.c \
 	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_tree.c \
@@ -78,22 +82,27 @@ DSL_SRC := \
 	dsl/schema.c dsl/scope.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
-	tools/check.c tools/compare.c tools/compare_print.c tools/devices.c tools/doctor.c tools/help.c \
+	tools/check.c tools/compare.c tools/compare_print.c tools/devices.c tools/doctor.c \
+	tools/help.c \
 	tools/idle.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c tools/mesh.c \
 	tools/mesh_shape.c tools/message.c tools/nearest.c tools/number.c tools/option_table.c \
 	tools/options.c tools/outputs.c tools/photons.c tools/photons_emit.c tools/photons_info.c \
-	tools/photons_json.c tools/progress.c tools/render.c tools/rtc.c tools/scene_file.c tools/session.c \
+	tools/photons_json.c tools/progress.c tools/render.c tools/rtc.c tools/scene_file.c \
+	tools/session.c \
 	tools/shares.c tools/stats.c
 
 KERNEL_SRC := \
-	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl kernels/photon_camera.cl \
-	kernels/photon_emit.cl kernels/photon_film.cl kernels/gather_neighbours.cl kernels/gather_tree.cl \
+	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl \
+	kernels/photon_camera.cl \
+	kernels/photon_emit.cl kernels/photon_film.cl kernels/gather_neighbours.cl \
+	kernels/gather_tree.cl \
 	kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
 KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
 
-# Quick tests, the slower ones of `check`, and shell tests. tests/X/test_y.c makes build/tests/X/test_y.
+# Quick tests, the slower ones of `check`, the longest first, and shell tests. tests/X/test_y.c
+# makes build/tests/X/test_y.
 TESTS_QUICK := \
 	tests/test_api.c tests/test_chance.c \
 	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c \
@@ -107,39 +116,48 @@ TESTS_QUICK := \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
 	tests/lib/base/test_file.c tests/lib/base/test_half.c \
-	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c tests/lib/image/test_display.c \
+	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
+	tests/lib/image/test_display.c \
 	tests/lib/image/test_exr.c tests/lib/image/test_flip.c \
-	tests/lib/image/test_image.c tests/lib/image/test_image_file.c tests/lib/image/test_netpbm.c \
+	tests/lib/image/test_image.c tests/lib/image/test_image_file.c \
+	tests/lib/image/test_netpbm.c \
 	tests/lib/image/test_png.c tests/lib/image/test_png_read.c tests/lib/image/test_ppm_read.c \
 	tests/lib/image/test_srgb.c tests/lib/image/test_ssim.c \
 	tests/lib/mesh/test_damage.c tests/lib/mesh/test_mesh.c tests/lib/mesh/test_obj.c \
 	tests/lib/mesh/test_off.c tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c \
 	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
 	tests/lib/pack/test_pack.c \
-	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_emit.c tests/lib/photon/test_fingerprint.c \
-	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c tests/lib/photon/test_ledger.c \
-	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c tests/lib/photon/test_photon_list.c \
+	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_emit.c \
+	tests/lib/photon/test_fingerprint.c \
+	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c \
+	tests/lib/photon/test_ledger.c \
+	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c \
+	tests/lib/photon/test_photon_list.c \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_neighbour_search.c \
-	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c tests/lib/mode/test_first_radius.c \
+	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c \
+	tests/lib/mode/test_first_radius.c \
 	tests/lib/render/test_lights.c \
-	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c tests/lib/photon/test_photon_maps.c \
-	tests/lib/film/test_replicates.c tests/lib/film/test_student.c tests/lib/render/test_vertices.c \
-	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c tests/lib/scene/test_scene.c \
+	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
+	tests/lib/photon/test_photon_maps.c \
+	tests/lib/film/test_replicates.c tests/lib/film/test_student.c \
+	tests/lib/render/test_vertices.c \
+	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c \
+	tests/lib/scene/test_scene.c \
 	tests/lib/scene/test_shapes.c \
 	tests/lib/texture/test_texture.c \
 	tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
-	tests/kernels/test_shapes_many.c \
-	tests/lib/photon/test_aim.c tests/lib/photon/test_stored_flux.c tests/lib/photon/test_unbiased.c \
-	tests/lib/film/test_noise.c tests/lib/mode/test_photon_bias.c tests/lib/mode/test_photon_film.c \
-	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c tests/lib/mode/test_photon_mode.c \
-	tests/lib/mode/test_progressive.c \
-	tests/render/test_samples.c \
-	tests/statistics/test_chi_square.c tests/statistics/test_scattering.c \
-	tests/tools/test_compare.c tests/tools/test_determinism.c tests/tools/test_mesh.c \
-	tests/tools/test_photons.c tests/tools/test_progress.c tests/tools/test_rtc.c tests/tools/test_scenes.c \
-	tests/tools/test_usage.c
+	tests/lib/photon/test_unbiased.c tests/statistics/test_chi_square.c \
+	tests/lib/mode/test_progressive.c tests/render/test_samples.c \
+	tests/lib/mode/test_photon_mode.c tests/lib/film/test_noise.c \
+	tests/lib/mode/test_photon_bias.c tests/tools/test_progress.c tests/tools/test_rtc.c \
+	tests/tools/test_determinism.c tests/kernels/test_shapes_many.c \
+	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
+	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
+	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
+	tests/tools/test_usage.c tests/tools/test_compare.c tests/tools/test_mesh.c \
+	tests/tools/test_scenes.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_specular.c
@@ -155,35 +173,41 @@ TEST_SUPPORT_SRC := \
 	tests/chance.c tests/support.c \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
-	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c tests/kernels/rng_draw.c \
+	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
+	tests/kernels/rng_draw.c \
 	tests/kernels/shape_check.c tests/kernels/shape_truth.c tests/kernels/statistics.c \
-	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c tests/lib/image/scratch.c \
+	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c \
+	tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
 	tests/lib/photon/emitted.c tests/lib/photon/points.c \
 	tests/lib/mode/photon_room.c \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \
-	tests/statistics/facets.c tests/statistics/lights.c tests/statistics/maps.c tests/statistics/numbers.c \
+	tests/statistics/facets.c tests/statistics/lights.c tests/statistics/maps.c \
+	tests/statistics/numbers.c \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
 	tests/studies/study.c \
 	tests/tools/expect.c tests/tools/spawn.c
 TEST_KERNEL_SRC  := \
-	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl tests/kernels/density.cl \
+	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl \
+	tests/kernels/density.cl \
 	tests/kernels/film.cl tests/kernels/filter.cl tests/kernels/knn.cl tests/kernels/leave.cl \
 	tests/kernels/light.cl tests/kernels/matte.cl tests/kernels/medium.cl tests/kernels/rng.cl \
-	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl tests/kernels/texture.cl \
+	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
+	tests/kernels/texture.cl \
 	tests/kernels/types.cl
 
 # ---- Build ------------------------------------------------------------------
 
-LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) $(B)/kernels.o
+LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) \
+            $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) $(B)/kernels.o
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench check check-corpus check-memory check-mutation check-peers check-quick check-reference \
-	check-samples check-sanitize clean demo deps docs help install need-deps proof run-all run-quick study \
-	uninstall
+.PHONY: all bench check check-corpus check-memory check-mutation check-peers check-quick \
+	check-reference check-samples check-sanitize clean demo deps deps-lint format help install \
+	lint lint-quick need-deps proof run-all run-quick study uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -223,7 +247,8 @@ TEST_LIBS     = $(shell pkg-config --libs cmocka 2>/dev/null)
 TEST_SUPPORT := $(patsubst %.c,$(B)/%.o,$(TEST_SUPPORT_SRC)) $(B)/test_kernels.o
 TEST_BIN      = $(patsubst tests/%.c,$(B)/tests/%,$(1))
 
-$(B)/test_kernels.c: $(B)/embed $(KERNEL_DEPS) $(TEST_KERNEL_SRC) $(wildcard tests/kernels/*.h) Makefile
+$(B)/test_kernels.c: $(B)/embed $(KERNEL_DEPS) $(TEST_KERNEL_SRC) $(wildcard tests/kernels/*.h) \
+		Makefile
 	$(B)/embed $@ rt_test_kernel_sources -I kernels $(TEST_KERNEL_SRC)
 
 $(B)/test_kernels.o: $(B)/test_kernels.c
@@ -259,19 +284,23 @@ run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
 proof: all $(call TEST_BIN,$(TESTS_PROOF)) $(B)/tests/render/test_reference
 	B=$(B) RTC=$(B)/rtc tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
 
-# What the choices of photon mapping cost and bring, how fast progressive passes come to the truth, and a caustic by path
-# tracing and by photons in equal time: numbers, and pictures in build/study. Each alone: study-k and its like.
+# What the choices of photon mapping cost and bring, how fast progressive passes converge, and a
+# caustic by path tracing and by photons in equal time: numbers, and pictures in build/study. Each
+# alone: study-k and its like.
 STUDIES := study-k study-paths study-direct study-kernels study-ways study-consistency study-caustic
 .PHONY: $(STUDIES)
 study: $(STUDIES)
-study-k study-paths study-direct study-kernels study-ways: study-%: all $(B)/tests/studies/study_photons
+study-k study-paths study-direct study-kernels study-ways: study-%: \
+		all $(B)/tests/studies/study_photons
 	@mkdir -p build/study
 	$(B)/tests/studies/study_photons $*
-study-consistency study-caustic: study-%: all $(B)/tests/studies/study_consistency $(B)/tests/studies/study_caustic
+study-consistency study-caustic: study-%: all $(B)/tests/studies/study_consistency \
+		$(B)/tests/studies/study_caustic
 	@mkdir -p build/study
 	$(B)/tests/studies/study_$*
 
-# The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see tests/render/test_reference.c.
+# The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see
+# tests/render/test_reference.c.
 check-reference: all $(B)/tests/render/test_reference
 	RT_TEST_TIMEOUT=3600 tests/run.sh $(B)/tests/render/test_reference
 
@@ -279,7 +308,8 @@ check-reference: all $(B)/tests/render/test_reference
 check-peers: all
 	RTC=$(B)/rtc tests/peers/compare.sh
 
-# So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a number.
+# So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a
+# number.
 SAMPLES ?= 1e9
 check-samples: all $(B)/tests/render/test_samples
 	RT_TEST_SAMPLES=$(SAMPLES) $(B)/tests/render/test_samples
@@ -290,29 +320,52 @@ check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
 	tests/run.sh $(call TEST_BIN,$(TESTS_CORPUS))
 
 # The quick tests again, with the address and undefined-behaviour sanitizers.
-SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined \
+            -fno-omit-frame-pointer
 check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
 	 $(MAKE) --no-print-directory $(MAKE_JOBS) B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
-# Small renders on Oclgrind, which sees reads and writes outside of buffers, races, and wrong calls of OpenCL.
+# Small renders on Oclgrind, which sees reads and writes outside of buffers, races, and wrong calls
+# of OpenCL.
 check-memory: all
 	RTC=$(B)/rtc tests/run.sh tests/memory/oclgrind.sh
 
-# Physical errors planted one at a time in a copy of the sources: the tests must see them; see tests/mutation/run.sh.
+# Mutation testing: errors planted one at a time in a copy of the sources, which the tests must see;
+# see tests/mutation/run.sh.
 check-mutation: deps
 	tests/mutation/run.sh
 
+# ---- Form -----------------------------------------------------------------------------
+
+CLANG_FORMAT ?= clang-format-14
+
+# Formats all sources. The tools of both targets are installed where they are missing.
+format: deps-lint
+	git ls-files '*.c' '*.h' '*.cc' '*.cl' | xargs $(CLANG_FORMAT) -i
+
+lint: deps-lint
+	@CLANG_FORMAT='$(CLANG_FORMAT)' tools/lint.sh
+
+# What takes seconds; .ci/run does the same.
+lint-quick: deps-lint
+	@CLANG_FORMAT='$(CLANG_FORMAT)' tools/lint.sh --quick
+
+deps-lint:
+	@CLANG_FORMAT='$(CLANG_FORMAT)' tools/deps.sh --lint
+
 # ---- Benchmarks: ours beside a peer's, where it is installed ---------------------
 
-HAVE_EMBREE = $(shell echo 'int main(void) { return 0; }' | $(CC) -x c - -lembree3 -o /dev/null 2>/dev/null && echo yes)
+HAVE_EMBREE = $(shell echo 'int main(void) { return 0; }' | \
+                $(CC) -x c - -lembree3 -o /dev/null 2>/dev/null && echo yes)
 BENCH_TRACE := tests/bench/bench_trace.c tests/bench/embree_peer.c
 
 $(B)/tests/bench/bench_trace: $(BENCH_TRACE) $(B)/librt.a
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) $(if $(HAVE_EMBREE),-DRT_HAVE_EMBREE) $(LDFLAGS) -o $@ $^ $(if $(HAVE_EMBREE),-lembree3) $(ALL_LIBS)
+	$(CC) $(ALL_CFLAGS) $(if $(HAVE_EMBREE),-DRT_HAVE_EMBREE) $(LDFLAGS) -o $@ $^ \
+	    $(if $(HAVE_EMBREE),-lembree3) $(ALL_LIBS)
 
-bench: all $(B)/tests/bench/bench_trace $(B)/tests/bench/bench_gather $(B)/tests/bench/bench_progressive
+bench: all $(addprefix $(B)/tests/bench/bench_,trace gather progressive)
 	$(B)/tests/bench/bench_trace
 	$(B)/tests/bench/bench_gather
 	$(B)/tests/bench/bench_progressive scenes/cornell.rts 20
@@ -327,7 +380,8 @@ deps:
 
 # What a compiler needs is there; make deps fixes it.
 need-deps:
-	@pkg-config --exists $(PKGS) 2>/dev/null || { echo "librt: missing dependencies; run 'make deps'" >&2; exit 1; }
+	@pkg-config --exists $(PKGS) 2>/dev/null || \
+	    { echo "librt: missing dependencies; run 'make deps'" >&2; exit 1; }
 
 demo: deps
 	+$(MAKE) --no-print-directory all
@@ -345,7 +399,8 @@ $(B)/docs: $(B)/dsl/docs.o $(B)/dsl/reference.o $(B)/librt.a
 REALNAME    := librt-render.so.$(VERSION)
 BINDIR      ?= $(PREFIX)/bin
 INCLUDEDIR  ?= $(PREFIX)/include
-PUBLIC_H    := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h render.h scene.h setting.h)
+PUBLIC_H    := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h render.h \
+               scene.h setting.h)
 INSTALLED    = $(BINDIR)/rtc $(LIBDIR)/pkgconfig/librt-render.pc \
                $(addprefix $(INCLUDEDIR)/rt/,rt.h common.h $(notdir $(PUBLIC_H))) \
                $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a)
@@ -359,7 +414,8 @@ install: all
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/librt-render.so
 	install -m 644 $(B)/librt.a $(DESTDIR)$(LIBDIR)/librt-render.a
 	install -m 644 lib/rt.h $(PUBLIC_H) kernels/common.h $(DESTDIR)$(INCLUDEDIR)/rt
-	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR)|' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' \
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR)|' \
+	    -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' \
 	    -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(ALL_LIBS)|' lib/librt-render.pc.in \
 	    >$(DESTDIR)$(LIBDIR)/pkgconfig/librt-render.pc
 	[ -n "$(DESTDIR)" ] || [ "$$(id -u)" -ne 0 ] || ldconfig
@@ -371,19 +427,22 @@ uninstall:
 
 help:
 	@echo 'make                 builds $(B)/rtc, $(B)/librt.a and $(B)/$(SONAME)'
-	@echo 'make demo            installs what is missing, builds, renders scenes/cornell.rts to cornell.png'
+	@echo 'make demo            installs what is missing, builds, renders scenes/cornell.rts'
 	@echo 'make check           installs what is missing, builds, runs the tests'
 	@echo 'make check-quick     only the tests that take seconds'
-	@echo 'make check-sanitize  the quick tests under the address and undefined-behaviour sanitizers'
-	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE, by another program'
+	@echo 'make check-sanitize  the quick tests under the address and UB sanitizers'
+	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
 	@echo 'make check-peers     five scenes beside Mitsuba 3, where python3 can import it'
-	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, none infinite or not a number'
+	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
-	@echo 'make check-memory    small renders in every mode on Oclgrind, a device that checks each access'
-	@echo 'make check-mutation  plants physical errors, one at a time, and counts those that the tests see'
+	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'
+	@echo 'make check-mutation  mutation testing: plants errors that the tests must see'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
-	@echo 'make proof           measures light against closed forms and writes tests/proof/README.md'
-	@echo 'make study           numbers and pictures on photon mapping; study-k, -paths, -direct, -kernels ... make one'
+	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
+	@echo 'make study           numbers and pictures on photon mapping; study-k ... makes one'
+	@echo 'make format          formats the C, OpenCL C and C++ sources by clang-format'
+	@echo 'make lint            checks formatting, style, shell scripts and C'
+	@echo 'make lint-quick      the same without cppcheck'
 	@echo 'make docs            writes the lists of fields in dsl/reference.md from the source'
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'

@@ -2,12 +2,14 @@
 # deps.sh - makes sure that everything the build and the tests need is there.
 #
 #   tools/deps.sh          finds what is missing and installs it from Debian packages
+#   tools/deps.sh --lint   the same for the programs of `make lint` and `make format`
 #   tools/deps.sh --check  only names what is missing; status 1 if anything is
 #
 # What counts is whether the thing works, not which package it came from: programs are
 # looked up, libraries are compiled against and linked, and the OpenCL loader is asked for
 # a device. When all is there, the package manager is not touched. CC, CXX and PKG_CONFIG
 # are honoured.
+# shellcheck disable=SC2086 # flags and packages are lists of words
 set -u
 
 CC=${CC:-cc}
@@ -109,6 +111,11 @@ int main(void)
 END
 }
 
+# Another version breaks lines elsewhere.
+probe_clang_format() { has_program "${CLANG_FORMAT:-clang-format-14}"; }
+probe_shellcheck() { has_program shellcheck; }
+probe_cppcheck() { has_program cppcheck; }
+
 # ---- What is needed: probe, what it is, the Debian packages that bring it ----
 
 dependencies() {
@@ -126,6 +133,14 @@ cmocka|cmocka|libcmocka-dev
 END
 }
 
+lint_dependencies() {
+    cat <<'END'
+clang_format|clang-format 14|clang-format-14
+shellcheck|shellcheck|shellcheck
+cppcheck|cppcheck|cppcheck
+END
+}
+
 # Sets missing (lines "  what (packages)") and packages (words).
 find_missing() {
     missing=
@@ -137,7 +152,7 @@ find_missing() {
             packages="$packages $debian"
         fi
     done <<END
-$(dependencies)
+$($needed)
 END
 }
 
@@ -154,9 +169,11 @@ stop() {
     exit 1
 }
 
+needed=dependencies
 case ${1:-} in
 '' | --check) ;;
-*) stop "unknown argument '$1'; usage: tools/deps.sh [--check]" ;;
+--lint) needed=lint_dependencies ;;
+*) stop "unknown argument '$1'; usage: tools/deps.sh [--check | --lint]" ;;
 esac
 
 find_missing
@@ -164,7 +181,7 @@ find_missing
 printf 'deps: missing:\n%s' "$missing" >&2
 [ "${1:-}" != --check ] || stop "run 'make deps' to install it"
 
-has_program apt-get && has_program dpkg ||
+{ has_program apt-get && has_program dpkg; } ||
     stop 'this is not a Debian system; install the above with your package manager, then try again'
 [ "$(id -u)" -eq 0 ] || has_program sudo ||
     stop "installing needs root or sudo; as root: apt-get install --no-install-recommends$packages"

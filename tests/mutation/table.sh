@@ -5,15 +5,23 @@
 # All names, in order.
 mutation_names() { sed -n 's/^mutation  *//p' "$table"; }
 
+# The lines of the file, those that begin with white space joined to the one before.
+mutation_lines() {
+    awk '
+        /^[ \t]/ { sub(/^[ \t]+/, ""); line = line " " $0; next }
+        { if (NR > 1) print line; line = $0 }
+        END { print line }' "$table"
+}
+
 # mutation_field NAME FIELD: what the mutation has there.
 mutation_field() {
-    awk -v name="$1" -v field="$2" '
+    mutation_lines | awk -v name="$1" -v field="$2" '
         $1 == "mutation" { here = $2 == name }
-        here && $1 == field { sub(/^[a-z]+ */, ""); print }' "$table"
+        here && $1 == field { sub(/^[a-z]+ */, ""); print }'
 }
 
 # Tests that all survivors meet.
-mutation_rest() { sed -n 's/^rest  *//p' "$table"; }
+mutation_rest() { mutation_lines | sed -n 's/^rest  *//p'; }
 
 # plant OLD NEW <FILE: the file with its only OLD replaced by NEW; white space does not count, so
 # that OLD may run over several lines of the file. Fails where OLD is not there, or more than once.

@@ -12,12 +12,13 @@ def find_llvm():
     if not ldconfig:
         return None
     listing = subprocess.run([ldconfig, "-p"], capture_output=True, text=True, check=False).stdout
-    found = [(int(version), path) for version, path in re.findall(r"libLLVM[-.]\D*(\d+)\S*.*=> (\S+)", listing)]
+    libraries = re.findall(r"libLLVM[-.]\D*(\d+)\S*.*=> (\S+)", listing)
+    found = [(int(version), path) for version, path in libraries]
     return max(found)[1] if found else None
 
 
 def start(variant="llvm_ad_rgb"):
-    """The module mitsuba, with that variant chosen; ends the program, saying why, where there is none."""
+    """The module mitsuba, with that variant chosen; where there is none, ends the program."""
     llvm = find_llvm()
     if llvm:
         os.environ.setdefault("DRJIT_LIBLLVM_PATH", llvm)
@@ -26,6 +27,7 @@ def start(variant="llvm_ad_rgb"):
     except ImportError:
         sys.exit(f"mitsuba is not installed for {sys.executable}: pip install mitsuba")
     if variant.startswith("llvm") and "DRJIT_LIBLLVM_PATH" not in os.environ:
-        sys.exit("mitsuba finds no LLVM: install Debian's libllvm15, or set DRJIT_LIBLLVM_PATH to a libLLVM.so")
+        sys.exit("mitsuba finds no LLVM: install Debian's libllvm15, "
+                 "or set DRJIT_LIBLLVM_PATH to a libLLVM.so")
     mitsuba.set_variant(variant)
     return mitsuba

@@ -24,7 +24,8 @@ def render(name, spp):
     total = 0.0
     for first in range(0, spp, PASS):
         samples = min(PASS, spp - first)
-        total = total + samples * np.array(mi.render(scene, spp=samples, seed=first), dtype=np.float64)
+        image = mi.render(scene, spp=samples, seed=first)
+        total = total + samples * np.array(image, dtype=np.float64)
     return total / spp
 
 

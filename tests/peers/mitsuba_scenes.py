@@ -1,14 +1,15 @@
 """The scenes of compare.sh for Mitsuba 3: each function is one scene file, number by number.
 
 Of what the two programs leave to convention:
-- Lengths, right-handed axes, horizontal field of view, box filter, linear sRGB and the count of segments in max_depth
-  are the same.
+- Lengths, right-handed axes, horizontal field of view, box filter, linear sRGB and the count of
+  segments in max_depth are the same.
 - Mitsuba's matte surfaces show one side only; wrapped in `twosided`, both, as ours do.
-- Its spot light grows dim in proportion to the angle, ours along a cubic of the cosine: both have a hard edge here.
-- Its shadowing of facets takes those of both directions for independent, ours has their heights in common: at the
-  roughness of these scenes that is below 1 in 1000 up to 80 degrees from the normal.
-- Its sky has texels at the first and last row, and at the left edge of each column; ours at the middle of each.
-  Both are given samples of the same formula, where they want them.
+- The falloff of its spot light is linear in the angle, ours a cubic of the cosine: both have a hard
+  edge here.
+- Its masking-shadowing function is separable, ours is height-correlated (Heitz 2014): at the
+  roughness of these scenes they differ by less than 1 in 1000 up to 80 degrees from the normal.
+- Its sky has texels at the first and last row, and at the left edge of each column; ours at the
+  middle of each. Both are given samples of the same formula, where they want them.
 - v = 0 is the first row of its textures, the last of ours: they are turned over here.
 """
 import mitsuba as mi
@@ -31,7 +32,8 @@ def quad(corner, edge1, edge2, bsdf, **more):
     corner, edge1, edge2 = (np.array(v, dtype=float) for v in (corner, edge1, edge2))
     normal = np.cross(edge1, edge2)
     to_world = np.eye(4)
-    to_world[:3] = np.stack([edge1 / 2, edge2 / 2, normal / np.linalg.norm(normal), corner + (edge1 + edge2) / 2], 1)
+    middle = corner + (edge1 + edge2) / 2
+    to_world[:3] = np.stack([edge1 / 2, edge2 / 2, normal / np.linalg.norm(normal), middle], 1)
     return {"type": "rectangle", "to_world": Transform(to_world), "bsdf": bsdf, **more}
 
 
@@ -43,11 +45,12 @@ def scene(max_depth, eye, look_at, fov, aperture=0.0, focal_distance=1.0, **part
     lens = {"type": "perspective"}
     if aperture > 0.0:
         lens = {"type": "thinlens", "aperture_radius": aperture, "focus_distance": focal_distance}
-    film = {"type": "hdrfilm", "width": SIZE, "height": SIZE, "pixel_format": "rgb", "component_format": "float32",
-            "rfilter": {"type": "box"}}
+    film = {"type": "hdrfilm", "width": SIZE, "height": SIZE, "pixel_format": "rgb",
+            "component_format": "float32", "rfilter": {"type": "box"}}
     camera = {**lens, "fov": fov, "fov_axis": "x", "film": film,
               "to_world": Transform().look_at(list(eye), list(look_at), [0, 1, 0])}
-    return {"type": "scene", "integrator": {"type": "path", "max_depth": max_depth}, "camera": camera, **parts}
+    integrator = {"type": "path", "max_depth": max_depth}
+    return {"type": "scene", "integrator": integrator, "camera": camera, **parts}
 
 
 # ---- The box, scenes/parts ------------------------------------------------------
@@ -64,13 +67,15 @@ def box(max_depth, **parts):
         **parts)
 
 
-def box_lamp():
-    return quad((-0.25, 0.999, -0.25), (0.5, 0, 0), (0, 0, 0.5), {"type": "diffuse", "reflectance": rgb(0)},
+def box_light():
+    black = {"type": "diffuse", "reflectance": rgb(0)}
+    return quad((-0.25, 0.999, -0.25), (0.5, 0, 0), (0, 0, 0.5), black,
                 emitter={"type": "area", "radiance": rgb(12)})
 
 
 def box_balls(front, back):
-    return {"back_ball": ball((0.5, -0.7, 0.25), 0.3, back), "front_ball": ball((-0.5, -0.7, -0.25), 0.3, front)}
+    return {"back_ball": ball((0.5, -0.7, 0.25), 0.3, back),
+            "front_ball": ball((-0.5, -0.7, -0.25), 0.3, front)}
 
 
 def box_point():
@@ -79,13 +84,13 @@ def box_point():
 
 
 def box_area():
-    return box(16, lamp=box_lamp(), **box_balls(matte(0.2, 0.4, 0.8), matte(0.8, 0.6, 0.2)))
+    return box(16, lamp=box_light(), **box_balls(matte(0.2, 0.4, 0.8), matte(0.8, 0.6, 0.2)))
 
 
 def box_caustic():
     glass = {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}
     mirror = {"type": "conductor", "material": "none"}
-    return box(24, lamp=box_lamp(), **box_balls(glass, mirror))
+    return box(24, lamp=box_light(), **box_balls(glass, mirror))
 
 
 # ---- Rough gold and glass under a sky -------------------------------------------
@@ -96,11 +101,13 @@ SKY_WIDTH, SKY_HEIGHT = 1024, 512
 def sky(longitude, latitude):
     """Radiance [rows][columns][3]: from -z to the right, and from the top down, both in radians."""
     longitude, latitude = np.meshgrid(longitude, latitude)
-    x, y, z = np.sin(longitude) * np.sin(latitude), np.cos(latitude), -np.cos(longitude) * np.sin(latitude)
+    x, y = np.sin(longitude) * np.sin(latitude), np.cos(latitude)
+    z = -np.cos(longitude) * np.sin(latitude)
     sun = np.array([0.7, 0.45, -0.55])
     sun /= np.linalg.norm(sun)
     near_sun = np.exp(40.0 * (x * sun[0] + y * sun[1] + z * sun[2] - 1.0))[..., None]
-    return (0.7 + 0.3 * y)[..., None] * np.array([0.35, 0.45, 0.6]) + near_sun * np.array([12.0, 10.0, 7.0])
+    blue, sunlight = np.array([0.35, 0.45, 0.6]), np.array([12.0, 10.0, 7.0])
+    return (0.7 + 0.3 * y)[..., None] * blue + near_sun * sunlight
 
 
 def our_sky():
@@ -109,7 +116,8 @@ def our_sky():
 
 
 def mitsuba_sky():
-    return sky(np.arange(SKY_WIDTH) / SKY_WIDTH * 2 * np.pi, np.arange(SKY_HEIGHT) / (SKY_HEIGHT - 1) * np.pi)
+    columns, rows = np.arange(SKY_WIDTH), np.arange(SKY_HEIGHT)
+    return sky(columns / SKY_WIDTH * 2 * np.pi, rows / (SKY_HEIGHT - 1) * np.pi)
 
 
 def bitmap(pixels):
@@ -119,7 +127,8 @@ def bitmap(pixels):
 def metal_glass():
     gold = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.15,
             "eta": rgb(0.143, 0.375, 1.442), "k": rgb(3.983, 2.386, 1.603)}
-    frost = {"type": "roughdielectric", "distribution": "ggx", "alpha": 0.1, "int_ior": 1.5, "ext_ior": 1.0}
+    frost = {"type": "roughdielectric", "distribution": "ggx", "alpha": 0.1,
+             "int_ior": 1.5, "ext_ior": 1.0}
     return scene(
         24, (0, 1.1, -4.2), (0, 0.45, 0), 36,
         light={"type": "envmap", "bitmap": bitmap(mitsuba_sky())},
@@ -132,11 +141,13 @@ def metal_glass():
 
 def stage():
     upright = Transform().translate([0, 1, 0]).scale([1, -1, 1])
-    letter = {"type": "bitmap", "filename": "scenes/textures/letter.png", "wrap_mode": "clamp", "to_uv": upright}
+    letter = {"type": "bitmap", "filename": "scenes/textures/letter.png", "wrap_mode": "clamp",
+              "to_uv": upright}
     floor = {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": letter}}
     return scene(
         12, (0.4, 1.5, -4.5), (0, 0.4, 0), 38, aperture=0.08, focal_distance=4.2,
-        spot={"type": "spot", "intensity": rgb(30, 27, 24), "beam_width": 19.99, "cutoff_angle": 20.01,
+        spot={"type": "spot", "intensity": rgb(30, 27, 24),
+              "beam_width": 19.99, "cutoff_angle": 20.01,
               "to_world": Transform().look_at([1.5, 3.5, -2], [0, 0.2, 0], [0, 1, 0])},
         sun={"type": "directional", "direction": [1, -1.5, 1], "irradiance": rgb(0.4, 0.5, 0.7)},
         floor=quad((2, 0, -2), (-4, 0, 0), (0, 0, 4), floor),
@@ -145,10 +156,13 @@ def stage():
         tube={"type": "cylinder", "p0": [-0.9, 0, -0.2], "p1": [-0.9, 0.8, -0.2], "radius": 0.3,
               "bsdf": matte(0.2, 0.35, 0.7)},
         lid={"type": "disk", "bsdf": matte(0.2, 0.35, 0.7),
-             "to_world": Transform().translate([-0.9, 0.8, -0.2]).rotate([1, 0, 0], -90).scale(0.3)},
+             "to_world":
+                 Transform().translate([-0.9, 0.8, -0.2]).rotate([1, 0, 0], -90).scale(0.3)},
         sail=quad((-0.4, 0, 1.2), (1.3, 0, 0.3), (-0.5, 1.3, 0.2), matte(0.25, 0.6, 0.3)),
-        knot={"type": "ply", "filename": "scenes/meshes/knot.ply", "face_normals": True, "bsdf": matte(0.7, 0.5, 0.35),
+        knot={"type": "ply", "filename": "scenes/meshes/knot.ply", "face_normals": True,
+              "bsdf": matte(0.7, 0.5, 0.35),
               "to_world": Transform().translate([0.1, 0.6, 0.3]).scale(0.45)})
 
 
-SCENES = {function.__name__: function for function in (box_point, box_area, box_caustic, metal_glass, stage)}
+SCENES = {function.__name__: function
+          for function in (box_point, box_area, box_caustic, metal_glass, stage)}

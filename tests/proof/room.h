@@ -1,6 +1,6 @@
 /*
- * room.h - a closed room: coloured walls, an area light in the ceiling, a diffuse, a glossy and a mirror
- * ball.
+ * room.h - a closed room: coloured walls, an area light in the ceiling, a diffuse, a glossy and a
+ * mirror ball.
  */
 #ifndef RT_TESTS_PROOF_ROOM_H
 #define RT_TESTS_PROOF_ROOM_H

@@ -80,8 +80,8 @@ static double middle_of_pixels(double x0, double x1)
 }
 
 /*
- * Three area lights, red, green and blue, squares of 0.2 m across the view, at places right, up and ahead
- * of the eye.
+ * Three area lights, red, green and blue, squares of 0.2 m across the view, at places right, up and
+ * ahead of the eye.
  */
 static void squares_by_their_projection(void **state)
 {

@@ -1,11 +1,10 @@
 /*
- * test_enclosures.c - light that is reflected without end: in closed spheres and boxes, and of
- * bodies under a uniform sky.
+ * test_enclosures.c - interreflection in closed spheres and boxes, and bodies under a uniform sky.
  *
- * In a sphere of radius r and albedo a, every point gets the same light from every other: a light of
- * power P that illuminates the wall evenly gives the irradiance P / (4 pi r^2) (1 + a + a^2 + ...)
- * (Ulbricht's integrating sphere). Where walls both shine with L and reflect a, the radiance is L /
- * (1 - a) everywhere, whatever the shape (the white furnace).
+ * In a sphere of radius r and albedo a, every point gets the same light from every other: a light
+ * of power P that illuminates the wall evenly gives the irradiance
+ * P / (4 pi r^2) (1 + a + a^2 + ...) (Ulbricht's integrating sphere). Where walls both emit L and
+ * reflect a, the radiance is L / (1 - a) everywhere, whatever the shape (the white furnace).
  */
 #include <math.h>
 

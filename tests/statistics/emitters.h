@@ -1,5 +1,5 @@
 /*
- * emitters.h - lamps of every shape, with a parametrisation of each over the unit square.
+ * emitters.h - area lights of every shape, with a parametrisation of each over the unit square.
  *
  * Shapes with a part for each third of x (side, base and top) have x run along each part.
  */

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renders a scene of tests/peers/mitsuba_scenes.py twice, with seeds of their own, and tells how long one takes.
+"""Times a scene of tests/peers/mitsuba_scenes.py, rendered twice with seeds of their own.
 
     mitsuba_boxes.py SCENE SPP FIRST.pfm SECOND.pfm
 
@@ -9,7 +9,8 @@ import os
 import sys
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, os.pardir, "peers"))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, os.pardir, os.pardir, "peers"))
 import mitsuba_llvm  # noqa: E402
 
 mi = mitsuba_llvm.start()

@@ -1,22 +1,23 @@
 #!/usr/bin/env python3
 """Path tracing speed of Mitsuba 3 on the Cornell box of tests/bench/cornell32.rts.
 
-    pip install mitsuba && python3 mitsuba_cornell.py [--runs N] [--spp N] [--size N] [--out FILE.exr]
+    pip install mitsuba
+    python3 mitsuba_cornell.py [--runs N] [--spp N] [--size N] [--out FILE.exr]
 
 Prints millions of camera samples a second, the median of the runs, as the last line:
 
     mitsuba llvm_ad_rgb 3.2 Msamples/s
 
-A first render, not counted, compiles Mitsuba's kernels. --out keeps the last render as .exr or .pfm,
-to be compared with ours.
+A first render, not counted, compiles Mitsuba's kernels. --out keeps the last render as .exr or
+.pfm, to be compared with ours.
 
 What the two programs must agree on, and how it is said in each:
 - The scene: camera, triangles, colours and max_depth are read from that very file.
-- Path length: Mitsuba's max_depth counts the segments of a path from the eye, the last one to the light
-  included (2 is direct light alone), and so does the scene language's.
+- Path length: Mitsuba's max_depth counts the segments of a path from the eye, the last one to the
+  light included (2 is direct light alone), and so does the scene language's.
 - Russian roulette starts at the fifth segment in Mitsuba (rr_depth 5, its default).
-- Box filter and light sampling with multiple importance sampling in both; Mitsuba's default sampler,
-  independent random numbers.
+- Box filter and light sampling with multiple importance sampling in both; Mitsuba's default
+  sampler, independent random numbers.
 """
 import argparse
 import os
@@ -68,7 +69,8 @@ def write_ply(path, triangles):
     with open(path, "w", encoding="ascii") as file:
         file.write(f"ply\nformat ascii 1.0\nelement vertex {3 * len(triangles)}\n")
         file.write("property float x\nproperty float y\nproperty float z\n")
-        file.write(f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+        file.write(f"element face {len(triangles)}\n")
+        file.write("property list uchar int vertex_indices\nend_header\n")
         for triangle in triangles:
             for corner in "abc":
                 file.write(" ".join(triangle[corner]) + "\n")
@@ -85,18 +87,20 @@ def describe(mi, blocks, directory, size):
         "integrator": {"type": "path", "max_depth": int(single["render"]["max_depth"][0])},
         "sensor": {
             "type": "perspective", "fov": camera["fov"][0], "fov_axis": "x",
-            "to_world": mi.ScalarTransform4f().look_at(camera["eye"], camera["look_at"], camera["up"]),
+            "to_world": mi.ScalarTransform4f().look_at(
+                camera["eye"], camera["look_at"], camera["up"]),
             "film": {"type": "hdrfilm", "width": size, "height": size, "rfilter": {"type": "box"},
                      "pixel_format": "rgb", "component_format": "float32"},
         },
     }
     for material in (block for block in blocks if block[0] == "material"):
         name, reflectance = material[1], numbers(material[2]["kd"])
-        triangles = [fields for word, _, fields in blocks if word == "triangle" and fields["material"] == [name]]
+        triangles = [fields for word, _, fields in blocks
+                     if word == "triangle" and fields["material"] == [name]]
         path = os.path.join(directory, name + ".ply")
         write_ply(path, triangles)
-        scene[name] = {"type": "ply", "filename": path, "face_normals": True,
-                       "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": reflectance}}}
+        bsdf = {"type": "diffuse", "reflectance": {"type": "rgb", "value": reflectance}}
+        scene[name] = {"type": "ply", "filename": path, "face_normals": True, "bsdf": bsdf}
         if "radiance" in triangles[0]:
             radiance = {"type": "rgb", "value": numbers(triangles[0]["radiance"])}
             scene[name]["emitter"] = {"type": "area", "radiance": radiance}
@@ -107,7 +111,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--runs", type=int, default=5, help="counted renders")
     parser.add_argument("--spp", type=int, help="samples a pixel, instead of the scene's")
-    parser.add_argument("--size", type=int, help="width and height in pixels, instead of the scene's")
+    parser.add_argument("--size", type=int, help="width and height, instead of the scene's")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="variant of Mitsuba")
     parser.add_argument("--out", help="keep the last render here, .exr or .pfm")
     arguments = parser.parse_args()

@@ -29,8 +29,8 @@ static rt_render_options pass_options(const study *s, uint32_t passes)
 }
 
 /*
- * The reference has `spp` samples: so many that its own error is below a hundredth of the least that
- * is compared with it.
+ * The reference has `spp` samples: so many that its own error is below a hundredth of the least
+ * that is compared with it.
  */
 static void follow(const char *scene, uint32_t spp, double close)
 {
