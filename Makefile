@@ -65,12 +65,16 @@ LIB_SRC := \
 	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_tree.c \
 	lib/photon/point_order.c lib/photon/sources.c lib/photon/gather_tree.c \
 	lib/render/enclose.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
-	lib/scene/area.c lib/scene/camera.c lib/scene/environment.c lib/scene/findings.c \
+	lib/scene/camera.c lib/scene/environment.c lib/scene/findings.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
 	lib/scene/mesh_file.c lib/scene/scene.c lib/scene/shape.c \
-	lib/scene/shapes.c lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
+	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/word.c \
+	lib/shape/area_scale.c lib/shape/ball.c lib/shape/classes.c lib/shape/cone.c \
+	lib/shape/cylinder.c lib/shape/disc.c lib/shape/edges.c lib/shape/ellipsoid.c \
+	lib/shape/frustum.c lib/shape/placed.c lib/shape/plane.c lib/shape/quad.c lib/shape/sphere.c \
+	lib/shape/torus.c lib/shape/triangles.c \
 	lib/texture/texture.c
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc

@@ -5,11 +5,9 @@
 #include <string.h>
 
 #include "scene/check.h"
+#include "scene/shape_class.h"
 
 static const double pi = 3.14159265358979323846;
-
-/* Edges whose cosine is below this are at right angles, to the precision of float32. */
-static const double right_angle = 1e-6;
 
 static double mean(const float c[3])
 {
@@ -64,69 +62,14 @@ static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_sce
     light->power = (float)light_power(scene, from, radius);
 }
 
-/* Splits the two edges into direction and length, and adds what follows from them. */
-static void fill_edges(rt_light_data *light, const double b[3], const double c[3])
-{
-    double width = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
-    double height = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
-    double normal[3] = {b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2],
-                        b[0] * c[1] - b[1] * c[0]};
-    double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    double cosine = (b[0] * c[0] + b[1] * c[1] + b[2] * c[2]) / (width * height);
-
-    /* A triangle without area has no power and is never chosen. */
-    for (int i = 0; i < 3 && length > 0; i++) {
-        light->b[i] = (float)(b[i] / width);
-        light->c[i] = (float)(c[i] / height);
-        light->normal[i] = (float)(normal[i] / length);
-    }
-    light->width = (float)width;
-    light->height = (float)height;
-    if (light->kind == RT_LIGHT_QUAD && fabs(cosine) < right_angle)
-        light->flags |= RT_LIGHT_RECTANGLE;
-    else if (light->texture == RT_NONE)
-        light->flags |= RT_LIGHT_BY_AREA;
-}
-
-static void fill_triangle(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
-                          size_t primitive)
-{
-    const uint32_t *corner = scene->meshes[shape->mesh].indices + 3 * primitive;
-    float v[3][3];
-    double b[3], c[3];
-    light->kind = RT_LIGHT_TRIANGLE;
-    for (int i = 0; i < 3; i++)
-        rt_scene_vertex(scene, shape, corner[i], v[i]);
-    memcpy(light->a, v[0], sizeof light->a);
-    rt_vec_sub(b, v[1], v[0]);
-    rt_vec_sub(c, v[2], v[0]);
-    fill_edges(light, b, c);
-}
-
 static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
                           size_t primitive)
 {
-    static const float zero[3];
-    double b[3], c[3];
-    switch (shape->kind) {
-    case RT_SHAPE_SPHERE:
-        light->kind = RT_LIGHT_SPHERE;
-        memcpy(light->a, shape->p, sizeof light->a);
-        light->width = shape->p[3];
-        break;
-    case RT_SHAPE_QUAD:
-        light->kind = RT_LIGHT_QUAD;
-        memcpy(light->a, shape->p, sizeof light->a);
-        rt_vec_sub(b, shape->p + 3, zero);
-        rt_vec_sub(c, shape->p + 6, zero);
-        fill_edges(light, b, c);
-        break;
-    case RT_SHAPE_TRIANGLES:
-        fill_triangle(light, scene, shape, primitive);
-        break;
-    default:
+    const rt_shape_class *class = rt_shape_class_of(shape->kind);
+    if (class->light)
+        class->light(light, scene, shape, primitive);
+    else
         light->kind = RT_LIGHT_SHAPE;
-    }
     for (int i = 0; i < 3 && rt_scene_is_mirrored(shape); i++)
         light->normal[i] = -light->normal[i];
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "scene/shape_class.h"
 
 /* ---- Input of the tree of all shapes ---------------------------------------- */
 
@@ -45,15 +46,15 @@ static void list_quad(rt_bvh_quad *quad, const rt_scene_shape *shape, rt_u32 pri
     quad->prim = prim;
 }
 
-/* A shape with a box of its own: an analytic one or an instance. */
-static void list_box(rt_bvh_analytic *entry, const rt_scene_shape *shape, rt_u32 index)
+/* A leaf of the tree, found by its bounds: an analytic shape or an instance. */
+static void list_leaf(rt_bvh_analytic *entry, const rt_scene_shape *shape, rt_u32 index)
 {
     memcpy(entry->lo, shape->lo, sizeof entry->lo);
     memcpy(entry->hi, shape->hi, sizeof entry->hi);
     entry->shape = index;
 }
 
-/* Lists all shapes but planes. */
+/* Lists all finite shapes. */
 static rt_status list_shapes(rt_hierarchy *h, rt_bvh_input *input, const rt_scene *scene,
                              const rt_u32 *first_prim, rt_error *error)
 {
@@ -68,12 +69,23 @@ static rt_status list_shapes(rt_hierarchy *h, rt_bvh_input *input, const rt_scen
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu shapes", shapes);
     for (size_t i = 0; i < shapes && status == RT_OK; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
-        if (shape->kind == RT_SHAPE_TRIANGLES && !rt_scene_is_instance(scene, shape))
-            status = list_mesh(h, h->meshes + input->mesh_count++, scene, i, first_prim[i], error);
-        else if (shape->kind == RT_SHAPE_QUAD)
+        switch (rt_shape_class_of(shape->kind)->storage) {
+        case RT_STORED_MESH:
+            if (rt_scene_is_instance(scene, shape))
+                list_leaf(h->analytic + input->analytic_count++, shape, (rt_u32)i);
+            else
+                status =
+                    list_mesh(h, h->meshes + input->mesh_count++, scene, i, first_prim[i], error);
+            break;
+        case RT_STORED_QUAD:
             list_quad(h->quads + input->quad_count++, shape, first_prim[i]);
-        else if (shape->kind != RT_SHAPE_PLANE)
-            list_box(h->analytic + input->analytic_count++, shape, (rt_u32)i);
+            break;
+        case RT_STORED_ANALYTIC:
+            list_leaf(h->analytic + input->analytic_count++, shape, (rt_u32)i);
+            break;
+        case RT_STORED_INFINITE:
+            break;
+        }
     }
     input->meshes = h->meshes;
     input->quads = h->quads;

@@ -6,19 +6,22 @@
 #include "base/vec.h"
 #include "light/lights.h"
 #include "pack/packing.h"
+#include "scene/shape_class.h"
 
 /* ---- Numbering ------------------------------------------------------------- */
 
 static int needs_transform(const rt_packing *p, const rt_scene_shape *shape)
 {
-    switch (shape->kind) {
-    case RT_SHAPE_QUAD:
-        return 0;
-    case RT_SHAPE_TRIANGLES:
+    switch (rt_shape_class_of(shape->kind)->storage) {
+    case RT_STORED_MESH:
         return rt_scene_is_instance(p->scene, shape);
-    default:
+    case RT_STORED_QUAD:
+        break;
+    case RT_STORED_ANALYTIC:
+    case RT_STORED_INFINITE:
         return shape->has_transform;
     }
+    return 0;
 }
 
 /* Takes so many entries of a table. */
@@ -75,7 +78,7 @@ rt_status rt_pack_number(rt_packing *p, rt_error *error)
     for (size_t i = 0; i < p->scene->shape_count && status == RT_OK; i++) {
         const rt_scene_shape *shape = p->scene->shapes + i;
         p->first_prim[i] = take(&p->prim_count, rt_scene_shape_primitives(p->scene, shape));
-        p->plane_count += shape->kind == RT_SHAPE_PLANE;
+        p->plane_count += rt_shape_class_of(shape->kind)->storage == RT_STORED_INFINITE;
         if (needs_transform(p, shape))
             p->shapes[i].transform = take(&p->transform_count, 1);
         if (shape->kind == RT_SHAPE_TRIANGLES)

@@ -7,6 +7,7 @@
 
 #include "scene/check.h"
 #include "scene/inside.h"
+#include "scene/shape_class.h"
 #include "scene/view.h"
 #include "setting/options.h"
 
@@ -24,14 +25,9 @@ typedef struct inspection {
     size_t warnings;
 } inspection;
 
-static const char *shape_name(rt_u32 kind)
+static const char *shape_name(const rt_scene_shape *shape)
 {
-    static const char *const names[] = {
-        [RT_SHAPE_TRIANGLES] = "mesh",      [RT_SHAPE_SPHERE] = "sphere",
-        [RT_SHAPE_ELLIPSOID] = "ellipsoid", [RT_SHAPE_CYLINDER] = "cylinder",
-        [RT_SHAPE_CONE] = "cone",           [RT_SHAPE_TORUS] = "torus",
-    };
-    return kind < sizeof names / sizeof *names && names[kind] ? names[kind] : "shape";
+    return rt_shape_class_of(shape->kind)->name;
 }
 
 /* Passes a finding on with a message of this form. */
@@ -131,13 +127,13 @@ static void find_camera_inside(inspection *in)
         } else if (!may_be_lit_inside(scene, shape, side < 0)) {
             dark.shape = (uint32_t)i;
             report(in, dark, "the camera is inside an opaque %s, where there is no light",
-                   shape_name(shape->kind));
+                   shape_name(shape));
             return;
         }
     }
     if (medium.shape != RT_NONE)
         report(in, medium, "the camera is inside a transparent %s",
-               shape_name(scene->shapes[medium.shape].kind));
+               shape_name(scene->shapes + medium.shape));
 }
 
 /* ---- Lights ----------------------------------------------------------------- */
@@ -173,8 +169,7 @@ static void find_light_inside(inspection *in, const light *light)
             hidden.emitter = (uint32_t)(light->shape - scene->shapes);
         else
             hidden.light = (uint32_t)(light->delta - scene->lights);
-        report(in, hidden, "this light is inside an opaque %s and never seen",
-               shape_name(solid->kind));
+        report(in, hidden, "this light is inside an opaque %s and never seen", shape_name(solid));
         return;
     }
 }
@@ -201,26 +196,15 @@ static void find_lights_inside(inspection *in)
 
 /* ---- Glass ----------------------------------------------------------------- */
 
-/* A plane bounds a half-space by itself, and is no open shape. */
+static rt_shape_boundary boundary_of(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    return rt_shape_class_of(shape->kind)->boundary(scene, shape);
+}
+
 static int is_open(const rt_scene *scene, const rt_scene_shape *shape)
 {
-    switch (shape->kind) {
-    case RT_SHAPE_QUAD:
-    case RT_SHAPE_DISC:
-        return 1;
-    case RT_SHAPE_TRIANGLES:
-        return scene->meshes[shape->mesh].triangle_count == 1;
-    case RT_SHAPE_CYLINDER:
-    case RT_SHAPE_CONE:
-        return !shape->caps;
-    case RT_SHAPE_SPHERE:
-    case RT_SHAPE_ELLIPSOID:
-    case RT_SHAPE_PLANE:
-    case RT_SHAPE_TORUS:
-    case RT_SHAPE_INSTANCE:
-        return 0;
-    }
-    return 0;
+    rt_shape_boundary boundary = boundary_of(scene, shape);
+    return boundary == RT_BOUNDARY_FLAT || boundary == RT_BOUNDARY_CURVED;
 }
 
 /*
@@ -243,11 +227,18 @@ static int may_bound(const rt_scene *scene, uint32_t material)
         const rt_scene_shape *shape = scene->shapes + i;
         if (shape->surface.material != material)
             continue;
-        if (shape->kind == RT_SHAPE_CYLINDER || shape->kind == RT_SHAPE_CONE ||
-            (shape->kind == RT_SHAPE_TRIANGLES && !is_open(scene, shape)))
+        switch (boundary_of(scene, shape)) {
+        case RT_BOUNDARY_SOLID:
+            break;
+        case RT_BOUNDARY_HALF_SPACE:
+        case RT_BOUNDARY_FLAT:
+            flat++;
+            break;
+        case RT_BOUNDARY_CURVED:
+        case RT_BOUNDARY_CURVED_CLOSED:
             curved++;
-        else
-            flat += is_open(scene, shape) || shape->kind == RT_SHAPE_PLANE;
+            break;
+        }
     }
     return flat >= 4 || (curved > 0 && flat + curved > 1);
 }

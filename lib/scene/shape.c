@@ -1,6 +1,6 @@
 /*
- * shape.c - what all shapes share: checks on adding one, transforms, what they emit. Their kinds
- * are in shapes.c.
+ * shape.c - what all shapes share: checks on adding one, transforms, what they emit, balls around
+ * them. Their kinds are in lib/shape.
  */
 #include <math.h>
 #include <string.h>
@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "scene/check.h"
 #include "scene/scene.h"
+#include "scene/shape_class.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -132,19 +133,21 @@ static rt_status check_extent(const rt_scene_shape *shape, const char *who, rt_e
     return RT_OK;
 }
 
-static rt_status check_plane(const rt_scene *scene, const rt_surface *s, rt_error *error)
+static rt_status check_infinite(const rt_scene *scene, const rt_surface *s, const char *who,
+                                rt_error *error)
 {
     const char *field = !rt_is_black(s->power)      ? "power"
                         : !rt_is_black(s->radiance) ? "radiance"
                                                     : "material";
     if (rt_surface_has_light(s) || !rt_is_black(scene->materials[s->material].emission))
-        return rt_fail_field(error, RT_ERROR_INPUT, field, "plane: an infinite plane cannot emit");
+        return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: an infinite plane cannot emit",
+                             who);
     return RT_OK;
 }
 
 /* A power may be too much for the shape's area. */
-static rt_status check_lamp(const rt_scene *scene, const rt_scene_shape *shape, const char *who,
-                            rt_error *error)
+static rt_status check_power(const rt_scene *scene, const rt_scene_shape *shape, const char *who,
+                             rt_error *error)
 {
     float radiance[3];
     if (rt_is_black(shape->surface.power))
@@ -164,12 +167,12 @@ rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *sha
 {
     const rt_surface *s = &shape->surface;
     rt_status status = check_surface(scene, s, who, error);
-    if (status == RT_OK && shape->kind == RT_SHAPE_PLANE)
-        status = check_plane(scene, s, error);
+    if (status == RT_OK && rt_shape_class_of(shape->kind)->storage == RT_STORED_INFINITE)
+        status = check_infinite(scene, s, who, error);
     else if (status == RT_OK)
         status = check_extent(shape, who, error);
     if (status == RT_OK)
-        status = check_lamp(scene, shape, who, error);
+        status = check_power(scene, shape, who, error);
     if (status == RT_OK && scene->shape_count >= shapes_max)
         status = rt_fail(error, RT_ERROR_INPUT, "more than %d shapes", shapes_max);
     if (status == RT_OK)
@@ -184,4 +187,23 @@ rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *sha
         *out = (uint32_t)scene->shape_count;
     scene->shapes[scene->shape_count++] = *shape;
     return RT_OK;
+}
+
+double rt_point_distance(const double a[3], const float b[3])
+{
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+double rt_bounds_ball(double centre[3], const float lo[3], const float hi[3])
+{
+    for (int i = 0; i < 3; i++)
+        centre[i] = 0.5 * ((double)lo[i] + hi[i]);
+    return rt_point_distance(centre, hi);
+}
+
+double rt_shape_ball(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
+{
+    const rt_shape_class *class = rt_shape_class_of(shape->kind);
+    return class->ball ? class->ball(scene, shape, centre)
+                       : rt_bounds_ball(centre, shape->lo, shape->hi);
 }

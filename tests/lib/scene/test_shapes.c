@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "lib/scene/scenes.h"
-#include "scene/area.h"
 #include "scene/scene.h"
+#include "scene/shape_class.h"
 
 static const double pi = 3.14159265358979323846;
 static const float origin[3], x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};
@@ -111,7 +111,7 @@ static void flat_shapes_are_brought_to_world_space(void **state)
 
 /* ---- Areas ------------------------------------------------------------------ */
 
-/* A point of a curved shape in its own space; u and v from 0 to 1. */
+/* A point of a curved shape in object space; u and v from 0 to 1. */
 typedef void surface_point(double out[3], double u, double v, double parameter);
 
 static void ball(double out[3], double u, double v, double parameter)
@@ -177,6 +177,13 @@ static void expect_area(double found, double expected, double relative)
         fail_msg("the area is %.9g, expected %.9g", found, expected);
 }
 
+/* The area of a kind of shape under this map. */
+static double class_area(rt_u32 kind, double parameter, int caps, const rt_affine *map)
+{
+    rt_scene_shape shape = {.kind = kind, .caps = caps, .p = {(float)parameter}, .to_world = *map};
+    return rt_shape_class_of(kind)->area(&shape);
+}
+
 static void areas_under_affine_maps_match_brute_force(void **state)
 {
     enum { steps = 700 };
@@ -189,13 +196,18 @@ static void areas_under_affine_maps_match_brute_force(void **state)
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) {
         rt_affine map = rt_affine_from(maps + i);
         double end = brute_area(annulus, 0, &map, steps);
-        expect_area(rt_area_ellipsoid(&map), brute_area(ball, 0, &map, steps), 1e-5);
-        expect_area(rt_area_disc(&map, 0.4), brute_area(annulus, 0.4, &map, steps), 1e-5);
-        expect_area(rt_area_cone(&map, 1, 0), brute_area(side, 1, &map, steps), 1e-5);
-        expect_area(rt_area_cone(&map, 1, 1), brute_area(side, 1, &map, steps) + 2 * end, 1e-5);
-        expect_area(rt_area_cone(&map, 0.3, 1), brute_area(side, 0.3, &map, steps) + 1.09 * end,
+        expect_area(class_area(RT_SHAPE_ELLIPSOID, 0, 0, &map), brute_area(ball, 0, &map, steps),
                     1e-5);
-        expect_area(rt_area_torus(&map, 0.4), brute_area(ring, 0.4, &map, steps), 1e-5);
+        expect_area(class_area(RT_SHAPE_DISC, 0.4f, 0, &map),
+                    brute_area(annulus, 0.4f, &map, steps), 1e-5);
+        expect_area(class_area(RT_SHAPE_CYLINDER, 0, 0, &map), brute_area(side, 1, &map, steps),
+                    1e-5);
+        expect_area(class_area(RT_SHAPE_CYLINDER, 0, 1, &map),
+                    brute_area(side, 1, &map, steps) + 2 * end, 1e-5);
+        expect_area(class_area(RT_SHAPE_CONE, 0.25, 1, &map),
+                    brute_area(side, 0.25, &map, steps) + 1.0625 * end, 1e-5);
+        expect_area(class_area(RT_SHAPE_TORUS, 0.4f, 0, &map), brute_area(ring, 0.4f, &map, steps),
+                    1e-5);
     }
 }
 

@@ -1,0 +1,34 @@
+/* ball.c - adding a sphere or an ellipsoid, as the placement of the unit sphere asks. */
+#include "shape/ball.h"
+
+#include <float.h>
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+rt_status rt_shape_add_ball(rt_scene *scene, uint32_t *out, const rt_affine *placement,
+                            const rt_surface *surface, const char *who, rt_error *error)
+{
+    rt_scene_shape shape = {.kind = RT_SHAPE_ELLIPSOID, .surface = *surface};
+    rt_affine transform = rt_affine_from(&surface->transform),
+              whole = rt_affine_product(&transform, placement);
+    double radius = rt_affine_similarity(&whole);
+
+    if (!(radius > 0))
+        return rt_shape_add_placed(scene, out, &shape, placement, who, error);
+    rt_status status = rt_surface_transform(&transform, surface, who, error);
+    if (status != RT_OK)
+        return status;
+    shape.kind = RT_SHAPE_SPHERE;
+    shape.area = 4 * pi * radius * radius;
+    shape.to_world = whole;
+    shape.p[3] = (float)radius;
+    for (int i = 0; i < 3; i++) {
+        shape.p[i] = (float)whole.m[i][3];
+        shape.lo[i] = nextafterf(shape.p[i] - shape.p[3], -FLT_MAX);
+        shape.hi[i] = nextafterf(shape.p[i] + shape.p[3], FLT_MAX);
+        for (int j = 0; j < 3; j++)
+            shape.has_transform |= i != j ? whole.m[i][j] != 0 : !(whole.m[i][j] > 0);
+    }
+    return rt_scene_add_shape(scene, out, &shape, who, error);
+}

@@ -1,0 +1,180 @@
+/*
+ * triangles.c - meshes as they are placed: triangles in world space, or an instance of the mesh's
+ * own tree.
+ *
+ * Whether a point is inside is decided by the solid angles of the triangles: over a closed surface
+ * they make a full sphere seen from inside, and nothing seen from outside, with no ray that could
+ * graze an edge (Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans.
+ * Biomed. Eng. 30(2), 1983).
+ */
+#include "shape/edges.h"
+#include "shape/placed.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/*
+ * The rounding of a sum of many solid angles, in full spheres; a hole that is smaller goes
+ * unnoticed.
+ */
+static const double rounding = 1e-6;
+
+static rt_shape_boundary boundary(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    return scene->meshes[shape->mesh].triangle_count == 1 ? RT_BOUNDARY_FLAT
+                                                          : RT_BOUNDARY_CURVED_CLOSED;
+}
+
+/* ---- Inside ------------------------------------------------------------------ */
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/*
+ * The solid angle of a triangle of corners a, b, c seen from the origin, in full spheres; positive
+ * from behind.
+ */
+static double solid_angle(const double a[3], const double b[3], const double c[3])
+{
+    double n[3], la = rt_vec_length(a), lb = rt_vec_length(b), lc = rt_vec_length(c);
+    rt_vec_cross(n, b, c);
+    return atan2(dot(a, n), la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la) /
+           (2 * pi);
+}
+
+static int mesh_contains(const rt_scene_mesh *mesh, const double p[3])
+{
+    double sum = 0;
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        double v[3][3];
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                v[c][k] =
+                    mesh->positions[3 * (size_t)mesh->indices[3 * i + (size_t)c] + (size_t)k] -
+                    p[k];
+        sum += solid_angle(v[0], v[1], v[2]);
+    }
+    double turns = round(sum);
+    return fabs(sum - turns) > rounding ? 0 : (turns > 0) - (turns < 0);
+}
+
+static int contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])
+{
+    double q[3];
+    return rt_shape_to_object(q, shape, p) ? mesh_contains(scene->meshes + shape->mesh, q) : 0;
+}
+
+/* ---- Ball and light ---------------------------------------------------------- */
+
+/* About the middle of its bounds: of an instance that of these, else that of its vertices. */
+static double ball(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
+{
+    double radius = rt_bounds_ball(centre, shape->lo, shape->hi), farthest = 0;
+    if (rt_scene_is_instance(scene, shape))
+        return radius;
+    for (size_t i = 0; i < scene->meshes[shape->mesh].vertex_count; i++) {
+        float vertex[3];
+        rt_scene_vertex(scene, shape, i, vertex);
+        farthest = fmax(farthest, rt_point_distance(centre, vertex));
+    }
+    return fmin(radius, farthest);
+}
+
+static void light(rt_light_data *out, const rt_scene *scene, const rt_scene_shape *shape,
+                  size_t primitive)
+{
+    const uint32_t *corner = scene->meshes[shape->mesh].indices + 3 * primitive;
+    float v[3][3];
+    double b[3], c[3];
+    out->kind = RT_LIGHT_TRIANGLE;
+    for (int i = 0; i < 3; i++)
+        rt_scene_vertex(scene, shape, corner[i], v[i]);
+    memcpy(out->a, v[0], sizeof out->a);
+    rt_vec_sub(b, v[1], v[0]);
+    rt_vec_sub(c, v[2], v[0]);
+    rt_light_set_edges(out, b, c);
+}
+
+#define PLACED_MESH(title)                                                                         \
+    {                                                                                              \
+        .name = title, .storage = RT_STORED_MESH, .boundary = boundary, .contains = contains,      \
+        .ball = ball, .light = light                                                               \
+    }
+const rt_shape_class rt_shape_triangles = PLACED_MESH("mesh");
+/* The same: a shape of the scene is one or the other on the device. */
+const rt_shape_class rt_shape_instance = PLACED_MESH("mesh");
+
+/* ---- Placing ----------------------------------------------------------------- */
+
+/*
+ * The area of a mesh in world space; a map that is no similarity stretches each triangle by its own
+ * factor.
+ */
+static double placed_area(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
+    double scale = rt_affine_similarity(&shape->to_world), area = 0;
+    if (scale > 0)
+        return mesh->area * scale * scale;
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        area += rt_scene_primitive_area(scene, shape, i);
+    return area;
+}
+
+/* The bounds of the mesh's box as it is placed, rounded outwards. */
+static void place_bounds(rt_scene_shape *shape, const rt_scene_mesh *mesh)
+{
+    for (int i = 0; i < 3; i++) {
+        const double *a = shape->to_world.m[i];
+        double lo = a[3], hi = a[3], reach = fabs(a[3]);
+        for (int j = 0; j < 3; j++) {
+            double x = a[j] * mesh->lo[j], y = a[j] * mesh->hi[j];
+            lo += fmin(x, y);
+            hi += fmax(x, y);
+            reach += fmax(fabs(x), fabs(y));
+        }
+        shape->lo[i] = nextafterf((float)(lo - 0x1p-21 * reach), -INFINITY);
+        shape->hi[i] = nextafterf((float)(hi + 0x1p-21 * reach), INFINITY);
+    }
+}
+
+rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh,
+                                const rt_surface *surface, rt_error *error)
+{
+    rt_scene_shape shape = {.kind = RT_SHAPE_TRIANGLES, .mesh = mesh, .surface = *surface};
+    if (mesh >= scene->mesh_count)
+        return rt_fail_field(error, RT_ERROR_INPUT, "mesh",
+                             "instance: there is no mesh %u among %zu", mesh, scene->mesh_count);
+    rt_status status = rt_surface_transform(&shape.to_world, surface, "instance", error);
+    if (status != RT_OK)
+        return status;
+    shape.has_transform = !rt_affine_is_identity(&shape.to_world);
+    if (!rt_is_black(surface->power))
+        shape.area = placed_area(scene, &shape);
+    place_bounds(&shape, scene->meshes + mesh);
+    return rt_scene_add_shape(scene, out, &shape, "instance", error);
+}
+
+rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions,
+                                 size_t vertex_count, const uint32_t *indices,
+                                 size_t triangle_count, const float *normals,
+                                 const rt_surface *surface, rt_error *error)
+{
+    rt_mesh_data data = {.positions = positions,
+                         .normals = normals,
+                         .indices = indices,
+                         .vertex_count = vertex_count,
+                         .triangle_count = triangle_count};
+    uint32_t mesh;
+    rt_status status = rt_scene_add_mesh(scene, &mesh, &data, error);
+    if (status != RT_OK)
+        return status;
+    status = rt_scene_add_instance(scene, out, mesh, surface, error);
+    if (status != RT_OK)
+        rt_scene_mesh_free(scene->meshes + --scene->mesh_count);
+    return status;
+}
