@@ -1,9 +1,11 @@
+/* shape_check.c - shapes on the device against shape_truth. */
 #include "kernels/shape_check.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "shape_kinds.h"
 #include "support.h"
 
 static const double band = 1e-4;
@@ -76,67 +78,131 @@ truth_shape shape_placed(rays_stream *stream, size_t kind, size_t place)
     return shape;
 }
 
+/* ---- Each kind --------------------------------------------------------------- */
+
+static const float zero[3] = {0, 0, 0}, one[3] = {1, 1, 1}, up[3] = {0, 0, 1};
+
+/*
+ * Of each kind: a call that adds it, and a point and the normal there, in object space, at these
+ * turns and v in [0, 1].
+ */
+static rt_status ellipsoid_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+                               rt_error *error)
+{
+    (void)shape;
+    return rt_scene_add_ellipsoid(scene, NULL, zero, one, surface, error);
+}
+
+static void ellipsoid_point(const truth_shape *shape, double turn, double v, double p[3],
+                            double n[3])
+{
+    (void)shape;
+    p[2] = 2 * v - 1;
+    p[0] = sqrt(1 - p[2] * p[2]) * cos(turn);
+    p[1] = sqrt(1 - p[2] * p[2]) * sin(turn);
+    memcpy(n, p, 3 * sizeof *n);
+}
+
+static rt_status disc_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+                          rt_error *error)
+{
+    return rt_scene_add_disc(scene, NULL, zero, up, 1, (float)shape->p, surface, error);
+}
+
+static void disc_point(const truth_shape *shape, double turn, double v, double p[3], double n[3])
+{
+    const double r = shape->p + (1 - shape->p) * v;
+    p[0] = r * cos(turn);
+    p[1] = r * sin(turn);
+    n[2] = 1;
+}
+
+static void frustum_point(double top, double turn, double v, double p[3], double n[3])
+{
+    const double r = 1 - (1 - top) * v, nr = 1 / hypot(1, 1 - top);
+    p[0] = r * cos(turn);
+    p[1] = r * sin(turn);
+    p[2] = v;
+    n[0] = nr * cos(turn);
+    n[1] = nr * sin(turn);
+    n[2] = (1 - top) * nr;
+}
+
+static rt_status cylinder_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+                              rt_error *error)
+{
+    return rt_scene_add_cylinder(scene, NULL, zero, up, 1, shape->caps, surface, error);
+}
+
+static void cylinder_point(const truth_shape *shape, double turn, double v, double p[3],
+                           double n[3])
+{
+    (void)shape;
+    frustum_point(1, turn, v, p, n);
+}
+
+static rt_status cone_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+                          rt_error *error)
+{
+    return rt_scene_add_cone(scene, NULL, zero, up, 1, (float)shape->p, shape->caps, surface,
+                             error);
+}
+
+static void cone_point(const truth_shape *shape, double turn, double v, double p[3], double n[3])
+{
+    frustum_point(shape->p, turn, v, p, n);
+}
+
+static rt_status torus_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+                           rt_error *error)
+{
+    return rt_scene_add_torus(scene, NULL, zero, up, 1, (float)shape->p, surface, error);
+}
+
+static void torus_point(const truth_shape *shape, double turn, double v, double p[3], double n[3])
+{
+    const double x = cos(2 * pi * v), z = sin(2 * pi * v), r = 1 + shape->p * x;
+    p[0] = r * cos(turn);
+    p[1] = r * sin(turn);
+    p[2] = shape->p * z;
+    n[0] = x * cos(turn);
+    n[1] = x * sin(turn);
+    n[2] = z;
+}
+
+#define KIND_CHECK(KIND, name, number) [RT_SHAPE_##KIND] = {name##_add, name##_point},
+static const struct {
+    rt_status (*add)(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+                     rt_error *error);
+    void (*point)(const truth_shape *shape, double turn, double v, double p[3], double n[3]);
+} checks[] = {RT_PLACED_SHAPES(KIND_CHECK)};
+
 rt_scene *shape_scene(const truth_shape *shape)
 {
-    static const float zero[3] = {0, 0, 0}, one[3] = {1, 1, 1}, up[3] = {0, 0, 1};
     const rt_surface surface = {.transform = shape->to_world};
-    const float p = (float)shape->p;
     rt_scene *scene = rays_scene();
-    rt_status status;
     rt_error error;
-    switch (shape->kind) {
-    case RT_SHAPE_DISC:
-        status = rt_scene_add_disc(scene, NULL, zero, up, 1, p, &surface, &error);
-        break;
-    case RT_SHAPE_CYLINDER:
-        status = rt_scene_add_cylinder(scene, NULL, zero, up, 1, shape->caps, &surface, &error);
-        break;
-    case RT_SHAPE_CONE:
-        status = rt_scene_add_cone(scene, NULL, zero, up, 1, p, shape->caps, &surface, &error);
-        break;
-    case RT_SHAPE_TORUS:
-        status = rt_scene_add_torus(scene, NULL, zero, up, 1, p, &surface, &error);
-        break;
-    default:
-        status = rt_scene_add_ellipsoid(scene, NULL, zero, one, &surface, &error);
-    }
-    expect_ok(status, &error);
+    expect_ok(checks[shape->kind].add(scene, shape, &surface, &error), &error);
     return scene;
+}
+
+void shape_expect_all_kinds(void)
+{
+    int seen[SHAPE_KINDS_MAX] = {0};
+    for (size_t i = 0; i < shape_kind_count; i++)
+        seen[shape_kinds[i].kind] = 1;
+    RT_PLACED_SHAPES(EXPECT_SEEN)
 }
 
 /* ---- Rays ------------------------------------------------------------------ */
 
-/* A point of the surface and its normal, in the shape's space. */
+/* A point of the surface and its normal, in object space. */
 static void surface_point(rays_stream *stream, const truth_shape *shape, double p[3], double n[3])
 {
-    const double turn = 2 * pi * rays_uniform(stream), v = rays_uniform(stream), c = cos(turn),
-                 s = sin(turn);
-    const double top = shape->kind == RT_SHAPE_CONE ? shape->p : 1, angle = 2 * pi * v;
-    double r = 1, z = 0, nr = 0, nz = 1;
-    switch (shape->kind) {
-    case RT_SHAPE_DISC:
-        r = shape->p + (1 - shape->p) * v;
-        break;
-    case RT_SHAPE_CYLINDER:
-    case RT_SHAPE_CONE:
-        r = 1 - (1 - top) * v;
-        z = v;
-        nr = 1 / hypot(1, 1 - top);
-        nz = (1 - top) * nr;
-        break;
-    case RT_SHAPE_TORUS:
-        nr = cos(angle);
-        nz = sin(angle);
-        r = 1 + shape->p * nr;
-        z = shape->p * nz;
-        break;
-    default:
-        nz = z = 2 * v - 1;
-        nr = r = sqrt(1 - z * z);
-    }
-    const double point[3] = {r * c, r * s, z}, normal[3] = {nr * c, nr * s, nz};
-    memcpy(p, point, sizeof point);
-    memcpy(n, normal, sizeof normal);
+    const double turn = 2 * pi * rays_uniform(stream), v = rays_uniform(stream);
+    for (int i = 0; i < 3; i++)
+        p[i] = n[i] = 0;
+    checks[shape->kind].point(shape, turn, v, p, n);
 }
 
 rt_ray shape_ray(rays_stream *stream, const truth_shape *shape)
@@ -189,7 +255,7 @@ typedef struct verdict {
     truth_hit hit;
     double normal[3];
     int is_sure;       /* all agree on hit or miss, and roughly on t */
-    double speed;      /* length of the ray's direction in the shape's space */
+    double speed;      /* length of the ray's direction in object space */
     double t, turning; /* by how much t and the normal vary */
 } verdict;
 

@@ -8,9 +8,10 @@
 #include "kernels/rays.h"
 #include "kernels/shape_truth.h"
 
-/* The shapes that the tests go through. */
+/* The shapes that the tests go through; fails when a kind of the list is not among them. */
 extern const truth_shape shape_kinds[];
 extern const size_t shape_kind_count;
+void shape_expect_all_kinds(void);
 
 /*
  * A placement: the size, the distance of the middle from the origin in sizes, and whether it is
@@ -37,7 +38,7 @@ rt_ray shape_ray(rays_stream *stream, const truth_shape *shape);
 
 /*
  * Traces so many rays through the device and expects the truth: hit or miss and, with t and normal,
- * which hit, unless the answer hangs on 1e-4 of the size.
+ * which hit, unless the answer depends on 1e-4 of the size.
  */
 void shape_expect_truth(const truth_shape *shape, size_t rays, uint64_t seed);
 

@@ -1,3 +1,4 @@
+/* shape_truth.c - what a ray meets, by equations in double and extended precision. */
 #include "kernels/shape_truth.h"
 
 #include <float.h>
@@ -95,7 +96,7 @@ static int quadratic(double a, double b, double c, double roots[2])
     return 2;
 }
 
-static void meet_ball(search *s)
+static void ellipsoid_meet(search *s)
 {
     double a = 0, b = 0, c = -(1 + s->wider) * (1 + s->wider), roots[2], p[3];
     for (int i = 0; i < 3; i++) {
@@ -109,7 +110,7 @@ static void meet_ball(search *s)
     }
 }
 
-static void meet_disc(search *s, double z, double hole, double radius, double normal)
+static void meet_ring(search *s, double z, double hole, double radius, double normal)
 {
     const double t = (z - s->o[2]) / s->d[2];
     double p[3];
@@ -119,10 +120,14 @@ static void meet_disc(search *s, double z, double hole, double radius, double no
         take(s, t, 0, 0, normal);
 }
 
-static void meet_round(search *s)
+static void disc_meet(search *s)
 {
-    const double top = s->shape->kind == RT_SHAPE_CONE ? s->shape->p : 1, slope = 1 - top,
-                 r = 1 + s->wider;
+    meet_ring(s, s->wider, s->shape->p - s->longer, 1 + s->wider, 1);
+}
+
+static void meet_frustum(search *s, double top)
+{
+    const double slope = 1 - top, r = 1 + s->wider;
     const double w = r - slope * s->o[2], dw = -slope * s->d[2];
     const double lo = -s->longer, hi = 1 + s->longer;
     double roots[2], p[3];
@@ -135,9 +140,19 @@ static void meet_round(search *s)
             take(s, roots[k], p[0], p[1], slope * hypot(p[0], p[1]));
     }
     if (s->shape->caps) {
-        meet_disc(s, lo, 0, r - slope * lo, -1);
-        meet_disc(s, hi, 0, r - slope * hi, 1);
+        meet_ring(s, lo, 0, r - slope * lo, -1);
+        meet_ring(s, hi, 0, r - slope * hi, 1);
     }
+}
+
+static void cylinder_meet(search *s)
+{
+    meet_frustum(s, 1);
+}
+
+static void cone_meet(search *s)
+{
+    meet_frustum(s, s->shape->p);
 }
 
 /* ---- The torus: real roots of its quartic, told apart by those of the derivatives ------ */
@@ -207,7 +222,7 @@ static int real_roots(const real *c, int degree, real lo, real hi, real *roots)
 }
 
 /* (|p|^2 + 1 - m^2)^2 = 4 (x^2 + y^2) along the line, from its point nearest to the middle. */
-static void meet_torus(search *s)
+static void torus_meet(search *s)
 {
     const real m = s->shape->p + s->wider,
                speed2 = (real)s->d[0] * s->d[0] + (real)s->d[1] * s->d[1] + (real)s->d[2] * s->d[2];
@@ -243,28 +258,7 @@ static void meet_torus(search *s)
     }
 }
 
-/* ---- All ------------------------------------------------------------------- */
-
-truth_hit truth_nearest(const truth_shape *shape, double wider, double longer, const rt_ray *ray)
-{
-    search s = {shape, wider, longer, {0}, {0}, {INFINITY, {0}, {0}}};
-    truth_ray(shape, ray, s.o, s.d);
-    switch (shape->kind) {
-    case RT_SHAPE_DISC:
-        meet_disc(&s, wider, shape->p - longer, 1 + wider, 1);
-        break;
-    case RT_SHAPE_CYLINDER:
-    case RT_SHAPE_CONE:
-        meet_round(&s);
-        break;
-    case RT_SHAPE_TORUS:
-        meet_torus(&s);
-        break;
-    default:
-        meet_ball(&s);
-    }
-    return s.best;
-}
+/* ---- Texture coordinates ---------------------------------------------------- */
 
 static double turns(double y, double x)
 {
@@ -272,29 +266,75 @@ static double turns(double y, double x)
     return turn < 0 ? turn + 1 : turn;
 }
 
+static double from_axis(const double p[3])
+{
+    return hypot(p[0], p[1]);
+}
+
+static int ellipsoid_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+{
+    const double *p = hit->position;
+    (void)shape;
+    uv[0] = turns(-p[2], p[0]);
+    uv[1] = 0.5 + asin(fmax(-1, fmin(1, p[1]))) / pi;
+    return hypot(p[0], p[2]) > 0.05;
+}
+
+static int disc_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+{
+    const double *p = hit->position;
+    uv[0] = turns(hit->normal[2] > 0 ? -p[1] : p[1], p[0]);
+    uv[1] = (from_axis(p) - shape->p) / (1 - shape->p);
+    return from_axis(p) > 0.05;
+}
+
+static int frustum_parameters(const truth_hit *hit, double top, double uv[2])
+{
+    const double *p = hit->position, *n = hit->normal;
+    const int is_cap = fabs(n[2]) > 0.9;
+    uv[0] = turns(is_cap && n[2] > 0 ? -p[1] : p[1], p[0]);
+    uv[1] = is_cap ? from_axis(p) / (n[2] > 0 ? top : 1) : p[2];
+    return from_axis(p) > 0.05;
+}
+
+static int cylinder_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+{
+    (void)shape;
+    return frustum_parameters(hit, 1, uv);
+}
+
+static int cone_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+{
+    return frustum_parameters(hit, shape->p, uv);
+}
+
+static int torus_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+{
+    const double *p = hit->position;
+    (void)shape;
+    uv[0] = turns(p[1], p[0]);
+    uv[1] = turns(p[2], from_axis(p) - 1);
+    return from_axis(p) > 0.05;
+}
+
+/* ---- All ------------------------------------------------------------------- */
+
+/* The functions above, by kind. */
+#define TRUTH(KIND, name, number) [RT_SHAPE_##KIND] = {name##_meet, name##_parameters},
+static const struct {
+    void (*meet)(search *s);
+    int (*parameters)(const truth_shape *shape, const truth_hit *hit, double uv[2]);
+} truths[] = {RT_PLACED_SHAPES(TRUTH)};
+
+truth_hit truth_nearest(const truth_shape *shape, double wider, double longer, const rt_ray *ray)
+{
+    search s = {shape, wider, longer, {0}, {0}, {INFINITY, {0}, {0}}};
+    truth_ray(shape, ray, s.o, s.d);
+    truths[shape->kind].meet(&s);
+    return s.best;
+}
+
 int truth_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
 {
-    const double *p = hit->position, *n = hit->normal, from_axis = hypot(p[0], p[1]);
-    const int is_cap =
-        fabs(n[2]) > 0.9 && (shape->kind == RT_SHAPE_CYLINDER || shape->kind == RT_SHAPE_CONE);
-    uv[0] = turns(n[2] > 0 && (is_cap || shape->kind == RT_SHAPE_DISC) ? -p[1] : p[1], p[0]);
-    switch (shape->kind) {
-    case RT_SHAPE_DISC:
-        uv[1] = (from_axis - shape->p) / (1 - shape->p);
-        break;
-    case RT_SHAPE_CYLINDER:
-        uv[1] = is_cap ? from_axis : p[2];
-        break;
-    case RT_SHAPE_CONE:
-        uv[1] = is_cap ? from_axis / (n[2] > 0 ? shape->p : 1) : p[2];
-        break;
-    case RT_SHAPE_TORUS:
-        uv[1] = turns(p[2], from_axis - 1);
-        break;
-    default:
-        uv[0] = turns(-p[2], p[0]);
-        uv[1] = 0.5 + asin(fmax(-1, fmin(1, p[1]))) / pi;
-        return hypot(p[0], p[2]) > 0.05;
-    }
-    return from_axis > 0.05;
+    return truths[shape->kind].parameters(shape, hit, uv);
 }

@@ -1,6 +1,6 @@
 /*
- * shape_truth.h - the shapes of kernels/types.h that a transform places, once more in double and
- * extended precision, by other means than the kernels': what a ray meets.
+ * shape_truth.h - the shapes of kernels/types.h that a transform places, once more in double
+ * and extended precision, by other means than the kernels': what a ray meets.
  */
 #ifndef RT_TESTS_KERNELS_SHAPE_TRUTH_H
 #define RT_TESTS_KERNELS_SHAPE_TRUTH_H
@@ -9,7 +9,7 @@
 #include "shape/shapes.h"
 #include "types.h"
 
-/* A shape in its own space and the map to the world. */
+/* A shape in object space and the map to the world. */
 typedef struct truth_shape {
     rt_u32 kind;
     double p; /* disc: the hole; cone: radius at the top; torus: minor radius */
@@ -20,14 +20,14 @@ typedef struct truth_shape {
 
 typedef struct truth_hit {
     double t;                      /* infinite: none */
-    double position[3], normal[3]; /* in the shape's space, unit */
+    double position[3], normal[3]; /* in object space, unit */
 } truth_hit;
 
 /* Places the shape; the map must have an inverse. */
 void truth_place(truth_shape *shape, const rt_transform *to_world);
 
 /*
- * The ray's origin and direction in the shape's space. Returns the length of the direction there.
+ * The ray's origin and direction in object space. Returns the length of the direction there.
  */
 double truth_ray(const truth_shape *shape, const rt_ray *ray, double o[3], double d[3]);
 

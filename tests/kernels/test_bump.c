@@ -8,6 +8,8 @@
 #include <string.h>
 
 #include "render/renderer.h"
+#include "scene/scene.h"
+#include "shape_kinds.h"
 #include "types.h"
 
 enum { bundles = 1500, rays = 3 * bundles };
@@ -98,6 +100,9 @@ static int expect_step(const row *a, const row *b, const float bumped[3])
     return 1;
 }
 
+/* Kinds of which the tangents were measured. */
+static int seen[SHAPE_KINDS_MAX];
+
 /* Destroys the scene. */
 static void expect_tangents(rt_scene *scene)
 {
@@ -105,7 +110,7 @@ static void expect_tangents(rt_scene *scene)
     static row rows[rays];
     static float bumped[rays][4];
     uint32_t count = rays;
-    int seen = 0;
+    int steps = 0;
     rt_renderer *renderer = NULL;
     rt_error error;
 
@@ -123,9 +128,12 @@ static void expect_tangents(rt_scene *scene)
         for (int k = 1; k < 3; k++) {
             const row *a = rows + 3 * i, *b = a + k;
             if (a->v >= 0 && b->v >= 0)
-                seen += expect_step(a, b, bumped[3 * i]);
+                steps += expect_step(a, b, bumped[3 * i]);
         }
-    assert_true(seen > 50);
+    assert_true(steps > 50);
+    seen[scene->shapes[0].kind] = 1;
+    if (rt_scene_is_instance(scene, scene->shapes))
+        seen[RT_SHAPE_INSTANCE] = 1;
     rt_buffer_release(in);
     rt_buffer_release(out);
     rt_buffer_release(tilted);
@@ -227,6 +235,12 @@ static void meshes_have_the_tangents_of_their_coordinates(void **state)
         }
 }
 
+static void tangents_of_every_kind_were_measured(void **state)
+{
+    (void)state;
+    RT_SHAPES(EXPECT_SEEN)
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -234,6 +248,7 @@ int main(void)
         cmocka_unit_test(shapes_about_an_axis_have_their_tangents),
         cmocka_unit_test(flat_shapes_have_their_tangents),
         cmocka_unit_test(meshes_have_the_tangents_of_their_coordinates),
+        cmocka_unit_test(tangents_of_every_kind_were_measured),
     };
     return cmocka_run_group_tests_name("kernels/bump", tests, NULL, NULL);
 }

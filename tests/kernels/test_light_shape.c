@@ -2,9 +2,12 @@
 #include "light_draw.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/scene.h"
+#include "shape_kinds.h"
 #include "statistics.h"
 
 #define PI 3.14159265358979323846
@@ -17,33 +20,33 @@ static double values[n], directions[n];
 static rt_ray rays[n];
 static rt_hit hits[n];
 
-static const float point[3] = {0.3f, 0.2f, -0.1f}, other[3] = {0.5f, 1.4f, 0.3f},
-                   radii[3] = {0.5f, 0.2f, 0.8f};
+static const struct emitter {
+    const char *name, *shape;
+    int hides_itself; /* a part of its lit side may hide another */
+} emitters[] = {
+    {"ellipsoid", "ellipsoid { centre 0.3 0.2 -0.1  radii 0.5 0.2 0.8", 0},
+    {"disc", "disc { centre 0.3 0.2 -0.1  normal 0.5 1.4 0.3  radius 0.7  inner_radius 0.3", 0},
+    {"cylinder", "cylinder { a 0.3 0.2 -0.1  b 0.5 1.4 0.3  radius 0.4", 0},
+    {"pipe", "cylinder { a 0.3 0.2 -0.1  b 0.5 1.4 0.3  radius 0.4  caps false", 1},
+    {"cone", "cone { base 0.3 0.2 -0.1  apex 0.5 1.4 0.3  radius 0.5", 0},
+    {"frustum", "cone { base 0.3 0.2 -0.1  apex 0.5 1.4 0.3  radius 0.5  apex_radius 0.2", 0},
+    {"torus", "torus { centre 0.3 0.2 -0.1  axis 0.5 1.4 0.3  major_radius 0.6  minor_radius 0.2",
+     0},
+};
+enum { emitter_count = sizeof emitters / sizeof *emitters };
 
-enum { ELLIPSOID, DISC, CYLINDER, PIPE, CONE, FRUSTUM, TORUS, KINDS };
-
-static const char *const names[KINDS] = {"ellipsoid", "disc",    "cylinder", "pipe",
-                                         "cone",      "frustum", "torus"};
-
-/* The shape as a lamp, turned and stretched. */
-static rt_renderer *shape_light(int kind)
+/* The shape as an area light, turned and stretched; marks its kind in `seen`. */
+static rt_renderer *shape_light(const struct emitter *emitter, int seen[SHAPE_KINDS_MAX])
 {
-    rt_surface lamp;
-    rt_scene *scene = light_scene();
+    rt_scene *scene = NULL;
+    char text[512];
     rt_error error;
-    memset(&lamp, 0, sizeof lamp);
-    lamp.radiance[0] = lamp.radiance[1] = lamp.radiance[2] = 2;
-    lamp.transform =
-        (rt_transform){{{1.2f, 0.1f, 0, 0.3f}, {-0.2f, 0.8f, 0.3f, 0.1f}, {0, -0.2f, 1.1f, 0}}};
-    rt_status status =
-        kind == ELLIPSOID ? rt_scene_add_ellipsoid(scene, NULL, point, radii, &lamp, &error)
-        : kind == DISC    ? rt_scene_add_disc(scene, NULL, point, other, 0.7f, 0.3f, &lamp, &error)
-        : kind == TORUS   ? rt_scene_add_torus(scene, NULL, point, other, 0.6f, 0.2f, &lamp, &error)
-        : kind <= PIPE    ? rt_scene_add_cylinder(scene, NULL, point, other, 0.4f, kind == CYLINDER,
-                                                  &lamp, &error)
-                          : rt_scene_add_cone(scene, NULL, point, other, 0.5f,
-                                           kind == FRUSTUM ? 0.2f : 0, 1, &lamp, &error);
-    expect_ok(status, &error);
+    snprintf(text, sizeof text,
+             "material black {}\n%s  material black  radiance 2  "
+             "matrix 1.2 0.1 0 0.3  -0.2 0.8 0.3 0.1  0 -0.2 1.1 0 }\n",
+             emitter->shape);
+    expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+    seen[scene->shapes[0].kind] = 1;
     return light_renderer(scene);
 }
 
@@ -81,11 +84,12 @@ static double average(const double *v)
 static void shapes_fill_their_solid_angle(void **state)
 {
     static const float from[][3] = {{2, 4, 1.5f}, {1, 2.5f, 1.2f}, {-0.6f, -3, -0.5f}};
+    int seen[SHAPE_KINDS_MAX] = {0};
     (void)state;
-    for (int kind = 0; kind < KINDS; kind++) {
-        if (kind == PIPE)
+    for (const struct emitter *emitter = emitters; emitter < emitters + emitter_count; emitter++) {
+        if (emitter->hides_itself)
             continue;
-        rt_renderer *renderer = shape_light(kind);
+        rt_renderer *renderer = shape_light(emitter, seen);
         for (uint32_t k = 0; k < 3; k++) {
             draw_lights(renderer, k, from[k], samples);
             for (int i = 0; i < n; i++) {
@@ -95,18 +99,20 @@ static void shapes_fill_their_solid_angle(void **state)
                     assert_float_equal(s->again_pdf_w * s->spread, 1, 2e-3);
             }
             look_around(renderer, from[k]);
-            expect_mean(values, n, average(directions), 5 * 4 * PI / n, names[kind]);
+            expect_mean(values, n, average(directions), 5 * 4 * PI / n, emitter->name);
         }
         rt_renderer_destroy(renderer);
     }
+    RT_PLACED_SHAPES(EXPECT_SEEN)
 }
 
 /* The mean flux of light paths is the power that the host states, which follows from the area. */
 static void light_paths_of_shapes_carry_their_power(void **state)
 {
+    int seen[SHAPE_KINDS_MAX] = {0};
     (void)state;
-    for (int kind = 0; kind < KINDS; kind++) {
-        rt_renderer *renderer = shape_light(kind);
+    for (const struct emitter *emitter = emitters; emitter < emitters + emitter_count; emitter++) {
+        rt_renderer *renderer = shape_light(emitter, seen);
         draw_emissions(renderer, 5, emissions);
         for (int i = 0; i < n; i++) {
             const emission_draw *e = emissions + i;
@@ -116,9 +122,10 @@ static void light_paths_of_shapes_carry_their_power(void **state)
                         -1e-6);
         }
         expect_mean(values, n, renderer->image.light_power, 1e-4 * renderer->image.light_power,
-                    names[kind]);
+                    emitter->name);
         rt_renderer_destroy(renderer);
     }
+    RT_PLACED_SHAPES(EXPECT_SEEN)
 }
 
 /* A lamp that is brighter to one edge: its texture multiplies what it sends. */

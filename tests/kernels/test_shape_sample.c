@@ -14,39 +14,126 @@
 enum { bins = 8, fine = 24, samples = 40000 };
 static const double pi = 3.14159265358979323846;
 
-/* Parts of a shape, each with u and v of its own: its side, or all of it, and two caps. */
-enum { side, base, top, part_count };
+/* ---- Each kind --------------------------------------------------------------- */
+
+enum { parts_max = 6 };
+
+/*
+ * Of each kind: the number of its parts, each of which has u and v for itself; the part with this
+ * unit normal in object space; and the point of a part at u, v.
+ */
+static int one_part(const truth_shape *shape)
+{
+    (void)shape;
+    return 1;
+}
+
+static int first_part(const double n[3])
+{
+    (void)n;
+    return 0;
+}
+
+#define ellipsoid_parts one_part
+#define ellipsoid_part_of first_part
+static void ellipsoid_point(const truth_shape *shape, int part, double u, double v, double p[3])
+{
+    (void)shape, (void)part;
+    p[0] = sin(pi * v) * cos(2 * pi * u);
+    p[1] = -cos(pi * v);
+    p[2] = -sin(pi * v) * sin(2 * pi * u);
+}
+
+static void ring_point(double r, double z, double u, double p[3])
+{
+    p[0] = r * cos(2 * pi * u);
+    p[1] = r * sin(2 * pi * u);
+    p[2] = z;
+}
+
+#define disc_parts one_part
+#define disc_part_of first_part
+static void disc_point(const truth_shape *shape, int part, double u, double v, double p[3])
+{
+    (void)part;
+    ring_point(shape->p + (1 - shape->p) * v, 0, u, p);
+}
+
+/* Of a cylinder or cone: the side, and the caps. */
+enum { side, base, top };
+
+static int frustum_parts(const truth_shape *shape)
+{
+    return shape->caps ? 3 : 1;
+}
+
+static int frustum_part_of(const double n[3])
+{
+    return n[2] < -0.9 ? base : n[2] > 0.9 ? top : side;
+}
+
+static void frustum_point(double end, int part, double u, double v, double p[3])
+{
+    if (part == side)
+        ring_point(1 - (1 - end) * v, v, u, p);
+    else
+        ring_point(part == top ? v * end : v, part == top, u, p);
+}
+
+#define cylinder_parts frustum_parts
+#define cylinder_part_of frustum_part_of
+static void cylinder_point(const truth_shape *shape, int part, double u, double v, double p[3])
+{
+    (void)shape;
+    frustum_point(1, part, u, v, p);
+}
+
+#define cone_parts frustum_parts
+#define cone_part_of frustum_part_of
+static void cone_point(const truth_shape *shape, int part, double u, double v, double p[3])
+{
+    frustum_point(shape->p, part, u, v, p);
+}
+
+#define torus_parts one_part
+#define torus_part_of first_part
+static void torus_point(const truth_shape *shape, int part, double u, double v, double p[3])
+{
+    (void)part;
+    ring_point(1 + shape->p * cos(2 * pi * v), shape->p * sin(2 * pi * v), u, p);
+}
+
+#define KIND_PARTS(KIND, name, number)                                                             \
+    [RT_SHAPE_##KIND] = {name##_parts, name##_part_of, name##_point},
+static const struct {
+    int (*parts)(const truth_shape *shape);
+    int (*part_of)(const double normal[3]);
+    void (*point)(const truth_shape *shape, int part, double u, double v, double p[3]);
+} kinds[] = {RT_PLACED_SHAPES(KIND_PARTS)};
 
 /* The point of a part at u, v, in the world. */
 static void world_point(const truth_shape *shape, int part, double u, double v, double out[3])
 {
-    const double end = shape->kind == RT_SHAPE_CONE ? shape->p : 1, turn = 2 * pi * u;
-    double r = v, z = part == top;
     double p[3];
-    if (part == top)
-        r = v * end;
-    if (part == side && shape->kind == RT_SHAPE_DISC)
-        r = shape->p + (1 - shape->p) * v;
-    if (part == side && (shape->kind == RT_SHAPE_CYLINDER || shape->kind == RT_SHAPE_CONE)) {
-        r = 1 - (1 - end) * v;
-        z = v;
-    }
-    if (shape->kind == RT_SHAPE_TORUS) {
-        r = 1 + shape->p * cos(2 * pi * v);
-        z = shape->p * sin(2 * pi * v);
-    }
-    p[0] = r * cos(turn);
-    p[1] = r * sin(turn);
-    p[2] = z;
-    if (shape->kind == RT_SHAPE_ELLIPSOID) {
-        p[0] = sin(pi * v) * cos(turn);
-        p[1] = -cos(pi * v);
-        p[2] = -sin(pi * v) * sin(turn);
-    }
+    kinds[shape->kind].point(shape, part, u, v, p);
     for (int i = 0; i < 3; i++)
         out[i] = shape->to_world.m[i][0] * p[0] + shape->to_world.m[i][1] * p[1] +
                  shape->to_world.m[i][2] * p[2];
 }
+
+static int part_of(const truth_shape *shape, const float normal[3])
+{
+    double n[3] = {0}, length;
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++)
+            n[j] += shape->to_world.m[i][j] * normal[i];
+    length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int j = 0; j < 3; j++)
+        n[j] /= length;
+    return kinds[shape->kind].part_of(n);
+}
+
+/* ---- Areas ------------------------------------------------------------------- */
 
 /* The area of a bin, by central differences at the middles of a fine grid. */
 static double bin_area(const truth_shape *shape, int part, int bin_u, int bin_v)
@@ -70,19 +157,6 @@ static double bin_area(const truth_shape *shape, int part, int bin_u, int bin_v)
             area += sqrt(square) / (4 * h * h) * width * width;
         }
     return area;
-}
-
-static int part_of(const truth_shape *shape, const float normal[3])
-{
-    double n[3] = {0}, square = 0;
-    if (shape->kind != RT_SHAPE_CYLINDER && shape->kind != RT_SHAPE_CONE)
-        return side;
-    for (int j = 0; j < 3; j++) {
-        for (int i = 0; i < 3; i++)
-            n[j] += shape->to_world.m[i][j] * normal[i];
-        square += n[j] * n[j];
-    }
-    return n[2] < -0.9 * sqrt(square) ? base : n[2] > 0.9 * sqrt(square) ? top : side;
 }
 
 typedef struct points {
@@ -145,8 +219,8 @@ static void expect_on_surface(const truth_shape *shape, const float position[4],
 
 static void expect_areas(const truth_shape *shape, const points *chosen)
 {
-    static double sums[part_count][bins][bins], squares[part_count][bins][bins];
-    const int closed = shape->caps;
+    static double sums[parts_max][bins][bins], squares[parts_max][bins][bins];
+    const int parts = kinds[shape->kind].parts(shape);
     memset(sums, 0, sizeof sums);
     memset(squares, 0, sizeof squares);
     for (int i = 0; i < samples; i++) {
@@ -158,7 +232,7 @@ static void expect_areas(const truth_shape *shape, const points *chosen)
         sums[part][u][v] += weight;
         squares[part][u][v] += weight * weight;
     }
-    for (int part = 0; part < (closed ? part_count : 1); part++)
+    for (int part = 0; part < parts; part++)
         for (int u = 0; u < bins; u++)
             for (int v = 0; v < bins; v++) {
                 const double area = bin_area(shape, part, u, v);
@@ -174,6 +248,7 @@ static void expect_areas(const truth_shape *shape, const points *chosen)
 static void points_have_their_density(void **state)
 {
     (void)state;
+    shape_expect_all_kinds();
     rays_stream stream = {3};
     for (size_t kind = 0; kind < shape_kind_count; kind++) {
         const truth_shape shape = shape_placed(&stream, kind, 1);

@@ -13,6 +13,7 @@ enum { rays_each = 4000, leaving_each = 10000 };
 static void placed_shapes_match_extended_precision(void **state)
 {
     (void)state;
+    shape_expect_all_kinds();
     rays_stream stream = {1};
     for (size_t kind = 0; kind < shape_kind_count; kind++)
         for (size_t place = 0; place < shape_place_count; place++) {

@@ -1,6 +1,6 @@
 /*
- * test_each_shape.c - what must hold of every shape: lettering is upright and unmirrored, clear
- * glass disappears.
+ * test_each_shape.c - what must hold of every shape: lettering is upright and unmirrored, and the
+ * white-furnace test of closed ones of clear glass.
  */
 #include "support.h"
 
@@ -10,6 +10,8 @@
 #include <string.h>
 
 #include "lib/image/scratch.h"
+#include "scene/shape_class.h"
+#include "shape_kinds.h"
 
 enum { side = 192, pixels = side * side, glass_side = 64, glass_pixels = glass_side * glass_side };
 static const float apart = 1e-3f; /* metres between rays that tell how coordinates run */
@@ -173,6 +175,7 @@ static void lettering_is_upright_and_unmirrored_on_every_shape(void **state)
     static rt_ray rays[3 * pixels];
     static rt_hit hits[3 * pixels];
     static float rgb[3 * pixels];
+    int seen[SHAPE_KINDS_MAX] = {[RT_SHAPE_INSTANCE] = 1}; /* triangles, but placed twice */
     char text[1024];
     (void)state;
     write_letter("letter.ppm");
@@ -192,14 +195,20 @@ static void lettering_is_upright_and_unmirrored_on_every_shape(void **state)
         render(rgb, side, renderer, (rt_render_options){.mode = RT_MODE_ALBEDO, .spp = 1});
         expect_upright(lettered + i, hits, rays);
         expect_letters(lettered + i, hits, rgb);
+        seen[scene->shapes[0].kind] = 1;
         rt_renderer_destroy(renderer);
         rt_scene_destroy(scene);
     }
+    RT_SHAPES(EXPECT_SEEN)
 }
 
 /* ---- Glass ------------------------------------------------------------------------------ */
 
-static void clear_glass_of_every_closed_shape_disappears_in_even_light(void **state)
+/* For EXPECT_SEEN, which shapes that have no inside pass. */
+#define MARK_OPEN(KIND, name, number)                                                              \
+    seen[RT_SHAPE_##KIND] |= !rt_shape_class_of(RT_SHAPE_##KIND)->contains;
+
+static void clear_glass_of_every_closed_shape_passes_the_white_furnace(void **state)
 {
     static const struct {
         const char *name, *shape;
@@ -213,6 +222,7 @@ static void clear_glass_of_every_closed_shape_disappears_in_even_light(void **st
         {"flat mesh", "model { file \"octahedron.off\"  shading flat"},
     };
     static float rgb[3 * glass_pixels];
+    int seen[SHAPE_KINDS_MAX] = {[RT_SHAPE_INSTANCE] = 1}; /* triangles, but placed twice */
     char text[1024];
     (void)state;
     scratch_write(
@@ -232,9 +242,12 @@ static void clear_glass_of_every_closed_shape_disappears_in_even_light(void **st
         for (int k = 0; k < 3 * glass_pixels; k++)
             if (!(fabsf(rgb[k] - 1) < 5e-3f))
                 fail_msg("%s of glass: a pixel of %g", closed[i].name, rgb[k]);
+        seen[scene->shapes[0].kind] = 1;
         rt_renderer_destroy(renderer);
         rt_scene_destroy(scene);
     }
+    RT_SHAPES(MARK_OPEN)
+    RT_SHAPES(EXPECT_SEEN)
 }
 
 int main(void)
@@ -242,7 +255,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(lettering_is_upright_and_unmirrored_on_every_shape,
                                         scratch_enter, scratch_leave),
-        cmocka_unit_test_setup_teardown(clear_glass_of_every_closed_shape_disappears_in_even_light,
+        cmocka_unit_test_setup_teardown(clear_glass_of_every_closed_shape_passes_the_white_furnace,
                                         scratch_enter, scratch_leave),
     };
     return cmocka_run_group_tests_name("render/each shape", tests, NULL, NULL);

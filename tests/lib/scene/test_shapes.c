@@ -7,6 +7,7 @@
 #include "lib/scene/scenes.h"
 #include "scene/scene.h"
 #include "scene/shape_class.h"
+#include "shape_kinds.h"
 
 static const double pi = 3.14159265358979323846;
 static const float origin[3], x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};
@@ -177,10 +178,14 @@ static void expect_area(double found, double expected, double relative)
         fail_msg("the area is %.9g, expected %.9g", found, expected);
 }
 
+/* Kinds of which areas were compared. */
+static int seen[SHAPE_KINDS_MAX];
+
 /* The area of a kind of shape under this map. */
 static double class_area(rt_u32 kind, double parameter, int caps, const rt_affine *map)
 {
     rt_scene_shape shape = {.kind = kind, .caps = caps, .p = {(float)parameter}, .to_world = *map};
+    seen[kind] = 1;
     return rt_shape_class_of(kind)->area(&shape);
 }
 
@@ -209,6 +214,7 @@ static void areas_under_affine_maps_match_brute_force(void **state)
         expect_area(class_area(RT_SHAPE_TORUS, 0.4f, 0, &map), brute_area(ring, 0.4f, &map, steps),
                     1e-5);
     }
+    RT_PLACED_SHAPES(EXPECT_SEEN)
 }
 
 static void areas_of_plain_shapes_are_the_known_ones(void **state)
