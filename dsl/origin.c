@@ -35,9 +35,12 @@ int rt_origins_add(rt_origins *origins, const rt_block *block, rt_place place)
     case RT_BLOCK_DIRECTIONAL_LIGHT:
     case RT_BLOCK_ENVIRONMENT_LIGHT:
         return add_place(&origins->lights, place);
-    default:
-        return add_place(&origins->shapes, place);
+    case RT_BLOCK_INSTANCE:
+    case RT_BLOCK_SHAPE:
+    case RT_BLOCK_COUNT:
+        break;
     }
+    return add_place(&origins->shapes, place);
 }
 
 /* Reports under way. */

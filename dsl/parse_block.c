@@ -168,10 +168,11 @@ static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
 
     rt_suggestion suggestion = rt_suggestion_begin(kind);
     char kinds[RT_PHRASE_SIZE] = "";
-    for (size_t i = 0; i < RT_BLOCK_COUNT; i++)
-        if (rt_blocks[i].kind && rt_text_equal(word, rt_blocks[i].word)) {
-            rt_suggestion_offer_word(&suggestion, rt_blocks[i].kind);
-            strcat(strcat(kinds, " "), rt_blocks[i].kind);
+    const rt_block *block;
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++)
+        if (block->kind && rt_text_equal(word, block->word)) {
+            rt_suggestion_offer_word(&suggestion, block->kind);
+            strcat(strcat(kinds, " "), block->kind);
         }
     rt_text_quote(quote, word);
     rt_report_error(parser->reports, token->kind == RT_TOKEN_WORD ? token->place : statement->place,

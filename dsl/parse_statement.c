@@ -149,11 +149,11 @@ static void offer_statements(rt_suggestion *suggestion, char *list, size_t size)
     rt_suggestion_offer_word(suggestion, "let");
     rt_suggestion_offer_word(suggestion, "include");
     rt_suggestion_offer_word(suggestion, "repeat");
-    for (size_t i = 0; i < RT_BLOCK_COUNT; i++) {
-        const char *word = rt_blocks[i].word;
-        rt_suggestion_offer_word(suggestion, word);
-        if ((i == 0 || strcmp(word, rt_blocks[i - 1].word) != 0) && used < size)
-            used += (size_t)snprintf(list + used, size - used, " %s", word);
+    const rt_block *block;
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++) {
+        rt_suggestion_offer_word(suggestion, block->word);
+        if ((i == 0 || strcmp(block->word, rt_block_at(i - 1)->word) != 0) && used < size)
+            used += (size_t)snprintf(list + used, size - used, " %s", block->word);
     }
 }
 

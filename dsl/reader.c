@@ -171,9 +171,18 @@ static rt_names *table_of(rt_scope *scope, const rt_block *block)
     case RT_BLOCK_MESH:
     case RT_BLOCK_INSTANCE:
         return &scope->meshes;
-    default:
-        return NULL;
+    case RT_BLOCK_CAMERA:
+    case RT_BLOCK_FILM:
+    case RT_BLOCK_RENDER:
+    case RT_BLOCK_POINT_LIGHT:
+    case RT_BLOCK_SPOT_LIGHT:
+    case RT_BLOCK_DIRECTIONAL_LIGHT:
+    case RT_BLOCK_ENVIRONMENT_LIGHT:
+    case RT_BLOCK_SHAPE:
+    case RT_BLOCK_COUNT:
+        break;
     }
+    return NULL;
 }
 
 /* Looks up the mesh that an instance names. */

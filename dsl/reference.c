@@ -127,12 +127,13 @@ static void print_topic(FILE *out, rt_setting_topic topic)
 
 static int print_block(FILE *out, const char *key)
 {
-    for (size_t i = 0; i < RT_BLOCK_COUNT; i++) {
+    const rt_block *block;
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++) {
         char title[RT_BLOCK_TITLE_SIZE];
         const rt_field *field;
-        if (strcmp(rt_block_title(title, &rt_blocks[i]), key) != 0)
+        if (strcmp(rt_block_title(title, block), key) != 0)
             continue;
-        for (size_t j = 0; (field = rt_block_field(&rt_blocks[i], j)) != NULL; j++)
+        for (size_t j = 0; (field = rt_block_field(block, j)) != NULL; j++)
             print_field(out, field, NULL);
         return 1;
     }

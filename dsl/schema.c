@@ -4,29 +4,38 @@
 #include <stdio.h>
 #include <string.h>
 
+const rt_block *rt_block_at(size_t index)
+{
+    if (index < RT_BLOCK_MESH)
+        return &rt_blocks[index];
+    index -= RT_BLOCK_MESH;
+    return index < rt_shape_block_count ? &rt_shape_blocks[index] : NULL;
+}
+
 const rt_block *rt_schema_find(rt_text word, const rt_text *kind)
 {
-    for (size_t i = 0; i < RT_BLOCK_COUNT; i++) {
-        const rt_block *block = &rt_blocks[i];
+    const rt_block *block;
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++)
         if (rt_text_equal(word, block->word) && !block->kind == !kind &&
             (!kind || rt_text_equal(*kind, block->kind)))
             return block;
-    }
     return NULL;
 }
 
 int rt_schema_is_block(rt_text word)
 {
-    for (size_t i = 0; i < RT_BLOCK_COUNT; i++)
-        if (rt_text_equal(word, rt_blocks[i].word))
+    const rt_block *block;
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++)
+        if (rt_text_equal(word, block->word))
             return 1;
     return 0;
 }
 
 int rt_schema_has_kinds(rt_text word)
 {
-    for (size_t i = 0; i < RT_BLOCK_COUNT; i++)
-        if (rt_blocks[i].kind && rt_text_equal(word, rt_blocks[i].word))
+    const rt_block *block;
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++)
+        if (block->kind && rt_text_equal(word, block->word))
             return 1;
     return 0;
 }

@@ -22,18 +22,9 @@ typedef enum rt_block_id {
     RT_BLOCK_SPOT_LIGHT,
     RT_BLOCK_DIRECTIONAL_LIGHT,
     RT_BLOCK_ENVIRONMENT_LIGHT,
-    RT_BLOCK_PLANE,
-    RT_BLOCK_SPHERE,
-    RT_BLOCK_TRIANGLE,
-    RT_BLOCK_QUAD,
-    RT_BLOCK_DISC,
-    RT_BLOCK_CYLINDER,
-    RT_BLOCK_CONE,
-    RT_BLOCK_ELLIPSOID,
-    RT_BLOCK_TORUS,
-    RT_BLOCK_MESH,
+    RT_BLOCK_MESH, /* a mesh under a name; this and the following are in shapes.c */
     RT_BLOCK_INSTANCE,
-    RT_BLOCK_MODEL,
+    RT_BLOCK_SHAPE, /* any other shape */
     RT_BLOCK_COUNT
 } rt_block_id;
 
@@ -43,6 +34,15 @@ typedef enum rt_block_id {
 
 #define RT_BLOCK_FIELDS_MAX 32
 
+/* What a block is called by, or refers to. */
+typedef struct rt_build_name {
+    const char *text; /* the name that the scene gives it, or "" */
+    /* receives the index of a material, texture or mesh; of an instance: the mesh */
+    uint32_t index;
+    /* of a mesh: the texture that its file names; of an instance: the one it has unless it says */
+    uint32_t texture;
+} rt_build_name;
+
 typedef struct rt_block {
     rt_block_id id;
     const char *word;
@@ -51,62 +51,12 @@ typedef struct rt_block {
     /* of `film` and `render` NULL: their fields are settings of rt.h, see rt_block_field */
     const rt_field *fields;
     size_t field_count;
+    /* of blocks in shapes.c: adds what the struct at `fields` describes to the scene */
+    rt_status (*build)(rt_scene *scene, const void *fields, rt_build_name *name, rt_error *error);
 } rt_block;
 
-/* What the fields of the shapes fill. */
-typedef struct rt_plane_fields {
-    float point[3], normal[3];
-    rt_surface surface;
-} rt_plane_fields;
-
-typedef struct rt_sphere_fields {
-    float centre[3], radius;
-    rt_surface surface;
-} rt_sphere_fields;
-
-typedef struct rt_triangle_fields {
-    float corners[3][3], normals[3][3], uv[3][2];
-    rt_surface surface;
-} rt_triangle_fields;
-
-typedef struct rt_quad_fields {
-    float corner[3], edge1[3], edge2[3];
-    rt_surface surface;
-} rt_quad_fields;
-
-typedef struct rt_disc_fields {
-    float centre[3], normal[3], radius, inner_radius;
-    rt_surface surface;
-} rt_disc_fields;
-
-typedef struct rt_cylinder_fields {
-    float a[3], b[3], radius;
-    int caps;
-    rt_surface surface;
-} rt_cylinder_fields;
-
-typedef struct rt_cone_fields {
-    float base[3], apex[3], radius, apex_radius;
-    int caps;
-    rt_surface surface;
-} rt_cone_fields;
-
-typedef struct rt_ellipsoid_fields {
-    float centre[3], radii[3];
-    rt_surface surface;
-} rt_ellipsoid_fields;
-
-typedef struct rt_torus_fields {
-    float centre[3], axis[3], major_radius, minor_radius;
-    rt_surface surface;
-} rt_torus_fields;
-
-/* Of a mesh, an instance and a model, which has all of it. */
-typedef struct rt_mesh_fields {
-    const char *path;
-    int shading; /* rt_shading */
-    rt_surface surface;
-} rt_mesh_fields;
+/* Bytes of the greatest struct that the fields of a shape fill. */
+#define RT_SHAPE_FIELDS_SIZE 256
 
 /* What the fields of any block fill. */
 typedef union rt_block_fields {
@@ -118,20 +68,16 @@ typedef union rt_block_fields {
     rt_spot_light spot_light;
     rt_directional_light directional_light;
     rt_environment environment;
-    rt_plane_fields plane;
-    rt_sphere_fields sphere;
-    rt_triangle_fields triangle;
-    rt_quad_fields quad;
-    rt_disc_fields disc;
-    rt_cylinder_fields cylinder;
-    rt_cone_fields cone;
-    rt_ellipsoid_fields ellipsoid;
-    rt_torus_fields torus;
-    rt_mesh_fields mesh;
+    double shape[RT_SHAPE_FIELDS_SIZE / sizeof(double)]; /* a struct of shapes.c */
 } rt_block_fields;
 
-/* All blocks, RT_BLOCK_COUNT of them, by their ids. */
+/* The blocks up to RT_BLOCK_MESH, by their ids; and those of shapes. */
 extern const rt_block rt_blocks[];
+extern const rt_block rt_shape_blocks[];
+extern const size_t rt_shape_block_count;
+
+/* All blocks, from 0 on; NULL behind the last. */
+const rt_block *rt_block_at(size_t index);
 
 /* The block of a word, or of a word and a kind; NULL if there is none. */
 const rt_block *rt_schema_find(rt_text word, const rt_text *kind);

@@ -40,7 +40,7 @@ rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3
 
     if ((status = rt_check_point(centre, "disc", "centre", error)) != RT_OK ||
         (status = rt_check_direction(n, normal, "disc", "normal", error)) != RT_OK ||
-        (status = rt_check_radius(radius, "disc", "radius", error)) != RT_OK)
+        (status = rt_check_length(radius, "disc", "radius", error)) != RT_OK)
         return status;
     if (!(inner_radius >= 0 && inner_radius < radius))
         return rt_fail_field(

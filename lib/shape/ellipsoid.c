@@ -107,7 +107,7 @@ rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const float cen
 {
     rt_status status = rt_check_point(centre, "ellipsoid", "centre", error);
     for (int i = 0; i < 3 && status == RT_OK; i++)
-        status = rt_check_radius(radii[i], "ellipsoid", "radii", error);
+        status = rt_check_length(radii[i], "ellipsoid", "radii", error);
     if (status != RT_OK)
         return status;
     rt_affine placement = rt_placement_scaled(centre, radii[0], radii[1], radii[2]);

@@ -48,7 +48,7 @@ rt_status rt_frustum_add(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, 
     rt_status status;
     if ((status = rt_check_point(a, who, names[1], error)) != RT_OK ||
         (status = rt_check_point(b, who, names[2], error)) != RT_OK ||
-        (status = rt_check_radius(radius, who, "radius", error)) != RT_OK)
+        (status = rt_check_length(radius, who, "radius", error)) != RT_OK)
         return status;
     rt_vec_sub(n, b, a);
     double height = rt_vec_length(n);

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-rt_status rt_check_radius(float radius, const char *who, const char *field, rt_error *error)
+rt_status rt_check_length(float radius, const char *who, const char *field, rt_error *error)
 {
     if (!(radius >= RT_LENGTH_MIN && radius <= RT_COORDINATE_MAX))
         return rt_fail_field(error, RT_ERROR_INPUT, field,

@@ -11,7 +11,7 @@
 #include "shape/classes.h"
 
 /* A length from RT_LENGTH_MIN to RT_COORDINATE_MAX. */
-rt_status rt_check_radius(float radius, const char *who, const char *field, rt_error *error);
+rt_status rt_check_length(float radius, const char *who, const char *field, rt_error *error);
 
 /* Normalises a direction; fails when it has no length. */
 rt_status rt_check_direction(double out[3], const float v[3], const char *who, const char *field,

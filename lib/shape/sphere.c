@@ -39,7 +39,7 @@ rt_status rt_scene_add_sphere(rt_scene *scene, uint32_t *out, const float centre
 {
     rt_status status = rt_check_point(centre, "sphere", "centre", error);
     if (status == RT_OK)
-        status = rt_check_radius(radius, "sphere", "radius", error);
+        status = rt_check_length(radius, "sphere", "radius", error);
     if (status != RT_OK)
         return status;
     rt_affine placement = rt_placement_scaled(centre, radius, radius, radius);

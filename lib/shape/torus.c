@@ -62,8 +62,8 @@ rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float centre[
 
     if ((status = rt_check_point(centre, "torus", "centre", error)) != RT_OK ||
         (status = rt_check_direction(n, axis, "torus", "axis", error)) != RT_OK ||
-        (status = rt_check_radius(major_radius, "torus", "major_radius", error)) != RT_OK ||
-        (status = rt_check_radius(minor_radius, "torus", "minor_radius", error)) != RT_OK)
+        (status = rt_check_length(major_radius, "torus", "major_radius", error)) != RT_OK ||
+        (status = rt_check_length(minor_radius, "torus", "minor_radius", error)) != RT_OK)
         return status;
     if (!(minor_radius < major_radius))
         return rt_fail_field(error, RT_ERROR_INPUT, "minor_radius",
