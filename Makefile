@@ -115,7 +115,8 @@ TESTS_QUICK := \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c \
-	tests/kernels/test_light_tree.c tests/kernels/test_matte.c tests/kernels/test_medium.c \
+	tests/kernels/test_light_tree.c tests/kernels/test_lobes.c tests/kernels/test_matte.c \
+	tests/kernels/test_medium.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \

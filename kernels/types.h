@@ -147,7 +147,7 @@ typedef struct rt_material_data {
     float kt[3];     /* specular transmittance */
     rt_u32 priority; /* nested media: the higher wins where solids overlap */
     float eta[3];    /* conductor: complex index of refraction eta + i k */
-    float roughness; /* GGX alpha; below RT_SMOOTH_ALPHA it is smooth */
+    float roughness; /* 0 to 1; of GGX it is alpha, and below RT_SMOOTH_ALPHA it is smooth */
     float k[3];
     float bump_scale;    /* height in metres of a texture value of 1 */
     float absorption[3]; /* of the inside, 1/m */
@@ -156,22 +156,6 @@ typedef struct rt_material_data {
     rt_u32 diffuse_lobe; /* RT_LOBE_* that scatters kd, one that is gathered */
 } rt_material_data;
 RT_SIZE(rt_material_data, 112);
-
-/* ---- Lobes -------------------------------------------------------------- */
-
-/*
- * The lobes that a BSDF is made of, X(NAME, name, is_delta, is_gathered): kernels/bsdf/name.h holds
- * the lobe RT_LOBE_NAME. A delta lobe scatters into one direction. A gathered lobe is rough enough
- * for photon density: photons are stored, and gathered, where a surface has one.
- */
-#define RT_LOBES(X)                                                                                \
-    X(LAMBERT, lambert, 0, 1)                                                                      \
-    X(SPECULAR_REFLECTION, specular_reflection, 1, 0)                                              \
-    X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0)                                          \
-    X(GGX, ggx, 0, 0)
-
-#define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_gathered) RT_LOBE_##NAME,
-enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOBE_COUNT };
 
 /* ---- Textures ---------------------------------------------------------- */
 

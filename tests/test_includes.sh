@@ -7,9 +7,9 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 bad=0
 
-# Headers of kernels/ that the host compiler reads too. For the device shapes.h goes on to the
-# headers of the shapes.
-shared='kernels/common.h kernels/types.h kernels/shape/shapes.h'
+# Headers of kernels/ that the host compiler reads too. For the device shapes.h and lobes.h go on to
+# the headers of the shapes and lobes.
+shared='kernels/common.h kernels/types.h kernels/bsdf/lobes.h kernels/shape/shapes.h'
 
 # check NAME FILE: the test passes when FILE, which lists offences, is empty.
 check() {
@@ -160,7 +160,7 @@ upward() {
             if (from ~ /^tests\//)
                 return 1
             if (from ~ /^kernels\//)
-                return from in common && from !~ /shapes/ ? to in common : to ~ /^kernels\//
+                return from in common && from !~ /(shapes|lobes)\.h$/ ? to in common : to ~ /^kernels\//
             if (is_public(from))
                 return is_public(to) || to == "kernels/common.h"
             if (from ~ /^lib\/base\//)

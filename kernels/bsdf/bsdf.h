@@ -22,7 +22,7 @@
 #ifndef RT_KERNELS_BSDF_BSDF_H
 #define RT_KERNELS_BSDF_BSDF_H
 
-#include "bsdf/dispatch.h"
+#include "bsdf/lobes.h"
 #include "material/material.h"
 #include "scene.h"
 #include "shape/surface.h"

@@ -2,7 +2,7 @@
  * lobe.h - what the lobes of a BSDF have in common: what they are told of a surface, and what they
  * answer.
  *
- * RT_LOBES lists the lobes. Each is a header X.h with four functions of a surface as seen from wo:
+ * lobes.h lists the lobes. Each is a header X.h with four functions of a surface as seen from wo:
  *
  *   X_eval(bsdf, wi)    fr |n.wi|, and the density of wi
  *   X_sample(bsdf, u)   a direction by u in [0,1)^3, with fr |n.wi| over its density
@@ -55,20 +55,6 @@ struct lobe_sample {
     float pdf_w;   /* 0 for delta lobes */
     bool through;  /* wi is on the other side of the surface */
 };
-
-#define DELTA_BIT(NAME, name, is_delta, is_gathered) | (is_delta##u << RT_LOBE_##NAME)
-#define GATHERED_BIT(NAME, name, is_delta, is_gathered) | (is_gathered##u << RT_LOBE_##NAME)
-
-static inline bool lobe_is_delta(uint lobe)
-{
-    return (0u RT_LOBES(DELTA_BIT)) >> lobe & 1u;
-}
-
-/* Whether photons stand for the light of the lobe. */
-static inline bool lobe_is_gathered(uint lobe)
-{
-    return (0u RT_LOBES(GATHERED_BIT)) >> lobe & 1u;
-}
 
 static inline struct lobe_value no_light(void)
 {

@@ -14,7 +14,7 @@
 #ifndef RT_KERNELS_PHOTON_GATHER_POINT_H
 #define RT_KERNELS_PHOTON_GATHER_POINT_H
 
-#include "bsdf/dispatch.h"
+#include "bsdf/lobes.h"
 #include "math/frame.h"
 #include "math/lanes.h"
 #include "types.h"

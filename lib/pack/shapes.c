@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/vec.h"
+#include "bsdf/lobes.h"
 #include "light/lights.h"
 #include "pack/packing.h"
 #include "scene/shape_class.h"

@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "base/error.h"
+#include "bsdf/lobes.h"
 #include "scene/check.h"
 #include "scene/scene.h"
 

@@ -59,6 +59,41 @@ kernel void scatter(uint seed, uint count, global const rt_scene_header *header,
     out[4u * i + 3u] = (float4)(bsdf_albedo(&bsdf), made.pdf_w);
 }
 
+/*
+ * Four rows an item, of one lobe by itself: wi and its density, weight and side, light and density
+ * evaluated at wi, albedo and density alone.
+ */
+kernel void sample_lobe(uint seed, uint count, global const rt_scene_header *header,
+                        global const struct situation *situation, uint lobe, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct situation at = *situation;
+    const struct bsdf bsdf = situated(header, &at);
+    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 9u)) >> 8) * 0x1p-24f;
+    const struct lobe_sample made = lobe_sample(&bsdf, lobe, u.xyz);
+    const struct lobe_value value = lobe_eval(&bsdf, lobe, made.wi);
+    out[4u * i] = (float4)(made.wi, made.pdf_w);
+    out[4u * i + 1u] = (float4)(made.weight, made.through ? 1.0f : 0.0f);
+    out[4u * i + 2u] = (float4)(value.value, value.pdf_w);
+    out[4u * i + 3u] = (float4)(lobe_albedo(&bsdf, lobe), lobe_pdf_w(&bsdf, lobe, made.wi));
+}
+
+/* A row an item: light and density of one lobe by itself, in situations[i] at wi[i]. */
+kernel void evaluate_lobe(uint count, global const rt_scene_header *header,
+                          global const struct situation *situations, global const float4 *wi,
+                          uint lobe, global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const struct situation at = situations[i];
+    const struct bsdf bsdf = situated(header, &at);
+    const struct lobe_value value = lobe_eval(&bsdf, lobe, wi[i].xyz);
+    out[i] = (float4)(value.value, value.pdf_w);
+}
+
 /* Two rows an item: wi and its density, the event. */
 kernel void events(uint seed, uint count, global const rt_scene_header *header,
                    global const struct situation *situation, global float4 *out)

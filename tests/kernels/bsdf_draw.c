@@ -7,6 +7,13 @@
 #include "chance.h"
 #include "support.h"
 
+int is_gathered(int event)
+{
+#define GATHERED_OF(NAME, name, is_delta, is_gathered) is_gathered,
+    static const int gathered[] = {RT_LOBES(GATHERED_OF) 0};
+    return gathered[event];
+}
+
 /* A scene of one shape and one material. */
 typedef struct little_scene {
     rt_scene_header header;
@@ -86,6 +93,40 @@ void measure_albedo(const rt_material_data *material, const situation *at, uint3
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(scene);
     rt_buffer_release(s);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+void draw_lobe(const rt_material_data *material, const situation *at, uint32_t lobe, uint32_t seed,
+               uint32_t count, lobe_draw *out)
+{
+    seed = test_seed(seed);
+    cl_kernel kernel = test_kernel("bsdf", "sample_lobe");
+    cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
+    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(scene),
+                     RT_ARG(s),    RT_ARG(lobe),  RT_ARG(made)};
+    test_run(kernel, args, 6, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(scene);
+    rt_buffer_release(s);
+    rt_buffer_release(made);
+    rt_kernel_release(kernel);
+}
+
+void evaluate_lobe(const rt_material_data *material, const situation *at, const float (*wi)[4],
+                   uint32_t lobe, uint32_t count, float (*out)[4])
+{
+    cl_kernel kernel = test_kernel("bsdf", "evaluate_lobe");
+    cl_mem scene = scene_of(material), s = test_buffer(count * sizeof *at, at);
+    cl_mem w = test_buffer(count * sizeof *wi, wi), made = test_buffer(count * sizeof *out, NULL);
+    rt_arg args[] = {RT_ARG(count), RT_ARG(scene), RT_ARG(s),
+                     RT_ARG(w),     RT_ARG(lobe),  RT_ARG(made)};
+    test_run(kernel, args, 6, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(scene);
+    rt_buffer_release(s);
+    rt_buffer_release(w);
     rt_buffer_release(made);
     rt_kernel_release(kernel);
 }

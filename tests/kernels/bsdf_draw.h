@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "bsdf/lobes.h"
 #include "types.h"
 
 /* As enum transport of bsdf.h. */
@@ -18,6 +19,9 @@ enum {
     absorbed = RT_LOBE_NONE,
     event_count
 };
+
+/* Whether an event is the choice of a lobe that photons are gathered by. */
+int is_gathered(int event);
 
 /* How a path meets the surface; eta: index on the side of wo over that on the other. */
 typedef struct situation {
@@ -54,6 +58,22 @@ typedef struct bsdf_albedo {
     float mean[3], most;
     float square[3], unused;
 } bsdf_albedo;
+
+/* A sample of one lobe by itself, and what its other functions say of it. */
+typedef struct lobe_draw {
+    float wi[3], pdf_w;
+    float weight[3], through;
+    float eval[3], eval_pdf_w;
+    float albedo[3], pdf_w_alone;
+} lobe_draw;
+
+/* Fills out[count] with samples of a lobe. */
+void draw_lobe(const rt_material_data *material, const situation *at, uint32_t lobe, uint32_t seed,
+               uint32_t count, lobe_draw *out);
+
+/* Fills out[count] with light and density of a lobe: what each wo gets from each wi. */
+void evaluate_lobe(const rt_material_data *material, const situation *at, const float (*wi)[4],
+                   uint32_t lobe, uint32_t count, float (*out)[4]);
 
 /* Fill out[count] with events. */
 void draw_scatter(const rt_material_data *material, const situation *at, uint32_t transport,

@@ -1,14 +1,45 @@
 /*
- * dispatch.h - calls a lobe by its number: one case a lobe, made from the list of lobes.
+ * lobes.h - the list of the lobes that a BSDF is made of, and the functions that call a lobe by its
+ * number, with one case a lobe made from the list. The host reads the list alone.
  */
-#ifndef RT_KERNELS_BSDF_DISPATCH_H
-#define RT_KERNELS_BSDF_DISPATCH_H
+#ifndef RT_KERNELS_BSDF_LOBES_H
+#define RT_KERNELS_BSDF_LOBES_H
+
+/*
+ * X(NAME, name, is_delta, is_gathered) for each lobe: name.h holds RT_LOBE_NAME. A delta lobe
+ * scatters into one direction. A gathered lobe is rough enough for density estimation: photons are
+ * stored, and gathered, where a surface has one.
+ */
+#define RT_LOBES(X)                                                                                \
+    X(LAMBERT, lambert, 0, 1)                                                                      \
+    X(SPECULAR_REFLECTION, specular_reflection, 1, 0)                                              \
+    X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0)                                          \
+    X(GGX, ggx, 0, 0)
+
+#define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_gathered) RT_LOBE_##NAME,
+enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOBE_COUNT };
+
+#ifdef __OPENCL_VERSION__
 
 #include "bsdf/ggx.h"
 #include "bsdf/lambert.h"
 #include "bsdf/lobe.h"
 #include "bsdf/specular_reflection.h"
 #include "bsdf/specular_transmission.h"
+
+#define DELTA_BIT(NAME, name, is_delta, is_gathered) | (is_delta##u << RT_LOBE_##NAME)
+#define GATHERED_BIT(NAME, name, is_delta, is_gathered) | (is_gathered##u << RT_LOBE_##NAME)
+
+static inline bool lobe_is_delta(uint lobe)
+{
+    return (0u RT_LOBES(DELTA_BIT)) >> lobe & 1u;
+}
+
+/* Whether photons stand for the light of the lobe. */
+static inline bool lobe_is_gathered(uint lobe)
+{
+    return (0u RT_LOBES(GATHERED_BIT)) >> lobe & 1u;
+}
 
 #define EVAL_CASE(NAME, name, is_delta, is_gathered)                                               \
     case RT_LOBE_##NAME:                                                                           \
@@ -64,4 +95,5 @@ static inline float3 lobe_albedo(const struct bsdf *bsdf, uint lobe)
     return (float3)(0.0f);
 }
 
+#endif
 #endif
