@@ -36,7 +36,7 @@ KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
         rt_gather_disc disc;
         disc.count = 0u;
         disc.squared_radius = 0.0f;
-        disc.asked = point_asks(points + i);
+        disc.asked = gathers_photons(points + i);
         disc.pixel = points[i].pixel;
         if (disc.asked) {
             const struct photon_sum sum =

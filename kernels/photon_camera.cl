@@ -1,6 +1,6 @@
 /*
  * photon_camera.cl - photon mapping, seen from the eye: each work-item follows one sample of one
- * pixel to the places where photon maps are asked.
+ * pixel to its gather points.
  */
 #include "camera/camera.h"
 #include "entry.h"
@@ -10,7 +10,7 @@
 
 /*
  * points: [item_count], in the order of items; caustics: [params.final_gather][stride], a row for
- * each diffuse event on the way there. The sample is params.first_sample.
+ * each diffuse event before that. The sample is params.first_sample.
  */
 KERNEL photon_camera(const rt_params params, global const rt_scene_header *header,
                      global rt_gather_point *points, global rt_gather_point *caustics, uint stride)

@@ -22,6 +22,22 @@
 #include "sample/rng.h"
 #include "shape/shapes.h"
 
+/* False where the path ends, as *end then says. */
+static inline bool reach_surface(struct light_path *path, const struct scene *scene,
+                                 struct surface *surface, uint *end)
+{
+    struct hit hit;
+    if (!closest_hit(scene, &path->ray, &hit)) {
+        *end = RT_END_ESCAPED;
+        return false;
+    }
+    *surface = surface_at(scene, &path->ray, &hit);
+    if (cross_medium(path, scene, hit.t))
+        return true;
+    *end = RT_END_ABSORBED;
+    return false;
+}
+
 /*
  * Follows a path from its start to its end: photons go to the slots of its column, from the first
  * row on, and what became of the flux to the account.
@@ -44,22 +60,13 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
          */
         const float4 u = sampler_set(sampler, set_scatter(path.depth - 1u));
 
-        /* Find the nearest surface. */
-        struct hit hit;
-        if (!closest_hit(scene, &path.ray, &hit)) {
-            end = RT_END_ESCAPED;
+        /* Find the nearest surface, and lose what the medium absorbs until there. */
+        struct surface surface;
+        if (!reach_surface(&path, scene, &surface, &end))
             break;
-        }
-        const struct surface surface = surface_at(scene, &path.ray, &hit);
         const uint material_index = scene->shapes[surface.shape].material;
         global const rt_material_data *material = scene->materials + material_index;
         const float3 wo = -path.ray.direction;
-
-        /* Lose what the medium absorbs. */
-        if (!cross_medium(&path, scene, hit.t)) {
-            end = RT_END_ABSORBED;
-            break;
-        }
 
         /* Go straight on through a boundary that a stronger medium hides. */
         const struct boundary boundary =
@@ -80,7 +87,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         if (!alive)
             end = RT_END_ABSORBED;
 
-        /* Nothing that a caustic map keeps comes after an event that spreads light. */
+        /* No caustic photon comes after an event other than a delta one. */
         if (for_caustics && path.scattered)
             break;
     }

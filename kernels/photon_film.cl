@@ -6,7 +6,7 @@
 #include "math/frame.h"
 
 /*
- * The radiance that came to a point; of one at no finite place, where photons are not asked for, no
+ * The radiance that came to a point; of one at no finite position, where none are gathered, no
  * finite one.
  */
 static float3 radiance_of(global const rt_gather_point *point)

@@ -360,7 +360,7 @@ typedef struct rt_params {
     rt_u32 seed;
     rt_u32 sampler;           /* rt_sampler */
     rt_u32 max_depth;         /* longest path: number of segments from the eye or the light */
-    rt_u32 final_gather;      /* photon mode: diffuse bounces before the map is asked */
+    rt_u32 final_gather;      /* photon mode: diffuse bounces before photons are gathered */
     rt_u32 slots;             /* photon emission: photons in a row of slots, one a path */
     rt_u32 direct;            /* photon mode: rt_direct */
     rt_u32 estimator;         /* rt_estimator */
@@ -442,7 +442,7 @@ typedef struct rt_light_share {
 } rt_light_share;
 RT_SIZE(rt_light_share, 16);
 
-/* Where a camera path asks the photon map. */
+/* A gather point: where a camera path gathers photons. */
 typedef struct rt_gather_point {
     float position[3];
     rt_u32 pixel;    /* film index */

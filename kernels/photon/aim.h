@@ -7,8 +7,8 @@
  * is chosen in proportion to its solid angle or its disc, so the density is the number of balls
  * that the start runs into over the sum of all. The flux is weighted by the density that the start
  * had by light_emit over this one: caustic photons have the same mean as without, and what would
- * have gone elsewhere is not followed. Where the balls fill no less than what the light shines
- * into, as around a lamp within one of them, the start is left as it is.
+ * have gone elsewhere is not followed. Where the balls fill no less than the directions that
+ * the light emits into, as around an area light within one of them, the start is left as it is.
  *
  * References:
  *   Jensen: "Realistic Image Synthesis Using Photon Mapping", 2001, section 5.2 (projection maps).
@@ -21,8 +21,8 @@
 
 #include "light/emit.h"
 
-/* Where a light shines from a point: a cone of directions. */
-struct lobe_of_light {
+/* The cone of directions into which a light emits from a point. */
+struct emission_cone {
     float3 from, axis;
     float cosine, sine; /* of the angle between the axis and the edge */
 };
@@ -33,17 +33,18 @@ struct lobe_of_light {
  * The solid angle of a ball, 0 when it lies outside the light's cone; the whole sphere when it
  * holds the point.
  */
-static inline float target_spread(global const rt_target *target, const struct lobe_of_light *lobe)
+static inline float target_solid_angle(global const rt_target *target,
+                                       const struct emission_cone *cone)
 {
-    const float3 towards = row3(target->centre) - lobe->from;
+    const float3 towards = row3(target->centre) - cone->from;
     const float radius2 = square(target->radius), d2 = dot(towards, towards);
     if (!(d2 > radius2))
         return 4.0f * RT_PI;
     /* They touch unless the angle to the ball's centre is above the sum of both half-angles. */
     const float sine = target->radius / sqrt(d2), cosine = sqrt(1.0f - radius2 / d2);
-    const float sum_sine = lobe->sine * cosine + lobe->cosine * sine;
-    const float sum_cosine = lobe->cosine * cosine - lobe->sine * sine;
-    const bool touches = sum_sine <= 0.0f || dot(towards, lobe->axis) >= sum_cosine * sqrt(d2);
+    const float sum_sine = cone->sine * cosine + cone->cosine * sine;
+    const float sum_cosine = cone->cosine * cosine - cone->sine * sine;
+    const bool touches = sum_sine <= 0.0f || dot(towards, cone->axis) >= sum_cosine * sqrt(d2);
     return touches ? 2.0f * RT_PI * cap_height(target->radius, d2) : 0.0f;
 }
 
@@ -70,13 +71,13 @@ static inline float3 sample_target(global const rt_target *target, float3 from, 
  * the light's cone, and `limit` when they fill no less than that, which leaves the direction as it
  * is.
  */
-static inline float aim_from_point(const struct scene *scene, const struct lobe_of_light *lobe,
+static inline float aim_from_point(const struct scene *scene, const struct emission_cone *cone,
                                    float limit, float3 u, float3 *direction)
 {
     const uint count = scene->header->target_count;
     float sum = 0.0f;
     for (uint i = 0; i < count; i++)
-        sum += target_spread(scene->targets + i, lobe);
+        sum += target_solid_angle(scene->targets + i, cone);
     if (sum == 0.0f || sum >= limit)
         return min(sum, limit);
 
@@ -84,52 +85,52 @@ static inline float aim_from_point(const struct scene *scene, const struct lobe_
     uint chosen = 0;
     float before = 0.0f;
     for (uint i = 0; i < count && before <= u.z * sum; i++) {
-        const float spread = target_spread(scene->targets + i, lobe);
-        before += spread;
-        chosen = spread > 0.0f ? i : chosen;
+        const float solid_angle = target_solid_angle(scene->targets + i, cone);
+        before += solid_angle;
+        chosen = solid_angle > 0.0f ? i : chosen;
     }
-    *direction = sample_target(scene->targets + chosen, lobe->from, u.xy);
+    *direction = sample_target(scene->targets + chosen, cone->from, u.xy);
 
     /* Count the balls that could have been chosen for it. */
     float covers = 1.0f;
     for (uint i = 0; i < count; i++)
-        if (i != chosen && target_spread(scene->targets + i, lobe) > 0.0f &&
-            target_is_ahead(scene->targets + i, lobe->from, *direction))
+        if (i != chosen && target_solid_angle(scene->targets + i, cone) > 0.0f &&
+            target_is_ahead(scene->targets + i, cone->from, *direction))
             covers += 1.0f;
     return sum / covers;
 }
 
-/* ---- Lights that shine from a point ---------------------------------------------- */
+/* ---- Lights that emit from a point ---------------------------------------------- */
 
 /*
- * The cone of directions into which the light shines from where this path starts, and its solid
+ * The cone of directions into which the light emits from where this path starts, and its solid
  * angle.
  */
-static inline struct lobe_of_light lobe_at(global const rt_light_data *light,
+static inline struct emission_cone cone_at(global const rt_light_data *light,
                                            const struct emission *emission, float *solid_angle)
 {
-    struct lobe_of_light lobe;
-    lobe.from = emission->at.position;
-    lobe.axis = emission->direction;
-    lobe.cosine = -1.0f;
+    struct emission_cone cone;
+    cone.from = emission->at.position;
+    cone.axis = emission->direction;
+    cone.cosine = -1.0f;
     if (light->kind == RT_LIGHT_SPOT) {
-        lobe.axis = row3(light->b);
-        lobe.cosine = light->c[1];
+        cone.axis = row3(light->b);
+        cone.cosine = light->c[1];
     } else if (light->kind != RT_LIGHT_POINT) {
-        lobe.axis = dot(emission->direction, emission->at.normal) < 0.0f ? -emission->at.normal
+        cone.axis = dot(emission->direction, emission->at.normal) < 0.0f ? -emission->at.normal
                                                                          : emission->at.normal;
-        lobe.cosine = 0.0f;
+        cone.cosine = 0.0f;
     }
-    lobe.sine = sqrt(1.0f - square(lobe.cosine));
-    *solid_angle = 2.0f * RT_PI * (1.0f - lobe.cosine);
-    return lobe;
+    cone.sine = sqrt(1.0f - square(cone.cosine));
+    *solid_angle = 2.0f * RT_PI * (1.0f - cone.cosine);
+    return cone;
 }
 
 /* The density of light_emit's directions. */
 static inline float emission_pdf_w(global const rt_light_data *light,
-                                   const struct lobe_of_light *lobe, float3 direction)
+                                   const struct emission_cone *cone, float3 direction)
 {
-    const float cosine = dot(direction, lobe->axis);
+    const float cosine = dot(direction, cone->axis);
     if (light->kind == RT_LIGHT_POINT)
         return sphere_pdf_w();
     if (light->kind == RT_LIGHT_SPOT)
@@ -141,11 +142,12 @@ static inline void aim_near(const struct scene *scene, global const rt_light_dat
                             struct emission *emission)
 {
     float solid_angle;
-    const struct lobe_of_light lobe = lobe_at(light, emission, &solid_angle);
-    const float spread = aim_from_point(scene, &lobe, solid_angle, u, &emission->direction);
-    if (spread < solid_angle)
-        emission->flux *=
-            spread > 0.0f ? spread * emission_pdf_w(light, &lobe, emission->direction) : 0.0f;
+    const struct emission_cone cone = cone_at(light, emission, &solid_angle);
+    const float inverse_pdf = aim_from_point(scene, &cone, solid_angle, u, &emission->direction);
+    if (inverse_pdf < solid_angle)
+        emission->flux *= inverse_pdf > 0.0f
+                              ? inverse_pdf * emission_pdf_w(light, &cone, emission->direction)
+                              : 0.0f;
 }
 
 /* ---- Light from infinitely far ----------------------------------------------------- */
@@ -187,17 +189,17 @@ static inline void aim_far(const struct scene *scene, float3 u, struct emission 
 }
 
 /*
- * Turns a start that light_emit made of these numbers towards what caustics come from; way.w
- * chooses the ball. The start's flux becomes 0 where no caustic can come of it.
+ * Turns a start that light_emit made of these numbers towards what caustics come from;
+ * direction.w chooses the ball. The start's flux becomes 0 where no caustic can come of it.
  */
-static inline void aim_at_caustics(const struct scene *scene, float4 start, float4 way,
+static inline void aim_at_caustics(const struct scene *scene, float4 start, float4 direction,
                                    struct emission *emission)
 {
     global const rt_light_data *light = scene->lights + emission->light;
     if (light->kind == RT_LIGHT_DIRECTIONAL || light->kind == RT_LIGHT_ENVIRONMENT)
-        aim_far(scene, (float3)(start.xy, way.w), emission);
+        aim_far(scene, (float3)(start.xy, direction.w), emission);
     else
-        aim_near(scene, light, (float3)(way.xy, way.w), emission);
+        aim_near(scene, light, (float3)(direction.xy, direction.w), emission);
 }
 
 #endif

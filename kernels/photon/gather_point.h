@@ -94,7 +94,7 @@ static inline float3 photon_term(const struct bsdf *bsdf, global const rt_photon
 }
 
 /*
- * Adds what the point scatters, on its way to the film, to its radiance; sum: that of flux_p K, and
+ * Adds what the point scatters towards the film to its radiance; sum: that of flux_p K, and
  * of fr flux_p K where fr is not constant.
  */
 static inline void add_scattered(global rt_gather_point *point, float3 sum)

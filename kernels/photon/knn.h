@@ -3,9 +3,10 @@
  * (search.h): it ends at the k-th accepted photon, at the limit on the radius, or at the (16 k)-th
  * photon of any kind, and the photons strictly nearer count.
  *
- * The k-th distance is found by a walk that goes to the nearest child first and collects distances
- * alone. Whenever its memory is full, the k smallest are selected, and the largest of them bounds
- * the walk from then on. No lists are kept: knowing the radius, the sum walks the tree again.
+ * The k-th distance is found by a traversal that goes to the nearest child first and collects
+ * distances alone. Whenever its memory is full, the k smallest are selected, and the largest of them
+ * bounds the traversal from then on. No lists are kept: the sum, which knows the radius, traverses
+ * again.
  */
 #ifndef RT_KERNELS_PHOTON_KNN_H
 #define RT_KERNELS_PHOTON_KNN_H
@@ -135,7 +136,7 @@ INLINE_ALWAYS uint nearest_lane(float8 squared, uint mask)
     return nearest;
 }
 
-/* Nodes still to be walked, and how near they come. */
+/* Nodes still to be visited, and how near they come. */
 struct near_stack {
     uint entry[RT_PHOTON_STACK];
     float squared[RT_PHOTON_STACK];
@@ -217,8 +218,8 @@ INLINE_ALWAYS float candidate_distance(const struct photon_tree *tree,
 
 /*
  * Takes all accepted photons nearer than a guess, in no particular order; true when they are k or
- * more. The walk needs no order and seldom a selection, so a good guess makes the search twice as
- * fast.
+ * more. The traversal needs no order and seldom a selection, so a good guess makes the search twice
+ * as fast.
  */
 INLINE_ALWAYS bool take_within(struct distances *d, const struct photon_tree *tree,
                                const struct photon_query *query, float guess)

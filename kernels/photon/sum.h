@@ -1,5 +1,5 @@
 /*
- * sum.h - the density sum over a disc, by walking the tree of photons.
+ * sum.h - the density sum over a disc, by traversing the tree of photons.
  */
 #ifndef RT_KERNELS_PHOTON_SUM_H
 #define RT_KERNELS_PHOTON_SUM_H
@@ -129,8 +129,8 @@ INLINE_NEVER struct photon_sum sum_within(const struct photon_tree *tree,
     return sum;
 }
 
-/* Whether a point asks for photons: it has weight, and a place that is finite. */
-static inline bool point_asks(global const rt_gather_point *point)
+/* Whether photons are gathered at a point: it has weight, and its position is finite. */
+static inline bool gathers_photons(global const rt_gather_point *point)
 {
     return any(row3(point->weight) != 0.0f) && all(isfinite(row3(point->position)));
 }
@@ -146,7 +146,7 @@ static inline float point_limit(global const rt_gather_point *point,
                                        : estimate->squared_limit;
 }
 
-/* Where the walks of a group of points begin when all photons within the limit count. */
+/* Where the traversals of a group of points begin when all photons within the limit count. */
 static inline struct photon_start start_of_points(const struct photon_tree *tree,
                                                   global const rt_gather_point *points, uint count,
                                                   const rt_density_params *estimate,
@@ -155,7 +155,7 @@ static inline struct photon_start start_of_points(const struct photon_tree *tree
     float3 low = (float3)(INFINITY), high = -low;
     float limit = 0.0f;
     for (uint i = 0u; i < count; i++)
-        if (point_asks(points + i)) {
+        if (gathers_photons(points + i)) {
             low = min(low, row3(points[i].position));
             high = max(high, row3(points[i].position));
             limit = max(limit, point_limit(points + i, estimate, own_limits));

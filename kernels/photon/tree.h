@@ -1,5 +1,5 @@
 /*
- * tree.h - walks the tree of photons: which blocks of eight come nearer to a point than a radius.
+ * tree.h - traverses the tree of photons: which blocks of eight are nearer to a point than a radius.
  *
  * Distances are computed without contraction, in one order of operations, the host's: all roundings
  * are monotonic, so the distance to a box is never above that to a photon in it, and no photon is
@@ -98,14 +98,14 @@ INLINE_ALWAYS float8 box_reaches(global const rt_photon_node *node,
     return squared_length8(x, y, z);
 }
 
-/* ---- A walk ------------------------------------------------------------- */
+/* ---- Traversal ---------------------------------------------------------- */
 
 /* An entry of the stack: a node's level in the upper bits, and its index in that level. */
 #define ENTRY_LEVEL_SHIFT 28u
 #define ENTRY_INDEX 0x0fffffffu
 
 /*
- * Where walks begin: at the root, or at the few nodes of level 0 that any of a group of points
+ * Where traversals begin: at the root, or at the few nodes of level 0 that any of a group of points
  * needs, the last first.
  */
 #define PHOTON_STARTS 16u
@@ -163,7 +163,7 @@ INLINE_ALWAYS bool traversal_next(struct tree_traversal *traversal, const struct
 }
 
 /*
- * Where the walks of all points in a box may begin, for one squared radius: the walks meet the same
+ * Where the traversals of all points in a box may begin, for one squared radius: they meet the same
  * blocks in the same order as from the root, which it is when too many nodes come near.
  */
 INLINE_NEVER struct photon_start start_near(const struct photon_tree *tree, float3 low, float3 high,
@@ -172,7 +172,7 @@ INLINE_NEVER struct photon_start start_near(const struct photon_tree *tree, floa
     uint stack[RT_PHOTON_STACK];
     const struct photon_start root = start_at_root(tree);
     struct photon_start start;
-    /* filled from the end, for the last are walked first */
+    /* filled from the end, for the last are visited first */
     uint entries = root.count, free = PHOTON_STARTS;
     stack[0] = root.entry[0];
     while (entries > 0u) {
