@@ -4,9 +4,9 @@
  * photon of any kind, and the photons strictly nearer count.
  *
  * The k-th distance is found by a traversal that goes to the nearest child first and collects
- * distances alone. Whenever its memory is full, the k smallest are selected, and the largest of them
- * bounds the traversal from then on. No lists are kept: the sum, which knows the radius, traverses
- * again.
+ * distances alone. Whenever its memory is full, the k smallest are selected, and the largest of
+ * them bounds the traversal from then on. No lists are kept: the sum, which knows the radius,
+ * traverses again.
  */
 #ifndef RT_KERNELS_PHOTON_KNN_H
 #define RT_KERNELS_PHOTON_KNN_H

@@ -1,5 +1,6 @@
 /*
- * tree.h - traverses the tree of photons: which blocks of eight are nearer to a point than a radius.
+ * tree.h - traverses the tree of photons: which blocks of eight lie nearer to a point than a
+ * radius.
  *
  * Distances are computed without contraction, in one order of operations, the host's: all roundings
  * are monotonic, so the distance to a box is never above that to a photon in it, and no photon is
