@@ -23,7 +23,7 @@ extern "C" {
 /* The version of the library at run time, as "0.1.0". */
 RT_API const char *rt_version(void);
 
-/* ---- Errors -------------------------------------------------------------------------------------- */
+/* ---- Errors ---------------------------------------------------------------------------------- */
 
 typedef enum rt_status {
     RT_OK = 0,
@@ -44,7 +44,7 @@ typedef struct rt_error {
     char message[512]; /* one line, without newline, naming the offending value */
 } rt_error;
 
-/* ---- Progress and log ---------------------------------------------------------------------------- */
+/* ---- Progress and log ------------------------------------------------------------------------ */
 
 typedef enum rt_stage {
     RT_STAGE_LOAD,    /* reading the scene and its files */

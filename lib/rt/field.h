@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* ---- Words --------------------------------------------------------------------------------------- */
+/* ---- Words ----------------------------------------------------------------------------------- */
 
 /* A word of an enum. A list of words ends with one whose name is NULL. */
 typedef struct rt_word {
@@ -54,7 +54,7 @@ RT_API void rt_nearest_offer_words(rt_nearest *search, const rt_word *words);
 RT_API size_t rt_edit_distance(const char *a, size_t a_length, const char *b, size_t b_length,
                                size_t limit);
 
-/* ---- Numbers ------------------------------------------------------------------------------------- */
+/* ---- Numbers --------------------------------------------------------------------------------- */
 
 typedef enum rt_number_result {
     RT_NUMBER_OK,
@@ -69,7 +69,7 @@ typedef enum rt_number_result {
  */
 RT_API rt_number_result rt_number_read(double *out, const char *text, size_t length);
 
-/* ---- Ranges -------------------------------------------------------------------------------------- */
+/* ---- Ranges ---------------------------------------------------------------------------------- */
 
 typedef enum rt_range_kind {
     RT_RANGE_ANY,
@@ -91,7 +91,7 @@ typedef struct rt_range {
 RT_API const char *rt_range_phrase(char *out, size_t size, rt_range range);
 RT_API int rt_range_holds(rt_range range, double value);
 
-/* ---- Fields -------------------------------------------------------------------------------------- */
+/* ---- Fields ---------------------------------------------------------------------------------- */
 
 /* What a value is, and what the struct member is that holds it. */
 typedef enum rt_field_type {

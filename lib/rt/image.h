@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* ---- Files --------------------------------------------------------------------------------------- */
+/* ---- Files ----------------------------------------------------------------------------------- */
 
 /*
  * Makes path hold exactly these bytes, or leaves it as it was, as rt_film_write does: by a
@@ -18,7 +18,7 @@ extern "C" {
  */
 RT_API rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error);
 
-/* ---- Images -------------------------------------------------------------------------------------- */
+/* ---- Images ---------------------------------------------------------------------------------- */
 
 /*
  * An image of any number of named channels: a picture, and layers beside it such as albedo.R .G .B.
@@ -59,7 +59,7 @@ RT_API rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char 
 RT_API rt_status rt_image_write(const rt_image *image, const char *path,
                                 const rt_image_options *options, rt_error *error);
 
-/* ---- Comparison of images ------------------------------------------------------------------------ */
+/* ---- Comparison of images -------------------------------------------------------------------- */
 
 typedef struct rt_compare_options {
     const char *layer; /* what is compared, such as "albedo"; NULL: the picture itself */

@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* ---- Photon maps --------------------------------------------------------------------------------- */
+/* ---- Photon maps ----------------------------------------------------------------------------- */
 
 /*
  * An rt_photon_map is the photons of a scene: rt_photon records in the order of the paths that left

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* ---- Options of a render ------------------------------------------------------------------------- */
+/* ---- Options of a render --------------------------------------------------------------------- */
 
 typedef enum rt_mode {
     RT_MODE_PATH = 0,
@@ -165,7 +165,7 @@ typedef struct rt_scene_info {
 } rt_scene_info;
 RT_API void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out);
 
-/* ---- Renderer ------------------------------------------------------------------------------------ */
+/* ---- Renderer -------------------------------------------------------------------------------- */
 
 typedef struct rt_renderer rt_renderer;
 

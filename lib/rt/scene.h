@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* ---- Scene --------------------------------------------------------------------------------------- */
+/* ---- Scene ----------------------------------------------------------------------------------- */
 
 typedef struct rt_scene rt_scene;
 
@@ -89,7 +89,7 @@ typedef struct rt_transform {
     float m[3][4];
 } rt_transform;
 
-/* ---- Textures ------------------------------------------------------------------------------------ */
+/* ---- Textures -------------------------------------------------------------------------------- */
 
 /*
  * A texture is a colour at each (u, v); v = 0 is the bottom of an image. Kinds and wraps are in
@@ -113,7 +113,7 @@ typedef struct rt_texture {
 RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture,
                                       rt_error *error);
 
-/* ---- Materials ----------------------------------------------------------------------------------- */
+/* ---- Materials ------------------------------------------------------------------------------- */
 
 typedef enum rt_fresnel {
     RT_FRESNEL_OFF = 0,
@@ -165,7 +165,7 @@ typedef struct rt_material {
 RT_API rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name,
                                        const rt_material *material, rt_error *error);
 
-/* ---- Shapes -------------------------------------------------------------------------------------- */
+/* ---- Shapes ---------------------------------------------------------------------------------- */
 
 /* What every shape has. */
 typedef struct rt_surface {
@@ -294,7 +294,7 @@ RT_API rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const fl
                                         size_t triangle_count, const float *normals,
                                         const rt_surface *surface, rt_error *error);
 
-/* ---- Lights -------------------------------------------------------------------------------------- */
+/* ---- Lights ---------------------------------------------------------------------------------- */
 
 /* A point light. Give intensity, or power: power = 4 pi intensity (isotropic). */
 typedef struct rt_point_light {
@@ -338,7 +338,7 @@ typedef struct rt_environment {
 RT_API rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *environment,
                                           rt_error *error);
 
-/* ---- Camera -------------------------------------------------------------------------------------- */
+/* ---- Camera ---------------------------------------------------------------------------------- */
 
 typedef enum rt_camera_kind {
     RT_CAMERA_PERSPECTIVE = 0,
@@ -373,7 +373,7 @@ typedef struct rt_camera {
 } rt_camera;
 RT_API rt_status rt_scene_set_camera(rt_scene *scene, const rt_camera *camera, rt_error *error);
 
-/* ---- Checking ------------------------------------------------------------------------------------ */
+/* ---- Checking -------------------------------------------------------------------------------- */
 
 /* One thing found. The message lives until the callback returns. */
 typedef struct rt_finding {

@@ -161,9 +161,8 @@ static void gather_on_device(device_side *d, const problem *p)
     must(rt_buffer_write(d->device, d->points, 0, p->queries * sizeof *d->in_order, d->in_order,
                          &error),
          &error);
-    must(
-        rt_tree_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error),
-        &error);
+    must(rt_tree_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error),
+         &error);
     must(rt_buffer_read(d->device, d->gather.discs, 0, p->queries * sizeof *p->discs, p->discs,
                         &error),
          &error);
@@ -204,7 +203,7 @@ static void compete(problem *p)
                                                  p->squared, (int)p->k, &parameters);
         double t1 = rt_clock();
         must(rt_neighbour_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs,
-                                   &error),
+                                      &error),
              &error);
         plain[run] = t1 - t0;
         double t2 = rt_clock();
