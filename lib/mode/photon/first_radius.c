@@ -67,10 +67,11 @@ rt_status rt_photon_render_choose_radius(rt_photon_render *r, rt_query query, ui
     const rt_render_options *o = r->job->options;
     rt_gather_options nearest = r->options[query];
     size_t pixels = rt_film_pixels(r->job->film);
-    float *squared = calloc(2 * pixels, sizeof *squared), *limits = squared + pixels;
+    float *squared = calloc(2 * pixels, sizeof *squared);
     if (!squared)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory for the gather radii of %zu pixels",
                        pixels);
+    float *limits = squared + pixels;
 
     /* Find the nearest photons of each pixel. */
     nearest.max_radius = 0;

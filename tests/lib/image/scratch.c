@@ -32,8 +32,10 @@ int scratch_enter(void **state)
     s->previous = open(".", O_RDONLY);
     snprintf(s->path, sizeof s->path, "%s/rt-test-XXXXXX", base && base[0] ? base : "/tmp");
     /* Open to all, so that a test without rights can still name files in it. */
-    if (s->previous < 0 || !mkdtemp(s->path) || chdir(s->path) != 0 || chmod(".", 0755) != 0)
+    if (s->previous < 0 || !mkdtemp(s->path) || chdir(s->path) != 0 || chmod(".", 0755) != 0) {
+        free(s);
         return -1;
+    }
     *state = s;
     return 0;
 }

@@ -49,6 +49,37 @@ static rt_film *render(rt_renderer *renderer, const rt_render_options *options)
     return film;
 }
 
+/* Renders of the peak below a light, and how far off the layer of the bias may be. */
+static const struct {
+    const char *name, *scene;
+    rt_render_options options;
+    double tolerance;
+} peaks[] = {
+    {"fixed radius", PEAK, {.k = RT_K_ALL, .radius = 0.1f}, 0.2},
+    {"FLANN", PEAK, {.k = 14000, .gather = RT_GATHER_FLANN}, 0.2},
+    {"device", PEAK, {.k = 14001, .gather = RT_GATHER_DEVICE}, 0.2},
+    {"nearest within a radius",
+     PEAK,
+     {.k = 60000, .radius = 0.1f, .gather = RT_GATHER_DEVICE},
+     0.2},
+    {"hull", PEAK, {.k = 20000, .area = RT_AREA_HULL}, 0.3},
+    {"passes", PEAK, {.passes = 4, .radius = 0.1f, .alpha = 0.999f}, 0.2},
+    {"passes, pixels' own radii", PEAK, {.passes = 4, .k = 14000, .alpha = 0.999f}, 0.2},
+    {"caustic map",
+     PEAK PANE,
+     {.k = 2, .caustic_k = RT_K_ALL, .caustic_radius = 0.1f, .caustic_photons = 400000},
+     0.2},
+    {"caustic map, nearest",
+     PEAK PANE,
+     {.k = 50, .caustic_k = 14000, .caustic_photons = 400000},
+     0.2},
+    {"caustics on the way", PEAK PANE, {.k = RT_K_ALL, .radius = 0.1f, .final_gather = 1}, 0.2},
+    {"on the way, map apart",
+     PEAK PANE,
+     {.k = 50, .caustic_k = 14000, .caustic_photons = 400000, .final_gather = 2},
+     0.2},
+};
+
 /*
  * Below a point light of intensity I at the height h, the mean irradiance of a square of half the
  * side a is I times its solid angle, 4 asin(a^2 / (a^2 + h^2)), over its area. Gathering lowers
@@ -56,56 +87,27 @@ static rt_film *render(rt_renderer *renderer, const rt_render_options *options)
  * radius of 0.4 h; the rest of the tolerance is noise, most with the hull, for which photons are
  * independent. The pane of glass bends no light, and makes all photons caustic ones.
  */
-static void every_way_tells_how_much_a_peak_is_lowered(void **state)
+static void every_render_tells_how_much_a_peak_is_lowered(void **state)
 {
-    static const struct {
-        const char *name, *scene;
-        rt_render_options options;
-        double tolerance;
-    } ways[] = {
-        {"fixed radius", PEAK, {.k = RT_K_ALL, .radius = 0.1f}, 0.2},
-        {"FLANN", PEAK, {.k = 14000, .gather = RT_GATHER_FLANN}, 0.2},
-        {"device", PEAK, {.k = 14001, .gather = RT_GATHER_DEVICE}, 0.2},
-        {"nearest within a radius",
-         PEAK,
-         {.k = 60000, .radius = 0.1f, .gather = RT_GATHER_DEVICE},
-         0.2},
-        {"hull", PEAK, {.k = 20000, .area = RT_AREA_HULL}, 0.3},
-        {"passes", PEAK, {.passes = 4, .radius = 0.1f, .alpha = 0.999f}, 0.2},
-        {"passes, pixels' own radii", PEAK, {.passes = 4, .k = 14000, .alpha = 0.999f}, 0.2},
-        {"caustic map",
-         PEAK PANE,
-         {.k = 2, .caustic_k = RT_K_ALL, .caustic_radius = 0.1f, .caustic_photons = 400000},
-         0.2},
-        {"caustic map, nearest",
-         PEAK PANE,
-         {.k = 50, .caustic_k = 14000, .caustic_photons = 400000},
-         0.2},
-        {"caustics on the way", PEAK PANE, {.k = RT_K_ALL, .radius = 0.1f, .final_gather = 1}, 0.2},
-        {"on the way, map apart",
-         PEAK PANE,
-         {.k = 50, .caustic_k = 14000, .caustic_photons = 400000, .final_gather = 2},
-         0.2},
-    };
     const double a = 0.05, h = 0.25,
                  truth = 0.5 / pi * 4 * asin(a * a / (a * a + h * h)) / (4 * a * a);
     (void)state;
-    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
-        rt_render_options options = ways[i].options;
-        rt_renderer *renderer = test_renderer(ways[i].scene);
+    for (size_t i = 0; i < sizeof peaks / sizeof *peaks; i++) {
+        rt_render_options options = peaks[i].options;
+        rt_renderer *renderer = test_renderer(peaks[i].scene);
         double picture, bias;
         options.photons = 400000;
         options.spp = 1;
         options.seed = 3;
-        options.direct = ways[i].options.caustic_photons || options.final_gather
+        options.direct = peaks[i].options.caustic_photons || options.final_gather
                              ? RT_DIRECT_NEE
                              : RT_DIRECT_PHOTONS;
         rt_film *film = render(renderer, &options);
         means_of(film, 0, side, &picture, &bias);
-        print_message("%s: bias %.4f of the truth, %.4f in the layer\n", ways[i].name,
+        print_message("%s: bias %.4f of the truth, %.4f in the layer\n", peaks[i].name,
                       picture / truth - 1, bias / truth);
         assert_true(picture < 0.96 * truth);
-        assert_true(fabs(bias / (picture - truth) - 1) < ways[i].tolerance);
+        assert_true(fabs(bias / (picture - truth) - 1) < peaks[i].tolerance);
         rt_film_destroy(film);
         rt_renderer_destroy(renderer);
     }
@@ -214,7 +216,7 @@ static void without_fewer_photons_the_layer_is_black(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_way_tells_how_much_a_peak_is_lowered),
+        cmocka_unit_test(every_render_tells_how_much_a_peak_is_lowered),
         cmocka_unit_test(both_sides_of_a_shadow_edge_are_told),
         cmocka_unit_test(even_light_has_no_bias),
         cmocka_unit_test(without_fewer_photons_the_layer_is_black),

@@ -210,14 +210,12 @@ static int cancel(void *user, const rt_progress *progress)
     return progress->stage == RT_STAGE_EMIT;
 }
 
-static void starved_lights_and_maps_are_told(void **state)
+static void starved_lights_are_told(void **state)
 {
     char warnings[2000] = "";
     rt_hooks hooks = {.user = warnings, .warning = keep_warning};
     rt_render_options render = {.photons = 2000, .caustic_photons = 20, .hooks = &hooks};
     rt_emit_options options = {.render = &render};
-    rt_photon_map *map = NULL;
-    rt_error error;
     (void)state;
     rt_renderer *renderer = test_renderer(ROOM "light point { position 0 0 0.5  power 1e-9 }\n");
     rt_photon_map_destroy(emit_map(renderer, &options));
@@ -228,10 +226,18 @@ static void starved_lights_and_maps_are_told(void **state)
     assert_null(strstr(warnings, "global"));
     assert_non_null(strstr(warnings, "the caustic photon map has only "));
     rt_renderer_destroy(renderer);
+}
 
-    warnings[0] = '\0';
-    renderer = test_renderer("light point { position 0 0 0  power 1 }\n");
-    render.caustic_photons = 0;
+static void empty_maps_are_told(void **state)
+{
+    char warnings[2000] = "";
+    rt_hooks hooks = {.user = warnings, .warning = keep_warning};
+    rt_render_options render = {.photons = 2000, .hooks = &hooks};
+    rt_emit_options options = {.render = &render};
+    rt_photon_map *map = NULL;
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer = test_renderer("light point { position 0 0 0  power 1 }\n");
     rt_photon_map_destroy(emit_map(renderer, &options));
     assert_string_equal(warnings,
                         "the photon map is empty: none of 2000 photon paths left a photon in it\n");
@@ -376,77 +382,103 @@ static void stored_flux_is_what_path_tracing_says(void **state)
     rt_renderer_destroy(renderer);
 }
 
+enum { places = 400 };
+
+/* Points all over the inside of the furnace, with their inner normals, and what arrives there. */
+typedef struct inside {
+    float positions[places][3], normals[places][3], rgb[places][3];
+} inside;
+
+static void make_places(inside *in)
+{
+    for (int i = 0; i < places; i++) {
+        double z = (i + 0.5) / places * 2 - 1, turn = 2.399963 * i, r = sqrt(1 - z * z);
+        const double n[3] = {r * cos(turn), r * sin(turn), z};
+        for (int c = 0; c < 3; c++) {
+            in->positions[i][c] = (float)(2 * n[c]);
+            in->normals[i][c] = (float)-n[c];
+        }
+    }
+}
+
+static rt_status find_irradiance(inside *in, const rt_photon_map *map,
+                                 const rt_render_options *options, rt_error *error)
+{
+    return rt_photon_map_irradiance(in->rgb[0], map, test_device(), in->positions[0],
+                                    in->normals[0], places, options, error);
+}
+
+static double mean_irradiance(const inside *in, int channel)
+{
+    double mean = 0;
+    for (int i = 0; i < places; i++)
+        mean += in->rgb[i][channel] / places;
+    return mean;
+}
+
+/* The device finds the same photons; a fixed radius gives the same mean. */
+static void expect_same_irradiance(const rt_photon_map *map, const inside *nearest)
+{
+    static inside again;
+    rt_render_options query = {.k = 100, .kernel = RT_DENSITY_BOX, .gather = RT_GATHER_DEVICE};
+    rt_error error;
+    make_places(&again);
+    expect_ok(find_irradiance(&again, map, &query, &error), &error);
+    for (int i = 0; i < places; i++)
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(again.rgb[i][c], nearest->rgb[i][c], 1e-4 * nearest->rgb[i][c]);
+    query.k = RT_K_ALL;
+    assert_int_equal(find_irradiance(&again, map, &query, &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "radius");
+    query.radius = 0.15f;
+    expect_ok(find_irradiance(&again, map, &query, &error), &error);
+    const double expected = mean_irradiance(nearest, 1);
+    expect_close(mean_irradiance(&again, 1), expected, 0.03 * expected,
+                 "irradiance by a fixed radius");
+}
+
+/* Nothing arrives on the outside, and no points are no work. */
+static void expect_dark_outside(const rt_photon_map *map)
+{
+    static inside outside;
+    const rt_render_options query = {.k = 100, .kernel = RT_DENSITY_BOX, .radius = 0.1f};
+    rt_error error;
+    make_places(&outside);
+    for (int i = 0; i < places; i++)
+        for (int c = 0; c < 3; c++)
+            outside.normals[i][c] = -outside.normals[i][c];
+    expect_ok(find_irradiance(&outside, map, &query, &error), &error);
+    for (int i = 0; i < places; i++)
+        for (int c = 0; c < 3; c++)
+            assert_true(outside.rgb[i][c] == 0);
+    expect_ok(rt_photon_map_irradiance(NULL, map, test_device(), NULL, NULL, 0, NULL, &error),
+              &error);
+}
+
 static void irradiance_is_flux_over_area(void **state)
 {
-    enum { count = 400 };
     static const double power[3] = {2, 3, 5}, kd[3] = {0.2, 0.5, 0.7};
-    static float positions[count][3], normals[count][3], rgb[count][3], again[count][3];
+    static inside nearest;
     rt_render_options render = {
         .photons = 100000, .max_depth = 100, .direct = RT_DIRECT_PHOTONS, .seed = test_seed(0)};
-    rt_render_options ask = {.k = 100, .kernel = RT_DENSITY_BOX};
+    const rt_render_options query = {.k = 100, .kernel = RT_DENSITY_BOX};
     rt_emit_options options = {.render = &render};
     rt_error error;
     (void)state;
     rt_renderer *renderer = test_renderer(furnace);
     rt_photon_map *map = emit_map(renderer, &options);
-    for (int i = 0; i < count; i++) {
-        double z = (i + 0.5) / count * 2 - 1, turn = 2.399963 * i, r = sqrt(1 - z * z);
-        const double n[3] = {r * cos(turn), r * sin(turn), z};
-        for (int c = 0; c < 3; c++) {
-            positions[i][c] = (float)(2 * n[c]);
-            normals[i][c] = (float)-n[c];
-        }
-    }
-    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count,
-                                       &ask, &error),
-              &error);
+    make_places(&nearest);
+    expect_ok(find_irradiance(&nearest, map, &query, &error), &error);
     for (int c = 0; c < 3; c++) {
-        double expected = power[c] / (1 - kd[c]) / (16 * PI), mean = 0;
-        for (int i = 0; i < count; i++)
-            mean += rgb[i][c] / count;
+        const double expected = power[c] / (1 - kd[c]) / (16 * PI);
         /*
          * Each of 100 photons: 10 % a point, 0.5 % in the mean; a curved surface makes discs look
          * small.
          */
-        expect_close(mean, expected, 0.03 * expected, "irradiance");
+        expect_close(mean_irradiance(&nearest, c), expected, 0.03 * expected, "irradiance");
     }
-    /* The device finds the same photons; a fixed radius sees the same light. */
-    ask.gather = RT_GATHER_DEVICE;
-    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0],
-                                       count, &ask, &error),
-              &error);
-    for (int i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++)
-            assert_float_equal(again[i][c], rgb[i][c], 1e-4 * rgb[i][c]);
-    ask.k = RT_K_ALL;
-    assert_int_equal(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0],
-                                              count, &ask, &error),
-                     RT_ERROR_USAGE);
-    assert_string_equal(error.field, "radius");
-    ask.radius = 0.15f;
-    expect_ok(rt_photon_map_irradiance(again[0], map, test_device(), positions[0], normals[0],
-                                       count, &ask, &error),
-              &error);
-    double sum = 0, before = 0;
-    for (int i = 0; i < count; i++) {
-        sum += again[i][1];
-        before += rgb[i][1];
-    }
-    expect_close(sum, before, 0.03 * before, "irradiance by a fixed radius");
-    ask = (rt_render_options){.k = 100, .kernel = RT_DENSITY_BOX};
-    /* Nothing arrives on the outside. */
-    for (int i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++)
-            normals[i][c] = -normals[i][c];
-    ask.radius = 0.1f;
-    expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], count,
-                                       &ask, &error),
-              &error);
-    for (int i = 0; i < count; i++)
-        assert_true(rgb[i][0] == 0 && rgb[i][1] == 0 && rgb[i][2] == 0);
-    /* No points are no work. */
-    expect_ok(rt_photon_map_irradiance(NULL, map, test_device(), NULL, NULL, 0, NULL, &error),
-              &error);
+    expect_same_irradiance(map, &nearest);
+    expect_dark_outside(map);
     rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
 }
@@ -586,7 +618,8 @@ int main(void)
         statistical_test(shares_move_paths_but_not_flux),
         cmocka_unit_test(shares_leave_the_mean_of_a_picture),
         cmocka_unit_test(wrong_options_are_refused),
-        cmocka_unit_test(starved_lights_and_maps_are_told),
+        cmocka_unit_test(starved_lights_are_told),
+        cmocka_unit_test(empty_maps_are_told),
         cmocka_unit_test(many_starved_lights_are_told_in_one_line),
         cmocka_unit_test(light_that_does_not_reach_planes_is_told),
         cmocka_unit_test(planes_alone_are_told_of_the_origin),
