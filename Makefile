@@ -61,7 +61,8 @@ LIB_SRC := \
 	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c \
 	lib/photon/gather_neighbours.c \
 	lib/photon/map_check.c lib/photon/map_emit.c lib/photon/map_merge.c lib/photon/map_ply.c \
-	lib/photon/map_read.c lib/photon/map_write.c lib/photon/neighbour_search.c \
+	lib/photon/map_read.c lib/photon/map_warnings.c lib/photon/map_write.c \
+	lib/photon/neighbour_search.c \
 	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_tree.c \
 	lib/photon/point_order.c lib/photon/sources.c lib/photon/gather_tree.c \
 	lib/render/enclose.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \

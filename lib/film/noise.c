@@ -1,4 +1,4 @@
-/* noise.c - sums of a film by replicate, and what their spread tells of the error. */
+/* noise.c - sums of a film by replicate, and the error estimated from their spread. */
 #include "film/noise.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
  * The samples of one scrambled Sobol sequence depend on each other, so the spread among them says
  * nothing of the error of their mean. Where the error is to be estimated, R independent sequences
  * share the samples (replicates.h; in photon mapping each has photons of its own), and the spread
- * among them tells the variance of a pixel (Owen 1997: internal replication).
+ * among them estimates the variance of a pixel (Owen 1997: internal replication).
  *
  * A pixel is a quotient of sums, Q = sum of S_r over sum of W_r. S_r is the weighted radiance of
  * replicate r and W_r its sum of weights, which is the number of its samples unless the filter has

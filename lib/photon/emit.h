@@ -7,7 +7,7 @@
 #include "photon/photon_map.h"
 #include "photon/sources.h"
 
-/* What emits: a scene's lights, and memory for a batch of paths. Serves any number of emissions. */
+/* A scene's lights, and memory for a batch of paths. Serves any number of emissions. */
 typedef struct rt_emitter rt_emitter;
 
 /*
@@ -30,8 +30,8 @@ void rt_emitter_destroy(rt_emitter *emitter);
 void rt_emitter_limit_memory(rt_emitter *emitter, uint64_t bytes);
 
 /*
- * Warns of light that photon paths leave out: that of the sky and of directional lights on far
- * parts of planes.
+ * Warns of light that photon paths leave out: that of the environment and of directional lights on
+ * far parts of planes.
  */
 void rt_emitter_warn_reach(const rt_emitter *emitter, const rt_hooks *hooks);
 

@@ -26,7 +26,6 @@ rt_status rt_photon_forecast(uint64_t others, uint64_t photons, uint64_t done, u
         return RT_OK;
     return rt_fail(error, RT_ERROR_MEMORY,
                    "%llu photon paths would leave about %.3g photons, which take %.3g GB; this "
-                   "machine has %.3g GB of "
-                   "memory: emit fewer at once",
+                   "machine has %.3g GB of memory: emit fewer at once",
                    (unsigned long long)paths, expected, 1e-9 * bytes, 1e-9 * (double)memory);
 }

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "photon/gather.h"
+#include "photon/map_warnings.h"
 #include "photon/photon_map.h"
 #include "photon/point_order.h"
 #include "scene/check.h"

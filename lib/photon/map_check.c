@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "photon/fingerprint.h"
+#include "photon/map_warnings.h"
 
 /* Only a file that was tampered with can have others: the photons of a scene lie on its shapes. */
 static rt_status check_shapes(const rt_photon_map *map, const rt_renderer *renderer,

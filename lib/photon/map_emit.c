@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "photon/emit.h"
 #include "photon/fingerprint.h"
+#include "photon/map_warnings.h"
 #include "render/renderer.h"
 #include "setting/options.h"
 

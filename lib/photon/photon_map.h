@@ -54,15 +54,4 @@ void rt_photon_map_reset(rt_photon_map *map);
 /* Frees what a map holds; it is all zero afterwards. */
 void rt_photon_map_free(rt_photon_map *map);
 
-/*
- * Warns of lights with power that fewer than 100 paths came from, by the ledger of all paths, and
- * of lists of the map with fewer photons than an estimate wants: k of them, or caustic_k in the
- * caustic list. pass: the one that the map is of, from 1; 0: there are none.
- */
-void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass,
-                                uint32_t k, uint32_t caustic_k, const rt_hooks *hooks);
-
-/* Warns where the hull is asked of photons that are spread too evenly for it. */
-void rt_photon_map_warn_even(const rt_photon_map *map, rt_area area, const rt_hooks *hooks);
-
 #endif

@@ -25,8 +25,8 @@ typedef enum rt_photon_kind {
 
 typedef struct rt_emit_options {
     /*
-     * of which photons, caustic_photons, light_shares, max_depth, seed, sampler, area (the hull:
-     * RT_SAMPLER_INDEPENDENT), direct and hooks count; NULL: the scene's own
+     * photons, caustic_photons, light_shares, max_depth, seed, sampler, area (the hull emits by
+     * RT_SAMPLER_INDEPENDENT), direct and hooks have an effect; NULL: the scene's own
      */
     const rt_render_options *render;
     /* make part `part`, counted from 0, of a map in `parts` parts; parts 0 means 1 */
@@ -38,10 +38,10 @@ typedef struct rt_emit_options {
  * scene's own. Warns of lights with power that fewer than 100 paths came from (their light is then
  * noisy by more than 10 %), of a list that is empty or has fewer photons than the k of an estimate,
  * and of planes under light from infinitely far, which is followed to them only within the sphere
- * around all finite shapes. Fails with RT_ERROR_USAGE when an option is out of its range,
- * RT_ERROR_MEMORY as soon as the first paths tell that the photons will be more than fit into the
- * machine's memory, as does rt_render, RT_CANCELLED when a progress callback asks for it. The
- * caller owns *out.
+ * around all finite shapes. Fails with RT_ERROR_USAGE when an option is out of its range, with
+ * RT_ERROR_MEMORY as soon as the first paths show that the photons will not fit into the machine's
+ * memory, as does rt_render, and with RT_CANCELLED when a progress callback cancels. The caller
+ * owns *out.
  */
 RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
                                     const rt_emit_options *options, rt_error *error);
@@ -79,19 +79,18 @@ RT_API const rt_photon *rt_photon_map_photons(const rt_photon_map *map, rt_photo
 
 /*
  * The energy ledger of a light: emitted = absorbed + escaped + cut_off + roulette, in W, but for
- * rounding. A light is a light of the scene, or a whole shape that emits. All of it is a mean over
- * the photon paths, so that `emitted` differs from the light's power by the luck of how many paths
- * it got.
+ * rounding. A light is a light of the scene, or a whole emissive shape. All of it is a mean over
+ * photon paths, so `emitted` scatters about the light's power with the number of paths that it got.
  */
 typedef struct rt_light_ledger {
-    uint32_t shape; /* the shape that emits, or RT_NONE */
+    uint32_t shape; /* the emissive shape, or RT_NONE */
     uint64_t paths; /* photon paths that came from it */
-    double share;   /* of all paths, as was asked for */
+    double share;   /* of all paths, as given by the options */
     double power[3];
     double emitted[3];
     double absorbed[3]; /* by surfaces */
     double escaped[3];  /* out of the scene */
-    double cut_off[3];  /* still under way when paths had their longest length */
+    double cut_off[3];  /* still carried at the end of the longest paths */
     /* what Russian roulette took, less what it gave to the paths that went on: mean zero */
     double roulette[3];
 } rt_light_ledger;
@@ -106,8 +105,8 @@ RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *ou
  * Irradiance, W/m^2, at count points on surfaces: positions [count][3] in metres, normals
  * [count][3] of unit length (to half a percent; RT_ERROR_USAGE names the first point where one is
  * not), on the side from which light is to count; rgb [count][3], undefined on failure. Of the
- * options, k, radius, kernel, cone_k, gather and their like for the caustic map count; NULL: their
- * defaults. Light that is left to shadow rays is not in the map.
+ * options, k, radius, kernel, cone_k, gather and those of the caustic map have an effect; NULL:
+ * their defaults. Light that is left to shadow rays is not in the map.
  */
 RT_API rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_device *device,
                                           const float *positions, const float *normals,

@@ -3,7 +3,7 @@
  *
  * A density estimate blurs light over the disc that it gathers from, which to first order makes an
  * error in proportion to the disc's area: E[L_a] = L + c a. A second estimate from the same photons
- * over a smaller area q a then tells the error of the first (Richardson's extrapolation): (L_a -
+ * over a smaller area q a then gives the error of the first (Richardson's extrapolation): (L_a -
  * L_qa) / (1 - q). A given radius is made that of half the area. The area of k nearest photons is
  * on average in proportion to k, so (k + 1) / 2 of them, in whole numbers, take their place.
  */

@@ -7,8 +7,7 @@
 #include "base/error.h"
 
 /*
- * Whether the query points lie on what the pixel sees, so that one sample tells where the others
- * will be.
+ * Whether the query points lie on what the pixel sees, so that one sample is near the others.
  */
 static int seen_by_pixels(const rt_photon_render *r, rt_query query)
 {

@@ -7,6 +7,7 @@
 #include "mode/photon/emission.h"
 #include "mode/photon/passes.h"
 #include "photon/map_check.h"
+#include "photon/map_warnings.h"
 
 /* ---- Options ---------------------------------------------------------------- */
 
