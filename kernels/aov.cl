@@ -1,6 +1,6 @@
 /*
- * aov.cl - what the first surface is like: albedo, normal and depth, each a layer of the film. Each
- * work-item takes the samples of one pixel, the same that the other modes take.
+ * aov.cl - layers of the film that say what the first surface is like: one line for each in
+ * layers_of. Each work-item takes the samples of one pixel, the same that the other modes take.
  */
 #include "bsdf/bsdf.h"
 #include "camera/camera.h"
@@ -18,6 +18,24 @@ static float depth_of(global const rt_camera_data *camera, float3 position)
                                                       : dot(away, row3(camera->axis));
 }
 
+/* What a sample of this filter weight, which hit a surface, adds to each layer. */
+static void layers_of(float3 *value, const struct scene *scene, const struct ray *ray,
+                      const struct hit *hit, float weight)
+{
+    const struct surface surface = surface_at(scene, ray, hit);
+    global const rt_shape *shape = scene->shapes + surface.shape;
+    const float3 wo = -ray->direction;
+    const struct bsdf bsdf =
+        bsdf_at(scene, scene->materials + shape->material, &surface, wo, 1.0f, (float3)(1.0f));
+    /* The shading normal is on the side of wo; the shape has it on that of its own normal. */
+    const float side = dot(wo, surface.normal) < 0.0f ? -1.0f : 1.0f;
+    const float depth = depth_of(&scene->header->camera, surface.position);
+
+    value[RT_LAYER_ALBEDO] = bsdf_albedo(&bsdf);
+    value[RT_LAYER_NORMAL] = side * bsdf.shading;
+    value[RT_LAYER_DEPTH] = (float3)(depth, 1.0f, weight);
+}
+
 /* layers: RT_LAYER_COUNT films one after the other; see RT_LAYER_ALBEDO for what they sum. */
 KERNEL aov(const rt_params params, global const rt_scene_header *header,
            global rt_film_pixel *layers)
@@ -29,36 +47,22 @@ KERNEL aov(const rt_params params, global const rt_scene_header *header,
     const uint2 at = pixel_of_item(&params, params.first_item + item);
     const uint index = at.y * params.width + at.x;
     const size_t film_size = (size_t)params.width * params.height;
-    rt_film_pixel albedo = layers[RT_LAYER_ALBEDO * film_size + index];
-    rt_film_pixel normal = layers[RT_LAYER_NORMAL * film_size + index];
-    rt_film_pixel depth = layers[RT_LAYER_DEPTH * film_size + index];
 
     for (uint i = 0; i < params.sample_count; i++) {
         const struct sampler sampler =
             sampler_start(&scene, &params, index, params.first_sample + i);
-        float3 colour = (float3)(0.0f), shading = (float3)(0.0f), distance = (float3)(0.0f);
+        float3 value[RT_LAYER_COUNT];
         float weight;
         const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
         struct hit hit;
-        if (can_follow(&ray) && closest_hit(&scene, &ray, &hit)) {
-            const struct surface surface = surface_at(&scene, &ray, &hit);
-            global const rt_material_data *material =
-                scene.materials + scene.shapes[surface.shape].material;
-            const float3 wo = -ray.direction;
-            const struct bsdf bsdf = bsdf_at(&scene, material, &surface, wo, 1.0f, (float3)(1.0f));
-            colour = bsdf_albedo(&bsdf);
-            /*
-             * The normal that light sees, bumps included, turned back to the side that the shape
-             * has it on.
-             */
-            shading = (dot(wo, surface.normal) < 0.0f ? -1.0f : 1.0f) * bsdf.shading;
-            distance = (float3)(depth_of(&header->camera, surface.position), 1.0f, weight);
+        for (uint layer = 0; layer < RT_LAYER_COUNT; layer++)
+            value[layer] = (float3)(0.0f);
+        if (can_follow(&ray) && closest_hit(&scene, &ray, &hit))
+            layers_of(value, &scene, &ray, &hit, weight);
+        for (uint layer = 0; layer < RT_LAYER_COUNT; layer++) {
+            rt_film_pixel pixel = layers[layer * film_size + index];
+            film_add(&pixel, value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f);
+            layers[layer * film_size + index] = pixel;
         }
-        film_add(&albedo, colour, weight);
-        film_add(&normal, shading, weight);
-        film_add(&depth, distance, 1.0f);
     }
-    layers[RT_LAYER_ALBEDO * film_size + index] = albedo;
-    layers[RT_LAYER_NORMAL * film_size + index] = normal;
-    layers[RT_LAYER_DEPTH * film_size + index] = depth;
 }

@@ -389,11 +389,12 @@ RT_SIZE(rt_film_pixel, 48);
 
 /*
  * Layers beside the radiance. A sample that meets nothing adds 0 to all; w is the weight of the
- * film's filter.
+ * film's filter. The first RT_LAYER_WEIGHTED ones are summed with the weight w, the others with 1.
  */
-#define RT_LAYER_ALBEDO 0u /* w times albedo */
-#define RT_LAYER_NORMAL 1u /* w times shading normal */
-#define RT_LAYER_DEPTH 2u  /* depth, 1 and w of samples that meet something, with the weight 1 */
+#define RT_LAYER_ALBEDO 0u   /* albedo */
+#define RT_LAYER_NORMAL 1u   /* shading normal */
+#define RT_LAYER_WEIGHTED 2u /* how many there are */
+#define RT_LAYER_DEPTH 2u    /* depth, 1 and w of samples that meet something */
 #define RT_LAYER_COUNT 3u
 
 /* ---- Photons ------------------------------------------------------------ */

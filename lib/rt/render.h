@@ -77,7 +77,7 @@ typedef struct rt_render_options {
     rt_filter filter;
     /* of direct light, see common.h; where the photon map is asked, always by light sampling */
     rt_estimator estimator;
-    int aov; /* 1: also the layers albedo, normal and depth, see rt_film_layer */
+    int aov; /* 1: also the layers of the first hit, see rt_film_layer */
     /*
      * stop after so many seconds of rendering, but only between passes that give every pixel a
      * sample: the first one is always finished; 0: no limit

@@ -214,7 +214,7 @@ static const rt_setting settings[] = {
     {CHOICE(caustic_kernel, densities, "epanechnikov", "density kernel of the caustic map"),
      RT_TOPIC_PHOTON, 0, caustic_kernel_needs},
 
-    {SWITCH(aov, "add the layers albedo, normal and depth to an .exr"), RT_TOPIC_LAYER,
+    {SWITCH(aov, "add the layers of the first hit to an .exr"), RT_TOPIC_LAYER,
      RT_SETTING_ADDS, NULL},
     {SWITCH(photon_layers,
             "add the layers photon.count, photon.radius, photon.density, photon.variance and "

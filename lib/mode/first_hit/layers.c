@@ -63,40 +63,55 @@ rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *f
 
 /* ---- In the film ------------------------------------------------------------ */
 
-/* What a sum is divided by. */
-typedef enum divisor {
-    BY_WEIGHT, /* that of the film: the sum of the filter's weights, or the number of samples */
-    BY_HITS    /* the number of samples that hit */
-} divisor;
+/* What is made of a sum. */
+typedef enum rule {
+    MEAN,        /* over the film's divisor: the sum of the filter's weights */
+    MEAN_OF_HITS /* over the number of samples that hit; 0 without any */
+} rule;
 
-/* From which sums each layer is made: channels 0, 1 and 2 of one of RT_LAYER_COUNT. */
-static const struct {
+/* The sums that a layer is made from: channels from `channel` on of one of RT_LAYER_COUNT. */
+typedef struct source {
     rt_film_layer_id layer;
     rt_u32 sums;
-    divisor by;
-} layer_sources[] = {
-    {RT_FILM_ALBEDO, RT_LAYER_ALBEDO, BY_WEIGHT},
-    {RT_FILM_NORMAL, RT_LAYER_NORMAL, BY_WEIGHT},
-    {RT_FILM_DEPTH, RT_LAYER_DEPTH, BY_HITS},
+    uint32_t channel;
+    rule rule;
+} source;
+
+static const source sources[] = {
+    {RT_FILM_ALBEDO, RT_LAYER_ALBEDO, 0, MEAN},
+    {RT_FILM_NORMAL, RT_LAYER_NORMAL, 0, MEAN},
+    {RT_FILM_DEPTH, RT_LAYER_DEPTH, 0, MEAN_OF_HITS},
 };
+
+/* The value of a channel of a pixel that has samples; hits: how many of them hit. */
+static double value_of(const source *source, const rt_film_pixel *sums, uint32_t channel,
+                       double hits)
+{
+    double sum = rt_film_sum(sums, (int)(source->channel + channel));
+    switch (source->rule) {
+    case MEAN:
+        return sum / rt_film_divisor(sums);
+    case MEAN_OF_HITS:
+        return hits > 0 ? sum / hits : 0;
+    }
+    return 0;
+}
 
 void rt_first_hit_layers_resolve(rt_film *film)
 {
     size_t pixels = rt_film_pixels(film);
     if (!film->layer_sums)
         return;
-    for (size_t s = 0; s < sizeof layer_sources / sizeof *layer_sources; s++) {
-        const rt_film_pixel *sums = film->layer_sums + layer_sources[s].sums * pixels;
-        const rt_film_pixel *depth = film->layer_sums + RT_LAYER_DEPTH * pixels;
-        uint32_t channels = rt_layer_infos[layer_sources[s].layer].channels;
-        float *means = film->layers.data[layer_sources[s].layer];
-        for (size_t i = 0; i < pixels; i++) {
-            double by = layer_sources[s].by == BY_HITS ? rt_film_sum(depth + i, 1)
-                                                       : rt_film_divisor(sums + i);
-            if (sums[i].count == 0 || (layer_sources[s].by == BY_HITS && !(by > 0)))
-                continue;
-            for (uint32_t c = 0; c < channels; c++)
-                means[channels * i + c] = (float)(rt_film_sum(sums + i, (int)c) / by);
+    const rt_film_pixel *depth = film->layer_sums + RT_LAYER_DEPTH * pixels;
+    for (size_t s = 0; s < sizeof sources / sizeof *sources; s++) {
+        const rt_film_pixel *sums = film->layer_sums + sources[s].sums * pixels;
+        uint32_t channels = rt_layer_infos[sources[s].layer].channels;
+        float *layer = film->layers.data[sources[s].layer];
+        for (size_t i = 0; i < channels * pixels; i++) {
+            size_t pixel = i / channels;
+            if (sums[pixel].count > 0)
+                layer[i] = (float)value_of(sources + s, sums + pixel, (uint32_t)(i % channels),
+                                           rt_film_sum(depth + pixel, 1));
         }
     }
 }
