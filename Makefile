@@ -142,7 +142,7 @@ TESTS_QUICK := \
 	tests/lib/photon/test_photon_list.c \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_neighbour_search.c \
 	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c \
-	tests/lib/mode/test_first_radius.c \
+	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
 	tests/lib/photon/test_photon_maps.c \

@@ -22,7 +22,7 @@ static float depth_of(global const rt_camera_data *camera, float3 position)
 static void layers_of(float3 *value, const struct scene *scene, const struct ray *ray,
                       const struct hit *hit, float weight)
 {
-    const struct surface surface = surface_at(scene, ray, hit);
+    struct surface surface = surface_at(scene, ray, hit);
     global const rt_shape *shape = scene->shapes + surface.shape;
     const float3 wo = -ray->direction;
     const struct bsdf bsdf =
@@ -34,6 +34,10 @@ static void layers_of(float3 *value, const struct scene *scene, const struct ray
     value[RT_LAYER_ALBEDO] = bsdf_albedo(&bsdf);
     value[RT_LAYER_NORMAL] = side * bsdf.shading;
     value[RT_LAYER_DEPTH] = (float3)(depth, 1.0f, weight);
+    value[RT_LAYER_POSITION] = surface.position;
+    surface_uv(&surface, scene);
+    value[RT_LAYER_UV] = (float3)(surface.u, surface.v, 0.0f);
+    value[RT_LAYER_IDS] = (float3)((float)surface.shape, (float)shape->material, 1.0f);
 }
 
 /* layers: RT_LAYER_COUNT films one after the other; see RT_LAYER_ALBEDO for what they sum. */
@@ -61,6 +65,8 @@ KERNEL aov(const rt_params params, global const rt_scene_header *header,
             layers_of(value, &scene, &ray, &hit, weight);
         for (uint layer = 0; layer < RT_LAYER_COUNT; layer++) {
             rt_film_pixel pixel = layers[layer * film_size + index];
+            if (layer == RT_LAYER_IDS && pixel.sum[2] != 0.0f)
+                continue; /* ids have no mean: the first is kept */
             film_add(&pixel, value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f);
             layers[layer * film_size + index] = pixel;
         }

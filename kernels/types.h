@@ -395,7 +395,10 @@ RT_SIZE(rt_film_pixel, 48);
 #define RT_LAYER_NORMAL 1u   /* shading normal */
 #define RT_LAYER_WEIGHTED 2u /* how many there are */
 #define RT_LAYER_DEPTH 2u    /* depth, 1 and w of samples that meet something */
-#define RT_LAYER_COUNT 3u
+#define RT_LAYER_POSITION 3u /* position */
+#define RT_LAYER_UV 4u       /* texture coordinates */
+#define RT_LAYER_IDS 5u      /* shape, material and 1, of the first sample that meets something */
+#define RT_LAYER_COUNT 6u
 
 /* ---- Photons ------------------------------------------------------------ */
 

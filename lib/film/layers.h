@@ -15,6 +15,10 @@
     X(ALBEDO, "albedo", 3, "albedo.R", "albedo.G", "albedo.B", FIRST_HIT)                          \
     X(NORMAL, "normal", 3, "normal.X", "normal.Y", "normal.Z", FIRST_HIT)                          \
     X(DEPTH, "depth", 1, "depth.Z", NULL, NULL, FIRST_HIT)                                         \
+    X(POSITION, "position", 3, "position.X", "position.Y", "position.Z", FIRST_HIT)                \
+    X(UV, "uv", 2, "uv.U", "uv.V", NULL, FIRST_HIT)                                                \
+    X(SHAPE, "shape", 1, "shape.Id", NULL, NULL, FIRST_HIT)                                        \
+    X(MATERIAL, "material", 1, "material.Id", NULL, NULL, FIRST_HIT)                               \
     X(VARIANCE, "variance", 3, "variance.R", "variance.G", "variance.B", ERROR)                    \
     X(PHOTON_COUNT, "photon.count", 1, "photon.count", NULL, NULL, PHOTON)                         \
     X(PHOTON_RADIUS, "photon.radius", 1, "photon.radius", NULL, NULL, PHOTON)                      \

@@ -46,6 +46,13 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  *                                 the camera; 0 on a miss
  *   depth            1  .Z        metres along the view axis (from the eye, for an environment
  *                                 camera); mean of the samples that hit, 0 without any
+ *   position         3  .X .Y .Z  metres, in the world; mean of the samples that hit, 0 without any
+ *   uv               2  .U .V     texture coordinates, as each shape defines them; mean of the
+ *                                 samples that hit, 0 without any
+ *   shape            1  .Id       index, as rt_scene_add_* returned it, of the first sample of the
+ *                                 pixel that hits; -1 without any. Ids have no mean
+ *   material         1  .Id       index, as rt_scene_add_material returned it, of the same sample.
+ *                                 Both are whole numbers up to 2^24 and rounded to 24 bits above
  *
  *   with rt_render_options.variance or target_error
  *

@@ -65,8 +65,9 @@ rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *f
 
 /* What is made of a sum. */
 typedef enum rule {
-    MEAN,        /* over the film's divisor: the sum of the filter's weights */
-    MEAN_OF_HITS /* over the number of samples that hit; 0 without any */
+    MEAN,         /* over the film's divisor: the sum of the filter's weights */
+    MEAN_OF_HITS, /* over the number of samples that hit; 0 without any */
+    FIRST_ID      /* the sum itself, of one sample; -1 without any */
 } rule;
 
 /* The sums that a layer is made from: channels from `channel` on of one of RT_LAYER_COUNT. */
@@ -81,6 +82,10 @@ static const source sources[] = {
     {RT_FILM_ALBEDO, RT_LAYER_ALBEDO, 0, MEAN},
     {RT_FILM_NORMAL, RT_LAYER_NORMAL, 0, MEAN},
     {RT_FILM_DEPTH, RT_LAYER_DEPTH, 0, MEAN_OF_HITS},
+    {RT_FILM_POSITION, RT_LAYER_POSITION, 0, MEAN_OF_HITS},
+    {RT_FILM_UV, RT_LAYER_UV, 0, MEAN_OF_HITS},
+    {RT_FILM_SHAPE, RT_LAYER_IDS, 0, FIRST_ID},
+    {RT_FILM_MATERIAL, RT_LAYER_IDS, 1, FIRST_ID},
 };
 
 /* The value of a channel of a pixel that has samples; hits: how many of them hit. */
@@ -93,6 +98,8 @@ static double value_of(const source *source, const rt_film_pixel *sums, uint32_t
         return sum / rt_film_divisor(sums);
     case MEAN_OF_HITS:
         return hits > 0 ? sum / hits : 0;
+    case FIRST_ID:
+        return hits > 0 ? sum : -1;
     }
     return 0;
 }
