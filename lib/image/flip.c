@@ -169,7 +169,7 @@ static double clamp(double value)
     return value > 0.0 ? fmin(value, 1.0) : 0.0;
 }
 
-/* The way back, to a colour that a display can show. */
+/* The inverse, to a colour that a display can show. */
 static void rgb_of_opponent(double out[3], const double opponent[3])
 {
     double y = (opponent[0] + 16.0) / 116.0;

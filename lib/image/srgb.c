@@ -1,4 +1,4 @@
-/* srgb.c - the sRGB transfer function, both ways. */
+/* srgb.c - the sRGB transfer function and its inverse. */
 #include "image/srgb.h"
 
 #include <math.h>
