@@ -117,7 +117,7 @@ TESTS_QUICK := \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
 	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c \
 	tests/kernels/test_light_tree.c tests/kernels/test_lobes.c tests/kernels/test_matte.c \
-	tests/kernels/test_medium.c \
+	tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
@@ -145,6 +145,7 @@ TESTS_QUICK := \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
+	tests/lib/render/test_oren_nayar.c \
 	tests/lib/photon/test_photon_maps.c \
 	tests/lib/film/test_replicates.c tests/lib/film/test_student.c \
 	tests/lib/render/test_vertices.c \
@@ -192,7 +193,7 @@ TEST_SUPPORT_SRC := \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \
 	tests/statistics/facets.c tests/statistics/lights.c tests/statistics/maps.c \
-	tests/statistics/numbers.c \
+	tests/statistics/numbers.c tests/statistics/oren_nayar_reference.c \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
 	tests/studies/study.c \
 	tests/tools/expect.c tests/tools/spawn.c

@@ -73,7 +73,8 @@ static const rt_field material_fields[] = {
      "of a conductor: extinction, by channel"},
     {"roughness", NUMBER, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, roughness),
      "of ks and kt: alpha of the GGX distribution of microfacets; below 0.001 is smooth. Light "
-     "that meets two facets is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5"},
+     "that meets two facets is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of kd "
+     "without ks and kt: roughness of the Oren-Nayar model; 0 is Lambert's law"},
     {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption),
      "of the inside, by channel: light is weakened to exp(-absorption) a metre; colours thick "
      "glass"},

@@ -25,6 +25,12 @@ static int is_specular(const rt_block_fields *fields)
     return !is_black(m->ks) || !is_black(m->kt) || m->ks_texture || m->kt_texture;
 }
 
+static int has_colour(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    return !is_black(m->kd) || m->kd_texture || is_specular(fields);
+}
+
 static int has_bumps(const rt_block_fields *fields)
 {
     return fields->material.bump_texture != 0;
@@ -76,7 +82,7 @@ static const struct {
 } needs[] = {
     {RT_BLOCK_MATERIAL, "eta", is_conductor, "'fresnel conductor'"},
     {RT_BLOCK_MATERIAL, "k", is_conductor, "'fresnel conductor'"},
-    {RT_BLOCK_MATERIAL, "roughness", is_specular, "'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "absorption", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},

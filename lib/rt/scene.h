@@ -130,11 +130,17 @@ typedef enum rt_fresnel {
       "ks is multiplied by the exact reflectance of a metal of index eta + i k")
 
 /*
- * A material: fr = kd/pi + ks R + kt T, with kd + ks + kt <= 1 in every channel, plus emission. R
- * reflects and T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX
- * distribution (Walter et al. 2007). All zero is black. The part of kt that meets total internal
- * reflection is reflected. Microfacets scatter light once and lose what meets a second one: a white
- * metal loses 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5.
+ * A material: fr = kd D + ks R + kt T, with kd + ks + kt <= 1 in every channel, plus emission. All
+ * zero is black.
+ *
+ * D reflects diffusely: by Lambert's law, 1/pi, or, where roughness is above 0 and ks and kt are
+ * black, by the energy-preserving Oren-Nayar model (Portsmouth, Kutz and Hill 2025), whose albedo
+ * is 1 where kd is, and a little below kd elsewhere.
+ *
+ * R reflects and T refracts: perfectly when roughness is 0, else by a microfacet lobe of the GGX
+ * distribution (Walter et al. 2007). The part of kt that meets total internal reflection is
+ * reflected. Microfacets scatter light once and lose what meets a second one: a white metal loses
+ * 3 % at roughness 0.1, 8 % at 0.2, 30 % at 0.5.
  */
 typedef struct rt_material {
     float kd[3];         /* diffuse albedo */
@@ -143,7 +149,7 @@ typedef struct rt_material {
     float emission[3];   /* emitted radiance, W/(m^2 sr), on the side of the normal */
     float ior;           /* index of refraction of the inside; 0 means 1.5 */
     float eta[3], k[3];  /* RT_FRESNEL_CONDUCTOR: complex index of refraction, by channel */
-    float roughness;     /* GGX alpha of ks and kt, 0 to 1; 0 is perfectly smooth */
+    float roughness;     /* 0 to 1: GGX alpha of ks and kt; of kd alone, that of Oren-Nayar */
     float absorption[3]; /* Beer-Lambert coefficient of the inside, 1/m */
     rt_fresnel fresnel;
     int two_sided; /* 1: emission on both sides */

@@ -119,10 +119,11 @@ static rt_status check_surface(rt_material *m, const char *who, rt_error *error)
     return m->fresnel == RT_FRESNEL_CONDUCTOR ? check_conductor(m, who, error) : RT_OK;
 }
 
-rt_u32 rt_material_diffuse_lobe(const rt_material *material)
+/* Beside ks or kt, roughness is theirs. */
+rt_u32 rt_material_diffuse_lobe(const rt_material *m)
 {
-    (void)material;
-    return RT_LOBE_LAMBERT;
+    const int is_rough = m->roughness > 0 && rt_is_black(m->ks) && rt_is_black(m->kt);
+    return is_rough ? RT_LOBE_OREN_NAYAR : RT_LOBE_LAMBERT;
 }
 
 rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name,

@@ -25,6 +25,9 @@ static const int is_delta[] = {RT_LOBES(DELTA_OF)};
 /* A material that has each of the lobes. */
 static const rt_material_data materials[RT_LOBE_COUNT] = {
     [RT_LOBE_LAMBERT] = {.kd = {0.6f, 0.4f, 0.2f}},
+    [RT_LOBE_OREN_NAYAR] = {.kd = {0.6f, 0.4f, 0.2f},
+                            .roughness = 0.7f,
+                            .diffuse_lobe = RT_LOBE_OREN_NAYAR},
     [RT_LOBE_SPECULAR_REFLECTION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_SPECULAR_TRANSMISSION] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}},
     [RT_LOBE_GGX] = {.ks = {0.4f, 0.3f, 0.2f}, .kt = {0.5f, 0.5f, 0.4f}, .roughness = 0.4f},

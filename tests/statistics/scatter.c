@@ -107,7 +107,7 @@ static sampled place_surface(const void *setup, uint32_t i)
     const int event = (int)d->event;
     if (s->aspect == EVENTS)
         return (sampled){(event + 0.5) / event_count, 0.5, NAN};
-    if (s->aspect == DIFFUSE && event == diffuse)
+    if (s->aspect == DIFFUSE && is_gathered(event))
         return (sampled){d->wi[2], turns_of(d->wi[0], d->wi[1]), 2 * PI * d->pdf_w};
     if (s->aspect == ROUGH && event == rough && d->pdf_w > 0)
         return (sampled){0.5 + 0.5 * d->wi[2], turns_of(d->wi[0], d->wi[1]), 4 * PI * d->pdf_w};
@@ -122,7 +122,7 @@ static void find_chances(const surface *s, double chances[event_count])
         chances[e] = 0;
     for (int c = 0; c < 3; c++) {
         boundary_split(s->material, c, s->cosine, s->eta, &r, &t);
-        chances[diffuse] += s->material->kd[c];
+        chances[s->material->diffuse_lobe] += s->material->kd[c];
         chances[s->material->roughness > 0 ? rough : reflected] += r;
         chances[s->material->roughness > 0 ? rough : refracted] += t;
         sum += s->material->kd[c] + r + t;
@@ -139,7 +139,7 @@ static double of_surface(const void *setup, double x, double y)
     if (s->aspect == EVENTS)
         return event_count * chances[(int)floor(x * event_count)];
     if (s->aspect == DIFFUSE)
-        return chances[diffuse] * 2 * x;
+        return chances[s->material->diffuse_lobe] * 2 * x;
     const double z = 2 * x - 1, r = sqrt(fmax(0, 1 - z * z));
     const double wi[3] = {r * cos(2 * PI * y), r * sin(2 * PI * y), z};
     view(wo, s->cosine);
@@ -156,24 +156,22 @@ static double of_surface(const void *setup, double x, double y)
 #define GOLD .eta = {0.17f, 0.35f, 1.5f}, .k = {3.1f, 2.7f, 1.9f}, .flags = RT_MATERIAL_CONDUCTOR
 #define GLASS .kt = ALL(1), .flags = RT_MATERIAL_FRESNEL
 
-static const rt_material_data matte = {.kd = ALL(0.5f)}, mixture = {MIXED},
-                              with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL},
-                              ore = {.kd = ALL(0.3f),
-                                     .ks = ALL(0.7f),
-                                     .eta = ALL(1.5f),
-                                     .k = ALL(1),
-                                     .flags = RT_MATERIAL_CONDUCTOR},
-                              gold1 = {.ks = ALL(1), GOLD, .roughness = 0.1f},
-                              gold5 = {.ks = ALL(1), GOLD, .roughness = 0.5f},
-                              gold10 = {.ks = ALL(1), GOLD, .roughness = 1},
-                              glass1 = {GLASS, .roughness = 0.1f},
-                              glass4 = {GLASS, .roughness = 0.4f},
-                              glass10 = {GLASS, .roughness = 1},
-                              rough_mixture = {MIXED, .roughness = 0.3f},
-                              rough_with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL,
-                                                    .roughness = 0.5f},
-                              rough_gilded = {
-                                  .kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.25f};
+static const rt_material_data
+    matte = {.kd = ALL(0.5f)},
+    mixture = {MIXED},
+    clay = {.kd = ALL(0.5f), .roughness = 0.8f, .diffuse_lobe = RT_LOBE_OREN_NAYAR},
+    with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL},
+    ore = {.kd = ALL(0.3f),
+           .ks = ALL(0.7f),
+           .eta = ALL(1.5f),
+           .k = ALL(1),
+           .flags = RT_MATERIAL_CONDUCTOR},
+    gold1 = {.ks = ALL(1), GOLD, .roughness = 0.1f},
+    gold5 = {.ks = ALL(1), GOLD, .roughness = 0.5f}, gold10 = {.ks = ALL(1), GOLD, .roughness = 1},
+    glass1 = {GLASS, .roughness = 0.1f}, glass4 = {GLASS, .roughness = 0.4f},
+    glass10 = {GLASS, .roughness = 1}, rough_mixture = {MIXED, .roughness = 0.3f},
+    rough_with_fresnel = {MIXED, .flags = RT_MATERIAL_FRESNEL, .roughness = 0.5f},
+    rough_gilded = {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD, .roughness = 0.25f};
 
 #define INTO (1 / 1.5)
 #define OUT_OF 1.5
@@ -188,6 +186,7 @@ static const routine routines[] = {
     {"facets that are seen, alpha 0.3, grazing", 16, 16, &by_normals, &(const facets){0.3f, 0.05}},
     {"facets that are seen, alpha 1, grazing", 16, 16, &by_normals, &(const facets){1, 0.2}},
     {"matte", 16, 16, &by_surface, &(const surface){&matte, 0.6, 1, DIFFUSE}},
+    {"clay", 16, 16, &by_surface, &(const surface){&clay, 0.6, 1, DIFFUSE}},
     {"mixture, events", event_count, 1, &by_surface, &(const surface){&mixture, 0.6, INTO, EVENTS}},
     {"mixture, diffuse", 16, 16, &by_surface, &(const surface){&mixture, 0.6, INTO, DIFFUSE}},
     {"mixture with Fresnel, events", event_count, 1, &by_surface,

@@ -27,6 +27,7 @@ static const struct {
     rt_material_data material;
 } materials[] = {
     {"matte", {.kd = {0.8f, 0.5f, 0.1f}}},
+    {"clay", {.kd = {0.8f, 0.5f, 0.1f}, .roughness = 0.6f, .diffuse_lobe = RT_LOBE_OREN_NAYAR}},
     {"smooth mixture", {MIXED}},
     {"smooth mixture with Fresnel", {MIXED, .flags = RT_MATERIAL_FRESNEL}},
     {"matte under metal", {.kd = ALL(0.3f), .ks = ALL(0.7f), GOLD}},
@@ -110,7 +111,7 @@ static double values[n];
 
 static int spreads(const bsdf_draw *d)
 {
-    return (int)d->event == diffuse || (int)d->event == rough;
+    return is_gathered((int)d->event) || (int)d->event == rough;
 }
 
 /*
@@ -149,7 +150,7 @@ static void densities_are_of_what_happens(void **state)
                          draws);
             double all_rough = 0;
             for (int i = 0; i < n; i++) {
-                values[i] = (int)draws[i].event == diffuse;
+                values[i] = is_gathered((int)draws[i].event);
                 all_rough += (int)draws[i].event == rough;
             }
             expect_mean(values, n, found.diffuse, 2e-4, materials[m].name);
