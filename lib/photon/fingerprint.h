@@ -1,6 +1,6 @@
 /*
- * fingerprint.h - a number that tells scenes apart, so that photons meet only the scene they were
- * emitted in.
+ * fingerprint.h - a number that tells scenes apart, so that photons are used only in the scene that
+ * they were emitted in.
  */
 #ifndef RT_LIB_PHOTON_FINGERPRINT_H
 #define RT_LIB_PHOTON_FINGERPRINT_H

@@ -3,7 +3,7 @@
  *
  * What FLANN 1.9.2's C interface needs to be told or kept from:
  *   - the distance type picks, at every call, the C++ type that an index pointer is cast to,
- *     so it must be the same at building, asking and freeing;
+ *     so it must be the same at building, searching and freeing;
  *   - sorted = 0 is its default, and counts above k = 250, where the results come from a heap;
  *   - cores > 1 makes it share out queries by OpenMP, evenly, and gather the results on one thread;
  *     callers share out better themselves, and finish their share while it is in the cache;

@@ -33,8 +33,8 @@
  *     4    CRC-32 (that of zlib) of all bytes before
  *
  * A reader refuses what does not add up, what is not finite, positions beyond 1e15 m, directions
- * that are not of unit length, and what is left over. Shapes are those of the scene, and are looked
- * at where the map is used with one. Version 1 had one unit for all lights, which lost the flux of
+ * that are not of unit length, and bytes left over. Shapes are those of the scene; they are checked
+ * where the map is used with one. Version 1 had one unit for all lights, which lost the flux of
  * weak ones; it is not read.
  */
 #ifndef RT_LIB_PHOTON_MAP_FILE_H

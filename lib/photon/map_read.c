@@ -16,7 +16,7 @@
 #include "photon/map_file.h"
 #include "scene/check.h"
 
-/* A file being read; what is left is known to suffice for what is asked. */
+/* A file being read; enough is known to be left for what is read next. */
 typedef struct reader {
     const uint8_t *at;
     const char *name;

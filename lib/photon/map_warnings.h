@@ -6,7 +6,7 @@
 
 /*
  * Warns of lights with power that fewer than 100 paths came from, by the ledger of all paths, and
- * of lists of the map with fewer photons than an estimate wants: k of them, or caustic_k in the
+ * of lists of the map with fewer photons than an estimate needs: k of them, or caustic_k in the
  * caustic list. pass: the one that the map is of, from 1; 0: there are none.
  */
 void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass,

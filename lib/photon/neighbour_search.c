@@ -11,7 +11,7 @@
 #include "photon/flann_index.h"
 #include "photon/point_order.h"
 
-/* Neighbours that a thread asks for at a time, 16 bytes each: few enough to stay in its cache. */
+/* Neighbours that a thread finds at a time, 16 bytes each: few enough to stay in its cache. */
 enum { NEIGHBOURS_A_JOB = 1 << 16 };
 
 struct rt_neighbour_search {
@@ -23,7 +23,7 @@ struct rt_neighbour_search {
     uint32_t threads;
 };
 
-/* Positions alone, as the tree wants them, or normals alone, close together in memory. */
+/* Positions alone, as the tree takes them, or normals alone, close together in memory. */
 static float (*copy_vectors(const rt_photon_list *map, size_t member))[3]
 {
     float(*vectors)[3] = malloc((map->count ? map->count : 1) * sizeof *vectors);

@@ -25,8 +25,8 @@ typedef struct rt_photon_settings {
 } rt_photon_settings;
 
 /*
- * Those of what complete options emit, the scene apart. The hull wants photons that are independent
- * of each other.
+ * The settings of an emission by complete options, the scene apart. The hull needs photons that are
+ * independent of each other.
  */
 rt_photon_settings rt_photon_settings_of(const rt_render_options *options);
 

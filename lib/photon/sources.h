@@ -1,9 +1,9 @@
 /*
- * sources.h - the lights of a scene as people count them, and what part of the photon paths each
- * gets.
+ * sources.h - the lights of a scene, each emissive shape counted once, and their shares of the
+ * photon paths.
  *
- * The kernels' table of lights has an entry for each primitive that emits; here a shape that emits
- * is one light, however many triangles it has.
+ * The kernels' table of lights has an entry for each emissive primitive; here an emissive shape is
+ * one light, however many triangles it has.
  */
 #ifndef RT_LIB_PHOTON_SOURCES_H
 #define RT_LIB_PHOTON_SOURCES_H
@@ -12,7 +12,7 @@
 #include "types.h"
 
 typedef struct rt_light_source {
-    rt_u32 shape;        /* index of the shape that emits, or RT_NONE */
+    rt_u32 shape;        /* index of the emissive shape, or RT_NONE */
     rt_u32 first, count; /* its entries in the scene's table of lights */
     double power[3];     /* W */
     double share;        /* of the photon paths; all add up to 1 */
@@ -25,18 +25,18 @@ typedef struct rt_light_sources {
     rt_light_share *shares; /* [light_count], for the device */
     size_t light_count;
     /*
-     * m around the middle of all finite shapes, or the origin where there are none, beyond which
-     * light from infinitely far is not followed to planes; 0: there is no such light or no plane
+     * metres around the middle of all finite shapes, or the origin where there are none, beyond
+     * which light from infinitely far is not followed to planes; 0: no such light or no plane
      */
     double reach;
     int planes_alone; /* there are no finite shapes */
 } rt_light_sources;
 
 /*
- * Reads the lights of a scene on the device. shares: [share_count], what part of the paths each
- * source gets, in proportion; none: in proportion to power. Fails with RT_ERROR_USAGE when there
- * are not as many shares as sources, one is not a number from 0 on, or a light with power gets
- * none. Free with rt_light_sources_free.
+ * Reads the lights of a scene on the device. shares: [share_count], the part of the paths that
+ * each source gets, in proportion; none: in proportion to power. Fails with RT_ERROR_USAGE when
+ * there are not as many shares as sources, one is not a number from 0 on, or a light with power
+ * gets none. Free with rt_light_sources_free.
  */
 rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem scene,
                                 const float *shares, size_t share_count, rt_error *error);

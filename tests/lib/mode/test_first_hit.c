@@ -116,7 +116,7 @@ static void every_mode_has_the_layers_of_the_first_hit(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* At the sphere's edge pixels hit in part: means are of the samples that hit, ids are never mixed. */
+/* At the sphere's edge some samples hit: means are of those, and ids are never mixed. */
 static void edges_have_means_of_hits_and_whole_ids(void **state)
 {
     rt_renderer *renderer = quad_and_sphere();

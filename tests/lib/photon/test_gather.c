@@ -68,7 +68,7 @@ static void expected_radiance(double out[3], const rt_photon_list *map,
         out[c] = point->radiance[c] + point->weight[c] / PI * sum[c] / emitted;
 }
 
-/* The two ways to gather. */
+/* The program of each search. */
 static const char *const programs[] = {"gather_neighbours", "gather_tree"};
 
 /*
@@ -133,22 +133,22 @@ static void points_gain_what_they_reflect(void **state)
     check_reflection((rt_gather_options){0, 0.1f, RT_DENSITY_EPANECHNIKOV, 1.1f, RT_AREA_DISC, 1});
 }
 
-static void both_ways_give_the_same_light(void **state)
+static void both_searches_give_the_same_light(void **state)
 {
-    static const rt_gather_options ways[] = {{50, 0, RT_DENSITY_GAUSSIAN, 1.1f, RT_AREA_DISC, 0},
-                                             {50, 0.03f, RT_DENSITY_CONE, 1.2f, RT_AREA_DISC, 0},
-                                             {5, 0, RT_DENSITY_SILVERMAN, 1.1f, RT_AREA_DISC, 0},
-                                             {500, 0, RT_DENSITY_BOX, 1.1f, RT_AREA_DISC, 0}};
+    static const rt_gather_options options[] = {{50, 0, RT_DENSITY_GAUSSIAN, 1.1f, RT_AREA_DISC, 0},
+                                                {50, 0.03f, RT_DENSITY_CONE, 1.2f, RT_AREA_DISC, 0},
+                                                {5, 0, RT_DENSITY_SILVERMAN, 1.1f, RT_AREA_DISC, 0},
+                                                {500, 0, RT_DENSITY_BOX, 1.1f, RT_AREA_DISC, 0}};
     static rt_gather_point host[point_count], device[point_count];
     static rt_gather_disc discs[point_count];
     rt_photon_list map = make_map();
     (void)state;
-    for (size_t way = 0; way < sizeof ways / sizeof *ways; way++) {
-        rt_gather_options on_device = ways[way];
+    for (size_t o = 0; o < sizeof options / sizeof *options; o++) {
+        rt_gather_options on_device = options[o];
         on_device.search = RT_SEARCH_TREE;
         make_points(host);
         make_points(device);
-        gather(&map, ways[way], 0, host, discs);
+        gather(&map, options[o], 0, host, discs);
         gather(&map, on_device, 0, device, discs);
         for (size_t i = 0; i < point_count; i++)
             for (int c = 0; c < 3; c++)
@@ -177,7 +177,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_gain_what_they_reflect),
-        cmocka_unit_test(both_ways_give_the_same_light),
+        cmocka_unit_test(both_searches_give_the_same_light),
         cmocka_unit_test(an_empty_map_leaves_the_radiance_alone),
     };
     return cmocka_run_group_tests_name("lib/photon/gather", tests, NULL, NULL);

@@ -129,8 +129,8 @@ static void check(const rt_photon_list *map, uint32_t k, float max_radius, int o
                   double truth)
 {
     /*
-     * The kernels are evaluated by the same function in both ways, and the tree of FLANN is slow to
-     * build.
+     * The kernels are evaluated by the same function in both searches, and the tree of FLANN is
+     * slow to build.
      */
     for (uint32_t density = 0; density < (on_device ? kernels : 2u); density++) {
         rt_gather_options options = {k, max_radius, density, cone_k, RT_AREA_DISC, on_device};
