@@ -115,8 +115,8 @@ TESTS_QUICK := \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
-	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_sky.c \
-	tests/kernels/test_light_tree.c tests/kernels/test_lobes.c tests/kernels/test_matte.c \
+	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_environment.c \
+	tests/kernels/test_light_tree.c tests/kernels/test_lobes.c tests/kernels/test_batch.c \
 	tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
@@ -171,6 +171,7 @@ TESTS_PROOF := \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_specular.c
 TESTS_FULL  += $(TESTS_PROOF)
 TESTS_SHELL := \
+	tests/kernels/test_width1.sh \
 	tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
 	tests/proof/test_page.sh tests/test_includes.sh \
@@ -201,7 +202,7 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl \
 	tests/kernels/density.cl \
 	tests/kernels/film.cl tests/kernels/filter.cl tests/kernels/knn.cl tests/kernels/leave.cl \
-	tests/kernels/light.cl tests/kernels/matte.cl tests/kernels/medium.cl tests/kernels/rng.cl \
+	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
 	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
 	tests/kernels/texture.cl \
 	tests/kernels/types.cl

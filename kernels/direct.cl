@@ -5,7 +5,7 @@
 #include "camera/camera.h"
 #include "entry.h"
 #include "camera/film.h"
-#include "integrate/integrate.h"
+#include "integrate/path.h"
 
 KERNEL direct(const rt_params params, global const rt_scene_header *header,
               global rt_film_pixel *film)

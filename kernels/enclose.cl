@@ -44,20 +44,23 @@ static uint4 media_around(const struct scene *scene, float3 from)
 
 static uint4 media_around_light(const struct scene *scene, global const rt_light_data *light)
 {
-    switch (light->kind) {
+    switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_DIRECTIONAL:
     case RT_LIGHT_ENVIRONMENT:
         return RT_VACUUM;
     case RT_LIGHT_POINT:
     case RT_LIGHT_SPOT:
         return media_around(scene, row3(light->a));
-    default: {
-        /* One point speaks for all of an area light. */
-        struct emission emission;
-        emit_area(scene, &emission, light, (float2)(0.3f, 0.4f), (float2)(0.5f), 0.75f);
-        return media_around(scene, leave_surface(&emission.at, emission.at.normal));
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+    case RT_LIGHT_SPHERE:
+    case RT_LIGHT_SHAPE:
+        break;
     }
-    }
+    /* One point stands for all of an area light. */
+    struct emission emission;
+    emit_area(scene, &emission, light, (float2)(0.3f, 0.4f), (float2)(0.5f), 0.75f);
+    return media_around(scene, leave_surface(&emission.at, emission.at.normal));
 }
 
 /*

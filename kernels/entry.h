@@ -2,7 +2,7 @@
  * entry.h - how a kernel begins.
  *
  * Kernels work in vectors of eight by themselves. A runtime that would lay several work-items side
- * by side in one vector is told so: with rays that part ways it gains nothing, and takes several
+ * by side in one vector is told so: where rays diverge it gains nothing, and takes several
  * times as long to compile.
  */
 #ifndef RT_ENTRY_H

@@ -5,7 +5,7 @@
 #include "camera/camera.h"
 #include "entry.h"
 #include "camera/film.h"
-#include "integrate/integrate.h"
+#include "integrate/path.h"
 #include "photon/gather_point.h"
 
 /*

@@ -92,7 +92,7 @@ RT_SIZE(rt_hit, 32);
 #define RT_SHAPE_MIRRORED 16u
 /* flag: textures, vertex colours or bumps make the material differ from point to point */
 #define RT_SHAPE_VARIED 32u
-#define RT_SHAPE_MATTE 64u /* flag: Lambert's lobe alone, and no emission */
+#define RT_SHAPE_LAMBERT 64u /* flag: Lambert's lobe alone, and no emission */
 /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 #define RT_SHAPE_FLAT 128u
 
@@ -188,21 +188,30 @@ RT_SIZE(rt_texture_data, 80);
 
 /* ---- Lights ------------------------------------------------------------ */
 
-#define RT_LIGHT_POINT 0u    /* a: position; emission: intensity, W/sr */
-#define RT_LIGHT_QUAD 1u     /* a: corner, b, c: edges; emission: radiance */
-#define RT_LIGHT_TRIANGLE 2u /* a: vertex, b, c: edges; emission: radiance */
-#define RT_LIGHT_SPHERE 3u   /* a: centre, width: radius; emission: radiance */
-/* the analytic shape of prim, sampled by its parameters; emission: radiance */
-#define RT_LIGHT_SHAPE 4u
 /*
- * a: position, b: unit axis, c[0] > c[1]: cosines of inner and outer angle; emission: intensity on
- * the axis, W/sr
+ * The kinds of light, X(KIND, number), with what rt_light_data holds of each. The numbers must not
+ * change, because files of photon maps hold a hash of them.
+ *
+ * Area lights; emission: radiance.
+ *   QUAD         a: corner, b, c: edges
+ *   TRIANGLE     a: vertex, b, c: edges
+ *   SPHERE       a: centre, width: radius
+ *   SHAPE        the analytic shape of prim, sampled by its parameters
+ * Delta lights, which no ray can meet.
+ *   POINT        a: position; emission: intensity, W/sr
+ *   SPOT         a: position, b: unit axis, c[0] > c[1]: cosines of the inner and the outer angle;
+ *                emission: intensity on the axis, W/sr
+ *   DIRECTIONAL  b: unit direction of travel; emission: irradiance on a facing surface, W/m^2
+ * The environment.
+ *   ENVIRONMENT  from all around; emission: radiance, which multiplies the environment's image
  */
-#define RT_LIGHT_SPOT 5u
-/* b: unit direction of travel; emission: irradiance on a facing surface, W/m^2 */
-#define RT_LIGHT_DIRECTIONAL 6u
-/* from all around; emission: radiance, which multiplies the environment's image */
-#define RT_LIGHT_ENVIRONMENT 7u
+#define RT_AREA_LIGHTS(X) X(QUAD, 1) X(TRIANGLE, 2) X(SPHERE, 3) X(SHAPE, 4)
+#define RT_DELTA_LIGHTS(X) X(POINT, 0) X(SPOT, 5) X(DIRECTIONAL, 6)
+#define RT_LIGHTS(X) RT_AREA_LIGHTS(X) RT_DELTA_LIGHTS(X) X(ENVIRONMENT, 7)
+
+#define RT_LIGHT_KIND(KIND, number) RT_LIGHT_##KIND = number,
+typedef enum rt_light_kind { RT_LIGHTS(RT_LIGHT_KIND) } rt_light_kind;
+#undef RT_LIGHT_KIND
 
 #define RT_LIGHT_TWO_SIDED 1u /* flag: emits on both sides, else on the side of the normal */
 #define RT_LIGHT_RECTANGLE 2u /* flag: a quad whose edges are at right angles */
@@ -211,12 +220,12 @@ RT_SIZE(rt_texture_data, 80);
 
 typedef struct rt_light_data {
     float a[3];
-    rt_u32 kind;     /* RT_LIGHT_* */
+    rt_u32 kind;     /* rt_light_kind */
     float b[3];      /* unit vector along the first edge */
     float width;     /* length of that edge, m; sphere: radius */
     float c[3];      /* unit vector along the second edge */
     float height;    /* length of that edge, m */
-    float normal[3]; /* quad and triangle: unit, on the side that shines */
+    float normal[3]; /* quad and triangle: unit, on the side that emits */
     float area;      /* m^2, one side; 0 for lights without */
     float emission[3];
     float pmf;      /* its part of all power, by which photon paths choose */
@@ -347,8 +356,6 @@ typedef struct rt_scene_header {
 RT_SIZE(rt_scene_header, 384);
 
 /* ---- Rendering ---------------------------------------------------------- */
-
-#define RT_PATH_BATCH 8u /* paths that a work-item of path tracing follows together */
 
 /* The parameters of a launch, for every kernel that makes paths. */
 typedef struct rt_params {

@@ -3,12 +3,12 @@
 #
 #   tests/run.sh [-j JOBS] PROGRAM...
 #
-# A program is a cmocka binary, or a shell script (*.sh) that prints a line `ok NAME` or
-# `not ok NAME` for each of its tests. They start in the order given, JOBS of them at a time: by
-# default one for each core. Name the longest first, or the last one runs alone. Each reports when
-# it ends, in one block. A program that fails is shown whole. One that crashes, runs past its time
-# or runs no test counts as one failure more. The last line is `N passed, N failed`; the status is
-# 0 only when something ran and nothing failed.
+# A program is a cmocka binary, or a shell script (*.sh) that prints a line `ok NAME`,
+# `not ok NAME` or `skip NAME: WHY` for each of its tests. They start in the order given, JOBS of
+# them at a time: by default one for each core. Name the longest first, or the last one runs alone.
+# Each reports when it ends, in one block. A program that fails is shown whole. One that crashes,
+# runs past its time or runs no test counts as one failure more. The last line is
+# `N passed, N failed`; the status is 0 only when something ran and nothing failed.
 #
 # A program of statistical tests says in a line `[  CHANCE  ] P` how often it fails where nothing is
 # wrong, were seeds drawn afresh; see chance.h. More than one run of 10^4 for all programs together
@@ -51,7 +51,7 @@ run_one() {
     if [ "$shell" ]; then
         passed=$(grep -c '^ok ' "$log")
         failed=$(grep -c '^not ok ' "$log")
-        skipped=0
+        skipped=$(grep -c '^skip ' "$log")
     else
         passed=$(count "$log" 's/^\[  PASSED  \] \([0-9]*\) test.*/\1/p')
         failed=$(count "$log" 's/^\[  FAILED  \] \([0-9]*\) test.*/\1/p')

@@ -18,7 +18,11 @@ static void close_device(void)
 
 rt_device *test_device_open(uint32_t threads, uint32_t work_group)
 {
-    rt_device_options options = {getenv("RT_TEST_DEVICE"), threads, work_group};
+    const char *width = getenv("RT_TEST_BATCH");
+    rt_device_options options = {.select = getenv("RT_TEST_DEVICE"),
+                                 .threads = threads,
+                                 .work_group = work_group,
+                                 .width = width ? (uint32_t)strtoul(width, NULL, 10) : 0};
     rt_device *opened = NULL;
     rt_error error;
     expect_ok(rt_device_open(&opened, &options, &error), &error);

@@ -115,7 +115,7 @@ static void error_may_be_null(void **state)
     (void)state;
     rt_scene *scene;
     rt_device *device;
-    rt_device_options options = {"no such device", 0, 0};
+    rt_device_options options = {.select = "no such device"};
     assert_int_equal(rt_scene_parse(&scene, "nonsense", "name", NULL, NULL), RT_ERROR_INPUT);
     assert_int_equal(rt_scene_load(&scene, "/no/such/file.rts", NULL, NULL), RT_ERROR_INPUT);
     assert_int_equal(rt_device_open(&device, &options, NULL), RT_ERROR_DEVICE);
@@ -346,7 +346,7 @@ static void device_is_found_by_number_and_by_name(void **state)
     assert_true(devices[0].compute_units >= 1);
     const char *const names[] = {"0", devices[0].name, devices[0].platform};
     for (int i = 0; i < 3; i++) {
-        rt_device_options options = {names[i], 0, 0};
+        rt_device_options options = {.select = names[i]};
         expect_ok(rt_device_open(&device, &options, &error), &error);
         rt_device_get_info(device, &info);
         assert_string_equal(info.name, devices[0].name);

@@ -118,7 +118,7 @@ nameless() {
         FNR <= 4 && !told {
             if (is_script ? /^# ?[A-Za-z`]/ || /^"""[A-Za-z`]/ : /^(\/\*| \*|\/\/) [A-Za-z`"]/)
                 told = FNR
-            if (told && match($0, /[A-Za-z0-9_]+\.(c|h|cl|cc|sh|py) - /)) {
+            if (told && match($0, /[A-Za-z0-9_.]+\.(c|h|cl|cc|sh|py) - /)) {
                 named = substr($0, RSTART, RLENGTH - 3)
                 if (named != base)
                     print file ": its first comment is of " named

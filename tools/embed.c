@@ -4,8 +4,8 @@
  *     embed OUT.c SYMBOL [-I DIR]... KERNEL.cl...
  *
  * Each #include "name" is replaced by the file, looked up beside the including file and then in the
- * -I folders, and only the first time it is met within one kernel (all have include guards). #line
- * directives keep the driver's messages true to the files. Bytes rather than string literals,
+ * -I folders: a *.inc.h each time, any other (all have include guards) only the first time it is met
+ * within one kernel. #line directives keep the driver's messages true to the files. Bytes rather than string literals,
  * because C99 promises only 4095 characters of those. OUT.c defines
  *
  *     const rt_kernel_source SYMBOL[];
@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { max_included = 64, max_dirs = 8, max_path = 4096, max_line = 8192 };
+enum { max_included = 256, max_dirs = 8, max_path = 4096, max_line = 8192 };
 
 static const char *dirs[max_dirs];
 static int dir_count;
@@ -79,12 +79,14 @@ static void embed_file(FILE *out, const char *path, included *seen)
         }
         find_include(inner, path, name);
         int known = 0;
+        const char *again = strstr(inner, ".inc.h");
         for (int i = 0; i < seen->count; i++)
             known |= strcmp(seen->path[i], inner) == 0;
-        if (!known) {
+        if (!known || again) {
             if (seen->count == max_included)
                 fail("too many included files", path);
-            strcpy(seen->path[seen->count++], inner);
+            if (!known)
+                strcpy(seen->path[seen->count++], inner);
             embed_file(out, inner, seen);
         }
         snprintf(directive, sizeof directive, "#line %d \"%s\"\n", number + 1, path);

@@ -27,6 +27,11 @@ struct ray_frame {
     float scale_z;          /* 1 / direction z */
 };
 
+static inline float component(float3 v, uint axis)
+{
+    return axis == 0u ? v.x : axis == 1u ? v.y : v.z;
+}
+
 static inline struct ray_frame make_ray_frame(const struct ray *ray)
 {
     const float3 size = fabs(ray->direction);
@@ -34,13 +39,12 @@ static inline struct ray_frame make_ray_frame(const struct ray *ray)
     frame.z = size.x >= size.y ? (size.x >= size.z ? 0u : 2u) : (size.y >= size.z ? 1u : 2u);
     frame.x = frame.z == 2u ? 0u : frame.z + 1u;
     frame.y = frame.x == 2u ? 0u : frame.x + 1u;
-    const float *origin = (const float *)&ray->origin, *direction = (const float *)&ray->direction;
-    frame.origin_x = origin[frame.x];
-    frame.origin_y = origin[frame.y];
-    frame.origin_z = origin[frame.z];
-    frame.scale_z = 1.0f / direction[frame.z];
-    frame.shear_x = direction[frame.x] * frame.scale_z;
-    frame.shear_y = direction[frame.y] * frame.scale_z;
+    frame.origin_x = component(ray->origin, frame.x);
+    frame.origin_y = component(ray->origin, frame.y);
+    frame.origin_z = component(ray->origin, frame.z);
+    frame.scale_z = 1.0f / component(ray->direction, frame.z);
+    frame.shear_x = component(ray->direction, frame.x) * frame.scale_z;
+    frame.shear_y = component(ray->direction, frame.y) * frame.scale_z;
     return frame;
 }
 

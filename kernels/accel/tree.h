@@ -23,17 +23,16 @@ INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *fou
                                    float t_min, global const rt_tri_block *block, uint index)
 {
     const float8 scale = 1.0f / found->det;
-    float t[8], u[8], v[8];
-    vstore8(found->t * scale, 0, t);
-    vstore8(found->u * scale, 0, u);
-    vstore8(found->v * scale, 0, v);
+    const struct lane_array ts = lane_array(found->t * scale), us = lane_array(found->u * scale),
+                            vs = lane_array(found->v * scale);
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
         const uint prim = block->prim[lane] & RT_BLOCK_PRIM;
-        if (t[lane] >= t_min && (t[lane] < hit->t || (t[lane] == hit->t && prim < hit->prim))) {
-            hit->t = t[lane];
-            hit->u = u[lane];
-            hit->v = v[lane];
+        const float t = lane_read(&ts, lane);
+        if (t >= t_min && (t < hit->t || (t == hit->t && prim < hit->prim))) {
+            hit->t = t;
+            hit->u = lane_read(&us, lane);
+            hit->v = lane_read(&vs, lane);
             hit->prim = prim;
             hit->slot = index * RT_BVH_WIDTH + lane;
         }
@@ -78,14 +77,15 @@ INLINE_ALWAYS uint push_farther(struct stack *stack, uint *count, global const r
     if (!mask)
         return node->child[first];
 
-    float distance[8];
-    vstore8(entry, 0, distance);
+    const struct lane_array distances = lane_array(entry);
     const uint second = lane_first(mask);
+    const float distance = lane_read(&distances, first);
     if (!(mask & (mask - 1u))) {
         const uint a = node->child[first], b = node->child[second];
-        const bool in_order = distance[first] <= distance[second];
+        const float other = lane_read(&distances, second);
+        const bool in_order = distance <= other;
         stack->child[*count] = in_order ? b : a;
-        stack->entry[*count] = in_order ? distance[second] : distance[first];
+        stack->entry[*count] = in_order ? other : distance;
         (*count)++;
         return in_order ? a : b;
     }
@@ -93,16 +93,17 @@ INLINE_ALWAYS uint push_farther(struct stack *stack, uint *count, global const r
     /* Three and more are rare: sort them in. */
     const uint base = *count;
     stack->child[base] = node->child[first];
-    stack->entry[base] = distance[first];
+    stack->entry[base] = distance;
     uint top = base + 1u;
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
+        const float entered = lane_read(&distances, lane);
         uint at = top++;
-        for (; at > base && stack->entry[at - 1u] < distance[lane]; at--) {
+        for (; at > base && stack->entry[at - 1u] < entered; at--) {
             stack->entry[at] = stack->entry[at - 1u];
             stack->child[at] = stack->child[at - 1u];
         }
-        stack->entry[at] = distance[lane];
+        stack->entry[at] = entered;
         stack->child[at] = node->child[lane];
     }
     *count = top - 1u;

@@ -10,10 +10,12 @@
 #define RT_KERNELS_BSDF_LAMBERT_H
 
 #include "bsdf/lobe.h"
+#include "math/width1.inc.h"
+#include "bsdf/lambert.inc.h"
 
 static inline float lambert_pdf_w(const struct bsdf *bsdf, float3 wi)
 {
-    return dot(wi, bsdf->normal) > 0.0f ? cosine_pdf_w(dot(wi, bsdf->shading)) : 0.0f;
+    return lambert_density(bsdf->normal, bsdf->shading, wi);
 }
 
 static inline struct lobe_value lambert_eval(const struct bsdf *bsdf, float3 wi)

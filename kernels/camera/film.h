@@ -35,10 +35,10 @@ static inline uint2 pixel_of_item(const rt_params *params, uint item)
 static inline void film_add(rt_film_pixel *pixel, float3 radiance, float weight)
 {
 #pragma OPENCL FP_CONTRACT OFF
-    if (!all(isfinite(radiance))) {
-        pixel->rejected++;
+    const bool is_finite = all(isfinite(radiance));
+    pixel->rejected += is_finite ? 0u : 1u;
+    if (!is_finite)
         return;
-    }
     const float value[3] = {weight * radiance.x, weight * radiance.y, weight * radiance.z};
     for (int i = 0; i < 3; i++) {
         const float term = value[i] - pixel->lost[i];

@@ -76,16 +76,17 @@ static inline float2 sample_gaussian(float2 u)
 static inline float2 sample_filter(uint filter, float2 u, float *weight)
 {
     *weight = 1.0f;
-    switch (filter) {
+    switch ((rt_filter)filter) {
+    case RT_FILTER_BOX:
+        break;
     case RT_FILTER_TENT:
         return 0.5f + sample_tent(u);
     case RT_FILTER_GAUSSIAN:
         return 0.5f + sample_gaussian(u);
     case RT_FILTER_MITCHELL:
         return 0.5f + sample_mitchell(u, weight);
-    default:
-        return u;
     }
+    return u;
 }
 
 #endif

@@ -1,35 +1,68 @@
-/* path_state.h - paths from the eye: what one carries from vertex to vertex. */
+/* path_state.h - what a path from the eye carries from vertex to vertex. */
 #ifndef RT_KERNELS_INTEGRATE_PATH_STATE_H
 #define RT_KERNELS_INTEGRATE_PATH_STATE_H
 
+#include "accel/boxes.h"
 #include "math/ray.h"
 #include "sample/rng.h"
+#include "scene.h"
 #include "types.h"
 
-/* A path under way: what it carries from one vertex to the next. */
-struct path {
-    struct sampler sampler;
-    struct ray ray;  /* of unit direction */
-    float3 from;     /* the vertex before: where the ray began */
-    float3 radiance; /* gathered so far */
-    float3 beta;     /* throughput, without the change of radiance at refraction */
-    float eta_scale; /* which is kept here, and means nothing to roulette */
-    float pdf_w;     /* density of the ray's direction, 0 for the camera and delta events */
-    uint4 media;     /* the solids it is inside of */
-    uint depth;      /* segments, the one under way included; 0: the path has ended */
-    uint hidden;     /* boundaries crossed that a stronger medium hides */
-    uint diffuse_events;
-    bool scattered; /* by an event other than a delta one */
-    bool rough;     /* by a rough event since the last diffuse one */
+/* Which light a path collects. */
+enum purpose {
+    FOLLOW_ALL,       /* all of it */
+    FOLLOW_DIRECT,    /* emission, and light scattered once; delta events do not count */
+    FOLLOW_TO_GATHER, /* what photon maps do not hold; the path ends at its last gather point */
 };
 
-/*
- * A vertex joined with a sampled point of a light, before it is known whether anything is in
- * between.
- */
+/* A path under way. */
+struct path {
+    struct sampler sampler;
+    struct ray ray;      /* of unit direction */
+    float3 from;         /* the vertex before: where the ray began */
+    float3 radiance;     /* gathered so far */
+    float3 beta;         /* throughput, but for the factor eta_scale */
+    float eta_scale;     /* product of (eta_i/eta_t)^2 at refractions; roulette ignores it */
+    float pdf_w;         /* density of the ray's direction, 0 for the camera and delta events */
+    uint4 media;         /* the solids it is inside of */
+    uint depth;          /* segments, the one under way included */
+    uint hidden;         /* boundaries crossed that a stronger medium hides */
+    uint diffuse_events; /* counted by paths that gather */
+    bool alive;          /* false: it has ended */
+    bool scattered;      /* by an event other than a delta one */
+    bool rough;          /* by a rough event since the last diffuse one */
+};
+
+/* A vertex joined with a sampled point of a light, before visibility is tested. */
 struct connection {
     struct ray ray;
-    float3 radiance; /* that the light adds to the path's; 0: there is nothing to ask */
+    float3 radiance; /* that the light adds to the path's if nothing is in between; 0: no light */
 };
+
+/* Begins a path with this ray; one that cannot be followed ends at once. */
+static inline void path_begin(struct path *path, const struct scene *scene,
+                              const struct sampler *sampler, struct ray ray)
+{
+    path->sampler = *sampler;
+    path->ray = ray;
+    path->from = ray.origin;
+    path->radiance = (float3)(0.0f);
+    path->beta = (float3)(1.0f);
+    path->eta_scale = 1.0f;
+    path->pdf_w = 0.0f;
+    path->media = vload4(0, scene->header->eye_media) - 1u;
+    path->depth = 1u;
+    path->hidden = 0u;
+    path->diffuse_events = 0u;
+    path->alive = can_follow(&ray);
+    path->scattered = false;
+    path->rough = false;
+}
+
+/* The numbers of the vertex that the path's ray leads to: those of the light, then the event's. */
+static inline float8 path_numbers(const struct path *path)
+{
+    return sampler_pair(&path->sampler, set_light(path->depth - 1u));
+}
 
 #endif

@@ -15,6 +15,8 @@
 #include "shape/shapes.h"
 #include "material/texture.h"
 #include "types.h"
+#include "math/width1.inc.h"
+#include "light/area.inc.h"
 
 /* ---- Points by area --------------------------------------------------------- */
 
@@ -27,16 +29,6 @@ static inline void sample_area(struct surface *at, global const rt_light_data *l
         const float2 where = light->kind == RT_LIGHT_TRIANGLE ? sample_triangle(u) : u;
         flat_point(at, light, where * (float2)(light->width, light->height));
     }
-}
-
-/*
- * 1 / pdf_w of sampling an area evenly, seen along `towards` (not of unit length): its solid angle,
- * were it all there.
- */
-static inline float area_spread(float area, float3 towards, float3 normal)
-{
-    const float d2 = dot(towards, towards);
-    return fabs(dot(towards, normal)) * area / (d2 * sqrt(d2));
 }
 
 /* ---- Seen from a point ------------------------------------------------------ */
@@ -57,7 +49,7 @@ static inline float sample_area_light(struct surface *at, global const rt_light_
         return 1.0f / cap_pdf_w(light->width, d2);
     }
     sample_area(at, light, u);
-    return area_spread(light->area, at->position - from, at->normal);
+    return area_inv_pdf(light->area, at->position - from, at->normal);
 }
 
 /* ---- What it emits ---------------------------------------------------------- */

@@ -26,7 +26,7 @@ static inline bool sample_delta_light(struct light_sample *sample,
 {
     sample->delta = true;
     sample->distant = light->kind == RT_LIGHT_DIRECTIONAL;
-    sample->spread = 1.0f;
+    sample->inv_pdf = 1.0f;
     sample->lift = 0.0f;
     sample->at.position = row3(light->a);
     sample->radiance = row3(light->emission);

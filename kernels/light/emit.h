@@ -39,7 +39,7 @@ static inline float falloff_inverse(float u)
 }
 
 /* The solid angle that a spot would fill with its full intensity. */
-static inline float spot_spread(global const rt_light_data *light)
+static inline float spot_solid_angle(global const rt_light_data *light)
 {
     const float inner = light->c[0], outer = light->c[1];
     return 2.0f * RT_PI * ((1.0f - inner) + 0.5f * (inner - outer));
@@ -52,7 +52,7 @@ static inline float spot_spread(global const rt_light_data *light)
 static inline void emit_spot(struct emission *emission, global const rt_light_data *light, float2 u)
 {
     const float inner = light->c[0], outer = light->c[1];
-    const float whole = spot_spread(light) / (2.0f * RT_PI);
+    const float whole = spot_solid_angle(light) / (2.0f * RT_PI);
     const float v = u.x * whole;
     const float inside = 1.0f - inner;
     const float below =
@@ -60,9 +60,9 @@ static inline void emit_spot(struct emission *emission, global const rt_light_da
             ? v
             : 1.0f - mix(outer, inner, falloff_inverse(2.0f * (whole - v) / (inner - outer)));
     const float2 arc = sin_cos(2.0f * RT_PI * u.y);
-    const float3 way = (float3)(sqrt(below * (2.0f - below)) * arc.yx, 1.0f - below);
-    emit_from(emission, row3(light->a), frame_to_world(frame_about(row3(light->b)), way));
-    emission->flux = spot_spread(light) * row3(light->emission);
+    const float3 w_local = (float3)(sqrt(below * (2.0f - below)) * arc.yx, 1.0f - below);
+    emit_from(emission, row3(light->a), frame_to_world(frame_about(row3(light->b)), w_local));
+    emission->flux = spot_solid_angle(light) * row3(light->emission);
 }
 
 /*
@@ -120,7 +120,7 @@ static inline void emit_distant(const struct scene *scene, struct emission *emis
 
 /* From a surface by the cosine; `side` in [0,1) chooses that of a two-sided light. */
 static inline void emit_area(const struct scene *scene, struct emission *emission,
-                             global const rt_light_data *light, float2 start, float2 way,
+                             global const rt_light_data *light, float2 start, float2 turn,
                              float side)
 {
     const bool two_sided = light->flags & RT_LIGHT_TWO_SIDED;
@@ -133,7 +133,7 @@ static inline void emit_area(const struct scene *scene, struct emission *emissio
             locate_on_light(scene, light, &emission->at);
     }
     const float3 normal = two_sided && side < 0.5f ? -emission->at.normal : emission->at.normal;
-    emission->direction = frame_to_world(frame_about(normal), sample_cosine(way));
+    emission->direction = frame_to_world(frame_about(normal), sample_cosine(turn));
     emission->flux = (two_sided ? 2.0f : 1.0f) * RT_PI * area * row3(light->emission);
     if (light->texture != RT_NONE)
         emission->flux *= light_texture(scene, light, &emission->at);
@@ -141,28 +141,31 @@ static inline void emit_area(const struct scene *scene, struct emission *emissio
 
 /* Starts at a light that is chosen. The flux leaves out the choice. */
 static inline void emit_chosen(const struct scene *scene, global const rt_light_data *light,
-                               float4 start, float4 way, struct emission *emission)
+                               float4 start, float4 turn, struct emission *emission)
 {
     float3 w, radiance;
-    switch (light->kind) {
+    switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_POINT:
-        emit_from(emission, row3(light->a), sample_sphere(way.xy));
+        emit_from(emission, row3(light->a), sample_sphere(turn.xy));
         emission->flux = 4.0f * RT_PI * row3(light->emission);
         return;
     case RT_LIGHT_SPOT:
-        emit_spot(emission, light, way.xy);
+        emit_spot(emission, light, turn.xy);
         return;
     case RT_LIGHT_DIRECTIONAL:
         emission->flux = row3(light->emission);
         emit_distant(scene, emission, -row3(light->b), start.xy);
         return;
     case RT_LIGHT_ENVIRONMENT:
-        emission->flux = sample_sky(scene, way.xy, &w, &radiance);
+        emission->flux = sample_environment(scene, turn.xy, &w, &radiance);
         emission->flux *= radiance;
         emit_distant(scene, emission, w, start.xy);
         return;
-    default:
-        emit_area(scene, emission, light, start.xy, way.xy, way.z);
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+    case RT_LIGHT_SPHERE:
+    case RT_LIGHT_SHAPE:
+        emit_area(scene, emission, light, start.xy, turn.xy, turn.z);
     }
 }
 
@@ -181,11 +184,11 @@ static inline uint choose_emitter(global const rt_light_share *shares, uint coun
 }
 
 /*
- * Starts a light path: start.z chooses the light, start.xy and way.xy the point and the direction,
- * way.z the side. False when no light shines.
+ * Starts a light path: start.z chooses the light, start.xy and turn.xy the point and the direction,
+ * turn.z the side. False when there is no light.
  */
 static inline bool light_emit(const struct scene *scene, global const rt_light_share *shares,
-                              float4 start, float4 way, struct emission *emission)
+                              float4 start, float4 turn, struct emission *emission)
 {
     if (scene->header->light_count == 0u)
         return false;
@@ -193,7 +196,7 @@ static inline bool light_emit(const struct scene *scene, global const rt_light_s
     const float pmf = shares[emission->light].pmf;
     if (pmf == 0.0f)
         return false;
-    emit_chosen(scene, scene->lights + emission->light, start, way, emission);
+    emit_chosen(scene, scene->lights + emission->light, start, turn, emission);
     emission->flux /= pmf;
     return true;
 }

@@ -1,8 +1,10 @@
 /*
  * light.h - the lights: choosing one, sampling it from a point, its density, what it emits.
  *
- * light_pdf_w and sky_light_pdf_w are the densities with which sample_light makes a direction, the
- * choice of the light included: what multiple importance sampling needs when a ray meets the light.
+ * The kinds of light are listed in types.h, RT_LIGHTS; area lights are in area.h, delta lights in
+ * delta.h, the environment in environment.h. light_pdf_w and environment_light_pdf_w are the
+ * densities with which sample_light makes a direction, the choice of the light included: what
+ * multiple importance sampling needs when a ray meets the light.
  */
 #ifndef RT_KERNELS_LIGHT_LIGHT_H
 #define RT_KERNELS_LIGHT_LIGHT_H
@@ -10,7 +12,7 @@
 #include "light/area.h"
 #include "light/delta.h"
 #include "light/sample.h"
-#include "light/sky.h"
+#include "light/environment.h"
 #include "light/tree.h"
 
 /* The light that a surface is part of, or RT_NONE. */
@@ -38,56 +40,40 @@ static inline float light_pdf_w(const struct scene *scene, global const rt_light
     if (see_spherical_light(light, from, &d2))
         return pmf * cap_pdf_w(light->width, d2);
     const float area = light->kind == RT_LIGHT_SHAPE ? 1.0f / shape_pdf_a(scene, at) : light->area;
-    return pmf / area_spread(area, at->position - from, at->normal);
+    return pmf / area_inv_pdf(area, at->position - from, at->normal);
 }
 
 /* The same for a ray from there that meets nothing, in direction w; there is an environment. */
-static inline float sky_light_pdf_w(const struct scene *scene, float3 from, float3 w)
+static inline float environment_light_pdf_w(const struct scene *scene, float3 from, float3 w)
 {
-    return light_pmf(scene, scene->header->environment.light, from) * sky_pdf_w(scene, w);
+    return light_pmf(scene, scene->header->environment.light, from) * environment_pdf_w(scene, w);
 }
 
 /* ---- Sampling ---------------------------------------------------------------- */
 
-/* Samples a light of a kind other than quad, triangle and sphere, which was chosen. */
-INLINE_NEVER bool sample_other_light(const struct scene *scene, global const rt_light_data *light,
-                                     float3 from, float2 u, struct light_sample *sample)
+/* Samples an analytic shape by its parameters. */
+static inline bool sample_shape_light(const struct scene *scene, global const rt_light_data *light,
+                                      float3 from, float2 u, struct light_sample *sample)
 {
-    if (light->kind == RT_LIGHT_ENVIRONMENT) {
-        sample->distant = true;
-        sample->lift = 0.0f;
-        sample->spread = sample_sky(scene, u, &sample->wi, &sample->radiance);
-        sample->at.position = from;
-        sample->at.normal = -sample->wi;
-        return true;
-    }
-    if (light->kind != RT_LIGHT_SHAPE)
-        return sample_delta_light(sample, light, from);
-
     const float pdf_a = shape_point(scene, scene->prim_shape[light->prim], u, &sample->at);
     const float3 towards = sample->at.position - from;
     sample->wi = unit(towards);
-    sample->spread = area_spread(1.0f / pdf_a, towards, sample->at.normal);
+    sample->inv_pdf = area_inv_pdf(1.0f / pdf_a, towards, sample->at.normal);
     sample->lift = dot(sample->wi, sample->at.normal) > 0.0f ? -sample->at.error : sample->at.error;
     sample->radiance = light_radiance(scene, light, &sample->at, -sample->wi);
     return true;
 }
 
-/* Samples a light that was chosen; the density of the choice is left out. */
-static inline bool sample_chosen(const struct scene *scene, global const rt_light_data *light,
-                                 float3 from, float2 u, struct light_sample *sample)
+/* Samples a quad, a triangle or a sphere. */
+static inline bool sample_plain_light(const struct scene *scene, global const rt_light_data *light,
+                                      float3 from, float2 u, struct light_sample *sample)
 {
-    sample->delta = false;
-    sample->distant = false;
-    const bool sphere = light->kind == RT_LIGHT_SPHERE;
-    if (!sphere && light->kind != RT_LIGHT_QUAD && light->kind != RT_LIGHT_TRIANGLE)
-        return sample_other_light(scene, light, from, u, sample);
-
     /* The side of a flat light is known at once, that of a sphere at the sampled point. */
+    const bool sphere = light->kind == RT_LIGHT_SPHERE;
     float height = dot(from - row3(light->a), row3(light->normal));
     if (!sphere && height <= 0.0f && !(light->flags & RT_LIGHT_TWO_SIDED))
         return false;
-    sample->spread = sample_area_light(&sample->at, light, from, u);
+    sample->inv_pdf = sample_area_light(&sample->at, light, from, u);
     sample->wi = unit(sample->at.position - from);
     if (sphere)
         height = -dot(sample->wi, sample->at.normal);
@@ -98,6 +84,59 @@ static inline bool sample_chosen(const struct scene *scene, global const rt_ligh
         sample->radiance *= light_texture(scene, light, &sample->at);
     }
     return !sphere || height > 0.0f || (light->flags & RT_LIGHT_TWO_SIDED);
+}
+
+static inline bool sample_environment_light(const struct scene *scene, float3 from, float2 u,
+                                            struct light_sample *sample)
+{
+    sample->distant = true;
+    sample->lift = 0.0f;
+    sample->inv_pdf = sample_environment(scene, u, &sample->wi, &sample->radiance);
+    sample->at.position = from;
+    sample->at.normal = -sample->wi;
+    return true;
+}
+
+/* The lights that are not plain, out of line: they are rarer, and together large. */
+INLINE_NEVER bool sample_other_light(const struct scene *scene, global const rt_light_data *light,
+                                     float3 from, float2 u, struct light_sample *sample)
+{
+    switch ((rt_light_kind)light->kind) {
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+    case RT_LIGHT_SPHERE:
+        break;
+    case RT_LIGHT_SHAPE:
+        return sample_shape_light(scene, light, from, u, sample);
+    case RT_LIGHT_POINT:
+    case RT_LIGHT_SPOT:
+    case RT_LIGHT_DIRECTIONAL:
+        return sample_delta_light(sample, light, from);
+    case RT_LIGHT_ENVIRONMENT:
+        return sample_environment_light(scene, from, u, sample);
+    }
+    return false;
+}
+
+/* Samples a light that was chosen; the density of the choice is left out. */
+static inline bool sample_chosen(const struct scene *scene, global const rt_light_data *light,
+                                 float3 from, float2 u, struct light_sample *sample)
+{
+    sample->delta = false;
+    sample->distant = false;
+    switch ((rt_light_kind)light->kind) {
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+    case RT_LIGHT_SPHERE:
+        return sample_plain_light(scene, light, from, u, sample);
+    case RT_LIGHT_SHAPE:
+    case RT_LIGHT_POINT:
+    case RT_LIGHT_SPOT:
+    case RT_LIGHT_DIRECTIONAL:
+    case RT_LIGHT_ENVIRONMENT:
+        break;
+    }
+    return sample_other_light(scene, light, from, u, sample);
 }
 
 /*
@@ -113,7 +152,7 @@ static inline bool sample_light(const struct scene *scene, float3 from, float4 u
     const uint light = choose_light(scene, from, u.z, &pmf);
     if (pmf == 0.0f || !sample_chosen(scene, scene->lights + light, from, u.xy, sample))
         return false;
-    sample->spread /= pmf;
+    sample->inv_pdf /= pmf;
     return true;
 }
 

@@ -1,11 +1,14 @@
 /*
- * sample.h - a light as it is seen from a point in the scene, and the ray that asks whether it is.
+ * sample.h - a sampled point of a light, and the shadow ray to it.
  */
 #ifndef RT_KERNELS_LIGHT_SAMPLE_H
 #define RT_KERNELS_LIGHT_SAMPLE_H
 
 #include "accel/intersect.h"
 #include "shape/surface.h"
+
+/* Where a shadow ray ends, as a part of the distance: just before the light. */
+#define RT_SHADOW_END 0.9999f
 
 /* A point on a light, chosen from a point in the scene. */
 struct light_sample {
@@ -18,7 +21,7 @@ struct light_sample {
      */
     float3 radiance;
     /* sr: 1 / pdf_w of the direction, choice of the light included; delta lights: of the choice */
-    float spread;
+    float inv_pdf;
     /* no ray can meet it by chance: multiple importance sampling must leave it alone */
     bool delta;
     bool distant; /* infinitely far: wi says all of where it is */
@@ -33,7 +36,7 @@ static inline struct ray shadow_ray(float3 origin, const struct light_sample *sa
     if (sample->distant)
         return make_ray(origin, sample->wi, 0.0f, INFINITY);
     const float3 target = sample->at.position + sample->lift * sample->at.normal;
-    return make_ray(origin, target - origin, 0.0f, 0.9999f);
+    return make_ray(origin, target - origin, 0.0f, RT_SHADOW_END);
 }
 
 #endif

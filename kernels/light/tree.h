@@ -1,12 +1,12 @@
 /*
- * tree.h - choosing a light by what it may bring to a point: its power over the square of its
- * distance.
+ * tree.h - choosing a light for a point by its estimated contribution: its power over the square
+ * of its distance.
  *
  * A walk from the root of a binary tree of lights goes to each child in proportion to that estimate
- * of its lights together. What a light then brings is divided by the probability of the walk, so
+ * of its lights together. The light's sample is then divided by the probability of the walk, so
  * only the noise depends on the estimate (Conty Estevez and Kulla, "Importance Sampling of Many
  * Lights with Adaptive Tree Splitting", HPG 2018, without the splitting and the bounds of
- * directions). 400 lamps over a floor make 1/30 of the variance that a choice by power alone makes.
+ * directions). With 400 lights over a floor it makes 1/30 of the variance of a choice by power.
  */
 #ifndef RT_KERNELS_LIGHT_TREE_H
 #define RT_KERNELS_LIGHT_TREE_H

@@ -7,6 +7,25 @@
 #ifndef RT_KERNELS_MATH_LANES_H
 #define RT_KERNELS_MATH_LANES_H
 
+/*
+ * Inner loops are to be inlined wherever they are used. A function with a stack of its own is to be
+ * called: inlined into a kernel, a runtime that runs a work-group as a loop gives each work-item an
+ * array of its own, and the stacks no longer fit the nearest cache. At width 1 a call would cost
+ * more: what goes by pointer would leave the registers.
+ */
+#if defined(__clang__)
+#define INLINE_ALWAYS static inline __attribute__((always_inline))
+#define SELDOM(truth) __builtin_expect(!!(truth), 0) /* registers go to the other branch first */
+#else
+#define INLINE_ALWAYS static inline
+#define SELDOM(truth) (truth)
+#endif
+#if defined(__clang__) && RT_WIDTH > 1
+#define INLINE_NEVER static __attribute__((noinline))
+#else
+#define INLINE_NEVER static inline
+#endif
+
 static inline float8 lane_min(float8 a, float8 b)
 {
     return a < b ? a : b;
@@ -48,27 +67,6 @@ static inline int8 lanes_of(uint mask)
     return ((int8)((int)mask) & (int8)(1, 2, 4, 8, 16, 32, 64, 128)) != 0;
 }
 
-/*
- * The lanes whose bits are set in `mask`, moved together to the front; what follows them is
- * arbitrary.
- */
-static inline float8 lane_compress(float8 v, uint mask)
-{
-#if defined(__AVX512VL__) && defined(__AVX512F__)
-    return __builtin_ia32_compresssf256_mask(v, v, (uchar)mask);
-#else
-    float from[8], to[8];
-    uint count = 0u;
-    vstore8(v, 0, from);
-    vstore8(v, 0, to);
-    for (uint lane = 0u; lane < 8u; lane++) {
-        to[count & 7u] = from[lane];
-        count += mask >> lane & 1u;
-    }
-    return vload8(0, to);
-#endif
-}
-
 /* The lowest set bit's index; mask is not 0. */
 static inline uint lane_first(uint mask)
 {
@@ -79,25 +77,59 @@ static inline uint lane_first(uint mask)
 #endif
 }
 
+/*
+ * Lanes that are read by an index known at run time alone: through memory on a CPU, and at width 1
+ * from registers, as private memory is slow there.
+ */
+struct lane_array {
+#if RT_WIDTH > 1
+    float lane[8];
+#else
+    float8 lanes;
+#endif
+};
+
+INLINE_ALWAYS struct lane_array lane_array(float8 v)
+{
+    struct lane_array array;
+#if RT_WIDTH > 1
+    vstore8(v, 0, array.lane);
+#else
+    array.lanes = v;
+#endif
+    return array;
+}
+
+INLINE_ALWAYS float lane_read(const struct lane_array *array, uint lane)
+{
+#if RT_WIDTH > 1
+    return array->lane[lane];
+#else
+    const float4 four = lane & 4u ? array->lanes.hi : array->lanes.lo;
+    const float2 two = lane & 2u ? four.hi : four.lo;
+    return lane & 1u ? two.y : two.x;
+#endif
+}
+
+/*
+ * Stores the lanes whose bits are set in `mask` one after the other; up to eight numbers from `to`
+ * on may be written, those that follow the lanes have no meaning.
+ */
+static inline void lane_store(float8 v, uint mask, global float *to)
+{
+#if defined(__AVX512VL__) && defined(__AVX512F__)
+    vstore8(__builtin_ia32_compresssf256_mask(v, v, (uchar)mask), 0, to);
+#else
+    const struct lane_array array = lane_array(v);
+    for (; mask; mask &= mask - 1u)
+        *to++ = lane_read(&array, lane_first(mask));
+#endif
+}
+
 /* The highest set bit's index; mask is not 0. */
 static inline uint lane_last(uint mask)
 {
     return 31u - clz(mask);
 }
-
-/*
- * Inner loops are to be inlined wherever they are used. A function with a stack of its own is to be
- * called: inlined into a kernel, a runtime that runs a work-group as a loop gives each work-item an
- * array of its own, and the stacks no longer fit the nearest cache.
- */
-#if defined(__clang__)
-#define INLINE_ALWAYS static inline __attribute__((always_inline))
-#define INLINE_NEVER static __attribute__((noinline))
-#define SELDOM(truth) __builtin_expect(!!(truth), 0) /* registers go to the other way first */
-#else
-#define INLINE_ALWAYS static inline
-#define INLINE_NEVER static
-#define SELDOM(truth) (truth)
-#endif
 
 #endif

@@ -134,7 +134,7 @@ static inline float emission_pdf_w(global const rt_light_data *light,
     if (light->kind == RT_LIGHT_POINT)
         return sphere_pdf_w();
     if (light->kind == RT_LIGHT_SPOT)
-        return spot_falloff(light, cosine) / spot_spread(light);
+        return spot_falloff(light, cosine) / spot_solid_angle(light);
     return cosine_pdf_w(max(cosine, 0.0f));
 }
 

@@ -102,7 +102,7 @@ INLINE_ALWAYS void shrink_distances(struct distances *d)
     for (uint i = 0u; i < d->count; i += 8u) {
         const float8 values = vload8(0, d->squared + i);
         const uint mask = lane_mask(values < d->bound);
-        vstore8(lane_compress(values, mask), 0, d->squared + kept);
+        lane_store(values, mask, d->squared + kept);
         kept += popcount(mask);
     }
     while (kept < d->k) /* with all that are equal to it */
@@ -119,7 +119,7 @@ INLINE_ALWAYS void take_distances(struct distances *d, const struct photon_tree 
     const uint mask = lane_mask(squared < d->bound && photons_accepted(photons, query));
     if (!mask)
         return;
-    vstore8(lane_compress(squared, mask), 0, d->squared + d->count);
+    lane_store(squared, mask, d->squared + d->count);
     d->count += popcount(mask);
     if (d->count + 8u > d->capacity)
         shrink_distances(d);
@@ -128,11 +128,12 @@ INLINE_ALWAYS void take_distances(struct distances *d, const struct photon_tree 
 /* The smallest lane of a vector whose lanes in `mask` alone count; mask is not 0. */
 INLINE_ALWAYS uint nearest_lane(float8 squared, uint mask)
 {
-    float each[8];
+    const struct lane_array each = lane_array(squared);
     uint nearest = lane_first(mask);
-    vstore8(squared, 0, each);
-    for (mask &= mask - 1u; mask; mask &= mask - 1u)
-        nearest = each[lane_first(mask)] < each[nearest] ? lane_first(mask) : nearest;
+    for (mask &= mask - 1u; mask; mask &= mask - 1u) {
+        const uint lane = lane_first(mask);
+        nearest = lane_read(&each, lane) < lane_read(&each, nearest) ? lane : nearest;
+    }
     return nearest;
 }
 
@@ -148,13 +149,12 @@ INLINE_ALWAYS void push_children(struct near_stack *stack, uint level, uint inde
                                  uint mask)
 {
     const uint count = popcount(mask);
-    float each[8];
-    vstore8(squared, 0, each);
+    const struct lane_array each = lane_array(squared);
     for (uint at = stack->count + count; mask;) {
         const uint lane = nearest_lane(squared, mask);
         at--;
         stack->entry[at] = ((level - 1u) << ENTRY_LEVEL_SHIFT) | (8u * index + lane);
-        stack->squared[at] = each[lane];
+        stack->squared[at] = lane_read(&each, lane);
         mask &= ~(1u << lane);
     }
     stack->count += count;

@@ -13,6 +13,7 @@
 #define RT_KERNELS_PHOTON_LIGHT_PATH_H
 
 #include "bsdf/bsdf.h"
+#include "sample/roulette.h"
 #include "light/emit.h"
 #include "material/medium.h"
 #include "photon/aim.h"
@@ -103,7 +104,7 @@ static inline bool scatter_light_path(struct light_path *path, const struct surf
 {
     const float3 arrived = path->flux;
     const float3 kept = arrived * bsdf_albedo(bsdf);
-    const float survival = min(1.0f, largest3(kept) / largest3(arrived));
+    const float survival = roulette_survival(kept, largest3(arrived));
     const uint lobe = bsdf_choose(bsdf, survival, u.z);
     path->absorbed += arrived - kept;
     path->roulette += kept;

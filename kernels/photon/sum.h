@@ -26,13 +26,12 @@ INLINE_ALWAYS float sum_lanes(float8 v)
 INLINE_ALWAYS float3 add_by_lobe(float3 sum, const struct bsdf *bsdf,
                                  global const rt_photon_block *block, float8 k, uint lanes)
 {
-    float weights[8];
-    vstore8(k, 0, weights);
+    const struct lane_array weights = lane_array(k);
     for (; lanes; lanes &= lanes - 1u) {
         const uint i = lane_first(lanes);
         const float3 flux = (float3)(block->flux[0][i], block->flux[1][i], block->flux[2][i]);
         const float3 wi = (float3)(block->wi[0][i], block->wi[1][i], block->wi[2][i]);
-        sum += weights[i] * fr_of_point(bsdf, wi) * flux;
+        sum += lane_read(&weights, i) * fr_of_point(bsdf, wi) * flux;
     }
     return sum;
 }

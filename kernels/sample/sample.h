@@ -5,8 +5,6 @@
  * (both per steradian or square metre). Directions are unit vectors.
  *
  * References:
- *   Shirley, Chiu: "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
- *   Heitz: "A Low-Distortion Map Between Triangle and Square", 2019.
  *   Urena, Fajardo, King: "An Area-Preserving Parametrization for Spherical Rectangles",
  *     EGSR 2013.
  *   Shirley, Wang, Zimmerman: "Monte Carlo Techniques for Direct Lighting Calculations",
@@ -17,21 +15,11 @@
 #define RT_KERNELS_SAMPLE_SAMPLE_H
 
 #include "math/frame.h"
+#include "math/width1.inc.h"
+#include "sample/cosine.inc.h"
+#include "sample/triangle.inc.h"
 
 /* ---- Elementary functions ------------------------------------------------ */
-
-/* (sin x, cos x) for |x| <= pi/4. */
-static inline float2 sin_cos_eighth(float x)
-{
-    const float x2 = x * x;
-    const float s =
-        x + x * x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f + x2 * -1.9515295891e-4f));
-    const float c =
-        1.0f - 0.5f * x2 +
-        x2 * x2 *
-            (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + x2 * 2.443315711809948e-5f));
-    return (float2)(s, c);
-}
 
 /* (sin x, cos x) for |x| <= 2 pi, absolute error below 3e-7. */
 static inline float2 sin_cos(float x)
@@ -64,34 +52,9 @@ static inline float4 atan_ratio(float4 y, float4 x)
 
 /* ---- Disc, hemisphere, sphere, triangle ---------------------------------- */
 
-/* The unit disc, by Shirley and Chiu's concentric map. */
-static inline float2 sample_disc(float2 u)
-{
-    const float2 p = 2.0f * u - 1.0f;
-    const bool wide = fabs(p.x) > fabs(p.y);
-    const float r = wide ? p.x : p.y;
-    if (r == 0.0f)
-        return (float2)(0.0f, 0.0f);
-    const float2 arc = sin_cos_eighth(0.25f * RT_PI * (wide ? p.y : p.x) / r);
-    return r * (wide ? arc.yx : arc);
-}
-
 static inline float disc_pdf_a(void)
 {
     return 1.0f / RT_PI;
-}
-
-/* The hemisphere about +z, in proportion to the cosine: the disc, lifted (Malley's method). */
-static inline float3 sample_cosine(float2 u)
-{
-    const float2 p = sample_disc(u);
-    const float z2 = 1.0f - dot(p, p);
-    return (float3)(p, sqrt(z2 > 0.0f ? z2 : 0.0f));
-}
-
-static inline float cosine_pdf_w(float cosine)
-{
-    return cosine > 0.0f ? cosine * (1.0f / RT_PI) : 0.0f;
 }
 
 static inline float3 sample_sphere(float2 u)
@@ -105,12 +68,6 @@ static inline float3 sample_sphere(float2 u)
 static inline float sphere_pdf_w(void)
 {
     return 1.0f / (4.0f * RT_PI);
-}
-
-/* Barycentric weights of the second and third vertex, uniform in area (Heitz). */
-static inline float2 sample_triangle(float2 u)
-{
-    return u - 0.5f * (u.x < u.y ? u.x : u.y);
 }
 
 static inline float triangle_pdf_a(float3 e1, float3 e2)

@@ -13,6 +13,8 @@
 #include "shape/placement.h"
 #include "shape/surface.h"
 #include "types.h"
+#include "math/width1.inc.h"
+#include "shape/flat.inc.h"
 
 static inline float3 block_vertex(global const float rows[3][RT_BVH_WIDTH], uint lane)
 {
@@ -79,11 +81,6 @@ static inline void mesh_shading(struct surface *surface, const struct scene *sce
         mixed * (rsqrt(dot(mixed, mixed)) * (dot(mixed, surface->normal) < 0.0f ? -1.0f : 1.0f));
 }
 
-/*
- * Position from the barycentric mix. To the bound on its error comes the error with which a ray
- * that leaves at a grazing angle sees the triangle's own plane: a few roundings of its size,
- * magnified where the triangle is a sliver.
- */
 static inline void triangle_surface(struct surface *surface, const struct scene *scene,
                                     const struct hit *hit)
 {
@@ -98,22 +95,16 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
     surface->weights = (float2)(hit->u, hit->v);
     surface->triangle =
         is_placed ? block->prim[lane] & RT_BLOCK_PRIM : surface->prim - shape->first_prim;
-    const float3 position = v0 + (hit->u * e1 + hit->v * e2);
-    const float3 across = cross(e1, e2);
-    const float twice_area = length(across);
-    const float3 normal = across / (shape->flags & RT_SHAPE_MIRRORED ? -twice_area : twice_area);
-
-    const float3 reach = fabs(v0) + fabs(e1) + fabs(e2);
-    const float size = length(e1) + length(e2);
-    const float sliver = fmin(size * size / twice_area, 64.0f);
-    const float error =
-        gamma_bound(4.0f) * dot(reach, fabs(normal)) + gamma_bound(2.0f) * size * sliver;
+    struct flat_surface flat = flat_surface_at(v0, e1, e2, hit->u, hit->v);
+    if (shape->flags & RT_SHAPE_MIRRORED)
+        flat.normal = -flat.normal;
     if (is_placed) {
-        place_surface(surface, scene->transforms + shape->transform, position, normal, error);
+        place_surface(surface, scene->transforms + shape->transform, flat.position, flat.normal,
+                      flat.error);
     } else {
-        surface->position = position;
-        surface->normal = normal;
-        surface->error = error;
+        surface->position = flat.position;
+        surface->normal = flat.normal;
+        surface->error = flat.error;
     }
     mesh_parameters(surface, scene, shape);
     mesh_shading(surface, scene, shape);
@@ -152,17 +143,24 @@ static inline struct tangents block_tangents(const struct scene *scene,
 
 /* ---- Area sampling ---------------------------------------------------------- */
 
-/*
- * The point of an emissive quad or triangle at these lengths along its edges; its error bound
- * covers a, the edges and the sum.
- */
+static inline struct flat_light flat_light_of(global const rt_light_data *light)
+{
+    struct flat_light flat;
+    flat.corner = row3(light->a);
+    flat.edge1 = row3(light->b);
+    flat.edge2 = row3(light->c);
+    flat.width = light->width;
+    flat.height = light->height;
+    return flat;
+}
+
+/* The point of an emissive quad or triangle at these lengths along its edges. */
 static inline void flat_point(struct surface *at, global const rt_light_data *light, float2 lengths)
 {
-    const float3 a = row3(light->a);
-    at->position = a + (lengths.x * row3(light->b) + lengths.y * row3(light->c));
+    const struct flat_light flat = flat_light_of(light);
+    at->position = flat_light_point(&flat, lengths);
     at->normal = row3(light->normal);
-    at->error = gamma_bound(8.0f) *
-                (fabs(a.x) + fabs(a.y) + fabs(a.z) + 2.0f * (light->width + light->height));
+    at->error = flat_light_error(&flat);
 }
 
 /*

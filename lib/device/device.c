@@ -17,10 +17,10 @@ enum {
 };
 
 /*
- * A core of a CPU keeps several paths of one work-item under way at once; a GPU wants all the
- * work-items it can get.
+ * A work-item that follows eight paths takes enough pixels to keep all of them under way; one that
+ * follows a single path takes one pixel, so that the device has as many work-items as can be.
  */
-enum { path_pixels_cpu = 64, path_pixels_gpu = 1 };
+enum { width_cpu = 8, width_gpu = 1, path_pixels_batch = 64, path_pixels_single = 1 };
 
 typedef struct device_list {
     cl_platform_id platform[devices_max];
@@ -170,6 +170,16 @@ static rt_status choose_work_group(rt_device *device, uint32_t asked, rt_error *
     return RT_OK;
 }
 
+static rt_status choose_width(rt_device *device, uint32_t asked, rt_error *error)
+{
+    if (asked != 0 && asked != 1 && asked != 8)
+        return rt_fail_field(error, RT_ERROR_USAGE, "width",
+                             "a work-item follows 1 or 8 paths at a time, not %u", asked);
+    device->width = asked ? asked : device->info.is_cpu ? width_cpu : width_gpu;
+    device->path_pixels = device->width > 1 ? path_pixels_batch : path_pixels_single;
+    return RT_OK;
+}
+
 rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error)
 {
     static const rt_device_options defaults;
@@ -187,9 +197,9 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     device->threads = options->threads ? options->threads : cores > 0 ? (uint32_t)cores : 1;
     if ((options->threads && (status = limit_units(device, options->threads, error)) != RT_OK) ||
-        (status = choose_work_group(device, options->work_group, error)) != RT_OK)
+        (status = choose_work_group(device, options->work_group, error)) != RT_OK ||
+        (status = choose_width(device, options->width, error)) != RT_OK)
         goto out;
-    device->path_pixels = device->info.is_cpu ? path_pixels_cpu : path_pixels_gpu;
     device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
     if ((status = rt_cl_check(code, "creating an OpenCL context", error)) != RT_OK)
         goto out;

@@ -1,6 +1,7 @@
 /* program.c - building OpenCL programs and making kernels of them. */
 #include "device/device.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,29 +44,32 @@ static rt_status report_build(rt_device *device, cl_program program, const char 
 }
 
 /*
- * Bounds on rounding in the kernels take quotients and roots to be correctly rounded, which OpenCL
- * 1.2 promises on demand alone, where a device can do it.
+ * The paths that a work-item follows at a time, and exact division: bounds on rounding in the
+ * kernels take quotients and roots to be correctly rounded, which OpenCL 1.2 promises on demand
+ * alone, where a device can do it.
  */
-static const char *build_options(const rt_device *device)
+static void build_options(char *options, size_t size, const rt_device *device)
 {
     cl_device_fp_config can = 0;
     clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof can, &can, NULL);
-    return can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
-               ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
-               : "-cl-std=CL1.2";
+    snprintf(options, size, "-cl-std=CL1.2 -D RT_WIDTH=%u%s", device->width,
+             can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt"
+                                                       : "");
 }
 
 static rt_status build(rt_device *device, cl_program *out, const rt_kernel_source *source,
                        const rt_hooks *hooks, rt_error *error)
 {
     cl_int code;
+    char options[128];
     const char *text = (const char *)source->text;
     cl_program program =
         clCreateProgramWithSource(device->context, 1, &text, &source->length, &code);
     rt_status status = rt_cl_check(code, "creating an OpenCL program", error);
     if (status != RT_OK)
         return status;
-    code = clBuildProgram(program, 1, &device->id, build_options(device), NULL, NULL);
+    build_options(options, sizeof options, device);
+    code = clBuildProgram(program, 1, &device->id, options, NULL, NULL);
     if (code != CL_SUCCESS) {
         status = report_build(device, program, source->name, code, hooks, error);
         clReleaseProgram(program);

@@ -24,8 +24,8 @@ size_t rt_lights_count(const rt_scene *scene)
 }
 
 /*
- * The power of a light that is no shape, W, mean of the channels. What comes from infinitely far is
- * counted where it meets a disc of the scene's radius: pi r^2 of it from a direction, the same from
+ * The power of a light that is no area light, W, mean of the channels. Light from infinitely far
+ * counts where it meets a disc of the scene's radius: pi r^2 of it from a direction, the same from
  * every one of 4 pi sr from an environment. A spot's falloff 3x^2 - 2x^3 is 1/2 in the mean over
  * its edge.
  */
@@ -33,18 +33,24 @@ static double light_power(const rt_scene *scene, const rt_scene_light *light, do
 {
     const float *sky = scene->environment.mean;
     double disc = pi * radius * radius;
-    switch (light->kind) {
+    switch ((rt_light_kind)light->kind) {
     case RT_LIGHT_POINT:
         return 4 * pi * mean(light->emission);
     case RT_LIGHT_SPOT:
         return 2 * pi * (1 - 0.5 * ((double)light->inner + light->outer)) * mean(light->emission);
     case RT_LIGHT_DIRECTIONAL:
         return disc * mean(light->emission);
-    default:
+    case RT_LIGHT_ENVIRONMENT:
         return 4 * pi * disc *
                mean((const float[3]){light->emission[0] * sky[0], light->emission[1] * sky[1],
                                      light->emission[2] * sky[2]});
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+    case RT_LIGHT_SPHERE:
+    case RT_LIGHT_SHAPE:
+        break; /* see fill_area */
     }
+    return 0;
 }
 
 static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_scene_light *from,

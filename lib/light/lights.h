@@ -1,4 +1,4 @@
-/* lights.h - the table of lights: those that are no shapes, and every emitting primitive. */
+/* lights.h - the table of lights: delta lights, the environment, and every emissive primitive. */
 #ifndef RT_LIB_LIGHT_LIGHTS_H
 #define RT_LIB_LIGHT_LIGHTS_H
 

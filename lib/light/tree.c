@@ -16,7 +16,7 @@
 
 /*
  * What lights in a ball add to their squared distance, as a part of the ball's squared radius.
- * Their mean is farther than the middle, by 0.5 for a disc, but the nearest bring the most; 0.1 to
+ * Their mean is farther than the middle, by 0.5 for a disc, but the nearest contribute most; 0.1 to
  * 0.3 made the least noise, 1 twice that.
  */
 static const double spread_of_ball = 0.3;
@@ -103,29 +103,47 @@ static void include_edges(cluster *c, const rt_light_data *light)
     }
 }
 
+/* Widens the bounds by those of a light; light from infinitely far is put in the scene's middle. */
+static void include_light(cluster *c, const planting *p, const rt_light_data *light)
+{
+    const rt_scene_header *h = p->header;
+    const double a[3] = {light->a[0], light->a[1], light->a[2]};
+    switch ((rt_light_kind)light->kind) {
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+        include_edges(c, light);
+        break;
+    case RT_LIGHT_SPHERE:
+        include(c, a, light->width);
+        break;
+    case RT_LIGHT_SHAPE: {
+        const rt_scene_shape *shape = p->scene->shapes + p->prim_shape[light->prim];
+        for (int i = 0; i < 3; i++) {
+            c->lo[i] = shape->lo[i];
+            c->hi[i] = shape->hi[i];
+        }
+        break;
+    }
+    case RT_LIGHT_POINT:
+    case RT_LIGHT_SPOT:
+        include(c, a, 0);
+        break;
+    case RT_LIGHT_DIRECTIONAL:
+    case RT_LIGHT_ENVIRONMENT:
+        for (int i = 0; i < 3; i++)
+            c->lo[i] = c->hi[i] =
+                h->radius > 0 ? 0.5 * ((double)h->bounds_lo[i] + h->bounds_hi[i]) : 0;
+        break;
+    }
+}
+
 static cluster cluster_of(const planting *p, rt_u32 index)
 {
     const rt_light_data *light = p->lights + index;
-    const rt_scene_header *h = p->header;
-    const double a[3] = {light->a[0], light->a[1], light->a[2]};
     cluster c = empty();
     c.power = light->power / p->total_power;
     c.is_distant = is_distant(light->kind);
-    if (c.is_distant) {
-        for (int i = 0; i < 3; i++)
-            c.lo[i] = c.hi[i] =
-                h->radius > 0 ? 0.5 * ((double)h->bounds_lo[i] + h->bounds_hi[i]) : 0;
-    } else if (light->kind == RT_LIGHT_QUAD || light->kind == RT_LIGHT_TRIANGLE) {
-        include_edges(&c, light);
-    } else if (light->kind == RT_LIGHT_SHAPE) {
-        const rt_scene_shape *shape = p->scene->shapes + p->prim_shape[light->prim];
-        for (int i = 0; i < 3; i++) {
-            c.lo[i] = shape->lo[i];
-            c.hi[i] = shape->hi[i];
-        }
-    } else {
-        include(&c, a, light->kind == RT_LIGHT_SPHERE ? light->width : 0);
-    }
+    include_light(&c, p, light);
     return c;
 }
 

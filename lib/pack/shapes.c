@@ -137,7 +137,7 @@ static int is_varied(const rt_scene *scene, const rt_shape *shape)
 }
 
 /* Whether it has Lambert's lobe alone, and emits nothing. */
-static int is_matte(const rt_scene *scene, const rt_shape *shape)
+static int is_lambert(const rt_scene *scene, const rt_shape *shape)
 {
     const rt_material *m = scene->materials + shape->material;
     for (int i = 0; i < 3; i++)
@@ -174,8 +174,8 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         out->flags |= RT_SHAPE_MIRRORED;
     if (is_varied(p->scene, out))
         out->flags |= RT_SHAPE_VARIED;
-    if (is_matte(p->scene, out))
-        out->flags |= RT_SHAPE_MATTE;
+    if (is_lambert(p->scene, out))
+        out->flags |= RT_SHAPE_LAMBERT;
     if (is_flat(out))
         out->flags |= RT_SHAPE_FLAT;
 }

@@ -21,17 +21,17 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
     const float4 u = numbers(seed, i);
     struct light_sample made;
     made.at.position = made.at.normal = made.wi = made.radiance = (float3)(0.0f);
-    made.lift = made.spread = 0.0f;
+    made.lift = made.inv_pdf = 0.0f;
     made.delta = false;
     float again = 0.0f, pmf;
     if (!sample_light(&scene, from.xyz, u, &made))
         made.radiance = (float3)(0.0f);
     else if (made.distant && !made.delta)
-        again = sky_light_pdf_w(&scene, from.xyz, made.wi);
+        again = environment_light_pdf_w(&scene, from.xyz, made.wi);
     else if (!made.delta)
         again = light_pdf_w(&scene, scene.lights + choose_light(&scene, from.xyz, u.z, &pmf),
                             from.xyz, &made.at);
-    out[4u * i] = (float4)(made.at.position, made.spread);
+    out[4u * i] = (float4)(made.at.position, made.inv_pdf);
     out[4u * i + 1u] = (float4)(made.wi, made.delta ? 1.0f : 0.0f);
     out[4u * i + 2u] = (float4)(made.radiance, again);
     out[4u * i + 3u] = (float4)(made.at.normal, made.lift);

@@ -139,7 +139,7 @@ static void instances_have_trees_of_their_own(void **state)
     for (rt_u32 i = 0; i < 4; i++) {
         size_t triangles = i % 2 ? 800 : 18;
         assert_int_equal(shapes[i].kind, RT_SHAPE_INSTANCE);
-        assert_int_equal(shapes[i].flags, vertex_data | RT_SHAPE_MATTE);
+        assert_int_equal(shapes[i].flags, vertex_data | RT_SHAPE_LAMBERT);
         assert_int_equal(prim_shape[shapes[i].first_prim], i);
         assert_int_equal(count_triangles(nodes, blocks, shapes[i].root, shapes[i].first_block,
                                          shapes[i].block_count),
@@ -176,7 +176,7 @@ static void single_and_emissive_meshes_are_baked(void **state)
     assert_true(h->prim_count == 16 && h->light_count == 8 && h->transform_count == 0 &&
                 h->analytic_count == 0);
     assert_int_equal(shapes[0].kind, RT_SHAPE_TRIANGLES);
-    assert_int_equal(shapes[0].flags, vertex_data | RT_SHAPE_MIRRORED | RT_SHAPE_MATTE);
+    assert_int_equal(shapes[0].flags, vertex_data | RT_SHAPE_MIRRORED | RT_SHAPE_LAMBERT);
     assert_int_equal(shapes[1].flags, vertex_data);
     assert_true(shapes[0].first_light == RT_NONE && shapes[1].first_light == 0 &&
                 lights[0].prim == 8);
@@ -243,8 +243,8 @@ static void materials_and_textures_reach_their_tables(void **state)
     rt_scene_destroy(scene);
 }
 
-/* What eight paths may shade together, see kernels/matte.h. */
-static void matte_and_flat_shapes_are_told_and_lights_by_area(void **state)
+/* What eight paths may shade together, see kernels/integrate/batch.h. */
+static void lambert_and_flat_shapes_are_marked_and_lights_by_area(void **state)
 {
     static const float x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, skew[3] = {1, 1, 0};
     static const rt_transform mirroring = {{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
@@ -256,8 +256,8 @@ static void matte_and_flat_shapes_are_told_and_lights_by_area(void **state)
                            {.material = 1},
                            {.radiance = {1, 1, 1}},
                            {.radiance = {1, 1, 1}}};
-    const rt_u32 matte = RT_SHAPE_MATTE, flat = RT_SHAPE_FLAT;
-    const rt_u32 expected[6] = {matte | flat, matte, matte, flat, flat, flat};
+    const rt_u32 lambert = RT_SHAPE_LAMBERT, flat = RT_SHAPE_FLAT;
+    const rt_u32 expected[6] = {lambert | flat, lambert, lambert, flat, flat, flat};
     rt_scene *scene = new_scene();
     rt_error error;
     (void)state;
@@ -270,7 +270,7 @@ static void matte_and_flat_shapes_are_told_and_lights_by_area(void **state)
     const rt_shape *shapes = table(&image, header(&image)->shapes);
     const rt_light_data *lights = table(&image, header(&image)->lights);
     for (int i = 0; i < 6; i++)
-        assert_int_equal(shapes[i].flags & (matte | flat), expected[i]);
+        assert_int_equal(shapes[i].flags & (lambert | flat), expected[i]);
     assert_int_equal(lights[0].flags, RT_LIGHT_RECTANGLE);
     assert_int_equal(lights[1].flags, RT_LIGHT_BY_AREA);
     rt_scene_image_free(&image);
@@ -284,7 +284,7 @@ int main(void)
         cmocka_unit_test(instances_have_trees_of_their_own),
         cmocka_unit_test(single_and_emissive_meshes_are_baked),
         cmocka_unit_test(materials_and_textures_reach_their_tables),
-        cmocka_unit_test(matte_and_flat_shapes_are_told_and_lights_by_area),
+        cmocka_unit_test(lambert_and_flat_shapes_are_marked_and_lights_by_area),
     };
     return cmocka_run_group_tests_name("lib/pack/pack", tests, NULL, NULL);
 }

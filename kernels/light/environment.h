@@ -1,5 +1,5 @@
 /*
- * sky.h - the environment: light from infinitely far in every direction.
+ * environment.h - the environment: light from infinitely far in every direction.
  *
  * Its image covers the unit square: u is the longitude, 1/2 towards -z and 3/4 towards +x, v the
  * polar angle from 0 at +y to 1 at -y. Between the centres of pixels the radiance is bilinear;
@@ -12,8 +12,8 @@
  * A tent that reaches over a pole is folded back, which is what keeping the outermost row amounts
  * to.
  */
-#ifndef RT_KERNELS_LIGHT_SKY_H
-#define RT_KERNELS_LIGHT_SKY_H
+#ifndef RT_KERNELS_LIGHT_ENVIRONMENT_H
+#define RT_KERNELS_LIGHT_ENVIRONMENT_H
 
 #include "math/frame.h"
 #include "math/lanes.h"
@@ -23,13 +23,13 @@
 
 /* ---- Between directions and the unit square -------------------------------- */
 
-static inline float2 sky_point(const struct scene *scene, float3 w)
+static inline float2 environment_point(const struct scene *scene, float3 w)
 {
     const float u = 0.5f + atan2(w.x, -w.z) * (0.5f * M_1_PI_F) + scene->header->environment.turn;
     return (float2)(u - floor(u), acos(clamp(w.y, -1.0f, 1.0f)) * M_1_PI_F);
 }
 
-static inline float3 sky_direction(const struct scene *scene, float2 point)
+static inline float3 environment_direction(const struct scene *scene, float2 point)
 {
     const float turn = point.x - 0.5f - scene->header->environment.turn;
     const float2 longitude = sin_cos(2.0f * RT_PI * (turn - floor(turn)));
@@ -39,25 +39,25 @@ static inline float3 sky_direction(const struct scene *scene, float2 point)
 
 /* ---- The image and its tables ---------------------------------------------- */
 
-static inline global const float *sky_table(const struct scene *scene, uint row)
+static inline global const float *environment_table(const struct scene *scene, uint row)
 {
     return (global const float *)((global const uchar *)scene->header + (size_t)row * RT_SCENE_ROW);
 }
 
 /* Four neighbouring pixels and where a point lies between their centres. */
-struct sky_cell {
+struct environment_cell {
     uint left, right, above, below;
     float2 weight; /* of right and below */
 };
 
-static inline struct sky_cell sky_cell_at(const struct scene *scene, float2 point)
+static inline struct environment_cell environment_cell_at(const struct scene *scene, float2 point)
 {
     global const rt_environment_data *sky = &scene->header->environment;
     const int width = (int)sky->width, height = (int)sky->height;
     const float2 place = point * (float2)(width, height) - 0.5f;
     const float2 corner = floor(place);
     const int i = (int)corner.x, j = (int)corner.y;
-    struct sky_cell cell;
+    struct environment_cell cell;
     cell.left = (uint)(i < 0 ? width - 1 : min(i, width - 1));
     cell.right = (uint)(i + 1 < width ? i + 1 : 0);
     cell.above = (uint)clamp(j, 0, height - 1);
@@ -66,11 +66,11 @@ static inline struct sky_cell sky_cell_at(const struct scene *scene, float2 poin
     return cell;
 }
 
-static inline float3 sky_radiance_at(const struct scene *scene, float2 point)
+static inline float3 environment_radiance_at(const struct scene *scene, float2 point)
 {
     global const rt_environment_data *sky = &scene->header->environment;
-    global const float4 *texels = (global const float4 *)sky_table(scene, sky->texels);
-    const struct sky_cell cell = sky_cell_at(scene, point);
+    global const float4 *texels = (global const float4 *)environment_table(scene, sky->texels);
+    const struct environment_cell cell = environment_cell_at(scene, point);
     global const float4 *above = texels + (size_t)cell.above * sky->width;
     global const float4 *below = texels + (size_t)cell.below * sky->width;
     return mix(mix(above[cell.left], above[cell.right], cell.weight.x),
@@ -82,24 +82,25 @@ static inline float3 sky_radiance_at(const struct scene *scene, float2 point)
  * The probability with which a row, and in it the pixels `cell.left` and `cell.right` mixed, are
  * chosen.
  */
-static inline float sky_row_share(const struct scene *scene, const struct sky_cell *cell, uint row)
+static inline float environment_row_share(const struct scene *scene,
+                                          const struct environment_cell *cell, uint row)
 {
     global const rt_environment_data *sky = &scene->header->environment;
-    global const float *marginal = sky_table(scene, sky->marginal) + row;
+    global const float *marginal = environment_table(scene, sky->marginal) + row;
     global const float *conditional =
-        sky_table(scene, sky->conditional) + (size_t)row * (sky->width + 1u);
+        environment_table(scene, sky->conditional) + (size_t)row * (sky->width + 1u);
     const float left = conditional[cell->left + 1u] - conditional[cell->left];
     const float right = conditional[cell->right + 1u] - conditional[cell->right];
     return (marginal[1] - marginal[0]) * mix(left, right, cell->weight.x);
 }
 
 /* Density over the unit square. */
-static inline float sky_pdf_uv(const struct scene *scene, float2 point)
+static inline float environment_pdf_uv(const struct scene *scene, float2 point)
 {
     global const rt_environment_data *sky = &scene->header->environment;
-    const struct sky_cell cell = sky_cell_at(scene, point);
-    const float share = mix(sky_row_share(scene, &cell, cell.above),
-                            sky_row_share(scene, &cell, cell.below), cell.weight.y);
+    const struct environment_cell cell = environment_cell_at(scene, point);
+    const float share = mix(environment_row_share(scene, &cell, cell.above),
+                            environment_row_share(scene, &cell, cell.below), cell.weight.y);
     return share * (float)sky->width * (float)sky->height;
 }
 
@@ -107,7 +108,7 @@ static inline float sky_pdf_uv(const struct scene *scene, float2 point)
  * The i with cdf[i] <= u < cdf[i + 1] of a cumulative distribution over `count` cells; *rest is u's
  * place between the two.
  */
-static inline uint sky_find(global const float *cdf, uint count, float u, float *rest)
+static inline uint environment_find(global const float *cdf, uint count, float u, float *rest)
 {
     uint first = 0u;
     while (count > 1u) {
@@ -119,14 +120,15 @@ static inline uint sky_find(global const float *cdf, uint count, float u, float 
     return first;
 }
 
-static inline float2 sample_sky_point(const struct scene *scene, float2 u)
+static inline float2 sample_environment_point(const struct scene *scene, float2 u)
 {
     global const rt_environment_data *sky = &scene->header->environment;
     float rest_x, rest_y;
-    const uint row = sky_find(sky_table(scene, sky->marginal), sky->height, u.y, &rest_y);
+    const uint row =
+        environment_find(environment_table(scene, sky->marginal), sky->height, u.y, &rest_y);
     global const float *conditional =
-        sky_table(scene, sky->conditional) + (size_t)row * (sky->width + 1u);
-    const uint column = sky_find(conditional, sky->width, u.x, &rest_x);
+        environment_table(scene, sky->conditional) + (size_t)row * (sky->width + 1u);
+    const uint column = environment_find(conditional, sky->width, u.x, &rest_x);
     const float2 off = sample_tent((float2)(rest_x, rest_y));
     const float2 point = ((float2)(column, row) + 0.5f + off) / (float2)(sky->width, sky->height);
     return (float2)(point.x - floor(point.x), 1.0f - fabs(1.0f - fabs(point.y)));
@@ -134,35 +136,37 @@ static inline float2 sample_sky_point(const struct scene *scene, float2 u)
 
 /* ---- As a light -------------------------------------------------------------- */
 
-static inline bool has_sky(const struct scene *scene)
+static inline bool has_environment(const struct scene *scene)
 {
     return scene->header->environment.light != RT_NONE;
 }
 
 /* The radiance that comes from direction w. */
-static inline float3 sky_radiance(const struct scene *scene, float3 w)
+static inline float3 environment_radiance(const struct scene *scene, float3 w)
 {
     const float3 emission = row3(scene->lights[scene->header->environment.light].emission);
-    return scene->header->environment.width ? emission * sky_radiance_at(scene, sky_point(scene, w))
-                                            : emission;
+    return scene->header->environment.width
+               ? emission * environment_radiance_at(scene, environment_point(scene, w))
+               : emission;
 }
 
 /*
- * The density of w by sample_sky. An area du dv of the image is 2 pi^2 sin(pi v) du dv of solid
- * angle.
+ * The density of w by sample_environment. An area du dv of the image is 2 pi^2 sin(pi v) du dv of
+ * solid angle.
  */
-static inline float sky_pdf_w(const struct scene *scene, float3 w)
+static inline float environment_pdf_w(const struct scene *scene, float3 w)
 {
     if (!scene->header->environment.width)
         return sphere_pdf_w();
-    return sky_pdf_uv(scene, sky_point(scene, w)) /
+    return environment_pdf_uv(scene, environment_point(scene, w)) /
            (2.0f * RT_PI * RT_PI * sqrt(w.x * w.x + w.z * w.z));
 }
 
 /*
  * Samples a direction, in proportion to radiance: writes what comes from there, returns 1 / pdf_w.
  */
-static inline float sample_sky(const struct scene *scene, float2 u, float3 *w, float3 *radiance)
+static inline float sample_environment(const struct scene *scene, float2 u, float3 *w,
+                                       float3 *radiance)
 {
     const float3 emission = row3(scene->lights[scene->header->environment.light].emission);
     if (!scene->header->environment.width) {
@@ -170,10 +174,11 @@ static inline float sample_sky(const struct scene *scene, float2 u, float3 *w, f
         *radiance = emission;
         return 1.0f / sphere_pdf_w();
     }
-    const float2 point = sample_sky_point(scene, u);
-    *w = sky_direction(scene, point);
-    *radiance = emission * sky_radiance_at(scene, point);
-    return 2.0f * RT_PI * RT_PI * sqrt(w->x * w->x + w->z * w->z) / sky_pdf_uv(scene, point);
+    const float2 point = sample_environment_point(scene, u);
+    *w = environment_direction(scene, point);
+    *radiance = emission * environment_radiance_at(scene, point);
+    return 2.0f * RT_PI * RT_PI * sqrt(w->x * w->x + w->z * w->z) /
+           environment_pdf_uv(scene, point);
 }
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * test_light_sky.c - the environment: its directions, its density, and the light paths that it
- * starts.
+ * test_light_environment.c - the environment: its directions, its density, and the light paths
+ * that start from it.
  */
 #include "light_draw.h"
 

@@ -1,0 +1,405 @@
+/*
+ * batch.h - an accelerator around the path integrator: eight paths at a time, of which those at
+ * diffuse vertices are taken on together, in eight lanes.
+ *
+ * Most vertices of most scenes lie on surfaces that only reflect diffusely, outside of all solids.
+ * There path_vertex comes down to a light sample, roulette and a cosine direction. These are done
+ * here by the same code as there (*.inc.h), read a second time at width 8: the same estimate by the
+ * same numbers, equal but for rounding, with hardly a branch. Flat triangles and parallelograms,
+ * and flat lights sampled by area, are handled in lanes; other surfaces and lights are evaluated
+ * one by one. All other vertices go to path_vertex itself. No lane depends on another, so a path's
+ * bits do not depend on those beside it; lanes that hold no path have no meaning.
+ *
+ * Only path.cl includes this file, where RT_WIDTH is 8. Without it the scalar integrator serves.
+ */
+#ifndef RT_KERNELS_INTEGRATE_BATCH_H
+#define RT_KERNELS_INTEGRATE_BATCH_H
+
+#include "camera/camera.h"
+#include "camera/film.h"
+#include "integrate/path.h"
+#include "math/width8.inc.h"
+#include "math/frame.inc.h"
+#include "sample/cosine.inc.h"
+#include "sample/triangle.inc.h"
+#include "shape/flat.inc.h"
+#include "light/area.inc.h"
+#include "bsdf/lambert.inc.h"
+#include "integrate/mis.inc.h"
+#include "sample/roulette.inc.h"
+
+/* ---- Diffuse vertices --------------------------------------------------------- */
+
+/* What is noted of diffuse vertices before they are taken on together. */
+struct diffuse_batch {
+    float3 kd[8];
+    global const float *corner[8]; /* flat surface: the first vertex in its block */
+    struct surface surfaces[8];    /* the others */
+    uint taken;                    /* a bit for each path whose vertex is noted, */
+    uint curved;                   /* those that have their surface in `surfaces` */
+};
+
+/* Where the lanes' vertices are; the normals are on the side that the path comes from. */
+struct surface_x8 {
+    struct vec3_x8 position, normal, shading;
+    float8 error;
+};
+
+/* Notes a path's vertex if it is diffuse. */
+static inline bool note_diffuse(struct diffuse_batch *batch, uint lane, const struct scene *scene,
+                                const rt_params *params, const struct path *path,
+                                const struct hit *hit)
+{
+    global const rt_shape *shape = scene->shapes + scene->prim_shape[hit->prim];
+    if (!(shape->flags & RT_SHAPE_LAMBERT) || path->media.x != RT_NONE ||
+        path->depth == params->max_depth)
+        return false;
+    global const rt_material_data *material = scene->materials + shape->material;
+    if (shape->flags & RT_SHAPE_FLAT) {
+        batch->corner[lane] = scene->blocks[hit->slot >> 3].v0[0] + (hit->slot & 7u);
+        batch->kd[lane] = row3(material->kd);
+    } else {
+        struct surface *surface = &batch->surfaces[lane];
+        *surface = surface_at(scene, &path->ray, hit);
+        const struct bsdf_params values = evaluate_material(scene, material, surface);
+        surface->shading = values.shading;
+        batch->kd[lane] = values.kd;
+        batch->curved |= 1u << lane;
+    }
+    batch->taken |= 1u << lane;
+    return true;
+}
+
+/* The lane that lane i reads from: itself where it holds something, else the first that does. */
+static inline uint held_lane(uint held, uint i)
+{
+    return held >> i & 1u ? i : lane_first(held);
+}
+
+/* The surfaces of flat triangles and parallelograms. */
+static inline struct surface_x8 flat_surfaces(const struct diffuse_batch *batch,
+                                              const struct hit *hits)
+{
+    const uint row = RT_BVH_WIDTH, vertex = 3u * RT_BVH_WIDTH;
+    const float8 u = LANES_OF(float8, hits, .u), v = LANES_OF(float8, hits, .v);
+    const struct vec3_x8 v0 = vec3_x8_gather(batch->corner, 0u, row);
+    const struct vec3_x8 e1 = sub_x8(vec3_x8_gather(batch->corner, vertex, row), v0);
+    const struct vec3_x8 e2 = sub_x8(vec3_x8_gather(batch->corner, 2u * vertex, row), v0);
+    const struct flat_surface_x8 flat = flat_surface_at_x8(v0, e1, e2, u, v);
+    const struct surface_x8 surface = {flat.position, flat.normal, flat.normal, flat.error};
+    return surface;
+}
+
+/* Takes those lanes from surfaces that were made one by one. */
+static inline void take_curved(struct surface_x8 *surface, const struct diffuse_batch *batch)
+{
+    const struct vec3_x8 position = VEC3_X8_OF(batch->surfaces, .position);
+    const struct vec3_x8 normal = VEC3_X8_OF(batch->surfaces, .normal);
+    const struct vec3_x8 shading = VEC3_X8_OF(batch->surfaces, .shading);
+    const int8 curved = lanes_of(batch->curved);
+    surface->position = select_x8(curved, position, surface->position);
+    surface->normal = select_x8(curved, normal, surface->normal);
+    surface->shading = select_x8(curved, shading, surface->shading);
+    surface->error = curved ? LANES_OF(float8, batch->surfaces, .error) : surface->error;
+}
+
+static inline struct surface_x8 diffuse_surfaces(struct diffuse_batch *batch,
+                                                 const struct path *paths, const struct hit *hits)
+{
+    struct surface_x8 surface;
+    const uint flat = batch->taken & ~batch->curved;
+    if (flat) {
+        for (uint i = 0u; i < 8u; i++)
+            batch->corner[i] = batch->corner[held_lane(flat, i)];
+        surface = flat_surfaces(batch, hits);
+    }
+    if (batch->curved)
+        take_curved(&surface, batch);
+    const struct vec3_x8 direction = VEC3_X8_OF(paths, .ray.direction);
+    const float8 side = dot_x8(direction, surface.normal) > 0.0f ? (float8)(-1.0f) : (float8)(1.0f);
+    surface.normal = scale_x8(side, surface.normal);
+    surface.shading = scale_x8(side, surface.shading);
+    return surface;
+}
+
+/* ---- Direct light -------------------------------------------------------------- */
+
+/* The lights that are chosen for the vertices. */
+struct chosen_lights {
+    global const rt_light_data *light[8]; /* those that are sampled in lanes */
+    float pmf[8];                         /* of the choice */
+    struct light_sample samples[8];       /* the others */
+    uint flat;                            /* a bit for each lane whose light is sampled in lanes, */
+    uint single;                          /* those that have a sample, */
+    uint delta;                           /* and of these the delta lights */
+};
+
+/* Points on lights, as the lanes' vertices see them. */
+struct light_sample_x8 {
+    struct vec3_x8 wi, radiance;
+    struct vec3_x8 target; /* on the light, off its surface by its error */
+    float8 inv_pdf;        /* as in light_sample; 0 where nothing can arrive */
+};
+
+/* Chooses a light for each vertex, and samples those that lanes do not. */
+static inline void choose_lights(struct chosen_lights *lights, const struct scene *scene,
+                                 uint wanted, struct vec3_x8 from, const float8 *numbers)
+{
+    float3 positions[8];
+    vec3_x8_rows(from, positions);
+    lights->flat = lights->single = lights->delta = 0u;
+    if (scene->light_nodes[1].power == 0.0f)
+        return;
+    for (; wanted; wanted &= wanted - 1u) {
+        const uint i = lane_first(wanted), bit = 1u << i;
+        const uint chosen = choose_light(scene, positions[i], numbers[i].s2, &lights->pmf[i]);
+        global const rt_light_data *light = scene->lights + chosen;
+        if (light->flags & RT_LIGHT_BY_AREA) {
+            lights->light[i] = light;
+            lights->flat |= bit;
+        } else if (sample_chosen(scene, light, positions[i], numbers[i].s01, &lights->samples[i])) {
+            lights->single |= bit;
+            lights->delta |= lights->samples[i].delta ? bit : 0u;
+        }
+    }
+}
+
+/* Samples flat lights by area, as sample_chosen does. */
+static inline struct light_sample_x8 sample_flat_lights(global const rt_light_data *const lights[8],
+                                                        struct vec3_x8 from, const float8 *numbers)
+{
+    const struct flat_light_x8 flat = {
+        VEC3_X8_OF_ROW(lights, ->a), VEC3_X8_OF_ROW(lights, ->b), VEC3_X8_OF_ROW(lights, ->c),
+        LANES_OF(float8, lights, ->width), LANES_OF(float8, lights, ->height)};
+    const struct vec3_x8 normal = VEC3_X8_OF_ROW(lights, ->normal),
+                         emission = VEC3_X8_OF_ROW(lights, ->emission);
+    const uint8 kind = LANES_OF(uint8, lights, ->kind), flags = LANES_OF(uint8, lights, ->flags);
+    const struct vec2_x8 u = {LANES_OF(float8, numbers, .s0), LANES_OF(float8, numbers, .s1)};
+    const struct vec2_x8 folded = sample_triangle_x8(u);
+    const int8 quad = kind == RT_LIGHT_QUAD;
+    const struct vec2_x8 lengths = {(quad ? u.x : folded.x) * flat.width,
+                                    (quad ? u.y : folded.y) * flat.height};
+    const struct vec3_x8 point = flat_light_point_x8(&flat, lengths);
+    const struct vec3_x8 towards = sub_x8(point, from);
+    const float8 height = dot_x8(sub_x8(from, flat.corner), normal);
+    const float8 error = flat_light_error_x8(&flat);
+    const int8 lit = height > 0.0f || (flags & RT_LIGHT_TWO_SIDED) != 0u;
+    struct light_sample_x8 sample;
+    sample.wi = scale_x8(1.0f / length_x8(towards), towards);
+    sample.radiance = emission;
+    sample.target = along_x8(point, height < 0.0f ? -error : error, normal);
+    sample.inv_pdf =
+        lit ? area_inv_pdf_x8(LANES_OF(float8, lights, ->area), towards, normal) : (float8)(0.0f);
+    return sample;
+}
+
+/* Takes those lanes from samples that were made one by one. */
+static inline void take_samples(struct light_sample_x8 *sample, const struct chosen_lights *lights)
+{
+    const struct vec3_x8 wi = VEC3_X8_OF(lights->samples, .wi),
+                         radiance = VEC3_X8_OF(lights->samples, .radiance);
+    const int8 single = lanes_of(lights->single);
+    sample->wi = select_x8(single, wi, sample->wi);
+    sample->radiance = select_x8(single, radiance, sample->radiance);
+    sample->inv_pdf = single ? LANES_OF(float8, lights->samples, .inv_pdf) : sample->inv_pdf;
+}
+
+/* Samples the lights that are chosen for the vertices. */
+static inline struct light_sample_x8 sample_lights(struct chosen_lights *lights,
+                                                   struct vec3_x8 from, const float8 *numbers)
+{
+    struct light_sample_x8 sample;
+    if (lights->flat) {
+        for (uint i = 0u; i < 8u; i++)
+            lights->light[i] = lights->light[held_lane(lights->flat, i)];
+        sample = sample_flat_lights(lights->light, from, numbers);
+    }
+    if (lights->single)
+        take_samples(&sample, lights);
+    return sample;
+}
+
+/* As connect_light; `weight` is the throughput. */
+static inline void connect_lights(const struct scene *scene, const struct surface_x8 *surface,
+                                  uint taken, struct vec3_x8 weight, struct vec3_x8 kd,
+                                  const float8 *numbers, struct connection *connections)
+{
+    struct chosen_lights lights;
+    choose_lights(&lights, scene, taken, surface->position, numbers);
+    const struct light_sample_x8 sample = sample_lights(&lights, surface->position, numbers);
+
+    /* Weigh the light, but for that of delta lights, against the scattered direction. */
+    const float8 inv_pdf = sample.inv_pdf / vload8(0, lights.pmf);
+    const float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
+    const float8 ratio = lanes_of(lights.delta) ? (float8)(0.0f) : pdf_w * inv_pdf;
+    const float8 share = pdf_w * inv_pdf / power_heuristic_divisor_x8(ratio);
+    const struct vec3_x8 radiance = mul_x8(scale_x8(share, weight), mul_x8(kd, sample.radiance));
+
+    /* Hand each path its shadow ray and the light that may arrive along it. */
+    const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
+    float3 origins[8], directions[8], radiances[8];
+    vec3_x8_rows(origin, origins);
+    vec3_x8_rows(sub_x8(sample.target, origin), directions);
+    vec3_x8_rows(radiance, radiances);
+    for (uint i = 0u; i < 8u; i++)
+        if ((lights.flat | lights.single) >> i & 1u) {
+            connections[i].ray = lights.single >> i & 1u
+                                     ? shadow_ray(origins[i], &lights.samples[i])
+                                     : make_ray(origins[i], directions[i], 0.0f, RT_SHADOW_END);
+            connections[i].radiance = radiances[i];
+        }
+}
+
+/* ---- Roulette and scattering ---------------------------------------------------- */
+
+/* Plays roulette, and scatters those that survive: as path_scatter of a diffuse event. */
+static inline void scatter_paths(const rt_params *params, const struct surface_x8 *surface,
+                                 struct vec3_x8 beta, struct vec3_x8 kd, const float8 *numbers,
+                                 uint taken, struct path *paths)
+{
+    struct vec3_x8 kept = mul_x8(beta, kd);
+    const float8 survival = eye_path_survival_x8(params, LANES_OF(uint8, paths, .depth), kept);
+    kept = scale_x8(1.0f / survival, kept);
+    const struct vec2_x8 u = {LANES_OF(float8, numbers, .s4), LANES_OF(float8, numbers, .s5)};
+    const struct vec3_x8 wi_local = sample_cosine_x8(u);
+    const struct vec3_x8 wi = frame_to_world_x8(frame_about_x8(surface->shading), wi_local);
+    const struct vec3_x8 origin = along_x8(surface->position, surface->error, surface->normal);
+    const uint alive = lane_mask(LANES_OF(float8, numbers, .s6) < survival && wi_local.z > 0.0f &&
+                                 dot_x8(wi, surface->normal) > 0.0f && largest_x8(kept) > 0.0f);
+
+    float3 origins[8], directions[8], positions[8], betas[8];
+    float pdf_w[8];
+    vec3_x8_rows(origin, origins);
+    vec3_x8_rows(wi, directions);
+    vec3_x8_rows(surface->position, positions);
+    vec3_x8_rows(kept, betas);
+    vstore8(cosine_pdf_w_x8(wi_local.z), 0, pdf_w);
+    for (uint i = 0u; i < 8u; i++)
+        if (taken >> i & 1u) {
+            paths[i].ray = make_ray(origins[i], directions[i], 0.0f, INFINITY);
+            paths[i].from = positions[i];
+            paths[i].beta = betas[i];
+            paths[i].pdf_w = pdf_w[i];
+            paths[i].scattered = true;
+            paths[i].rough = false;
+            paths[i].depth++;
+            paths[i].alive = alive >> i & 1u;
+        }
+}
+
+/* ---- Paths ----------------------------------------------------------------------- */
+
+/* Takes the paths that were noted through their vertices. */
+INLINE_NEVER void diffuse_vertices(const struct scene *scene, const rt_params *params,
+                                   struct diffuse_batch *batch, struct path *paths,
+                                   const struct hit *hits, const float8 *numbers,
+                                   struct connection *connections)
+{
+    const struct surface_x8 surface = diffuse_surfaces(batch, paths, hits);
+    const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta), kd = VEC3_X8_OF(batch->kd, );
+    const struct vec3_x8 weight = scale_x8(LANES_OF(float8, paths, .eta_scale), beta);
+    connect_lights(scene, &surface, batch->taken, weight, kd, numbers, connections);
+    scatter_paths(params, &surface, beta, kd, numbers, batch->taken, paths);
+}
+
+/*
+ * Takes eight paths through their next vertices: follow_path's loop, step by step for all. No path
+ * waits for another within a step, so that a processor that runs ahead has several under way.
+ */
+static inline void follow_batch(const struct scene *scene, const rt_params *params,
+                                struct path *paths)
+{
+    struct hit hits[8];
+    float8 numbers[8];
+    struct connection connections[8];
+
+    /* Draw the numbers of the next vertices, and find them. */
+    for (uint i = 0u; i < 8u; i++) {
+        if (!paths[i].alive)
+            continue;
+        numbers[i] = path_numbers(&paths[i]);
+        if (!closest_hit(scene, &paths[i].ray, &hits[i]))
+            add_environment(&paths[i], scene, params, FOLLOW_ALL);
+    }
+
+    /* Go through diffuse vertices together, through others one by one. */
+    struct diffuse_batch batch;
+    batch.taken = batch.curved = 0u;
+    for (uint i = 0u; i < 8u; i++) {
+        connections[i].radiance = (float3)(0.0f);
+        if (!paths[i].alive)
+            continue;
+        if (params->estimator != RT_ESTIMATOR_MIS ||
+            !note_diffuse(&batch, i, scene, params, &paths[i], &hits[i]))
+            path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], FOLLOW_ALL,
+                        0);
+    }
+    if (batch.taken)
+        diffuse_vertices(scene, params, &batch, paths, hits, numbers, connections);
+
+    /* Add the direct light that arrives. */
+    for (uint i = 0u; i < 8u; i++)
+        add_connection(&paths[i], scene, &connections[i]);
+}
+
+/* The sample that a path is of. */
+struct sample {
+    uint2 at;   /* pixel */
+    uint index; /* of the pixel in the film */
+    uint number;
+    float weight;
+};
+
+/*
+ * Begins the next sample of the pixel, or the first of the next item in line; false when there is
+ * none.
+ */
+static inline bool next_sample(const struct scene *scene, const rt_params *params, uint *item,
+                               uint end, struct sample *sample, struct path *path)
+{
+    if (++sample->number - params->first_sample >= params->sample_count) {
+        if (*item == end)
+            return false;
+        sample->at = pixel_of_item(params, params->first_item + (*item)++);
+        sample->index = sample->at.y * params->width + sample->at.x;
+        sample->number = params->first_sample;
+    }
+    const struct sampler sampler = sampler_start(scene, params, sample->index, sample->number);
+    const struct ray ray =
+        pixel_ray(&scene->header->camera, params, &sampler, sample->at, &sample->weight);
+    path_begin(path, scene, &sampler, ray);
+    return true;
+}
+
+/*
+ * Adds a launch's samples to the pixels of the items from `item` to before `end`, those of a pixel
+ * in order.
+ */
+INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *params, uint item,
+                                uint end, global rt_film_pixel *film)
+{
+    struct sample samples[8];
+    struct path paths[8];
+    uint under_way = 0u; /* a bit for each path */
+
+    for (uint i = 0u; i < 8u; i++) {
+        samples[i].number = params->first_sample + params->sample_count - 1u;
+        paths[i].alive = false;
+        if (next_sample(scene, params, &item, end, &samples[i], &paths[i]))
+            under_way |= 1u << i;
+    }
+    while (under_way) {
+        follow_batch(scene, params, paths);
+        for (uint i = 0u; i < 8u; i++) {
+            if (paths[i].alive || !(under_way >> i & 1u))
+                continue;
+            rt_film_pixel pixel = film[samples[i].index];
+            film_add(&pixel, paths[i].radiance, samples[i].weight);
+            film[samples[i].index] = pixel;
+            if (!next_sample(scene, params, &item, end, &samples[i], &paths[i]))
+                under_way ^= 1u << i;
+        }
+    }
+}
+
+#endif

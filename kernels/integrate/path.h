@@ -1,0 +1,130 @@
+/*
+ * path.h - the path integrator: follows one path from the eye, the rendering equation by Monte
+ * Carlo.
+ *
+ *   Lo(x, wo) = Le(x, wo) + integral of fr(x, wo, wi) Li(x, wi) |n.wi| dwi            Kajiya 1986
+ *
+ * Direct light is estimated twice at each vertex, by a point sampled on a light and by the
+ * direction sampled from the material, combined by multiple importance sampling (mis.h). Delta
+ * events and delta lights leave only one of the two, which then counts fully. Photon mapping uses
+ * the same integrator, with hooks at diffuse events (gather.h).
+ *
+ * References:
+ *   Kajiya: "The Rendering Equation", SIGGRAPH 1986.
+ *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997.
+ */
+#ifndef RT_KERNELS_INTEGRATE_PATH_H
+#define RT_KERNELS_INTEGRATE_PATH_H
+
+#include "integrate/direct_light.h"
+#include "integrate/emission.h"
+#include "integrate/gather.h"
+#include "integrate/path_state.h"
+#include "sample/roulette.h"
+
+/* Goes on from a surface by the chosen lobe, by u in [0,1)^3. */
+static inline void path_scatter(struct path *path, const struct surface *surface,
+                                const struct bsdf *bsdf, uint lobe, float3 u, uint4 beyond)
+{
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, CARRY_RADIANCE);
+    path->beta *= scatter.weight;
+    path->eta_scale *= scatter.eta_scale;
+    path->pdf_w = scatter.pdf_w;
+    path->alive = largest3(path->beta) > 0.0f;
+    path->depth++;
+    path->scattered |= path->pdf_w > 0.0f;
+    path->rough = !lobe_is_gathered(lobe) && (path->rough || !lobe_is_delta(lobe));
+    path->from = surface->position;
+    if (scatter.through)
+        path->media = beyond;
+    const float lift = scatter.through ? -surface->error : surface->error;
+    path->ray = make_ray(surface->position + lift * bsdf->normal, scatter.wi, 0.0f, INFINITY);
+}
+
+/*
+ * Takes a path through the vertex that its ray hits, with the vertex's numbers u. `purpose` is a
+ * constant at each call; *gather serves FOLLOW_TO_GATHER alone.
+ */
+static inline void path_vertex(const struct scene *scene, const rt_params *params,
+                               struct path *path, const struct hit *hit, float8 u,
+                               struct connection *connection, const uint purpose,
+                               const struct gather *gather)
+{
+    const struct surface surface = surface_at(scene, &path->ray, hit);
+    const uint material = scene->shapes[surface.shape].material;
+    const float3 wo = -path->ray.direction;
+
+    /* Attenuate by the medium. */
+    path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
+
+    /* Go straight on through a boundary that a stronger medium hides. */
+    const struct boundary boundary =
+        media_meet(scene, path->media, material, dot(wo, surface.normal) > 0.0f);
+    if (!boundary.exists) {
+        path->pdf_w = 0.0f;
+        path->alive =
+            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+        return;
+    }
+
+    /* Add what the surface emits; end the path at its longest length. */
+    add_emission(path, scene, params, &surface, wo, purpose);
+    path->alive =
+        path->depth != params->max_depth && !(purpose == FOLLOW_DIRECT && path->scattered);
+    if (!path->alive)
+        return;
+
+    /* Sample direct light. */
+    const struct bsdf bsdf =
+        bsdf_at(scene, scene->materials + material, &surface, wo, boundary.eta, path->beta);
+    const bool last = ends_at_gather_point(path, params, purpose);
+    if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
+        connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, u.lo,
+                      last);
+
+    /* Choose a lobe, or end the path by Russian roulette, which waits for a path that ends here. */
+    const float3 throughput = path->beta * bsdf_albedo(&bsdf);
+    const float survival = last ? 1.0f : eye_path_survival(params, path->depth, throughput);
+    const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
+    path->alive = lobe != RT_LOBE_NONE;
+    path->beta *= 1.0f / survival;
+
+    /* In photon mapping, gather photons wherever the lobe is gathered. */
+    if (purpose == FOLLOW_TO_GATHER && lobe_is_gathered(lobe))
+        add_gather_point(path, gather, last, &surface, &bsdf, material);
+
+    /* Sample a direction of the lobe and go on. */
+    if (path->alive)
+        path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
+}
+
+/* Follows one path to its end and returns its radiance. */
+static inline float3 follow_path(const struct scene *scene, const rt_params *params,
+                                 const struct sampler *sampler, struct ray ray, const uint purpose,
+                                 const struct gather *gather)
+{
+    struct path path;
+    path_begin(&path, scene, sampler, ray);
+    while (path.alive) {
+        /* Draw the numbers of the next vertex: that fills the wait for memory below. */
+        const float8 u = path_numbers(&path);
+
+        /* Find the nearest surface, or what the environment emits. */
+        struct hit hit;
+        if (!closest_hit(scene, &path.ray, &hit)) {
+            add_environment(&path, scene, params, purpose);
+            break;
+        }
+
+        /* Add emission, sample a light, play roulette, scatter. */
+        struct connection connection;
+        connection.radiance = (float3)(0.0f);
+        path_vertex(scene, params, &path, &hit, u, &connection, purpose, gather);
+
+        /* Add the direct light that arrives. */
+        add_connection(&path, scene, &connection);
+    }
+    return path.radiance;
+}
+
+#endif

@@ -1,0 +1,58 @@
+/*
+ * width1.inc.h - code over a width, for one path at a time.
+ *
+ * Sampling, light and lobe code that the scalar integrator shares with the batch of eight paths is
+ * written once over a width, in files named *.inc.h. There REAL and UINT are numbers of each path,
+ * BOOL is the result of a comparison, VEC2 and VEC3 are vectors of REAL, and W(name) is the name
+ * of a function or struct at that width. A header includes such a file after this one;
+ * integrate/batch.h includes it once more, after width8.inc.h. Comparisons, ?: and the built-in
+ * functions of numbers serve both widths as they are.
+ *
+ * POINT3, COMBINE3, SUM3 and DIVIDE3 add and divide in another order at each width, the faster one
+ * there: they alone make the widths round differently.
+ */
+#undef W
+#undef REAL
+#undef UINT
+#undef BOOL
+#undef VEC2
+#undef VEC3
+#undef VEC2_OF
+#undef VEC3_OF
+#undef ADD3
+#undef SUB3
+#undef SCALE3
+#undef DOT2
+#undef DOT3
+#undef CROSS3
+#undef LENGTH3
+#undef ABS3
+#undef LARGEST3
+#undef POINT3
+#undef COMBINE3
+#undef SUM3
+#undef DIVIDE3
+
+#define W(name) name
+#define REAL float
+#define UINT uint
+#define BOOL bool
+#define VEC2 float2
+#define VEC3 float3
+#define VEC2_OF(x, y) ((float2)(x, y))
+#define VEC3_OF(x, y, z) ((float3)(x, y, z))
+
+#define ADD3(a, b) ((a) + (b))
+#define SUB3(a, b) ((a) - (b))
+#define SCALE3(s, a) ((s) * (a))
+#define DOT2(a, b) dot(a, b)
+#define DOT3(a, b) dot(a, b)
+#define CROSS3(a, b) cross(a, b)
+#define LENGTH3(a) length(a)
+#define ABS3(a) fabs(a)
+#define LARGEST3(a) largest3(a)
+
+#define POINT3(a, s, b, t, c) ((a) + ((s) * (b) + (t) * (c)))          /* a + s b + t c */
+#define COMBINE3(r, a, s, b, t, c) ((r) * (a) + (s) * (b) + (t) * (c)) /* r a + s b + t c */
+#define SUM3(a, b, c) ((a) + (b) + (c))
+#define DIVIDE3(a, s) ((a) / (s))
