@@ -72,8 +72,8 @@ LIB_SRC := \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/word.c \
-	lib/shape/area_scale.c lib/shape/ball.c lib/shape/classes.c lib/shape/cone.c \
-	lib/shape/cylinder.c lib/shape/disc.c lib/shape/edges.c lib/shape/ellipsoid.c \
+	lib/shape/area_scale.c lib/shape/ball.c lib/shape/box.c lib/shape/classes.c \
+	lib/shape/cone.c lib/shape/cylinder.c lib/shape/disc.c lib/shape/edges.c lib/shape/ellipsoid.c \
 	lib/shape/frustum.c lib/shape/placed.c lib/shape/plane.c lib/shape/quad.c lib/shape/sphere.c \
 	lib/shape/torus.c lib/shape/triangles.c \
 	lib/texture/texture.c

@@ -260,6 +260,29 @@ static rt_status build_torus(rt_scene *scene, const void *fields, rt_build_name 
                               &s->surface, error);
 }
 
+/* ---- box --------------------------------------------------------------------- */
+
+typedef struct box {
+    float centre[3], size[3];
+    rt_surface surface;
+} box;
+
+static const rt_field box_fields[] = {
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(box, centre), "the middle"},
+    {"size", VECTOR, REQUIRED, LENGTH, "m", "", NULL, AT(box, size),
+     "full lengths of the edges along x, y and z; rotate turns them"},
+    SURFACE(box),
+    EMISSION(box),
+};
+
+static rt_status build_box(rt_scene *scene, const void *fields, rt_build_name *name,
+                           rt_error *error)
+{
+    const box *s = fields;
+    (void)name;
+    return rt_scene_add_box(scene, NULL, s->centre, s->size, &s->surface, error);
+}
+
 /* ---- mesh, instance, model -------------------------------------------------- */
 
 /* Of a mesh, an instance and a model, which has all of it. */
@@ -347,6 +370,7 @@ const rt_block rt_shape_blocks[] = {
     SHAPE(cone),
     SHAPE(ellipsoid),
     SHAPE(torus),
+    SHAPE(box),
     {RT_BLOCK_MESH, "mesh", NULL, RT_BLOCK_NAMED, FIELDS(mesh_fields), build_mesh},
     {RT_BLOCK_INSTANCE, "instance", NULL, RT_BLOCK_REFERS, FIELDS(instance_fields), build_instance},
     {RT_BLOCK_SHAPE, "model", NULL, 0, FIELDS(model_fields), build_model},

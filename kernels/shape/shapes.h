@@ -42,7 +42,8 @@
     X(DISC, disc, 5)                                                                               \
     X(CYLINDER, cylinder, 6)                                                                       \
     X(CONE, cone, 7)                                                                               \
-    X(TORUS, torus, 8)
+    X(TORUS, torus, 8)                                                                             \
+    X(BOX, box, 10)
 
 #define RT_SHAPES(X) RT_BLOCK_SHAPES(X) RT_WORLD_SHAPES(X) RT_PLACED_SHAPES(X)
 
@@ -55,6 +56,7 @@ typedef enum rt_shape_kind { RT_SHAPES(RT_SHAPE_KIND) } rt_shape_kind;
 #include "math/lanes.h"
 #include "math/ray.h"
 #include "scene.h"
+#include "shape/box.h"
 #include "shape/cone.h"
 #include "shape/cylinder.h"
 #include "shape/disc.h"

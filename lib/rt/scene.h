@@ -242,6 +242,14 @@ RT_API rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float 
                                     const rt_surface *surface, rt_error *error);
 
 /*
+ * A box about `centre` with edges of these full lengths along x, y and z; surface->transform turns
+ * it. u, v: on each face from 0 to 1, seen from outside u to the right and v upwards, or towards -z
+ * on the faces at the bottom and at the top.
+ */
+RT_API rt_status rt_scene_add_box(rt_scene *scene, uint32_t *out, const float centre[3],
+                                  const float size[3], const rt_surface *surface, rt_error *error);
+
+/*
  * A mesh of triangles, to be placed by instances. positions [vertex_count][3] in metres, indices
  * [triangle_count][3], counter-clockwise seen from the side of the normal. normals
  * [vertex_count][3], uv [vertex_count][2] and colours [vertex_count][3] (multiply kd) may be NULL:
@@ -395,9 +403,9 @@ typedef struct rt_finding {
 /*
  * Tells a callback what makes the picture of a complete scene, with its own options, black or
  * empty, and of glass without an inside; returns how many warnings there were. There are no false
- * alarms: solids are spheres, ellipsoids, tori, cylinders and cones with caps, and closed meshes;
- * what is inside of them is decided in double precision, and a light only counts as shut in when
- * all of it is. Light that a room of several shapes shuts out is not found, and of many lights the
+ * alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed
+ * meshes; what is inside of them is decided in double precision, and a light only counts as shut in
+ * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights the
  * first 256 are looked at.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,

@@ -12,12 +12,19 @@ static const double band = 1e-4;
 static const double pi = 3.14159265358979323846;
 
 const truth_shape shape_kinds[] = {
-    {.kind = RT_SHAPE_ELLIPSOID},           {.kind = RT_SHAPE_DISC},
-    {.kind = RT_SHAPE_DISC, .p = 0.6f},     {.kind = RT_SHAPE_CYLINDER},
-    {.kind = RT_SHAPE_CYLINDER, .caps = 1}, {.kind = RT_SHAPE_CONE},
-    {.kind = RT_SHAPE_CONE, .caps = 1},     {.kind = RT_SHAPE_CONE, .p = 0.4f, .caps = 1},
-    {.kind = RT_SHAPE_CONE, .p = 0.9f},     {.kind = RT_SHAPE_TORUS, .p = 0.25f},
-    {.kind = RT_SHAPE_TORUS, .p = 0.95f},   {.kind = RT_SHAPE_TORUS, .p = 0.01f},
+    {.kind = RT_SHAPE_ELLIPSOID},
+    {.kind = RT_SHAPE_DISC},
+    {.kind = RT_SHAPE_DISC, .p = 0.6f},
+    {.kind = RT_SHAPE_CYLINDER},
+    {.kind = RT_SHAPE_CYLINDER, .caps = 1},
+    {.kind = RT_SHAPE_CONE},
+    {.kind = RT_SHAPE_CONE, .caps = 1},
+    {.kind = RT_SHAPE_CONE, .p = 0.4f, .caps = 1},
+    {.kind = RT_SHAPE_CONE, .p = 0.9f},
+    {.kind = RT_SHAPE_TORUS, .p = 0.25f},
+    {.kind = RT_SHAPE_TORUS, .p = 0.95f},
+    {.kind = RT_SHAPE_TORUS, .p = 0.01f},
+    {.kind = RT_SHAPE_BOX},
 };
 const size_t shape_kind_count = sizeof shape_kinds / sizeof *shape_kinds;
 
@@ -168,6 +175,25 @@ static void torus_point(const truth_shape *shape, double turn, double v, double 
     n[0] = x * cos(turn);
     n[1] = x * sin(turn);
     n[2] = z;
+}
+
+static rt_status box_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+                         rt_error *error)
+{
+    static const float two[3] = {2, 2, 2};
+    (void)shape;
+    return rt_scene_add_box(scene, NULL, zero, two, surface, error);
+}
+
+/* The turn chooses one of six faces, and a place across it; v is the place along it. */
+static void box_point(const truth_shape *shape, double turn, double v, double p[3], double n[3])
+{
+    const double x = fmin(3 * turn / pi, 6 - 1e-9);
+    const int face = (int)x, axis = face / 2;
+    (void)shape;
+    p[axis] = n[axis] = face % 2 ? 1 : -1;
+    p[(axis + 1) % 3] = 2 * (x - face) - 1;
+    p[(axis + 2) % 3] = 2 * v - 1;
 }
 
 #define KIND_CHECK(KIND, name, number) [RT_SHAPE_##KIND] = {name##_add, name##_point},

@@ -155,6 +155,22 @@ static void cone_meet(search *s)
     meet_frustum(s, s->shape->p);
 }
 
+/* Of the cube, x and y are moved out by `wider` and z by `longer`. */
+static void box_meet(search *s)
+{
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = -1; side < 2; side += 2) {
+            const double out = 1 + (axis == 2 ? s->longer : s->wider);
+            const double t = (side * out - s->o[axis]) / s->d[axis];
+            double p[3], n[3] = {0};
+            at(s, t, p);
+            n[axis] = side;
+            if (fabs(p[(axis + 1) % 3]) <= 1 + ((axis + 1) % 3 == 2 ? s->longer : s->wider) &&
+                fabs(p[(axis + 2) % 3]) <= 1 + ((axis + 2) % 3 == 2 ? s->longer : s->wider))
+                take(s, t, n[0], n[1], n[2]);
+        }
+}
+
 /* ---- The torus: real roots of its quartic, told apart by those of the derivatives ------ */
 
 typedef long double real;
@@ -315,6 +331,16 @@ static int torus_parameters(const truth_shape *shape, const truth_hit *hit, doub
     uv[0] = turns(p[1], p[0]);
     uv[1] = turns(p[2], from_axis(p) - 1);
     return from_axis(p) > 0.05;
+}
+
+/* As from a picture on each face: u to the right and v up, seen from outside. */
+static int box_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+{
+    const double *p = hit->position, *n = hit->normal;
+    (void)shape;
+    uv[0] = 0.5 + 0.5 * (fabs(n[0]) > 0.5 ? -n[0] * p[2] : (n[1] + n[2]) * p[0]);
+    uv[1] = 0.5 + 0.5 * (fabs(n[1]) > 0.5 ? -p[2] : p[1]);
+    return 1;
 }
 
 /* ---- All ------------------------------------------------------------------- */

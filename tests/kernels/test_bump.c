@@ -189,6 +189,18 @@ static void shapes_about_an_axis_have_their_tangents(void **state)
     expect_tangents(scene);
 }
 
+static void boxes_have_their_tangents(void **state)
+{
+    static const float size[3] = {1.6f, 1.2f, 1.4f};
+    rt_surface surface;
+    rt_error error;
+    (void)state;
+    rt_scene *scene = bumpy_scene(&surface);
+    surface.transform = placement;
+    expect_ok(rt_scene_add_box(scene, NULL, origin, size, &surface, &error), &error);
+    expect_tangents(scene);
+}
+
 static void flat_shapes_have_their_tangents(void **state)
 {
     static const float e1[3] = {1.5f, 0.2f, 0}, e2[3] = {0.3f, 1.1f, 0.8f},
@@ -246,6 +258,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spheres_and_ellipsoids_have_their_tangents),
         cmocka_unit_test(shapes_about_an_axis_have_their_tangents),
+        cmocka_unit_test(boxes_have_their_tangents),
         cmocka_unit_test(flat_shapes_have_their_tangents),
         cmocka_unit_test(meshes_have_the_tangents_of_their_coordinates),
         cmocka_unit_test(tangents_of_every_kind_were_measured),

@@ -30,6 +30,7 @@ static const struct emitter {
     {"pipe", "cylinder { a 0.3 0.2 -0.1  b 0.5 1.4 0.3  radius 0.4  caps false", 1},
     {"cone", "cone { base 0.3 0.2 -0.1  apex 0.5 1.4 0.3  radius 0.5", 0},
     {"frustum", "cone { base 0.3 0.2 -0.1  apex 0.5 1.4 0.3  radius 0.5  apex_radius 0.2", 0},
+    {"box", "box { centre 0.3 0.2 -0.1  size 0.5 1.2 0.8", 0},
     {"torus", "torus { centre 0.3 0.2 -0.1  axis 0.5 1.4 0.3  major_radius 0.6  minor_radius 0.2",
      0},
 };

@@ -103,6 +103,27 @@ static void torus_point(const truth_shape *shape, int part, double u, double v, 
     ring_point(1 + shape->p * cos(2 * pi * v), shape->p * sin(2 * pi * v), u, p);
 }
 
+static int box_parts(const truth_shape *shape)
+{
+    (void)shape;
+    return 6;
+}
+
+static int box_part_of(const double n[3])
+{
+    const int axis = fabs(n[0]) > 0.5 ? 0 : fabs(n[1]) > 0.5 ? 1 : 2;
+    return 2 * axis + (n[axis] > 0);
+}
+
+static void box_point(const truth_shape *shape, int part, double u, double v, double p[3])
+{
+    const int axis = part / 2, side = part % 2 ? 1 : -1;
+    (void)shape;
+    p[axis] = side;
+    p[axis == 0 ? 2 : 0] = (axis == 0 ? -side : side) * (2 * u - 1);
+    p[axis == 1 ? 2 : 1] = (axis == 1 ? -1 : 1) * (2 * v - 1);
+}
+
 #define KIND_PARTS(KIND, name, number)                                                             \
     [RT_SHAPE_##KIND] = {name##_parts, name##_part_of, name##_point},
 static const struct {

@@ -309,6 +309,7 @@ static const routine routines[] = {
     {"emission: two-sided rectangle", 16, 16, &by_lamp, &(const emission){EMIT_TWO_SIDED, START}},
     {"emission: mesh", 48, 8, &by_lamp, &(const emission){EMIT_MESH, START}},
     {"emission: sphere", 16, 16, &by_lamp, &(const emission){EMIT_SPHERE, START}},
+    {"emission: box", 24, 12, &by_lamp, &(const emission){EMIT_BOX, START}},
     {"emission: frustum", 24, 12, &by_lamp, &(const emission){EMIT_FRUSTUM, START}},
     {"emission: direction from a rectangle", 16, 16, &by_lamp,
      &(const emission){EMIT_RECTANGLE, WAY}},

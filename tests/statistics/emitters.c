@@ -20,7 +20,7 @@ static const float vertices[9] = {0, 2, 0, 1, 2, 0, 0, 2, 2};
 
 /* The others: centre or base; towards the top or along the axis. */
 static const float centre[3] = {0.3f, 0.2f, -0.1f}, top[3] = {0.5f, 1.4f, 0.3f},
-                   radii[3] = {0.5f, 0.2f, 0.8f};
+                   radii[3] = {0.5f, 0.2f, 0.8f}, edges[3] = {0.5f, 1.2f, 0.8f};
 
 static const double sphere_radius = 0.5, disc_radius = 0.7f, disc_hole = 0.3f, torus_major = 0.6f,
                     torus_minor = 0.2f;
@@ -71,6 +71,8 @@ static rt_status add_lamp(rt_scene *scene, emitter kind, const rt_surface *lamp,
     double at_base, at_top;
     round_radii(kind, &at_base, &at_top);
     switch (kind) {
+    case EMIT_BOX:
+        return rt_scene_add_box(scene, NULL, centre, edges, lamp, error);
     case EMIT_RECTANGLE:
     case EMIT_TWO_SIDED:
         return rt_scene_add_quad(scene, NULL, corner, edge1, right, lamp, error);
@@ -192,10 +194,40 @@ static void flat_point(emitter kind, double x, double y, double out[3])
     }
 }
 
+/* Face 2 a is at the low end of axis a, and face 2 a + 1 at its high end. */
+static void box_point(double x, double y, double out[3])
+{
+    const int face = (int)fmax(0, fmin(5, floor(6 * x))), axis = face / 2;
+    const double place[3] = {face % 2, 6 * x - face, y};
+    for (int i = 0; i < 3; i++) {
+        const int a = (axis + i) % 3;
+        out[a] = centre[a] + (place[i] - 0.5) * edges[a];
+    }
+}
+
+static void box_place(const double p[3], const float normal[3], double *x, double *y)
+{
+    const int axis = fabsf(normal[0]) > 0.5f ? 0 : fabsf(normal[1]) > 0.5f ? 1 : 2;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const double within = (p[u] - centre[u]) / edges[u] + 0.5;
+    *x = (2 * axis + (normal[axis] > 0) + fmax(0, fmin(within, 1 - 1e-9))) / 6;
+    *y = (p[v] - centre[v]) / edges[v] + 0.5;
+}
+
+/* By the areas of the faces. */
+static double box_density(double x)
+{
+    const double areas[3] = {edges[1] * edges[2], edges[2] * edges[0], edges[0] * edges[1]};
+    const int axis = (int)fmax(0, fmin(2, floor(3 * x)));
+    return 3 * areas[axis] / (areas[0] + areas[1] + areas[2]);
+}
+
 void emitter_point(emitter kind, double x, double y, double out[3])
 {
     double p[3];
-    if (kind < EMIT_SPHERE)
+    if (kind == EMIT_BOX)
+        box_point(x, y, p);
+    else if (kind < EMIT_SPHERE)
         flat_point(kind, x, y, p);
     else if (kind <= EMIT_ELLIPSOID)
         ball_point(kind, x, y, p);
@@ -271,7 +303,9 @@ void emitter_place(emitter kind, const float position[3], const float normal[3],
     wide(p, position);
     if (is_skew(kind))
         before_skew(position, p);
-    if (kind < EMIT_SPHERE) {
+    if (kind == EMIT_BOX) {
+        box_place(p, normal, x, y);
+    } else if (kind < EMIT_SPHERE) {
         flat_place(kind, p, x, y);
     } else if (kind <= EMIT_ELLIPSOID) {
         double n[3];
@@ -340,6 +374,8 @@ double emitter_density(emitter kind, double x, double y)
     double radius, height, total = 0;
     (void)y;
     switch (kind) {
+    case EMIT_BOX:
+        return box_density(x);
     case EMIT_TRIANGLE:
         return 2 * (1 - x);
     case EMIT_MESH: {

@@ -21,7 +21,8 @@ typedef enum emitter {
     EMIT_PIPE,
     EMIT_CYLINDER,
     EMIT_CONE,
-    EMIT_FRUSTUM
+    EMIT_FRUSTUM,
+    EMIT_BOX /* a face for each sixth of x */
 } emitter;
 
 /* The radiance of all, in every channel. */

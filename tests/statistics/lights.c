@@ -166,6 +166,7 @@ static const routine routines[] = {
     {"light: pipe", 16, 16, &by_lamp, &(const viewed){EMIT_PIPE, {2, 4, 1.5f}, 0}},
     {"light: cylinder", 24, 12, &by_lamp, &(const viewed){EMIT_CYLINDER, {2, 4, 1.5f}, 0}},
     {"light: cone", 24, 12, &by_lamp, &(const viewed){EMIT_CONE, {2, 4, 1.5f}, 0}},
+    {"light: box", 24, 12, &by_lamp, &(const viewed){EMIT_BOX, {2, 4, 1.5f}, 0}},
     {"light: frustum", 24, 12, &by_lamp, &(const viewed){EMIT_FRUSTUM, {2, 4, 1.5f}, 0}},
     {"light: even sky", 16, 16, &by_sky, &(const int){0}},
     {"light: sky of a picture", 32, 16, &by_sky, &(const int){1}},

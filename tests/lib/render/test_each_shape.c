@@ -87,6 +87,13 @@ static const struct lettered {
     {"cone", "cone { base 0 -0.9 0  apex 0 0.9 0  radius 0.8", 1},
     {"frustum", "cone { base 0 -0.9 0  apex 0 0.9 0  radius 0.8  apex_radius 0.4", 1},
     {"torus", "torus { centre 0 0 0  axis 0 1 0  major_radius 0.6  minor_radius 0.3", 1},
+    {"box", "box { centre 0 0 -0.5  size 1.8 1.8 1", 1},
+    {"right side of a box", "box { centre 0 0 0  size 1 1.8 1.6  rotate 0 1 0 -90", 1},
+    {"back of a box", "box { centre 0 0 0  size 1.6 1.8 1  rotate 0 1 0 180", 1},
+    {"left side of a box", "box { centre 0 0 0  size 1 1.8 1.6  rotate 0 1 0 90", 1},
+    {"top of a box", "box { centre 0 0 0  size 1.6 1 1.8  rotate 1 0 0 90", 1},
+    {"box that is turned", "box { centre 0 0 0  size 1.2 1.2 1.2  rotate 0 1 0 35  rotate 1 0 0 20",
+     1},
     {"sphere that is turned", "sphere { centre 0 0 0  radius 0.9  rotate 0 1 0 130", 1},
 };
 
@@ -219,6 +226,7 @@ static void clear_glass_of_every_closed_shape_passes_the_white_furnace(void **st
         {"cone", "cone { base 0 -0.7 0  apex 0 0.8 0  radius 0.9"},
         {"frustum", "cone { base 0 -0.7 0  apex 0 0.7 0  radius 0.9  apex_radius 0.4"},
         {"torus", "torus { centre 0 0 0  axis 0 1 0.3  major_radius 0.8  minor_radius 0.3"},
+        {"box", "box { centre 0 0.1 0  size 1.4 0.9 1.1  rotate 0 1 0 30"},
         {"flat mesh", "model { file \"octahedron.off\"  shading flat"},
     };
     static float rgb[3 * glass_pixels];

@@ -145,9 +145,9 @@ static void lamps_of_every_shape(void **state)
                        edge1[3] = {0, 0, 0.8f}, edge2[3] = {0.7f, -0.2f, 0},
                        radii[3] = {0.5f, 0.2f, 0.3f};
     static const char *const names[] = {"quad",     "sphere", "ellipsoid", "disc",
-                                        "cylinder", "cone",   "torus"};
+                                        "cylinder", "cone",   "torus",     "box"};
     (void)state;
-    for (int kind = 0; kind < 7; kind++) {
+    for (int kind = 0; kind < 8; kind++) {
         begin(0);
         rt_surface s = lamp();
         rt_status status =
@@ -159,7 +159,8 @@ static void lamps_of_every_shape(void **state)
                                             &s, &error)
             : kind == 4 ? rt_scene_add_cylinder(scene, NULL, at, to, 0.3f, 1, &s, &error)
             : kind == 5 ? rt_scene_add_cone(scene, NULL, at, to, 0.4f, 0.1f, 1, &s, &error)
-                        : rt_scene_add_torus(scene, NULL, at, to, 0.4f, 0.15f, &s, &error);
+            : kind == 6 ? rt_scene_add_torus(scene, NULL, at, to, 0.4f, 0.15f, &s, &error)
+                        : rt_scene_add_box(scene, NULL, at, radii, &s, &error);
         expect_ok(status, &error);
         expect_same_mean(names[kind]);
     }

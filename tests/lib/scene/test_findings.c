@@ -92,12 +92,12 @@ static void add_box(rt_scene *scene, size_t faces, const rt_surface *surface)
 }
 
 /* The closed shapes, each with what is positive inside of it. */
-static double (*const insides[])(const double p[3]) = {in_ball, in_ellipsoid, in_cylinder,
-                                                       in_cone, in_torus,     in_box};
+static double (*const insides[])(const double p[3]) = {in_ball,  in_ellipsoid, in_cylinder, in_cone,
+                                                       in_torus, in_box,       in_box};
 
 static rt_scene *scene_of_solids(const rt_surface *surface)
 {
-    const float radii[3] = {0.8f, 0.4f, 0.6f};
+    const float radii[3] = {0.8f, 0.4f, 0.6f}, middle[3] = {0, 0, 0}, edges[3] = {1, 1, 1};
     rt_scene *scene = new_scene();
     rt_error error;
     float axis[3];
@@ -109,6 +109,7 @@ static rt_scene *scene_of_solids(const rt_surface *surface)
     expect_ok(rt_scene_add_cone(scene, NULL, at_a, at_b, 0.7f, 0.2f, 1, surface, &error), &error);
     expect_ok(rt_scene_add_torus(scene, NULL, at_a, axis, 0.6f, 0.3f, surface, &error), &error);
     add_box(scene, 12, surface);
+    expect_ok(rt_scene_add_box(scene, NULL, middle, edges, surface, &error), &error);
     return scene;
 }
 

@@ -194,6 +194,7 @@ static void shapes_without_extent_are_refused(void **state)
                    "minor_radius");
     expect_refused(rt_scene_add_torus(scene, NULL, origin, origin, 1, 0.1f, &surface, &error),
                    &error, "axis");
+    expect_refused(rt_scene_add_box(scene, NULL, origin, up, &surface, &error), &error, "size");
     expect_refused(rt_scene_add_instance(scene, NULL, 0, &surface, &error), &error, "mesh");
     surface.material = 1;
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error,

@@ -49,6 +49,7 @@ static void a_transform_that_flattens_is_refused(void **state)
                    "transform");
     expect_refused(rt_scene_add_torus(scene, NULL, origin, y_axis, 1, 0.2f, &s, &error), &error,
                    "transform");
+    expect_refused(rt_scene_add_box(scene, NULL, origin, radii, &s, &error), &error, "transform");
     expect_refused(rt_scene_add_triangles(scene, NULL, triangle, 3, corners, 1, NULL, &s, &error),
                    &error, "transform");
     s.transform.m[0][0] = NAN;
@@ -147,6 +148,22 @@ static void annulus(double out[3], double u, double v, double inner)
     out[2] = 0;
 }
 
+static void face(double out[3], double u, double v, double axis)
+{
+    int a = (int)axis;
+    out[a] = 1;
+    out[(a + 1) % 3] = 2 * u - 1;
+    out[(a + 2) % 3] = 2 * v - 1;
+}
+
+static void corner_of_cube(double out[3], double u, double v, double parameter)
+{
+    (void)parameter;
+    out[0] = u < 0.5 ? -1 : 1;
+    out[1] = v < 0.5 ? -1 : 1;
+    out[2] = fmod(4 * u, 2) < 1 ? -1 : 1;
+}
+
 /*
  * The area by the parallelograms of central differences; its error is of second order in the step.
  */
@@ -213,6 +230,10 @@ static void areas_under_affine_maps_match_brute_force(void **state)
                     brute_area(side, 0.25, &map, steps) + 1.0625 * end, 1e-5);
         expect_area(class_area(RT_SHAPE_TORUS, 0.4f, 0, &map), brute_area(ring, 0.4f, &map, steps),
                     1e-5);
+        double cube = 0;
+        for (int axis = 0; axis < 3; axis++)
+            cube += 2 * brute_area(face, axis, &map, steps);
+        expect_area(class_area(RT_SHAPE_BOX, 0, 0, &map), cube, 1e-5);
     }
     RT_PLACED_SHAPES(EXPECT_SEEN)
 }
@@ -313,11 +334,13 @@ static void bounds_hold_the_shape_and_little_more(void **state)
     expect_ok(rt_scene_add_cylinder(scene, NULL, centre, end, 0.7f, 0, &s, &error), &error);
     expect_ok(rt_scene_add_cone(scene, NULL, centre, end, 0.7f, 0.2f, 0, &s, &error), &error);
     expect_ok(rt_scene_add_torus(scene, NULL, centre, end, 1, 0.3f, &s, &error), &error);
+    expect_ok(rt_scene_add_box(scene, NULL, centre, radii, &s, &error), &error);
     expect_bounds(scene->shapes, ball, 0);
     expect_bounds(scene->shapes + 1, annulus, 0);
     expect_bounds(scene->shapes + 2, side, 1);
     expect_bounds(scene->shapes + 3, side, 0.2 / 0.7);
     expect_bounds(scene->shapes + 4, ring, 0.3);
+    expect_bounds(scene->shapes + 5, corner_of_cube, 0);
     rt_scene_destroy(scene);
 }
 
