@@ -136,7 +136,7 @@ typedef struct disc {
 static const rt_field disc_fields[] = {
     {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(disc, centre), "the middle"},
     {"normal", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(disc, normal),
-     "perpendicular to the disc, on the side that shines; of any length"},
+     "perpendicular to the disc, on the side that emits; of any length"},
     {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(disc, radius), "of the outer rim"},
     {"inner_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(disc, inner_radius),
      "of the hole; less than radius"},
