@@ -52,6 +52,10 @@ KERNEL aov(const rt_params params, global const rt_scene_header *header,
     const uint index = at.y * params.width + at.x;
     const size_t film_size = (size_t)params.width * params.height;
 
+    rt_film_pixel sums[RT_LAYER_COUNT];
+    for (uint layer = 0; layer < RT_LAYER_COUNT; layer++)
+        sums[layer] = layers[layer * film_size + index];
+
     for (uint i = 0; i < params.sample_count; i++) {
         const struct sampler sampler =
             sampler_start(&scene, &params, index, params.first_sample + i);
@@ -64,11 +68,11 @@ KERNEL aov(const rt_params params, global const rt_scene_header *header,
         if (can_follow(&ray) && closest_hit(&scene, &ray, &hit))
             layers_of(value, &scene, &ray, &hit, weight);
         for (uint layer = 0; layer < RT_LAYER_COUNT; layer++) {
-            rt_film_pixel pixel = layers[layer * film_size + index];
-            if (layer == RT_LAYER_IDS && pixel.sum[2] != 0.0f)
+            if (layer == RT_LAYER_IDS && sums[layer].sum[2] != 0.0f)
                 continue; /* ids have no mean: the first is kept */
-            film_add(&pixel, value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f);
-            layers[layer * film_size + index] = pixel;
+            film_add(&sums[layer], value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f);
         }
     }
+    for (uint layer = 0; layer < RT_LAYER_COUNT; layer++)
+        layers[layer * film_size + index] = sums[layer];
 }
