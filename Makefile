@@ -115,8 +115,8 @@ TESTS_QUICK := \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
-	tests/kernels/test_light.c tests/kernels/test_light_shape.c tests/kernels/test_light_environment.c \
-	tests/kernels/test_light_tree.c tests/kernels/test_lobes.c tests/kernels/test_batch.c \
+	tests/kernels/test_batch.c tests/kernels/test_light.c tests/kernels/test_light_environment.c \
+	tests/kernels/test_light_shape.c tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
 	tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \

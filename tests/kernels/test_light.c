@@ -18,10 +18,10 @@ enum { n = light_draws };
 static light_draw samples[n];
 static emission_draw emissions[n];
 
-static const rt_surface lamp = {.radiance = {3, 2, 1}};
+static const rt_surface emitter = {.radiance = {3, 2, 1}};
 
-/* The mean of 1 / pdf_w over samples that bring light is the solid angle from which light comes. */
-static void expect_solid_angle(double truth, const char *what)
+/* The mean of 1 / pdf_w over samples that carry light is the solid angle from which light comes. */
+static void expect_solid_angle(double expected, const char *what)
 {
     static double values[n];
     for (int i = 0; i < n; i++) {
@@ -30,7 +30,7 @@ static void expect_solid_angle(double truth, const char *what)
         if (s->radiance[0] > 0)
             assert_float_equal(s->again_pdf_w * s->spread, 1, 1e-4);
     }
-    expect_mean(values, n, truth, 1e-4 * truth, what);
+    expect_mean(values, n, expected, 1e-4 * expected, what);
 }
 
 static void cross(const double a[3], const double b[3], double out[3])
@@ -86,7 +86,7 @@ static void quads_fill_their_solid_angle(void **state)
         const float *e2 = skewed ? skew : right;
         rt_scene *scene = light_scene();
         rt_error error;
-        expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &lamp, &error), &error);
+        expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &emitter, &error), &error);
         rt_renderer *renderer = light_renderer(scene);
         for (size_t i = 0; i < sizeof from / sizeof *from; i++) {
             draw_lights(renderer, (uint32_t)i, from[i], samples);
@@ -131,7 +131,7 @@ static void spheres_fill_their_solid_angle(void **state)
     rt_scene *scene = light_scene();
     rt_error error;
     (void)state;
-    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &lamp, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.5f, &emitter, &error), &error);
     rt_renderer *renderer = light_renderer(scene);
     for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
         /* As rounded to float32, where the viewer's distance counts. */
@@ -155,7 +155,7 @@ static void triangles_fill_their_solid_angle(void **state)
     rt_scene *scene = light_scene();
     rt_error error;
     (void)state;
-    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 3, indices, 1, NULL, &lamp, &error),
+    expect_ok(rt_scene_add_triangles(scene, NULL, positions, 3, indices, 1, NULL, &emitter, &error),
               &error);
     rt_renderer *renderer = light_renderer(scene);
     draw_lights(renderer, 4, (const float[3]){0.5f, 0, 0.25f}, samples);

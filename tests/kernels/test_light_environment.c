@@ -116,7 +116,7 @@ static void an_even_sky_is_sampled_evenly(void **state)
 }
 
 /* Flux through a disc of radius 0.1 in the middle of the scene whose normal is y, from above. */
-static void expect_flux(double truth, const char *what)
+static void expect_flux(double expected, const char *what)
 {
     for (int i = 0; i < n; i++) {
         const emission_draw *e = emissions + i;
@@ -125,7 +125,7 @@ static void expect_flux(double truth, const char *what)
                z = e->position[2] + t * e->direction[2] - 3;
         values[i] = t > 0 && e->direction[1] < 0 && x * x + z * z < 0.01 ? e->flux[0] : 0;
     }
-    expect_mean(values, n, truth * PI * 0.01, 1e-5, what);
+    expect_mean(values, n, expected * PI * 0.01, 1e-5, what);
 }
 
 static void light_paths_of_the_sky_carry_its_irradiance(void **state)
@@ -138,15 +138,15 @@ static void light_paths_of_the_sky_carry_its_irradiance(void **state)
 
     /* The upper half of the picture, by the cosine. */
     enum { steps = 40 };
-    double truth = 0;
+    double expected = 0;
     for (int i = 0; i < width * steps; i++)
         for (int j = 0; j < height * steps / 2; j++) {
             double v = (j + 0.5) / (height * steps);
-            truth += radiance((i + 0.5) / (width * steps), v) * sin(PI * v) * cos(PI * v);
+            expected += radiance((i + 0.5) / (width * steps), v) * sin(PI * v) * cos(PI * v);
         }
     renderer = sky(1, 0);
     draw_emissions(renderer, 3, emissions);
-    expect_flux(truth * 2 * PI * PI / (width * steps) / (height * steps), "sky of a picture");
+    expect_flux(expected * 2 * PI * PI / (width * steps) / (height * steps), "sky of a picture");
     rt_renderer_destroy(renderer);
 }
 

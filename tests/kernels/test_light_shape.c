@@ -129,23 +129,23 @@ static void light_paths_of_shapes_carry_their_power(void **state)
     RT_PLACED_SHAPES(EXPECT_SEEN)
 }
 
-/* A lamp that is brighter to one edge: its texture multiplies what it sends. */
+/* An area light that is brighter to one edge: its texture multiplies what it sends. */
 static void textures_multiply_emission(void **state)
 {
     static const float corner[3] = {0, 2, 0}, e1[3] = {1, 0, 0}, e2[3] = {0.5f, 0, 1},
                        below[3] = {0.2f, 0.5f, 0.4f};
     rt_texture texture;
-    rt_surface lamp;
+    rt_surface emitter;
     rt_scene *scene = light_scene();
     rt_error error;
     (void)state;
     memset(&texture, 0, sizeof texture);
-    memset(&lamp, 0, sizeof lamp);
+    memset(&emitter, 0, sizeof emitter);
     texture.kind = RT_TEXTURE_GRADIENT;
     texture.b[0] = texture.b[1] = 1;
-    lamp.radiance[0] = lamp.radiance[1] = lamp.radiance[2] = 4;
-    expect_ok(rt_scene_add_texture(scene, &lamp.texture, &texture, &error), &error);
-    expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &lamp, &error), &error);
+    emitter.radiance[0] = emitter.radiance[1] = emitter.radiance[2] = 4;
+    expect_ok(rt_scene_add_texture(scene, &emitter.texture, &texture, &error), &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &emitter, &error), &error);
     rt_renderer *renderer = light_renderer(scene);
     draw_lights(renderer, 1, below, samples);
     for (int i = 0; i < n; i++) {
@@ -156,7 +156,7 @@ static void textures_multiply_emission(void **state)
     draw_emissions(renderer, 1, emissions);
     for (int i = 0; i < n; i++)
         values[i] = emissions[i].flux[0];
-    expect_mean(values, n, PI * 4 * 0.5, 1e-4, "power of a textured lamp");
+    expect_mean(values, n, PI * 4 * 0.5, 1e-4, "power of a textured area light");
     rt_renderer_destroy(renderer);
 }
 

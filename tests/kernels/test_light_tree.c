@@ -14,7 +14,7 @@ enum { numbers = 1 << 20 };
 static rt_error error;
 
 /*
- * One of every kind of light: two without size, one that shines from infinitely far, a sky, and
+ * One of every kind of light: two delta lights near by, one infinitely far, an environment, and
  * shapes.
  */
 static rt_scene *all_kinds(void)
@@ -27,19 +27,20 @@ static rt_scene *all_kinds(void)
     const rt_spot_light spot = {.position = {2, 4, 0}, .target = {0, 0, 0}, .intensity = {3, 3, 3}};
     const rt_directional_light sun = {.direction = {0, -1, 0}, .irradiance = {1, 1, 1}};
     const rt_environment sky = {.radiance = {0.2f, 0.2f, 0.3f}};
-    rt_surface lamp;
-    memset(&lamp, 0, sizeof lamp);
-    lamp.radiance[0] = lamp.radiance[1] = lamp.radiance[2] = 5;
+    rt_surface emitter;
+    memset(&emitter, 0, sizeof emitter);
+    emitter.radiance[0] = emitter.radiance[1] = emitter.radiance[2] = 5;
     rt_scene *scene = light_scene();
     expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
     expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
     expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
     expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
-    expect_ok(rt_scene_add_quad(scene, NULL, corner, z, x, &lamp, &error), &error);
-    expect_ok(rt_scene_add_sphere(scene, NULL, ball, 0.5f, &lamp, &error), &error);
-    expect_ok(rt_scene_add_torus(scene, NULL, ring, up, 0.5f, 0.1f, &lamp, &error), &error);
-    expect_ok(rt_scene_add_triangles(scene, NULL, corners[0], 3, indices, 1, NULL, &lamp, &error),
-              &error);
+    expect_ok(rt_scene_add_quad(scene, NULL, corner, z, x, &emitter, &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, ball, 0.5f, &emitter, &error), &error);
+    expect_ok(rt_scene_add_torus(scene, NULL, ring, up, 0.5f, 0.1f, &emitter, &error), &error);
+    expect_ok(
+        rt_scene_add_triangles(scene, NULL, corners[0], 3, indices, 1, NULL, &emitter, &error),
+        &error);
     return scene;
 }
 
@@ -126,7 +127,7 @@ static void any_number_of_lights_can_be_chosen_from(void **state)
     expect_chances(scene, 5, there);
 }
 
-/* A black lamp is none to choose. */
+/* A black light is never chosen. */
 static void lights_without_power_are_never_chosen(void **state)
 {
     const rt_point_light black = {.position = {0, 1, 0}};

@@ -47,7 +47,7 @@ static void add_quad(rt_scene *scene, const float corner[3], const float e1[3], 
     expect_ok(rt_scene_add_quad(scene, NULL, corner, e1, e2, &surface, &error), &error);
 }
 
-static void look(rt_scene *scene, float x, float y, float z, float fov)
+static void aim_camera(rt_scene *scene, float x, float y, float z, float fov)
 {
     rt_camera camera = {.eye = {x, y, z}, .look_at = {0, 0, 0}, .up = {0, 0, 1}, .fov = fov};
     rt_error error;
@@ -95,7 +95,7 @@ static void a_furnace_sums_the_series_of_its_albedo(void **state)
     for (size_t i = 0; i < sizeof depths / sizeof *depths; i++) {
         rt_scene *scene = new_scene();
         add_sphere(scene, origin, 10, add_material(scene, &wall));
-        look(scene, 3, 2, 1, 90);
+        aim_camera(scene, 3, 2, 1, 90);
         rt_film *film = render(scene, depths[i], 64, RT_SAMPLER_SOBOL);
         /* 36864 paths whose sums deviate by less than 1 of each other: 5 standard errors. */
         expect_close(mean(film), (1 - pow(0.5, depths[i])) / 0.5, 5.0 / sqrt(64 * pixels),
@@ -110,7 +110,7 @@ static rt_scene *even_light(void)
     static const rt_material sky = {.emission = {1, 1, 1}, .two_sided = 1};
     rt_scene *scene = new_scene();
     add_sphere(scene, origin, 50, add_material(scene, &sky));
-    look(scene, 4, 3, 2, 40);
+    aim_camera(scene, 4, 3, 2, 40);
     return scene;
 }
 
@@ -213,7 +213,7 @@ static double corner_factor(double a, double b, double height)
 
 static void a_rectangle_lights_a_floor_by_its_form_factor(void **state)
 {
-    static const rt_material lamp = {.emission = {2, 2, 2}};
+    static const rt_material emitter = {.emission = {2, 2, 2}};
     static const float heights[] = {0.3f, 2, 7};
     (void)state;
     for (int i = 0; i < 3; i++)
@@ -227,27 +227,27 @@ static void a_rectangle_lights_a_floor_by_its_form_factor(void **state)
             rt_camera beside = {
                 .eye = {0, 3, 0.1f}, .look_at = {0, 0, 0}, .up = {0, 0, 1}, .fov = 0.02f};
             rt_error error;
-            add_quad(scene, corner, x, y, add_material(scene, &lamp));
+            add_quad(scene, corner, x, y, add_material(scene, &emitter));
             expect_ok(rt_scene_set_camera(scene, &beside, &error), &error);
             rt_film *film = render(scene, 1 + (uint32_t)two, 256,
                                    two == 1 ? RT_SAMPLER_SOBOL : RT_SAMPLER_INDEPENDENT);
             expect_close(mean(film) / (0.8 * 2 * 4 * corner_factor(1, 1, heights[i])), 1, 5e-3,
-                         "lamp over a floor");
+                         "area light over a floor");
             rt_film_destroy(film);
         }
 }
 
 static void depth_counts_the_segments_from_the_eye(void **state)
 {
-    static const rt_material lamp = {.emission = {1, 1, 1}};
+    static const rt_material emitter = {.emission = {1, 1, 1}};
     static const float corner[3] = {-1, -1, 0}, x[3] = {2, 0, 0}, y[3] = {0, 2, 0},
                        high[3] = {-1, -1, 2};
     (void)state;
-    /* The lamp itself takes one segment, the floor below it two. */
+    /* The light itself takes one segment, the floor below it two. */
     rt_scene *scene = new_scene();
     rt_camera above = {.eye = {0, 0, 1}, .up = {0, 1, 0}, .fov = 20};
     rt_error error;
-    add_quad(scene, corner, x, y, add_material(scene, &lamp));
+    add_quad(scene, corner, x, y, add_material(scene, &emitter));
     expect_ok(rt_scene_set_camera(scene, &above, &error), &error);
     rt_film *film = render(scene, 1, 1, RT_SAMPLER_SOBOL);
     assert_float_equal(mean(film), 1, 1e-6);
@@ -256,7 +256,7 @@ static void depth_counts_the_segments_from_the_eye(void **state)
         rt_surface down;
         scene = floor_seen_from_above();
         rt_camera beside = {.eye = {0, 3, 0.1f}, .up = {0, 0, 1}, .fov = 0.02f};
-        down = add_material(scene, &lamp);
+        down = add_material(scene, &emitter);
         add_quad(scene, high, y, x, down);
         expect_ok(rt_scene_set_camera(scene, &beside, &error), &error);
         film = render(scene, depth, 4, RT_SAMPLER_SOBOL);
@@ -265,25 +265,25 @@ static void depth_counts_the_segments_from_the_eye(void **state)
     }
 }
 
-/* A lamp, a mirror, glass and matte spheres on a floor, all lengths times `scale`. */
+/* An area light, a mirror, glass and diffuse spheres on a floor, all lengths times `scale`. */
 static rt_scene *scaled_scene(float scale)
 {
     static const rt_material materials[] = {{.kd = {0.7f, 0.6f, 0.5f}},
                                             {.ks = {0.9f, 0.9f, 0.9f}},
                                             {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = 1}};
-    static const rt_material lamp = {.emission = {9, 9, 9}};
+    static const rt_material emitter = {.emission = {9, 9, 9}};
     rt_scene *scene = new_scene();
     float corner[3] = {-5 * scale, -5 * scale, 0}, x[3] = {10 * scale, 0, 0},
           y[3] = {0, 10 * scale, 0};
-    float lamp_corner[3] = {-scale, -scale, 4 * scale}, lamp_x[3] = {0, 2 * scale, 0},
-          lamp_y[3] = {2 * scale, 0, 0};
+    float light_corner[3] = {-scale, -scale, 4 * scale}, light_x[3] = {0, 2 * scale, 0},
+          light_y[3] = {2 * scale, 0, 0};
     add_quad(scene, corner, x, y, add_material(scene, materials));
-    add_quad(scene, lamp_corner, lamp_x, lamp_y, add_material(scene, &lamp));
+    add_quad(scene, light_corner, light_x, light_y, add_material(scene, &emitter));
     for (int i = 0; i < 3; i++) {
         const float centre[3] = {(float)(i - 1) * 1.5f * scale, 0.5f * scale, 0.7f * scale};
         add_sphere(scene, centre, 0.7f * scale, add_material(scene, materials + i));
     }
-    look(scene, 0, -6 * scale, 3 * scale, 50);
+    aim_camera(scene, 0, -6 * scale, 3 * scale, 50);
     return scene;
 }
 
@@ -415,7 +415,7 @@ static void samples_that_are_not_finite_are_counted_and_left_out(void **state)
     rt_kernel_release(kernel);
 }
 
-/* Photons are not asked for around a point that is nowhere: it must not pass for a dark one. */
+/* No photons are gathered at a point that is nowhere: it must not pass for a dark one. */
 static void samples_that_gather_nowhere_are_rejected(void **state)
 {
     const float places[][3] = {{1, 2, 3}, {NAN, 2, 3}, {1, INFINITY, 3}};
