@@ -88,14 +88,13 @@ DSL_SRC := \
 	dsl/transform.c
 
 TOOL_SRC := \
-	tools/check.c tools/compare.c tools/compare_print.c tools/devices.c tools/doctor.c \
-	tools/help.c \
-	tools/idle.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c tools/mesh.c \
-	tools/mesh_shape.c tools/message.c tools/nearest.c tools/number.c tools/option_table.c \
-	tools/options.c tools/outputs.c tools/photons.c tools/photons_emit.c tools/photons_info.c \
-	tools/photons_json.c tools/progress.c tools/render.c tools/rtc.c tools/scene_file.c \
-	tools/session.c \
-	tools/shares.c tools/stats.c
+	tools/check.c tools/command_line.c tools/compare.c tools/compare_print.c tools/devices.c \
+	tools/doctor.c tools/help.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
+	tools/light_shares.c tools/mesh.c tools/mesh_shape.c tools/message.c tools/no_effect.c \
+	tools/number.c tools/option_table.c tools/outputs.c tools/photons.c tools/photons_emit.c \
+	tools/photons_info.c tools/photons_json.c tools/progress.c tools/recorded.c \
+	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
+	tools/stats.c
 
 KERNEL_SRC := \
 	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl \

@@ -108,7 +108,7 @@ static uint32_t texture_beside(const char *field, const rt_material *m)
                                             : 0;
 }
 
-/* Whether an entry is a colour for which 0 counts as left out, because another field stands for it. */
+/* Whether an entry is a colour of 0 that counts as left out: another field stands for it. */
 static int is_black_left_out(const rt_statement *statement, const rt_entry *entry,
                              const rt_block_fields *fields)
 {

@@ -1,9 +1,10 @@
 /* check.c - `rtc check`: says all that is wrong with scenes without rendering them. */
 #include <stdio.h>
 
+#include "commands.h"
 #include "message.h"
 #include "rt.h"
-#include "rtc.h"
+#include "status.h"
 #include "scene_file.h"
 
 static const char *plural(uint64_t count)

@@ -2,6 +2,7 @@
  * compare.c - `rtc compare`: how much images differ from a reference, and whether by more than is
  * allowed.
  */
+#include "commands.h"
 #include "compare.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 #include "inputs.h"
 #include "message.h"
 #include "outputs.h"
-#include "rtc.h"
+#include "status.h"
 #include "session.h"
 
 /* ---- Limits --------------------------------------------------------------- */

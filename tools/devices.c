@@ -1,9 +1,10 @@
 /* devices.c - `rtc devices`: the OpenCL devices of this machine. */
 #include <stdio.h>
 
+#include "commands.h"
 #include "message.h"
 #include "rt.h"
-#include "rtc.h"
+#include "status.h"
 
 int command_devices(const command_line *arguments)
 {

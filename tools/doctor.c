@@ -5,9 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "commands.h"
 #include "message.h"
 #include "rt.h"
-#include "rtc.h"
+#include "status.h"
 
 /* A lamp over a white sphere on a floor; the camera's middle pixel sees the sphere. */
 static const char scene_text[] = "camera { eye 0 1 -4  look_at 0 1 0  fov 40 }\n"

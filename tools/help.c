@@ -2,8 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "options.h"
+#include "help.h"
 #include "photons.h"
+#include "settings.h"
 
 enum { LEFT = 26, WIDTH = 80 };
 
@@ -85,19 +86,19 @@ static const char footer[] =
     "\n"
     "Example: rtc scenes/cornell.rts --mode photon --k 50 --kernel epanechnikov\n";
 
-/* Prints text from column LEFT on, broken between words, on lines of at most WIDTH columns. */
-static void print_wrapped(const char *text, size_t column)
+/* Prints text from column `left` on, broken between words, on lines of at most WIDTH columns. */
+static void print_wrapped(const char *text, size_t column, size_t left)
 {
     while (*text) {
         size_t length = strcspn(text, " ");
-        if (column > LEFT && column + 1 + length > WIDTH) {
+        if (column > left && column + 1 + length > WIDTH) {
             fputc('\n', stdout);
             column = 0;
         }
-        if (column < LEFT) {
-            printf("%*s", (int)(LEFT - column), "");
-            column = LEFT;
-        } else if (column > LEFT) {
+        if (column < left) {
+            printf("%*s", (int)(left - column), "");
+            column = left;
+        } else if (column > left) {
             fputc(' ', stdout);
             column++;
         }
@@ -128,22 +129,69 @@ static const char *help_of(const option *option, command_id command)
     return option->help;
 }
 
-/* The option's name and beside it "help (choice, choice; default ...)". */
-static void print_option(const option *option, command_id command)
+/* The option's name and value, and beside them "help (words; default ...)". */
+static void print_entry(const char *name, const char *value, const char *help, const char *words,
+                        const char *fallback)
 {
-    char text[512], choices[128] = "";
-    const char *help = help_of(option, command),
-               *fallback = help == option->help ? option->fallback : NULL;
-    if (option->choices)
-        option_join_choices(choices, sizeof choices, option->choices);
+    char text[1024];
     if (fallback)
-        snprintf(text, sizeof text, "%s (%s%sdefault %s)", help, choices, choices[0] ? "; " : "",
+        snprintf(text, sizeof text, "%s (%s%sdefault %s)", help, words, words[0] ? "; " : "",
                  fallback);
     else
         snprintf(text, sizeof text, "%s", help);
-    int column = printf("  --%s%s%s", option->name, option->value ? " " : "",
-                        option->value ? option->value : "");
-    print_wrapped(text, (size_t)column);
+    int column = printf("  --%s%s%s", name, value ? " " : "", value ? value : "");
+    print_wrapped(text, (size_t)column, LEFT);
+}
+
+static void print_option(const option *option, command_id command)
+{
+    char words[128] = "";
+    const char *help = help_of(option, command);
+    if (option->words)
+        rt_words_join(words, sizeof words, option->words);
+    print_entry(option->name, option->value, help, words,
+                help == option->help ? option->fallback : NULL);
+}
+
+/* A line or more for each word of a setting. */
+static void print_words(const rt_word *words)
+{
+    char help[256];
+    for (; words->name; words++) {
+        printf("%*s", LEFT + 2, "");
+        int length = printf("%s:", words->name);
+        rt_setting_text(help, sizeof help, words->help, RT_NAME_OPTION);
+        print_wrapped(help, (size_t)(LEFT + 2 + length), LEFT + 4);
+    }
+}
+
+/* The setting before this one that has the same words, or NULL. */
+static const rt_setting *same_words(const rt_setting *setting)
+{
+    const rt_setting *before = rt_settings(NULL);
+    while (before != setting && before->field.words != setting->field.words)
+        before++;
+    return setting->field.words && before != setting ? before : NULL;
+}
+
+static void print_setting(const rt_setting *setting)
+{
+    char name[SETTING_NAME_SIZE], other[SETTING_NAME_SIZE], help[768], fallback[128], kind[80] = "";
+    const rt_field *field = &setting->field;
+    const rt_setting *same = same_words(setting);
+    settings_name(name, setting);
+    rt_setting_text(help, sizeof help, field->help, RT_NAME_OPTION);
+    rt_setting_text(fallback, sizeof fallback, field->fallback, RT_NAME_OPTION);
+    if (same)
+        snprintf(kind, sizeof kind, "a word of --%s", settings_name(other, same));
+    else if (field->unit[0])
+        snprintf(kind, sizeof kind, "in %s", field->unit);
+    if (settings_is_switch(setting))
+        snprintf(help + strlen(help), sizeof help - strlen(help), "; --no-%s: do not", name);
+    print_entry(name, settings_value_name(setting), help, kind,
+                settings_is_switch(setting) ? NULL : fallback);
+    if (field->words && !same)
+        print_words(field->words);
 }
 
 /* Whether what is asked about, a command or a form of `rtc photons`, has this option. */
@@ -152,22 +200,57 @@ static int takes(command_id command, const photons_form *form, option_id id)
     return (option_table[id].commands & (1u << command)) && (!form || photons_form_takes(form, id));
 }
 
+/* The settings of a group that a command takes; with `print`, prints them. Returns how many. */
+static int group_settings(option_group group, command_id command, int print)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    int found = 0;
+    for (size_t i = 0; i < count; i++)
+        if (settings_group(&settings[i]) == group && settings_is_taken(&settings[i], command)) {
+            found++;
+            if (print)
+                print_setting(&settings[i]);
+        }
+    return found;
+}
+
+/* The same of the options that are no settings; form: of `rtc photons`, or NULL. */
+static int group_options(option_group group, command_id command, const photons_form *form,
+                         int print)
+{
+    int found = 0;
+    for (int i = 0; i < OPTION_COUNT; i++)
+        if (option_table[i].group == group && takes(command, form, (option_id)i)) {
+            found++;
+            if (print)
+                print_option(&option_table[i], command);
+        }
+    return found;
+}
+
+/* Prints what a group has, under its title; the files of GROUP_OUTPUT come before their layers. */
+static void print_group(option_group group, command_id command, const photons_form *form)
+{
+    int settings = form ? 0 : group_settings(group, command, 0);
+    if (settings + group_options(group, command, form, 0) == 0)
+        return;
+    printf("\n%s:\n", option_group_titles[group]);
+    if (group == GROUP_OUTPUT)
+        group_options(group, command, form, 1);
+    if (!form)
+        group_settings(group, command, 1);
+    if (group != GROUP_OUTPUT)
+        group_options(group, command, form, 1);
+}
+
 void help_print(const command_line *arguments)
 {
     command_id command = arguments->command;
     const photons_form *form = photons_find_form(arguments);
     fputs(form ? form->usage : usages[command], stdout);
-    for (int group = 0; group < GROUP_COUNT; group++) {
-        int titled = 0;
-        for (int i = 0; i < OPTION_COUNT; i++) {
-            const option *option = &option_table[i];
-            if (option->group != (option_group)group || !takes(command, form, (option_id)i))
-                continue;
-            if (!titled++)
-                printf("\n%s:\n", option_group_titles[group]);
-            print_option(option, command);
-        }
-    }
+    for (int group = 0; group < GROUP_COUNT; group++)
+        print_group((option_group)group, command, form);
     if (command == COMMAND_RENDER)
         fputs(footer, stdout);
 }

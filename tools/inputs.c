@@ -1,10 +1,11 @@
+/* inputs.c - files that a command reads, which it must not overwrite. */
 #include "inputs.h"
 
 #include <stdlib.h>
 #include <sys/stat.h>
 
 #include "message.h"
-#include "rtc.h"
+#include "status.h"
 
 void inputs_add(input_list *inputs, const char *path)
 {

@@ -1,3 +1,4 @@
+/* interrupt.c - what Ctrl-C and SIGTERM do. */
 #include "interrupt.h"
 
 #include <errno.h>
@@ -5,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "rtc.h"
+#include "status.h"
 
 static volatile sig_atomic_t deferred, pending;
 static int as_json;

@@ -1,3 +1,4 @@
+/* json.c - values as JSON on stdout. */
 #include "json.h"
 
 #include <math.h>

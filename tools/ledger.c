@@ -1,3 +1,4 @@
+/* ledger.c - the energy ledger as text and as JSON. */
 #include "ledger.h"
 
 #include <inttypes.h>

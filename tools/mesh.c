@@ -4,11 +4,11 @@
 #include <string.h>
 #include <strings.h>
 
+#include "commands.h"
 #include "interrupt.h"
 #include "mesh_shape.h"
 #include "message.h"
-#include "nearest.h"
-#include "rtc.h"
+#include "status.h"
 
 enum { DEFAULT_TRIANGLES = 20000 };
 
@@ -17,13 +17,14 @@ enum { HEADER_SIZE = 512, VERTEX_SIZE = 32, FACE_SIZE = 13 };
 
 static int find_kind(mesh_kind *out, const char *word)
 {
-    nearest search = nearest_begin(word);
+    rt_nearest search;
+    rt_nearest_begin(&search, word, strlen(word));
     for (int i = 0; i < MESH_KIND_COUNT; i++) {
         if (strcmp(word, mesh_kind_names[i]) == 0) {
             *out = (mesh_kind)i;
             return STATUS_DONE;
         }
-        nearest_offer(&search, mesh_kind_names[i]);
+        rt_nearest_offer(&search, mesh_kind_names[i], strlen(mesh_kind_names[i]));
     }
     message_error("no mesh is called '%s'; there are sphere, torus, knot and terrain", word);
     if (search.best)

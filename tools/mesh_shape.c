@@ -1,3 +1,4 @@
+/* mesh_shape.c - the meshes that `rtc mesh` makes from formulas. */
 #include "mesh_shape.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* message.c - errors, warnings, hints and notes on stderr, as text or as JSON. */
 #include "message.h"
 
 #include <errno.h>
@@ -6,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "rtc.h"
+#include "status.h"
 
 #define RED "\033[1;31m"
 #define YELLOW "\033[1;33m"

@@ -5,7 +5,8 @@
 #include <stdint.h>
 
 /*
- * A finite decimal number and nothing else: no spaces, hexadecimal, inf or nan. Returns 0, or -1.
+ * A finite decimal number and nothing else: no spaces, hexadecimal, inf or nan, nor one that single
+ * precision takes for 0. Returns 0, or -1.
  */
 int number_real(double *out, const char *text);
 

@@ -1,4 +1,4 @@
-/* option_table.c - every option of rtc. */
+/* option_table.c - the options of rtc but settings of a render, whose table is rt/setting.h. */
 #include "options.h"
 
 #include "rt.h"
@@ -10,53 +10,16 @@
 #define COMPARE (1u << COMMAND_COMPARE)
 #define ALL ((1u << COMMAND_COUNT) - 1u)
 
-static const option_choice modes[] = {
-    {"path", RT_MODE_PATH},
-    {"photon", RT_MODE_PHOTON},
-    {"direct", RT_MODE_DIRECT},
-    {"normals", RT_MODE_NORMALS},
-    {"albedo", RT_MODE_ALBEDO},
-    {"depth", RT_MODE_DEPTH},
-    {NULL, 0},
-};
-static const option_choice samplers[] = {
-    {"sobol", RT_SAMPLER_SOBOL}, {"independent", RT_SAMPLER_INDEPENDENT}, {NULL, 0}};
-static const option_choice filters[] = {
-    {"box", RT_FILTER_BOX},
-    {"tent", RT_FILTER_TENT},
-    {"gaussian", RT_FILTER_GAUSSIAN},
-    {"mitchell", RT_FILTER_MITCHELL},
-    {NULL, 0},
-};
-static const option_choice estimators[] = {{"mis", RT_ESTIMATOR_MIS},
-                                           {"light", RT_ESTIMATOR_LIGHT},
-                                           {"bsdf", RT_ESTIMATOR_BSDF},
-                                           {NULL, 0}};
-static const option_choice accels[] = {{"bvh", RT_ACCEL_BVH}, {"none", RT_ACCEL_NONE}, {NULL, 0}};
-static const option_choice directs[] = {
-    {"nee", RT_DIRECT_NEE}, {"photons", RT_DIRECT_PHOTONS}, {NULL, 0}};
-static const option_choice gathers[] = {
-    {"auto", RT_GATHER_AUTO}, {"flann", RT_GATHER_FLANN}, {"device", RT_GATHER_DEVICE}, {NULL, 0}};
-static const option_choice areas[] = {{"disc", RT_AREA_DISC}, {"hull", RT_AREA_HULL}, {NULL, 0}};
-static const option_choice all_photons[] = {{"all", (int)RT_K_ALL}, {NULL, 0}};
-static const option_choice kernels[] = {
-    {"box", RT_DENSITY_BOX},
-    {"cone", RT_DENSITY_CONE},
-    {"gaussian", RT_DENSITY_GAUSSIAN},
-    {"epanechnikov", RT_DENSITY_EPANECHNIKOV},
-    {"silverman", RT_DENSITY_SILVERMAN},
-    {"gaussian-jensen", RT_DENSITY_GAUSSIAN_JENSEN},
-    {NULL, 0},
-};
-static const option_choice tonemaps[] = {{"none", RT_TONEMAP_NONE},
-                                         {"reinhard", RT_TONEMAP_REINHARD},
-                                         {"aces", RT_TONEMAP_ACES},
-                                         {NULL, 0}};
-static const option_choice progress_styles[] = {{"auto", PROGRESS_AUTO},
-                                                {"plain", PROGRESS_PLAIN},
-                                                {"json", PROGRESS_JSON},
-                                                {"none", PROGRESS_NONE},
-                                                {NULL, 0}};
+static const rt_word accels[] = {RT_ACCELS(RT_WORD) RT_WORD_END};
+static const rt_word tonemaps[] = {{"none", RT_TONEMAP_NONE, ""},
+                                   {"reinhard", RT_TONEMAP_REINHARD, ""},
+                                   {"aces", RT_TONEMAP_ACES, ""},
+                                   RT_WORD_END};
+static const rt_word progress_styles[] = {{"auto", PROGRESS_AUTO, ""},
+                                          {"plain", PROGRESS_PLAIN, ""},
+                                          {"json", PROGRESS_JSON, ""},
+                                          {"none", PROGRESS_NONE, ""},
+                                          RT_WORD_END};
 
 const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_RENDER] = "What to render (each overrides the scene's own setting)",
@@ -70,101 +33,8 @@ const char *const option_group_titles[GROUP_COUNT] = {
 };
 
 const option option_table[OPTION_COUNT] = {
-    [OPTION_MODE] =
-        {"mode", "MODE", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, modes, 1, "path",
-         "path tracing, photon mapping, direct light alone, or what the first hit is like"},
-    [OPTION_SPP] = {"spp", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 16777216, NULL, 1,
-                    "64 in path mode, 16 in photon mode, 1 in each of its passes",
-                    "samples a pixel"},
-    [OPTION_MAX_DEPTH] = {"max-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 1, 4096,
-                          NULL, 1, "16", "longest path in segments, from the eye or from a light"},
-    [OPTION_ROULETTE_DEPTH] =
-        {"roulette-depth", "N", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 4096, NULL, 1, "2",
-         "segments from the eye after which Russian roulette may end a path; from --max-depth "
-         "on it ends none"},
-    [OPTION_ROULETTE_THRESHOLD] =
-        {"roulette-threshold", "T", KIND_REAL, GROUP_RENDER, RENDER, 1e-6, 1, NULL, 1, "0.5",
-         "share of light left to a path below which it may, with the chance share / T to go "
-         "on; 1 ends the most: more samples a second, each noisier"},
-    [OPTION_TIME] =
-        {"time", "SECONDS", KIND_REAL, GROUP_RENDER, RENDER, 0, 1e9, NULL, 1, "0, no limit",
-         "stop after so many seconds, once every pixel has a sample; without --spp, go on "
-         "until then"},
-    [OPTION_TARGET_ERROR] =
-        {"target-error", "E", KIND_REAL, GROUP_RENDER, RENDER, 0, 1, NULL, 1, "0, no such end",
-         "stop when the root mean square error over the mean radiance is below E with 95 % "
-         "confidence; --spp, --passes and --time are then limits. In photon mode only with "
-         "--passes, and of the noise alone, not of the bias of gathering"},
-    [OPTION_SEED] = {"seed", "S", KIND_WHOLE, GROUP_RENDER, RENDER | PHOTONS, 0, UINT32_MAX, NULL,
-                     1, "0", "the same seed gives the same image, bit for bit"},
-    [OPTION_SAMPLER] = {"sampler", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0,
-                        samplers, 1, "sobol", "Owen-scrambled Sobol or independent samples"},
-    [OPTION_FILTER] = {"filter", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, filters, 1, "box",
-                       "reconstruction filter of the picture"},
-    [OPTION_ESTIMATOR] =
-        {"estimator", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER, 0, 0, estimators, 1, "mis",
-         "direct light by sampling lights, by sampling the material (bsdf), or by both (mis); the "
-         "mean is the same, the noise is not"},
     [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, accels, 1,
                       "bvh", "a bounding volume hierarchy, or none: every primitive is tested"},
-    [OPTION_WIDTH] = {"width", "W", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 65536, NULL, 1, "512",
-                      "width in pixels"},
-    [OPTION_HEIGHT] = {"height", "H", KIND_WHOLE, GROUP_RENDER, RENDER, 1, 65536, NULL, 1, "512",
-                       "height in pixels"},
-
-    [OPTION_PHOTONS] =
-        {"photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER | PHOTONS, 1, 4e9, NULL, 1, "1e6",
-         "photon paths emitted; with --passes in each pass, as many as pixels if not given"},
-    [OPTION_K] = {"k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 2, 65536, all_photons, 1, "50",
-                  "nearest photons; the k-th gives the radius and is not summed; all: those within "
-                  "--radius"},
-    [OPTION_RADIUS] = {"radius", "R", KIND_REAL, GROUP_PHOTON, RENDER, 0, 1e15, NULL, 1,
-                       "0, no limit",
-                       "largest gather radius in metres; with --passes, that of the first pass"},
-    [OPTION_GATHER] =
-        {"gather", "WHERE", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, gathers, 1, "auto",
-         "find the nearest photons on the host by FLANN, or on the device; auto is flann for the K "
-         "nearest, and device for all within a radius"},
-    [OPTION_PASSES] = {"passes", "P", KIND_WHOLE, GROUP_PHOTON, RENDER, 1, 16777216, NULL, 1, "1",
-                       "progressive photon mapping: P passes of fresh photons and eye paths, "
-                       "gathered within a radius "
-                       "that shrinks from pass to pass; without --radius it begins, for each "
-                       "pixel, with the distance of "
-                       "its K-th photon"},
-    [OPTION_ALPHA] = {"alpha", "A", KIND_BETWEEN, GROUP_PHOTON, RENDER, 0, 1, NULL, 1, "2/3",
-                      "how slowly the radius of --passes shrinks, between 0 and 1"},
-    [OPTION_PHOTON_LAYERS] =
-        {"photon-layers", NULL, KIND_SWITCH, GROUP_PHOTON, RENDER, 0, 0, NULL, 0, NULL,
-         "add layers to an .exr: photon.count, photon.radius, photon.density, photon.variance, "
-         "photon.bias (how much too bright, estimated by gathering twice); --no-photon-layers: "
-         "do not"},
-    [OPTION_KERNEL] =
-        {"kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, kernels, 1, "epanechnikov",
-         "density kernel; gaussian-jensen, for comparison only, keeps the often printed constant "
-         "that loses 47 % of the light"},
-    [OPTION_CONE_K] = {"cone-k", "C", KIND_REAL, GROUP_PHOTON, RENDER, 1, 1e6, NULL, 1, "1.1",
-                       "constant of the cone kernel, at least 1"},
-    [OPTION_AREA] = {"area", "WHAT", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0, areas, 1, "disc",
-                     "area that photons are spread over: the disc around them, or their convex "
-                     "hull, which is true at the "
-                     "edges of surfaces too, leaves the density kernel out, and has the photons "
-                     "drawn by --sampler "
-                     "independent"},
-    [OPTION_DIRECT] = {"direct", "HOW", KIND_CHOICE, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, directs,
-                       1, "nee", "direct light by shadow rays (nee) or from the photon map"},
-    [OPTION_FINAL_GATHER] = {"final-gather", "N", KIND_WHOLE, GROUP_PHOTON, RENDER, 0, 4096, NULL,
-                             1, "0", "gather after N diffuse bounces instead of at the first hit"},
-    [OPTION_CAUSTIC_PHOTONS] =
-        {"caustic-photons", "N", KIND_WHOLE, GROUP_PHOTON, RENDER | PHOTONS, 0, 4e9, NULL, 1, "0",
-         "keep caustic photons in a map of their own, filled by N further paths"},
-    [OPTION_CAUSTIC_K] = {"caustic-k", "K", KIND_WHOLE, GROUP_PHOTON, RENDER, 2, 65536, all_photons,
-                          1, "that of --k",
-                          "nearest photons in the caustic map; all: those within --caustic-radius"},
-    [OPTION_CAUSTIC_RADIUS] = {"caustic-radius", "R", KIND_REAL, GROUP_PHOTON, RENDER, 0, 1e15,
-                               NULL, 1, "0, that of --radius",
-                               "largest gather radius in the caustic map in metres"},
-    [OPTION_CAUSTIC_KERNEL] = {"caustic-kernel", "NAME", KIND_CHOICE, GROUP_PHOTON, RENDER, 0, 0,
-                               kernels, 1, "epanechnikov", "density kernel of the caustic map"},
     [OPTION_PHOTON_MAP] =
         {"photon-map", "FILE", KIND_TEXT, GROUP_PHOTON, RENDER, 0, 0, NULL, 1, NULL,
          "render with the photons of a map that `rtc photons` made of this scene, and emit none"},
@@ -179,13 +49,6 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS | COMPARE, 0, 0, NULL,
                     0, "NAME.png and NAME.exr in the current directory for NAME.rts",
                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB); may be repeated"},
-    [OPTION_AOV] = {"aov", NULL, KIND_SWITCH, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
-                    "add the layers albedo, normal and depth to .exr; --no-aov: do not, whatever "
-                    "the scene says"},
-    [OPTION_VARIANCE] = {"variance", NULL, KIND_SWITCH, GROUP_OUTPUT, RENDER, 0, 0, NULL, 1, NULL,
-                         "estimate the error, and add the layer variance to .exr; --target-error "
-                         "does so too; --no-variance: do "
-                         "not"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER, -126, 126, NULL, 1, "0",
                          "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER, 0, 0, tonemaps, 1,

@@ -1,3 +1,4 @@
+/* outputs.c - the image files of a command: planned, checked and written. */
 #include "outputs.h"
 
 #include <errno.h>
@@ -8,8 +9,7 @@
 #include <unistd.h>
 
 #include "message.h"
-#include "nearest.h"
-#include "rtc.h"
+#include "status.h"
 
 static const struct {
     const char *name;
@@ -45,9 +45,10 @@ static int check_format(const char *path)
     if (find_format(path) >= 0)
         return STATUS_DONE;
     message_error("--out %s: the extension tells the format: .exr, .png, .ppm or .pfm", path);
-    nearest search = nearest_begin(extension(path));
+    rt_nearest search;
+    rt_nearest_begin(&search, extension(path), strlen(extension(path)));
     for (int i = 0; i < FORMAT_COUNT; i++)
-        nearest_offer(&search, formats[i].name);
+        rt_nearest_offer(&search, formats[i].name, strlen(formats[i].name));
     if (search.best)
         message_hint("did you mean %s?", search.best);
     return STATUS_USAGE;

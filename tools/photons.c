@@ -1,4 +1,5 @@
 /* photons.c - `rtc photons`: makes photon maps, joins them, looks at them and exports them. */
+#include "commands.h"
 #include "photons.h"
 
 #include <stdlib.h>
@@ -9,6 +10,8 @@
 #include "message.h"
 #include "outputs.h"
 #include "session.h"
+#include "settings.h"
+#include "status.h"
 
 int photons_load(rt_photon_map **out, const char *path)
 {
@@ -204,6 +207,16 @@ static int check_options(const command_line *arguments, const photons_form *form
         if (arguments->options[i].given && !photons_form_takes(form, (option_id)i)) {
             message_error("`rtc photons %s` takes no option --%s", form->word,
                           option_table[i].name);
+            status = STATUS_USAGE;
+        }
+    }
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    for (size_t i = 0; i < count; i++) {
+        char name[SETTING_NAME_SIZE];
+        if (settings_text(arguments, &settings[i])) {
+            message_error("`rtc photons %s` takes no option --%s", form->word,
+                          settings_name(name, &settings[i]));
             status = STATUS_USAGE;
         }
     }

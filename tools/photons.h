@@ -2,7 +2,7 @@
 #ifndef RTC_PHOTONS_H
 #define RTC_PHOTONS_H
 
-#include "rtc.h"
+#include "options.h"
 #include "rt.h"
 
 /* A form of the command that works on maps in files: the word that asks for it. */

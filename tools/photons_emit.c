@@ -8,7 +8,8 @@
 #include "photons.h"
 #include "scene_file.h"
 #include "session.h"
-#include "shares.h"
+#include "light_shares.h"
+#include "status.h"
 
 /* Everything that one emission holds. */
 typedef struct emit_job {

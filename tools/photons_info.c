@@ -8,6 +8,7 @@
 #include "ledger.h"
 #include "message.h"
 #include "photons.h"
+#include "status.h"
 
 static const char *const kind_names[] = {
     [RT_PHOTONS_GLOBAL] = "global", [RT_PHOTONS_CAUSTIC] = "caustic"};

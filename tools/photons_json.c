@@ -8,6 +8,7 @@
 #include "ledger.h"
 #include "message.h"
 #include "photons.h"
+#include "status.h"
 
 static void put_bool(const char *name, int value)
 {

@@ -1,3 +1,4 @@
+/* progress.c - shows progress on stderr. */
 #include "progress.h"
 
 #include <stdio.h>

@@ -3,16 +3,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "idle.h"
+#include "command_line.h"
+#include "commands.h"
 #include "inputs.h"
+#include "light_shares.h"
 #include "message.h"
-#include "nearest.h"
+#include "no_effect.h"
 #include "outputs.h"
+#include "recorded.h"
 #include "rt.h"
-#include "rtc.h"
+#include "status.h"
 #include "scene_file.h"
 #include "session.h"
-#include "shares.h"
 #include "stats.h"
 
 /* Everything that one render holds. */
@@ -69,11 +71,6 @@ static int set_options(render_job *job)
     return status;
 }
 
-static int is_switched_off(const render_job *job, option_id id)
-{
-    return option_table[id].kind == KIND_SWITCH && !value(job, id)->choice;
-}
-
 /* ---- The steps ------------------------------------------------------------ */
 
 static int load(render_job *job)
@@ -90,7 +87,7 @@ static int load(render_job *job)
     if (status != STATUS_DONE)
         return status;
     if (!job->session.quiet)
-        idle_warn(job->session.arguments, &job->options, &job->outputs);
+        no_effect_warn(job->session.arguments, &job->options, &job->outputs);
     /* Options that cannot be are told before any work. */
     status = session_check_options(&job->session, &job->own, &job->options);
     if (status != STATUS_DONE)
@@ -173,36 +170,6 @@ static void say_how_good_it_is(const render_job *job)
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);
 }
 
-/*
- * An option as the command line has it, "--spp 16" or "--no-variance". Returns its length, which
- * may exceed size.
- */
-static size_t write_option(char *out, size_t size, const render_job *job, option_id id)
-{
-    const option *option = &option_table[id];
-    if (option_takes_value(option))
-        return (size_t)snprintf(out, size, " --%s %s", option->name, value(job, id)->text);
-    return (size_t)snprintf(out, size, " --%s%s", is_switched_off(job, id) ? "no-" : "",
-                            option->name);
-}
-
-/* The command line as far as it decides the pixels, so that two equal images are equal files. */
-static char *recorded_command(const render_job *job)
-{
-    size_t size = strlen(job->scene_path) + 8;
-    for (int i = 0; i < OPTION_COUNT; i++)
-        if (option_table[i].decides_pixels && value(job, (option_id)i)->given)
-            size += write_option(NULL, 0, job, (option_id)i);
-    char *line = malloc(size);
-    if (!line)
-        return NULL;
-    size_t used = (size_t)snprintf(line, size, "rtc %s", job->scene_path);
-    for (int i = 0; i < OPTION_COUNT; i++)
-        if (option_table[i].decides_pixels && value(job, (option_id)i)->given)
-            used += write_option(line + used, size - used, job, (option_id)i);
-    return line;
-}
-
 /* Writes the film; an interrupted one is written too, as far as it came. */
 static int write_images(const render_job *job, int status)
 {
@@ -217,7 +184,7 @@ static int write_images(const render_job *job, int status)
                           ? (rt_tonemap)value(job, OPTION_TONEMAP)->choice
                           : RT_TONEMAP_NONE;
     options.scene = job->scene_path;
-    char *command = recorded_command(job);
+    char *command = recorded_command(job->session.arguments, job->scene_path);
     options.command = command;
     int written = outputs_write(&job->outputs, job->film, &options);
     free(command);
@@ -260,9 +227,10 @@ static int fail_operands(const command_line *arguments)
     }
     message_error("one scene at a time: '%s' and '%s'", arguments->operands[0],
                   arguments->operands[1]);
-    nearest search = nearest_begin(arguments->operands[0]);
+    rt_nearest search;
+    rt_nearest_begin(&search, arguments->operands[0], strlen(arguments->operands[0]));
     for (int i = COMMAND_RENDER + 1; i < COMMAND_COUNT; i++)
-        nearest_offer(&search, command_name((command_id)i));
+        rt_nearest_offer(&search, command_name((command_id)i), strlen(command_name((command_id)i)));
     if (search.best)
         message_hint("did you mean `rtc %s`?", search.best);
     return STATUS_USAGE;

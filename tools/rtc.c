@@ -1,11 +1,13 @@
 /* rtc.c - the command: reads its line and hands over to a subcommand. */
-#include "rtc.h"
-
 #include <signal.h>
 #include <stdio.h>
 
+#include "command_line.h"
+#include "commands.h"
+#include "help.h"
 #include "message.h"
 #include "rt.h"
+#include "status.h"
 
 static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,

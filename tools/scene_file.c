@@ -1,3 +1,4 @@
+/* scene_file.c - loads a scene file and prints what is wrong with it. */
 #include "scene_file.h"
 
 #include <errno.h>
@@ -5,7 +6,7 @@
 #include <string.h>
 
 #include "message.h"
-#include "rtc.h"
+#include "status.h"
 
 /* Longest scene that is read from stdin. */
 #define STDIN_LIMIT ((size_t)64 << 20)

@@ -1,3 +1,4 @@
+/* stats.c - prints what a render did, for --stats. */
 #include "stats.h"
 
 #include <inttypes.h>

@@ -20,7 +20,7 @@ typedef struct rt_word {
     const char *help; /* one line */
 } rt_word;
 
-/* A row of a list of words, from an X list: static const rt_word modes[] = {RT_MODES(RT_WORD) ...}. */
+/* A row of such a list, from an X list: rt_word modes[] = {RT_MODES(RT_WORD) RT_WORD_END}. */
 #define RT_WORD(constant, name, help) {name, constant, help},
 #define RT_WORD_END                                                                                \
     {                                                                                              \

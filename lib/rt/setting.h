@@ -14,8 +14,8 @@ extern "C" {
 
 /* What a setting is about. */
 typedef enum rt_setting_topic {
-    RT_TOPIC_FILM,   /* the picture; stands in a `film` block, the others in a `render` block */
-    RT_TOPIC_RENDER, /* how it is computed */
+    RT_TOPIC_RENDER, /* how the picture is computed */
+    RT_TOPIC_FILM,   /* its size and filter; stands in a `film` block, the others in `render` */
     RT_TOPIC_PHOTON, /* how photon mode emits and gathers */
     RT_TOPIC_LAYER   /* what is written beside the picture */
 } rt_setting_topic;

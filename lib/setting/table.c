@@ -46,11 +46,11 @@ const char *rt_mode_name(rt_mode mode)
 #define LIGHT_IS_SHOWN                                                                             \
     {                                                                                              \
         {IS("mode", RT_MODE_PATH), IS("mode", RT_MODE_DIRECT), IS("mode", RT_MODE_PHOTON)},        \
-            "in a `mode` that shows no light"                                                      \
+            "in a mode that shows no light"                                                        \
     }
 #define PHOTON_MODE                                                                                \
     {                                                                                              \
-        {IS("mode", RT_MODE_PHOTON)}, "outside `mode` photon"                                      \
+        {IS("mode", RT_MODE_PHOTON)}, "without `mode` photon"                                      \
     }
 #define HAS_CAUSTIC_MAP                                                                            \
     {                                                                                              \
@@ -73,11 +73,11 @@ int rt_mode_shows_light(rt_mode mode)
     return rt_setting_need_met(&shown, &options);
 }
 
-/* In photon mode the camera path ends at the first diffuse surface unless there is a final gather. */
+/* In photon mode the camera path ends at the first diffuse surface, or behind the final gather. */
 static const rt_setting_need camera_path_needs[] = {
     LIGHT_IS_SHOWN,
     {{IS_NOT("mode", RT_MODE_PHOTON), ABOVE("final_gather", 0)},
-     "in `mode` photon without `final_gather`"},
+     "in photon mode without `final_gather`"},
     END};
 static const rt_setting_need light_needs[] = {LIGHT_IS_SHOWN, END};
 static const rt_setting_need photon_needs[] = {PHOTON_MODE, END};
@@ -122,18 +122,12 @@ static const rt_setting_need caustic_k_needs[] = {
     FIELD(member, RT_FIELD_BOOLEAN, RT_RANGE_ANY, 0, 0, "", "false", NULL, help)
 
 static const rt_setting settings[] = {
-    {WHOLE(width, 1, 65536, "pixels", "512", "columns of the picture"), RT_TOPIC_FILM, 0, NULL},
-    {WHOLE(height, 1, 65536, "pixels", "512",
-           "rows of the picture; pixels are square, so this sets the vertical angle of view"),
-     RT_TOPIC_FILM, 0, NULL},
-    {CHOICE(filter, filters, "box", "reconstruction filter"), RT_TOPIC_FILM, 0, NULL},
-
     {CHOICE(mode, modes, "path", "what is rendered, and how"), RT_TOPIC_RENDER, 0, NULL},
-    {WHOLE(spp, 1, 16777216, "", "64; in `mode` photon 16, with `passes` 1",
-           "samples per pixel; with `passes`, in each of them"),
+    {WHOLE(spp, 1, 16777216, "", "64; in photon mode 16, with `passes` 1",
+           "samples per pixel; with `passes`, in each pass"),
      RT_TOPIC_RENDER, 0, NULL},
     {WHOLE(max_depth, 1, 4096, "segments", "16",
-           "longest path in segments, from the camera or from a light; 1 shows emitters alone, 2 "
+           "longest path, from the camera or from a light; 1 shows emitters alone, 2 "
            "adds direct light"),
      RT_TOPIC_RENDER, RT_SETTING_EMITS, light_needs},
     /*
@@ -165,12 +159,18 @@ static const rt_setting settings[] = {
      RT_TOPIC_RENDER, 0, NULL},
     {REAL(target_error, RT_RANGE_CLOSED, 0, 1, "", "0, none",
           "stop when the relative RMSE of the picture is below this with 95 % confidence; `spp`, "
-          "`passes` and `time` are then limits. In `mode` photon it needs `passes`, and tells the "
+          "`passes` and `time` are then limits. In photon mode it needs `passes`, and tells the "
           "noise, not the bias of gathering"),
      RT_TOPIC_RENDER, 0, NULL},
 
+    {WHOLE(width, 1, 65536, "pixels", "512", "columns of the picture"), RT_TOPIC_FILM, 0, NULL},
+    {WHOLE(height, 1, 65536, "pixels", "512",
+           "rows of the picture; pixels are square, so this sets the vertical angle of view"),
+     RT_TOPIC_FILM, 0, NULL},
+    {CHOICE(filter, filters, "box", "reconstruction filter"), RT_TOPIC_FILM, 0, NULL},
+
     {WHOLE(photons, 1, 4e9, "", "1000000; with `passes` one per pixel",
-           "photon paths emitted; with `passes`, in each of them"),
+           "photon paths emitted; with `passes`, in each pass"),
      RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
     {COUNT(
          k, "50",

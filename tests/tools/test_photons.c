@@ -360,7 +360,7 @@ static void renders_share_paths_among_lights(void **state)
     assert_non_null(
         strstr(rt_image_attribute_value(image, "librt.command"), "--light-shares 0.25,0.75"));
     rt_image_destroy(image);
-    expect_err(&path, "warning: --light-shares has no effect in path mode");
+    expect_err(&path, "warning: --light-shares has no effect without --mode photon");
     run_free(&told);
     run_free(&path);
     succeed("photons b.rts --photons 100 --quiet --out b.rtp");

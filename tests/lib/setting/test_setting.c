@@ -1,4 +1,4 @@
-/* test_setting.c - the table of settings: it is sound, and settings are read, written and checked. */
+/* test_setting.c - the table of settings, and how they are read, written and checked. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -183,11 +183,11 @@ static void what_a_setting_needs_is_told(void **state)
                       depth = {.mode = RT_MODE_DEPTH};
     (void)state;
     assert_string_equal(missing("spp", &depth), "");
-    assert_string_equal(missing("k", &path), "outside `mode` photon");
+    assert_string_equal(missing("k", &path), "without `mode` photon");
     assert_string_equal(missing("k", &photon), "");
-    assert_string_equal(missing("max_depth", &depth), "in a `mode` that shows no light");
+    assert_string_equal(missing("max_depth", &depth), "in a mode that shows no light");
     assert_string_equal(missing("max_depth", &photon), "");
-    assert_string_equal(missing("estimator", &photon), "in `mode` photon without `final_gather`");
+    assert_string_equal(missing("estimator", &photon), "in photon mode without `final_gather`");
     assert_string_equal(missing("alpha", &photon), "without `passes`");
     photon.passes = 2;
     assert_string_equal(missing("alpha", &photon), "");

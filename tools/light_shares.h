@@ -1,6 +1,6 @@
-/* shares.h - the option --light-shares: what part of the photon paths each light gets. */
-#ifndef RTC_SHARES_H
-#define RTC_SHARES_H
+/* light_shares.h - the option --light-shares: what part of the photon paths each light gets. */
+#ifndef RTC_LIGHT_SHARES_H
+#define RTC_LIGHT_SHARES_H
 
 #include <stddef.h>
 

@@ -1,12 +1,13 @@
-#include "options.h"
+/* command_line.c - reads the command line: the command, its options and values, the operands. */
+#include "command_line.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "message.h"
-#include "nearest.h"
 #include "number.h"
-#include "rtc.h"
+#include "settings.h"
+#include "status.h"
 
 static const char *const command_names[COMMAND_COUNT] = {
     [COMMAND_RENDER] = "",         [COMMAND_CHECK] = "check",   [COMMAND_MESH] = "mesh",
@@ -28,9 +29,14 @@ static command_id find_command(const char *word)
     return COMMAND_RENDER;
 }
 
-/*
- * The option whose name is name[0] to name[length - 1], the command's own if it has one, or NULL.
- */
+/* What a name stands for: an option of the table, or a setting, which --no-NAME turns off. */
+typedef struct meaning {
+    const option *option;
+    const rt_setting *setting;
+    int is_off;
+} meaning;
+
+/* The option of the table that has this name, the command's own if it has one, or NULL. */
 static const option *find_option(const char *name, size_t length, command_id command)
 {
     const option *found = NULL;
@@ -43,117 +49,113 @@ static const option *find_option(const char *name, size_t length, command_id com
     return found;
 }
 
-static int fail_unknown_option(const char *name, size_t length, command_id command)
+/* What name[0] to name[length - 1] stands for. */
+static meaning find_meaning(const char *name, size_t length, command_id command)
 {
-    message_error("unknown option '--%.*s'", (int)length, name);
-    char wanted[64];
-    snprintf(wanted, sizeof wanted, "%.*s", (int)length, name);
-    nearest search = nearest_begin(wanted);
+    meaning found = {find_option(name, length, command), NULL, 0};
+    if (!found.option)
+        found.setting = settings_find(name, length);
+    if (!found.option && !found.setting && length > 3 && memcmp(name, "no-", 3) == 0) {
+        const rt_setting *setting = settings_find(name + 3, length - 3);
+        if (setting && settings_is_switch(setting)) {
+            found.setting = setting;
+            found.is_off = 1;
+        }
+    }
+    return found;
+}
+
+static int is_taken(const meaning *meaning, command_id command)
+{
+    return meaning->option ? (meaning->option->commands & (1u << command)) != 0
+                           : settings_is_taken(meaning->setting, command);
+}
+
+/* Offers the names of a command's options. */
+static void offer_names(rt_nearest *search, command_id command, char names[][SETTING_NAME_SIZE])
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].commands & (1u << command))
-            nearest_offer(&search, option_table[i].name);
+            rt_nearest_offer(search, option_table[i].name, strlen(option_table[i].name));
+    for (size_t i = 0; i < count; i++)
+        if (settings_is_taken(&settings[i], command)) {
+            const char *name = settings_name(names[i], &settings[i]);
+            rt_nearest_offer(search, name, strlen(name));
+        }
+}
+
+static int fail_unknown_option(const char *name, size_t length, command_id command)
+{
+    size_t count;
+    rt_settings(&count);
+    char(*names)[SETTING_NAME_SIZE] = malloc(count * sizeof *names);
+    rt_nearest search;
+    message_error("unknown option '--%.*s'", (int)length, name);
+    rt_nearest_begin(&search, name, length);
+    if (names)
+        offer_names(&search, command, names);
     if (search.best)
         message_hint("did you mean --%s?", search.best);
     else
         message_hint("`rtc %s%s--help` lists the options", command_name(command),
                      command == COMMAND_RENDER ? "" : " ");
+    free(names);
     return STATUS_USAGE;
 }
 
 /* ---- Values --------------------------------------------------------------- */
 
-void option_join_choices(char *out, size_t size, const option_choice *choices)
-{
-    out[0] = '\0';
-    for (; choices->word; choices++) {
-        size_t used = strlen(out);
-        snprintf(out + used, size - used, "%s%s", used ? ", " : "", choices->word);
-    }
-}
-
 static int read_choice(option_value *value, const option *option, const char *text)
 {
-    nearest search = nearest_begin(text);
     char words[128];
-    for (const option_choice *choice = option->choices; choice->word; choice++) {
-        if (strcmp(choice->word, text) == 0) {
-            value->choice = choice->value;
-            return STATUS_DONE;
-        }
-        nearest_offer(&search, choice->word);
+    const rt_word *word = rt_word_find(option->words, text, strlen(text));
+    rt_nearest search;
+    if (word) {
+        value->choice = word->value;
+        return STATUS_DONE;
     }
-    option_join_choices(words, sizeof words, option->choices);
-    message_error("--%s takes one of %s; not '%s'", option->name, words, text);
+    message_error("--%s takes %s; not '%s'", option->name,
+                  rt_words_join(words, sizeof words, option->words), text);
+    rt_nearest_begin(&search, text, strlen(text));
+    rt_nearest_offer_words(&search, option->words);
     if (search.best)
         message_hint("did you mean %s?", search.best);
     return STATUS_USAGE;
 }
 
-/* Whether text is one of the words that stand for a number; then it is read. */
-static int read_number_word(option_value *value, const option *option, const char *text)
-{
-    for (const option_choice *choice = option->choices; choice && choice->word; choice++)
-        if (strcmp(choice->word, text) == 0) {
-            value->count = (uint32_t)choice->value;
-            return 1;
-        }
-    return 0;
-}
-
-static int is_in_range(const option *option, double number)
-{
-    if (option->kind == KIND_BETWEEN)
-        return number > option->min && number < option->max;
-    return number >= option->min && number <= option->max;
-}
-
 static int read_number(option_value *value, const option *option, const char *text)
 {
-    char words[128] = "";
-    if (read_number_word(value, option, text))
-        return STATUS_DONE;
+    const rt_range range = {RT_RANGE_CLOSED, option->min, option->max};
+    char phrase[96];
     int is_count = option->kind == KIND_WHOLE;
     int bad = is_count ? number_count(&value->count, text) : number_real(&value->real, text);
-    double number = is_count ? (double)value->count : value->real;
-    if (!bad && is_in_range(option, number))
+    if (!bad && rt_range_holds(range, is_count ? (double)value->count : value->real))
         return STATUS_DONE;
-    if (option->choices)
-        option_join_choices(words, sizeof words, option->choices);
-    const char *limits = option->kind == KIND_BETWEEN ? "between %.10g and %.10g, both excluded"
-                                                      : "from %.10g to %.10g";
-    char range[96];
-    snprintf(range, sizeof range, limits, option->min, option->max);
-    message_error("--%s takes a %s %s%s%s; not '%s'", option->name,
-                  is_count ? "whole number" : "number", range, words[0] ? ", or " : "", words,
-                  text);
+    message_error("--%s takes a %s %s; not '%s'", option->name,
+                  is_count ? "whole number" : "number",
+                  rt_range_phrase(phrase, sizeof phrase, range), text);
     return STATUS_USAGE;
 }
 
-int option_takes_value(const option *option)
-{
-    return option->kind != KIND_FLAG && option->kind != KIND_SWITCH;
-}
-
-/* Reads text, NULL for none, as the value of an option. */
-static int read_value(command_line *out, const option *option, const char *text)
+/* Reads text, NULL for none, as the value of an option of the table. */
+static int read_option_value(command_line *out, const option *option, const char *text)
 {
     option_value *value = &out->options[option - option_table];
-    if (!option_takes_value(option) && text) {
-        message_error("--%s takes no value; not '%s'", option->name, text);
-        return STATUS_USAGE;
-    }
-    if (option_takes_value(option) && (!text || text[0] == '\0')) {
-        message_error("--%s needs a value: --%s %s", option->name, option->name, option->value);
-        return STATUS_USAGE;
-    }
     int status = STATUS_DONE;
-    if (option->kind == KIND_CHOICE)
+    switch (option->kind) {
+    case KIND_CHOICE:
         status = read_choice(value, option, text);
-    else if (option->kind == KIND_WHOLE || option->kind == KIND_REAL ||
-             option->kind == KIND_BETWEEN)
+        break;
+    case KIND_WHOLE:
+    case KIND_REAL:
         status = read_number(value, option, text);
-    else if (option->kind == KIND_SWITCH)
-        value->choice = 1;
+        break;
+    case KIND_FLAG:
+    case KIND_TEXT:
+        break;
+    }
     value->given = 1;
     value->text = text;
     if (option == &option_table[OPTION_OUT])
@@ -161,13 +163,30 @@ static int read_value(command_line *out, const option *option, const char *text)
     return status;
 }
 
-/* The switch that --no-NAME takes back, or NULL. */
-static const option *find_switched_off(const char *name, size_t length, command_id command)
+/* The name of the value that an option takes, or NULL. */
+static const char *value_name(const meaning *meaning)
 {
-    if (length < 4 || memcmp(name, "no-", 3) != 0)
-        return NULL;
-    const option *found = find_option(name + 3, length - 3, command);
-    return found && found->kind == KIND_SWITCH ? found : NULL;
+    return meaning->option ? meaning->option->value : settings_value_name(meaning->setting);
+}
+
+/* Reads text, NULL for none, as the value of what an option stands for. */
+static int read_value(command_line *out, const meaning *meaning, const char *text)
+{
+    char buffer[SETTING_NAME_SIZE];
+    const char *name =
+        meaning->option ? meaning->option->name : settings_name(buffer, meaning->setting);
+    const char *value = value_name(meaning);
+    if (!value && text) {
+        message_error("--%s takes no value; not '%s'", name, text);
+        return STATUS_USAGE;
+    }
+    if (value && (!text || text[0] == '\0')) {
+        message_error("--%s needs a value: --%s %s", name, name, value);
+        return STATUS_USAGE;
+    }
+    if (meaning->option)
+        return read_option_value(out, meaning->option, text);
+    return settings_read(out, meaning->setting, value ? text : meaning->is_off ? "false" : "true");
 }
 
 /* ---- The line ------------------------------------------------------------- */
@@ -178,24 +197,19 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     const char *name = argv[*at] + 2;
     const char *equals = strchr(name, '=');
     size_t length = equals ? (size_t)(equals - name) : strlen(name);
-    const option *off = find_switched_off(name, length, out->command);
-    const option *option = off ? off : find_option(name, length, out->command);
-    if (!option)
+    const meaning meaning = find_meaning(name, length, out->command);
+    if (!meaning.option && !meaning.setting)
         return fail_unknown_option(name, length, out->command);
-    if (!(option->commands & (1u << out->command))) {
-        message_error("`rtc%s%s` takes no option --%s", out->command == COMMAND_RENDER ? "" : " ",
-                      command_name(out->command), option->name);
+    if (!is_taken(&meaning, out->command)) {
+        message_error("`rtc%s%s` takes no option --%.*s", out->command == COMMAND_RENDER ? "" : " ",
+                      command_name(out->command), (int)length, name);
         return STATUS_USAGE;
     }
     const char *text = equals ? equals + 1 : NULL;
     /* A word that starts with two dashes is the next option, not a value that was forgotten. */
-    if (!text && option_takes_value(option) && *at + 1 < argc &&
-        strncmp(argv[*at + 1], "--", 2) != 0)
+    if (!text && value_name(&meaning) && *at + 1 < argc && strncmp(argv[*at + 1], "--", 2) != 0)
         text = argv[++*at];
-    int status = read_value(out, option, text);
-    if (off)
-        out->options[off - option_table].choice = 0;
-    return status;
+    return read_value(out, &meaning, text);
 }
 
 /* Reads the argument at argv[*at]; after `--` every argument is an operand. */
@@ -211,7 +225,7 @@ static int read_argument(command_line *out, int argc, char **argv, int *at, int 
         return STATUS_DONE;
     }
     if (strcmp(word, "-h") == 0)
-        return read_value(out, &option_table[OPTION_HELP], NULL);
+        return read_option_value(out, &option_table[OPTION_HELP], NULL);
     if (word[1] == '-')
         return read_option(out, argc, argv, at);
     message_error("unknown option '%s'", word);
@@ -221,10 +235,13 @@ static int read_argument(command_line *out, int argc, char **argv, int *at, int 
 
 int arguments_parse(command_line *out, int argc, char **argv)
 {
+    size_t settings;
     memset(out, 0, sizeof *out);
+    rt_settings(&settings);
+    out->settings = calloc(settings, sizeof *out->settings);
     out->outputs = malloc(((size_t)argc + 1) * sizeof *out->outputs);
     out->operands = malloc(((size_t)argc + 1) * sizeof *out->operands);
-    if (!out->outputs || !out->operands) {
+    if (!out->settings || !out->outputs || !out->operands) {
         message_error("out of memory");
         return STATUS_DEVICE;
     }
@@ -257,6 +274,7 @@ int arguments_parse(command_line *out, int argc, char **argv)
 
 void arguments_free(command_line *arguments)
 {
+    free(arguments->settings);
     free(arguments->outputs);
     free(arguments->operands);
 }

@@ -1,11 +1,12 @@
-#include "shares.h"
+/* light_shares.c - reads the option --light-shares. */
+#include "light_shares.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "message.h"
 #include "number.h"
-#include "rtc.h"
+#include "status.h"
 
 #define SHARE_MAX 1e15
 

@@ -1,0 +1,18 @@
+/* command_line.h - reads the command line. */
+#ifndef RTC_COMMAND_LINE_H
+#define RTC_COMMAND_LINE_H
+
+#include "options.h"
+
+/*
+ * Parses argv[1] to argv[argc - 1]. Where an option is given twice, the last one counts; --out
+ * adds up. Returns STATUS_DONE, or the exit status after saying what is wrong. Free *out with
+ * arguments_free in either case.
+ */
+int arguments_parse(command_line *out, int argc, char **argv);
+void arguments_free(command_line *arguments);
+
+/* The name of a subcommand as typed; "" for COMMAND_RENDER. */
+const char *command_name(command_id command);
+
+#endif

@@ -1,0 +1,97 @@
+/*
+ * no_effect.c - warnings of options that have no effect beside the others. What a setting needs
+ * beside other settings stands in the table of rt/setting.h; what other options need stands here.
+ */
+#include "no_effect.h"
+
+#include "message.h"
+#include "settings.h"
+
+static int is_given(const command_line *arguments, option_id id)
+{
+    return arguments->options[id].given;
+}
+
+static int is_asked(const command_line *arguments, const char *setting)
+{
+    return settings_is_asked(arguments, rt_setting_find(setting));
+}
+
+/* ---- Settings ----------------------------------------------------------------- */
+
+/* Says of each setting that is given what it lacks to have an effect. */
+static void warn_settings(const command_line *arguments, const rt_render_options *options)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    for (size_t i = 0; i < count; i++) {
+        char name[SETTING_NAME_SIZE], text[128];
+        const rt_setting_need *need = rt_setting_missing(&settings[i], options);
+        if (!need || !settings_is_asked(arguments, &settings[i]))
+            continue;
+        message_warning("--%s has no effect %s", settings_name(name, &settings[i]),
+                        rt_setting_text(text, sizeof text, need->otherwise, RT_NAME_OPTION));
+    }
+}
+
+/* The options with what the map of --photon-map holds, for the needs of the caustic map. */
+static rt_render_options with_map(const rt_render_options *options)
+{
+    rt_render_options known = *options;
+    rt_photon_map_info info;
+    if (options->photon_map) {
+        rt_photon_map_get_info(options->photon_map, &info);
+        known.caustic_photons = info.split;
+    }
+    return known;
+}
+
+/* ---- Other options --------------------------------------------------------------- */
+
+/* With a map no photon is emitted, and without photon mode neither. */
+static void warn_emission(const command_line *arguments, const rt_render_options *options)
+{
+    static const char *const emissions[] = {"photons", "caustic_photons"};
+    const int is_photon = options->mode == RT_MODE_PHOTON;
+    for (size_t i = 0; i < 2 && options->photon_map && is_photon; i++) {
+        char name[SETTING_NAME_SIZE];
+        if (is_asked(arguments, emissions[i]))
+            message_warning("--%s has no effect with --photon-map",
+                            settings_name(name, rt_setting_find(emissions[i])));
+    }
+    if (is_given(arguments, OPTION_LIGHT_SHARES) && (options->photon_map || !is_photon))
+        message_warning("--light-shares has no effect %s",
+                        is_photon ? "with --photon-map" : "without --mode photon");
+    if (is_given(arguments, OPTION_PHOTON_MAP) && !is_photon)
+        message_warning("--photon-map has no effect without --mode photon");
+}
+
+/* What is asked for but has no place in the files. */
+static void warn_outputs(const command_line *arguments, const rt_render_options *options,
+                         const output_list *outputs)
+{
+    if (!outputs_have_8bit(outputs) &&
+        (is_given(arguments, OPTION_EXPOSURE) || is_given(arguments, OPTION_TONEMAP)))
+        message_warning(
+            "--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
+    if (outputs_have_layers(outputs))
+        return;
+    if (is_asked(arguments, "aov"))
+        message_warning("--aov has no effect without an .exr, which alone holds layers");
+    if (is_asked(arguments, "photon_layers") && options->mode == RT_MODE_PHOTON)
+        message_warning("--photon-layers has no effect without an .exr, which alone holds layers");
+    if (is_asked(arguments, "variance"))
+        message_warning("--variance adds no layer without an .exr, which alone holds layers; the "
+                        "error is told all the same");
+}
+
+void no_effect_warn(const command_line *arguments, const rt_render_options *options,
+                    const output_list *outputs)
+{
+    const rt_render_options known = with_map(options);
+    warn_settings(arguments, &known);
+    warn_emission(arguments, options);
+    if (is_given(arguments, OPTION_JSON) && !is_given(arguments, OPTION_STATS))
+        message_warning("--json has no effect without --stats");
+    warn_outputs(arguments, options, outputs);
+}
