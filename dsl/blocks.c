@@ -10,43 +10,40 @@ static const rt_word fresnels[] = {RT_FRESNELS(RT_WORD) RT_WORD_END};
 
 static const rt_field camera_fields[] = {
     {"projection", CHOICE, OPTIONAL, ANY, "", "perspective", projections, AT(rt_camera, kind),
-     "perspective: all rays pass the eye; orthographic: all are parallel, nothing gets smaller "
-     "with distance; environment: all directions, longitude across and latitude down, look_at in "
-     "the middle"},
-    {"eye", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, eye), "where the camera stands"},
+     "which rays the pixels stand for"},
+    {"eye", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, eye), "position of the camera"},
     {"look_at", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_camera, look_at),
      "the point in the middle of the picture"},
     {"up", VECTOR, OPTIONAL, DIRECTION, "", "0 1 0", NULL, AT(rt_camera, up),
      "the direction that points up in the picture; not along the view"},
     {"fov", NUMBER, OPTIONAL, BETWEEN(0, 180), "degrees", "45", NULL, AT(rt_camera, fov),
-     "of a perspective camera: full horizontal angle of view"},
+     "full horizontal angle of view of a perspective camera"},
     {"width", NUMBER, OPTIONAL, LENGTH, "m", "2", NULL, AT(rt_camera, width),
-     "of what an orthographic camera sees, from left to right"},
+     "width of what an orthographic camera sees"},
     {"aperture", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(rt_camera, aperture),
-     "radius of the lens; 0 is a pinhole, where all is sharp"},
+     "radius of the lens; 0 is a pinhole, which has everything in focus"},
     {"focal_distance", NUMBER, OPTIONAL, LENGTH, "m", "that of look_at", NULL,
      AT(rt_camera, focal_distance), "distance along the view to the plane in focus"},
     {"blades", INTEGER, OPTIONAL, FROM_TO(3, 64), "", "round", NULL, AT(rt_camera, blades),
-     "edges of the lens opening, seen in what is out of focus: 3 to 64; left out, it is round"},
+     "edges of the aperture, seen in what is out of focus; left out, it is round"},
     {"blade_rotation", NUMBER, OPTIONAL, ANY, "degrees", "0", NULL, AT(rt_camera, blade_rotation),
-     "turns that opening, counter-clockwise in the picture; at 0 a corner points to the right"},
+     "turns the aperture counter-clockwise in the picture; at 0 a corner points to the right"},
 };
 
 static const rt_field texture_fields[] = {
     {"pattern", CHOICE, OPTIONAL, ANY, "", "image", patterns, AT(rt_texture, kind),
-     "where the colours come from: an image file, squares of a and b with sides of 1 in u and v, "
-     "or a change from a at v = 0 to b at v = 1"},
+     "where the colours come from"},
     {"file", FILE_NAME, OPTIONAL, ANY, "", "required of an image", NULL, AT(rt_texture, path),
-     "a .png, .ppm, .pgm, .exr or .pfm"},
+     "image file: .png, .ppm, .pgm, .exr or .pfm"},
     {"linear", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_texture, linear),
-     "of an image: true: the numbers of the file are light, or heights; false: 8 and 16 bit files "
-     "hold sRGB, as pictures do"},
+     "of an image: true: the file holds linear values, such as radiance or heights; false: files "
+     "of 8 and 16 bits hold sRGB"},
     {"a", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, a),
-     "of a checker: the first square; of a gradient: below"},
+     "of a checker: the first square; of a gradient: the colour at v = 0"},
     {"b", COLOUR, OPTIONAL, LIGHT, "", "0", NULL, AT(rt_texture, b),
-     "of a checker: the other square; of a gradient: above"},
+     "of a checker: the other square; of a gradient: the colour at v = 1"},
     {"wrap", CHOICE, OPTIONAL, ANY, "", "repeat", wraps, AT(rt_texture, wrap),
-     "beyond 0 to 1, an image or gradient is repeated, mirrored, or goes on as at its edge"},
+     "how an image or gradient continues beyond 0 to 1"},
     {"scale", PAIR, OPTIONAL, NOT_ZERO, "", "1 1", NULL, AT(rt_texture, scale),
      "u and v are multiplied by this: 4 4 shows the texture four times each way"},
     {"offset", PAIR, OPTIONAL, ANY, "", "0 0", NULL, AT(rt_texture, offset),
@@ -60,31 +57,30 @@ static const rt_field material_fields[] = {
     {"kt", COLOUR, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, kt),
      "specular transmittance: refraction"},
     {"emission", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "0", NULL, AT(rt_material, emission),
-     "emitted radiance; leaves the side of the normal"},
+     "emitted radiance, on the side of the normal"},
     {"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL, AT(rt_material, ior),
      "index of refraction of the inside"},
     {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel),
-     "off: ks and kt are used as given; dielectric: ks + kt is split between reflection and "
-     "refraction by the Fresnel equations for ior; conductor: ks is multiplied by the reflectance "
-     "of a metal of index eta + i k"},
+     "how reflection and refraction depend on the angle"},
     {"eta", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "required of a conductor", NULL,
      AT(rt_material, eta), "of a conductor: index of refraction, by channel"},
     {"k", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "0", NULL, AT(rt_material, k),
      "of a conductor: extinction, by channel"},
     {"roughness", NUMBER, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, roughness),
      "of ks and kt: alpha of the GGX distribution of microfacets; below 0.001 is smooth. Light "
-     "that meets two facets is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of kd "
+     "that meets a second facet is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of "
+     "kd "
      "without ks and kt: roughness of the Oren-Nayar model; 0 is Lambert's law"},
     {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption),
-     "of the inside, by channel: light is weakened to exp(-absorption) a metre; colours thick "
+     "of the inside, by channel: light is attenuated to exp(-absorption) per metre; colours thick "
      "glass"},
     {"two_sided", BOOLEAN, OPTIONAL, ANY, "", "false", NULL, AT(rt_material, two_sided),
-     "true: emission leaves both sides"},
+     "true: both sides emit"},
     {"priority", INTEGER, OPTIONAL, FROM_TO(0, INTEGER_LAST), "", "0", NULL,
      AT(rt_material, priority),
      "where solids overlap, the material of higher priority fills the overlap"},
     {"kd_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kd_texture),
-     "multiplies kd; where kd is left out, stands for it"},
+     "multiplies kd; replaces it where kd is left out"},
     {"ks_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, ks_texture),
      "the same for ks"},
     {"kt_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kt_texture),
@@ -92,13 +88,14 @@ static const rt_field material_fields[] = {
     {"emission_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL,
      AT(rt_material, emission_texture), "the same for emission"},
     {"bump_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, bump_texture),
-     "its brightness is a height that bends the shading normal"},
+     "its brightness is a height that perturbs the shading normal"},
     {"bump_scale", NUMBER, OPTIONAL, NOT_ZERO, "m", "1", NULL, AT(rt_material, bump_scale),
      "height of a brightness of 1"},
 };
 
 static const rt_field point_light_fields[] = {
-    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_point_light, position), "where it is"},
+    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_point_light, position),
+     "position of the light"},
     {"intensity", COLOUR, ONE_OF, LIGHT, "W/sr", "this or power is required", NULL,
      AT(rt_point_light, intensity), "radiant intensity, the same in every direction"},
     {"power", COLOUR, ONE_OF, LIGHT, "W", "this or intensity is required", NULL,
@@ -106,27 +103,29 @@ static const rt_field point_light_fields[] = {
 };
 
 static const rt_field spot_light_fields[] = {
-    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, position), "where it is"},
+    {"position", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, position),
+     "position of the light"},
     {"target", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(rt_spot_light, target),
      "a point on its axis"},
     {"intensity", COLOUR, REQUIRED, LIGHT, "W/sr", "", NULL, AT(rt_spot_light, intensity),
      "radiant intensity on the axis"},
     {"outer", NUMBER, OPTIONAL, HALF_TURN, "degrees", "30", NULL, AT(rt_spot_light, outer),
-     "angle from the axis at which the light ends"},
+     "angle from the axis beyond which nothing is emitted"},
     {"inner", NUMBER, OPTIONAL, FROM_TO(0, 180), "degrees", "0", NULL, AT(rt_spot_light, inner),
-     "angle up to which it is at its full; at most outer; between the two it falls smoothly"},
+     "angle from the axis up to which the intensity is full; at most `outer`; between the two it "
+     "falls smoothly"},
 };
 
 static const rt_field directional_light_fields[] = {
     {"direction", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(rt_directional_light, direction),
-     "in which the light travels; of any length"},
+     "direction in which the light travels; of any length"},
     {"irradiance", COLOUR, REQUIRED, LIGHT, "W/m^2", "", NULL, AT(rt_directional_light, irradiance),
-     "on a surface that faces the light"},
+     "irradiance of a surface that faces the light"},
 };
 
 static const rt_field environment_light_fields[] = {
     {"radiance", COLOUR, OPTIONAL, LIGHT, "W/(m^2 sr)", "1 with an image, else 0", NULL,
-     AT(rt_environment, radiance), "seen in every direction; multiplies the image"},
+     AT(rt_environment, radiance), "radiance from every direction; multiplies the image"},
     {"file", FILE_NAME, OPTIONAL, ANY, "", "none", NULL, AT(rt_environment, path),
      "an image of latitude and longitude: .exr, .pfm, .png or .ppm; its middle column is seen "
      "towards -z, its top row is +y"},

@@ -254,9 +254,18 @@ static int check_entry(const rt_checker *checker, const rt_entry *entry, rt_bloc
         return check_count(checker, entry, member);
     case RT_FIELD_FILE:
         return check_file(checker, entry, member);
-    default:
-        return check_numbers(checker, entry, member);
+    case RT_FIELD_NUMBER:
+    case RT_FIELD_INTEGER:
+    case RT_FIELD_PAIR:
+    case RT_FIELD_VECTOR:
+    case RT_FIELD_COLOUR:
+    case RT_FIELD_TRANSLATE:
+    case RT_FIELD_ROTATE:
+    case RT_FIELD_SCALE:
+    case RT_FIELD_MATRIX:
+        break;
     }
+    return check_numbers(checker, entry, member);
 }
 
 /* ---- Completeness -------------------------------------------------------- */

@@ -135,7 +135,10 @@ int rt_expression_evaluate(rt_value *out, const rt_expression *expression,
             for (int c = 0; c < 3; c++)
                 top[-1].v[c] = -top[-1].v[c];
             break;
-        default:
+        case RT_OPERATION_ADD:
+        case RT_OPERATION_SUBTRACT:
+        case RT_OPERATION_MULTIPLY:
+        case RT_OPERATION_DIVIDE:
             if (!apply_binary(top, operation, reports))
                 return 0;
             top--;

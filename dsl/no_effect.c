@@ -150,7 +150,7 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
                        const rt_block_fields *fields, rt_reports *reports)
 {
     const rt_block_id block = statement->block->id;
-    if (block == RT_BLOCK_RENDER)
+    if (block == RT_BLOCK_FILM || block == RT_BLOCK_RENDER)
         warn_setting(entry, &fields->options, reports);
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
         if (needs[i].block == block && strcmp(needs[i].field, entry->field->name) == 0 &&

@@ -20,27 +20,16 @@ static int add_place(rt_places *places, rt_place place)
 
 int rt_origins_add(rt_origins *origins, const rt_block *block, rt_place place)
 {
-    switch (block->id) {
-    case RT_BLOCK_CAMERA:
+    const rt_field *field;
+    if (block->id == RT_BLOCK_CAMERA)
         origins->camera = place;
-        return 1;
-    case RT_BLOCK_FILM:
-    case RT_BLOCK_RENDER:
-    case RT_BLOCK_TEXTURE:
-    case RT_BLOCK_MATERIAL:
-    case RT_BLOCK_MESH:
-        return 1;
-    case RT_BLOCK_POINT_LIGHT:
-    case RT_BLOCK_SPOT_LIGHT:
-    case RT_BLOCK_DIRECTIONAL_LIGHT:
-    case RT_BLOCK_ENVIRONMENT_LIGHT:
+    if (strcmp(block->word, "light") == 0)
         return add_place(&origins->lights, place);
-    case RT_BLOCK_INSTANCE:
-    case RT_BLOCK_SHAPE:
-    case RT_BLOCK_COUNT:
-        break;
-    }
-    return add_place(&origins->shapes, place);
+    /* A shape is what has a material. */
+    for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++)
+        if (field->type == RT_FIELD_MATERIAL)
+            return add_place(&origins->shapes, place);
+    return 1;
 }
 
 /* Reports under way. */
@@ -56,16 +45,13 @@ static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
         return origins->lights.items[finding->light];
     if (finding->emitter != RT_NONE)
         return origins->shapes.items[finding->emitter];
-    switch (finding->kind) {
-    case RT_FINDING_OPEN_GLASS:
+    if (finding->kind == RT_FINDING_OPEN_GLASS)
         return origins->shapes.items[finding->shape];
-    case RT_FINDING_NOTHING_IN_VIEW:
-    case RT_FINDING_CAMERA_IN_OPAQUE:
-    case RT_FINDING_CAMERA_IN_MEDIUM:
+    if (finding->kind == RT_FINDING_NOTHING_IN_VIEW ||
+        finding->kind == RT_FINDING_CAMERA_IN_OPAQUE ||
+        finding->kind == RT_FINDING_CAMERA_IN_MEDIUM)
         return origins->camera;
-    default:
-        return (rt_place){origins->text, 0, 0, 0, 0, 0};
-    }
+    return (rt_place){origins->text, 0, 0, 0, 0, 0};
 }
 
 static void report(void *user, const rt_finding *finding)

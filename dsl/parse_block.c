@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "dsl/parse_entry.h"
 #include "dsl/suggest.h"
 
 static rt_text text_of(const rt_token *token)

@@ -8,7 +8,4 @@
 /* Parses a block whose first word comes next. Returns 0 when nothing of it could be understood. */
 int rt_parse_block(rt_parser *parser, rt_statement *statement);
 
-/* Parses what follows the name of a field, which was just taken (parse_entry.c). */
-void rt_parse_entry(rt_parser *parser, const rt_block *block, rt_entry *entry);
-
 #endif

@@ -4,8 +4,9 @@
  * Fields are not delimited: a value list ends when the field has what it takes, or where
  * a word that is a field of the block begins the next one.
  */
+#include "dsl/parse_entry.h"
+
 #include "dsl/function.h"
-#include "dsl/parse_block.h"
 #include "dsl/parse_expression.h"
 #include "dsl/suggest.h"
 
@@ -72,9 +73,19 @@ static int numbers_of(rt_field_type type)
         return 4;
     case RT_FIELD_MATRIX:
         return 12;
-    default:
+    case RT_FIELD_VECTOR:
+    case RT_FIELD_COLOUR:
+    case RT_FIELD_TRANSLATE:
+    case RT_FIELD_SCALE:
         return 3;
+    case RT_FIELD_BOOLEAN:
+    case RT_FIELD_CHOICE:
+    case RT_FIELD_MATERIAL:
+    case RT_FIELD_TEXTURE:
+    case RT_FIELD_FILE:
+        break;
     }
+    return 0;
 }
 
 /* Whether one number alone will do where three are taken. */
@@ -331,7 +342,15 @@ void rt_parse_entry(rt_parser *parser, const rt_block *block, rt_entry *entry)
     case RT_FIELD_FILE:
         parse_string(parser, &context);
         break;
-    default:
+    case RT_FIELD_NUMBER:
+    case RT_FIELD_INTEGER:
+    case RT_FIELD_PAIR:
+    case RT_FIELD_VECTOR:
+    case RT_FIELD_COLOUR:
+    case RT_FIELD_TRANSLATE:
+    case RT_FIELD_ROTATE:
+    case RT_FIELD_SCALE:
+    case RT_FIELD_MATRIX:
         parse_numbers(parser, &context);
     }
 }

@@ -198,24 +198,22 @@ static int parse_primary(rt_parser *parser, int *is_vector)
     char found[RT_FOUND_SIZE];
     const rt_token *token = rt_parser_peek(parser, 0);
     int is_next_statement = token->first_on_line && rt_parser_statement_follows(parser);
-    switch (is_next_statement ? RT_TOKEN_END : token->kind) {
-    case RT_TOKEN_NUMBER:
+    const int kind = is_next_statement ? RT_TOKEN_END : token->kind;
+    if (kind == RT_TOKEN_NUMBER)
         return parse_number(parser, is_vector);
-    case RT_TOKEN_WORD:
-        if (rt_parser_call_follows(parser) || call_follows_apart(parser))
-            return parse_call(parser, is_vector);
+    if (kind == RT_TOKEN_WORD && (rt_parser_call_follows(parser) || call_follows_apart(parser)))
+        return parse_call(parser, is_vector);
+    if (kind == RT_TOKEN_WORD)
         return parse_constant(parser, is_vector);
-    case '(':
+    if (kind == '(')
         return parse_parentheses(parser, is_vector);
-    case '[':
+    if (kind == '[')
         return parse_vector(parser, is_vector);
-    default:
-        rt_report_error(parser->reports, rt_parser_expected_place(parser),
-                        "expected a number, found %s", rt_parser_found(found, token));
-        if (token->kind == ',')
-            rt_report_hint(parser->reports, "numbers are separated by spaces");
-        return 0;
-    }
+    rt_report_error(parser->reports, rt_parser_expected_place(parser),
+                    "expected a number, found %s", rt_parser_found(found, token));
+    if (token->kind == ',')
+        rt_report_hint(parser->reports, "numbers are separated by spaces");
+    return 0;
 }
 
 static int parse_factor(rt_parser *parser, int *is_vector)

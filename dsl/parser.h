@@ -61,9 +61,7 @@ rt_place rt_parser_expected_place(rt_parser *parser);
  */
 int rt_parser_hint_operator(rt_parser *parser, const rt_token *token);
 
-/*
- * Takes a word, and what hyphens join to it, as in `gaussian-jensen`; the next token must be a word.
- */
+/* Takes a word and what hyphens join to it, as in `gaussian-jensen`. The next token is a word. */
 rt_place rt_parser_take_hyphenated(rt_parser *parser, int *is_joined);
 
 /* Takes a name, which has no hyphens: `red-wall` is one mistake. The next token must be a word. */

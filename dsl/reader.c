@@ -163,26 +163,10 @@ static int build(rt_reader *reader, const rt_statement *statement, const rt_bloc
 /* The table that holds the names of a kind of block, or NULL. */
 static rt_names *table_of(rt_scope *scope, const rt_block *block)
 {
-    switch (block->id) {
-    case RT_BLOCK_MATERIAL:
-        return &scope->materials;
-    case RT_BLOCK_TEXTURE:
-        return &scope->textures;
-    case RT_BLOCK_MESH:
-    case RT_BLOCK_INSTANCE:
-        return &scope->meshes;
-    case RT_BLOCK_CAMERA:
-    case RT_BLOCK_FILM:
-    case RT_BLOCK_RENDER:
-    case RT_BLOCK_POINT_LIGHT:
-    case RT_BLOCK_SPOT_LIGHT:
-    case RT_BLOCK_DIRECTIONAL_LIGHT:
-    case RT_BLOCK_ENVIRONMENT_LIGHT:
-    case RT_BLOCK_SHAPE:
-    case RT_BLOCK_COUNT:
-        break;
-    }
-    return NULL;
+    return block->id == RT_BLOCK_MATERIAL                                 ? &scope->materials
+           : block->id == RT_BLOCK_TEXTURE                                ? &scope->textures
+           : block->id == RT_BLOCK_MESH || block->id == RT_BLOCK_INSTANCE ? &scope->meshes
+                                                                          : NULL;
 }
 
 /* Looks up the mesh that an instance names. */

@@ -30,7 +30,7 @@ typedef struct rt_sources {
     size_t count, bytes;
 } rt_sources;
 
-/* A stretch of text that a message can point at. Line 0: the text as a whole. */
+/* A part of a text that a message can point at. Line 0: the text as a whole. */
 typedef struct rt_place {
     const rt_source *source;
     uint64_t order; /* counts tokens in the order of reading, over all texts */

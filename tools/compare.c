@@ -25,22 +25,14 @@ const compare_limit compare_limits[COMPARE_LIMITS] = {
 
 double compare_measured(const compare_limit *limit, const rt_comparison_info *info)
 {
-    switch (limit->option) {
-    case OPTION_MAX_MSE:
-        return info->mse;
-    case OPTION_MAX_RMSE:
-        return info->rmse;
-    case OPTION_MAX_RELMSE:
-        return info->relmse;
-    case OPTION_MAX_BIAS:
-        return fabs(info->ratio - 1.0);
-    case OPTION_MIN_SSIM:
-        return info->ssim;
-    case OPTION_MAX_FLIP:
-        return info->flip;
-    default:
-        return (double)info->off;
-    }
+    const option_id option = limit->option;
+    return option == OPTION_MAX_MSE      ? info->mse
+           : option == OPTION_MAX_RMSE   ? info->rmse
+           : option == OPTION_MAX_RELMSE ? info->relmse
+           : option == OPTION_MAX_BIAS   ? fabs(info->ratio - 1.0)
+           : option == OPTION_MIN_SSIM   ? info->ssim
+           : option == OPTION_MAX_FLIP   ? info->flip
+                                         : (double)info->off;
 }
 
 int compare_given(const compare_limit *limit, const command_line *arguments)

@@ -10,7 +10,7 @@
 #include "rt.h"
 #include "status.h"
 
-/* A lamp over a white sphere on a floor; the camera's middle pixel sees the sphere. */
+/* An area light over a white sphere on a floor; the camera's middle pixel sees the sphere. */
 static const char scene_text[] = "camera { eye 0 1 -4  look_at 0 1 0  fov 40 }\n"
                                  "film { width 16  height 16 }\n"
                                  "material white { kd 0.7 }\n"

@@ -11,15 +11,15 @@ const char *const mesh_kind_names[MESH_KIND_COUNT] = {[MESH_SPHERE] = "sphere",
                                                       [MESH_KNOT] = "knot",
                                                       [MESH_TERRAIN] = "terrain"};
 
-/* The angle of a round, exactly that of its beginning at its end: the surface closes to the bit. */
-static double round_angle(double turn)
+/* The angle of a turn from 0 to 1, at 1 exactly that at 0: the surface closes to the bit. */
+static double turn_angle(double turn)
 {
     return turn < 1 ? 2 * pi * turn : 0;
 }
 
 static mesh_point sphere(double u, double v)
 {
-    double longitude = round_angle(u), height = -cos(pi * v);
+    double longitude = turn_angle(u), height = -cos(pi * v);
     /* The poles are one point each. */
     double radius = v > 0 && v < 1 ? sin(pi * v) : 0;
     mesh_point p = {{radius * cos(longitude), height, radius * sin(longitude)}, {0, 0, 0}};
@@ -41,7 +41,7 @@ static mesh_point torus_at(double major, double minor, double around, double tub
 
 static mesh_point torus(double u, double v)
 {
-    return torus_at(0.7, 0.3, round_angle(u), round_angle(v));
+    return torus_at(0.7, 0.3, turn_angle(u), turn_angle(v));
 }
 
 /*
@@ -53,7 +53,7 @@ static mesh_point knot(double u, double v)
 {
     const double major = 0.58, minor = 0.28, tube = 0.13;
     const int turns = 2, windings = 3;
-    double t = round_angle(u), around = turns * t, winding = windings * t, angle = round_angle(v);
+    double t = turn_angle(u), around = turns * t, winding = windings * t, angle = turn_angle(v);
     mesh_point c = torus_at(major, minor, around, winding);
 
     /* T = dc/dt. */

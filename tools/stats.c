@@ -44,7 +44,7 @@ static void print_photons(const rt_film_stats *stats)
     print_seconds("gather time", stats->gather_seconds);
 }
 
-/* Where the flux of the photons went, by one way to print it. */
+/* Where the flux of the photons went, as one format prints it. */
 static void print_ledger(const rt_film *film,
                          void (*print)(const rt_light_ledger *rows, size_t count))
 {

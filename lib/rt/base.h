@@ -60,7 +60,7 @@ typedef struct rt_progress {
     double fraction;  /* of this stage, 0 to 1 */
     double elapsed;   /* seconds since this stage began */
     double remaining; /* estimated seconds to the end of this stage, negative while unknown */
-    /* relative error of the picture so far, see rt_film_stats; negative while unknown */
+    /* relative RMSE of the picture so far, see rt_film_stats; negative while unknown */
     double error;
 } rt_progress;
 
@@ -71,10 +71,9 @@ typedef struct rt_progress {
  */
 typedef struct rt_hooks {
     int (*progress)(void *user, const rt_progress *progress);
-    void (*log)(void *user, const char *line); /* one line, without newline, for --verbose */
+    void (*log)(void *user, const char *line); /* details; one line, without newline */
     void *user;
-    /* the same of what a person should know in any case */
-    void (*warning)(void *user, const char *line);
+    void (*warning)(void *user, const char *line); /* a probable mistake, likewise */
 } rt_hooks;
 
 /* The name of a stage in lower case, such as "build"; static storage. */

@@ -52,102 +52,94 @@ typedef enum rt_gather { RT_GATHER_AUTO = 0, RT_GATHER_FLANN, RT_GATHER_DEVICE }
 /* A map of photons; see below. */
 typedef struct rt_photon_map rt_photon_map;
 
-/* Everything a render can be told. A scene carries such options as its defaults. */
+/*
+ * The settings of a render, and what belongs to one call. A scene carries such options as its
+ * defaults. The ranges, defaults and effects of settings stand in one table, rt_settings of
+ * rt/setting.h; zero always means the default.
+ */
 typedef struct rt_render_options {
-    uint32_t width, height; /* pixels; 0 means 512 */
+    uint32_t width, height; /* of the picture, pixels */
     rt_mode mode;
-    /*
-     * samples a pixel; 0 means 64, in photon mode 16, 1 in each of its passes; no limit with time
-     * or target_error
-     */
+    /* samples per pixel, and in each pass; no limit with time or target_error */
     uint32_t spp;
-    uint32_t max_depth; /* longest path in segments, from the eye or from a light; 0 means 16 */
-    /*
-     * segments from the eye after which Russian roulette may end a path; 0 means 2. From max_depth
-     * on, it ends none: the mean is the same, the time is not
-     */
+    uint32_t max_depth; /* longest path in segments, from the camera or from a light */
+    /* segments from the camera after which Russian roulette may end a path; the mean is the same */
     uint32_t roulette_depth;
-    /*
-     * throughput below which it may, with the chance throughput / threshold to go on; from 1e-6 to
-     * 1, 0 means 0.5. 1 ends the most: more samples a second, each noisier
-     */
+    /* throughput below which it may; a path survives with probability throughput / threshold */
     float roulette_threshold;
     uint32_t seed; /* the same seed gives the same bits */
     rt_sampler sampler;
     rt_filter filter;
-    /* of direct light, see common.h; where the photon map is asked, always by light sampling */
+    /* of direct light; at gather points, always by light sampling */
     rt_estimator estimator;
     int aov; /* 1: also the layers of the first hit, see rt_film_layer */
     /*
      * stop after so many seconds of rendering, but only between passes that give every pixel a
-     * sample: the first one is always finished; 0: no limit
+     * sample: the first one is always finished
      */
     double time;
     /*
      * 1: also the layer variance, and the error in rt_film_stats. Samples, or passes, are then
-     * shared by 8 sequences that are independent of each other, which tell the error but are
-     * noisier than one of the same length. Not for a single photon map, whose samples depend on
-     * each other, nor for modes that show no light
+     * drawn from 8 independent sequences, which give the error but are noisier than one of the same
+     * length. Not for a single photon map, whose samples share its photons, nor for modes that show
+     * no light
      */
     int variance;
     /*
-     * stop when the relative error of the picture, see rt_film_stats, is below this with a
-     * confidence of 95 %, as seen at 32 samples, or passes, 48, 64, 96, 128 and so on; spp, passes
-     * and time are then limits. At most 1; 0: no such end
+     * stop when the relative RMSE of the picture, see rt_film_stats, is below this with a
+     * confidence of 95 %, as tested at 32 samples, or passes, 48, 64, 96, 128 and so on; spp,
+     * passes and time are then limits
      */
     double target_error;
+    uint64_t photons; /* photon paths emitted; in passes, those of each pass */
     /*
-     * photon paths emitted; 0 means 1 000 000. In passes, those of each pass; 0 means one a pixel
-     */
-    uint64_t photons;
-    /*
-     * nearest photons; 0 means 50. The k-th gives the radius and is not summed. RT_K_ALL: all
+     * nearest photons of an estimate; the k-th gives the radius and is not summed. RT_K_ALL: all
      * photons within `radius`, which must be given
      */
     uint32_t k;
-    float radius; /* largest gather radius, metres, at least 1e-15; 0: no limit */
+    float radius; /* largest gather radius, metres; 0: no limit */
     rt_gather gather;
     /*
-     * progressive photon mapping in so many passes, each with fresh photons and eye paths (spp
-     * samples, 0 means 1), that gather all photons within a radius shrinking from pass to pass:
-     * r_{i+1}^2 = r_i^2 (i + alpha)/(i + 1) (Knaus and Zwicker 2011). The film is the mean of the
-     * passes. r_1 is `radius`, or if that is 0 each pixel's own: the distance of its k-th photon in
-     * the first pass, the median of 3 x 3 pixels and at most the mean of all; behind the final
-     * gather that mean. 0 and 1: no passes
+     * progressive photon mapping in so many passes, each with fresh photons and camera paths, that
+     * gather all photons within a radius shrinking from pass to pass: r_{i+1}^2 = r_i^2 (i + alpha)
+     * / (i + 1) (Knaus and Zwicker 2011). The film is the mean of the passes. r_1 is `radius`, or
+     * if that is 0 each pixel's own: the distance of its k-th photon in the first pass, the median
+     * of 3 x 3 pixels and at most the mean of all; behind the final gather that mean. 1: no passes
      */
     uint32_t passes;
-    /* between 0 and 1, the larger the slower the radius shrinks; 0 means 2/3 */
-    float alpha;
+    float alpha; /* the larger, the slower the radius shrinks */
     /* 1: also the layers photon.count and the like, see rt_film_layer; gathers twice */
     int photon_layers;
-    rt_density kernel; /* density kernel, see common.h */
+    rt_density kernel;
     /*
-     * what the flux is divided by; RT_AREA_HULL leaves the density kernel out, and is for the k
-     * nearest by FLANN. It supposes photons that are independent of each other: they are then
-     * emitted by RT_SAMPLER_INDEPENDENT, whatever the sampler of the eye paths
+     * the area that the flux is divided by. RT_AREA_HULL leaves the density kernel out, and is for
+     * the k nearest by FLANN. It supposes independent photons: they are then emitted by
+     * RT_SAMPLER_INDEPENDENT, whatever the sampler of the camera paths
      */
     rt_area area;
-    float cone_k; /* constant of the cone kernel; 0 means 1.1 */
+    float cone_k; /* constant of the cone kernel */
     rt_direct direct;
-    uint32_t final_gather; /* gather after so many diffuse bounces instead of at the first hit */
+    uint32_t final_gather; /* gather after so many diffuse bounces, not at the first surface */
     /*
      * keep caustic photons in a map of their own, filled by so many further paths, aimed at
      * specular shapes; 0: one map for all
      */
     uint64_t caustic_photons;
-    uint32_t caustic_k;   /* nearest photons in the caustic map; 0 means k */
-    float caustic_radius; /* largest gather radius in the caustic map, metres; 0 means radius */
-    rt_density caustic_kernel; /* density kernel of the caustic map */
+    uint32_t caustic_k;   /* as k, in the caustic map */
+    float caustic_radius; /* as radius, in the caustic map */
+    rt_density caustic_kernel;
+
+    /* What follows are no settings: they belong to one call and are not kept in a scene. */
+
     /*
-     * [light_share_count]: what part of the photon paths each light gets, in proportion and in the
+     * [light_share_count]: the share of photon paths that each light gets, in proportion and in the
      * order of rt_photon_map_ledger, each from 0 to 1e15; flux is weighted so that the mean stays
-     * the same. NULL: in proportion to power. Not kept in a scene
+     * the same. NULL: in proportion to power
      */
     const float *light_shares;
     size_t light_share_count;
-    /* use these photons and emit none; NULL: emit. Not kept in a scene */
-    const rt_photon_map *photon_map;
-    const rt_hooks *hooks; /* NULL: none; not kept in a scene */
+    const rt_photon_map *photon_map; /* use these photons and emit none; NULL: emit */
+    const rt_hooks *hooks;           /* NULL: none */
 } rt_render_options;
 
 /*

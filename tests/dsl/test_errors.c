@@ -408,68 +408,68 @@ static void a_repeat_without_turns_is_warned_of(void **state)
     collected_free(&c);
 }
 
+static const struct {
+    const char *text;
+    int column;
+    const char *message;
+} fields_cases[] = {
+    {"material m { kd 0.5 eta 1 }", 21, "'eta' has no effect without 'fresnel conductor'"},
+    {"material m { ks 1 fresnel dielectric k 1 }", 38,
+     "'k' has no effect without 'fresnel conductor'"},
+    {"material m { emission 1 roughness 0.1 }", 25,
+     "'roughness' has no effect without 'kd', 'ks' or 'kt'"},
+    {"material m { ior 1.2 }", 14, "'ior' has no effect without 'ks' or 'kt'"},
+    {"material m { absorption 1 }", 14, "'absorption' has no effect without 'ks' or 'kt'"},
+    {"material m { bump_scale 1 }", 14, "'bump_scale' has no effect without 'bump_texture'"},
+    {"camera { eye 0 0 0 look_at 0 0 1 width 2 }", 34,
+     "'width' has no effect without 'projection orthographic'"},
+    {"camera { eye 0 0 0 look_at 0 0 1 projection orthographic fov 2 }", 58,
+     "'fov' has no effect without 'projection perspective'"},
+    {"camera { eye 0 0 0 look_at 0 0 1 blades 5 }", 34,
+     "'blades' has no effect without 'aperture'"},
+    {"camera { eye 0 0 0 look_at 0 0 1 focal_distance 5 }", 34,
+     "'focal_distance' has no effect without 'aperture'"},
+    {"camera { eye 0 0 0 look_at 0 0 1 aperture 1 blade_rotation 5 }", 45,
+     "'blade_rotation' has no effect without 'blades'"},
+    {"texture t { pattern checker file \"none.png\" }", 29,
+     "'file' has no effect without 'pattern image'"},
+    {"texture t { pattern checker linear true }", 29,
+     "'linear' has no effect without 'pattern image'"},
+    {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
+     "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
+    {"material m { emission 7 } sphere { radiance 0 centre 0 0 0 radius 1 material m }", 36,
+     "'radiance' of 0 has no effect: it counts as left out"},
+    {"material m { emission 7 } disc { centre 0 0 0 normal 0 1 0 radius 1 power 0 material m }", 69,
+     "'power' of 0 has no effect"},
+    {"light environment { radiance 0 file \"scenes/textures/letter.png\" }", 21,
+     "'radiance' of 0 has no effect"},
+    {"texture t { file \"scenes/textures/letter.png\" } material m { kd 0 kd_texture t }", 62,
+     "'kd' of 0 has no effect"},
+    {"render { mode photon area hull kernel cone }", 32, "'kernel' has no effect with 'area' hull"},
+    {"render { mode photon kernel box cone_k 2 }", 33,
+     "'cone_k' has no effect without 'kernel' cone"},
+    {"render { caustic_k 5 }", 10, "'caustic_k' has no effect without 'caustic_photons'"},
+    {"render { passes 2 radius 1 k 5 }", 28, "'k' has no effect with 'passes' and 'radius'"},
+    {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37,
+     "'ior' has no effect"},
+};
+
 /* Each is read, and changes nothing beside the others of its block. */
 static void fields_without_effect_are_warned_of(void **state)
 {
-    static const struct {
-        const char *text;
-        int column;
-        const char *message;
-    } cases[] = {
-        {"material m { kd 0.5 eta 1 }", 21, "'eta' has no effect without 'fresnel conductor'"},
-        {"material m { ks 1 fresnel dielectric k 1 }", 38,
-         "'k' has no effect without 'fresnel conductor'"},
-        {"material m { emission 1 roughness 0.1 }", 25,
-         "'roughness' has no effect without 'kd', 'ks' or 'kt'"},
-        {"material m { ior 1.2 }", 14, "'ior' has no effect without 'ks' or 'kt'"},
-        {"material m { absorption 1 }", 14, "'absorption' has no effect without 'ks' or 'kt'"},
-        {"material m { bump_scale 1 }", 14, "'bump_scale' has no effect without 'bump_texture'"},
-        {"camera { eye 0 0 0 look_at 0 0 1 width 2 }", 34,
-         "'width' has no effect without 'projection orthographic'"},
-        {"camera { eye 0 0 0 look_at 0 0 1 projection orthographic fov 2 }", 58,
-         "'fov' has no effect without 'projection perspective'"},
-        {"camera { eye 0 0 0 look_at 0 0 1 blades 5 }", 34,
-         "'blades' has no effect without 'aperture'"},
-        {"camera { eye 0 0 0 look_at 0 0 1 focal_distance 5 }", 34,
-         "'focal_distance' has no effect without 'aperture'"},
-        {"camera { eye 0 0 0 look_at 0 0 1 aperture 1 blade_rotation 5 }", 45,
-         "'blade_rotation' has no effect without 'blades'"},
-        {"texture t { pattern checker file \"none.png\" }", 29,
-         "'file' has no effect without 'pattern image'"},
-        {"texture t { pattern checker linear true }", 29,
-         "'linear' has no effect without 'pattern image'"},
-        {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
-         "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
-        {"material m { emission 7 } sphere { radiance 0 centre 0 0 0 radius 1 material m }", 36,
-         "'radiance' of 0 has no effect: it counts as left out"},
-        {"material m { emission 7 } disc { centre 0 0 0 normal 0 1 0 radius 1 power 0 material m }",
-         69, "'power' of 0 has no effect"},
-        {"light environment { radiance 0 file \"scenes/textures/letter.png\" }", 21,
-         "'radiance' of 0 has no effect"},
-        {"texture t { file \"scenes/textures/letter.png\" } material m { kd 0 kd_texture t }", 62,
-         "'kd' of 0 has no effect"},
-        {"render { mode photon area hull kernel cone }", 32,
-         "'kernel' has no effect with 'area' hull"},
-        {"render { mode photon kernel box cone_k 2 }", 33,
-         "'cone_k' has no effect without 'kernel' cone"},
-        {"render { caustic_k 5 }", 10, "'caustic_k' has no effect without 'caustic_photons'"},
-        {"render { passes 2 radius 1 k 5 }", 28, "'k' has no effect with 'passes' and 'radius'"},
-        {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37,
-         "'ior' has no effect"},
-    };
     static collected c;
     (void)state;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof fields_cases / sizeof *fields_cases; i++) {
         int found = 0;
-        collect_text(&c, cases[i].text);
+        collect_text(&c, fields_cases[i].text);
         assert_int_equal(c.status, RT_OK);
         for (int j = 0; j < c.count; j++)
             found += c.items[j].severity == RT_SEVERITY_WARNING && c.items[j].line == 1 &&
-                     c.items[j].column == cases[i].column &&
-                     strstr(c.items[j].message, cases[i].message);
+                     c.items[j].column == fields_cases[i].column &&
+                     strstr(c.items[j].message, fields_cases[i].message);
         if (found != 1)
-            fail_msg("%d times at column %d: %s\nin %s", found, cases[i].column, cases[i].message,
-                     cases[i].text);
+            fail_msg("%d times at column %d: %s\nin %s", found, fields_cases[i].column,
+                     fields_cases[i].message, fields_cases[i].text);
         collected_free(&c);
     }
 }

@@ -21,6 +21,43 @@ static void assert_vector(const float found[3], float x, float y, float z)
     assert_float_equal(found[2], z, 1e-6);
 }
 
+/* The settings of the text below. */
+static void expect_options(const rt_scene *scene)
+{
+    rt_render_options o;
+    rt_scene_get_options(scene, &o);
+    assert_true(o.width == 640 && o.height == 480 && o.mode == RT_MODE_PHOTON && o.spp == 7 &&
+                o.max_depth == 9);
+    assert_true(o.roulette_depth == 5 && o.roulette_threshold == 1e-6f);
+    assert_true(o.seed == 4294967295u && o.sampler == RT_SAMPLER_INDEPENDENT && o.time == 2.5);
+    assert_true(o.photons == 4000000000u && o.k == 60 && o.radius == 0.25f && o.cone_k == 1.5f);
+    assert_true(o.kernel == RT_DENSITY_GAUSSIAN_JENSEN && o.direct == RT_DIRECT_PHOTONS &&
+                o.final_gather == 2);
+    assert_true(o.caustic_photons == 3000000000u && o.caustic_k == 40 &&
+                o.caustic_radius == 0.125f);
+    assert_true(o.caustic_kernel == RT_DENSITY_CONE);
+}
+
+/* Its shapes. */
+static void expect_shapes(const rt_scene *scene)
+{
+    const rt_scene_shape *s = scene->shapes;
+    assert_int_equal(scene->shape_count, 4);
+    assert_true(s[0].kind == RT_SHAPE_PLANE && s[0].surface.material == 1);
+    assert_true(s[1].kind == RT_SHAPE_SPHERE && s[1].surface.material == 0 && s[1].p[3] == 0.5f);
+    assert_vector(s[1].p, 1, 2, 3);
+    assert_vector(s[1].surface.radiance, 4, 5, 6);
+    const rt_scene_mesh *triangle = &scene->meshes[s[2].mesh];
+    assert_true(s[2].kind == RT_SHAPE_TRIANGLES && triangle->triangle_count == 1 &&
+                triangle->normals);
+    assert_vector(triangle->positions + 3, 1, 0, 0);
+    assert_vector(triangle->normals + 6, 1, 0, 1);
+    assert_true(s[3].kind == RT_SHAPE_QUAD);
+    assert_vector(s[3].p + 3, 2, 0, 0);
+    assert_vector(s[3].p + 6, 0, 0, 2);
+    assert_vector(s[3].surface.power, 8, 8, 8);
+}
+
 static void every_field_reaches_the_scene(void **state)
 {
     static const char text[] =
@@ -55,18 +92,7 @@ static void every_field_reaches_the_scene(void **state)
     assert_float_equal(camera->aperture, 0.02f, 0);
     assert_float_equal(camera->focal_distance, 3, 0);
 
-    rt_render_options o;
-    rt_scene_get_options(c.scene, &o);
-    assert_true(o.width == 640 && o.height == 480 && o.mode == RT_MODE_PHOTON && o.spp == 7 &&
-                o.max_depth == 9);
-    assert_true(o.roulette_depth == 5 && o.roulette_threshold == 1e-6f);
-    assert_true(o.seed == 4294967295u && o.sampler == RT_SAMPLER_INDEPENDENT && o.time == 2.5);
-    assert_true(o.photons == 4000000000u && o.k == 60 && o.radius == 0.25f && o.cone_k == 1.5f);
-    assert_true(o.kernel == RT_DENSITY_GAUSSIAN_JENSEN && o.direct == RT_DIRECT_PHOTONS &&
-                o.final_gather == 2);
-    assert_true(o.caustic_photons == 3000000000u && o.caustic_k == 40 &&
-                o.caustic_radius == 0.125f);
-    assert_true(o.caustic_kernel == RT_DENSITY_CONE);
+    expect_options(c.scene);
 
     const rt_material *m = &c.scene->materials[0];
     assert_vector(m->kd, 0.1f, 0.1f, 0.1f);
@@ -75,21 +101,7 @@ static void every_field_reaches_the_scene(void **state)
     assert_vector(m->emission, 1, 2, 3);
     assert_true(m->ior == 1.33f && m->fresnel == 1 && m->two_sided == 1 && m->priority == 3);
 
-    const rt_scene_shape *s = c.scene->shapes;
-    assert_int_equal(c.scene->shape_count, 4);
-    assert_true(s[0].kind == RT_SHAPE_PLANE && s[0].surface.material == 1);
-    assert_true(s[1].kind == RT_SHAPE_SPHERE && s[1].surface.material == 0 && s[1].p[3] == 0.5f);
-    assert_vector(s[1].p, 1, 2, 3);
-    assert_vector(s[1].surface.radiance, 4, 5, 6);
-    const rt_scene_mesh *triangle = &c.scene->meshes[s[2].mesh];
-    assert_true(s[2].kind == RT_SHAPE_TRIANGLES && triangle->triangle_count == 1 &&
-                triangle->normals);
-    assert_vector(triangle->positions + 3, 1, 0, 0);
-    assert_vector(triangle->normals + 6, 1, 0, 1);
-    assert_true(s[3].kind == RT_SHAPE_QUAD);
-    assert_vector(s[3].p + 3, 2, 0, 0);
-    assert_vector(s[3].p + 6, 0, 0, 2);
-    assert_vector(s[3].surface.power, 8, 8, 8);
+    expect_shapes(c.scene);
     assert_vector(c.scene->lights[0].emission, 4, 4, 4);
     collected_free(&c);
 }
@@ -239,33 +251,34 @@ static void repeats_count_and_scope_their_names(void **state)
     collected_free(&c);
 }
 
+static const char placed_text[] =
+    "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 aperture 0.1 blades 6 "
+    "blade_rotation 30 }\n"
+    "film { filter mitchell }\n"
+    "render { mode direct aov true estimator bsdf variance true target_error 0.02 }\n"
+    "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 "
+    "linear true }\n"
+    "texture squares { pattern checker a 1 b 0 0.5 0 }\n"
+    "material gold { ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture "
+    "letter bump_scale 0.1 }\n"
+    "material water { kt 1 fresnel dielectric absorption 0.1 0.2 0.3 kt_texture squares }\n"
+    "mesh knot { file \"scenes/meshes/knot.ply\" }\n"
+    "repeat i from 1 to 3 { instance knot { material gold texture squares translate i 0 0 } }\n"
+    "model { file \"scenes/meshes/knot.ply\" shading flat material water }\n"
+    "cylinder { a 0 0 0 b 0 1 0 radius 1 material gold }\n"
+    "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material gold }\n"
+    "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 1 uvb 0 0 uvc 1 0 material gold }\n"
+    "light spot { position 1 2 3 target 1 0 3 intensity 5 outer 60 inner 60 }\n"
+    "light directional { direction 0 0 -2 irradiance 3 }\n"
+    "light environment { file \"scenes/textures/letter.png\" rotation 90 }\n";
+
 /* A mesh is read once; its instances share it, and what is not named otherwise is the default. */
 static void meshes_textures_and_lights_reach_the_scene(void **state)
 {
-    static const char text[] =
-        "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 aperture 0.1 blades 6 "
-        "blade_rotation 30 }\n"
-        "film { filter mitchell }\n"
-        "render { mode direct aov true estimator bsdf variance true target_error 0.02 }\n"
-        "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 "
-        "linear true }\n"
-        "texture squares { pattern checker a 1 b 0 0.5 0 }\n"
-        "material gold { ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture "
-        "letter bump_scale 0.1 }\n"
-        "material water { kt 1 fresnel dielectric absorption 0.1 0.2 0.3 kt_texture squares }\n"
-        "mesh knot { file \"scenes/meshes/knot.ply\" }\n"
-        "repeat i from 1 to 3 { instance knot { material gold texture squares translate i 0 0 } }\n"
-        "model { file \"scenes/meshes/knot.ply\" shading flat material water }\n"
-        "cylinder { a 0 0 0 b 0 1 0 radius 1 material gold }\n"
-        "cone { base 0 0 0 apex 0 1 0 radius 1 caps false material gold }\n"
-        "triangle { a 0 0 0 b 1 0 0 c 0 1 0 uva 0 1 uvb 0 0 uvc 1 0 material gold }\n"
-        "light spot { position 1 2 3 target 1 0 3 intensity 5 outer 60 inner 60 }\n"
-        "light directional { direction 0 0 -2 irradiance 3 }\n"
-        "light environment { file \"scenes/textures/letter.png\" rotation 90 }\n";
     static collected c;
     (void)state;
-    collect_text(&c, text);
-    expect_clean(&c, text);
+    collect_text(&c, placed_text);
+    expect_clean(&c, placed_text);
     const rt_scene *s = c.scene;
     assert_true(s->camera.kind == RT_CAMERA_ORTHOGRAPHIC && s->camera.width == 3 &&
                 s->camera.blades == 6);
