@@ -303,10 +303,10 @@ typedef struct rt_camera_data {
     float blade_rotation; /* radians */
     float lens_u[3];      /* unit vector to the right */
     float focal_distance;
-    float lens_v[3]; /* unit vector up */
-    rt_u32 filter;   /* rt_filter, which places the samples */
-    float axis[3];   /* unit vector of view */
-    float reserved;
+    float lens_v[3];     /* unit vector up */
+    rt_u32 filter;       /* rt_filter, which places the samples */
+    float axis[3];       /* unit vector of view */
+    float filter_radius; /* pixels; 0: that of the filter */
 } rt_camera_data;
 RT_SIZE(rt_camera_data, 112);
 

@@ -22,6 +22,10 @@
 #include "sample/sample.h"
 #include "types.h"
 
+/* radii, pixels */
+#define RT_TENT_RADIUS 1.0f
+#define RT_GAUSSIAN_RADIUS 1.5f
+#define RT_MITCHELL_RADIUS 2.0f
 #define RT_GAUSSIAN_DEVIATION 0.5f /* pixels */
 /* 1 - exp(-r^2 / (2 deviation^2)): the part of a Gaussian within r = 1.5 pixels */
 #define RT_GAUSSIAN_CUT 0.988891003f
@@ -72,19 +76,23 @@ static inline float2 sample_gaussian(float2 u)
     return radius * sin_cos(2.0f * RT_PI * u.y).yx;
 }
 
-/* A point of the film, in pixels from the corner of the pixel, for u in [0,1)^2. */
-static inline float2 sample_filter(uint filter, float2 u, float *weight)
+/*
+ * A point of the film, in pixels from the corner of the pixel, for u in [0,1)^2. The filter is
+ * stretched to a radius in pixels, 0 for its own; but not the box, which is the pixel.
+ */
+static inline float2 sample_filter(uint filter, float radius, float2 u, float *weight)
 {
     *weight = 1.0f;
     switch ((rt_filter)filter) {
     case RT_FILTER_BOX:
         break;
     case RT_FILTER_TENT:
-        return 0.5f + sample_tent(u);
+        return 0.5f + (radius > 0.0f ? radius / RT_TENT_RADIUS : 1.0f) * sample_tent(u);
     case RT_FILTER_GAUSSIAN:
-        return 0.5f + sample_gaussian(u);
+        return 0.5f + (radius > 0.0f ? radius / RT_GAUSSIAN_RADIUS : 1.0f) * sample_gaussian(u);
     case RT_FILTER_MITCHELL:
-        return 0.5f + sample_mitchell(u, weight);
+        return 0.5f +
+               (radius > 0.0f ? radius / RT_MITCHELL_RADIUS : 1.0f) * sample_mitchell(u, weight);
     }
     return u;
 }

@@ -98,6 +98,7 @@ rt_status rt_renderer_aim(rt_renderer *renderer, const rt_render_options *option
     rt_camera_data camera;
     rt_view_aim(&camera, &renderer->camera, options->width, options->height);
     camera.filter = options->filter;
+    camera.filter_radius = options->filter_radius;
     return rt_buffer_write(renderer->device, renderer->scene, offsetof(rt_scene_header, camera),
                            sizeof camera, &camera, error);
 }

@@ -70,6 +70,7 @@ typedef struct rt_render_options {
     uint32_t seed; /* the same seed gives the same bits */
     rt_sampler sampler;
     rt_filter filter;
+    float filter_radius; /* where the filter ends, pixels; 0: its own */
     /* of direct light; at gather points, always by light sampling */
     rt_estimator estimator;
     int aov; /* 1: also the layers of the first hit, see rt_film_layer */

@@ -79,6 +79,8 @@ static const rt_setting_need camera_path_needs[] = {
     {{IS_NOT("mode", RT_MODE_PHOTON), ABOVE("final_gather", 0)},
      "in photon mode without `final_gather`"},
     END};
+static const rt_setting_need filter_radius_needs[] = {
+    {{IS_NOT("filter", RT_FILTER_BOX)}, "with `filter` box"}, END};
 static const rt_setting_need light_needs[] = {LIGHT_IS_SHOWN, END};
 static const rt_setting_need photon_needs[] = {PHOTON_MODE, END};
 static const rt_setting_need pass_needs[] = {
@@ -168,6 +170,10 @@ static const rt_setting settings[] = {
            "rows of the picture; pixels are square, so this sets the vertical angle of view"),
      RT_TOPIC_FILM, 0, NULL},
     {CHOICE(filter, filters, "box", "reconstruction filter"), RT_TOPIC_FILM, 0, NULL},
+    {REAL(filter_radius, RT_RANGE_ZERO_OR, 0.01, 64, "pixels", "0, that of the filter",
+          "distance from the centre of a pixel at which the filter ends; the filter is stretched "
+          "to it"),
+     RT_TOPIC_FILM, 0, filter_radius_needs},
 
     {WHOLE(photons, 1, 4e9, "", "1000000; with `passes` one per pixel",
            "photon paths emitted; with `passes`, in each pass"),

@@ -448,6 +448,7 @@ static const struct {
     {"render { mode photon area hull kernel cone }", 32, "'kernel' has no effect with 'area' hull"},
     {"render { mode photon kernel box cone_k 2 }", 33,
      "'cone_k' has no effect without 'kernel' cone"},
+    {"film { filter_radius 2 }", 8, "'filter_radius' has no effect with 'filter' box"},
     {"render { caustic_k 5 }", 10, "'caustic_k' has no effect without 'caustic_photons'"},
     {"render { passes 2 radius 1 k 5 }", 28, "'k' has no effect with 'passes' and 'radius'"},
     {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37,

@@ -254,7 +254,7 @@ static void repeats_count_and_scope_their_names(void **state)
 static const char placed_text[] =
     "camera { projection orthographic eye 0 0 1 look_at 0 0 0 width 3 aperture 0.1 blades 6 "
     "blade_rotation 30 }\n"
-    "film { filter mitchell }\n"
+    "film { filter mitchell filter_radius 1.5 }\n"
     "render { mode direct aov true estimator bsdf variance true target_error 0.02 }\n"
     "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 "
     "linear true }\n"
@@ -282,8 +282,8 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
     const rt_scene *s = c.scene;
     assert_true(s->camera.kind == RT_CAMERA_ORTHOGRAPHIC && s->camera.width == 3 &&
                 s->camera.blades == 6);
-    assert_true(s->options.filter == RT_FILTER_MITCHELL && s->options.mode == RT_MODE_DIRECT &&
-                s->options.aov);
+    assert_true(s->options.filter == RT_FILTER_MITCHELL && s->options.filter_radius == 1.5f &&
+                s->options.mode == RT_MODE_DIRECT && s->options.aov);
     assert_true(s->options.estimator == RT_ESTIMATOR_BSDF);
     assert_true(s->options.variance && s->options.target_error == 0.02);
     const rt_texture_data *letter = &s->textures[0].data;

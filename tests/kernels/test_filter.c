@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "statistics.h"
 
@@ -10,14 +11,14 @@ enum { n = 1 << 18 };
 static float samples[n][4];
 static double values[n];
 
-static void draw(uint32_t filter, uint32_t seed)
+static void draw(uint32_t filter, float radius, uint32_t seed)
 {
     uint32_t count = n;
     seed = test_seed(seed);
     cl_kernel kernel = test_kernel("filter", "sample");
     cl_mem out = test_buffer(sizeof samples, NULL);
-    rt_arg args[] = {RT_ARG(filter), RT_ARG(seed), RT_ARG(count), RT_ARG(out)};
-    test_run(kernel, args, 4, n);
+    rt_arg args[] = {RT_ARG(filter), RT_ARG(radius), RT_ARG(seed), RT_ARG(count), RT_ARG(out)};
+    test_run(kernel, args, 5, n);
     test_read(out, sizeof samples, samples);
     rt_buffer_release(out);
     rt_kernel_release(kernel);
@@ -63,7 +64,7 @@ static void weights_have_the_sign_of_the_filter(void **state)
     (void)state;
     for (int filter = RT_FILTER_BOX; filter <= RT_FILTER_MITCHELL; filter++) {
         double magnitude = filter == RT_FILTER_MITCHELL ? magnitude_of((rt_filter)filter) : 1;
-        draw((uint32_t)filter, 9);
+        draw((uint32_t)filter, 0, 9);
         for (int i = 0; i < n; i++) {
             double f = value((rt_filter)filter, samples[i][0] - 0.5, samples[i][1] - 0.5),
                    w = samples[i][2];
@@ -86,10 +87,37 @@ static void weights_have_the_sign_of_the_filter(void **state)
     }
 }
 
+/* A radius stretches the filter about the centre of the pixel, and 0 stands for the filter's own. */
+static void a_radius_stretches_the_filter(void **state)
+{
+    static const float own[] = {0, 1, 1.5f, 2};
+    static float plain[n][4];
+    (void)state;
+    for (int filter = RT_FILTER_BOX; filter <= RT_FILTER_MITCHELL; filter++) {
+        float reach = 0;
+        draw((uint32_t)filter, 0, 10);
+        memcpy(plain, samples, sizeof plain);
+        draw((uint32_t)filter, own[filter], 10);
+        assert_memory_equal(samples, plain, sizeof plain);
+        draw((uint32_t)filter, 3, 10);
+        double stretch = filter == RT_FILTER_BOX ? 1 : 3 / own[filter];
+        for (int i = 0; i < n; i++) {
+            for (int c = 0; c < 2; c++) {
+                double expected = 0.5 + stretch * (plain[i][c] - 0.5);
+                assert_true(fabs(samples[i][c] - expected) < 1e-5);
+                reach = fmaxf(reach, fabsf(samples[i][c] - 0.5f));
+            }
+            assert_true(samples[i][2] == plain[i][2]);
+        }
+        assert_true(filter == RT_FILTER_BOX ? reach <= 0.5f : reach > 2.5f && reach <= 3.0001f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         statistical_test(weights_have_the_sign_of_the_filter),
+        cmocka_unit_test(a_radius_stretches_the_filter),
     };
     return cmocka_run_group_tests_name("kernels/filter", tests, NULL, NULL);
 }

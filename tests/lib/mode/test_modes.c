@@ -224,6 +224,29 @@ static void filters_spread_an_edge(void **state)
     rt_film_destroy(film);
 }
 
+/* A tent of radius 2 reaches the second pixel from the edge, and one of its own radius does not. */
+static void a_filter_radius_widens_an_edge(void **state)
+{
+    static const double covered[] = {1 - 0.75 * 0.75 / 2, 1 - 0.25 * 0.25 / 2};
+    rt_render_options options = {.width = width,
+                                 .height = height,
+                                 .mode = RT_MODE_ALBEDO,
+                                 .spp = 256,
+                                 .filter = RT_FILTER_TENT,
+                                 .filter_radius = 2};
+    rt_renderer *renderer = tilted();
+    rt_film *film = NULL;
+    (void)state;
+    expect_ok(rt_render(&film, renderer, &options, &error), &error);
+    const float *row = rt_film_rgb(film) + 3 * (height / 2) * width;
+    for (int k = 0; k < 2; k++) {
+        assert_float_equal(row[3 * (width / 2 - 1 - k)] / 0.7, covered[k], 0.01);
+        assert_float_equal(row[3 * (width / 2 + k)] / 0.7, 1 - covered[k], 0.01);
+    }
+    rt_film_destroy(film);
+    rt_renderer_destroy(renderer);
+}
+
 /* ---- What path tracing leaves out --------------------------------------------- */
 
 static void count_missing_caustics(void *user, const char *line)
@@ -295,6 +318,7 @@ int main(void)
         cmocka_unit_test(direct_light_is_the_path_of_two_segments),
         cmocka_unit_test(filters_keep_what_is_even),
         cmocka_unit_test(filters_spread_an_edge),
+        cmocka_unit_test(a_filter_radius_widens_an_edge),
         cmocka_unit_test(caustics_that_path_tracing_leaves_out_are_told),
     };
     return cmocka_run_group_tests_name("lib/mode/modes", tests, scratch_enter, scratch_leave);
