@@ -1,6 +1,6 @@
 /*
- * optics.h - how much light boundaries reflect, in double precision and by other ways than the
- * kernels go.
+ * optics.h - how much light boundaries reflect, in double precision and by other formulas than
+ * those of the kernels.
  */
 #ifndef RT_TESTS_PROOF_OPTICS_H
 #define RT_TESTS_PROOF_OPTICS_H

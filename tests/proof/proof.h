@@ -1,6 +1,6 @@
 /*
- * proof.h - checks of rendered light against closed forms and against other ways to render it, and
- * their table.
+ * proof.h - checks of rendered light against closed forms and against other techniques, and their
+ * table.
  *
  * A scene is rendered `proof_renders` times, each time with another seed. A measure of each render,
  * such as the mean of its film, gives that many independent values, whose spread is the standard
@@ -68,7 +68,7 @@ void proof_radiance(proof_row row, double expected, const char *text,
                     const rt_render_options *options);
 
 /*
- * Fails unless two ways to render have the same mean in every pixel and channel, and over the film.
+ * Fails unless two techniques have the same mean in every pixel and channel, and over the film.
  */
 void proof_same(proof_row row, const proof_films *a, const proof_films *peer);
 

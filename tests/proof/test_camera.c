@@ -103,13 +103,13 @@ static void squares_by_their_projection(void **state)
         strcat(
             lights,
             proof_text("quad { corner %.9g %.9g %.9g  edge1 %.9g %.9g %.9g  edge2 %.9g %.9g %.9g\n"
-                       "  material lamp  radiance %d %d %d }\n",
+                       "  material emitter  radiance %d %d %d }\n",
                        corner[0], corner[1], corner[2], 0.2 * x[0], 0.2 * x[1], 0.2 * x[2],
                        0.2 * y[0], 0.2 * y[1], 0.2 * y[2], k == 0, k == 1, k == 2));
     }
     proof_render(&films,
                  proof_text("camera { eye 1 2 -3  look_at 1.6 1.52 -2.36  up 0.1 1 0.2  fov 50 }\n"
-                            "material lamp { }\n%s",
+                            "material emitter { }\n%s",
                             lights),
                  &options);
     for (int k = 0; k < 3; k++) {
@@ -127,10 +127,11 @@ static void squares_by_their_projection(void **state)
 static void other_cameras(void **state)
 {
     static const char lights[] =
-        "material lamp { }\nsphere { centre 0.5 0.3 2  radius 0.1  material lamp  radiance 1 0 0 "
+        "material emitter { }\nsphere { centre 0.5 0.3 2  radius 0.1  material emitter  radiance 1 "
+        "0 0 "
         "}\n"
-        "sphere { centre -0.8 0 3  radius 0.1  material lamp  radiance 0 1 0 }\n"
-        "sphere { centre 0.7 -0.4 -2  radius 0.1  material lamp  radiance 0 0 1 }\n";
+        "sphere { centre -0.8 0 3  radius 0.1  material emitter  radiance 0 1 0 }\n"
+        "sphere { centre 0.7 -0.4 -2  radius 0.1  material emitter  radiance 0 0 1 }\n";
     static const rt_render_options options = {.width = 40, .height = 20, .spp = 64};
     proof_films films;
     (void)state;
@@ -145,13 +146,14 @@ static void other_cameras(void **state)
         expect_spot("orthographic camera, sphere", &films, k, expected[k]);
     proof_free(&films);
 
-    proof_render(&films,
-                 proof_text("camera { projection environment  eye 0 0 3  look_at 0 0 4 }\n%s",
-                            "material lamp { }\nsphere { centre 0 0 5  radius 0.1  material lamp  "
-                            "radiance 1 0 0 }\n"
-                            "sphere { centre -2 0 3  radius 0.1  material lamp  radiance 0 1 0 }\n"
-                            "sphere { centre 2 0 5  radius 0.1  material lamp  radiance 0 0 1 }\n"),
-                 &options);
+    proof_render(
+        &films,
+        proof_text("camera { projection environment  eye 0 0 3  look_at 0 0 4 }\n%s",
+                   "material emitter { }\nsphere { centre 0 0 5  radius 0.1  material emitter  "
+                   "radiance 1 0 0 }\n"
+                   "sphere { centre -2 0 3  radius 0.1  material emitter  radiance 0 1 0 }\n"
+                   "sphere { centre 2 0 5  radius 0.1  material emitter  radiance 0 0 1 }\n"),
+        &options);
     static const double turns[3] = {0, 0.25, -0.125};
     for (int k = 0; k < 3; k++) {
         proof_values sum = moment(&films, k, 0, 0), x = ratio(moment(&films, k, 1, 0), sum),

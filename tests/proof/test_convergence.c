@@ -108,23 +108,23 @@ static void expect_slope(const char *scene, const char *text, rt_sampler sampler
                  error);
 }
 
-#define LAMP_OVER_FLOOR                                                                            \
-    "camera { eye 0 2 2  look_at 0 0 0  fov 40 }\nmaterial white { kd 0.8 }\nmaterial lamp { "     \
+#define LIGHT_OVER_FLOOR                                                                           \
+    "camera { eye 0 2 2  look_at 0 0 0  fov 40 }\nmaterial white { kd 0.8 }\nmaterial emitter { "  \
     "emission 4 }\n"                                                                               \
     "plane { point 0 0 0  normal 0 1 0  material white }\n"                                        \
-    "quad { corner -0.5 1 -1.5  edge1 1 0 0  edge2 0 0.3 1  material lamp }\n"
+    "quad { corner -0.5 1 -1.5  edge1 1 0 0  edge2 0 0.3 1  material emitter }\n"
 
 static void independent_samples_by_the_root(void **state)
 {
     (void)state;
-    expect_slope("area light over a floor", LAMP_OVER_FLOOR, RT_SAMPLER_INDEPENDENT, -0.5);
+    expect_slope("area light over a floor", LIGHT_OVER_FLOOR, RT_SAMPLER_INDEPENDENT, -0.5);
     expect_slope("room", ROOM, RT_SAMPLER_INDEPENDENT, -0.5);
 }
 
 static void sobol_points_faster(void **state)
 {
     (void)state;
-    expect_slope("area light over a floor", LAMP_OVER_FLOOR, RT_SAMPLER_SOBOL, -0.7);
+    expect_slope("area light over a floor", LIGHT_OVER_FLOOR, RT_SAMPLER_SOBOL, -0.7);
     expect_slope("room", ROOM, RT_SAMPLER_SOBOL, -0.52);
 }
 

@@ -26,8 +26,8 @@ static const double side = 1;      /* of the square that the camera sees, m */
 static const double radius = 0.15; /* of the gather discs, m */
 
 /*
- * Wide enough for gather discs at the edge of the square. Lamps are above the camera or beside its
- * view.
+ * Wide enough for gather discs at the edge of the square. The lights are above the camera or beside
+ * its view.
  */
 #define FLOOR                                                                                      \
     "camera { projection orthographic  eye 0 0.4 0  look_at 0 0 0  up 0 0 -1  width 1 }\n"         \
@@ -97,7 +97,7 @@ static void expect_irradiance(const char *scene, const char *truth, irradiance *
                    proof_text(FLOOR "%s", light), &map);
 }
 
-/* ---- Lights without size ---------------------------------------------------------- */
+/* ---- Delta lights ----------------------------------------------------------------- */
 
 /* 3 W/sr at (0.2, 1, 0.1). */
 static double of_point(double x, double z)

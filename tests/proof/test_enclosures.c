@@ -168,7 +168,7 @@ static void metal_furnace(void **state)
 /* ---- Bodies under a uniform sky ------------------------------------------------------------- */
 
 /* A ball fills the view. */
-static void balls_in_even_light(void **state)
+static void balls_in_a_white_furnace(void **state)
 {
     static const struct {
         const char *name, *truth, *material;
@@ -199,7 +199,7 @@ static void balls_in_even_light(void **state)
 }
 
 /* A plate, seen at an angle. What goes through it is lost in a black plate behind. */
-static void plates_in_even_light(void **state)
+static void plates_in_a_white_furnace(void **state)
 {
     static const struct {
         const char *name, *material;
@@ -251,8 +251,8 @@ int main(void)
         cmocka_unit_test(closed_furnaces),
         cmocka_unit_test(box_furnace),
         cmocka_unit_test(metal_furnace),
-        cmocka_unit_test(balls_in_even_light),
-        cmocka_unit_test(plates_in_even_light),
+        cmocka_unit_test(balls_in_a_white_furnace),
+        cmocka_unit_test(plates_in_a_white_furnace),
         cmocka_unit_test(the_page_has_the_rows),
     };
     return cmocka_run_group_tests_name("proof/enclosures", tests, NULL, NULL);

@@ -6,7 +6,7 @@
  * in the renderer.
  *
  * A slab whose faces reflect R and whose inside passes e reflects R + R e^2 (1-R)^2 / (1 - R^2 e^2)
- * and passes e (1-R)^2 / (1 - R^2 e^2), summed over all ways to and fro. Radiance grows by the
+ * and passes e (1-R)^2 / (1 - R^2 e^2), summed over all numbers of crossings. Radiance grows by the
  * square of the index where light enters a denser medium, and the part of diffuse light that such a
  * boundary lets out is 1/n^2 of what it lets in.
  */
@@ -30,10 +30,10 @@ static void endless_corridor(void **state)
 {
     static const char text[] =
         "camera { eye 0 0 0  look_at 0 0 1  fov (2 * atan(1.5)) }\n"
-        "material mirror { ks 0.9 }\nmaterial lamp { emission 1 }\n"
+        "material mirror { ks 0.9 }\nmaterial emitter { emission 1 }\n"
         "plane { point -1 0 0  normal 1 0 0  material mirror }\nplane { point 1 0 0  normal -1 0 0 "
         " material mirror }\n"
-        "quad { corner -1 -2 10  edge1 0 4 0  edge2 2 0 0  material lamp }\n";
+        "quad { corner -1 -2 10  edge1 0 4 0  edge2 2 0 0  material emitter }\n";
     static const rt_render_options options = {.width = 60, .height = 2, .spp = 32, .max_depth = 20};
     proof_films films;
     (void)state;

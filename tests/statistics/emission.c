@@ -12,37 +12,37 @@
 
 static emission_draw draws[most_samples];
 
-/* ---- Lamps ----------------------------------------------------------------------- */
+/* ---- Area lights ------------------------------------------------------------------- */
 
 /*
- * What is looked at: the point; the direction about its normal; or one coordinate of each, which
+ * What is compared: the point; the direction about its normal; or one coordinate of each, which
  * are independent.
  */
-typedef enum aspect { START, WAY, BOTH } aspect;
+typedef enum aspect { START, DIRECTION, BOTH } aspect;
 
 typedef struct emission {
     emitter kind;
     aspect aspect;
 } emission;
 
-static rt_scene *lamp_scene(const void *setup)
+static rt_scene *area_light_scene(const void *setup)
 {
     return emitter_scene(((const emission *)setup)->kind);
 }
 
-static void draw_lamp(const void *setup, uint32_t seed, uint32_t count)
+static void draw_area_light(const void *setup, uint32_t seed, uint32_t count)
 {
-    draw_many_emissions(kept_renderer(setup, lamp_scene), seed, count, draws);
+    draw_many_emissions(kept_renderer(setup, area_light_scene), seed, count, draws);
 }
 
-static sampled place_lamp(const void *setup, uint32_t i)
+static sampled place_area_light(const void *setup, uint32_t i)
 {
     const emission *e = setup;
     const double sides = e->kind == EMIT_TWO_SIDED ? 2 : 1;
     const emission_draw *d = draws + i;
     double n[3], w[3], z = 0, turn = 0;
     sampled s = {0, 0, NAN};
-    if (e->aspect != WAY)
+    if (e->aspect != DIRECTION)
         emitter_place(e->kind, d->position, d->normal, &s.x, &s.y);
     if (e->aspect != START) {
         wide(n, d->normal);
@@ -53,7 +53,7 @@ static sampled place_lamp(const void *setup, uint32_t i)
     /* The flux of a start is what an even area would send, over the density. */
     if (e->aspect == START && i < told_samples)
         s.pdf = sides * PI * EMITTED_RADIANCE / d->flux[0] * emitter_element(e->kind, s.x, s.y);
-    if (e->aspect == WAY)
+    if (e->aspect == DIRECTION)
         return (sampled){z, turn, NAN};
     return e->aspect == START ? s : (sampled){s.x, z, NAN};
 }
@@ -64,12 +64,12 @@ static double of_height(const emission *e, double z)
     return e->kind == EMIT_TWO_SIDED ? 2 * fabs(2 * z - 1) : 2 * z;
 }
 
-static double of_lamp(const void *setup, double x, double y)
+static double of_area_light(const void *setup, double x, double y)
 {
     const emission *e = setup;
-    if (e->aspect == WAY)
+    if (e->aspect == DIRECTION)
         return of_height(e, x);
-    /* `BOTH` is asked of lamps that are even along y. */
+    /* `BOTH` is only for emitters that are even along y. */
     return emitter_density(e->kind, x, y) * (e->aspect == BOTH ? of_height(e, y) : 1);
 }
 
@@ -230,16 +230,18 @@ static sampled place_heaven(const void *setup, uint32_t i)
     const emission_draw *d = draws + i;
     const float w[3] = {-d->direction[0], -d->direction[1], -d->direction[2]};
     const double area = PI * 3 * SKY_SPHERE_RADIUS * SKY_SPHERE_RADIUS;
-    sampled way = {0, 0, NAN}, start = {0, 0, NAN};
+    sampled direction = {0, 0, NAN}, start = {0, 0, NAN};
     if (h->aspect != START)
-        sky_place(w, &way.x, &way.y);
-    if (h->aspect == WAY && i < told_samples)
-        way.pdf =
-            sky_radiance(h->has_picture, way.x, way.y) * area / d->flux[0] * sky_element(way.y);
-    if (h->aspect != WAY)
+        sky_place(w, &direction.x, &direction.y);
+    if (h->aspect == DIRECTION && i < told_samples)
+        direction.pdf = sky_radiance(h->has_picture, direction.x, direction.y) * area / d->flux[0] *
+                        sky_element(direction.y);
+    if (h->aspect != DIRECTION)
         start = place_on_disc(d);
     start.pdf = NAN;
-    return h->aspect == START ? start : h->aspect == WAY ? way : (sampled){start.x, way.y, NAN};
+    return h->aspect == START       ? start
+           : h->aspect == DIRECTION ? direction
+                                    : (sampled){start.x, direction.y, NAN};
 }
 
 static double of_heaven(const void *setup, double x, double y)
@@ -247,12 +249,13 @@ static double of_heaven(const void *setup, double x, double y)
     const heaven *h = setup;
     if (h->aspect == START)
         return on_disc(setup, x, y);
-    return h->aspect == WAY ? sky_density(h->has_picture, x, y) : 2 * x * sky_density(0, 0, y);
+    return h->aspect == DIRECTION ? sky_density(h->has_picture, x, y)
+                                  : 2 * x * sky_density(0, 0, y);
 }
 
 /* ---- Choice ------------------------------------------------------------------------- */
 
-enum { lamps = 23 };
+enum { light_count = 23 };
 
 /* Those of odd number are dark. */
 static double power_of(int i)
@@ -260,12 +263,12 @@ static double power_of(int i)
     return i % 2 ? 0 : 1 + i * 5 % 13;
 }
 
-static rt_scene *many_lamps(const void *setup)
+static rt_scene *many_lights(const void *setup)
 {
     rt_scene *scene = light_scene();
     rt_error error;
     (void)setup;
-    for (int i = 0; i < lamps; i++) {
+    for (int i = 0; i < light_count; i++) {
         rt_point_light light;
         memset(&light, 0, sizeof light);
         light.power[0] = light.power[1] = light.power[2] = (float)power_of(i);
@@ -276,28 +279,29 @@ static rt_scene *many_lamps(const void *setup)
 
 static void draw_choice(const void *setup, uint32_t seed, uint32_t count)
 {
-    draw_many_emissions(kept_renderer(setup, many_lamps), seed, count, draws);
+    draw_many_emissions(kept_renderer(setup, many_lights), seed, count, draws);
 }
 
 static sampled place_choice(const void *setup, uint32_t i)
 {
     const double light = draws[i].light;
     (void)setup;
-    return (sampled){(light + 0.5) / lamps, 0.5, lamps * power_of((int)light) / draws[i].flux[0]};
+    return (sampled){(light + 0.5) / light_count, 0.5,
+                     light_count * power_of((int)light) / draws[i].flux[0]};
 }
 
 static double by_power(const void *setup, double x, double y)
 {
     double sum = 0;
     (void)setup, (void)y;
-    for (int i = 0; i < lamps; i++)
+    for (int i = 0; i < light_count; i++)
         sum += power_of(i);
-    return lamps * power_of((int)floor(x * lamps)) / sum;
+    return light_count * power_of((int)floor(x * light_count)) / sum;
 }
 
 /* ---- Table ----------------------------------------------------------------------- */
 
-static const method by_lamp = {draw_lamp, place_lamp, of_lamp, 0};
+static const method by_area_light = {draw_area_light, place_area_light, of_area_light, 0};
 static const method by_point = {draw_point, place_point, even, 0};
 static const method by_spot = {draw_spot, place_spot, of_spot, 1};
 static const method by_sun = {draw_sun, place_sun, on_disc, 0};
@@ -305,31 +309,35 @@ static const method by_heaven = {draw_heaven, place_heaven, of_heaven, 1};
 static const method by_choice = {draw_choice, place_choice, by_power, 0};
 
 static const routine routines[] = {
-    {"emission: rectangle", 16, 16, &by_lamp, &(const emission){EMIT_RECTANGLE, START}},
-    {"emission: two-sided rectangle", 16, 16, &by_lamp, &(const emission){EMIT_TWO_SIDED, START}},
-    {"emission: mesh", 48, 8, &by_lamp, &(const emission){EMIT_MESH, START}},
-    {"emission: sphere", 16, 16, &by_lamp, &(const emission){EMIT_SPHERE, START}},
-    {"emission: box", 24, 12, &by_lamp, &(const emission){EMIT_BOX, START}},
-    {"emission: frustum", 24, 12, &by_lamp, &(const emission){EMIT_FRUSTUM, START}},
-    {"emission: direction from a rectangle", 16, 16, &by_lamp,
-     &(const emission){EMIT_RECTANGLE, WAY}},
-    {"emission: direction from both sides", 16, 16, &by_lamp,
-     &(const emission){EMIT_TWO_SIDED, WAY}},
-    {"emission: direction from a sphere", 16, 16, &by_lamp, &(const emission){EMIT_SPHERE, WAY}},
-    {"emission: direction from a frustum", 16, 16, &by_lamp, &(const emission){EMIT_FRUSTUM, WAY}},
-    {"emission: point and direction of both sides", 16, 16, &by_lamp,
+    {"emission: rectangle", 16, 16, &by_area_light, &(const emission){EMIT_RECTANGLE, START}},
+    {"emission: two-sided rectangle", 16, 16, &by_area_light,
+     &(const emission){EMIT_TWO_SIDED, START}},
+    {"emission: mesh", 48, 8, &by_area_light, &(const emission){EMIT_MESH, START}},
+    {"emission: sphere", 16, 16, &by_area_light, &(const emission){EMIT_SPHERE, START}},
+    {"emission: box", 24, 12, &by_area_light, &(const emission){EMIT_BOX, START}},
+    {"emission: frustum", 24, 12, &by_area_light, &(const emission){EMIT_FRUSTUM, START}},
+    {"emission: direction from a rectangle", 16, 16, &by_area_light,
+     &(const emission){EMIT_RECTANGLE, DIRECTION}},
+    {"emission: direction from both sides", 16, 16, &by_area_light,
+     &(const emission){EMIT_TWO_SIDED, DIRECTION}},
+    {"emission: direction from a sphere", 16, 16, &by_area_light,
+     &(const emission){EMIT_SPHERE, DIRECTION}},
+    {"emission: direction from a frustum", 16, 16, &by_area_light,
+     &(const emission){EMIT_FRUSTUM, DIRECTION}},
+    {"emission: point and direction of both sides", 16, 16, &by_area_light,
      &(const emission){EMIT_TWO_SIDED, BOTH}},
-    {"emission: point and direction of a torus", 16, 16, &by_lamp,
+    {"emission: point and direction of a torus", 16, 16, &by_area_light,
      &(const emission){EMIT_TORUS, BOTH}},
     {"emission: point light", 16, 16, &by_point, NULL},
     {"emission: spot", 32, 8, &by_spot, NULL},
     {"emission: directional light", 16, 16, &by_sun, NULL},
-    {"emission: direction from an even sky", 16, 16, &by_heaven, &(const heaven){0, WAY}},
+    {"emission: direction from an even sky", 16, 16, &by_heaven, &(const heaven){0, DIRECTION}},
     {"emission: start of an even sky", 16, 16, &by_heaven, &(const heaven){0, START}},
     {"emission: start and direction of an even sky", 16, 16, &by_heaven, &(const heaven){0, BOTH}},
-    {"emission: direction from a sky of a picture", 32, 16, &by_heaven, &(const heaven){1, WAY}},
+    {"emission: direction from a sky of a picture", 32, 16, &by_heaven,
+     &(const heaven){1, DIRECTION}},
     {"emission: start of a sky of a picture", 16, 16, &by_heaven, &(const heaven){1, START}},
-    {"emission: choice of light", lamps, 1, &by_choice, NULL},
+    {"emission: choice of light", light_count, 1, &by_choice, NULL},
 };
 
 const routine_table emission_routines = {routines, sizeof routines / sizeof *routines};

@@ -25,8 +25,8 @@ static const float centre[3] = {0.3f, 0.2f, -0.1f}, top[3] = {0.5f, 1.4f, 0.3f},
 static const double sphere_radius = 0.5, disc_radius = 0.7f, disc_hole = 0.3f, torus_major = 0.6f,
                     torus_minor = 0.2f;
 
-/* Radii of the round shapes at base and top. */
-static void round_radii(emitter kind, double *at_base, double *at_top)
+/* Radii of the cylinders and cones at base and top. */
+static void cylinder_radii(emitter kind, double *at_base, double *at_top)
 {
     *at_base = kind == EMIT_PIPE || kind == EMIT_CYLINDER ? 0.4f : 0.5f;
     *at_top = kind == EMIT_CONE ? 0 : kind == EMIT_FRUSTUM ? 0.2f : *at_base;
@@ -37,7 +37,7 @@ static int is_closed(emitter kind)
     return kind >= EMIT_CYLINDER;
 }
 
-/* ---- The lamps ------------------------------------------------------------------ */
+/* ---- The emitters --------------------------------------------------------------- */
 
 static double strip_width(int i)
 {
@@ -50,7 +50,7 @@ static double strip_depth(int i)
 }
 
 /* Triangle i has its corner at (i, 2, 0), one edge along x and one along z. */
-static rt_status add_mesh(rt_scene *scene, const rt_surface *lamp, rt_error *error)
+static rt_status add_mesh(rt_scene *scene, const rt_surface *surface, rt_error *error)
 {
     float positions[9 * triangles];
     uint32_t indices[3 * triangles];
@@ -62,43 +62,44 @@ static rt_status add_mesh(rt_scene *scene, const rt_surface *lamp, rt_error *err
             indices[3 * i + c] = (uint32_t)(3 * i + c);
     }
     return rt_scene_add_triangles(scene, NULL, positions, 3 * triangles, indices, triangles, NULL,
-                                  lamp, error);
+                                  surface, error);
 }
 
-static rt_status add_lamp(rt_scene *scene, emitter kind, const rt_surface *lamp, rt_error *error)
+static rt_status add_emitter(rt_scene *scene, emitter kind, const rt_surface *surface,
+                             rt_error *error)
 {
     static const uint32_t one[3] = {0, 1, 2};
     double at_base, at_top;
-    round_radii(kind, &at_base, &at_top);
+    cylinder_radii(kind, &at_base, &at_top);
     switch (kind) {
     case EMIT_BOX:
         return rt_scene_add_box(scene, NULL, centre, edges, lamp, error);
     case EMIT_RECTANGLE:
     case EMIT_TWO_SIDED:
-        return rt_scene_add_quad(scene, NULL, corner, edge1, right, lamp, error);
+        return rt_scene_add_quad(scene, NULL, corner, edge1, right, surface, error);
     case EMIT_PARALLELOGRAM:
-        return rt_scene_add_quad(scene, NULL, corner, edge1, slanted, lamp, error);
+        return rt_scene_add_quad(scene, NULL, corner, edge1, slanted, surface, error);
     case EMIT_TRIANGLE:
-        return rt_scene_add_triangles(scene, NULL, vertices, 3, one, 1, NULL, lamp, error);
+        return rt_scene_add_triangles(scene, NULL, vertices, 3, one, 1, NULL, surface, error);
     case EMIT_MESH:
-        return add_mesh(scene, lamp, error);
+        return add_mesh(scene, surface, error);
     case EMIT_SPHERE:
-        return rt_scene_add_sphere(scene, NULL, centre, (float)sphere_radius, lamp, error);
+        return rt_scene_add_sphere(scene, NULL, centre, (float)sphere_radius, surface, error);
     case EMIT_ELLIPSOID:
-        return rt_scene_add_ellipsoid(scene, NULL, centre, radii, lamp, error);
+        return rt_scene_add_ellipsoid(scene, NULL, centre, radii, surface, error);
     case EMIT_DISC:
         return rt_scene_add_disc(scene, NULL, centre, top, (float)disc_radius, (float)disc_hole,
-                                 lamp, error);
+                                 surface, error);
     case EMIT_TORUS:
         return rt_scene_add_torus(scene, NULL, centre, top, (float)torus_major, (float)torus_minor,
-                                  lamp, error);
+                                  surface, error);
     case EMIT_PIPE:
     case EMIT_CYLINDER:
         return rt_scene_add_cylinder(scene, NULL, centre, top, (float)at_base, is_closed(kind),
-                                     lamp, error);
+                                     surface, error);
     default:
-        return rt_scene_add_cone(scene, NULL, centre, top, (float)at_base, (float)at_top, 1, lamp,
-                                 error);
+        return rt_scene_add_cone(scene, NULL, centre, top, (float)at_base, (float)at_top, 1,
+                                 surface, error);
     }
 }
 
@@ -110,22 +111,22 @@ static int is_skew(emitter kind)
 rt_scene *emitter_scene(emitter kind)
 {
     const float radiance = (float)EMITTED_RADIANCE;
-    rt_material shining = {.emission = {radiance, radiance, radiance},
-                           .two_sided = kind == EMIT_TWO_SIDED};
-    rt_surface lamp;
+    rt_material material = {.emission = {radiance, radiance, radiance},
+                            .two_sided = kind == EMIT_TWO_SIDED};
+    rt_surface surface;
     rt_scene *scene = light_scene();
     rt_error error;
-    memset(&lamp, 0, sizeof lamp);
-    expect_ok(rt_scene_add_material(scene, &lamp.material, NULL, &shining, &error), &error);
+    memset(&surface, 0, sizeof surface);
+    expect_ok(rt_scene_add_material(scene, &surface.material, NULL, &material, &error), &error);
     if (is_skew(kind))
-        lamp.transform = skew;
-    expect_ok(add_lamp(scene, kind, &lamp, &error), &error);
+        surface.transform = skew;
+    expect_ok(add_emitter(scene, kind, &surface, &error), &error);
     return scene;
 }
 
 /* ---- Parameters ------------------------------------------------------------------ */
 
-/* Axes of the round shapes: the last is theirs, and not of unit length but theirs. */
+/* Axes of the cylinders and cones: the last is theirs, and not of unit length but theirs. */
 static void axes_of(emitter kind, double s[3], double t[3], double along[3])
 {
     double unit[3];
@@ -139,11 +140,11 @@ static void axes_of(emitter kind, double s[3], double t[3], double along[3])
         memcpy(along, unit, 3 * sizeof *along);
 }
 
-/* Radius and height of the round shapes, before the transform. */
+/* Radius and height of the cylinders and cones, before the transform. */
 static void profile(emitter kind, double x, double *radius, double *height)
 {
     double at_base, at_top;
-    round_radii(kind, &at_base, &at_top);
+    cylinder_radii(kind, &at_base, &at_top);
     *height = 0;
     if (kind == EMIT_DISC) {
         *radius = disc_hole + x * (disc_radius - disc_hole);
@@ -159,7 +160,7 @@ static void profile(emitter kind, double x, double *radius, double *height)
     }
 }
 
-static void round_point(emitter kind, double x, double y, double out[3])
+static void cylinder_point(emitter kind, double x, double y, double out[3])
 {
     double s[3], t[3], along[3], radius, height;
     axes_of(kind, s, t, along);
@@ -232,7 +233,7 @@ void emitter_point(emitter kind, double x, double y, double out[3])
     else if (kind <= EMIT_ELLIPSOID)
         ball_point(kind, x, y, p);
     else
-        round_point(kind, x, y, p);
+        cylinder_point(kind, x, y, p);
     for (int i = 0; i < 3; i++)
         out[i] = is_skew(kind) ? skew.m[i][0] * p[0] + skew.m[i][1] * p[1] + skew.m[i][2] * p[2] +
                                      skew.m[i][3]
@@ -275,7 +276,7 @@ static void round_place(emitter kind, const double p[3], const float normal[3], 
 {
     double s[3], t[3], along[3], away[3], n[3], at_base, at_top;
     axes_of(kind, s, t, along);
-    round_radii(kind, &at_base, &at_top);
+    cylinder_radii(kind, &at_base, &at_top);
     for (int i = 0; i < 3; i++)
         away[i] = p[i] - centre[i];
     wide(n, normal);
@@ -353,7 +354,7 @@ void emitter_normal(emitter kind, double x, double y, double out[3])
 static double round_density(emitter kind, double x)
 {
     double at_base, at_top, along[3], radius, height;
-    round_radii(kind, &at_base, &at_top);
+    cylinder_radii(kind, &at_base, &at_top);
     rt_vec_sub(along, top, centre);
     profile(kind, x, &radius, &height);
     const double side = PI * (at_base + at_top) * distance(rt_vec_length(along), at_base - at_top);

@@ -9,7 +9,7 @@
 #include "render/renderer.h"
 
 typedef enum emitter {
-    EMIT_RECTANGLE, /* in the plane y = 2, shining down */
+    EMIT_RECTANGLE, /* in the plane y = 2, emitting downwards */
     EMIT_TWO_SIDED, /* the same rectangle */
     EMIT_PARALLELOGRAM,
     EMIT_TRIANGLE,
@@ -28,10 +28,10 @@ typedef enum emitter {
 /* The radiance of all, in every channel. */
 #define EMITTED_RADIANCE 2.0
 
-/* A scene of nothing but the lamp. */
+/* A scene of nothing but the emitter. */
 rt_scene *emitter_scene(emitter kind);
 
-/* The point of the lamp with these parameters. */
+/* The point of the emitter with these parameters. */
 void emitter_point(emitter kind, double x, double y, double out[3]);
 
 /* Parameters of a point with this normal. */
@@ -46,8 +46,8 @@ void emitter_normal(emitter kind, double x, double y, double out[3]);
 
 /*
  * The density over the parameters of points that are chosen by area: a mesh's and all of its
- * triangles', a round shape's and all of its parts', and the ellipsoid's, disc's and torus' own
- * before the transform.
+ * triangles', a cylinder's and cone's and all of its parts', and the ellipsoid's, disc's and torus'
+ * own before the transform.
  */
 double emitter_density(emitter kind, double x, double y);
 

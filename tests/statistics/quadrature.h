@@ -5,8 +5,8 @@
 typedef double (*integrand)(const void *of, double x, double y);
 
 /*
- * The integral over [x0, x1] x [y0, y1]. Where halving both ways changes a part by more than
- * `near`, the part is halved again, 9 times at most.
+ * The integral over [x0, x1] x [y0, y1]. Where halving in both directions changes a part by more
+ * than `near`, the part is halved again, 9 times at most.
  */
 double integral(integrand f, const void *of, double x0, double y0, double x1, double y1,
                 double near);

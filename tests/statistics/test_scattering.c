@@ -1,7 +1,6 @@
 /*
- * test_scattering.c - for every kind of material: evaluation, sampling and density agree, light
- * goes both ways alike, densities are those of chances, and none gives back more light than it
- * gets.
+ * test_scattering.c - for every kind of material: evaluation, sampling and density agree, BSDFs
+ * are reciprocal, densities are those of chances, and none gives back more light than it gets.
  */
 #include <math.h>
 #include <stdio.h>
@@ -169,7 +168,7 @@ static void densities_are_of_what_happens(void **state)
  * fr(wo, wi) = fr(wi, wo), and through a boundary fr(wo, wi) / n_o^2 = fr(wi, wo) / n_i^2 (Veach
  * 1997, section 5.2).
  */
-static void light_goes_both_ways_alike(void **state)
+static void bsdfs_are_reciprocal(void **state)
 {
     enum { pairs = 1 << 14 };
     static situation there[pairs], back[pairs];
@@ -204,7 +203,7 @@ static void light_goes_both_ways_alike(void **state)
                 compared += f > 1e-4;
                 across += through && f > 1e-4;
                 if (!(fabs(f - b) <= 2e-3 * (f + b) + 1e-6))
-                    fail_msg("%s: %g one way, %g back", materials[m].name, f, b);
+                    fail_msg("%s: %g forwards, %g backwards", materials[m].name, f, b);
             }
         }
         assert_true(compared > 1000);
@@ -281,7 +280,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(sampled_light_is_the_light_that_is_evaluated),
         statistical_test(densities_are_of_what_happens),
-        cmocka_unit_test(light_goes_both_ways_alike),
+        cmocka_unit_test(bsdfs_are_reciprocal),
         statistical_test(nothing_gives_back_more_than_it_gets),
     };
     return cmocka_run_group_tests_name("statistics/scattering", tests, NULL, NULL);

@@ -65,8 +65,8 @@ void study_write(const study *s, const rt_film *const *films, int count, const c
     rt_image_destroy(image);
 }
 
-/* Above this, a pixel sees a lamp. */
-static float lamp_threshold(const rt_film *reference, size_t count)
+/* Above this, a pixel sees an area light. */
+static float emitter_threshold(const rt_film *reference, size_t count)
 {
     float brightest = 0;
     for (size_t i = 0; i < count; i++)
@@ -74,7 +74,7 @@ static float lamp_threshold(const rt_film *reference, size_t count)
     return brightest > 20 * study_mean(reference) ? brightest / 2 : HUGE_VALF;
 }
 
-static int near_lamp(const rt_film *reference, uint32_t x, uint32_t y, float threshold)
+static int near_emitter(const rt_film *reference, uint32_t x, uint32_t y, float threshold)
 {
     uint32_t width, height;
     rt_film_get_size(reference, &width, &height);
@@ -91,10 +91,10 @@ double study_mse(const rt_film *film, const rt_film *reference)
     uint32_t width, height;
     double sum = 0, count = 0;
     rt_film_get_size(reference, &width, &height);
-    float threshold = lamp_threshold(reference, (size_t)3 * width * height);
+    float threshold = emitter_threshold(reference, (size_t)3 * width * height);
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++) {
-            if (near_lamp(reference, x, y, threshold))
+            if (near_emitter(reference, x, y, threshold))
                 continue;
             for (int c = 0; c < 3; c++) {
                 size_t at = 3 * ((size_t)y * width + x) + c;

@@ -33,8 +33,8 @@ void study_write(const study *s, const rt_film *const *films, int count, const c
 
 /*
  * Mean squared difference of a film from a reference of the same size, without the pixels that see
- * a lamp or border on one: those brighter than half the brightest where that is far above the mean.
- * Their noise is that of the pixel's coverage, whatever lights the scene.
+ * an area light or border on one: those brighter than half the brightest where that is far above
+ * the mean. Their noise is that of the pixel's coverage, whatever lights the scene.
  */
 double study_mse(const rt_film *film, const rt_film *reference);
 double study_mean(const rt_film *film);

@@ -7,14 +7,14 @@
  * mapping (8) are timed, and path tracing gets as many samples a pixel as take as long. Time is
  * that of processors, so that other programs do not count. Pictures go to build/study.
  *
- * The region is the floor within 0.3 m of where the line from the lamp's centre through the
+ * The region is the floor within 0.3 m of where the line from the light's centre through the
  * sphere's meets it, as far as whole pixels see it beside the sphere. A picture's squared error is
  * the mean product of its differences from two truths of independent noises, so that these leave no
  * trace but in its standard error. It is told twice:
  *   - by paths and photons: one truth is path traced with REFERENCE samples a pixel (1024), or is
  *     the picture FILE, of the same size, and the other is of photons, of another seed, in twice as
  *     many passes with half the radius around caustics. It owes nothing to photons being right, but
- *     paths that rarely meet the lamp make it uncertain;
+ *     paths that rarely meet the light make it uncertain;
  *   - by photons and photons: both truths are of that kind, of seeds of their own. Of bias, which
  *     goes with the squared radius, they have a quarter, and the product 9/16 of the square.
  */
@@ -31,7 +31,7 @@ enum { side = 256 };
 /* ---- The region ------------------------------------------------------------- */
 
 static const double eye_z = -3.5, half_fov = 19 * 3.14159265358979323846 / 180, floor_y = -1;
-static const double glass[3] = {-0.5, -0.7, -0.25}, glass_radius = 0.3, lamp_y = 0.999,
+static const double glass[3] = {-0.5, -0.7, -0.25}, glass_radius = 0.3, light_y = 0.999,
                     spot_radius = 0.3;
 
 static int meets_glass(const double d[3])
@@ -47,7 +47,7 @@ static int meets_glass(const double d[3])
 static int in_spot(double x, double y)
 {
     /* The camera looks along +z, and +x is on the left. */
-    double scale = tan(half_fov), to_spot = (lamp_y - floor_y) / (lamp_y - glass[1]);
+    double scale = tan(half_fov), to_spot = (light_y - floor_y) / (light_y - glass[1]);
     double d[3] = {-(2 * x / side - 1) * scale, -(2 * y / side - 1) * scale, 1};
     if (d[1] >= 0 || meets_glass(d))
         return 0;

@@ -1,6 +1,6 @@
 /*
- * study_consistency.c - progressive photon mapping comes to the truth: mean squared error against
- * path tracing, pass after pass, and the slope of its logarithm.
+ * study_consistency.c - progressive photon mapping converges to the reference: mean squared error
+ * against path tracing, pass after pass, and the slope of its logarithm.
  *
  *     study_consistency [SCENE [SIDE [PASSES [PHOTONS [REFERENCE [RADIUS]]]]]]
  *

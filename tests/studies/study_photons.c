@@ -9,7 +9,7 @@
  *   paths     photon paths swept at k = 10
  *   direct    direct light from shadow rays and from the map
  *   kernels   the kernels side by side, all light from the map
- *   ways      disc and hull, FLANN and the device, with and without final gather
+ *   gathers   disc and hull, FLANN and the device, with and without final gather
  *   all       all of these, the default
  * SCENE: scenes/box_area.rts by default; SIDE: of the films, pixels (128); REFERENCE: samples a
  * pixel of the path traced picture (4096). The error is the root of the mean square over the film,
@@ -117,7 +117,7 @@ static void compare_kernels(comparison *c)
     }
 }
 
-static void compare_ways(comparison *c)
+static void compare_gathers(comparison *c)
 {
     rt_render_options options = photon_options(c);
     heading("area, k = 50");
@@ -147,7 +147,7 @@ static const struct {
     {"paths", sweep_paths},
     {"direct", compare_direct},
     {"kernels", compare_kernels},
-    {"ways", compare_ways},
+    {"gathers", compare_gathers},
 };
 enum { STUDIES = sizeof studies / sizeof *studies };
 
@@ -165,9 +165,10 @@ int main(int argc, char **argv)
     for (int i = 0; i < STUDIES; i++)
         wanted += is_wanted(i, name);
     if (!wanted) {
-        fprintf(stderr,
-                "study_photons: no study '%s'; there are k, paths, direct, kernels, ways and all\n",
-                name);
+        fprintf(
+            stderr,
+            "study_photons: no study '%s'; there are k, paths, direct, kernels, gathers and all\n",
+            name);
         return 2;
     }
     study_open(&c.s, "study_photons", scene, argc > 3 ? (uint32_t)strtoul(argv[3], NULL, 10) : 128);
