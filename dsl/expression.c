@@ -142,6 +142,7 @@ int rt_expression_evaluate(rt_value *out, const rt_expression *expression,
             if (!apply_binary(top, operation, reports))
                 return 0;
             top--;
+            break;
         }
     }
     assert(top == stack + 1);

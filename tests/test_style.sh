@@ -9,13 +9,13 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 bad=0
 
-# Files whose switches have characters or numbers for cases, which no list can exhaust.
-open_switches=''
+# Files whose switches have characters for cases, as tokens do, which no list can exhaust.
+open_switches='dsl/parse_expression.c'
 
 # Words of our own making, and phrases with them. Read on lines in lower case whose underscores are
 # spaces, so that they are found in identifiers too. Idioms with "way" are taken out before.
-idioms='under way|by way of|(on|out of|lose) (the|its|their) way|(either|each|same|this|that|all the)'
-idioms="$idioms"' ways?|ways? out|in a way'
+idioms='under way|by way of|(on|out of|lose) (the|its|their) way
+(either|each|same|this|that|all the) ways?|ways? out|in a way'
 banned='lamps?|squeez(e|es|ed|ing)|shines?|shining|shone|paints?|paint at|ways?
 (light|lights|emitter|emitters) (of no|without) size|comes? to the truth|true at the edges
 in even light|what is off|idle|hangs? on nothing|physical errors?
@@ -23,7 +23,8 @@ in even light|what is off|idle|hangs? on nothing|physical errors?
 (rt|a|the|this|each|end) stretch(es)?|stretch (first|next)
 (area|spot|target) spread|float8? spread
 maps? (is|are|was|were) asked|asks? (the|one|all|photon) (photon )?maps?|points? asks?
-round (shapes?|part|top|base|side|areas|angle|point|tangents)|(intersect|add|canonical|shape.) ?round'
+round (shapes?|part|top|base|side|areas|angle|point|tangents)
+(intersect|add|canonical|shape.) ?round'
 
 # check NAME FILE: the test passes when FILE, which lists offences, is empty.
 check() {
@@ -85,6 +86,7 @@ defaults() {
 words() {
     awk -v idioms="$idioms" -v banned="$banned" '
         BEGIN {
+            gsub(/\n/, "|", idioms)
             gsub(/\n/, "|", banned)
             idioms = " (" idioms ") "
             banned = " (" banned ") "
