@@ -295,7 +295,8 @@ proof: all $(call TEST_BIN,$(TESTS_PROOF)) $(B)/tests/render/test_reference
 # What the choices of photon mapping cost and bring, how fast progressive passes converge, and a
 # caustic by path tracing and by photons in equal time: numbers, and pictures in build/study. Each
 # alone: study-k and its like.
-STUDIES := study-k study-paths study-direct study-kernels study-gathers study-consistency study-caustic
+STUDIES := study-k study-paths study-direct study-kernels study-gathers study-consistency \
+	study-caustic
 .PHONY: $(STUDIES)
 study: $(STUDIES)
 study-k study-paths study-direct study-kernels study-gathers: study-%: \

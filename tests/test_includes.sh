@@ -159,8 +159,10 @@ upward() {
         function allowed(from, to) {
             if (from ~ /^tests\//)
                 return 1
+            if (from in common && from !~ /(shapes|lobes)\.h$/)
+                return to in common
             if (from ~ /^kernels\//)
-                return from in common && from !~ /(shapes|lobes)\.h$/ ? to in common : to ~ /^kernels\//
+                return to ~ /^kernels\//
             if (is_public(from))
                 return is_public(to) || to == "kernels/common.h"
             if (from ~ /^lib\/base\//)

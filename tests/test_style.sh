@@ -14,7 +14,7 @@ open_switches='dsl/parse_expression.c'
 
 # Words of our own making, and phrases with them. Read on lines in lower case whose underscores are
 # spaces, so that they are found in identifiers too. Idioms with "way" are taken out before.
-idioms='under way|by way of|(on|out of|lose) (the|its|their) way
+idioms='under way|by way( of)?|(on|out of|lose) (the|its|their) way
 (either|each|same|this|that|all the) ways?|ways? out|in a way'
 banned='lamps?|squeez(e|es|ed|ing)|shines?|shining|shone|paints?|paint at|ways?
 (light|lights|emitter|emitters) (of no|without) size|comes? to the truth|true at the edges

@@ -69,8 +69,8 @@ static void measure(const double *values, size_t n, double *mean, double *error,
 }
 
 /*
- * Where few of the values carry most of the sum, t is skewed the other way: too few came, and the
- * error is small as well. Hall's transformation takes that away: "On the Removal of Skewness by
+ * Where few of the values carry most of the sum, t is skewed to the other side: too few came, and
+ * the error is small as well. Hall's transformation takes that away: "On the Removal of Skewness by
  * Transformation", J. R. Statist. Soc. B 54(1), 1992.
  */
 static double without_skewness(double t, double skewness)

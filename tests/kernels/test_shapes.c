@@ -54,7 +54,7 @@ static int truth_chord(const truth_shape *shape, const rt_ray *ray, const truth_
 }
 
 /*
- * The way back to where a ray came from is free, and the way on ends at the next side of the shape.
+ * Nothing lies between a ray and where it came from; onwards it ends at the next side of the shape.
  * A few rays in a thousand meet it where it turns away or at a corner; and where coordinates are a
  * thousand times the size, the room that their rounding asks for shortens chords.
  */

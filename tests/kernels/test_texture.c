@@ -365,7 +365,7 @@ static void the_slope_of_a_ramp_is_its_steepness(void **state)
     s.texture.scale[0] = 2.0f;
     s.texture.scale[1] = -1.0f;
     /*
-     * 0.64 a unit of s, 0.96 of t; on (u, v) it is scaled, and each second copy goes the other way.
+     * 0.64 a unit of s, 0.96 of t; on (u, v) it is scaled, and each second copy is mirrored.
      */
     for (int i = 0; i < 256; i++) {
         int copy = (int)(random_bits(&random) % 64) - 32;

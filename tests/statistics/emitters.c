@@ -73,7 +73,7 @@ static rt_status add_emitter(rt_scene *scene, emitter kind, const rt_surface *su
     cylinder_radii(kind, &at_base, &at_top);
     switch (kind) {
     case EMIT_BOX:
-        return rt_scene_add_box(scene, NULL, centre, edges, lamp, error);
+        return rt_scene_add_box(scene, NULL, centre, edges, surface, error);
     case EMIT_RECTANGLE:
     case EMIT_TWO_SIDED:
         return rt_scene_add_quad(scene, NULL, corner, edge1, right, surface, error);

@@ -20,7 +20,7 @@ enum {
     reference_samples = 8192
 };
 
-/* An open box with a block, under a lamp out of sight: soft shadows and colour bleeding. */
+/* An open box with a block, under a light out of sight: soft shadows and colour bleeding. */
 static const char box[] =
     "camera { eye 0 -0.2 -3.4  look_at 0 -0.35 0  fov 30 }\n"
     "material white { kd 0.73 }\n"

@@ -14,7 +14,7 @@ typedef rt_status decoder(rt_image **out, const rt_bytes *file, const char *name
 void damage_truncate(const rt_bytes *file, decoder *decode);
 
 /*
- * Every byte, changed in several ways, may be accepted or fail with RT_ERROR_INPUT or
+ * Every byte, with several changes, may be accepted or fail with RT_ERROR_INPUT or
  * RT_ERROR_MEMORY.
  */
 void damage_flip(const rt_bytes *file, decoder *decode);

@@ -51,7 +51,9 @@ static void every_code_is_the_nearest_to_its_interval(void **state)
     (void)state;
     for (int code = 0; code < 256; code++) {
         assert_int_equal(rt_srgb_quantise(srgb_decode(code / 255.0)), code);
-        /* The steps lie half way between codes: just inside either end the code still holds. */
+        /*
+         * The steps lie in the middle between codes: just inside either end the code still holds.
+         */
         if (code > 0)
             assert_int_equal(rt_srgb_quantise(srgb_decode((code - 0.5 + 1e-9) / 255.0)), code);
         if (code < 255)

@@ -22,7 +22,7 @@ enum { sides = 6, top_side = 3 }; /* shapes of the room, in the order of make_ro
 static const double light_power[3] = {2, 3, 5};
 
 typedef enum ceiling { CEILING_LIKE_WALLS, CEILING_MIRROR } ceiling;
-typedef enum lamp { LAMP_BARE, LAMP_IN_GLASS } lamp;
+typedef enum setting { LIGHT_BARE, LIGHT_IN_GLASS } setting;
 
 static uint32_t add_material(rt_scene *scene, const rt_material *material)
 {
@@ -45,7 +45,7 @@ static void add_side(rt_scene *scene, int axis, int end, uint32_t material)
 }
 
 /* A closed room [-1,1]^3 with walls of this albedo and a point light. */
-static rt_renderer *make_room_on(rt_device *device, const float kd[3], ceiling above, lamp how)
+static rt_renderer *make_room_on(rt_device *device, const float kd[3], ceiling above, setting how)
 {
     rt_material wall = {.kd = {kd[0], kd[1], kd[2]}};
     rt_material mirror = {.ks = {1, 1, 1}};
@@ -61,7 +61,7 @@ static rt_renderer *make_room_on(rt_device *device, const float kd[3], ceiling a
     for (int axis = 0; axis < 3; axis++)
         for (int end = 0; end < 2; end++)
             add_side(scene, axis, end, 2 * axis + end == top_side ? top : walls);
-    if (how == LAMP_IN_GLASS) {
+    if (how == LIGHT_IN_GLASS) {
         rt_surface surface = {.material = add_material(scene, &glass)};
         const float centre[3] = {0, 0.2f, 0};
         expect_ok(rt_scene_add_sphere(scene, NULL, centre, 0.4f, &surface, &error), &error);
@@ -72,7 +72,7 @@ static rt_renderer *make_room_on(rt_device *device, const float kd[3], ceiling a
     return renderer;
 }
 
-static rt_renderer *make_room(const float kd[3], ceiling above, lamp how)
+static rt_renderer *make_room(const float kd[3], ceiling above, setting how)
 {
     return make_room_on(test_device(), kd, above, how);
 }
@@ -158,7 +158,7 @@ static void light_arrives_whole_at_the_walls(void **state)
 {
     static const float kd[3] = {0.5f, 0.5f, 0.5f};
     (void)state;
-    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LIGHT_BARE);
     rt_photon_list map = emit(renderer, 4, RT_DIRECT_PHOTONS, paths);
     for (int c = 0; c < 3; c++)
         assert_float_equal(sum_flux(&map, after_one_segment, c), light_power[c],
@@ -173,7 +173,7 @@ static void flux_of_all_bounces_is_the_geometric_series(void **state)
     static const float kd[3] = {0.2f, 0.5f, 0.8f};
     static const uint32_t depths[] = {2, 3, 6, 64};
     (void)state;
-    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LIGHT_BARE);
     for (size_t d = 0; d < sizeof depths / sizeof *depths; d++) {
         rt_photon_list map = emit(renderer, depths[d], RT_DIRECT_PHOTONS, paths);
         for (int c = 0; c < 3; c++) {
@@ -191,7 +191,7 @@ static void photons_straight_from_the_light_are_left_to_shadow_rays(void **state
 {
     static const float kd[3] = {0.5f, 0.5f, 0.5f};
     (void)state;
-    rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LAMP_BARE);
+    rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LIGHT_BARE);
     rt_photon_list nee = emit(renderer, 16, RT_DIRECT_NEE, paths);
     rt_photon_list all = emit(renderer, 16, RT_DIRECT_PHOTONS, paths);
     size_t j = 0;
@@ -212,16 +212,16 @@ static void delta_surfaces_store_nothing_and_pass_all_flux(void **state)
 {
     static const float kd[3] = {0.5f, 0.5f, 0.5f};
     (void)state;
-    for (lamp how = LAMP_BARE; how <= LAMP_IN_GLASS; how++) {
+    for (setting how = LIGHT_BARE; how <= LIGHT_IN_GLASS; how++) {
         rt_renderer *renderer = make_room(kd, CEILING_MIRROR, how);
         rt_photon_list map = emit(renderer, 64, RT_DIRECT_PHOTONS, paths);
         for (int c = 0; c < 3; c++) {
             double first = sum_flux(&map, first_of_path, c);
             if (fabs(first - light_power[c]) > 1e-4 * light_power[c])
-                fail_msg("lamp %d channel %d: %g W arrive of %g", (int)how, c, first,
+                fail_msg("setting %d channel %d: %g W arrive of %g", (int)how, c, first,
                          light_power[c]);
             assert_true(sum_flux(&map, caustic, c) >
-                        (how == LAMP_IN_GLASS ? 0.999 : 0.1) * light_power[c]);
+                        (how == LIGHT_IN_GLASS ? 0.999 : 0.1) * light_power[c]);
         }
         for (size_t i = 0; i < map.count; i++)
             assert_true(map.photons[i].shape < sides && map.photons[i].shape != top_side);
@@ -234,7 +234,7 @@ static void photons_are_whole(void **state)
 {
     static const float kd[3] = {0.2f, 0.5f, 0.8f};
     (void)state;
-    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LIGHT_BARE);
     rt_photon_list map = emit(renderer, 16, RT_DIRECT_PHOTONS, 5000);
     for (size_t i = 0; i < map.count; i++) {
         const rt_photon *p = map.photons + i;
@@ -265,7 +265,7 @@ static void maps_do_not_depend_on_batches(void **state)
     /* deep paths need more slots: smaller batches */
     enum { count = 20000, shallow = 16, deep = 128 };
     (void)state;
-    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LIGHT_BARE);
     rt_photon_list one = emit(renderer, shallow, RT_DIRECT_PHOTONS, count);
     rt_photon_list many = emit(renderer, deep, RT_DIRECT_PHOTONS, count);
     size_t j = 0;
@@ -285,12 +285,12 @@ static void maps_do_not_depend_on_threads_and_work_groups(void **state)
     static const float kd[3] = {0.2f, 0.5f, 0.8f};
     static const uint32_t devices[][2] = {{1, 1}, {2, 16}, {2, 64}}; /* threads, work-group */
     (void)state;
-    rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LAMP_IN_GLASS);
+    rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LIGHT_IN_GLASS);
     rt_photon_list expected = emit(renderer, 16, RT_DIRECT_NEE, 10000);
     rt_renderer_destroy(renderer);
     for (size_t i = 0; i < sizeof devices / sizeof *devices; i++) {
         rt_device *device = test_device_open(devices[i][0], devices[i][1]);
-        renderer = make_room_on(device, kd, CEILING_MIRROR, LAMP_IN_GLASS);
+        renderer = make_room_on(device, kd, CEILING_MIRROR, LIGHT_IN_GLASS);
         rt_photon_list map = emit(renderer, 16, RT_DIRECT_NEE, 10000);
         assert_int_equal(map.count, expected.count);
         assert_memory_equal(map.photons, expected.photons, map.count * sizeof *map.photons);
@@ -325,7 +325,7 @@ static void emission_stops_when_photons_will_not_fit(void **state)
     const float kd[3] = {0.5f, 0.5f, 0.5f};
     enum { many = 200000, photon_bytes = sizeof(rt_photon) };
     (void)state;
-    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LAMP_BARE);
+    rt_renderer *renderer = make_room(kd, CEILING_LIKE_WALLS, LIGHT_BARE);
     for (int fits = 0; fits < 2; fits++) {
         /* Two photons a path but for roulette: 0.4 M photons in all. */
         rt_photon_map map = {.settings = {.max_depth = 8, .direct = RT_DIRECT_PHOTONS}};

@@ -124,7 +124,7 @@ static void what_a_solid_absorbs_is_booked(void **state)
 
 /*
  * Fails unless all paths are booked and each took the light's power over its share: true of lights
- * that shine evenly, whose paths are all alike.
+ * that emit evenly, whose paths are all alike.
  */
 static void expect_all_booked(const rt_light_ledger *rows, size_t lights, uint64_t photons,
                               const char *what)
@@ -222,7 +222,7 @@ static void lights_are_counted_apart(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* Whatever shines beside a light, its books are kept to 1e-5 of what it emits. */
+/* Whatever else emits, the flux of a light is accounted for to 1e-5 of what it emits. */
 static void weak_lights_beside_strong_ones_are_booked(void **state)
 {
     static const double powers[] = {1e-20, 1e-9, 1e-6, 1, 1e6};

@@ -3,7 +3,7 @@
  *
  * From a camera that sees all of a diffuse wall and nothing else, the flux is pi / kd times the
  * mean radiance times the area. The two share geometry and materials, but neither emission nor the
- * way in which light is followed.
+ * technique that follows light.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -14,7 +14,7 @@ static const double pi = 3.14159265358979323846, kd[3] = {0.3, 0.5, 0.7};
 
 enum { side = 24, walls = 6 };
 
-/* A room of 2 m with its walls 0 to 4, an opening or a lamp above, and bodies in it. */
+/* A room of 2 m with its walls 0 to 4, an opening or a light above, and bodies in it. */
 #define ROOM                                                                                       \
     "material wall { kd 0.3 0.5 0.7 }\n"                                                           \
     "material mirror { ks 0.9 }\n"                                                                 \
@@ -29,9 +29,9 @@ enum { side = 24, walls = 6 };
     "sphere { centre -0.4 -0.4 -0.3  radius 0.3  material glass }\n"                               \
     "sphere { centre -0.4 0.4 0.4  radius 0.25  material ball }\n"
 
-static const char lamp_room[] =
-    ROOM "material lamp { kd 0.3 0.5 0.7  emission 2 }\n"
-         "quad { corner -1 1 -1  edge1 2 0 0  edge2 0 0 2  material lamp }\n";
+static const char lit_room[] =
+    ROOM "material emitter { kd 0.3 0.5 0.7  emission 2 }\n"
+         "quad { corner -1 1 -1  edge1 2 0 0  edge2 0 0 2  material emitter }\n";
 static const char open_room[] = ROOM "light environment { radiance 2 }\n";
 
 /* The way out through wall i; the last is the ceiling. */
@@ -102,7 +102,7 @@ static void flux_by_photons(double flux[walls][3], const char *text, uint32_t se
 
 /*
  * Held to five standard deviations, measured over 20 seeds: 0.34 % of a wall and channel and 0.12 %
- * of all under the lamp, 1.1 % and 0.6 % under the sky, most of whose photons miss the opening.
+ * of all under the light, 1.1 % and 0.6 % under the sky, most of whose photons miss the opening.
  */
 static void expect_same_flux(const char *text, const char *name, double close_each,
                              double close_all)
@@ -121,10 +121,10 @@ static void expect_same_flux(const char *text, const char *name, double close_ea
     expect_close(sums[0] / sums[1], 1, close_all, "flux of all walls");
 }
 
-static void in_a_closed_room_under_a_lamp(void **state)
+static void in_a_closed_room_under_an_area_light(void **state)
 {
     (void)state;
-    expect_same_flux(lamp_room, "lamp", 0.017, 0.006);
+    expect_same_flux(lit_room, "area light", 0.017, 0.006);
 }
 
 static void in_a_room_open_to_the_sky(void **state)
@@ -136,7 +136,7 @@ static void in_a_room_open_to_the_sky(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        statistical_test(in_a_closed_room_under_a_lamp),
+        statistical_test(in_a_closed_room_under_an_area_light),
         statistical_test(in_a_room_open_to_the_sky),
     };
     return cmocka_run_group_tests_name("lib/photon/stored_flux", tests, NULL, NULL);

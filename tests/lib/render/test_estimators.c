@@ -1,6 +1,6 @@
 /*
  * test_estimators.c - light sampling, material sampling and their combination bring the same mean
- * for every kind of lamp, and the combination less noise.
+ * for every kind of light, and the combination less noise.
  */
 #include "support.h"
 
@@ -46,7 +46,7 @@ static void begin(float roughness)
     expect_ok(rt_scene_add_quad(scene, NULL, wall, x, up, &surface, &error), &error);
 }
 
-static rt_surface lamp(void)
+static rt_surface emissive(void)
 {
     static const rt_material black;
     rt_surface surface;
@@ -139,7 +139,7 @@ static void expect_same_mean(const char *what)
     expect_same_mean_and_less_noise(what, 1.3);
 }
 
-static void lamps_of_every_shape(void **state)
+static void area_lights_of_every_shape(void **state)
 {
     static const float at[3] = {0.5f, 1.5f, 0}, to[3] = {0.8f, 2.1f, -0.2f},
                        edge1[3] = {0, 0, 0.8f}, edge2[3] = {0.7f, -0.2f, 0},
@@ -149,7 +149,7 @@ static void lamps_of_every_shape(void **state)
     (void)state;
     for (int kind = 0; kind < 8; kind++) {
         begin(0);
-        rt_surface s = lamp();
+        rt_surface s = emissive();
         rt_status status =
             kind == 0   ? rt_scene_add_quad(scene, NULL, at, edge2, edge1, &s, &error)
             : kind == 1 ? rt_scene_add_sphere(scene, NULL, at, 0.4f,
@@ -170,7 +170,7 @@ static void lamps_of_every_shape(void **state)
  * A tent of two triangles, placed twice by transforms, one of them with a texture on its
  * coordinates.
  */
-static void lamps_of_meshes(void **state)
+static void area_lights_of_meshes(void **state)
 {
     static const float positions[] = {0, 0, 0, 1, 0, 0, 0, 0.3f, 1, 1, 0, 1},
                        uv[] = {0, 0, 1, 0, 0, 1, 1, 1};
@@ -185,7 +185,7 @@ static void lamps_of_meshes(void **state)
     uint32_t handle, texture;
     (void)state;
     begin(0);
-    rt_surface s = lamp();
+    rt_surface s = emissive();
     expect_ok(rt_scene_add_texture(scene, &texture, &checker, &error), &error);
     expect_ok(rt_scene_add_mesh(scene, &handle, &mesh, &error), &error);
     s.transform = (rt_transform){{{1, 0, 0, -1}, {0, 1, 0, 1.5f}, {0, 0, 1, 0}}};
@@ -197,20 +197,20 @@ static void lamps_of_meshes(void **state)
 }
 
 /*
- * Two walls that shine, right beside the floor: rays meet them as often as points of them are
+ * Two walls that emit, right beside the floor: rays meet them as often as points of them are
  * sampled.
  */
-static void large_lamps(void **state)
+static void large_area_lights(void **state)
 {
     static const float left[3] = {-2, 0, 2}, right[3] = {2, 0, -2}, up[3] = {0, 3, 0},
                        back[3] = {0, 0, -4}, front[3] = {0, 0, 4};
     (void)state;
     begin(0);
-    rt_surface s = lamp();
+    rt_surface s = emissive();
     s.transform = (rt_transform){{{0}}};
     expect_ok(rt_scene_add_quad(scene, NULL, left, back, up, &s, &error), &error);
     expect_ok(rt_scene_add_quad(scene, NULL, right, front, up, &s, &error), &error);
-    expect_same_mean("two large lamps");
+    expect_same_mean("two large area lights");
 }
 
 /* Dim, with a sun of one pixel. */
@@ -246,7 +246,7 @@ static void rough_floors(void **state)
     static const float at[3] = {0, 1.5f, -0.8f};
     (void)state;
     begin(0.15f);
-    rt_surface s = lamp();
+    rt_surface s = emissive();
     s.transform = (rt_transform){{{0}}};
     expect_ok(rt_scene_add_sphere(scene, NULL, at, 0.2f, &s, &error), &error);
     expect_same_mean("rough floor");
@@ -263,15 +263,18 @@ static void delta_lights_are_always_sampled(void **state)
     expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
     expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
     expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
-    expect_same_mean("lights without size");
+    expect_same_mean("delta lights");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        statistical_test(lamps_of_every_shape), statistical_test(lamps_of_meshes),
-        statistical_test(large_lamps),          statistical_test(environments),
-        statistical_test(rough_floors),         statistical_test(delta_lights_are_always_sampled),
+        statistical_test(area_lights_of_every_shape),
+        statistical_test(area_lights_of_meshes),
+        statistical_test(large_area_lights),
+        statistical_test(environments),
+        statistical_test(rough_floors),
+        statistical_test(delta_lights_are_always_sampled),
     };
     void *scratch = NULL;
     if (scratch_enter(&scratch) != 0)

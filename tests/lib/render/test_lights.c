@@ -177,7 +177,7 @@ static void distant_light_comes_through_clear_planes(void **state)
                  "irradiance");
 }
 
-/* A black disc over the middle of the floor, which shines down when it has radiance. */
+/* A black disc over the middle of the floor, which emits downwards when it has radiance. */
 static void add_disc(rt_scene *scene, float height, float radius, float radiance)
 {
     static const rt_material black;
@@ -204,7 +204,7 @@ static rt_scene *spot_of_floor(void)
 }
 
 /* On the axis of a disc, E = pi L r^2 / (r^2 + h^2). */
-static rt_scene *disc_lamp(void)
+static rt_scene *disc_light(void)
 {
     rt_scene *scene = spot_of_floor();
     add_disc(scene, 1, 0.5f, 4);
@@ -214,12 +214,12 @@ static rt_scene *disc_lamp(void)
 static void discs_by_their_form_factor(void **state)
 {
     (void)state;
-    expect_close(irradiance(disc_lamp(), RT_MODE_PATH), pi * 4 * 0.25 / 1.25, 3e-3 * pi * 0.8,
+    expect_close(irradiance(disc_light(), RT_MODE_PATH), pi * 4 * 0.25 / 1.25, 3e-3 * pi * 0.8,
                  "irradiance");
 }
 
 /*
- * The irradiance by a lamp of a metre's height and a disc that hides it, or does not, at another
+ * The irradiance by a light of a metre's height and a disc that hides it, or does not, at another
  * height.
  */
 static double past_disc(int is_point, float height)
@@ -234,7 +234,7 @@ static double past_disc(int is_point, float height)
     return irradiance(scene, RT_MODE_DIRECT);
 }
 
-static void shadows_are_cast_by_what_is_before_the_lamp(void **state)
+static void shadows_are_cast_by_what_is_before_the_light(void **state)
 {
     (void)state;
     for (int is_point = 0; is_point < 2; is_point++) {
@@ -302,7 +302,7 @@ int main(void)
         statistical_test(even_environments_by_pi),
         statistical_test(distant_light_comes_through_clear_planes),
         statistical_test(discs_by_their_form_factor),
-        statistical_test(shadows_are_cast_by_what_is_before_the_lamp),
+        statistical_test(shadows_are_cast_by_what_is_before_the_light),
         statistical_test(point_lights_add_up),
         cmocka_unit_test(environments_are_seen),
     };

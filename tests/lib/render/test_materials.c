@@ -153,10 +153,10 @@ static void photons_and_paths_agree_through_rough_glass(void **state)
 {
     static const char text[] =
         FLOOR "material frosted { kt 1  ior 1.5  fresnel dielectric  roughness 0.3 }\n"
-              "material lamp { emission 5 }\n"
+              "material emitter { emission 5 }\n"
               "quad { corner -9 1.5 -9  edge1 0 0 18  edge2 18 0 0  material frosted }\n"
               "quad { corner -9 1 -9  edge1 18 0 0  edge2 0 0 18  material frosted }\n"
-              "quad { corner -0.5 2 -0.5  edge1 1 0 0  edge2 0 0 1  material lamp }\n";
+              "quad { corner -0.5 2 -0.5  edge1 1 0 0  edge2 0 0 1  material emitter }\n";
     rt_render_options path = {.spp = 1024, .max_depth = 8}, map = photons;
     (void)state;
     render(text, path);
@@ -171,17 +171,17 @@ static void photons_and_paths_agree_through_rough_glass(void **state)
 /* ---- Rough boundaries ------------------------------------------------------------ */
 
 /*
- * A lamp in absorbing glass behind a rough boundary: sampling lamp and sampling boundary bring the
- * same light.
+ * An area light in absorbing glass behind a rough boundary: sampling the light and sampling the
+ * boundary bring the same light.
  */
 static void light_is_sampled_through_a_rough_boundary(void **state)
 {
     static const char text[] =
         "camera { eye 0 0 0  look_at 0.3 0 1  fov 60 }\n"
         "material frosted { kt 1  ior 1.5  fresnel dielectric  roughness 0.4  absorption 0.2 }\n"
-        "material lamp { emission 1 }\n"
+        "material emitter { emission 1 }\n"
         "quad { corner -50 -50 1  edge1 0 100 0  edge2 100 0 0  material frosted }\n"
-        "quad { corner -1 -1 3  edge1 0 2 0  edge2 2 0 0  material lamp }\n";
+        "quad { corner -1 -1 3  edge1 0 2 0  edge2 2 0 0  material emitter }\n";
     static double difference[pixels];
     rt_render_options options = {.spp = 64,
                                  .max_depth = 2,

@@ -13,8 +13,8 @@ static const double pi = 3.14159265358979323846;
 static const float origin[3], x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};
 
 /*
- * A quarter turn about z, then twice the size, then one metre along x; and a stretch, mirrored and
- * sheared.
+ * A quarter turn about z, then twice the size, then one metre along x; and an uneven scale,
+ * mirrored and sheared.
  */
 static const rt_transform similar = {{{0, -2, 0, 1}, {2, 0, 0, 0}, {0, 0, 2, 0}}};
 static const rt_transform skewed = {{{1.5f, 0.4f, 0, 1}, {0, -0.7f, 0.3f, 2}, {0.2f, 0, 0.9f, -3}}};
@@ -262,12 +262,12 @@ static void areas_of_plain_shapes_are_the_known_ones(void **state)
 static void power_becomes_the_radiance_that_emits_it(void **state)
 {
     rt_scene *scene = new_scene();
-    rt_surface lamp = placed(&skewed);
+    rt_surface emissive = placed(&skewed);
     rt_error error;
     float radiance[3];
     (void)state;
-    lamp.power[0] = lamp.power[1] = lamp.power[2] = 7;
-    expect_ok(rt_scene_add_torus(scene, NULL, origin, z_axis, 1, 0.3f, &lamp, &error), &error);
+    emissive.power[0] = emissive.power[1] = emissive.power[2] = 7;
+    expect_ok(rt_scene_add_torus(scene, NULL, origin, z_axis, 1, 0.3f, &emissive, &error), &error);
     rt_scene_shape_radiance(scene, scene->shapes, radiance);
     expect_area(radiance[1] * pi * brute_area(ring, 0.3, &scene->shapes[0].to_world, 1000), 7,
                 1e-5);
@@ -284,11 +284,12 @@ static void power_of_a_placed_mesh_is_spread_over_its_area(void **state)
     (void)state;
     for (int m = 0; m < 2; m++) {
         rt_scene *scene = new_scene();
-        rt_surface lamp = placed(maps[m]);
+        rt_surface emissive = placed(maps[m]);
         float radiance[3];
-        lamp.power[0] = lamp.power[1] = lamp.power[2] = 5;
-        expect_ok(rt_scene_add_triangles(scene, NULL, corners, 4, indices, 2, NULL, &lamp, &error),
-                  &error);
+        emissive.power[0] = emissive.power[1] = emissive.power[2] = 5;
+        expect_ok(
+            rt_scene_add_triangles(scene, NULL, corners, 4, indices, 2, NULL, &emissive, &error),
+            &error);
         rt_scene_shape_radiance(scene, scene->shapes, radiance);
         double area = rt_scene_primitive_area(scene, scene->shapes, 0) +
                       rt_scene_primitive_area(scene, scene->shapes, 1);
