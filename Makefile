@@ -73,9 +73,9 @@ LIB_SRC := \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/word.c \
 	lib/shape/area_scale.c lib/shape/ball.c lib/shape/box.c lib/shape/classes.c \
-	lib/shape/cone.c lib/shape/cylinder.c lib/shape/disc.c lib/shape/edges.c lib/shape/ellipsoid.c \
-	lib/shape/frustum.c lib/shape/placed.c lib/shape/plane.c lib/shape/quad.c lib/shape/sphere.c \
-	lib/shape/torus.c lib/shape/triangles.c \
+	lib/shape/cone.c lib/shape/cylinder.c lib/shape/disc.c lib/shape/edges.c \
+	lib/shape/ellipsoid.c lib/shape/frustum.c lib/shape/placed.c lib/shape/plane.c \
+	lib/shape/quad.c lib/shape/sphere.c lib/shape/torus.c lib/shape/triangles.c \
 	lib/texture/texture.c
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
@@ -114,8 +114,9 @@ TESTS_QUICK := \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
-	tests/kernels/test_batch.c tests/kernels/test_light.c tests/kernels/test_light_environment.c \
-	tests/kernels/test_light_shape.c tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
+	tests/kernels/test_batch.c tests/kernels/test_light.c \
+	tests/kernels/test_light_environment.c tests/kernels/test_light_shape.c \
+	tests/kernels/test_light_tree.c tests/kernels/test_lobes.c \
 	tests/kernels/test_medium.c tests/kernels/test_oren_nayar.c \
 	tests/kernels/test_path.c tests/kernels/test_rng.c tests/kernels/test_ggx.c \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
@@ -173,7 +174,7 @@ TESTS_SHELL := \
 	tests/kernels/test_width1.sh \
 	tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
-	tests/proof/test_page.sh tests/test_includes.sh \
+	tests/proof/test_page.sh tests/test_includes.sh tests/test_style.sh \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \

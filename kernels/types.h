@@ -248,7 +248,7 @@ typedef struct rt_light_node {
     float centre[3];
     float power;   /* of its lights, as a part of all */
     float falloff; /* factor of the squared distance: 1; 0 for lights from infinitely far */
-    float spread;  /* added to it for the extent of the bounds, m^2, above 0 */
+    float extent;  /* added to it for the extent of the bounds, m^2, above 0 */
     rt_u32 light;  /* of a leaf: index in lights */
     rt_u32 leaf;   /* of the light whose index is this node's: the node that is its leaf */
 } rt_light_node;

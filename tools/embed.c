@@ -4,9 +4,9 @@
  *     embed OUT.c SYMBOL [-I DIR]... KERNEL.cl...
  *
  * Each #include "name" is replaced by the file, looked up beside the including file and then in the
- * -I folders: a *.inc.h each time, any other (all have include guards) only the first time it is met
- * within one kernel. #line directives keep the driver's messages true to the files. Bytes rather than string literals,
- * because C99 promises only 4095 characters of those. OUT.c defines
+ * -I folders: a *.inc.h each time, any other (all have include guards) only the first time it is
+ * met within one kernel. #line directives keep the driver's messages true to the files. Bytes
+ * rather than string literals, because C99 promises only 4095 characters of those. OUT.c defines
  *
  *     const rt_kernel_source SYMBOL[];
  *

@@ -19,7 +19,7 @@
 static inline float node_distance(global const rt_light_node *node, float3 from)
 {
     const float3 towards = row3(node->centre) - from;
-    return node->falloff * dot(towards, towards) + node->spread;
+    return node->falloff * dot(towards, towards) + node->extent;
 }
 
 /*

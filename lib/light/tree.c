@@ -19,7 +19,7 @@
  * Their mean is farther than the middle, by 0.5 for a disc, but the nearest contribute most; 0.1 to
  * 0.3 made the least noise, 1 twice that.
  */
-static const double spread_of_ball = 0.3;
+static const double extent_of_ball = 0.3;
 
 /* A light and the middle of its bounds. */
 typedef struct spot {
@@ -214,10 +214,10 @@ static void fill_node(const planting *p, rt_light_node *node, const cluster *c)
     }
     radius = fmax(radius, p->least_radius);
     node->falloff = c->is_distant ? 0 : 1;
-    node->spread = (float)fmax(spread_of_ball * radius * radius, FLT_MIN);
+    node->extent = (float)fmax(extent_of_ball * radius * radius, FLT_MIN);
     /* The power of what comes from there was counted through a disc of the scene's radius. */
     if (c->is_distant)
-        node->spread = p->header->radius > 0 ? p->header->radius * p->header->radius : 1;
+        node->extent = p->header->radius > 0 ? p->header->radius * p->header->radius : 1;
     node->power = (float)c->power;
 }
 
@@ -256,7 +256,7 @@ static size_t list_spots(planting *p, spot *spots, size_t count)
         if (!c.is_distant)
             join(&all, &c);
     }
-    /* A light without size must not draw all choices to itself from where it is. */
+    /* A point light must not draw all choices to itself from where it is. */
     for (int k = 0; k < 3 && nearby > 0; k++)
         p->least_radius = fmax(p->least_radius, 0x1p-20 * (all.hi[k] - all.lo[k]));
     return nearby;

@@ -405,8 +405,8 @@ typedef struct rt_finding {
  * empty, and of glass without an inside; returns how many warnings there were. There are no false
  * alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed
  * meshes; what is inside of them is decided in double precision, and a light only counts as shut in
- * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights the
- * first 256 are looked at.
+ * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights
+ * the first 256 are looked at.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,
                              void (*found)(void *user, const rt_finding *finding), void *user);

@@ -87,7 +87,9 @@ static void weights_have_the_sign_of_the_filter(void **state)
     }
 }
 
-/* A radius stretches the filter about the centre of the pixel, and 0 stands for the filter's own. */
+/*
+ * A radius stretches the filter about the centre of the pixel, and 0 stands for the filter's own.
+ */
 static void a_radius_stretches_the_filter(void **state)
 {
     static const float own[] = {0, 1, 1.5f, 2};
