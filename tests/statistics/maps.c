@@ -212,10 +212,11 @@ static double mitchell(double x)
 static void draw_filter(const void *setup, uint32_t seed, uint32_t count)
 {
     const uint32_t filter = *(const uint32_t *)setup;
+    const float own_radius = 0;
     cl_kernel kernel = test_kernel("filter", "sample");
     cl_mem made = test_buffer(count * sizeof *rows, NULL);
-    rt_arg args[] = {RT_ARG(filter), RT_ARG(seed), RT_ARG(count), RT_ARG(made)};
-    test_run(kernel, args, 4, count);
+    rt_arg args[] = {RT_ARG(filter), RT_ARG(own_radius), RT_ARG(seed), RT_ARG(count), RT_ARG(made)};
+    test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *rows, rows);
     rt_buffer_release(made);
     rt_kernel_release(kernel);
