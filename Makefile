@@ -97,7 +97,7 @@ TOOL_SRC := \
 	tools/stats.c
 
 KERNEL_SRC := \
-	kernels/aov.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl \
+	kernels/first_hit.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl \
 	kernels/photon_camera.cl \
 	kernels/photon_emit.cl kernels/photon_film.cl kernels/gather_neighbours.cl \
 	kernels/gather_tree.cl \

@@ -1,4 +1,4 @@
-/* layers.c - the kernel aov launched beside a mode, and layers made from its sums. */
+/* layers.c - the kernel first_hit launched beside a mode, and layers made from its sums. */
 #include "mode/first_hit/layers.h"
 
 #include <stdlib.h>
@@ -28,8 +28,8 @@ rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *ren
                                   "the layers of the film", error);
     rt_arg args[] = {RT_ARG(none), RT_ARG(renderer->scene), RT_ARG(out->sums)};
     if (status == RT_OK)
-        status = rt_kernel_prepare(renderer->device, &out->kernel, "aov", "aov", args, 3, progress,
-                                   error);
+        status = rt_kernel_prepare(renderer->device, &out->kernel, "first_hit", "first_hit", args,
+                                   3, progress, error);
     return status;
 }
 

@@ -1,5 +1,5 @@
 /*
- * aov.cl - layers of the film that say what the first surface is like: one line for each in
+ * first_hit.cl - layers of the film that say what the first surface is like: one line for each in
  * layers_of. Each work-item takes the samples of one pixel, the same that the other modes take.
  */
 #include "bsdf/bsdf.h"
@@ -41,8 +41,8 @@ static void layers_of(float3 *value, const struct scene *scene, const struct ray
 }
 
 /* layers: RT_LAYER_COUNT films one after the other; see RT_LAYER_ALBEDO for what they sum. */
-KERNEL aov(const rt_params params, global const rt_scene_header *header,
-           global rt_film_pixel *layers)
+KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
+                 global rt_film_pixel *layers)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
