@@ -22,25 +22,6 @@
 #include "integrate/path_state.h"
 #include "sample/roulette.h"
 
-/* Goes on from a surface by the chosen lobe, by u in [0,1)^3. */
-static inline void path_scatter(struct path *path, const struct surface *surface,
-                                const struct bsdf *bsdf, uint lobe, float3 u, uint4 beyond)
-{
-    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, CARRY_RADIANCE);
-    path->beta *= scatter.weight;
-    path->eta_scale *= scatter.eta_scale;
-    path->pdf_w = scatter.pdf_w;
-    path->alive = largest3(path->beta) > 0.0f;
-    path->depth++;
-    path->scattered |= path->pdf_w > 0.0f;
-    path->rough = !lobe_is_gathered(lobe) && (path->rough || !lobe_is_delta(lobe));
-    path->from = surface->position;
-    if (scatter.through)
-        path->media = beyond;
-    const float lift = scatter.through ? -surface->error : surface->error;
-    path->ray = make_ray(surface->position + lift * bsdf->normal, scatter.wi, 0.0f, INFINITY);
-}
-
 /*
  * Takes a path through the vertex that its ray hits, with the vertex's numbers u. `purpose` is a
  * constant at each call; *gather serves FOLLOW_TO_GATHER alone.

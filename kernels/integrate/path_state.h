@@ -3,6 +3,7 @@
 #define RT_KERNELS_INTEGRATE_PATH_STATE_H
 
 #include "accel/boxes.h"
+#include "bsdf/bsdf.h"
 #include "math/ray.h"
 #include "sample/rng.h"
 #include "scene.h"
@@ -63,6 +64,25 @@ static inline void path_begin(struct path *path, const struct scene *scene,
 static inline float8 path_numbers(const struct path *path)
 {
     return sampler_pair(&path->sampler, set_light(path->depth - 1u));
+}
+
+/* Goes on from a surface by the chosen lobe, by u in [0,1)^3. */
+static inline void path_scatter(struct path *path, const struct surface *surface,
+                                const struct bsdf *bsdf, uint lobe, float3 u, uint4 beyond)
+{
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, CARRY_RADIANCE);
+    path->beta *= scatter.weight;
+    path->eta_scale *= scatter.eta_scale;
+    path->pdf_w = scatter.pdf_w;
+    path->alive = largest3(path->beta) > 0.0f;
+    path->depth++;
+    path->scattered |= path->pdf_w > 0.0f;
+    path->rough = !lobe_is_gathered(lobe) && (path->rough || !lobe_is_delta(lobe));
+    path->from = surface->position;
+    if (scatter.through)
+        path->media = beyond;
+    const float lift = scatter.through ? -surface->error : surface->error;
+    path->ray = make_ray(surface->position + lift * bsdf->normal, scatter.wi, 0.0f, INFINITY);
 }
 
 #endif
