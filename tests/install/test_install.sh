@@ -41,12 +41,14 @@ cat >"$work/expected" <<'END'
 ./usr/local/include/rt/base.h
 ./usr/local/include/rt/common.h
 ./usr/local/include/rt/device.h
+./usr/local/include/rt/field.h
 ./usr/local/include/rt/film.h
 ./usr/local/include/rt/image.h
 ./usr/local/include/rt/photon.h
 ./usr/local/include/rt/render.h
 ./usr/local/include/rt/rt.h
 ./usr/local/include/rt/scene.h
+./usr/local/include/rt/setting.h
 ./usr/local/lib/librt-render.a
 ./usr/local/lib/librt-render.so
 ./usr/local/lib/librt-render.so.0
