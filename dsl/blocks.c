@@ -45,7 +45,8 @@ static const rt_field texture_fields[] = {
     {"wrap", CHOICE, OPTIONAL, ANY, "", "repeat", wraps, AT(rt_texture, wrap),
      "how an image or gradient continues beyond 0 to 1"},
     {"scale", PAIR, OPTIONAL, NOT_ZERO, "", "1 1", NULL, AT(rt_texture, scale),
-     "u and v are multiplied by this: 4 4 shows the texture four times each way"},
+     "u and v are multiplied by this: 4 4 repeats the texture four times along u and along "
+     "v"},
     {"offset", PAIR, OPTIONAL, ANY, "", "0 0", NULL, AT(rt_texture, offset),
      "and then moved by this"},
 };

@@ -58,7 +58,7 @@ static void report(void *user, const rt_finding *finding)
 {
     reporting *r = user;
     rt_place place = place_of(r->origins, finding);
-    /* The turns of a repeat are at one place: say once what is wrong there. */
+    /* The iterations of a repeat are at one place: say once what is wrong there. */
     if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || finding->kind == RT_FINDING_OPEN_GLASS) {
         if (place.source == r->last.source && place.offset == r->last.offset)
             return;
@@ -66,9 +66,8 @@ static void report(void *user, const rt_finding *finding)
     }
     rt_report_finding(r->reports, place, finding);
     if (finding->kind == RT_FINDING_OPEN_GLASS) {
-        rt_report_hint(
-            r->reports,
-            "glass is a closed shape, such as a sphere; ior 1 makes a sheet that bends nothing");
+        rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
+                                   "sheet without refraction");
     } else if (finding->shape != RT_NONE) {
         const rt_place *solid = &r->origins->shapes.items[finding->shape];
         rt_text word = rt_place_text(solid);

@@ -36,8 +36,8 @@ static int must_stop(const rt_reader *reader)
     return rt_reports_full(&reader->reports) || reader->fatal.status != RT_OK;
 }
 
-#define REPEATS_MAX 32       /* repeats inside each other */
-#define TURNS_MAX 10000000.0 /* of all repeats of a scene */
+#define REPEATS_MAX 32            /* repeats inside each other */
+#define ITERATIONS_MAX 10000000.0 /* of all repeats of a scene */
 
 /* ---- Names --------------------------------------------------------------- */
 
@@ -200,7 +200,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
         rt_reader_tell_file(reader, path);
     if (is_good)
         is_good = build(reader, statement, &fields, &as);
-    if (is_good && !reader->is_further_turn)
+    if (is_good && !reader->is_further_iteration)
         rt_no_effect_warn(statement, &fields, &reader->reports);
     if (is_good && reader->options->check &&
         !rt_origins_add(&reader->origins, block, statement->place))
@@ -280,9 +280,9 @@ static int evaluate_range(rt_reader *reader, const rt_statement *statement,
                             "expected a number, found a vector");
             return 0;
         }
-    if (to.v[0] - from.v[0] >= TURNS_MAX) {
+    if (to.v[0] - from.v[0] >= ITERATIONS_MAX) {
         rt_report_error(&reader->reports, statement->place,
-                        "the repeats of a scene have more than %.0f turns", TURNS_MAX);
+                        "the repeats of a scene have more than %.0f iterations", ITERATIONS_MAX);
         return 0;
     }
     *first = from.v[0];
@@ -290,10 +290,10 @@ static int evaluate_range(rt_reader *reader, const rt_statement *statement,
     return 1;
 }
 
-/* Reads the body once; returns whether there may be another turn. */
-static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *statement,
-                     rt_operations *operations, rt_place variable, double number, int is_good,
-                     int is_first)
+/* Reads the body once; returns whether there may be another iteration. */
+static int read_iteration(rt_reader *reader, rt_parser *parser, rt_statement *statement,
+                          rt_operations *operations, rt_place variable, double number, int is_good,
+                          int is_first)
 {
     size_t errors = reader->reports.errors;
     rt_scope_counts before = rt_scope_count(&reader->scope);
@@ -304,10 +304,10 @@ static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *stateme
         name->is_used = 1;
         name->is_broken = !is_good;
     }
-    int was_further = reader->is_further_turn;
-    reader->is_further_turn |= !is_first;
+    int was_further = reader->is_further_iteration;
+    reader->is_further_iteration |= !is_first;
     read_statements(reader, parser, statement, operations, &is_closed);
-    reader->is_further_turn = was_further;
+    reader->is_further_iteration = was_further;
     if (!is_closed && !must_stop(reader))
         rt_report_error(&reader->reports, variable,
                         "this repeat is not closed: expected '}' before the end of the file");
@@ -317,14 +317,16 @@ static int read_turn(rt_reader *reader, rt_parser *parser, rt_statement *stateme
     return is_closed && reader->reports.errors == errors;
 }
 
-/* A repeat without turns; one inside another may be meant to have none in some of the other's. */
+/*
+ * A repeat without iterations; one inside another may be meant to have none in some of the other's.
+ */
 static void skip_empty(rt_reader *reader, rt_parser *parser, rt_place place, double first,
                        double last)
 {
     if (reader->repeats == 0) {
         rt_report_warning(&reader->reports, place,
-                          "this repeat makes no turns: it counts up from %.10g to %.10g", first,
-                          last);
+                          "this repeat makes no iterations: it counts up from %.10g to %.10g",
+                          first, last);
         rt_report_hint(&reader->reports, "what its braces hold is not read");
     }
     rt_parser_skip_repeat(parser);
@@ -345,18 +347,19 @@ static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *stat
     if (first > last)
         skip_empty(reader, parser, place, first, last);
     reader->repeats++;
-    for (size_t turn = 0; first + (double)turn <= last; turn++) {
-        if (turn > 0)
+    for (size_t iteration = 0; first + (double)iteration <= last; iteration++) {
+        if (iteration > 0)
             rt_parser_return(parser, &body);
-        if ((double)++reader->turns > TURNS_MAX) {
+        if ((double)++reader->iterations > ITERATIONS_MAX) {
             rt_report_error(&reader->reports, place,
-                            "the repeats of a scene have more than %.0f turns", TURNS_MAX);
+                            "the repeats of a scene have more than %.0f iterations",
+                            ITERATIONS_MAX);
             rt_parser_skip_repeat(parser);
             break;
         }
-        /* An error would be the same at every turn: report it once. */
-        if (!read_turn(reader, parser, statement, operations, variable, first + (double)turn,
-                       is_good, turn == 0))
+        /* An error would be the same at every iteration: report it once. */
+        if (!read_iteration(reader, parser, statement, operations, variable,
+                            first + (double)iteration, is_good, iteration == 0))
             break;
     }
     reader->repeats--;

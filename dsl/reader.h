@@ -22,10 +22,10 @@ typedef struct rt_reader {
     const rt_load_options *options; /* never NULL */
     uint64_t order;                 /* tokens so far */
     size_t blocks;                  /* blocks so far */
-    size_t turns;                   /* of all repeats so far */
+    size_t iterations;              /* of all repeats so far */
     int repeats;                    /* inside each other */
-    /* the text was read before, in an earlier turn of a repeat around it */
-    int is_further_turn;
+    /* the text was read before, in an earlier iteration of a repeat around it */
+    int is_further_iteration;
     /* a failure that is no fault of the text; status RT_OK while there is none */
     rt_error fatal;
 } rt_reader;

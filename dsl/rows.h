@@ -68,9 +68,9 @@
 /* Fields of all shapes, and of those that can emit. */
 #define SURFACE_BUT_TEXTURE(type)                                                                  \
     ROW("material", RT_FIELD_MATERIAL, REQUIRED, ANY, "", "", NULL, AT(type, surface.material),    \
-        "what it is made of"),                                                                     \
+        "surface material"),                                                                       \
         ROW("translate", RT_FIELD_TRANSLATE, OPTIONAL, ANY, "m", "none", NULL,                     \
-            AT(type, surface.transform), "moves it; see [Transforms](#transforms)"),               \
+            AT(type, surface.transform), "translation; see [Transforms](#transforms)"),            \
         ROW("rotate", RT_FIELD_ROTATE, OPTIONAL, DIRECTION, "degrees", "none", NULL,               \
             AT(type, surface.transform),                                                           \
             "turns it about an axis through the origin (three numbers) by an angle, "              \

@@ -35,8 +35,8 @@ typedef struct sphere {
 } sphere;
 
 static const rt_field sphere_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(sphere, centre), "the middle"},
-    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(sphere, radius), "of the sphere"},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(sphere, centre), "centre of the sphere"},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(sphere, radius), "radius of the sphere"},
     SURFACE(sphere),
     EMISSION(sphere),
 };
@@ -134,12 +134,13 @@ typedef struct disc {
 } disc;
 
 static const rt_field disc_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(disc, centre), "the middle"},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(disc, centre), "centre of the disc"},
     {"normal", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(disc, normal),
      "perpendicular to the disc, on the side that emits; of any length"},
-    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(disc, radius), "of the outer rim"},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(disc, radius),
+     "radius of the outer rim"},
     {"inner_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(disc, inner_radius),
-     "of the hole; less than radius"},
+     "radius of the hole; less than radius"},
     SURFACE(disc),
     EMISSION(disc),
 };
@@ -162,9 +163,10 @@ typedef struct cylinder {
 } cylinder;
 
 static const rt_field cylinder_fields[] = {
-    {"a", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(cylinder, a), "middle of one end"},
-    {"b", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(cylinder, b), "middle of the other end"},
-    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(cylinder, radius), "of the cylinder"},
+    {"a", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(cylinder, a), "centre of one end"},
+    {"b", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(cylinder, b), "centre of the other end"},
+    {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(cylinder, radius),
+     "radius of the cylinder"},
     {"caps", BOOLEAN, OPTIONAL, ANY, "", "true", NULL, AT(cylinder, caps),
      "true: closed by discs at both ends; false: an open tube"},
     SURFACE(cylinder),
@@ -188,9 +190,9 @@ typedef struct cone {
 } cone;
 
 static const rt_field cone_fields[] = {
-    {"base", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(cone, base), "middle of the wide end"},
+    {"base", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(cone, base), "centre of the wide end"},
     {"apex", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(cone, apex),
-     "the tip, or middle of the narrow end"},
+     "the tip, or centre of the narrow end"},
     {"radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(cone, radius), "at the base"},
     {"apex_radius", NUMBER, OPTIONAL, LENGTH_OR_ZERO, "m", "0", NULL, AT(cone, apex_radius),
      "at the apex: more than 0 makes a frustum; at most radius"},
@@ -217,7 +219,8 @@ typedef struct ellipsoid {
 } ellipsoid;
 
 static const rt_field ellipsoid_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(ellipsoid, centre), "the middle"},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(ellipsoid, centre),
+     "centre of the ellipsoid"},
     {"radii", VECTOR, REQUIRED, LENGTH, "m", "", NULL, AT(ellipsoid, radii),
      "half-axes along x, y and z; rotate turns them"},
     SURFACE(ellipsoid),
@@ -240,13 +243,13 @@ typedef struct torus {
 } torus;
 
 static const rt_field torus_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(torus, centre), "the middle of the hole"},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(torus, centre), "centre of the hole"},
     {"axis", VECTOR, REQUIRED, DIRECTION, "", "", NULL, AT(torus, axis),
      "perpendicular to the ring; of any length"},
     {"major_radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(torus, major_radius),
-     "from the centre to the middle of the tube"},
+     "from the centre of the hole to the centre of the tube"},
     {"minor_radius", NUMBER, REQUIRED, LENGTH, "m", "", NULL, AT(torus, minor_radius),
-     "of the tube; less than major_radius"},
+     "radius of the tube; less than major_radius"},
     SURFACE(torus),
     EMISSION(torus),
 };
@@ -268,7 +271,7 @@ typedef struct box {
 } box;
 
 static const rt_field box_fields[] = {
-    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(box, centre), "the middle"},
+    {"centre", VECTOR, REQUIRED, ANY, "m", "", NULL, AT(box, centre), "centre of the box"},
     {"size", VECTOR, REQUIRED, LENGTH, "m", "", NULL, AT(box, size),
      "full lengths of the edges along x, y and z; rotate turns them"},
     SURFACE(box),
@@ -296,7 +299,7 @@ static const rt_word shadings[] = {RT_SHADINGS(RT_WORD) RT_WORD_END};
 
 #define MESH_FILE(type)                                                                            \
     ROW("file", FILE_NAME, REQUIRED, ANY, "", "", NULL, AT(type, path),                            \
-        "a .ply, .obj, .off or .stl; told apart by content"),                                      \
+        "a .ply, .obj, .off or .stl; format detected from content"),                               \
         ROW("shading", CHOICE, OPTIONAL, ANY, "", "file", shadings, AT(type, shading),             \
             "where shading normals come from")
 #define MESH_SURFACE(type)                                                                         \

@@ -1,4 +1,4 @@
-/* check.c - `rtc check`: says all that is wrong with scenes without rendering them. */
+/* check.c - `rtc check`: reports all errors in scenes without rendering them. */
 #include <stdio.h>
 
 #include "commands.h"

@@ -259,7 +259,7 @@ int arguments_parse(command_line *out, int argc, char **argv)
     }
     if (out->command != COMMAND_RENDER)
         at++;
-    /* Say all that is wrong, not only the first. */
+    /* Report all errors, not only the first. */
     for (; at < argc; at++) {
         int now = read_argument(out, argc, argv, &at, &options_end);
         status = status == STATUS_DONE ? now : status;

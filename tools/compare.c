@@ -230,7 +230,7 @@ int command_compare(const command_line *arguments)
     rt_comparison *comparison = NULL;
     output_list outputs = {0};
     if (arguments->operand_count < 2) {
-        message_error("which images? usage: rtc compare A B [OPTION]...");
+        message_error("which images? usage: rtc compare A... B [OPTION]...");
         return STATUS_USAGE;
     }
     int status = outputs_plan(&outputs, arguments, NULL);

@@ -10,7 +10,7 @@
 #include "rt.h"
 #include "status.h"
 
-/* An area light over a white sphere on a floor; the camera's middle pixel sees the sphere. */
+/* A point light over a white sphere on a floor; the camera's middle pixel sees the sphere. */
 static const char scene_text[] = "camera { eye 0 1 -4  look_at 0 1 0  fov 40 }\n"
                                  "film { width 16  height 16 }\n"
                                  "material white { kd 0.7 }\n"
@@ -107,7 +107,7 @@ static rt_status check_trace(doctor_visit *visit, char *said, rt_error *error)
     if (hit.shape == 1 && fabsf(hit.t - 3.0f) < 1e-4f)
         return RT_OK;
     return fail(error, RT_ERROR_DEVICE,
-                "a ray goes wrong on this device: it should hit the sphere at 3 m");
+                "wrong intersection on this device: the ray should hit the sphere at 3 m");
 }
 
 /* Renders in one mode; every pixel of the lower half sees the lit sphere or floor. */
@@ -211,7 +211,7 @@ int command_doctor(const command_line *arguments)
         status = message_status(error.status);
     }
     if (status == STATUS_DONE)
-        printf("all is well\n");
+        printf("all checks passed\n");
     rt_film_destroy(visit.film);
     rt_renderer_destroy(visit.renderer);
     rt_device_close(visit.device);

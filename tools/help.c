@@ -11,23 +11,22 @@ enum { LEFT = 26, WIDTH = 80 };
 static const char *const usages[COMMAND_COUNT] = {
     [COMMAND_RENDER] =
         "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
-        "       rtc check SCENE.rts...      say all that is wrong with scenes\n"
+        "       rtc check SCENE.rts...      report all errors in scenes\n"
         "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
         "       rtc devices                 list the OpenCL devices\n"
         "       rtc doctor [OPTION]...      check that everything works here\n"
-        "       rtc photons ...             make, join, look at and export photon maps\n"
-        "       rtc compare A B [OPTION]... measure how an image differs from another\n"
+        "       rtc photons ...             emit, merge, inspect and export photon maps\n"
+        "       rtc compare A... B [OPTION]... measure how images differ from a reference\n"
         "       rtc help COMMAND            the options of one command\n"
         "       rtc --version               the version\n"
         "\n"
         "Renders a scene of the .rts language by path tracing or photon mapping. The\n"
         "name - stands for stdin, whose images are stdin.png and stdin.exr. An option is\n"
-        "written --name value or --name=value; of one given twice the last counts.\n",
-    [COMMAND_CHECK] =
-        "usage: rtc check SCENE.rts...\n"
-        "\n"
-        "Reads scenes without rendering them and says all that is wrong, each with its\n"
-        "place. SCENE - reads from stdin.\n",
+        "written --name value or --name=value; the last one of several wins.\n",
+    [COMMAND_CHECK] = "usage: rtc check SCENE.rts...\n"
+                      "\n"
+                      "Reads scenes without rendering them and reports all errors, each with its\n"
+                      "place. SCENE - reads from stdin.\n",
     [COMMAND_MESH] = "usage: rtc mesh KIND [OPTION]...\n"
                      "\n"
                      "Writes a mesh made from a formula, with normals and texture coordinates.\n"
@@ -44,8 +43,8 @@ static const char *const usages[COMMAND_COUNT] = {
     [COMMAND_DOCTOR] =
         "usage: rtc doctor [OPTION]...\n"
         "\n"
-        "Checks step by step that OpenCL, the kernels, both render modes and the image\n"
-        "writers work on this machine, and says what to do about what does not.\n",
+        "Checks step by step that OpenCL, the kernels, the modes path and photon and the\n"
+        "image writers work on this machine, and says what to do about what does not.\n",
     [COMMAND_PHOTONS] =
         "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
         "       rtc photons info MAP...                          what maps hold\n"

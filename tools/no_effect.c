@@ -12,9 +12,9 @@ static int is_given(const command_line *arguments, option_id id)
     return arguments->options[id].given;
 }
 
-static int is_asked(const command_line *arguments, const char *setting)
+static int is_requested(const command_line *arguments, const char *setting)
 {
-    return settings_is_asked(arguments, rt_setting_find(setting));
+    return settings_is_requested(arguments, rt_setting_find(setting));
 }
 
 /* ---- Settings ----------------------------------------------------------------- */
@@ -27,7 +27,7 @@ static void warn_settings(const command_line *arguments, const rt_render_options
     for (size_t i = 0; i < count; i++) {
         char name[SETTING_NAME_SIZE], text[128];
         const rt_setting_need *need = rt_setting_missing(&settings[i], options);
-        if (!need || !settings_is_asked(arguments, &settings[i]))
+        if (!need || !settings_is_requested(arguments, &settings[i]))
             continue;
         message_warning("--%s has no effect %s", settings_name(name, &settings[i]),
                         rt_setting_text(text, sizeof text, need->otherwise, RT_NAME_OPTION));
@@ -55,7 +55,7 @@ static void warn_emission(const command_line *arguments, const rt_render_options
     const int is_photon = options->mode == RT_MODE_PHOTON;
     for (size_t i = 0; i < 2 && options->photon_map && is_photon; i++) {
         char name[SETTING_NAME_SIZE];
-        if (is_asked(arguments, emissions[i]))
+        if (is_requested(arguments, emissions[i]))
             message_warning("--%s has no effect with --photon-map",
                             settings_name(name, rt_setting_find(emissions[i])));
     }
@@ -66,7 +66,7 @@ static void warn_emission(const command_line *arguments, const rt_render_options
         message_warning("--photon-map has no effect without --mode photon");
 }
 
-/* What is asked for but has no place in the files. */
+/* Warns of options that no output file can store. */
 static void warn_outputs(const command_line *arguments, const rt_render_options *options,
                          const output_list *outputs)
 {
@@ -76,11 +76,11 @@ static void warn_outputs(const command_line *arguments, const rt_render_options 
             "--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
     if (outputs_have_layers(outputs))
         return;
-    if (is_asked(arguments, "aov"))
+    if (is_requested(arguments, "aov"))
         message_warning("--aov has no effect without an .exr, which alone holds layers");
-    if (is_asked(arguments, "photon_layers") && options->mode == RT_MODE_PHOTON)
+    if (is_requested(arguments, "photon_layers") && options->mode == RT_MODE_PHOTON)
         message_warning("--photon-layers has no effect without an .exr, which alone holds layers");
-    if (is_asked(arguments, "variance"))
+    if (is_requested(arguments, "variance"))
         message_warning("--variance adds no layer without an .exr, which alone holds layers; the "
                         "error is told all the same");
 }

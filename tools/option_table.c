@@ -29,7 +29,7 @@ const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_COMPARE] = "The comparison",
     [GROUP_LIMIT] = "Limits (the exit status is 1 when one is not kept)",
     [GROUP_DEVICE] = "Device",
-    [GROUP_TALK] = "What it says",
+    [GROUP_TALK] = "Messages",
 };
 
 const option option_table[OPTION_COUNT] = {
@@ -43,8 +43,8 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_LIGHT_SHARES] =
         {"light-shares", "A,B,...", KIND_TEXT, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, NULL, 1,
          "in proportion to power",
-         "what part of the photon paths each light gets, in proportion, in the order of the ledger "
-         "that --stats prints"},
+         "relative shares of the photon paths, one per light, in the order of the ledger that "
+         "--stats prints"},
 
     [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS | COMPARE, 0, 0, NULL,
                     0, "NAME.png and NAME.exr in the current directory for NAME.rts",
@@ -108,17 +108,16 @@ const option option_table[OPTION_COUNT] = {
                         "host threads, and compute units used of a CPU device"},
     [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR,
                            1, UINT32_MAX, NULL, 0, "chosen for the device",
-                           "work-items a work-group"},
+                           "work-items per work-group"},
 
     [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS, 0, 0,
                          progress_styles, 0, "auto",
                          "progress on stderr; auto is one redrawn line on a terminal and plain "
-                         "lines elsewhere; with "
-                         "json all that is said there is a JSON object a line"},
+                         "lines elsewhere; with json one JSON object per line"},
     [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "print what the render did and how long it took on stdout"},
     [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR, 0, 0,
-                        NULL, 0, NULL, "say on stderr what is going on inside"},
+                        NULL, 0, NULL, "log details to stderr"},
     [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "say nothing but errors; progress only where --progress asks for it"},
     [OPTION_HELP] = {"help", NULL, KIND_FLAG, GROUP_TALK, ALL, 0, 0, NULL, 0, NULL,

@@ -1,4 +1,4 @@
-/* photons.c - `rtc photons`: makes photon maps, joins them, looks at them and exports them. */
+/* photons.c - `rtc photons`: emits, merges, inspects and exports photon maps. */
 #include "commands.h"
 #include "photons.h"
 
@@ -231,6 +231,10 @@ int command_photons(const command_line *arguments)
     if (form) {
         int status = check_options(arguments, form);
         return status == STATUS_DONE ? form->run(arguments) : status;
+    }
+    if (strcmp(arguments->operands[0], "help") == 0) {
+        message_error("`rtc photons` has no form help: try `rtc help photons`");
+        return STATUS_USAGE;
     }
     if (arguments->operand_count > 1)
         return fail_operands("SCENE.rts --out MAP.rtp, or info, merge, diff or export");

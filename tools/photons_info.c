@@ -144,7 +144,7 @@ static int compare_places(const cursor *a, const cursor *b)
     return 0;
 }
 
-/* Walks two lists in step; both are in the order of seed, path and segment. */
+/* Traverses two lists in step; both are in the order of seed, path and segment. */
 photon_matches photons_match(const rt_photon_map *map_a, const rt_photon_map *map_b,
                              rt_photon_kind kind)
 {

@@ -1,4 +1,4 @@
-/* scene_file.h - a scene from a file or from stdin, with all that is wrong with it said. */
+/* scene_file.h - a scene from a file or from stdin, with all its errors reported. */
 #ifndef RTC_SCENE_FILE_H
 #define RTC_SCENE_FILE_H
 

@@ -91,7 +91,7 @@ const char *settings_text(const command_line *arguments, const rt_setting *setti
     return *place_of(arguments, setting);
 }
 
-int settings_is_asked(const command_line *arguments, const rt_setting *setting)
+int settings_is_requested(const command_line *arguments, const rt_setting *setting)
 {
     const char *text = settings_text(arguments, setting);
     return text && !(settings_is_switch(setting) && strcmp(text, "false") == 0);

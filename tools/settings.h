@@ -38,7 +38,7 @@ int settings_read(command_line *out, const rt_setting *setting, const char *text
 const char *settings_text(const command_line *arguments, const rt_setting *setting);
 
 /* Whether it is given, and not as a switch that is off. */
-int settings_is_asked(const command_line *arguments, const rt_setting *setting);
+int settings_is_requested(const command_line *arguments, const rt_setting *setting);
 
 /* Sets what the command line gives, but `except`, which may be NULL. */
 void settings_apply(const command_line *arguments, rt_render_options *options,

@@ -78,7 +78,7 @@ void rt_wide_plan_free(rt_wide_plan *plan)
     plan->part_count = 0;
 }
 
-/* A walk in the order of the numbering. */
+/* A traversal in the order of the numbering. */
 typedef struct writer {
     const rt_wide_output *out;
     const rt_wide_part *next_part; /* part not yet met; NULL inside a part */

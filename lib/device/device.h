@@ -22,7 +22,7 @@ struct rt_device {
     cl_command_queue queue; /* in order */
     rt_device_info info;
     uint32_t threads;     /* host threads to use, at least 1 */
-    uint32_t work_group;  /* work-items a work-group, at least 1 */
+    uint32_t work_group;  /* work-items per work-group, at least 1 */
     uint32_t width;       /* paths that a work-item follows at a time, 1 or 8 */
     uint32_t path_pixels; /* pixels that a work-item of path tracing takes, at least 1 */
     struct {

@@ -1,4 +1,4 @@
-/* modes.c - the one list of modes. */
+/* modes.c - the class of each mode. */
 #include "mode/modes.h"
 
 const rt_mode_class *rt_mode_class_of(rt_mode mode)

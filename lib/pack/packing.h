@@ -46,8 +46,8 @@ void rt_pack_shapes(const rt_packing *packing);
 void rt_pack_vertices(const rt_packing *packing);
 
 /*
- * Count and fill the balls around specular shapes; these are one ball when they are too many
- * (targets.c).
+ * Count and fill the bounding spheres of specular shapes; these are one sphere when they are too
+ * many (targets.c).
  */
 size_t rt_targets_count(const rt_scene *scene);
 void rt_pack_targets(const rt_packing *packing);

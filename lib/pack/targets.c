@@ -1,7 +1,4 @@
-/*
- * targets.c - balls around what caustics can come from: each holds a shape that reflects or
- * refracts specularly.
- */
+/* targets.c - bounding spheres of the shapes that reflect or refract specularly. */
 #include <math.h>
 
 #include "pack/packing.h"
@@ -14,7 +11,10 @@ enum { targets_most = 64 };
 /* More than the rounding of rays that graze a shape. */
 static const double slack = 1e-5;
 
-/* Whether a light path can go on from the shape without being spread. */
+/*
+ * Whether a photon path can leave the shape without a diffuse or rough event: by a delta lobe, or
+ * at a boundary that nested media suppress.
+ */
 static int is_specular(const rt_scene *scene, const rt_scene_shape *shape)
 {
     const rt_material *m = scene->materials + shape->surface.material;
@@ -32,8 +32,8 @@ static void write_target(rt_target *out, const double centre[3], double radius)
     out->radius = (float)(radius + slack * (radius + reach));
 }
 
-/* One ball around all. */
-static void write_ball_of_all(rt_target *out, const rt_scene *scene)
+/* One bounding sphere of all. */
+static void write_sphere_of_all(rt_target *out, const rt_scene *scene)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     double centre[3], radius;
@@ -72,7 +72,7 @@ void rt_pack_targets(const rt_packing *p)
     rt_target *out = rt_packing_table(p, p->header.targets);
     const rt_scene *scene = p->scene;
     if (count_specular(scene) > targets_most) {
-        write_ball_of_all(out, scene);
+        write_sphere_of_all(out, scene);
         return;
     }
     for (size_t i = 0; i < scene->shape_count; i++) {

@@ -88,8 +88,8 @@ void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
     if (e->lights.reach > 0)
         rt_warn(hooks,
                 "photons of the sky and of directional lights fall on planes only within %.3g m of "
-                "the %s: what planes reflect from farther out is missing; a final gather lessens "
-                "the loss, quads in their place end it",
+                "the %s: their reflection of light that arrives farther out is missing; use quads "
+                "instead of planes, or a final gather to reduce the loss",
                 e->lights.reach,
                 e->lights.planes_alone ? "origin, for want of other shapes"
                                        : "middle of the other shapes");

@@ -2,8 +2,8 @@
  * gather.h - the light that gather points reflect, estimated from a list of photons.
  *
  * There are two searches for the photons near a point: neighbour lists, made on the host by FLANN
- * and sent to the device, and a tree that the device walks itself. The sum over the photons, with
- * the material, is taken on the device either way, so shading exists once.
+ * and sent to the device, and a tree that the device traverses itself. The sum over the photons,
+ * with the material, is taken on the device either way, so shading exists once.
  */
 #ifndef RT_LIB_PHOTON_GATHER_H
 #define RT_LIB_PHOTON_GATHER_H

@@ -1,4 +1,4 @@
-/* gather_tree.h - gathering by a tree of photons: the device walks it and sums what it finds. */
+/* gather_tree.h - gathering by a tree of photons: the device traverses it and sums the photons. */
 #ifndef RT_LIB_PHOTON_GATHER_TREE_H
 #define RT_LIB_PHOTON_GATHER_TREE_H
 

@@ -1,4 +1,4 @@
-/* map_warnings.c - what a photon map lacks, in words for a person. */
+/* map_warnings.c - warnings about lights and maps with too few photon paths. */
 #include "photon/map_warnings.h"
 
 #include <stdio.h>

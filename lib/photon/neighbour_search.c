@@ -248,7 +248,7 @@ static rt_status find_queries(rt_u32 *queries, size_t *count, const rt_gather_po
     if (n > 0)
         status =
             rt_point_order(items, items + n, positions[0], sizeof *positions, n, threads, error);
-    /* The keys have served: the points take their place, and then go where they belong. */
+    /* Reuse the key array to permute the queries into curve order. */
     for (size_t i = 0; i < n && status == RT_OK; i++)
         items[i] = queries[items[i] & RT_POINT_ORDER_INDEX];
     for (size_t i = 0; i < n && status == RT_OK; i++)

@@ -30,7 +30,7 @@ typedef struct rt_device_options {
     /* a device's number in rt_devices_list, or part of its name or platform; NULL: the first */
     const char *select;
     uint32_t threads;    /* host threads, and compute units used of a CPU device; 0: all */
-    uint32_t work_group; /* work-items a work-group; 0: chosen for the device */
+    uint32_t work_group; /* work-items per work-group; 0: chosen for the device */
     uint32_t width; /* paths that a work-item follows at a time: 1 or 8; 0: 8 on a CPU, else 1 */
 } rt_device_options;
 

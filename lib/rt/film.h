@@ -85,7 +85,7 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  */
 RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
 
-/* What is known of the making of a film. */
+/* Statistics of a render. */
 typedef struct rt_film_stats {
     uint32_t spp;             /* samples that every pixel has */
     uint64_t rejected;        /* samples left out because they were not finite */

@@ -132,8 +132,8 @@ RT_API rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_er
 /*
  * Writes the photons as the points of a binary PLY file: position, normal, flux in W, direction of
  * travel, segments of the path, whether caustic, and an 8-bit colour (the flux by the brightest,
- * sRGB) for viewers; and the shape that it lies on, as rt_hit.shape, and the path and seed that it
- * is of, which a path of a merged map is known by.
+ * sRGB) for viewers; and the shape that it lies on, as rt_hit.shape, and the seed and index of its
+ * path, which identify a path in a merged map.
  */
 RT_API rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_error *error);
 

@@ -23,8 +23,8 @@ typedef enum rt_mode {
 /* The modes: X(constant, word, help), as in common.h. */
 #define RT_MODES(X)                                                                                \
     X(RT_MODE_PATH, "path",                                                                        \
-      "path tracing with next-event estimation and multiple importance sampling; it leaves out "   \
-      "light that delta lights cast by way of smooth mirrors or glass")                            \
+      "path tracing with next-event estimation and multiple importance sampling, without "         \
+      "caustics of delta lights (through smooth mirrors or glass)")                                \
     X(RT_MODE_PHOTON, "photon", "photon mapping")                                                  \
     X(RT_MODE_DIRECT, "direct",                                                                    \
       "emission and direct light at the first hit; mirrors and clear glass are followed")          \

@@ -12,13 +12,13 @@ extern "C" {
 
 typedef struct rt_scene rt_scene;
 
-/* What a scene may be in spite of which it can be rendered; see rt_scene_check. */
+/* Probable mistakes of a scene that can still be rendered; see rt_scene_check. */
 typedef enum rt_finding_kind {
     RT_FINDING_NONE = 0,
     RT_FINDING_NO_CAMERA,
     RT_FINDING_NO_SHAPE,
     RT_FINDING_NO_LIGHT,        /* and the scene's mode shows light */
-    RT_FINDING_NOTHING_IN_VIEW, /* the camera looks past all shapes */
+    RT_FINDING_NOTHING_IN_VIEW, /* no shape is in the camera's field of view */
     /* the camera is inside an opaque solid, where there is no light */
     RT_FINDING_CAMERA_IN_OPAQUE,
     /* the camera is inside a transparent solid: no more than a note */
@@ -31,11 +31,11 @@ typedef enum rt_finding_kind {
 
 typedef enum rt_severity {
     RT_SEVERITY_ERROR = 0,
-    RT_SEVERITY_WARNING, /* allowed, but hardly meant */
-    RT_SEVERITY_NOTE     /* good to know */
+    RT_SEVERITY_WARNING, /* valid, but probably a mistake */
+    RT_SEVERITY_NOTE     /* for information */
 } rt_severity;
 
-/* What is to be said of a scene text. The strings live until the callback returns. */
+/* A message about a scene text. The strings live until the callback returns. */
 typedef struct rt_diagnostic {
     rt_severity severity;
     rt_finding_kind finding; /* what rt_scene_check found; else RT_FINDING_NONE */
@@ -108,7 +108,7 @@ typedef struct rt_texture {
 
 /*
  * Adds a texture and reads its file. *out is its handle, from 1: 0 stands for "none" wherever a
- * texture is asked. Fails with RT_ERROR_INPUT, error->field naming the member.
+ * texture is expected. Fails with RT_ERROR_INPUT, error->field naming the member.
  */
 RT_API rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture *texture,
                                       rt_error *error);

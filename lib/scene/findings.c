@@ -79,7 +79,7 @@ static void find_empty_view(inspection *in)
             return;
     if (scene->shape_count > 0)
         report(in, finding_of(RT_FINDING_NOTHING_IN_VIEW),
-               "the camera looks past all shapes: none is in its view");
+               "no shape is in the camera's field of view");
 }
 
 static int overlaps(const rt_scene_shape *a, const rt_scene_shape *b)

@@ -73,7 +73,10 @@ int rt_mode_shows_light(rt_mode mode)
     return rt_setting_need_met(&shown, &options);
 }
 
-/* In photon mode the camera path ends at the first diffuse surface, or behind the final gather. */
+/*
+ * In photon mode Russian roulette is applied only before the last diffuse vertex, so it needs
+ * `final_gather`.
+ */
 static const rt_setting_need camera_path_needs[] = {
     LIGHT_IS_SHOWN,
     {{IS_NOT("mode", RT_MODE_PHOTON), ABOVE("final_gather", 0)},
@@ -139,22 +142,23 @@ static const rt_setting settings[] = {
      * under a sky. Of the good ones 1/2 gives the most samples a second.
      */
     {WHOLE(roulette_depth, 1, 4096, "segments", "2",
-           "segments from the camera after which Russian roulette may end a path; from `max_depth` "
-           "on it ends none: the mean is the same, the time is not"),
+           "segments from the camera after which Russian roulette may end a path; `max_depth` or "
+           "more disables it. Unbiased: changes noise and time, not the expected value"),
      RT_TOPIC_RENDER, 0, camera_path_needs},
     {REAL(roulette_threshold, RT_RANGE_CLOSED, 1e-6, 1, "", "0.5",
           "throughput below which Russian roulette may end a path; it survives with probability "
           "throughput / threshold. 1 ends the most paths: more samples a second, each noisier"),
      RT_TOPIC_RENDER, 0, camera_path_needs},
     {WHOLE(seed, 0, 4294967295.0, "", "0",
-           "another seed gives other noise; the same seed gives the same bits"),
+           "another seed changes the noise, not the expected value; the same seed gives the same "
+           "bits"),
      RT_TOPIC_RENDER, RT_SETTING_EMITS, NULL},
     {CHOICE(sampler, samplers, "sobol", "where samples come from"), RT_TOPIC_RENDER,
      RT_SETTING_EMITS, NULL},
     {CHOICE(estimator, estimators, "mis",
-            "how direct light of area lights and of the environment is sampled; the mean is the "
-            "same, the noise is not"),
-     RT_TOPIC_RENDER, 0, camera_path_needs},
+            "how direct light of area lights and of the environment is sampled. Unbiased: changes "
+            "the noise, not the expected value"),
+     RT_TOPIC_RENDER, 0, light_needs},
     {REAL(time, RT_RANGE_CLOSED, 0, 1e9, "s", "0, no limit",
           "stop rendering after so long, once every pixel has a sample; without `spp`, go on until "
           "then. The first emission of photons is not cut short"),
@@ -200,7 +204,7 @@ static const rt_setting settings[] = {
     {REAL(cone_k, RT_RANGE_CLOSED, 1, 1e6, "", "1.1", "constant of the cone kernel"),
      RT_TOPIC_PHOTON, 0, cone_needs},
     {CHOICE(area, areas, "disc",
-            "area over which an estimate spreads its photons. hull takes the k nearest by FLANN, "
+            "area that the flux of an estimate is divided by. hull takes the k nearest by FLANN, "
             "leaves the density kernel out, is not for `passes`, and has photons emitted by "
             "`sampler` independent, which it supposes"),
      RT_TOPIC_PHOTON, 0, photon_needs},
@@ -220,8 +224,8 @@ static const rt_setting settings[] = {
     {CHOICE(caustic_kernel, densities, "epanechnikov", "density kernel of the caustic map"),
      RT_TOPIC_PHOTON, 0, caustic_kernel_needs},
 
-    {SWITCH(aov, "add the layers of the first hit to an .exr"), RT_TOPIC_LAYER,
-     RT_SETTING_ADDS, NULL},
+    {SWITCH(aov, "add the layers of the first hit to an .exr"), RT_TOPIC_LAYER, RT_SETTING_ADDS,
+     NULL},
     {SWITCH(photon_layers,
             "add the layers photon.count, photon.radius, photon.density, photon.variance and "
             "photon.bias to an .exr; gathering takes twice as long"),

@@ -247,7 +247,7 @@ static const bad_text bad_texts[] = {
      "in parentheses"},
     {"repeat i from 1 to [1 2 3] { }\n" BALL, 1, 20, 7, "expected a number, found a vector", ""},
     {"repeat i from 0 to 1e9 { }\n" BALL, 1, 1, 6,
-     "the repeats of a scene have more than 10000000 turns", ""},
+     "the repeats of a scene have more than 10000000 iterations", ""},
     {BALL "repeat i from 1 to 3 {\n", 3, 8, 1, "this repeat is not closed", ""},
     {BALL "repeat i from 1 to 3 { film { width 0 } }\n", 3, 37, 1,
      "'width' is 0; it must be from 1 to 65536", ""},
@@ -389,8 +389,8 @@ static void what_nothing_uses_is_warned_of(void **state)
     collected_free(&c);
 }
 
-/* Not where a repeat around it may give it turns at other times. */
-static void a_repeat_without_turns_is_warned_of(void **state)
+/* Not where a repeat around it may give it iterations at other times. */
+static void a_repeat_without_iterations_is_warned_of(void **state)
 {
     static collected c;
     (void)state;
@@ -399,12 +399,13 @@ static void a_repeat_without_turns_is_warned_of(void **state)
     assert_int_equal(c.count, 1);
     assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[0].line == 3 &&
                 c.items[0].column == 1);
-    assert_string_equal(c.items[0].message, "this repeat makes no turns: it counts up from 5 to 1");
+    assert_string_equal(c.items[0].message,
+                        "this repeat makes no iterations: it counts up from 5 to 1");
     collected_free(&c);
     collect_text(
         &c,
         BALL "repeat i from 1 to 2 { repeat j from 1 to (i - 1) { film { width (i + j) } } }\n");
-    expect_clean(&c, "a triangle of turns");
+    expect_clean(&c, "a triangle of iterations");
     collected_free(&c);
 }
 
@@ -577,7 +578,7 @@ int main(void)
         cmocka_unit_test(five_errors_give_five_reports_in_order),
         cmocka_unit_test(the_source_line_is_quoted_whole),
         cmocka_unit_test(what_nothing_uses_is_warned_of),
-        cmocka_unit_test(a_repeat_without_turns_is_warned_of),
+        cmocka_unit_test(a_repeat_without_iterations_is_warned_of),
         cmocka_unit_test(fields_without_effect_are_warned_of),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),

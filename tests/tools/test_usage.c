@@ -102,6 +102,7 @@ static const struct {
     {"a.rts --part 1/2", "takes no option --part"},
     {"photons", "usage: rtc photons"},
     {"photons a.rts", "--out FILE"},
+    {"photons help", "try `rtc help photons`"},
     {"photons a.rts b.rts --out m.rtp", "usage: rtc photons"},
     {"photons a.rts --out m.rtp --out n.rtp", "--out FILE"},
     {"photons a.rts --out m.rtp --part 0/2",
@@ -417,7 +418,7 @@ static void doctor_finds_all_well(void **state)
     expect_status(&run, 0);
     expect_out(&run, "ok    path mode renders");
     expect_out(&run, "ok    photon mode renders");
-    expect_out(&run, "all is well\n");
+    expect_out(&run, "all checks passed\n");
     run_free(&run);
 }
 

@@ -8,9 +8,10 @@ enum { caustic_depth = 3 };
 static void warn_of_missing_caustics(const rt_render_job *job)
 {
     if (job->renderer->casts_hidden_caustics && job->options->max_depth >= caustic_depth)
-        rt_warn(job->options->hooks,
-                "mode path leaves out the light that point, spot and directional lights cast "
-                "by way of smooth mirrors or glass; mode photon shows it");
+        rt_warn(
+            job->options->hooks,
+            "mode path leaves out caustics of point, spot and directional lights (through smooth "
+            "mirrors or glass); mode photon shows them");
 }
 
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,

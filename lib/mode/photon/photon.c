@@ -146,8 +146,8 @@ static void warn(const rt_photon_render *r)
                                o->hooks);
     if (stats->gathers_empty > stats->gathers_at_ends / 2)
         rt_warn(o->hooks,
-                "%llu of the %llu points that asked for photons found none: the light that photons "
-                "bring is missing there, or all noise; a larger radius or more photons help",
+                "%llu of the %llu queries of the photon map found no photon: the light of photons "
+                "there is missing or very noisy; use a larger radius or more photons",
                 (unsigned long long)stats->gathers_empty,
                 (unsigned long long)stats->gathers_at_ends);
 }

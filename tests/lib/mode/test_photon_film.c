@@ -67,7 +67,7 @@ static void the_film_tells_what_was_done(void **state)
 
 static void note_empty(void *user, const char *line)
 {
-    *(int *)user += strstr(line, "points that asked for photons found none") != NULL;
+    *(int *)user += strstr(line, "queries of the photon map found no photon") != NULL;
 }
 
 /*

@@ -316,7 +316,7 @@ static void glass_without_an_inside_is_reported(void **state)
         {GLASS "plane { point 0 -9 0 normal 0 1 0 material clear } sphere { centre 0 0 0 radius 1 "
                "material clear }",
          RT_FINDING_NONE},
-        /* A sheet that bends nothing. */
+        /* A sheet without refraction. */
         {MATERIALS VIEW SUN "material clear { kt 0.5 ior 1 }" FACE("0"), RT_FINDING_NONE},
     };
     (void)state;

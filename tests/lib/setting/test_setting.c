@@ -187,7 +187,10 @@ static void what_a_setting_needs_is_told(void **state)
     assert_string_equal(missing("k", &photon), "");
     assert_string_equal(missing("max_depth", &depth), "in a mode that shows no light");
     assert_string_equal(missing("max_depth", &photon), "");
-    assert_string_equal(missing("estimator", &photon), "in photon mode without `final_gather`");
+    assert_string_equal(missing("estimator", &depth), "in a mode that shows no light");
+    assert_string_equal(missing("estimator", &photon), "");
+    assert_string_equal(missing("roulette_depth", &photon),
+                        "in photon mode without `final_gather`");
     assert_string_equal(missing("alpha", &photon), "without `passes`");
     photon.passes = 2;
     assert_string_equal(missing("alpha", &photon), "");
