@@ -8,7 +8,7 @@
 #ifndef RT_COMMON_H
 #define RT_COMMON_H
 
-#define RT_NONE 0xffffffffu /* "no such element", wherever an index is asked */
+#define RT_NONE 0xffffffffu /* "no such element", where an index is expected */
 
 /*
  * A ray: origin + t direction, t in [t_min, t_max]; the direction need not be of unit length, see
@@ -144,7 +144,7 @@ typedef enum rt_direct { RT_DIRECT_NEE = 0, RT_DIRECT_PHOTONS } rt_direct;
     X(RT_DIRECT_NEE, "nee", "shadow rays; photons straight from a light are not stored")           \
     X(RT_DIRECT_PHOTONS, "photons", "the photon map")
 
-/* The area over which an estimate spreads its photons. */
+/* The area that the flux of an estimate is divided by. */
 typedef enum rt_area { RT_AREA_DISC = 0, RT_AREA_HULL } rt_area;
 
 #define RT_AREAS(X)                                                                                \

@@ -10,7 +10,7 @@
 #include "material/medium.h"
 #include "accel/traverse.h"
 
-#define RT_WALK_LENGTH 1024 /* surfaces that a ray is followed through */
+#define RT_MAX_SURFACES 1024 /* surfaces that a ray is followed through */
 
 /* The media list of a path that starts here. */
 static uint4 media_around(const struct scene *scene, float3 from)
@@ -21,7 +21,7 @@ static uint4 media_around(const struct scene *scene, float3 from)
     uint left[4]; /* solids around the point */
     int count = 0;
     struct hit hit;
-    for (int i = 0; i < RT_WALK_LENGTH && closest_hit(scene, &ray, &hit); i++) {
+    for (int i = 0; i < RT_MAX_SURFACES && closest_hit(scene, &ray, &hit); i++) {
         const struct surface surface = surface_at(scene, &ray, &hit);
         const uint material = scene->shapes[surface.shape].material;
         ray.origin = leave_surface(&surface, ray.direction);

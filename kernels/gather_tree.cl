@@ -36,9 +36,9 @@ KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
         rt_gather_disc disc;
         disc.count = 0u;
         disc.squared_radius = 0.0f;
-        disc.asked = gathers_photons(points + i);
+        disc.is_query = gathers_photons(points + i);
         disc.pixel = points[i].pixel;
-        if (disc.asked) {
+        if (disc.is_query) {
             const struct photon_sum sum =
                 estimate.k == 0u ? sum_within(&tree, &start, &query, &estimate,
                                               point_limit(points + i, &estimate, own_limits))

@@ -1,11 +1,12 @@
 /*
  * photon_emit.cl - photon tracing: each work-item follows one path from a light.
  *
- * A path starts with the flux of all lights, in the colour of the light that was chosen, and stores
- * a photon at each surface with a gathered lobe (store.h); the other lobes, smooth or rough, are
- * followed, here and from the eye, and are no part of what a photon stands for. The division by the
- * number of paths is left to those who use the photons, so that maps can be joined. Its photons go
- * to slots of its own, so that the map does not depend on the order in which paths are followed.
+ * A path starts with the flux of the chosen light over the probability of choosing it, and stores a
+ * photon at each surface with a diffuse lobe, unless the map leaves that light to shadow rays or to
+ * another map (store.h); the other lobes, smooth or rough, are followed, here and from the eye, and
+ * are no part of what a photon stands for. The division by the number of paths is left to those who
+ * use the photons, so that maps can be joined. Its photons go to slots of its own, so that the map
+ * does not depend on the order in which paths are followed.
  *
  * Paths for a caustic map alone start towards specular shapes (aim.h).
  *
@@ -68,7 +69,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         global const rt_material_data *material = scene->materials + material_index;
         const float3 wo = -path.ray.direction;
 
-        /* Go straight on through a boundary that a stronger medium hides. */
+        /* Skip a boundary suppressed by a medium of higher priority. */
         const struct boundary boundary =
             media_meet(scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
         if (!boundary.exists) {

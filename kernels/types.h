@@ -228,7 +228,7 @@ typedef struct rt_light_data {
     float normal[3]; /* quad and triangle: unit, on the side that emits */
     float area;      /* m^2, one side; 0 for lights without */
     float emission[3];
-    float pmf;      /* its part of all power, by which photon paths choose */
+    float pmf;      /* its fraction of the total power; the default pmf of photon paths */
     float cdf;      /* sum of pmf up to and including this light */
     float power;    /* total emitted flux, mean of the three channels, W */
     rt_u32 prim;    /* primitive that emits, RT_NONE for lights without */
@@ -271,7 +271,7 @@ typedef struct rt_environment_data {
 RT_SIZE(rt_environment_data, 32);
 
 /*
- * A ball that holds a specular shape: paths aimed at caustics start towards it. Infinite around a
+ * The bounding sphere of a specular shape: paths aimed at caustics start towards it. Infinite for a
  * plane.
  */
 typedef struct rt_target {
@@ -483,7 +483,7 @@ RT_SIZE(rt_gather_point, 112);
 typedef struct rt_gather_disc {
     rt_u32 count;
     float squared_radius; /* of the disc that they lie in, m^2; 0 when there are none */
-    rt_u32 asked;         /* 1 when photons were asked for */
+    rt_u32 is_query;      /* 1 when photons are gathered at the point */
     rt_u32 pixel;         /* that of the point */
 } rt_gather_disc;
 RT_SIZE(rt_gather_disc, 16);
@@ -518,7 +518,7 @@ RT_SIZE(rt_density_params, 48);
  * node n is 8 n + i of the level below, and of level 0 it is a block.
  */
 #define RT_PHOTON_LEVELS 10
-#define RT_PHOTON_STACK 80 /* entries a walk may push: 7 a level, and the root */
+#define RT_PHOTON_STACK 80 /* entries a traversal may push: 7 per level, and the root */
 
 /*
  * The boxes of eight children, as structure of arrays; an unused lane holds lo = +inf, hi = -inf.

@@ -108,7 +108,7 @@ INLINE_ALWAYS uint intersect_block(global const rt_tri_block *block, const struc
     det = as_float8(as_int8(det) ^ sign);
     depth = as_float8(as_int8(depth) ^ sign);
 
-    /* A parallelogram asks b <= det and c <= det instead of a >= 0, that is a + min(b, c) >= 0. */
+    /* A quad requires b <= det and c <= det instead of a >= 0, that is a + min(b, c) >= 0. */
     const float8 least = lane_min(b, c);
     const int8 quad = as_int8(vload8(0, block->prim)) >> 31;
     const float8 third = a + as_float8(quad & as_int8(lane_mad(det, (float8)(1e-6f), least)));

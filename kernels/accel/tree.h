@@ -1,7 +1,6 @@
 /*
- * tree.h - walks through a tree of eight-wide nodes: from leaf to leaf in the order in which a ray
- * meets them, or in any order until something is hit. A leaf is a block of triangles, an analytic
- * shape or an instance.
+ * tree.h - traverses a BVH of eight-wide nodes: closest hit in front-to-back order, or any hit in
+ * any order. A leaf is a block of triangles, an analytic shape or an instance.
  */
 #ifndef RT_KERNELS_ACCEL_TREE_H
 #define RT_KERNELS_ACCEL_TREE_H

@@ -12,7 +12,7 @@
  * the geometric normal.
  *
  * At each surface a path chooses one lobe, and carries the light of that lobe alone. So each lobe
- * is weighted by itself against light sampling, and photon maps, which hold what gathered lobes
+ * is weighted by itself against light sampling, and photon maps, which hold what diffuse lobes
  * scatter, leave the others to the path, rough or not.
  *
  * References:
@@ -58,9 +58,9 @@ static inline void roughen(struct bsdf *bsdf, float alpha)
 }
 
 /*
- * What is perfectly reflected stays on its side of the surface, and what is refracted goes to the
- * other: where the shading normal would have it otherwise, the geometric one takes its place. So
- * smooth glass loses no light.
+ * Specular reflection must stay on the geometric side of wo, and refraction must cross to the
+ * other: where the shading normal violates this, use the geometric normal, so that smooth glass
+ * loses no energy.
  */
 static inline void keep_sides(struct bsdf *bsdf)
 {
@@ -128,7 +128,7 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
 
 /* ---- The mixture ------------------------------------------------------------------ */
 
-/* Whether the surface has a gathered lobe: photons are stored, and gathered, only there. */
+/* Whether the surface has a diffuse lobe: photons are stored, and gathered, only there. */
 static inline bool bsdf_is_diffuse(const struct bsdf *bsdf)
 {
     return largest3(bsdf->kd) > 0.0f;
@@ -140,7 +140,7 @@ static inline bool bsdf_is_rough(const struct bsdf *bsdf)
     return bsdf->specular.alpha > 0.0f;
 }
 
-/* The part of the light from each direction that the surface does not absorb. */
+/* The directional albedo for wo, the sum over the lobes. */
 static inline float3 bsdf_albedo(const struct bsdf *bsdf)
 {
     return lobe_albedo(bsdf, bsdf->diffuse_lobe) + bsdf->reflected + bsdf->refracted;
@@ -156,7 +156,7 @@ static inline float bsdf_probability(const struct bsdf *bsdf, uint lobe)
     return lobe == RT_LOBE_SPECULAR_REFLECTION ? bsdf->reflection : bsdf->refraction;
 }
 
-/* The part of the light that a lobe stands for, over the probability of its choice. */
+/* The lobe's albedo over the probability of choosing the lobe. */
 static inline float3 bsdf_lobe_weight(const struct bsdf *bsdf, uint lobe)
 {
     return lobe_albedo(bsdf, lobe) / bsdf_probability(bsdf, lobe);

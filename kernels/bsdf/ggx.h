@@ -31,7 +31,7 @@
 
 /*
  * With indices as close as this, refraction hardly bends light: its density is too narrow for
- * float32, and light sampling leaves it alone as it does a smooth boundary.
+ * float32, so it is not light-sampled, like a delta lobe.
  */
 #define RT_MATCHED_INDEX 1e-2f
 
@@ -41,8 +41,9 @@ static inline bool is_matched(const struct specular *specular)
 }
 
 /*
- * The share of light from a facet that wo sees to wi that is not shadowed: G2 / G1 for correlated
- * heights, (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)), times |wo.z wi.z| above and below.
+ * G2 / G1, the probability that a microfacet visible from wo is not shadowed from wi; for
+ * correlated heights, (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)), times |wo.z wi.z| above and
+ * below.
  */
 static inline float unshadowed(const struct specular *specular, float3 wo, float3 wi)
 {
@@ -70,7 +71,7 @@ static inline struct lobe_value facets_eval(const struct specular *specular, flo
     if (wi.z == 0.0f || (!reflects && is_matched(specular)))
         return no_light();
 
-    /* Find the facet that does it, and see that both directions are on the right sides of it. */
+    /* Compute the half vector, and reject directions on the wrong side of the microfacet. */
     float3 h = unit(reflects ? wo + wi : specular->eta * wo + wi);
     h = h.z < 0.0f ? -h : h;
     const float cos_o = dot(wo, h), cos_i = dot(wi, h);

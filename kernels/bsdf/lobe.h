@@ -1,13 +1,12 @@
 /*
- * lobe.h - what the lobes of a BSDF have in common: what they are told of a surface, and what they
- * answer.
+ * lobe.h - the interface of the lobes of a BSDF: their parameters and results.
  *
  * lobes.h lists the lobes. Each is a header X.h with four functions of a surface as seen from wo:
  *
  *   X_eval(bsdf, wi)    fr |n.wi|, and the density of wi
  *   X_sample(bsdf, u)   a direction by u in [0,1)^3, with fr |n.wi| over its density
  *   X_pdf_w(bsdf, wi)   the density of wi alone, per steradian
- *   X_albedo(bsdf)      the integral of fr |n.wi| over wi
+ *   X_albedo(bsdf)      the integral of fr |n.wi| over wi, or an upper bound of it (GGX)
  *
  * The probability that the lobe is chosen is no part of them; bsdf.h mixes it in. Delta lobes
  * evaluate to 0. Where wi lies on the wrong side of the geometric normal, a lobe evaluates to 0,

@@ -6,9 +6,9 @@
 #define RT_KERNELS_BSDF_LOBES_H
 
 /*
- * X(NAME, name, is_delta, is_gathered) for each lobe: name.h holds RT_LOBE_NAME. A delta lobe
- * scatters into one direction. A gathered lobe is rough enough for density estimation: photons are
- * stored, and gathered, where a surface has one.
+ * X(NAME, name, is_delta, is_diffuse) for each lobe: name.h holds RT_LOBE_NAME. A delta lobe
+ * scatters into one direction. A diffuse lobe varies slowly enough with direction for photon
+ * density estimation: photons are stored, and gathered, where a surface has one.
  */
 #define RT_LOBES(X)                                                                                \
     X(LAMBERT, lambert, 0, 1)                                                                      \
@@ -17,7 +17,7 @@
     X(SPECULAR_TRANSMISSION, specular_transmission, 1, 0)                                          \
     X(GGX, ggx, 0, 0)
 
-#define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_gathered) RT_LOBE_##NAME,
+#define RT_LOBE_ENUMERATOR(NAME, name, is_delta, is_diffuse) RT_LOBE_##NAME,
 enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOBE_COUNT };
 
 #ifdef __OPENCL_VERSION__
@@ -29,8 +29,8 @@ enum rt_lobe { RT_LOBES(RT_LOBE_ENUMERATOR) RT_LOBE_COUNT, RT_LOBE_NONE = RT_LOB
 #include "bsdf/specular_reflection.h"
 #include "bsdf/specular_transmission.h"
 
-#define DELTA_BIT(NAME, name, is_delta, is_gathered) | (is_delta##u << RT_LOBE_##NAME)
-#define GATHERED_BIT(NAME, name, is_delta, is_gathered) | (is_gathered##u << RT_LOBE_##NAME)
+#define DELTA_BIT(NAME, name, is_delta, is_diffuse) | (is_delta##u << RT_LOBE_##NAME)
+#define DIFFUSE_BIT(NAME, name, is_delta, is_diffuse) | (is_diffuse##u << RT_LOBE_##NAME)
 
 static inline bool lobe_is_delta(uint lobe)
 {
@@ -38,12 +38,12 @@ static inline bool lobe_is_delta(uint lobe)
 }
 
 /* Whether photons stand for the light of the lobe. */
-static inline bool lobe_is_gathered(uint lobe)
+static inline bool lobe_is_diffuse(uint lobe)
 {
-    return (0u RT_LOBES(GATHERED_BIT)) >> lobe & 1u;
+    return (0u RT_LOBES(DIFFUSE_BIT)) >> lobe & 1u;
 }
 
-#define EVAL_CASE(NAME, name, is_delta, is_gathered)                                               \
+#define EVAL_CASE(NAME, name, is_delta, is_diffuse)                                                \
     case RT_LOBE_##NAME:                                                                           \
         return name##_eval(bsdf, wi);
 
@@ -56,7 +56,7 @@ static inline struct lobe_value lobe_eval(const struct bsdf *bsdf, uint lobe, fl
     return no_light();
 }
 
-#define PDF_CASE(NAME, name, is_delta, is_gathered)                                                \
+#define PDF_CASE(NAME, name, is_delta, is_diffuse)                                                 \
     case RT_LOBE_##NAME:                                                                           \
         return name##_pdf_w(bsdf, wi);
 
@@ -68,7 +68,7 @@ static inline float lobe_pdf_w(const struct bsdf *bsdf, uint lobe, float3 wi)
     return 0.0f;
 }
 
-#define SAMPLE_CASE(NAME, name, is_delta, is_gathered)                                             \
+#define SAMPLE_CASE(NAME, name, is_delta, is_diffuse)                                              \
     case RT_LOBE_##NAME:                                                                           \
         return name##_sample(bsdf, u);
 
@@ -85,7 +85,7 @@ static inline struct lobe_sample lobe_sample(const struct bsdf *bsdf, uint lobe,
     return none;
 }
 
-#define ALBEDO_CASE(NAME, name, is_delta, is_gathered)                                             \
+#define ALBEDO_CASE(NAME, name, is_delta, is_diffuse)                                              \
     case RT_LOBE_##NAME:                                                                           \
         return name##_albedo(bsdf);
 

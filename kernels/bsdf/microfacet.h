@@ -25,9 +25,9 @@ static inline float ggx_density(float alpha, float3 h)
 }
 
 /*
- * The facets that face w, as an area across w on a surface of area 1, hidden ones and all: |w.z| (1
- * + Lambda(w)), with Smith's Lambda. |w.z| of it is seen. Unlike Lambda it is finite for a w that
- * only grazes the surface.
+ * Projected area, along w, of the microfacets facing w per unit of macrosurface area, masked ones
+ * included: |w.z| (1 + Lambda(w)), with Smith's Lambda. |w.z| of it is visible. Unlike Lambda it is
+ * finite for a w that only grazes the surface.
  */
 static inline float ggx_facing(float alpha, float3 w)
 {
@@ -35,7 +35,7 @@ static inline float ggx_facing(float alpha, float3 w)
 }
 
 /*
- * What is hidden of them, |w.z| Lambda(w); as a quotient, because the difference of the two is not
+ * The masked part of it, |w.z| Lambda(w); as a quotient, because the difference of the two is not
  * precise.
  */
 static inline float ggx_hidden(float alpha, float3 w)

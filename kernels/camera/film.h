@@ -10,7 +10,7 @@
 #define RT_TILE 8u
 
 /*
- * The pixel of an item: films are walked in tiles of 8 x 8, row by row of tiles, and row by row
+ * The pixel of an item: films are traversed in tiles of 8 x 8, row by row of tiles, and row by row
  * within a tile, so that neighbours in a work-group see the same part of the scene. Tiles at the
  * right and bottom edge are as narrow and low as the film leaves them.
  */

@@ -1,14 +1,14 @@
 /*
- * batch.h - an accelerator around the path integrator: eight paths at a time, of which those at
- * diffuse vertices are taken on together, in eight lanes.
+ * batch.h - a vectorised path integrator: eight paths at a time, whose diffuse vertices are shaded
+ * together, one path per lane.
  *
  * Most vertices of most scenes lie on surfaces that only reflect diffusely, outside of all solids.
  * There path_vertex comes down to a light sample, roulette and a cosine direction. These are done
  * here by the same code as there (*.inc.h), read a second time at width 8: the same estimate by the
  * same numbers, equal but for rounding, with hardly a branch. Flat triangles and parallelograms,
  * and flat lights sampled by area, are handled in lanes; other surfaces and lights are evaluated
- * one by one. All other vertices go to path_vertex itself. No lane depends on another, so a path's
- * bits do not depend on those beside it; lanes that hold no path have no meaning.
+ * one by one. All other vertices go to path_vertex itself. Lanes are independent, so a path's
+ * result does not depend on the other paths; lanes without a path hold undefined values.
  *
  * Only path.cl includes this file, where RT_WIDTH is 8. Without it the scalar integrator serves.
  */
@@ -30,12 +30,12 @@
 
 /* ---- Diffuse vertices --------------------------------------------------------- */
 
-/* What is noted of diffuse vertices before they are taken on together. */
+/* The diffuse vertices of a batch, collected before they are shaded together. */
 struct diffuse_batch {
     float3 kd[8];
     global const float *corner[8]; /* flat surface: the first vertex in its block */
     struct surface surfaces[8];    /* the others */
-    uint taken;                    /* a bit for each path whose vertex is noted, */
+    uint taken;                    /* a bit for each path whose vertex is collected, */
     uint curved;                   /* those that have their surface in `surfaces` */
 };
 
@@ -45,10 +45,10 @@ struct surface_x8 {
     float8 error;
 };
 
-/* Notes a path's vertex if it is diffuse. */
-static inline bool note_diffuse(struct diffuse_batch *batch, uint lane, const struct scene *scene,
-                                const rt_params *params, const struct path *path,
-                                const struct hit *hit)
+/* Collects a path's vertex if it is diffuse. */
+static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
+                                   const struct scene *scene, const rt_params *params,
+                                   const struct path *path, const struct hit *hit)
 {
     global const rt_shape *shape = scene->shapes + scene->prim_shape[hit->prim];
     if (!(shape->flags & RT_SHAPE_LAMBERT) || path->media.x != RT_NONE ||
@@ -228,7 +228,7 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
     choose_lights(&lights, scene, taken, surface->position, numbers);
     const struct light_sample_x8 sample = sample_lights(&lights, surface->position, numbers);
 
-    /* Weigh the light, but for that of delta lights, against the scattered direction. */
+    /* Weight the light by MIS against BSDF sampling, except that of delta lights. */
     const float8 inv_pdf = sample.inv_pdf / vload8(0, lights.pmf);
     const float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
     const float8 ratio = lanes_of(lights.delta) ? (float8)(0.0f) : pdf_w * inv_pdf;
@@ -252,7 +252,7 @@ static inline void connect_lights(const struct scene *scene, const struct surfac
 
 /* ---- Roulette and scattering ---------------------------------------------------- */
 
-/* Plays roulette, and scatters those that survive: as path_scatter of a diffuse event. */
+/* Applies Russian roulette, and scatters the surviving paths as path_scatter at a diffuse event. */
 static inline void scatter_paths(const rt_params *params, const struct surface_x8 *surface,
                                  struct vec3_x8 beta, struct vec3_x8 kd, const float8 *numbers,
                                  uint taken, struct path *paths)
@@ -289,7 +289,7 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
 
 /* ---- Paths ----------------------------------------------------------------------- */
 
-/* Takes the paths that were noted through their vertices. */
+/* Shades the collected diffuse vertices and extends their paths. */
 INLINE_NEVER void diffuse_vertices(const struct scene *scene, const rt_params *params,
                                    struct diffuse_batch *batch, struct path *paths,
                                    const struct hit *hits, const float8 *numbers,
@@ -303,8 +303,8 @@ INLINE_NEVER void diffuse_vertices(const struct scene *scene, const rt_params *p
 }
 
 /*
- * Takes eight paths through their next vertices: follow_path's loop, step by step for all. No path
- * waits for another within a step, so that a processor that runs ahead has several under way.
+ * Takes eight paths through their next vertices: follow_path's loop, step by step for all. Paths
+ * are independent within a step, so that an out-of-order processor overlaps them.
  */
 static inline void follow_batch(const struct scene *scene, const rt_params *params,
                                 struct path *paths)
@@ -330,7 +330,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
         if (!paths[i].alive)
             continue;
         if (params->estimator != RT_ESTIMATOR_MIS ||
-            !note_diffuse(&batch, i, scene, params, &paths[i], &hits[i]))
+            !collect_diffuse(&batch, i, scene, params, &paths[i], &hits[i]))
             path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], FOLLOW_ALL,
                         0);
     }

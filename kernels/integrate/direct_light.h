@@ -12,11 +12,11 @@
 #include "material/medium.h"
 
 /*
- * The light of one lobe from a sampled point, weighed against the lobe's own sampling of
- * directions. `alone`: the path does not go on by this lobe, so light sampling counts fully.
+ * The light of one lobe from a sampled point, weighted by MIS against sampling the lobe. `alone`:
+ * the path does not go on by this lobe, so light sampling counts fully.
  */
-static inline float3 weighed_lobe(const rt_params *params, const struct light_sample *sample,
-                                  struct lobe_value lobe, bool alone)
+static inline float3 mis_weighted_lobe(const rt_params *params, const struct light_sample *sample,
+                                       struct lobe_value lobe, bool alone)
 {
     if (alone || sample->delta)
         return lobe.value;
@@ -24,9 +24,9 @@ static inline float3 weighed_lobe(const rt_params *params, const struct light_sa
 }
 
 /*
- * Samples a light at a vertex: what the surface scatters of it along the path, and the
- * shadow ray. `last`: the path ends here if it scatters diffusely; then the photon map may
- * hold direct light too. Rough events go on there. `beyond` is the medium behind the surface.
+ * Samples a light at a vertex and sets the connection: the scattered radiance and the shadow ray.
+ * `last`: a diffuse event here is a gather point, where the photon map may hold direct light too;
+ * GGX events continue the path. `beyond` is the medium behind the surface.
  */
 static inline void connect_light(struct connection *connection, const struct scene *scene,
                                  const rt_params *params, const struct path *path,
@@ -38,10 +38,11 @@ static inline void connect_light(struct connection *connection, const struct sce
         return;
     float3 scattered = (float3)(0.0f);
     if (!(last && params->direct == RT_DIRECT_PHOTONS))
-        scattered =
-            weighed_lobe(params, &sample, bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
+        scattered = mis_weighted_lobe(params, &sample,
+                                      bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
     if (bsdf_is_rough(bsdf))
-        scattered += weighed_lobe(params, &sample, bsdf_eval(bsdf, RT_LOBE_GGX, sample.wi), false);
+        scattered +=
+            mis_weighted_lobe(params, &sample, bsdf_eval(bsdf, RT_LOBE_GGX, sample.wi), false);
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;
     connection->ray = shadow_ray(surface->position + lift * bsdf->normal, &sample);

@@ -1,6 +1,6 @@
 /*
- * emission.h - light that a path meets: what surfaces and the environment emit, weighed against the
- * light sampling at the vertex before.
+ * emission.h - emission found by BSDF sampling, of surfaces and of the environment, weighted by MIS
+ * against light sampling at the previous vertex.
  */
 #ifndef RT_KERNELS_INTEGRATE_EMISSION_H
 #define RT_KERNELS_INTEGRATE_EMISSION_H
@@ -30,7 +30,7 @@ static inline float3 emitted_light(const struct scene *scene, const rt_params *p
            mis_weight(params, RT_ESTIMATOR_BSDF, light_pdf_w(scene, light, from, surface) / pdf_w);
 }
 
-/* The same of the environment, for a ray in direction w that meets nothing. */
+/* The same of the environment, for a ray in direction w that escapes. */
 INLINE_NEVER float3 environment_light(const struct scene *scene, const rt_params *params,
                                       float3 from, float3 w, float pdf_w)
 {
@@ -51,7 +51,7 @@ static inline void add_emission(struct path *path, const struct scene *scene,
                           emitted_light(scene, params, surface, wo, path->from, path->pdf_w);
 }
 
-/* Adds what the environment emits to a path whose ray meets nothing, which ends there. */
+/* Adds the environment's radiance to a path whose ray escapes, and ends the path. */
 static inline void add_environment(struct path *path, const struct scene *scene,
                                    const rt_params *params, const uint purpose)
 {

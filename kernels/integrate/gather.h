@@ -1,5 +1,6 @@
 /*
- * gather.h - where eye paths of photon mapping gather photons, and what they leave to them.
+ * gather.h - the gather points of camera paths in photon mapping, and which emission is left to
+ * photons.
  *
  * An eye path ends at the diffuse event after `final_gather` others: there the photon map takes
  * over. At the diffuse events before, only caustic photons are gathered, which came there through

@@ -1,8 +1,8 @@
 /*
- * mis.h - multiple importance sampling: how light that two techniques can find is weighed.
+ * mis.h - multiple importance sampling: the weights of light sampling and BSDF sampling.
  *
  * Direct light is found by points sampled on lights and by directions sampled from the material.
- * Each sample is weighed by the power heuristic, exponent 2; with an estimator that uses one
+ * Each sample is weighted by the power heuristic, exponent 2; with an estimator that uses one
  * technique alone, its samples count fully and the other's not at all.
  *
  * References:

@@ -1,13 +1,13 @@
 /*
- * path.h - the path integrator: follows one path from the eye, the rendering equation by Monte
+ * path.h - the path integrator: estimates the rendering equation along one camera path by Monte
  * Carlo.
  *
  *   Lo(x, wo) = Le(x, wo) + integral of fr(x, wo, wi) Li(x, wi) |n.wi| dwi            Kajiya 1986
  *
- * Direct light is estimated twice at each vertex, by a point sampled on a light and by the
- * direction sampled from the material, combined by multiple importance sampling (mis.h). Delta
- * events and delta lights leave only one of the two, which then counts fully. Photon mapping uses
- * the same integrator, with hooks at diffuse events (gather.h).
+ * Direct light is estimated at each vertex by two techniques, light sampling and BSDF sampling,
+ * combined by multiple importance sampling (mis.h). Delta events and delta lights leave only one of
+ * the two, which then counts fully. Photon mapping uses the same integrator, with hooks at diffuse
+ * events (gather.h).
  *
  * References:
  *   Kajiya: "The Rendering Equation", SIGGRAPH 1986.
@@ -23,8 +23,8 @@
 #include "sample/roulette.h"
 
 /*
- * Takes a path through the vertex that its ray hits, with the vertex's numbers u. `purpose` is a
- * constant at each call; *gather serves FOLLOW_TO_GATHER alone.
+ * Shades the vertex that the path's ray hits, with the vertex's sample values u, and extends the
+ * path. `purpose` is a constant at each call; *gather serves FOLLOW_TO_GATHER alone.
  */
 static inline void path_vertex(const struct scene *scene, const rt_params *params,
                                struct path *path, const struct hit *hit, float8 u,
@@ -38,7 +38,7 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     /* Attenuate by the medium. */
     path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
 
-    /* Go straight on through a boundary that a stronger medium hides. */
+    /* Skip a boundary suppressed by a medium of higher priority. */
     const struct boundary boundary =
         media_meet(scene, path->media, material, dot(wo, surface.normal) > 0.0f);
     if (!boundary.exists) {
@@ -63,15 +63,15 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, u.lo,
                       last);
 
-    /* Choose a lobe, or end the path by Russian roulette, which waits for a path that ends here. */
+    /* Choose a lobe, or end the path by Russian roulette, but not at its gather point. */
     const float3 throughput = path->beta * bsdf_albedo(&bsdf);
     const float survival = last ? 1.0f : eye_path_survival(params, path->depth, throughput);
     const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
     path->alive = lobe != RT_LOBE_NONE;
     path->beta *= 1.0f / survival;
 
-    /* In photon mapping, gather photons wherever the lobe is gathered. */
-    if (purpose == FOLLOW_TO_GATHER && lobe_is_gathered(lobe))
+    /* In photon mapping, gather photons wherever the lobe is diffuse. */
+    if (purpose == FOLLOW_TO_GATHER && lobe_is_diffuse(lobe))
         add_gather_point(path, gather, last, &surface, &bsdf, material);
 
     /* Sample a direction of the lobe and go on. */
@@ -87,7 +87,7 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
     struct path path;
     path_begin(&path, scene, sampler, ray);
     while (path.alive) {
-        /* Draw the numbers of the next vertex: that fills the wait for memory below. */
+        /* Draw the sample values of the next vertex: that hides the latency of memory below. */
         const float8 u = path_numbers(&path);
 
         /* Find the nearest surface, or what the environment emits. */
@@ -97,7 +97,7 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
             break;
         }
 
-        /* Add emission, sample a light, play roulette, scatter. */
+        /* Add emission, sample a light, apply Russian roulette, sample the BSDF. */
         struct connection connection;
         connection.radiance = (float3)(0.0f);
         path_vertex(scene, params, &path, &hit, u, &connection, purpose, gather);

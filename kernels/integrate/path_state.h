@@ -27,7 +27,7 @@ struct path {
     float pdf_w;         /* density of the ray's direction, 0 for the camera and delta events */
     uint4 media;         /* the solids it is inside of */
     uint depth;          /* segments, the one under way included */
-    uint hidden;         /* boundaries crossed that a stronger medium hides */
+    uint hidden;         /* boundaries skipped inside a medium of higher priority */
     uint diffuse_events; /* counted by paths that gather */
     bool alive;          /* false: it has ended */
     bool scattered;      /* by an event other than a delta one */
@@ -66,7 +66,7 @@ static inline float8 path_numbers(const struct path *path)
     return sampler_pair(&path->sampler, set_light(path->depth - 1u));
 }
 
-/* Goes on from a surface by the chosen lobe, by u in [0,1)^3. */
+/* Samples the chosen lobe with u in [0,1)^3 and spawns the next ray. */
 static inline void path_scatter(struct path *path, const struct surface *surface,
                                 const struct bsdf *bsdf, uint lobe, float3 u, uint4 beyond)
 {
@@ -77,7 +77,7 @@ static inline void path_scatter(struct path *path, const struct surface *surface
     path->alive = largest3(path->beta) > 0.0f;
     path->depth++;
     path->scattered |= path->pdf_w > 0.0f;
-    path->rough = !lobe_is_gathered(lobe) && (path->rough || !lobe_is_delta(lobe));
+    path->rough = !lobe_is_diffuse(lobe) && (path->rough || !lobe_is_delta(lobe));
     path->from = surface->position;
     if (scatter.through)
         path->media = beyond;

@@ -1,5 +1,5 @@
 /*
- * area.h - area lights: points on them, and the density with which those are made.
+ * area.h - area lights: sampling points on them, and the pdf of the samples.
  *
  * A rectangle is sampled by the solid angle it fills (shape/quad.h), a sphere by its visible cap
  * (shape/sphere.h), a triangle or a skewed parallelogram by area, any other shape by its parameters
@@ -61,7 +61,7 @@ INLINE_NEVER float3 light_texture(const struct scene *scene, global const rt_lig
     return texture_value(scene->textures + light->texture, scene->texels, at->u, at->v);
 }
 
-/* What the light emits in direction w at a point of which u and v are known. */
+/* Radiance emitted in direction w at *at, whose u and v are set. */
 static inline float3 light_radiance(const struct scene *scene, global const rt_light_data *light,
                                     const struct surface *at, float3 w)
 {

@@ -1,8 +1,8 @@
 /* area.inc.h - the density of points by area, over a width (see math/width1.inc.h). */
 
 /*
- * 1 / pdf_w of sampling an area uniformly, seen along `towards` (not of unit length): its solid
- * angle, were it all there.
+ * 1 / pdf_w of a point sampled uniformly by area, for the unnormalised direction `towards`:
+ * |cos| area / d^2.
  */
 static inline REAL W(area_inv_pdf)(REAL area, VEC3 towards, VEC3 normal)
 {

@@ -46,8 +46,8 @@ static inline float spot_solid_angle(global const rt_light_data *light)
 }
 
 /*
- * A direction in proportion to a spot's intensity. In the cosine, the edge has half the light of as
- * wide a piece inside.
+ * A direction in proportion to a spot's intensity. Over cos(theta), the smoothstep falloff
+ * integrates to half the width of its interval.
  */
 static inline void emit_spot(struct emission *emission, global const rt_light_data *light, float2 u)
 {

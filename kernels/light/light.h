@@ -25,10 +25,7 @@ static inline uint surface_light(const struct scene *scene, const struct surface
 
 /* ---- Density ----------------------------------------------------------------- */
 
-/*
- * The density with which sample_light, from this point, makes the direction in which the light's
- * point `at` is met.
- */
+/* pdf_w of sampling from this point, by sample_light, the direction to the light's point `at`. */
 static inline float light_pdf_w(const struct scene *scene, global const rt_light_data *light,
                                 float3 from, const struct surface *at)
 {
@@ -43,7 +40,7 @@ static inline float light_pdf_w(const struct scene *scene, global const rt_light
     return pmf / area_inv_pdf(area, at->position - from, at->normal);
 }
 
-/* The same for a ray from there that meets nothing, in direction w; there is an environment. */
+/* The same for a ray from there that escapes in direction w; there is an environment. */
 static inline float environment_light_pdf_w(const struct scene *scene, float3 from, float3 w)
 {
     return light_pmf(scene, scene->header->environment.light, from) * environment_pdf_w(scene, w);

@@ -24,7 +24,7 @@ struct light_sample {
     float inv_pdf;
     /* no ray can meet it by chance: multiple importance sampling must leave it alone */
     bool delta;
-    bool distant; /* infinitely far: wi says all of where it is */
+    bool distant; /* at infinity: only wi is defined, not at.position */
 };
 
 /*

@@ -2,11 +2,12 @@
  * tree.h - choosing a light for a point by its estimated contribution: its power over the square
  * of its distance.
  *
- * A walk from the root of a binary tree of lights goes to each child in proportion to that estimate
- * of its lights together. The light's sample is then divided by the probability of the walk, so
- * only the noise depends on the estimate (Conty Estevez and Kulla, "Importance Sampling of Many
- * Lights with Adaptive Tree Splitting", HPG 2018, without the splitting and the bounds of
- * directions). With 400 lights over a floor it makes 1/30 of the variance of a choice by power.
+ * The light tree, a binary one, is traversed from the root; at each node a child is chosen with
+ * probability proportional to the estimate for its lights. The light's sample is then divided by
+ * the probability of its choice, so only the noise depends on the estimate (Conty Estevez and
+ * Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018, without the
+ * splitting and the bounds of directions). With 400 lights over a floor it makes 1/30 of the
+ * variance of a choice by power.
  */
 #ifndef RT_KERNELS_LIGHT_TREE_H
 #define RT_KERNELS_LIGHT_TREE_H
@@ -35,8 +36,8 @@ static inline float first_chance(global const rt_light_node *pair, float3 from)
 }
 
 /*
- * The light that a number u in [0, 1) chooses for a point, and the probability of that. There is
- * one.
+ * Chooses a light for a point by u in [0, 1), with its probability *pmf. The scene must have a
+ * light.
  */
 static inline uint choose_light(const struct scene *scene, float3 from, float u, float *pmf)
 {

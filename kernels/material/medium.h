@@ -2,9 +2,9 @@
  * medium.h - which solids a path is inside of, and what happens at their boundaries.
  *
  * A path carries up to four materials, that of highest priority first, and among equals the one
- * entered last; the first is the medium the path runs in. A boundary under the current medium does
- * not exist for light: the path goes straight through and only the list changes (Schmidt and Budge,
- * "Simple Nested Dielectrics in Ray Traced Images", JGT 7(2), 2002). When a fifth solid is
+ * entered last; the first is the medium the path runs in. A boundary of lower priority than the
+ * current medium is ignored: the path goes straight through and only the list changes (Schmidt and
+ * Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT 7(2), 2002). When a fifth solid is
  * entered, the last of the list is forgotten. A path that leaves a solid that is not in its list
  * started inside of it, or forgot it: it is treated as if it had been there all along.
  */

@@ -1,14 +1,14 @@
 /*
- * aim.h - light paths that start towards what caustics come from.
+ * aim.h - photon paths aimed at specular shapes, as by a projection map.
  *
  * A path can leave a caustic photon only when it first meets a specular shape, so its start is
- * drawn anew among those that run into the balls around these shapes: directions within the cones
- * under which the balls are seen, or, of light from infinitely far, points on their discs. A ball
- * is chosen in proportion to its solid angle or its disc, so the density is the number of balls
- * that the start runs into over the sum of all. The flux is weighted by the density that the start
- * had by light_emit over this one: caustic photons have the same mean as without, and what would
- * have gone elsewhere is not followed. Where the balls fill no less than the directions that
- * the light emits into, as around an area light within one of them, the start is left as it is.
+ * resampled towards the bounding spheres of these shapes: directions within the cones that the
+ * spheres subtend, or, of light from infinitely far, points on their discs. A bounding sphere is
+ * chosen in proportion to its solid angle or its disc, so the density is the number of spheres that
+ * the start runs into over the sum of all. The flux is weighted by the density that the start had
+ * by light_emit over this one: the expected caustic illumination is unchanged, and paths in other
+ * directions are not traced. Where the bounding spheres fill no less than the directions that the
+ * light emits into, as around an area light within one of them, the start is left as it is.
  *
  * References:
  *   Jensen: "Realistic Image Synthesis Using Photon Mapping", 2001, section 5.2 (projection maps).
@@ -27,11 +27,11 @@ struct emission_cone {
     float cosine, sine; /* of the angle between the axis and the edge */
 };
 
-/* ---- Balls seen from a point --------------------------------------------------- */
+/* ---- Bounding spheres seen from a point ---------------------------------------- */
 
 /*
- * The solid angle of a ball, 0 when it lies outside the light's cone; the whole sphere when it
- * holds the point.
+ * The solid angle of a bounding sphere, 0 when it lies outside the light's cone; 4 pi when it holds
+ * the point.
  */
 static inline float target_solid_angle(global const rt_target *target,
                                        const struct emission_cone *cone)
@@ -40,7 +40,7 @@ static inline float target_solid_angle(global const rt_target *target,
     const float radius2 = square(target->radius), d2 = dot(towards, towards);
     if (!(d2 > radius2))
         return 4.0f * RT_PI;
-    /* They touch unless the angle to the ball's centre is above the sum of both half-angles. */
+    /* They touch unless the angle to the sphere's centre is above the sum of both half-angles. */
     const float sine = target->radius / sqrt(d2), cosine = sqrt(1.0f - radius2 / d2);
     const float sum_sine = cone->sine * cosine + cone->cosine * sine;
     const float sum_cosine = cone->cosine * cosine - cone->sine * sine;
@@ -48,7 +48,7 @@ static inline float target_solid_angle(global const rt_target *target,
     return touches ? 2.0f * RT_PI * cap_height(target->radius, d2) : 0.0f;
 }
 
-/* Whether a ray in this direction runs into a ball that it starts outside of. */
+/* Whether a ray in this direction runs into a bounding sphere that it starts outside of. */
 static inline bool target_is_ahead(global const rt_target *target, float3 from, float3 direction)
 {
     const float3 towards = row3(target->centre) - from;
@@ -56,7 +56,7 @@ static inline bool target_is_ahead(global const rt_target *target, float3 from, 
     return dot(towards, direction) > 0.0f && dot(off, off) <= square(target->radius);
 }
 
-/* A direction in the cone of a ball, uniform in solid angle. */
+/* A direction in the cone of a bounding sphere, uniform in solid angle. */
 static inline float3 sample_target(global const rt_target *target, float3 from, float2 u)
 {
     const float3 towards = row3(target->centre) - from;
@@ -67,9 +67,9 @@ static inline float3 sample_target(global const rt_target *target, float3 from, 
 }
 
 /*
- * Samples a direction by all balls, of which u.z chooses. Returns 1 / pdf_w: 0 when no ball is in
- * the light's cone, and `limit` when they fill no less than that, which leaves the direction as it
- * is.
+ * Samples a direction by all bounding spheres, of which u.z chooses. Returns 1 / pdf_w: 0 when none
+ * is in the light's cone, and `limit` when they fill no less than that, which leaves the direction
+ * as it is.
  */
 static inline float aim_from_point(const struct scene *scene, const struct emission_cone *cone,
                                    float limit, float3 u, float3 *direction)
@@ -81,7 +81,7 @@ static inline float aim_from_point(const struct scene *scene, const struct emiss
     if (sum == 0.0f || sum >= limit)
         return min(sum, limit);
 
-    /* Choose a ball; rounding at the end leaves the last that can be seen. */
+    /* Choose a bounding sphere; rounding at the end leaves the last that can be seen. */
     uint chosen = 0;
     float before = 0.0f;
     for (uint i = 0; i < count && before <= u.z * sum; i++) {
@@ -91,7 +91,7 @@ static inline float aim_from_point(const struct scene *scene, const struct emiss
     }
     *direction = sample_target(scene->targets + chosen, cone->from, u.xy);
 
-    /* Count the balls that could have been chosen for it. */
+    /* Count the bounding spheres that could have been chosen for it. */
     float covers = 1.0f;
     for (uint i = 0; i < count; i++)
         if (i != chosen && target_solid_angle(scene->targets + i, cone) > 0.0f &&
@@ -152,7 +152,10 @@ static inline void aim_near(const struct scene *scene, global const rt_light_dat
 
 /* ---- Light from infinitely far ----------------------------------------------------- */
 
-/* Points on the disc that light_emit uses, through the balls as they are seen along the light. */
+/*
+ * Points on the disc that light_emit uses, through the bounding spheres as they are seen along the
+ * light.
+ */
 static inline void aim_far(const struct scene *scene, float3 u, struct emission *emission)
 {
     const uint count = scene->header->target_count;
@@ -167,7 +170,7 @@ static inline void aim_far(const struct scene *scene, float3 u, struct emission 
     if (count == 0u)
         return;
 
-    /* Choose a ball, and a point of its disc. */
+    /* Choose a bounding sphere, and a point of its disc. */
     uint chosen = 0;
     for (float before = square(scene->targets[0].radius);
          before <= u.z * sum && chosen + 1u < count;)
@@ -178,7 +181,7 @@ static inline void aim_far(const struct scene *scene, float3 u, struct emission 
     const float3 through = row3(target->centre) + (p.x * frame.s + p.y * frame.t);
     emit_from(emission, distant_start(scene, w, through), -w);
 
-    /* Count the balls that could have been chosen for it. */
+    /* Count the bounding spheres that could have been chosen for it. */
     float covers = 1.0f;
     for (uint i = 0; i < count; i++) {
         const float3 off = cross(row3(scene->targets[i].centre) - through, w);
@@ -189,8 +192,8 @@ static inline void aim_far(const struct scene *scene, float3 u, struct emission 
 }
 
 /*
- * Turns a start that light_emit made of these numbers towards what caustics come from;
- * direction.w chooses the ball. The start's flux becomes 0 where no caustic can come of it.
+ * Aims a start that light_emit made of these numbers at the specular shapes; direction.w chooses
+ * the bounding sphere. The start's flux becomes 0 where no caustic can come of it.
  */
 static inline void aim_at_caustics(const struct scene *scene, float4 start, float4 direction,
                                    struct emission *emission)

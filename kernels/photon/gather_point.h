@@ -56,7 +56,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     vstore3(throughput * (fixed / bsdf->diffuse), 0, point->weight);
 }
 
-/* The surface at a point, as far as gathered lobes read it. */
+/* The surface at a point, as far as diffuse lobes read it. */
 static inline struct bsdf bsdf_of_point(global const rt_gather_point *point)
 {
     struct bsdf bsdf;

@@ -6,8 +6,7 @@
  * points spread evenly over a convex region of area a, the hull leaves 1 - E[v]/(n + 1) of a one
  * point more outside (v: its corners; Efron, "The convex hull of a random set of points",
  * Biometrika 52, 1965), so that (n - v) points over the hull's area are the density, almost without
- * bias. The corners, which pushed the hull to where it is, do not count, like the k-th photon of a
- * disc.
+ * bias. The corners define the hull and are excluded, as the k-th photon is from a disc.
  */
 #ifndef RT_KERNELS_PHOTON_HULL_H
 #define RT_KERNELS_PHOTON_HULL_H

@@ -1,10 +1,10 @@
 /*
- * knn.h - the disc around a point whose photons count, by the rules of the host's search
- * (search.h): it ends at the k-th accepted photon, at the limit on the radius, or at the (16 k)-th
- * photon of any kind, and the photons strictly nearer count.
+ * knn.h - the disc around a point whose photons count, by the rules of
+ * lib/photon/neighbour_search.h: it ends at the k-th accepted photon, at the limit on the radius,
+ * or at the (16 k)-th photon of any kind, and the photons strictly nearer count.
  *
  * The k-th distance is found by a traversal that goes to the nearest child first and collects
- * distances alone. Whenever its memory is full, the k smallest are selected, and the largest of
+ * distances alone. Whenever its buffer is full, the k smallest are selected, and the largest of
  * them bounds the traversal from then on. No lists are kept: the sum, which knows the radius,
  * traverses again.
  */
@@ -260,8 +260,8 @@ INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
 /*
  * The squared radius of the disc around a point; 0 when no photon counts. guess: what it may be,
  * such as that of a point nearby; 0 for none: it changes the time taken, not the result. scratch:
- * [estimate->stride]. The rule of the (max_candidates)-th photon is left to the caller where k
- * photons were accepted before it: only the sum shows.
+ * [estimate->stride]. Where k photons are accepted, the caller applies the limit of max_candidates:
+ * only the summation counts the candidates.
  */
 INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_query *query,
                                 const rt_density_params *estimate, float guess,

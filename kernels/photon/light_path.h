@@ -1,9 +1,9 @@
 /*
  * light_path.h - a photon path: its start at a light, its events, and the account of its flux.
  *
- * What surfaces absorb is taken off as their albedo says, whatever lobe is chosen, and the
- * difference that the choice makes is booked as roulette, whose mean is zero: so emitted flux =
- * absorbed + left + roulette, but for rounding.
+ * Absorption is accounted by its expected value, 1 - albedo; the deviation caused by choosing one
+ * lobe and by Russian roulette is accounted as roulette, whose expected value is zero: so emitted
+ * flux = absorbed + left + roulette, but for rounding.
  *
  * References:
  *   Veach: "Robust Monte Carlo Methods for Light Transport Simulation", PhD thesis, 1997, chapter 5
@@ -27,8 +27,8 @@ struct light_path {
     float3 absorbed, roulette; /* as rt_path_account says */
     uint4 media;
     uint depth;     /* segments, the one under way included */
-    uint hidden;    /* boundaries crossed that a stronger medium hides */
-    bool straight;  /* nothing was met yet: a shadow ray would find the light */
+    uint hidden;    /* boundaries skipped inside a medium of higher priority */
+    bool straight;  /* no surface was hit yet, so a shadow ray samples this light */
     bool scattered; /* by some event other than a delta one */
     uint photons;   /* that it stored */
     uint rejected;  /* and that it did not, because they were not finite */
@@ -85,7 +85,7 @@ static inline void end_light_path(const struct light_path *path, uint end, rt_pa
     account->rejected = path->rejected;
 }
 
-/* Loses what the medium absorbs over a distance; false when nothing is left. */
+/* Attenuates the flux by the medium over a distance; false when none is left. */
 static inline bool cross_medium(struct light_path *path, const struct scene *scene, float distance)
 {
     const float3 passed =
@@ -96,8 +96,9 @@ static inline bool cross_medium(struct light_path *path, const struct scene *sce
 }
 
 /*
- * Scatters the path at a surface; false when it ends. Survival keeps the flux of all photons alike:
- * it is the share of the strongest channel that the surface leaves.
+ * Scatters the path at a surface; false when it ends. The survival probability is the largest
+ * channel of the scattered flux over that of the incident flux, which keeps the flux of all photons
+ * about equal.
  */
 static inline bool scatter_light_path(struct light_path *path, const struct surface *surface,
                                       const struct bsdf *bsdf, uint4 beyond, float4 u)

@@ -2,13 +2,13 @@
  * rng.h - the random numbers of a path: counter-based, so that any sample can be made alone.
  *
  * A sampler serves one sample of one stream (a pixel, or all photon paths together) in sets of four
- * numbers. A set is a pure function of (seed, replicate, stream, sample, set): no state moves, and
- * a decision that is not taken costs nothing. Who reads what:
+ * numbers. A set is a pure function of (seed, replicate, stream, sample, set): the sampler has no
+ * state, and unused dimensions cost nothing. Assignment of dimensions:
  *
  *   set                  .x .y                    .z                  .w
  *   SET_START     eye    point in the pixel       point on the lens (z, w)
  *                 light  point on the light       choice of light     -
- *   SET_EMISSION  light  direction                side of the light   ball that is aimed at
+ *   SET_EMISSION  light  direction                side of the light   bounding sphere
  *   set_light(v)         point on the light       choice of light     -
  *   set_scatter(v)       direction                event or roulette   side of a rough boundary
  *

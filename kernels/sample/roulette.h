@@ -1,6 +1,6 @@
 /*
- * roulette.h - Russian roulette: the chance with which a path goes on. One that survives is divided
- * by its chance, so that the mean stays.
+ * roulette.h - Russian roulette: the survival probability of a path. A surviving path is divided by
+ * it, so the estimator stays unbiased.
  *
  * Photon paths take as reference the flux that arrived, so that all photons keep about the same.
  * Eye paths take a threshold, from a given length on: those that go on from below it all carry as

@@ -3,7 +3,8 @@
  *
  * Both compilers read the list. From it come the kinds below; for the device the switches of this
  * file, which call the functions of the shapes' own headers; for the host the table of classes in
- * lib/shape/class.c. A shape is added by a row, its header included below, and lib/shape/NAME.c.
+ * lib/shape/classes.c. To add a shape, add a row, include its header below, and write
+ * lib/shape/NAME.c and its block in dsl/shapes.c.
  */
 #ifndef RT_KERNELS_SHAPE_SHAPES_H
 #define RT_KERNELS_SHAPE_SHAPES_H

@@ -272,7 +272,7 @@ rt_status rt_neighbour_search_find(const rt_neighbour_search *search, const rt_g
         discs[i] = (rt_gather_disc){.pixel = points[i].pixel};
     rt_status status = find_queries(queries, &left, points, count, search->threads, error);
     for (size_t i = 0; i < left && status == RT_OK; i++)
-        discs[queries[i]].asked = 1;
+        discs[queries[i]].is_query = 1;
     if (search->count == 0)
         left = 0;
     /* Most points are done with k candidates; the others take twice as many, and again. */

@@ -7,11 +7,11 @@
 #include "chance.h"
 #include "support.h"
 
-int is_gathered(int event)
+int is_diffuse(int event)
 {
-#define GATHERED_OF(NAME, name, is_delta, is_gathered) is_gathered,
-    static const int gathered[] = {RT_LOBES(GATHERED_OF) 0};
-    return gathered[event];
+#define DIFFUSE_OF(NAME, name, is_delta, is_diffuse) is_diffuse,
+    static const int of_lobe[] = {RT_LOBES(DIFFUSE_OF) 0};
+    return of_lobe[event];
 }
 
 /* A scene of one shape and one material. */

@@ -21,7 +21,7 @@ enum {
 };
 
 /* Whether an event is the choice of a lobe that photons are gathered by. */
-int is_gathered(int event);
+int is_diffuse(int event);
 
 /* How a path meets the surface; eta: index on the side of wo over that on the other. */
 typedef struct situation {

@@ -12,7 +12,7 @@ static rt_gather_disc list_photons(const struct photon_tree *tree, const struct 
     rt_gather_disc disc;
     disc.count = 0u;
     disc.squared_radius = sum->squared_radius;
-    disc.asked = sum->count;
+    disc.is_query = sum->count;
     struct tree_traversal traversal;
     uint first, mask;
     traversal_start(&traversal, start);

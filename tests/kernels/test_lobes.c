@@ -17,8 +17,8 @@ enum { n = 1 << 16, rings = 16, sectors = 12, fine = 8 };
 
 static lobe_draw draws[n];
 
-#define NAME_OF(NAME, name, is_delta, is_gathered) #name,
-#define DELTA_OF(NAME, name, is_delta, is_gathered) is_delta,
+#define NAME_OF(NAME, name, is_delta, is_diffuse) #name,
+#define DELTA_OF(NAME, name, is_delta, is_diffuse) is_delta,
 static const char *const names[] = {RT_LOBES(NAME_OF)};
 static const int is_delta[] = {RT_LOBES(DELTA_OF)};
 

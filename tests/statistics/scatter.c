@@ -107,7 +107,7 @@ static sampled place_surface(const void *setup, uint32_t i)
     const int event = (int)d->event;
     if (s->aspect == EVENTS)
         return (sampled){(event + 0.5) / event_count, 0.5, NAN};
-    if (s->aspect == DIFFUSE && is_gathered(event))
+    if (s->aspect == DIFFUSE && is_diffuse(event))
         return (sampled){d->wi[2], turns_of(d->wi[0], d->wi[1]), 2 * PI * d->pdf_w};
     if (s->aspect == ROUGH && event == rough && d->pdf_w > 0)
         return (sampled){0.5 + 0.5 * d->wi[2], turns_of(d->wi[0], d->wi[1]), 4 * PI * d->pdf_w};

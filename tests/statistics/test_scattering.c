@@ -110,7 +110,7 @@ static double values[n];
 
 static int spreads(const bsdf_draw *d)
 {
-    return is_gathered((int)d->event) || (int)d->event == rough;
+    return is_diffuse((int)d->event) || (int)d->event == rough;
 }
 
 /*
@@ -149,7 +149,7 @@ static void densities_are_of_what_happens(void **state)
                          draws);
             double all_rough = 0;
             for (int i = 0; i < n; i++) {
-                values[i] = is_gathered((int)draws[i].event);
+                values[i] = is_diffuse((int)draws[i].event);
                 all_rough += (int)draws[i].event == rough;
             }
             expect_mean(values, n, found.diffuse, 2e-4, materials[m].name);

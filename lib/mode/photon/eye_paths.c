@@ -133,17 +133,17 @@ static void count_ends(const rt_gather_disc *discs, const rt_gather_disc *causti
                        rt_film_stats *stats)
 {
     for (size_t i = 0; i < count; i++) {
-        stats->gathers += discs[i].asked;
-        stats->gathers_at_ends += discs[i].asked;
+        stats->gathers += discs[i].is_query;
+        stats->gathers_at_ends += discs[i].is_query;
         stats->gathers_empty +=
-            discs[i].asked && discs[i].count == 0 && !(caustic && caustic[i].count > 0);
+            discs[i].is_query && discs[i].count == 0 && !(caustic && caustic[i].count > 0);
     }
 }
 
 static void count_earlier(const rt_gather_disc *discs, size_t count, rt_film_stats *stats)
 {
     for (size_t i = 0; i < count; i++)
-        stats->gathers += discs[i].asked;
+        stats->gathers += discs[i].is_query;
 }
 
 /* Makes one query at the points of a row, and for the layers the finer one as well. */

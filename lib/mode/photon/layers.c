@@ -39,7 +39,7 @@ void rt_photon_layers_add(rt_photon_layer_sum *sums, const rt_gather_point *poin
             sum->value += value;
             sum->square += value * value;
         }
-        if (!discs[i].asked)
+        if (!discs[i].is_query)
             continue;
         sum->asked++;
         sum->photons += discs[i].count;

@@ -110,8 +110,8 @@ static void check_reflection(rt_gather_options options)
     for (size_t i = 0; i < point_count; i++) {
         double expected[3];
         expected_radiance(expected, &map, asked + before + i, 0.1f);
-        assert_int_equal(discs[i].asked, i % 7 != 0);
-        assert_true(discs[i].asked == (discs[i].count > 0));
+        assert_int_equal(discs[i].is_query, i % 7 != 0);
+        assert_true(discs[i].is_query == (discs[i].count > 0));
         for (int c = 0; c < 3; c++) {
             /* Twice the reflected light, as it was asked for twice. */
             double found = points[before + i].radiance[c] - asked[before + i].radiance[c];

@@ -128,7 +128,7 @@ static void ask_device(answers *a, rt_tree_gather *g, const uint64_t *order, cl_
     for (size_t i = 0; i < part; i++) {
         assert_true(a->discs[i].count <= a->stride);
         /* what the sum counts is what is listed */
-        assert_int_equal(a->discs[i].count, a->discs[i].asked);
+        assert_int_equal(a->discs[i].count, a->discs[i].is_query);
         for (rt_u32 *place = a->lists + i * a->stride, *end = place + a->discs[i].count;
              place < end; place++)
             *place = (rt_u32)(order[*place] & RT_POINT_ORDER_INDEX);

@@ -155,9 +155,9 @@ static void points_without_weight_or_place_are_not_asked(void **state)
     expect_ok(rt_neighbour_search_create(&search, &map, 5, INFINITY, 1, &error), &error);
     expect_ok(rt_neighbour_search_find(search, points, 3, lists, discs, &error), &error);
     rt_neighbour_search_destroy(search);
-    assert_int_equal(discs[0].asked, 0);
-    assert_int_equal(discs[1].asked, 1);
-    assert_int_equal(discs[2].asked, 0);
+    assert_int_equal(discs[0].is_query, 0);
+    assert_int_equal(discs[1].is_query, 1);
+    assert_int_equal(discs[2].is_query, 0);
     assert_int_equal(discs[0].count, 0);
     assert_int_equal(discs[1].count, 4);
     assert_int_equal(discs[2].count, 0);
