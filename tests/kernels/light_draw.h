@@ -12,7 +12,7 @@
 enum { light_draws = 1 << 16 };
 
 typedef struct light_draw {
-    float position[3], spread; /* sr, 1 / pdf_w */
+    float position[3], inv_pdf; /* sr, 1 / pdf_w */
     float wi[3], delta;
     float radiance[3], again_pdf_w; /* of the same direction, asked for afterwards */
     float normal[3], lift;

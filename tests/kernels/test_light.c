@@ -26,9 +26,9 @@ static void expect_solid_angle(double expected, const char *what)
     static double values[n];
     for (int i = 0; i < n; i++) {
         const light_draw *s = samples + i;
-        values[i] = s->radiance[0] > 0 ? s->spread : 0;
+        values[i] = s->radiance[0] > 0 ? s->inv_pdf : 0;
         if (s->radiance[0] > 0)
-            assert_float_equal(s->again_pdf_w * s->spread, 1, 1e-4);
+            assert_float_equal(s->again_pdf_w * s->inv_pdf, 1, 1e-4);
     }
     expect_mean(values, n, expected, 1e-4 * expected, what);
 }
@@ -119,7 +119,7 @@ static void expect_samples_by_area(const float centre[3], double radius, const f
         counts[s->radiance[0] > 0]++;
         if (s->radiance[0] > 0)
             assert_float_equal(
-                s->spread / (4 * PI * radius * radius * dot(d, normal) / pow(dot(d, d), 1.5)), 1,
+                s->inv_pdf / (4 * PI * radius * radius * dot(d, normal) / pow(dot(d, d), 1.5)), 1,
                 0.02);
     }
     expect_counts(counts, expected, 2, "sphere from close by");
@@ -173,7 +173,7 @@ static void point_lights_fall_off_with_the_square_of_distance(void **state)
     rt_renderer *renderer = light_renderer(scene);
     draw_lights(renderer, 1, (const float[3]){1, 2, 0}, samples);
     for (int i = 0; i < n; i++) {
-        assert_true(samples[i].delta == 1 && samples[i].spread == 1 && samples[i].wi[2] == 1);
+        assert_true(samples[i].delta == 1 && samples[i].inv_pdf == 1 && samples[i].wi[2] == 1);
         assert_float_equal(samples[i].radiance[1], 6.0 / 9, 1e-6);
     }
     rt_renderer_destroy(renderer);

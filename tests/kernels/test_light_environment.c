@@ -93,9 +93,9 @@ static void samples_bring_the_radiance_of_their_direction(void **state)
         double u, v;
         place(s->wi, 100, &u, &v);
         assert_float_equal(s->radiance[1], radiance(u, v), 2e-3);
-        assert_float_equal(s->again_pdf_w * s->spread, 1, 2e-3);
+        assert_float_equal(s->again_pdf_w * s->inv_pdf, 1, 2e-3);
         assert_true(s->delta == 0);
-        values[i] = s->radiance[0] * s->spread;
+        values[i] = s->radiance[0] * s->inv_pdf;
     }
     expect_mean(values, n, whole_sky(), 1e-4 * whole_sky(), "light of the whole sky");
     rt_renderer_destroy(renderer);
@@ -107,8 +107,8 @@ static void an_even_sky_is_sampled_evenly(void **state)
     (void)state;
     draw_lights(renderer, 1, origin, samples);
     for (int i = 0; i < n; i++) {
-        assert_float_equal(samples[i].spread, 4 * PI, 1e-4);
-        assert_float_equal(samples[i].again_pdf_w * samples[i].spread, 1, 1e-6);
+        assert_float_equal(samples[i].inv_pdf, 4 * PI, 1e-4);
+        assert_float_equal(samples[i].again_pdf_w * samples[i].inv_pdf, 1, 1e-6);
         values[i] = samples[i].wi[1] > 0;
     }
     expect_mean(values, n, 0.5, 0, "upper half of the sky");
@@ -166,7 +166,7 @@ static void light_paths_of_a_directional_light_carry_its_irradiance(void **state
     expect_flux(5 * 2 / sqrt(6), "directional light");
     draw_lights(renderer, 1, origin, samples);
     for (int i = 0; i < n; i++)
-        assert_true(samples[i].delta == 1 && samples[i].spread == 1 &&
+        assert_true(samples[i].delta == 1 && samples[i].inv_pdf == 1 &&
                     samples[i].radiance[0] == 5 && fabs(samples[i].wi[1] - 2 / sqrt(6)) < 1e-6);
     rt_renderer_destroy(renderer);
 }

@@ -95,9 +95,9 @@ static void shapes_fill_their_solid_angle(void **state)
             draw_lights(renderer, k, from[k], samples);
             for (int i = 0; i < n; i++) {
                 const light_draw *s = samples + i;
-                values[i] = s->radiance[0] > 0 ? s->spread : 0;
+                values[i] = s->radiance[0] > 0 ? s->inv_pdf : 0;
                 if (s->radiance[0] > 0)
-                    assert_float_equal(s->again_pdf_w * s->spread, 1, 2e-3);
+                    assert_float_equal(s->again_pdf_w * s->inv_pdf, 1, 2e-3);
             }
             look_around(renderer, from[k]);
             expect_mean(values, n, average(directions), 5 * 4 * PI / n, emitter->name);

@@ -104,8 +104,11 @@ static void a_furnace_sums_the_series_of_its_albedo(void **state)
     }
 }
 
-/* Solids that only reflect and refract, in even light of radiance 1. */
-static rt_scene *even_light(void)
+/*
+ * Solids that only reflect and refract, in a uniform environment of radiance 1 (white-furnace
+ * test).
+ */
+static rt_scene *white_furnace(void)
 {
     static const rt_material sky = {.emission = {1, 1, 1}, .two_sided = 1};
     rt_scene *scene = new_scene();
@@ -124,7 +127,7 @@ static void expect_even(rt_scene *scene, double radiance)
     rt_film_destroy(film);
 }
 
-static void glass_disappears_in_even_light(void **state)
+static void glass_disappears_in_a_white_furnace(void **state)
 {
     static const rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = 1},
                              plain = {.kt = {0.75f, 0.75f, 0.75f},
@@ -132,19 +135,19 @@ static void glass_disappears_in_even_light(void **state)
                                       .ior = 1.3f};
     (void)state;
     for (int fresnel = 0; fresnel < 2; fresnel++) {
-        rt_scene *scene = even_light();
+        rt_scene *scene = white_furnace();
         add_sphere(scene, origin, 1.5f, add_material(scene, fresnel ? &glass : &plain));
         expect_even(scene, 1);
     }
 }
 
-static void nested_and_overlapping_solids_disappear_in_even_light(void **state)
+static void nested_and_overlapping_solids_disappear_in_a_white_furnace(void **state)
 {
     static const rt_material water = {.kt = {1, 1, 1}, .ior = 1.33f, .fresnel = 1},
                              glass = {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = 1, .priority = 1},
                              bubble = {.kt = {1, 1, 1}, .ior = 1, .fresnel = 1, .priority = 2};
     static const float aside[3] = {0.9f, 0.4f, 0};
-    rt_scene *scene = even_light();
+    rt_scene *scene = white_furnace();
     (void)state;
     add_sphere(scene, origin, 1.5f, add_material(scene, &water));
     add_sphere(scene, aside, 1, add_material(scene, &glass));
@@ -155,7 +158,7 @@ static void nested_and_overlapping_solids_disappear_in_even_light(void **state)
 static void radiance_inside_glass_is_the_index_squared(void **state)
 {
     static const rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f, .fresnel = 1};
-    rt_scene *scene = even_light();
+    rt_scene *scene = white_furnace();
     (void)state;
     /* The camera sits near the centre, so that nothing is reflected totally. */
     add_sphere(scene, origin, 20, add_material(scene, &glass));
@@ -166,7 +169,7 @@ static void mirrors_reflect_what_they_should(void **state)
 {
     static const rt_material mirror = {.ks = {0.5f, 0.25f, 1}};
     static const float corner[3] = {-9, -9, 0}, x[3] = {18, 0, 0}, y[3] = {0, 18, 0};
-    rt_scene *scene = even_light();
+    rt_scene *scene = white_furnace();
     (void)state;
     add_quad(scene, corner, x, y, add_material(scene, &mirror));
     rt_film *film = render(scene, 4, 16, RT_SAMPLER_SOBOL);
@@ -455,8 +458,8 @@ int main(void)
         cmocka_unit_test(samples_that_are_not_finite_are_counted_and_left_out),
         cmocka_unit_test(samples_that_gather_nowhere_are_rejected),
         statistical_test(a_furnace_sums_the_series_of_its_albedo),
-        cmocka_unit_test(glass_disappears_in_even_light),
-        cmocka_unit_test(nested_and_overlapping_solids_disappear_in_even_light),
+        cmocka_unit_test(glass_disappears_in_a_white_furnace),
+        cmocka_unit_test(nested_and_overlapping_solids_disappear_in_a_white_furnace),
         cmocka_unit_test(radiance_inside_glass_is_the_index_squared),
         cmocka_unit_test(mirrors_reflect_what_they_should),
         cmocka_unit_test(a_point_light_lights_a_floor_by_the_inverse_square),

@@ -32,26 +32,26 @@ render() {
 }
 
 photons="--mode photon --spp 1 --photons 300 --k 8"
-for scene in "$here"/lamps.rts "$here"/media.rts "$here"/../../scenes/primitives.rts; do
+for scene in "$here"/lights.rts "$here"/media.rts "$here"/../../scenes/primitives.rts; do
     name=$(basename "$scene" .rts)
     render "path: $name" "$scene" --spp 2
     render "direct: $name" "$scene" --mode direct --spp 2
     render "photons by FLANN: $name" "$scene" $photons --gather flann
     render "photons by the device: $name" "$scene" $photons --gather device
 done
-lamps=$here/lamps.rts media=$here/media.rts
+lights=$here/lights.rts media=$here/media.rts
 render 'no hierarchy' "$media" --spp 1 --accel none
-render 'independent samples, light sampling' "$lamps" --spp 2 --sampler independent \
+render 'independent samples, light sampling' "$lights" --spp 2 --sampler independent \
     --estimator light
-render 'scattering alone, a filter' "$lamps" --spp 2 --estimator bsdf --filter mitchell
+render 'scattering alone, a filter' "$lights" --spp 2 --estimator bsdf --filter mitchell
 render 'the variance' "$media" --spp 32 --width 4 --height 4 --variance
-render 'layers' "$lamps" --spp 2 --aov
+render 'layers' "$lights" --spp 2 --aov
 render 'the layers of photons' "$media" $photons --aov --photon-layers
 render 'passes' "$media" $photons --passes 3
 render 'a caustic map and a final gather on the device' "$media" $photons --caustic-photons 300 \
     --final-gather 1 --gather device
 render 'a final gather by FLANN' "$media" $photons --final-gather 2
-render 'the hull' "$lamps" $photons --area hull
+render 'the hull' "$lights" $photons --area hull
 render 'all photons within a radius' "$media" --mode photon --spp 1 --photons 300 \
     --k all --radius 0.3 --direct photons
 render 'fewer photons than asked for' "$media" --mode photon --spp 1 --photons 3 --gather device

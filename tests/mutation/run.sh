@@ -1,6 +1,6 @@
 #!/bin/sh
-# run.sh - plants physical errors in a copy of the sources, one at a time, and tells which of them
-# the tests catch.
+# run.sh - applies the mutations to a copy of the sources, one at a time, and reports which of
+# them the tests detect.
 #
 #   tests/mutation/run.sh [NAME...]
 #

@@ -84,13 +84,13 @@ def box_point():
 
 
 def box_area():
-    return box(16, lamp=box_light(), **box_balls(matte(0.2, 0.4, 0.8), matte(0.8, 0.6, 0.2)))
+    return box(16, light=box_light(), **box_balls(matte(0.2, 0.4, 0.8), matte(0.8, 0.6, 0.2)))
 
 
 def box_caustic():
     glass = {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}
     mirror = {"type": "conductor", "material": "none"}
-    return box(24, lamp=box_light(), **box_balls(glass, mirror))
+    return box(24, light=box_light(), **box_balls(glass, mirror))
 
 
 # ---- Rough gold and glass under a sky -------------------------------------------

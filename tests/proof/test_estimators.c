@@ -2,7 +2,7 @@
  * test_estimators.c - all techniques render a room with the same mean in every pixel.
  *
  * Photons are gathered within a radius so small that what discs lose beyond edges is far below the
- * noise: the mean of such an estimate does not hang on how many photons a disc holds.
+ * noise: the mean of such an estimate does not depend on how many photons a disc holds.
  */
 #include <math.h>
 

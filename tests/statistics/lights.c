@@ -39,11 +39,11 @@ static sampled place_area_light(const void *setup, uint32_t i)
     sampled s = {0, 0, NAN};
     emitter_place(v->kind, d->position, d->normal, &s.x, &s.y);
     if (i < told_samples) {
-        /* 1 / spread is a density of solid angle. */
+        /* 1 / inv_pdf is a density of solid angle. */
         rt_vec_sub(away, d->position, v->from);
         wide(n, d->normal);
         const double d2 = dot3(away, away), cosine = fabs(dot3(away, n)) / sqrt(d2);
-        s.pdf = emitter_element(v->kind, s.x, s.y) * cosine / (d2 * d->spread);
+        s.pdf = emitter_element(v->kind, s.x, s.y) * cosine / (d2 * d->inv_pdf);
     }
     return s;
 }
@@ -89,7 +89,7 @@ static sampled place_sky(const void *setup, uint32_t i)
     sampled s;
     (void)setup;
     sky_place(draws[i].wi, &s.x, &s.y);
-    s.pdf = sky_element(s.y) / draws[i].spread;
+    s.pdf = sky_element(s.y) / draws[i].inv_pdf;
     return s;
 }
 
@@ -133,7 +133,7 @@ static sampled place_choice(const void *setup, uint32_t i)
 {
     (void)setup;
     return (sampled){(draws[i].position[0] + 0.5) / light_count, 0.5,
-                     light_count / draws[i].spread};
+                     light_count / draws[i].inv_pdf};
 }
 
 static double by_chance(const void *setup, double x, double y)

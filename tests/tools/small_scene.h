@@ -1,6 +1,6 @@
 /*
- * small_scene.h - a scene for tests of rtc: a diffuse and a glass ball under a square lamp; every
- * option can matter.
+ * small_scene.h - a scene for tests of rtc: a diffuse and a glass ball under a square area
+ * light; every option can matter.
  */
 #ifndef RT_TESTS_SMALL_SCENE_H
 #define RT_TESTS_SMALL_SCENE_H

@@ -15,7 +15,7 @@
 #include "spawn.h"
 
 /*
- * Diffuse, mirror and glass, a point light and a lamp, a thin lens: everything that draws samples.
+ * Diffuse, mirror and glass, a point and an area light, a thin lens: all that draws samples.
  */
 static const char scene[] =
     "camera { eye 0 1.5 -5  look_at 0 0.8 0  fov 45  aperture 0.05 }\n"
@@ -86,7 +86,7 @@ static void photon_mode_gives_the_same_bytes(void **state)
     check_mode("--mode photon");
 }
 
-/* The variance is in the file, and where the render ends hangs on it. */
+/* The variance is in the file, and where the render ends depends on it. */
 static void what_is_said_of_the_error_is_the_same_bytes(void **state)
 {
     static const char *const modes[] = {

@@ -19,7 +19,8 @@
 #include "spawn.h"
 
 /*
- * A closed box with a glass ball under a lamp, and a light far too weak for its share of the paths.
+ * A closed box with a glass ball under an area light, and a light far too weak for its share of
+ * the paths.
  */
 #define SCENE                                                                                      \
     "camera { eye 0 0 0.9  look_at 0 0 0  fov 80 }\n"                                              \

@@ -358,7 +358,7 @@ static void a_render_ends_at_the_target_error(void **state)
     run_free(&run);
 }
 
-/* So near to the lamp, and so bright is it, that some samples are beyond float32. */
+/* The light is so near and so bright that some samples are beyond float32. */
 static void samples_that_are_not_finite_are_shown(void **state)
 {
     (void)state;

@@ -19,7 +19,7 @@
 #define CAMERA "camera { eye 0 0 -4  look_at 0 0 0 }\n"
 #define WHITE "material white { kd 0.7 }\n"
 #define BALL "sphere { centre 0 0 0  radius 1  material white }\n"
-#define LAMP "light point { position 2 4 -3  intensity 20 }\n"
+#define LIGHT "light point { position 2 4 -3  intensity 20 }\n"
 
 /* A scene with one mistake, where it is, and a part of what is said about it. */
 static const struct {
@@ -203,7 +203,7 @@ static void binary_scene_is_status_1(void **state)
 static void scene_cut_short_anywhere_never_crashes(void **state)
 {
     (void)state;
-    static const char whole[] = CAMERA WHITE BALL LAMP;
+    static const char whole[] = CAMERA WHITE BALL LIGHT;
     int sound = 0;
     for (size_t length = 0; length <= strlen(whole); length += 3) {
         run run = run_rtc_input(whole, length, "check -");

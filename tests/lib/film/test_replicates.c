@@ -7,7 +7,7 @@
  * Every replicate goes through its samples without a gap, and all samples are given out, as evenly
  * as can be.
  */
-static void stretches_share_all_samples_evenly(void **state)
+static void sample_ranges_share_all_samples_evenly(void **state)
 {
     (void)state;
     for (uint32_t all = 1; all < 500; all++) {
@@ -37,7 +37,7 @@ static void replicates_grow_by_powers_of_two_and_one_step_between(void **state)
         }
 }
 
-static void one_sequence_is_one_stretch(void **state)
+static void one_sequence_is_one_sample_range(void **state)
 {
     rt_sample_range s = rt_sample_range_first(100, 0);
     (void)state;
@@ -47,9 +47,9 @@ static void one_sequence_is_one_stretch(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stretches_share_all_samples_evenly),
+        cmocka_unit_test(sample_ranges_share_all_samples_evenly),
         cmocka_unit_test(replicates_grow_by_powers_of_two_and_one_step_between),
-        cmocka_unit_test(one_sequence_is_one_stretch),
+        cmocka_unit_test(one_sequence_is_one_sample_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,8 +31,9 @@ rt_renderer *room_renderer(rt_device *device)
 {
     const float x[3] = {2, 0, 0}, y[3] = {0, 2, 0}, z[3] = {0, 0, 2}, low[3] = {-1, -1, -1},
                 high[3] = {-1, 1, -1}, back[3] = {-1, -1, 1}, right[3] = {1, -1, -1},
-                lamp[3] = {-0.5f, 0.99f, -0.5f}, lamp_x[3] = {1, 0, 0}, lamp_z[3] = {0, 0, 1},
-                mirror[3] = {-0.5f, -0.6f, 0.3f}, glass[3] = {0.5f, -0.6f, 0};
+                emitter[3] = {-0.5f, 0.99f, -0.5f}, emitter_x[3] = {1, 0, 0},
+                emitter_z[3] = {0, 0, 1}, mirror[3] = {-0.5f, -0.6f, 0.3f},
+                glass[3] = {0.5f, -0.6f, 0};
     rt_camera camera = {.eye = {0, 0, -4}, .fov = 40};
     rt_renderer *renderer = NULL;
     rt_scene *scene = NULL;
@@ -47,7 +48,7 @@ rt_renderer *room_renderer(rt_device *device)
     room_quad(scene, walls, 0, back, x, y);
     room_quad(scene, walls, 0, low, y, z);
     room_quad(scene, walls, 0, right, y, z);
-    room_quad(scene, black, 5, lamp, lamp_x, lamp_z);
+    room_quad(scene, black, 5, emitter, emitter_x, emitter_z);
     expect_ok(rt_scene_add_sphere(scene, NULL, mirror, 0.4f, &silver, &error), &error);
     expect_ok(rt_scene_add_sphere(scene, NULL, glass, 0.4f, &clear, &error), &error);
     expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);

@@ -16,7 +16,10 @@ uint32_t room_material(rt_scene *scene, float kd, float ks, float kt);
 void room_quad(rt_scene *scene, uint32_t material, float radiance, const float c[3],
                const float a[3], const float b[3]);
 
-/* A room of half-white walls, open to the camera, with a mirror and a glass sphere under a lamp. */
+/*
+ * A room of half-white walls, open to the camera, with a mirror and a glass sphere under an area
+ * light.
+ */
 rt_renderer *room_renderer(rt_device *device);
 
 rt_render_options room_options(void);

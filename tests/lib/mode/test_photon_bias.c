@@ -158,7 +158,7 @@ static void both_sides_of_a_shadow_edge_are_told(void **state)
  * Over 8 seeds, mean and standard error; Student's t with 7 degrees of freedom is below 8 but for
  * 1e-4 of cases.
  */
-static void even_light_has_no_bias(void **state)
+static void uniform_irradiance_has_no_bias(void **state)
 {
     enum { renders = 8 };
     static const rt_render_options ways[] = {
@@ -218,7 +218,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_render_tells_how_much_a_peak_is_lowered),
         cmocka_unit_test(both_sides_of_a_shadow_edge_are_told),
-        cmocka_unit_test(even_light_has_no_bias),
+        cmocka_unit_test(uniform_irradiance_has_no_bias),
         cmocka_unit_test(without_fewer_photons_the_layer_is_black),
     };
     return cmocka_run_group_tests_name("lib/mode/photon_bias", tests, NULL, NULL);

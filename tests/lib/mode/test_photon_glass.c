@@ -1,12 +1,12 @@
 /*
  * test_photon_glass.c - photons and eye paths across refraction.
  *
- * Even light of radiance 1 from all around, clear glass and a white ball that absorbs nothing:
- * whatever is seen from outside has radiance 1, whatever is seen in a medium of index n has
- * radiance n^2, and the irradiance of a ball in that medium is pi n^2 (Veach 1997, section 5.2).
- * Photons carry flux, which is not scaled, eye paths radiance, which is: with the factor
- * (eta_i/eta_t)^2 left out or in both, the three cannot all come out. From no ball a ray meets the
- * boundaries beyond the critical angle, so that paths are short.
+ * A uniform environment of radiance 1 (white-furnace test), clear glass and a white ball that
+ * absorbs nothing: whatever is seen from outside has radiance 1, whatever is seen in a medium of
+ * index n has radiance n^2, and the irradiance of a ball in that medium is pi n^2 (Veach 1997,
+ * section 5.2). Photons carry flux, which is not scaled, eye paths radiance, which is: with the
+ * factor (eta_i/eta_t)^2 left out or in both, the three cannot all come out. From no ball a ray
+ * meets the boundaries beyond the critical angle, so that paths are short.
  */
 #include "kernels/statistics.h"
 #include "support.h"

@@ -158,7 +158,7 @@ static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
 }
 
 /*
- * A white ball inside a ball of glass, in a room with a shining ceiling; the ball fills the
+ * A white ball inside a ball of glass, in a room with an emissive ceiling; the ball fills the
  * picture.
  */
 static rt_renderer *make_ball_in_glass(const float eye[3], float fov)

@@ -148,14 +148,14 @@ static int by_distance(const void *a, const void *b)
     return (x->squared > y->squared) - (x->squared < y->squared);
 }
 
-/* The rules of search.h, by sorting all photons. */
+/* The rules of lib/photon/neighbour_search.h, by sorting all photons. */
 static void ask_all(answers *a, const problem *p, const rt_gather_point *points, size_t part)
 {
     size_t n = p->list.count;
     near *all = malloc((n ? n : 1) * sizeof *all);
     assert_non_null(all);
     for (size_t q = 0; q < part; q++) {
-        size_t accepted = 0, look = (size_t)RT_CANDIDATES_MAX * p->k;
+        size_t accepted = 0, max_candidates = (size_t)RT_CANDIDATES_MAX * p->k;
         float edge = p->limit * p->limit, farthest = 0;
         for (size_t i = 0; i < n; i++) {
             const float *x = p->list.photons[i].position, *y = points[q].position;
@@ -172,7 +172,7 @@ static void ask_all(answers *a, const problem *p, const rt_gather_point *points,
                 if (++accepted == p->k)
                     edge = all[i].squared;
             }
-            if (i + 1 == look && look < n)
+            if (i + 1 == max_candidates && max_candidates < n)
                 edge = all[i].squared;
         }
         if (edge == HUGE_VALF)

@@ -132,14 +132,14 @@ static void white_disappears_in_a_white_furnace(void **state)
 /* Light comes to the middle of a wall mostly by way of the others. */
 #define ROOM                                                                                       \
     "camera { eye 0 0 0.9  look_at 0.2 0 -1  fov 25 }\n"                                           \
-    "material clay { kd 0.8 0.6 0.4  roughness 1 }\nmaterial lamp { emission 5 }\n"                \
+    "material clay { kd 0.8 0.6 0.4  roughness 1 }\nmaterial emitter { emission 5 }\n"             \
     "quad { corner -1 -1 -1  edge1 2 0 0  edge2 0 2 0  material clay }\n"                          \
     "quad { corner -1 -1 1  edge1 0 2 0  edge2 2 0 0  material clay }\n"                           \
     "quad { corner -1 -1 -1  edge1 0 2 0  edge2 0 0 2  material clay }\n"                          \
     "quad { corner 1 -1 -1  edge1 0 0 2  edge2 0 2 0  material clay }\n"                           \
     "quad { corner -1 -1 -1  edge1 0 0 2  edge2 2 0 0  material clay }\n"                          \
     "quad { corner -1 1 -1  edge1 2 0 0  edge2 0 0 2  material clay }\n"                           \
-    "quad { corner -0.3 0.9 -0.3  edge1 0.6 0 0  edge2 0 0 0.6  material lamp }\n"
+    "quad { corner -0.3 0.9 -0.3  edge1 0.6 0 0  edge2 0 0 0.6  material emitter }\n"
 
 static void paths_and_photons_agree_in_a_room(void **state)
 {
