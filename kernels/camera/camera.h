@@ -60,8 +60,8 @@ static inline struct ray pixel_ray(global const rt_camera_data *camera, const rt
                                    const struct sampler *sampler, uint2 at, float *weight)
 {
     const float4 u = sampler_set(sampler, SET_START);
-    const float2 place = convert_float2(at) +
-                         sample_filter(camera->filter, camera->filter_radius, u.xy, weight);
+    const float2 place =
+        convert_float2(at) + sample_filter(camera->filter, camera->filter_radius, u.xy, weight);
     return camera_ray(camera, place / (float2)(params->width, params->height), u.zw);
 }
 
