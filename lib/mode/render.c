@@ -97,6 +97,7 @@ static rt_status run(rt_render_job *job, rt_error *error)
     if (mode->release)
         mode->release(state);
     rt_first_hit_layers_release(&layers);
+    job->layers = NULL;
     free(state);
     return status;
 }
