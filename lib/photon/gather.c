@@ -96,6 +96,14 @@ void rt_gatherer_limit_pixels(rt_gatherer *g, cl_mem squared, float factor)
     g->tree.estimate.own_limits = factor;
 }
 
+void rt_gatherer_set_density(rt_gatherer *g, rt_density density, float cone_k)
+{
+    rt_density_params *estimate =
+        g->search == RT_SEARCH_TREE ? &g->tree.estimate : &g->neighbours.estimate;
+    estimate->density = density;
+    estimate->cone_k = cone_k;
+}
+
 size_t rt_gatherer_capacity(const rt_gatherer *g)
 {
     return g->capacity;

@@ -61,6 +61,9 @@ void rt_gatherer_destroy(rt_gatherer *gatherer);
  */
 void rt_gatherer_limit_pixels(rt_gatherer *gatherer, cl_mem squared, float factor);
 
+/* Gathers with another density kernel from here on; the photons found stay the same. */
+void rt_gatherer_set_density(rt_gatherer *gatherer, rt_density density, float cone_k);
+
 /* The most points that rt_gatherer_add takes at once, at most RT_GATHER_POINTS_MAX. */
 size_t rt_gatherer_capacity(const rt_gatherer *gatherer);
 

@@ -19,34 +19,44 @@
 #include "lib/photon/points.h"
 #include "photon/gather.h"
 
-enum { fields = 100, points_a_field = 1000, estimates = fields * points_a_field };
+/*
+ * Gather points of all fields. Discs of hundreds of photons average so many that a quarter of the
+ * points tells the mean more precisely than all do with discs of 50.
+ */
+enum { fields = 100, points_of_small_discs = 1000 * fields, points_of_large_discs = 250 * fields };
+static const float margin_of_small_discs = 0.1f, margin_of_large_discs = 0.25f;
 
-/* copies reach so far beyond the square; no disc is larger */
-static const float margin = 0.25f;
 static const float apart = 4; /* distance of the fields */
 static const float cone_k = 1.1f;
 
 static const char *const kernel_names[] = {"epanechnikov", "box", "cone", "gaussian", "silverman"};
 enum { kernels = sizeof kernel_names / sizeof *kernel_names };
 
-/*
- * A map of all fields, n photons in each square, of which one in `facing` faces the gather points.
- */
-static void lay_down(rt_photon_list *map, int n, int facing)
+/* Fields, with copies of their photons that reach `margin` beyond the square. */
+typedef struct field_map {
+    rt_photon_list photons;
+    float margin; /* no disc is larger */
+} field_map;
+
+/* All fields, n photons in each square, of which one in `facing` faces the gather points. */
+static void lay_down(field_map *map, int n, int facing, float margin)
 {
     points_stream stream = {test_seed(12)};
-    map->emitted = 1;
-    map->capacity = (size_t)fields * n * 9;
-    map->photons = calloc(map->capacity, sizeof *map->photons);
-    assert_non_null(map->photons);
+    const float reach = 1 + margin;
+    *map = (field_map){.margin = margin};
+    rt_photon_list *list = &map->photons;
+    list->emitted = 1;
+    list->capacity = (size_t)fields * n * 9;
+    list->photons = calloc(list->capacity, sizeof *list->photons);
+    assert_non_null(list->photons);
     for (int field = 0; field < fields; field++)
         for (int i = 0; i < n; i++) {
             float x = points_uniform(&stream), z = points_uniform(&stream);
             for (int copy = 0; copy < 9; copy++) {
                 float cx = x + (float)(copy % 3 - 1), cz = z + (float)(copy / 3 - 1);
-                if (cx < -margin || cx > 1 + margin || cz < -margin || cz > 1 + margin)
+                if (cx < -margin || cx > reach || cz < -margin || cz > reach)
                     continue;
-                rt_photon *p = map->photons + map->count++;
+                rt_photon *p = list->photons + list->count++;
                 p->position[0] = cx;
                 p->position[1] = apart * (float)field;
                 p->position[2] = cz;
@@ -58,23 +68,24 @@ static void lay_down(rt_photon_list *map, int n, int facing)
 }
 
 /* Takes out the photons beyond x = 1. */
-static void cut_off(rt_photon_list *map)
+static void cut_off(field_map *map)
 {
     size_t kept = 0;
-    for (size_t i = 0; i < map->count; i++)
-        if (map->photons[i].position[0] <= 1)
-            map->photons[kept++] = map->photons[i];
-    map->count = kept;
+    rt_photon_list *list = &map->photons;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->photons[i].position[0] <= 1)
+            list->photons[kept++] = list->photons[i];
+    list->count = kept;
 }
 
-static rt_gather_point *make_points(int at_edge)
+static rt_gather_point *make_points(int count, int at_edge)
 {
     points_stream stream = {test_seed(99)};
-    rt_gather_point *points = calloc(estimates, sizeof *points);
+    rt_gather_point *points = calloc((size_t)count, sizeof *points);
     assert_non_null(points);
-    for (int i = 0; i < estimates; i++) {
+    for (int i = 0; i < count; i++) {
         points[i].position[0] = at_edge ? 1 : points_uniform(&stream);
-        points[i].position[1] = apart * (float)(i / points_a_field);
+        points[i].position[1] = apart * (float)(i / (count / fields));
         points[i].position[2] = points_uniform(&stream);
         points[i].normal[1] = 1;
         points[i].weight[0] = points[i].weight[1] = points[i].weight[2] = 1;
@@ -83,59 +94,84 @@ static rt_gather_point *make_points(int at_edge)
     return points;
 }
 
-/* The mean of the fields' estimated densities, and its standard error. */
-static void estimate(const rt_photon_list *map, const rt_gather_options *options, int at_edge,
-                     double *mean, double *error_of_mean)
-{
-    static const char *const programs[] = {"gather_neighbours", "gather_tree"};
-    const char *program = programs[options->search];
-    rt_gather_point *points = make_points(at_edge);
-    rt_gather_disc *discs = calloc(estimates, sizeof *discs);
-    rt_gatherer *gatherer = NULL;
-    cl_kernel kernel = NULL;
-    cl_mem buffer = test_buffer(estimates * sizeof *points, points);
-    rt_error error;
-    double sum = 0, squares = 0;
+/* A map made ready for one search. */
+typedef struct prepared {
+    const field_map *map;
+    cl_kernel kernel;
+    rt_gatherer *gatherer;
+    int points; /* gather points of all fields */
+} prepared;
 
+static void prepare(prepared *p, const field_map *map, const rt_gather_options *options, int points)
+{
+    const char *program = rt_gather_kernel_name(options->search);
+    rt_error error;
+    *p = (prepared){.map = map, .points = points};
+    expect_ok(rt_device_kernel(test_device(), &p->kernel, program, program, NULL, &error), &error);
+    expect_ok(
+        rt_gatherer_create(&p->gatherer, test_device(), p->kernel, &map->photons, options, &error),
+        &error);
+}
+
+static void release(prepared *p)
+{
+    rt_gatherer_destroy(p->gatherer);
+    rt_kernel_release(p->kernel);
+}
+
+/* Gathers at the points, and expects discs that the map holds whole. */
+static void gather(const prepared *p, rt_gather_point *points)
+{
+    const size_t bytes = (size_t)p->points * sizeof *points, all = (size_t)p->points,
+                 batch = rt_gatherer_capacity(p->gatherer);
+    rt_gather_disc *discs = calloc(all, sizeof *discs);
+    cl_mem buffer = test_buffer(bytes, points);
+    rt_error error;
     assert_non_null(discs);
-    expect_ok(rt_device_kernel(test_device(), &kernel, program, program, NULL, &error), &error);
-    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, map, options, &error), &error);
-    size_t batch = rt_gatherer_capacity(gatherer);
-    for (size_t first = 0; first < estimates; first += batch) {
-        size_t count = estimates - first < batch ? estimates - first : batch;
-        expect_ok(rt_gatherer_add(gatherer, buffer, first, count, discs + first, &error), &error);
-    }
-    test_read(buffer, estimates * sizeof *points, points);
+    for (size_t first = 0; first < all; first += batch)
+        expect_ok(rt_gatherer_add(p->gatherer, buffer, first,
+                                  all - first < batch ? all - first : batch, discs + first, &error),
+                  &error);
+    for (size_t i = 0; i < all; i++)
+        assert_true(discs[i].squared_radius < p->map->margin * p->map->margin);
+    test_read(buffer, bytes, points);
+    rt_buffer_release(buffer);
+    free(discs);
+}
+
+/* The mean of the fields' estimated densities, and its standard error. */
+static void estimate(const prepared *p, int at_edge, double *mean, double *error_of_mean)
+{
+    rt_gather_point *points = make_points(p->points, at_edge);
+    const int each = p->points / fields;
+    double sum = 0, squares = 0;
+    gather(p, points);
     for (int field = 0; field < fields; field++) {
         double one = 0;
-        for (int i = field * points_a_field; i < (field + 1) * points_a_field; i++) {
-            assert_true(discs[i].squared_radius < margin * margin);
-            one += points[i].radiance[1] * 3.14159265358979323846 / points_a_field;
-        }
+        for (int i = field * each; i < (field + 1) * each; i++)
+            one += points[i].radiance[1] * 3.14159265358979323846 / each;
         sum += one;
         squares += one * one;
     }
     *mean = sum / fields;
     *error_of_mean = sqrt((squares / fields - *mean * *mean) / (fields - 1));
-    rt_gatherer_destroy(gatherer);
-    rt_kernel_release(kernel);
-    rt_buffer_release(buffer);
     free(points);
-    free(discs);
 }
 
-/* Every kernel's mean is `truth`; a box that counts the k-th photon as well would be caught. */
-static void check(const rt_photon_list *map, uint32_t k, float max_radius, int on_device,
+/*
+ * Every kernel's mean is `truth`; a box that counts the k-th photon as well would be caught. The
+ * kernels are evaluated by the same function in both searches: two of them do for FLANN.
+ */
+static void check(const field_map *map, int points, uint32_t k, float max_radius, int on_device,
                   double truth)
 {
-    /*
-     * The kernels are evaluated by the same function in both searches, and the tree of FLANN is
-     * slow to build.
-     */
+    const rt_gather_options options = {k, max_radius, 0, cone_k, RT_AREA_DISC, on_device};
+    prepared p;
+    prepare(&p, map, &options, points);
     for (uint32_t density = 0; density < (on_device ? kernels : 2u); density++) {
-        rt_gather_options options = {k, max_radius, density, cone_k, RT_AREA_DISC, on_device};
         double mean, sigma;
-        estimate(map, &options, 0, &mean, &sigma);
+        rt_gatherer_set_density(p.gatherer, density, cone_k);
+        estimate(&p, 0, &mean, &sigma);
         print_message("%s, k %u, radius %g, %s: %.3f of %.0f, %+.2f standard errors of %.4f %%\n",
                       on_device ? "device" : "FLANN", (unsigned)k, max_radius,
                       kernel_names[density], mean, truth, (mean - truth) / sigma,
@@ -146,43 +182,70 @@ static void check(const rt_photon_list *map, uint32_t k, float max_radius, int o
         if (k > 0 && max_radius == 0 && density == RT_DENSITY_BOX && truth > 1000)
             assert_true(truth / (k - 1) > 6 * sigma);
     }
+    release(&p);
 }
 
 static void nearest_photons_give_the_true_density(void **state)
 {
     enum { n = 4000 };
-    static const uint32_t ks[] = {5, 10, 50, 500};
-    rt_photon_list map = {0};
+    static const uint32_t ks[] = {5, 10, 50};
+    field_map map;
     (void)state;
-    lay_down(&map, n, 1);
+    lay_down(&map, n, 1, margin_of_small_discs);
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
         for (int on_device = 0; on_device < 2; on_device++)
-            check(&map, ks[i], 0, on_device, n);
-    rt_photon_list_clear(&map);
+            check(&map, points_of_small_discs, ks[i], 0, on_device, n);
+    rt_photon_list_clear(&map.photons);
+    lay_down(&map, n, 1, margin_of_large_discs);
+    for (int on_device = 0; on_device < 2; on_device++)
+        check(&map, points_of_large_discs, 500, 0, on_device, n);
+    rt_photon_list_clear(&map.photons);
+}
+
+/* The radius of a disc that holds so many of n photons on average. */
+static float radius_of(float inside, int n)
+{
+    return sqrtf(inside / (3.14159265f * (float)n));
 }
 
 static void a_limit_on_the_radius_gives_the_true_density(void **state)
 {
     enum { n = 4000, k = 50 };
-    rt_photon_list map = {0};
+    field_map map;
     (void)state;
-    lay_down(&map, n, 1);
+    lay_down(&map, n, 1, margin_of_small_discs);
     /* The expected number inside is 48: about half of the searches end at the limit. */
     for (int on_device = 0; on_device < 2; on_device++)
-        check(&map, k, sqrtf(48 / (3.14159265f * n)), on_device, n);
-    rt_photon_list_clear(&map);
+        check(&map, points_of_small_discs, k, radius_of(48, n), on_device, n);
+    rt_photon_list_clear(&map.photons);
 }
 
 static void a_fixed_radius_gives_the_true_density(void **state)
 {
     enum { n = 4000 };
-    static const float inside[] = {2, 48, 600};
-    rt_photon_list map = {0};
+    field_map map;
     (void)state;
-    lay_down(&map, n, 1);
-    for (size_t i = 0; i < sizeof inside / sizeof *inside; i++)
-        check(&map, 0, sqrtf(inside[i] / (3.14159265f * n)), 1, n);
-    rt_photon_list_clear(&map);
+    lay_down(&map, n, 1, margin_of_small_discs);
+    check(&map, points_of_small_discs, 0, radius_of(2, n), 1, n);
+    check(&map, points_of_small_discs, 0, radius_of(48, n), 1, n);
+    rt_photon_list_clear(&map.photons);
+    lay_down(&map, n, 1, margin_of_large_discs);
+    check(&map, points_of_large_discs, 0, radius_of(600, n), 1, n);
+    rt_photon_list_clear(&map.photons);
+}
+
+/* The mean of one estimate with the box kernel, as a share of n. */
+static double share(const field_map *map, rt_area area, uint32_t k, int at_edge, int n,
+                    const char *what)
+{
+    const rt_gather_options options = {k, 0, RT_DENSITY_BOX, cone_k, area, RT_SEARCH_NEIGHBOURS};
+    double mean, sigma;
+    prepared p;
+    prepare(&p, map, &options, points_of_small_discs);
+    estimate(&p, at_edge, &mean, &sigma);
+    release(&p);
+    print_message("%s: %.4f of the truth, sigma %.4f\n", what, mean / n, sigma / n);
+    return mean / n;
 }
 
 /*
@@ -192,36 +255,28 @@ static void a_fixed_radius_gives_the_true_density(void **state)
 static void the_hull_gives_the_true_density_at_edges_too(void **state)
 {
     enum { n = 4000, k = 50 };
-    static const rt_gather_options hull = {k, 0, RT_DENSITY_BOX, 1.1f, RT_AREA_HULL, 0};
-    rt_gather_options disc = hull;
-    double mean, sigma;
-    rt_photon_list map = {0};
+    field_map map;
     (void)state;
-    lay_down(&map, n, 1);
-    estimate(&map, &hull, 0, &mean, &sigma);
-    print_message("hull inside: %.4f of the truth, sigma %.4f\n", mean / n, sigma / n);
-    expect_close(mean / n, 1, 0.01, "hull inside");
+    lay_down(&map, n, 1, margin_of_large_discs);
+    expect_close(share(&map, RT_AREA_HULL, k, 0, n, "hull inside"), 1, 0.01, "hull inside");
     cut_off(&map);
-    estimate(&map, &hull, 1, &mean, &sigma);
-    print_message("hull at the edge: %.4f of the truth, sigma %.4f\n", mean / n, sigma / n);
-    expect_close(mean / n, 1, 0.03, "hull at the edge");
-    disc.area = RT_AREA_DISC;
-    estimate(&map, &disc, 1, &mean, &sigma);
-    print_message("disc at the edge: %.4f of the truth\n", mean / n);
-    expect_close(mean / n, 0.5, 0.02, "disc at the edge");
-    rt_photon_list_clear(&map);
+    expect_close(share(&map, RT_AREA_HULL, k, 1, n, "hull at the edge"), 1, 0.03,
+                 "hull at the edge");
+    expect_close(share(&map, RT_AREA_DISC, k, 1, n, "disc at the edge"), 0.5, 0.02,
+                 "disc at the edge");
+    rt_photon_list_clear(&map.photons);
 }
 
 static void photons_that_face_elsewhere_leave_the_density_true(void **state)
 {
-    enum { n = 4000, k = 10, facing = 25 };
-    rt_photon_list map = {0};
+    enum { n = 4000, k = 10, facing = 25, points = 400 * fields };
+    field_map map;
     (void)state;
     /* With few that fit, nearly all searches end at the most photons looked at. */
-    lay_down(&map, n, facing);
+    lay_down(&map, n, facing, margin_of_large_discs);
     for (int on_device = 0; on_device < 2; on_device++)
-        check(&map, k, 0, on_device, n / facing);
-    rt_photon_list_clear(&map);
+        check(&map, points, k, 0, on_device, n / facing);
+    rt_photon_list_clear(&map.photons);
 }
 
 int main(void)
