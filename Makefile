@@ -49,7 +49,7 @@ LIB_SRC := \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
 	lib/film/film.c lib/film/layers.c lib/film/noise.c lib/film/replicates.c \
-	lib/film/student.c \
+	lib/film/student_t.c \
 	lib/film/write.c \
 	lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/render.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
@@ -64,15 +64,15 @@ LIB_SRC := \
 	lib/photon/map_read.c lib/photon/map_warnings.c lib/photon/map_write.c \
 	lib/photon/neighbour_search.c \
 	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_tree.c \
-	lib/photon/point_order.c lib/photon/sources.c lib/photon/gather_tree.c \
-	lib/render/enclose.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
+	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
+	lib/render/enclosing_media.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/findings.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
 	lib/scene/mesh_file.c lib/scene/scene.c lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/word.c \
-	lib/shape/area_scale.c lib/shape/ball.c lib/shape/box.c lib/shape/classes.c \
+	lib/shape/area_scale.c lib/shape/unit_sphere.c lib/shape/box.c lib/shape/classes.c \
 	lib/shape/cone.c lib/shape/cylinder.c lib/shape/disc.c lib/shape/edges.c \
 	lib/shape/ellipsoid.c lib/shape/frustum.c lib/shape/placed.c lib/shape/plane.c \
 	lib/shape/quad.c lib/shape/sphere.c lib/shape/torus.c lib/shape/triangles.c \
@@ -91,13 +91,13 @@ TOOL_SRC := \
 	tools/check.c tools/command_line.c tools/compare.c tools/compare_print.c tools/devices.c \
 	tools/doctor.c tools/help.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/mesh.c tools/mesh_shape.c tools/message.c tools/no_effect.c \
-	tools/number.c tools/option_table.c tools/outputs.c tools/photons.c tools/photons_emit.c \
+	tools/number.c tools/options.c tools/outputs.c tools/photons.c tools/photons_emit.c \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/recorded.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
 	tools/stats.c
 
 KERNEL_SRC := \
-	kernels/first_hit.cl kernels/direct.cl kernels/enclose.cl kernels/path.cl \
+	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
 	kernels/photon_camera.cl \
 	kernels/photon_emit.cl kernels/photon_film.cl kernels/gather_neighbours.cl \
 	kernels/gather_tree.cl \
@@ -147,7 +147,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c \
 	tests/lib/photon/test_photon_maps.c \
-	tests/lib/film/test_replicates.c tests/lib/film/test_student.c \
+	tests/lib/film/test_replicates.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c \
 	tests/lib/scene/test_scene.c \
@@ -184,7 +184,7 @@ TEST_SUPPORT_SRC := \
 	tests/dsl/collect.c \
 	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
 	tests/kernels/rng_draw.c \
-	tests/kernels/shape_check.c tests/kernels/shape_truth.c tests/kernels/statistics.c \
+	tests/kernels/shape_check.c tests/kernels/shape_reference.c tests/kernels/statistics.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c \
 	tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
@@ -193,8 +193,8 @@ TEST_SUPPORT_SRC := \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \
-	tests/statistics/facets.c tests/statistics/lights.c tests/statistics/maps.c \
-	tests/statistics/numbers.c tests/statistics/oren_nayar_reference.c \
+	tests/statistics/facets.c tests/statistics/lights.c tests/statistics/warps.c \
+	tests/statistics/random_numbers.c tests/statistics/oren_nayar_reference.c \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
 	tests/studies/study.c \
 	tests/tools/expect.c tests/tools/spawn.c

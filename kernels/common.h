@@ -1,9 +1,10 @@
 /*
- * common.h - what the public header, the host code and the device kernels all share: rays, hits,
- * photons and enums. Both compilers read this file.
+ * common.h - what the public header, the host code and the kernels share: rays, hits, photons and
+ * enums. Both compilers read this file.
  *
- * Beside an enum that a text can name stands its list, X(constant, word, help): the only place of
- * these words. The scene language, the command line and the reference page take them from there.
+ * An enum whose values a text can name is followed by its list, X(constant, word, help), the only
+ * place where these words are written: the scene language, the command line and the reference page
+ * take them from it.
  */
 #ifndef RT_COMMON_H
 #define RT_COMMON_H

@@ -1,9 +1,9 @@
 /*
- * entry.h - how a kernel begins.
+ * entry.h - KERNEL, the declaration of an entry point.
  *
- * Kernels work in vectors of eight by themselves. A runtime that would lay several work-items side
- * by side in one vector is told so: where rays diverge it gains nothing, and takes several
- * times as long to compile.
+ * Kernels are written in vectors of eight. The hint keeps a runtime from vectorising across
+ * work-items as well, which gains nothing where rays diverge and takes several times as long to
+ * compile.
  */
 #ifndef RT_ENTRY_H
 #define RT_ENTRY_H

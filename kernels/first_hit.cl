@@ -1,6 +1,6 @@
 /*
- * first_hit.cl - layers of the film that say what the first surface is like: one line for each in
- * layers_of. Each work-item takes the samples of one pixel, the same that the other modes take.
+ * first_hit.cl - the layers of the first hit, such as albedo, normal and depth; layers_of has each
+ * of them. Each work-item takes the samples of one pixel, the same samples as the other modes.
  */
 #include "bsdf/bsdf.h"
 #include "camera/camera.h"
@@ -9,7 +9,8 @@
 #include "accel/traverse.h"
 
 /*
- * The distance along the view axis; all directions at once have none, so the distance from the eye.
+ * The distance along the view axis; an environment camera has none: there, the distance from the
+ * eye.
  */
 static float depth_of(global const rt_camera_data *camera, float3 position)
 {
@@ -27,7 +28,7 @@ static void layers_of(float3 *value, const struct scene *scene, const struct ray
     const float3 wo = -ray->direction;
     const struct bsdf bsdf =
         bsdf_at(scene, scene->materials + shape->material, &surface, wo, 1.0f, (float3)(1.0f));
-    /* The shading normal is on the side of wo; the shape has it on that of its own normal. */
+    /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */
     const float side = dot(wo, surface.normal) < 0.0f ? -1.0f : 1.0f;
     const float depth = depth_of(&scene->header->camera, surface.position);
 

@@ -1,5 +1,5 @@
 /*
- * photon_camera.cl - photon mapping, seen from the eye: each work-item follows one sample of one
+ * photon_camera.cl - the eye paths of photon mapping: each work-item follows one sample of one
  * pixel to its gather points.
  */
 #include "camera/camera.h"

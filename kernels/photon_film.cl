@@ -1,13 +1,11 @@
-/*
- * photon_film.cl - adds gather points to the film: one sample of the pixel of each.
- */
+/* photon_film.cl - adds gather points to the film, each as one sample of its pixel. */
 #include "entry.h"
 #include "camera/film.h"
 #include "math/frame.h"
 
 /*
- * The radiance that came to a point; of one at no finite position, where none are gathered, no
- * finite one.
+ * The radiance of a gather point; NaN where its position is not finite, as no photons were gathered
+ * there.
  */
 static float3 radiance_of(global const rt_gather_point *point)
 {

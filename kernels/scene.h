@@ -2,8 +2,8 @@
  * scene.h - opens the one-buffer scene into typed tables.
  *
  * The host lays the scene out as rt_scene_header describes: a header, then tables, each at
- * a whole number of 64-byte rows from the start. Kernels take the header's address and
- * call scene_open once a work-item; the compiler keeps only the tables that are used.
+ * a whole number of 64-byte rows from the start. Kernels take the header's address and call
+ * scene_open once per work-item; the compiler keeps only the tables that are used.
  */
 #ifndef RT_SCENE_H
 #define RT_SCENE_H

@@ -134,8 +134,8 @@ RT_SIZE(rt_transform_data, 96);
 #define RT_MATERIAL_CONDUCTOR 4u /* flag: ks is multiplied by a metal's reflectance */
 
 /*
- * Below this roughness a surface is smooth. A lobe of it spreads light by a tenth of a degree, less
- * than a pixel, so no seam shows.
+ * Below this roughness a surface is smooth. Its lobe is a tenth of a degree wide, less than a
+ * pixel, so the transition is not visible.
  */
 #define RT_SMOOTH_ALPHA 1e-3f
 
@@ -226,12 +226,12 @@ typedef struct rt_light_data {
     float c[3];      /* unit vector along the second edge */
     float height;    /* length of that edge, m */
     float normal[3]; /* quad and triangle: unit, on the side that emits */
-    float area;      /* m^2, one side; 0 for lights without */
+    float area;      /* m^2, one side; 0 for lights without area */
     float emission[3];
     float pmf;      /* its fraction of the total power; the default pmf of photon paths */
     float cdf;      /* sum of pmf up to and including this light */
     float power;    /* total emitted flux, mean of the three channels, W */
-    rt_u32 prim;    /* primitive that emits, RT_NONE for lights without */
+    rt_u32 prim;    /* primitive that emits; RT_NONE for lights that are not shapes */
     rt_u32 flags;   /* RT_LIGHT_* flags */
     rt_u32 texture; /* multiplies the emission at the primitive's u and v; RT_NONE: none */
     /* the solids it lies in, as paths list them (medium.h): material + 1, 0: none */

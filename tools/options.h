@@ -1,6 +1,6 @@
 /*
  * options.h - a command line and its options. Some are settings of a render, whose table is that of
- * rt/setting.h (see settings.h); the table of all others is option_table.c. The parser and the help
+ * rt/setting.h (see settings.h); the table of all others is options.c. The parser and the help
  * read the same tables.
  */
 #ifndef RTC_OPTIONS_H

@@ -4,7 +4,7 @@
  * The boxes are tested at once against the ray's slabs, the near and far plane of each axis chosen
  * by the sign of the direction. The distance to a plane is one multiply-add, plane * rate + shift;
  * the bounds on its rounding are in rate and shift, so that no box that the ray touches is missed
- * (after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, which has them in the far distance).
+ * (after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, who widens the far distance only).
  */
 #ifndef RT_KERNELS_ACCEL_BOXES_H
 #define RT_KERNELS_ACCEL_BOXES_H

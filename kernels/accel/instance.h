@@ -21,8 +21,8 @@ INLINE_NEVER void test_instance(const struct scene *scene, const struct ray *ray
         return;
     const struct ray_frame frame = make_ray_frame(&object_ray);
     /*
-     * Within the mesh prim is the triangle; a triangle as near as the hit so far wins if the
-     * instance comes first.
+     * Within the mesh, prim is the triangle. Of two equally near hits the lower primitive wins, so
+     * this one counts if the instance is the lower.
      */
     struct hit nearest = *hit;
     nearest.prim = shape->first_prim < hit->prim ? RT_NONE : 0u;

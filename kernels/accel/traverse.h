@@ -40,7 +40,7 @@ INLINE_ALWAYS void test_leaf(const struct scene *scene, const struct ray *ray,
                              const struct ray_frame *frame, uint child, struct hit *hit)
 {
     const uint index = child & RT_CHILD_INDEX;
-    if (SELDOM(child & RT_CHILD_ANALYTIC))
+    if (UNLIKELY(child & RT_CHILD_ANALYTIC))
         test_shape(scene, ray, scene->analytic[index], hit);
     else
         test_block(scene, ray, frame, index, hit);
@@ -70,8 +70,8 @@ static inline void test_all(const struct scene *scene, const struct ray *ray, st
 }
 
 /*
- * The nearest hit in [t_min, t_max] of a ray that can be followed; false, and *hit without meaning,
- * when there is none.
+ * The nearest hit in [t_min, t_max] of a ray that can be followed; when there is none, returns
+ * false and *hit is undefined.
  */
 INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
@@ -98,7 +98,7 @@ INLINE_ALWAYS bool leaf_occludes(const struct scene *scene, const struct ray *ra
                                  const struct ray_frame *frame, uint leaf)
 {
     const uint index = leaf & RT_CHILD_INDEX;
-    if (SELDOM(leaf & RT_CHILD_ANALYTIC))
+    if (UNLIKELY(leaf & RT_CHILD_ANALYTIC))
         return shape_occludes(scene, ray, scene->analytic[index]);
     return block_occludes(scene, ray, frame, index);
 }

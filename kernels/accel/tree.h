@@ -39,8 +39,8 @@ INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *fou
 }
 
 /*
- * Lets hits as far as the nearest through, ties included, and a rounding beyond: take_block_hits
- * compares exactly.
+ * Lets through hits up to the nearest so far, ties included, and a rounding error beyond:
+ * take_block_hits compares exactly.
  */
 INLINE_ALWAYS void test_block(const struct scene *scene, const struct ray *ray,
                               const struct ray_frame *frame, uint index, struct hit *hit)
@@ -89,7 +89,7 @@ INLINE_ALWAYS uint push_farther(struct stack *stack, uint *count, global const r
         return in_order ? a : b;
     }
 
-    /* Three and more are rare: sort them in. */
+    /* Three or more are rare: insert them in order. */
     const uint base = *count;
     stack->child[base] = node->child[first];
     stack->entry[base] = distance;

@@ -18,8 +18,8 @@ struct specular {
 /* What a boundary, or a facet of one, does with light. */
 struct split {
     float3 reflected, refracted;
-    float cos_t;  /* of the refracted direction */
-    float chance; /* of reflection, where one of the two is chosen */
+    float cos_t;       /* of the refracted direction */
+    float probability; /* of reflection, where one of the two is chosen */
 };
 
 /*
@@ -46,7 +46,7 @@ static inline struct split split_light(const struct specular *specular, float co
         split.refracted = total ? (float3)(0.0f) : specular->kt;
     }
     const float r = mean3(split.reflected), t = mean3(split.refracted);
-    split.chance = r > 0.0f ? r / (r + t) : 0.0f;
+    split.probability = r > 0.0f ? r / (r + t) : 0.0f;
     return split;
 }
 

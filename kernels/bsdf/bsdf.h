@@ -4,12 +4,12 @@
  *   fr = kd fd + ks R + kt T
  *
  * with fd a diffuse lobe, and R and T specular reflection and refraction at a boundary that is
- * smooth or rough. The contract of the lobes is in lobe.h, their formulas in a header each.
+ * smooth or rough. lobe.h has the contract of the lobes, and a header for each its formula.
  *
  * The geometric normal says on which side a direction is, the shading normal gives the cosine of
- * diffuse reflection and the axis of reflection and refraction. Diffuse and rough light that would
- * cross the surface by the shading normal alone is lost, not leaked; a smooth boundary then takes
- * the geometric normal.
+ * diffuse reflection and the axis of reflection and refraction. Diffuse and rough directions on
+ * which the two normals disagree carry no light, so none leaks; a smooth boundary uses the
+ * geometric normal there.
  *
  * At each surface a path chooses one lobe, and carries the light of that lobe alone. So each lobe
  * is weighted by itself against light sampling, and photon maps, which hold what diffuse lobes
@@ -34,7 +34,7 @@
  */
 enum transport { CARRY_RADIANCE, CARRY_FLUX };
 
-/* One scattering event, survival left out. */
+/* One scattering event, given survival. */
 struct scatter {
     float3 wi; /* unit */
     /* fr |n.wi| / density, without eta_scale; 0: the direction is on the wrong side */
@@ -73,7 +73,7 @@ static inline void keep_sides(struct bsdf *bsdf)
         bsdf->shading = bsdf->normal;
 }
 
-/* Adds the specular part of a material, and shares the choice of a lobe with it. */
+/* Adds the specular part of a material, and sets the probabilities of the lobes. */
 static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *params,
                                 global const rt_material_data *material, float eta, float3 beta)
 {
@@ -99,8 +99,8 @@ static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *par
 
 /*
  * The scattering of a surface for a path that arrives along -wo with throughput beta. eta is the
- * index on the side of wo over that on the other. Lobes are to be chosen in proportion to what the
- * throughput keeps in each.
+ * index on the side of wo over that on the other. Lobes are chosen in proportion to throughput
+ * times albedo.
  */
 static inline struct bsdf bsdf_at(const struct scene *scene,
                                   global const rt_material_data *material,
@@ -162,7 +162,7 @@ static inline float3 bsdf_lobe_weight(const struct bsdf *bsdf, uint lobe)
     return lobe_albedo(bsdf, lobe) / bsdf_probability(bsdf, lobe);
 }
 
-/* The light of a lobe from wi, and the density of wi with the choice of the lobe included. */
+/* fr |n.wi| of a lobe, and the density of wi including the choice of the lobe. */
 static inline struct lobe_value bsdf_eval(const struct bsdf *bsdf, uint lobe, float3 wi)
 {
     struct lobe_value value = lobe_eval(bsdf, lobe, wi);

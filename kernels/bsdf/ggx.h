@@ -5,8 +5,8 @@
  *   refracted   fr |n.wi| = T(wo.h) D(h) G2(wo, wi) |wo.h| |wi.h| / (n.wo (eta wo.h + wi.h)^2)
  *
  * Each facet is a smooth boundary about its own normal h. Light is scattered once, and what would
- * meet a second facet is lost, so a rough surface never gains light, and is darker than a smooth
- * one by this much of what it gets:
+ * meet a second facet is lost, so a rough surface never gains light, and loses this percentage of
+ * the light that it receives:
  *
  *   alpha                                         0.01   0.1    0.2    0.5    1
  *   white metal, normal view / all directions     0/0    1/3    5/8   31/30  69/59  %
@@ -64,7 +64,7 @@ static inline float facet_pdf_w(const struct specular *specular, float3 wo, floa
     return visible * cos_o * fabs(cos_i) / square(specular->eta * cos_o + cos_i);
 }
 
-/* Light from wi to wo, by reflection or refraction as the side of wi says. */
+/* fr |n.wi| and the density of wi, for reflection or refraction depending on the side of wi. */
 static inline struct lobe_value facets_eval(const struct specular *specular, float3 wo, float3 wi)
 {
     const bool reflects = wi.z > 0.0f;
@@ -81,7 +81,7 @@ static inline struct lobe_value facets_eval(const struct specular *specular, flo
     const struct split split = split_light(specular, cos_o);
     const float facets = facet_pdf_w(specular, wo, wi, h);
     struct lobe_value lobe;
-    lobe.pdf_w = facets * (reflects ? split.chance : 1.0f - split.chance);
+    lobe.pdf_w = facets * (reflects ? split.probability : 1.0f - split.probability);
     lobe.value =
         (reflects ? split.reflected : split.refracted) * (facets * unshadowed(specular, wo, wi));
     return lobe;
@@ -98,17 +98,17 @@ static inline float3 facets_sample(const struct specular *specular, float3 wo, f
     const float3 h = sample_visible_normal(specular->alpha, wo, u.xy);
     const float cos_o = dot(wo, h);
     const struct split split = split_light(specular, cos_o);
-    const bool reflects = u.z < split.chance;
-    const float chance = reflects ? split.chance : 1.0f - split.chance;
+    const bool reflects = u.z < split.probability;
+    const float probability = reflects ? split.probability : 1.0f - split.probability;
     *wi = unit(reflects ? 2.0f * cos_o * h - wo
                         : (specular->eta * cos_o - split.cos_t) * h - specular->eta * wo);
     *pdf_w = 0.0f;
     if (cos_o <= 0.0f || (reflects ? wi->z <= 0.0f : wi->z >= 0.0f))
         return (float3)(0.0f);
     if (reflects || !is_matched(specular))
-        *pdf_w = chance * facet_pdf_w(specular, wo, *wi, h);
+        *pdf_w = probability * facet_pdf_w(specular, wo, *wi, h);
     return (reflects ? split.reflected : split.refracted) *
-           (unshadowed(specular, wo, *wi) / chance);
+           (unshadowed(specular, wo, *wi) / probability);
 }
 
 /* For a path that carries radiance. */
@@ -144,7 +144,7 @@ static inline struct lobe_sample ggx_sample(const struct bsdf *bsdf, float3 u)
     return sample;
 }
 
-/* That of the smooth boundary, an upper bound: what is lost between facets is not taken off. */
+/* That of the smooth boundary, an upper bound: the loss between facets is not subtracted. */
 static inline float3 ggx_albedo(const struct bsdf *bsdf)
 {
     return bsdf->reflected + bsdf->refracted;

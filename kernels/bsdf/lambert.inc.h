@@ -1,6 +1,4 @@
-/*
- * lambert.inc.h - the density of Lambert's lobe, over a width (see math/width1.inc.h).
- */
+/* lambert.inc.h - the density of Lambert's lobe, width-generic (see math/width1.inc.h). */
 
 /*
  * The density of wi: the cosine to the shading normal over pi, and 0 below the geometric surface.

@@ -12,9 +12,9 @@
  * evaluate to 0. Where wi lies on the wrong side of the geometric normal, a lobe evaluates to 0,
  * and samples of weight 0 are lost.
  *
- * wo and wi are unit vectors that point away from the surface; wo_local and wi_local are the same
- * in the frame of the shading normal. X_eval is for a path that carries radiance; X_sample leaves
- * out what scales radiance, and not flux, where it crosses the surface: eta_scale of bsdf.h.
+ * wo and wi are unit vectors that point away from the surface; wi_local is wi in the frame of the
+ * shading normal. X_eval is for a path that carries radiance; X_sample leaves out what scales
+ * radiance, and not flux, where it crosses the surface: eta_scale of bsdf.h.
  */
 #ifndef RT_KERNELS_BSDF_LOBE_H
 #define RT_KERNELS_BSDF_LOBE_H

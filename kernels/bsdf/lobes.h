@@ -1,6 +1,6 @@
 /*
  * lobes.h - the list of the lobes that a BSDF is made of, and the functions that call a lobe by its
- * number, with one case a lobe made from the list. The host reads the list alone.
+ * number, with one case per lobe made from the list. The host reads the list alone.
  */
 #ifndef RT_KERNELS_BSDF_LOBES_H
 #define RT_KERNELS_BSDF_LOBES_H
@@ -37,7 +37,7 @@ static inline bool lobe_is_delta(uint lobe)
     return (0u RT_LOBES(DELTA_BIT)) >> lobe & 1u;
 }
 
-/* Whether photons stand for the light of the lobe. */
+/* Whether the photon map accounts for the light that the lobe scatters. */
 static inline bool lobe_is_diffuse(uint lobe)
 {
     return (0u RT_LOBES(DIFFUSE_BIT)) >> lobe & 1u;

@@ -35,8 +35,8 @@ static inline float ggx_facing(float alpha, float3 w)
 }
 
 /*
- * The masked part of it, |w.z| Lambda(w); as a quotient, because the difference of the two is not
- * precise.
+ * The masked part of it, |w.z| Lambda(w); as a quotient, because the difference of the two would
+ * cancel.
  */
 static inline float ggx_hidden(float alpha, float3 w)
 {

@@ -10,10 +10,10 @@
  *
  *   g(u) = c1 - G(u)/pi,   G(u) = v (acos u - v u) + 2/3 (v/u (1 - v^3) - v),   v = sqrt(1 - u^2)
  *
- * The second term gives that back, with the colour of two or more bounces: E = A (1 + c2 r) is the
- * mean albedo of the first term for white, and ms = kd^2 E / (1 - kd (1 - E)). So the lobe passes
- * the white-furnace test, is reciprocal, and has the albedo kd (1 - A r g(n.wo)) + ms A r g(n.wo).
- * At r = 0 it is Lambert's. Directions are sampled by the cosine.
+ * The second term restores it, with the colour of two or more bounces: E = A (1 + c2 r) is the mean
+ * albedo of the first term for white, and ms = kd^2 E / (1 - kd (1 - E)). So the lobe passes the
+ * white-furnace test, is reciprocal, and has the albedo kd (1 - A r g(n.wo)) + ms A r g(n.wo). At r
+ * = 0 it is Lambert's. Directions are sampled by the cosine.
  *
  * References:
  *   Oren, Nayar: "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994.

@@ -1,7 +1,4 @@
-/*
- * camera.h - the cameras: perspective and orthographic through a thin lens, and all directions at
- * once.
- */
+/* camera.h - the cameras: perspective and orthographic with a thin lens, and environment. */
 #ifndef RT_KERNELS_CAMERA_CAMERA_H
 #define RT_KERNELS_CAMERA_CAMERA_H
 

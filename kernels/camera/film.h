@@ -12,7 +12,7 @@
 /*
  * The pixel of an item: films are traversed in tiles of 8 x 8, row by row of tiles, and row by row
  * within a tile, so that neighbours in a work-group see the same part of the scene. Tiles at the
- * right and bottom edge are as narrow and low as the film leaves them.
+ * right and bottom edges are cut off by the film.
  */
 static inline uint2 pixel_of_item(const rt_params *params, uint item)
 {
@@ -27,10 +27,10 @@ static inline uint2 pixel_of_item(const rt_params *params, uint item)
 }
 
 /*
- * Adds a sample, of weight 1 or -1, to the pixel. What rounding takes from the sum is carried along
- * (Kahan, "Further remarks on reducing truncation errors", CACM 8(1), 1965), and the order is that
- * of the samples: the same film results however the samples are cut into launches. A sample that is
- * not finite is counted and left out.
+ * Adds a sample, of weight 1 or -1, to the pixel. Rounding errors are compensated (Kahan, "Further
+ * remarks on reducing truncation errors", CACM 8(1), 1965), and samples are added in their order,
+ * so the film does not depend on how they are divided into launches. A sample that is not finite is
+ * left out and counted as rejected.
  */
 static inline void film_add(rt_film_pixel *pixel, float3 radiance, float weight)
 {

@@ -2,13 +2,13 @@
  * filter.h - where in the plane of the film a sample of a pixel lies: reconstruction filters by
  * importance sampling.
  *
- * A filter f about the pixel's centre is sampled by a density in proportion to |f|, and what the
- * sample brings counts sign(f) times: sum of weight times radiance over sum of weights is the
- * filtered radiance, from samples of that pixel alone. Only Mitchell's filter is negative
- * somewhere; the others have weight 1, and their mean no bias. The quotient of two sums keeps an
- * even picture exactly even with Mitchell's filter too; its bias falls with the number of samples,
- * as the variance does. (The expectation of the signs, the integral of f over that of |f|, as
- * divisor would have no bias, but the noise of the signs, half the radiance a sample.)
+ * A filter f about the pixel's centre is sampled with a density proportional to |f|, and each
+ * sample has the weight sign(f): the sum of weight times radiance over the sum of weights is the
+ * filtered radiance, from samples of that pixel alone. Only Mitchell's filter has negative lobes;
+ * the others have weight 1, and their mean is unbiased. The quotient keeps a uniform picture
+ * exactly uniform with Mitchell's filter too; its bias falls with the number of samples, as the
+ * variance does. (To divide by the expected sum, the integral of f over that of |f|, would be
+ * unbiased, but adds the noise of the signs, half the radiance per sample.)
  *
  * References:
  *   Mitchell, Netravali: "Reconstruction Filters in Computer Graphics", SIGGRAPH 1988.
@@ -78,7 +78,7 @@ static inline float2 sample_gaussian(float2 u)
 
 /*
  * A point of the film, in pixels from the corner of the pixel, for u in [0,1)^2. The filter is
- * stretched to a radius in pixels, 0 for its own; but not the box, which is the pixel.
+ * scaled to this radius in pixels, 0 for its own; the box is always the pixel.
  */
 static inline float2 sample_filter(uint filter, float radius, float2 u, float *weight)
 {

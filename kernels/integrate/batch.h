@@ -4,11 +4,11 @@
  *
  * Most vertices of most scenes lie on surfaces that only reflect diffusely, outside of all solids.
  * There path_vertex comes down to a light sample, roulette and a cosine direction. These are done
- * here by the same code as there (*.inc.h), read a second time at width 8: the same estimate by the
- * same numbers, equal but for rounding, with hardly a branch. Flat triangles and parallelograms,
- * and flat lights sampled by area, are handled in lanes; other surfaces and lights are evaluated
- * one by one. All other vertices go to path_vertex itself. Lanes are independent, so a path's
- * result does not depend on the other paths; lanes without a path hold undefined values.
+ * here by the same code (*.inc.h), included a second time at width 8: the same estimate from the
+ * same random numbers, equal but for rounding, with hardly a branch. Flat triangles and
+ * parallelograms, and flat lights sampled by area, are handled in lanes; other surfaces and lights
+ * are evaluated one by one. All other vertices go to path_vertex itself. Lanes are independent, so
+ * a path's result does not depend on the other paths; lanes without a path hold undefined values.
  *
  * Only path.cl includes this file, where RT_WIDTH is 8. Without it the scalar integrator serves.
  */
@@ -90,7 +90,7 @@ static inline struct surface_x8 flat_surfaces(const struct diffuse_batch *batch,
     return surface;
 }
 
-/* Takes those lanes from surfaces that were made one by one. */
+/* Copies the lanes of surfaces that were evaluated one by one. */
 static inline void take_curved(struct surface_x8 *surface, const struct diffuse_batch *batch)
 {
     const struct vec3_x8 position = VEC3_X8_OF(batch->surfaces, .position);
@@ -193,7 +193,7 @@ static inline struct light_sample_x8 sample_flat_lights(global const rt_light_da
     return sample;
 }
 
-/* Takes those lanes from samples that were made one by one. */
+/* Copies the lanes of samples that were drawn one by one. */
 static inline void take_samples(struct light_sample_x8 *sample, const struct chosen_lights *lights)
 {
     const struct vec3_x8 wi = VEC3_X8_OF(lights->samples, .wi),
@@ -303,8 +303,8 @@ INLINE_NEVER void diffuse_vertices(const struct scene *scene, const rt_params *p
 }
 
 /*
- * Takes eight paths through their next vertices: follow_path's loop, step by step for all. Paths
- * are independent within a step, so that an out-of-order processor overlaps them.
+ * Extends eight paths by a vertex each: the steps of follow_path's loop, each for all paths. Within
+ * a step paths are independent, so an out-of-order processor overlaps them.
  */
 static inline void follow_batch(const struct scene *scene, const rt_params *params,
                                 struct path *paths)
@@ -313,7 +313,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
     float8 numbers[8];
     struct connection connections[8];
 
-    /* Draw the numbers of the next vertices, and find them. */
+    /* Draw the sample values of the next vertices, and find these. */
     for (uint i = 0u; i < 8u; i++) {
         if (!paths[i].alive)
             continue;
@@ -322,7 +322,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
             add_environment(&paths[i], scene, params, FOLLOW_ALL);
     }
 
-    /* Go through diffuse vertices together, through others one by one. */
+    /* Shade diffuse vertices together, the others one by one. */
     struct diffuse_batch batch;
     batch.taken = batch.curved = 0u;
     for (uint i = 0u; i < 8u; i++) {
@@ -342,7 +342,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
         add_connection(&paths[i], scene, &connections[i]);
 }
 
-/* The sample that a path is of. */
+/* The sample of the film that a path computes. */
 struct sample {
     uint2 at;   /* pixel */
     uint index; /* of the pixel in the film */

@@ -13,7 +13,7 @@
 
 /*
  * The light of one lobe from a sampled point, weighted by MIS against sampling the lobe. `alone`:
- * the path does not go on by this lobe, so light sampling counts fully.
+ * the path does not continue by this lobe, so light sampling counts fully.
  */
 static inline float3 mis_weighted_lobe(const rt_params *params, const struct light_sample *sample,
                                        struct lobe_value lobe, bool alone)

@@ -12,8 +12,8 @@
 #include "material/medium.h"
 
 /*
- * What a surface emits along wo to the vertex `from`, which scattered with density pdf_w; 0: light
- * sampling could not have found it.
+ * What a surface emits along wo to the vertex `from`, which was scattered with density pdf_w; 0:
+ * light sampling could not have found it.
  */
 static inline float3 emitted_light(const struct scene *scene, const rt_params *params,
                                    const struct surface *surface, float3 wo, float3 from,

@@ -3,8 +3,8 @@
  * photons.
  *
  * An eye path ends at the diffuse event after `final_gather` others: there the photon map takes
- * over. At the diffuse events before, only caustic photons are gathered, which came there through
- * delta surfaces only: eye paths would find that light too seldom, and that of a point light never.
+ * over. At the diffuse events before, only caustic photons are gathered, which arrived through
+ * delta events only: eye paths would find that light too seldom, and that of a point light never.
  */
 #ifndef RT_KERNELS_INTEGRATE_GATHER_H
 #define RT_KERNELS_INTEGRATE_GATHER_H

@@ -1,7 +1,7 @@
 /*
  * mis.h - multiple importance sampling: the weights of light sampling and BSDF sampling.
  *
- * Direct light is found by points sampled on lights and by directions sampled from the material.
+ * Direct light is estimated by sampling points on lights and by sampling directions from the BSDF.
  * Each sample is weighted by the power heuristic, exponent 2; with an estimator that uses one
  * technique alone, its samples count fully and the other's not at all.
  *
@@ -18,7 +18,7 @@
 
 /*
  * The weight of a sample of `technique`, RT_ESTIMATOR_LIGHT or RT_ESTIMATOR_BSDF, whose direction
- * the other one makes with `ratio` times its density.
+ * the other technique generates with `ratio` times its density.
  */
 static inline float mis_weight(const rt_params *params, uint technique, float ratio)
 {

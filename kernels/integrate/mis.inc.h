@@ -1,4 +1,4 @@
-/* mis.inc.h - the power heuristic, over a width (see math/width1.inc.h). */
+/* mis.inc.h - the power heuristic, width-generic (see math/width1.inc.h). */
 
 /*
  * The reciprocal weight of a sample of pdf p that the other technique generates with pdf q,

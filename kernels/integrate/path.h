@@ -6,8 +6,8 @@
  *
  * Direct light is estimated at each vertex by two techniques, light sampling and BSDF sampling,
  * combined by multiple importance sampling (mis.h). Delta events and delta lights leave only one of
- * the two, which then counts fully. Photon mapping uses the same integrator, with hooks at diffuse
- * events (gather.h).
+ * the two, which then counts fully. Photon mapping uses the same integrator, ending at gather
+ * points (gather.h).
  *
  * References:
  *   Kajiya: "The Rendering Equation", SIGGRAPH 1986.
@@ -48,7 +48,7 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         return;
     }
 
-    /* Add what the surface emits; end the path at its longest length. */
+    /* Add what the surface emits; end the path at the maximum depth. */
     add_emission(path, scene, params, &surface, wo, purpose);
     path->alive =
         path->depth != params->max_depth && !(purpose == FOLLOW_DIRECT && path->scattered);

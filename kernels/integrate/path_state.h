@@ -19,12 +19,16 @@ enum purpose {
 /* A path under way. */
 struct path {
     struct sampler sampler;
-    struct ray ray;      /* of unit direction */
-    float3 from;         /* the vertex before: where the ray began */
-    float3 radiance;     /* gathered so far */
-    float3 beta;         /* throughput, but for the factor eta_scale */
-    float eta_scale;     /* product of (eta_i/eta_t)^2 at refractions; roulette ignores it */
-    float pdf_w;         /* density of the ray's direction, 0 for the camera and delta events */
+    struct ray ray;  /* of unit direction */
+    float3 from;     /* the vertex before: where the ray began */
+    float3 radiance; /* gathered so far */
+    float3 beta;     /* throughput without eta_scale */
+    float eta_scale; /* product of (eta_i/eta_t)^2 at refractions; roulette ignores it */
+    /*
+     * density of the ray's direction; 0: no light sample could have taken the same path, as after
+     * the camera, a delta event or a skipped boundary
+     */
+    float pdf_w;
     uint4 media;         /* the solids it is inside of */
     uint depth;          /* segments, the one under way included */
     uint hidden;         /* boundaries skipped inside a medium of higher priority */
@@ -60,7 +64,7 @@ static inline void path_begin(struct path *path, const struct scene *scene,
     path->rough = false;
 }
 
-/* The numbers of the vertex that the path's ray leads to: those of the light, then the event's. */
+/* The sample values of the next vertex: those of light sampling, then those of the BSDF. */
 static inline float8 path_numbers(const struct path *path)
 {
     return sampler_pair(&path->sampler, set_light(path->depth - 1u));

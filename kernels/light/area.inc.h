@@ -1,4 +1,4 @@
-/* area.inc.h - the density of points by area, over a width (see math/width1.inc.h). */
+/* area.inc.h - the density of points by area, width-generic (see math/width1.inc.h). */
 
 /*
  * 1 / pdf_w of a point sampled uniformly by area, for the unnormalised direction `towards`:

@@ -1,6 +1,6 @@
 /*
- * delta.h - lights that no ray can meet: point, spot and directional. Each has one direction from
- * every point.
+ * delta.h - lights that no ray can meet: point, spot and directional. From any point there is one
+ * direction to each.
  */
 #ifndef RT_KERNELS_LIGHT_DELTA_H
 #define RT_KERNELS_LIGHT_DELTA_H
@@ -10,8 +10,8 @@
 #include "types.h"
 
 /*
- * The part of its intensity that a spot sends at an angle of this cosine to its axis: 3x^2 - 2x^3
- * over its edge.
+ * The fraction of its intensity that a spot light emits at this cosine to its axis: 3x^2 - 2x^3
+ * between inner and outer.
  */
 static inline float spot_falloff(global const rt_light_data *light, float cosine)
 {
@@ -20,7 +20,7 @@ static inline float spot_falloff(global const rt_light_data *light, float cosine
     return x * x * (3.0f - 2.0f * x);
 }
 
-/* Always the same direction; false when nothing arrives. */
+/* The only direction to the light; false when nothing arrives. */
 static inline bool sample_delta_light(struct light_sample *sample,
                                       global const rt_light_data *light, float3 from)
 {

@@ -16,7 +16,7 @@ struct emission {
     uint light;
 };
 
-/* In free space: no surface to be lifted off. */
+/* Starts in free space: there is no surface to offset the origin from. */
 static inline void emit_from(struct emission *emission, float3 position, float3 direction)
 {
     emission->at.position = position;
@@ -26,9 +26,9 @@ static inline void emit_from(struct emission *emission, float3 position, float3 
 }
 
 /*
- * The x in [0,1] up to which the falloff 3x^2 - 2x^3 has the part u of its integral: x^3 (2 - x) =
- * u. Below x = 1 the left side is convex, so Newton's steps, after the first, come down to the
- * root.
+ * The x in [0,1] at which the integral of the falloff 3x^2 - 2x^3 reaches the fraction u of the
+ * whole: x^3 (2 - x) = u. Below x = 1 the left side is convex, so Newton's steps, after the first,
+ * come down to the root.
  */
 static inline float falloff_inverse(float u)
 {
@@ -106,7 +106,9 @@ static inline float3 distant_start(const struct scene *scene, float3 w, float3 t
     return disc + 2.0f * last_plane(scene, disc, w) * w;
 }
 
-/* Starts on the disc. What would pass beside the sphere, to planes farther out, is not followed. */
+/*
+ * Starts on the disc. Light that misses the sphere and meets a plane farther out is not followed.
+ */
 static inline void emit_distant(const struct scene *scene, struct emission *emission, float3 w,
                                 float2 u)
 {

@@ -3,14 +3,13 @@
  *
  * Its image covers the unit square: u is the longitude, 1/2 towards -z and 3/4 towards +x, v the
  * polar angle from 0 at +y to 1 at -y. Between the centres of pixels the radiance is bilinear;
- * around the edges u goes on at the other side, and v keeps the outermost row.
+ * beyond the edges u wraps around, and v is clamped to the outermost row.
  *
  * The sampled density is bilinear as well, between values in proportion to radiance and the sine of
  * the polar angle. Bilinear interpolation is a sum of tents, one a pixel: a pixel is chosen from
  * the tables and a point of its tent taken, so that the density of a point is exactly the
  * interpolation of the pixels' probabilities. Where the radiance is not 0, neither is the density.
- * A tent that reaches over a pole is folded back, which is what keeping the outermost row amounts
- * to.
+ * A tent that reaches over a pole is folded back, which is what clamping amounts to.
  */
 #ifndef RT_KERNELS_LIGHT_ENVIRONMENT_H
 #define RT_KERNELS_LIGHT_ENVIRONMENT_H

@@ -3,7 +3,7 @@
  *
  * The kinds of light are listed in types.h, RT_LIGHTS; area lights are in area.h, delta lights in
  * delta.h, the environment in environment.h. light_pdf_w and environment_light_pdf_w are the
- * densities with which sample_light makes a direction, the choice of the light included: what
+ * densities with which sample_light samples a direction, the choice of the light included: what
  * multiple importance sampling needs when a ray meets the light.
  */
 #ifndef RT_KERNELS_LIGHT_LIGHT_H
@@ -25,7 +25,9 @@ static inline uint surface_light(const struct scene *scene, const struct surface
 
 /* ---- Density ----------------------------------------------------------------- */
 
-/* pdf_w of sampling from this point, by sample_light, the direction to the light's point `at`. */
+/*
+ * pdf_w with which sample_light, from this point, samples the direction to the light's point `at`.
+ */
 static inline float light_pdf_w(const struct scene *scene, global const rt_light_data *light,
                                 float3 from, const struct surface *at)
 {
@@ -94,7 +96,7 @@ static inline bool sample_environment_light(const struct scene *scene, float3 fr
     return true;
 }
 
-/* The lights that are not plain, out of line: they are rarer, and together large. */
+/* All other lights, out of line: they are rarer, and their code is large. */
 INLINE_NEVER bool sample_other_light(const struct scene *scene, global const rt_light_data *light,
                                      float3 from, float2 u, struct light_sample *sample)
 {

@@ -22,7 +22,7 @@ struct light_sample {
     float3 radiance;
     /* sr: 1 / pdf_w of the direction, choice of the light included; delta lights: of the choice */
     float inv_pdf;
-    /* no ray can meet it by chance: multiple importance sampling must leave it alone */
+    /* a delta light: BSDF sampling never meets it, so no MIS weight applies */
     bool delta;
     bool distant; /* at infinity: only wi is defined, not at.position */
 };

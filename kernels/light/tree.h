@@ -24,10 +24,10 @@ static inline float node_distance(global const rt_light_node *node, float3 from)
 }
 
 /*
- * The chance to go to the first of two siblings. Distances come in as a ratio, for scenes of every
- * scale.
+ * The probability of the first of two siblings. Distances enter as a ratio, so that scenes of every
+ * scale work.
  */
-static inline float first_chance(global const rt_light_node *pair, float3 from)
+static inline float first_probability(global const rt_light_node *pair, float3 from)
 {
     if (pair[0].power == 0.0f || pair[1].power == 0.0f)
         return pair[1].power == 0.0f ? 1.0f : 0.0f;
@@ -45,10 +45,10 @@ static inline uint choose_light(const struct scene *scene, float3 from, float u,
     uint node = 1u;
     *pmf = 1.0f;
     while (node < leaves) {
-        const float chance = first_chance(scene->light_nodes + 2u * node, from);
-        const bool second = u >= chance;
-        const float taken = second ? 1.0f - chance : chance;
-        u = fmin((second ? u - chance : u) / taken, 0x1.fffffep-1f);
+        const float first = first_probability(scene->light_nodes + 2u * node, from);
+        const bool second = u >= first;
+        const float taken = second ? 1.0f - first : first;
+        u = fmin((second ? u - first : u) / taken, 0x1.fffffep-1f);
         *pmf *= taken;
         node = 2u * node + (second ? 1u : 0u);
     }
@@ -60,8 +60,8 @@ static inline float light_pmf(const struct scene *scene, uint light, float3 from
 {
     float pmf = 1.0f;
     for (uint node = scene->light_nodes[light].leaf; node > 1u; node >>= 1) {
-        const float chance = first_chance(scene->light_nodes + (node & ~1u), from);
-        pmf *= node & 1u ? 1.0f - chance : chance;
+        const float first = first_probability(scene->light_nodes + (node & ~1u), from);
+        pmf *= node & 1u ? 1.0f - first : first;
     }
     return pmf;
 }

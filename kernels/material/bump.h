@@ -1,5 +1,5 @@
 /*
- * bump.h - normals tilted by a height.
+ * bump.h - bump mapping: shading normals perturbed by a height.
  *
  * References:
  *   Mikkelsen: "Bump Mapping Unparametrized Surfaces on the GPU", JGT 15(1), 2010 (the surface

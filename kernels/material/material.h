@@ -28,8 +28,8 @@ static inline float3 textured(const struct scene *scene, const struct surface *s
 }
 
 /*
- * Applies what varies over the shape; where more would be scattered than arrives, all is scaled
- * down alike.
+ * Applies textures, vertex colours and bumps; where more would be scattered than arrives, all lobes
+ * are scaled down alike.
  */
 static inline void apply_variation(struct bsdf_params *params, const struct scene *scene,
                                    global const rt_material_data *material,

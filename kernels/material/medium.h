@@ -1,12 +1,13 @@
 /*
- * medium.h - which solids a path is inside of, and what happens at their boundaries.
+ * medium.h - which solids a path is inside of, and what happens at their boundaries (nested
+ * dielectrics).
  *
  * A path carries up to four materials, that of highest priority first, and among equals the one
  * entered last; the first is the medium the path runs in. A boundary of lower priority than the
  * current medium is ignored: the path goes straight through and only the list changes (Schmidt and
  * Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT 7(2), 2002). When a fifth solid is
- * entered, the last of the list is forgotten. A path that leaves a solid that is not in its list
- * started inside of it, or forgot it: it is treated as if it had been there all along.
+ * entered, the last of the list is forgotten. A path that leaves a solid missing from its list must
+ * have started inside it, or forgotten it: it is treated as having been inside.
  */
 #ifndef RT_KERNELS_MATERIAL_MEDIUM_H
 #define RT_KERNELS_MATERIAL_MEDIUM_H
@@ -75,8 +76,8 @@ static inline float media_ior(const struct scene *scene, uint4 media)
 }
 
 /*
- * What a medium leaves of light after so many metres, which may be infinitely many: Beer and
- * Lambert's law.
+ * The transmittance of a medium over a distance in metres, which may be infinite: the Beer-Lambert
+ * law.
  */
 static inline float3 medium_transmittance(global const rt_material_data *materials, uint medium,
                                           float distance)
@@ -115,8 +116,8 @@ static inline struct boundary media_meet(const struct scene *scene, uint4 media,
 }
 
 /*
- * Goes straight on through a boundary that does not exist; false when a path has crossed too many:
- * `hidden` counts.
+ * Continues straight through a boundary that does not exist; false when the path has crossed too
+ * many of them, which `hidden` counts.
  */
 static inline bool pass_boundary(struct ray *ray, uint4 *media, uint *hidden,
                                  const struct surface *surface, uint4 beyond)

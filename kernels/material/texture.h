@@ -13,7 +13,8 @@
 #include "types.h"
 
 #define TEXTURE_CODES 256
-#define TEXTURE_PATTERN_STEP (1.0f / 128.0f) /* of the slope of checker and gradient, in (s, t) */
+/* step of the differences for checker and gradient, in (s, t) */
+#define TEXTURE_PATTERN_STEP (1.0f / 128.0f)
 
 /* A coordinate brought into [0,1] as the wrap mode says; 0 for what is not a number. */
 static inline float texture_fold(float x, uint wrap)
@@ -83,7 +84,10 @@ static inline float3 texture_colour(global const rt_texture_data *texture,
     const float3 a = row3(texture->a), b = row3(texture->b);
     if (texture->kind == RT_TEXTURE_GRADIENT)
         return mix(a, b, texture_fold(texture->axis ? st.y : st.x, texture->wrap));
-    /* The sum of two whole numbers is odd when one of them is: in that half of a period of two. */
+    /*
+     * floor(s) + floor(t) is odd when exactly one of them is, that is in the second half of a
+     * period of two.
+     */
     const int is_odd = (texture_fold(0.5f * st.x, RT_WRAP_REPEAT) >= 0.5f) !=
                        (texture_fold(0.5f * st.y, RT_WRAP_REPEAT) >= 0.5f);
     return is_odd ? b : a;

@@ -1,4 +1,4 @@
-/* frame.h - orthonormal frames, and small vector arithmetic that the kernels share. */
+/* frame.h - orthonormal frames, and the small vector functions that kernels share. */
 #ifndef RT_KERNELS_MATH_FRAME_H
 #define RT_KERNELS_MATH_FRAME_H
 

@@ -1,5 +1,5 @@
 /*
- * frame.inc.h - orthonormal frames about a normal, over a width (see math/width1.inc.h).
+ * frame.inc.h - orthonormal frames about a normal, width-generic (see math/width1.inc.h).
  *
  * References:
  *   Duff, Burgess, Christensen, Hery, Kensler, Liani, Villemin: "Building an Orthonormal

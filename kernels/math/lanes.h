@@ -1,24 +1,24 @@
 /*
  * lanes.h - helpers for eight lanes held in a vector of eight.
  *
- * Comparisons of vectors give 0 or -1 a lane; lane_mask packs them into a bit a lane, by one
+ * Comparing vectors gives 0 or -1 per lane; lane_mask packs these into one bit per lane, by one
  * instruction where the target has it.
  */
 #ifndef RT_KERNELS_MATH_LANES_H
 #define RT_KERNELS_MATH_LANES_H
 
 /*
- * Inner loops are to be inlined wherever they are used. A function with a stack of its own is to be
- * called: inlined into a kernel, a runtime that runs a work-group as a loop gives each work-item an
- * array of its own, and the stacks no longer fit the nearest cache. At width 1 a call would cost
- * more: what goes by pointer would leave the registers.
+ * INLINE_ALWAYS is for inner loops. INLINE_NEVER is for functions with a traversal stack: once
+ * inlined into a kernel, a runtime that runs a work-group as a loop gives each work-item a stack of
+ * its own, and together they no longer fit the first-level cache. At width 1 a call would cost
+ * more: arguments passed by pointer would have to leave the registers.
  */
 #if defined(__clang__)
 #define INLINE_ALWAYS static inline __attribute__((always_inline))
-#define SELDOM(truth) __builtin_expect(!!(truth), 0) /* registers go to the other branch first */
+#define UNLIKELY(condition) __builtin_expect(!!(condition), 0) /* favours the other branch */
 #else
 #define INLINE_ALWAYS static inline
-#define SELDOM(truth) (truth)
+#define UNLIKELY(condition) (condition)
 #endif
 #if defined(__clang__) && RT_WIDTH > 1
 #define INLINE_NEVER static __attribute__((noinline))
@@ -47,14 +47,14 @@ static inline float8 lane_mad(float8 a, float8 b, float8 c)
 }
 
 /* Bit i is set where lane i of a comparison is true. */
-static inline uint lane_mask(int8 truth)
+static inline uint lane_mask(int8 comparison)
 {
 #if defined(__AVX512VL__) && defined(__AVX512DQ__)
-    return (uint)(uchar)__builtin_ia32_cvtd2mask256(truth);
+    return (uint)(uchar)__builtin_ia32_cvtd2mask256(comparison);
 #elif defined(__AVX__)
-    return (uint)__builtin_ia32_movmskps256(as_float8(truth));
+    return (uint)__builtin_ia32_movmskps256(as_float8(comparison));
 #else
-    const int8 bits = truth & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+    const int8 bits = comparison & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
     const int4 four = bits.lo | bits.hi;
     const int2 two = four.lo | four.hi;
     return (uint)(two.lo | two.hi);
@@ -78,8 +78,8 @@ static inline uint lane_first(uint mask)
 }
 
 /*
- * Lanes that are read by an index known at run time alone: through memory on a CPU, and at width 1
- * from registers, as private memory is slow there.
+ * Lanes to be read by an index that is known only at run time: through memory at width 8; at width
+ * 1 from registers, as private memory is slow on a GPU.
  */
 struct lane_array {
 #if RT_WIDTH > 1
@@ -113,7 +113,7 @@ INLINE_ALWAYS float lane_read(const struct lane_array *array, uint lane)
 
 /*
  * Stores the lanes whose bits are set in `mask` one after the other; up to eight numbers from `to`
- * on may be written, those that follow the lanes have no meaning.
+ * on may be written; those after the stored lanes are undefined.
  */
 static inline void lane_store(float8 v, uint mask, global float *to)
 {

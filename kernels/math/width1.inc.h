@@ -1,15 +1,15 @@
 /*
- * width1.inc.h - code over a width, for one path at a time.
+ * width1.inc.h - the macros of width-generic code, for one path at a time.
  *
  * Sampling, light and lobe code that the scalar integrator shares with the batch of eight paths is
- * written once over a width, in files named *.inc.h. There REAL and UINT are numbers of each path,
- * BOOL is the result of a comparison, VEC2 and VEC3 are vectors of REAL, and W(name) is the name
- * of a function or struct at that width. A header includes such a file after this one;
- * integrate/batch.h includes it once more, after width8.inc.h. Comparisons, ?: and the built-in
- * functions of numbers serve both widths as they are.
+ * written once for both widths, in files named *.inc.h, which have no include guard. In them REAL
+ * and UINT are a number for each path, BOOL is the result of a comparison, VEC2 and VEC3 are
+ * vectors of REAL, and W(name) is the name of a function or struct at that width. A header includes
+ * such a file after this one; integrate/batch.h includes it once more, after width8.inc.h.
+ * Comparisons, ?: and the built-in functions work at both widths as they are.
  *
- * POINT3, COMBINE3, SUM3 and DIVIDE3 add and divide in another order at each width, the faster one
- * there: they alone make the widths round differently.
+ * POINT3, COMBINE3, SUM3 and DIVIDE3 add and divide in a different order at each width, whichever
+ * is faster there: they alone make the two widths round differently.
  */
 #undef W
 #undef REAL

@@ -1,5 +1,6 @@
 /*
- * width8.inc.h - code over a width, for eight paths at a time, a lane each; see width1.inc.h.
+ * width8.inc.h - the macros of width-generic code, for eight paths at a time, one per lane; see
+ * width1.inc.h.
  */
 #include "math/vec8.h"
 

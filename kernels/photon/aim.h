@@ -11,7 +11,7 @@
  * light emits into, as around an area light within one of them, the start is left as it is.
  *
  * References:
- *   Jensen: "Realistic Image Synthesis Using Photon Mapping", 2001, section 5.2 (projection maps).
+ *   Jensen: "Realistic Image Synthesis Using Photon Mapping", 2001, chapter 5 (projection maps).
  *   Veach, Guibas: "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
  *     1995 (the one-sample model: choosing in proportion makes the balance heuristic's density the
  *     sum of all).

@@ -1,15 +1,15 @@
 /*
- * gather_point.h - where an eye path gathers photons: what it leaves there, and what the lobe of
- * the point scatters of the photons around it.
+ * gather_point.h - gather points: what an eye path records where it gathers photons, and what the
+ * point's lobe scatters of the photons around it.
  *
  *   L(x, wo) = sum over the photons p near x of fr(x, wo, w_p) flux_p K(|x - x_p|)      Jensen 1996
  *
  * with flux_p the flux of its path over the number of emitted paths, and fr the point's lobe, by
- * the same eval as paths use. Lambert's fr is kd/pi for every photon: there the point's weight has
- * kd, and the sum of the flux density alone is multiplied by the rest.
+ * the same eval as paths use. Lambert's fr is kd/pi for every photon: the point's weight then holds
+ * kd, and the sum is of flux density alone.
  *
- * Photons are as dense as the geometric surface makes them, while reflection goes by the shading
- * normal: photon.shading is the ratio of the two cosines (Veach 1997, section 5.3).
+ * Photon density follows the geometric normal, while reflection uses the shading normal:
+ * photon.shading is the ratio of the two cosines (Veach 1997, section 5.3).
  */
 #ifndef RT_KERNELS_PHOTON_GATHER_POINT_H
 #define RT_KERNELS_PHOTON_GATHER_POINT_H
@@ -56,7 +56,7 @@ static inline void set_gather_point(global rt_gather_point *point, float3 positi
     vstore3(throughput * (fixed / bsdf->diffuse), 0, point->weight);
 }
 
-/* The surface at a point, as far as diffuse lobes read it. */
+/* The BSDF at a gather point, with the members that diffuse lobes read. */
 static inline struct bsdf bsdf_of_point(global const rt_gather_point *point)
 {
     struct bsdf bsdf;
@@ -94,8 +94,8 @@ static inline float3 photon_term(const struct bsdf *bsdf, global const rt_photon
 }
 
 /*
- * Adds what the point scatters towards the film to its radiance; sum: that of flux_p K, and
- * of fr flux_p K where fr is not constant.
+ * Adds what the point scatters towards the film to its radiance; sum: of flux_p K where fr is
+ * constant, else of fr flux_p K.
  */
 static inline void add_scattered(global rt_gather_point *point, float3 sum)
 {

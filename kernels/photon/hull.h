@@ -1,12 +1,13 @@
 /*
  * hull.h - photon density by the convex hull of the photons, in the tangent plane of a point.
  *
- * A disc that reaches over the edge of a surface holds an area where no photon can lie, and up to
- * half of the light and more is lost there. The hull of the photons stays on the surface. Of n
- * points spread evenly over a convex region of area a, the hull leaves 1 - E[v]/(n + 1) of a one
- * point more outside (v: its corners; Efron, "The convex hull of a random set of points",
- * Biometrika 52, 1965), so that (n - v) points over the hull's area are the density, almost without
- * bias. The corners define the hull and are excluded, as the k-th photon is from a disc.
+ * A disc that reaches over the edge of a surface covers area where no photon can lie, and half of
+ * the light or more is lost there (boundary bias). The hull of the photons stays on the surface.
+ * For n uniform points in a convex region of area a, the expected area of the hull is (1 - E[v]/(n
+ * + 1)) a, where v is the number of corners of the hull of n + 1 points (Efron, "The convex hull of
+ * a random set of points", Biometrika 52, 1965), so (n - v) points over the hull's area estimate
+ * the density almost without bias. The corners define the hull and are excluded, as the k-th photon
+ * is from a disc.
  */
 #ifndef RT_KERNELS_PHOTON_HULL_H
 #define RT_KERNELS_PHOTON_HULL_H
@@ -29,8 +30,8 @@ static inline float cross2(float2 a, float2 b)
 }
 
 /*
- * Whether the corner after `at` is rather `candidate` than `best`: farther to the right, or farther
- * along.
+ * Whether `candidate` rather than `best` is the next corner after `at`: farther to the right or, on
+ * the same line, farther away.
  */
 static inline bool wraps_more(float2 at, float2 candidate, float2 best)
 {
@@ -40,9 +41,9 @@ static inline bool wraps_more(float2 at, float2 candidate, float2 best)
 }
 
 /*
- * The sum of the photons inside the hull, over its area; walks around it from corner to corner
- * (Jarvis, "On the identification of the convex hull of a finite set of points in the plane",
- * Information Processing Letters 2, 1973).
+ * The sum of the photons inside the hull over its area, by gift wrapping (Jarvis, "On the
+ * identification of the convex hull of a finite set of points in the plane", Information Processing
+ * Letters 2, 1973).
  */
 static inline float3 hull_sum(float3 origin, const struct bsdf *bsdf,
                               global const rt_photon *photons, global const uint *list, uint count)

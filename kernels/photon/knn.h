@@ -18,7 +18,7 @@ struct distances {
     global float *squared;
     uint count, capacity; /* a multiple of 8, at least k + 16 */
     uint k;
-    float bound; /* what is not below it does not matter */
+    float bound; /* distances not below it are ignored */
 };
 
 INLINE_ALWAYS uint sum_lanes_int(int8 v)
@@ -54,9 +54,9 @@ INLINE_ALWAYS uint count_up_to(const struct distances *d, float value, float *la
 
 /*
  * The k-th smallest of the distances, k <= count, all of them below the bound. Squared distances on
- * a surface are spread evenly, so every other step looks where the k-th would then be; those
- * between halve the range of the numbers' bits, which are in the order of the numbers. It ends when
- * exactly k are not above the value tried.
+ * a surface are about uniform, so every other step tries the interpolated place of the k-th; the
+ * steps between bisect the bit patterns, which have the order of the floats. It ends when exactly k
+ * are not above the value tried.
  */
 INLINE_ALWAYS float select_distance(const struct distances *d)
 {
@@ -86,7 +86,7 @@ INLINE_ALWAYS float select_distance(const struct distances *d)
     return as_float(low);
 }
 
-/* Fills the last row up with what cannot be selected. */
+/* Pads the last row with values that are never selected. */
 INLINE_ALWAYS void pad_distances(struct distances *d)
 {
     for (uint i = d->count; i & 7u; i++)
@@ -249,8 +249,8 @@ INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
     if (take_nearest(d, tree, query, larger ? 2u * estimate->max_candidates : 0xffffffffu))
         return;
     /*
-     * Few photons fit. Those that do may be far away, but not all of the map is to be searched for
-     * them.
+     * Few photons are accepted. The others may be far away, but the whole map must not be searched
+     * for them.
      */
     d->count = 0u;
     d->bound = candidate_distance(tree, query, estimate->max_candidates, estimate->squared_limit);
@@ -258,8 +258,8 @@ INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
 }
 
 /*
- * The squared radius of the disc around a point; 0 when no photon counts. guess: what it may be,
- * such as that of a point nearby; 0 for none: it changes the time taken, not the result. scratch:
+ * The squared radius of the disc around a point; 0 when no photon counts. guess: an estimate, such
+ * as that of a nearby point, or 0; it changes the time taken, not the result. scratch:
  * [estimate->stride]. Where k photons are accepted, the caller applies the limit of max_candidates:
  * only the summation counts the candidates.
  */
@@ -281,7 +281,7 @@ INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct pho
     }
     if (d.bound < INFINITY)
         return d.bound;
-    /* No limit, and the map has too few: the farthest stands for the k-th. */
+    /* No limit, and fewer than k in the map: the farthest photon gives the radius. */
     float farthest = 0.0f;
     for (uint i = 0u; i < d.count; i++)
         farthest = fmax(farthest, d.squared[i]);

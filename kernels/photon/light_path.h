@@ -28,10 +28,10 @@ struct light_path {
     uint4 media;
     uint depth;     /* segments, the one under way included */
     uint hidden;    /* boundaries skipped inside a medium of higher priority */
-    bool straight;  /* no surface was hit yet, so a shadow ray samples this light */
-    bool scattered; /* by some event other than a delta one */
-    uint photons;   /* that it stored */
-    uint rejected;  /* and that it did not, because they were not finite */
+    bool straight;  /* no surface was hit yet: direct light */
+    bool scattered; /* by an event other than a delta one */
+    uint photons;   /* photons stored */
+    uint rejected;  /* photons not stored: not finite, or beyond RT_COORDINATE_MAX */
 };
 
 /* Whether it came through delta events only. */
@@ -41,7 +41,8 @@ static inline bool is_caustic(const struct light_path *path)
 }
 
 /*
- * Starts a path and its account, aimed when it is for caustics alone; false when there is no light.
+ * Starts a path and its account, aimed at specular shapes when it is for caustics alone; false when
+ * it has no flux.
  */
 static inline bool start_light_path(struct light_path *path, const struct scene *scene,
                                     global const rt_light_share *shares,
@@ -116,7 +117,7 @@ static inline bool scatter_light_path(struct light_path *path, const struct surf
     const float3 chosen = arrived * (bsdf_lobe_weight(bsdf, lobe) / survival);
     path->flux = arrived * (scatter.weight / survival);
     path->roulette -= chosen;
-    path->absorbed += chosen - path->flux; /* at shading normals */
+    path->absorbed += chosen - path->flux; /* the loss by shading normals */
     if (!(largest3(path->flux) > 0.0f))
         return false;
     path->ray = make_ray(leave_surface(surface, scatter.wi), scatter.wi, 0.0f, INFINITY);

@@ -1,6 +1,4 @@
-/*
- * store.h - where a photon is stored: which surfaces and maps take one, and what it holds.
- */
+/* store.h - storing photons: which of them the map under way takes, and what a photon holds. */
 #ifndef RT_KERNELS_PHOTON_STORE_H
 #define RT_KERNELS_PHOTON_STORE_H
 
@@ -10,8 +8,8 @@
 #include "types.h"
 
 /*
- * Whether the map under way takes a photon here; what comes straight from a light may be left to
- * shadow rays.
+ * Whether the map under way takes a photon of this path at a surface with a diffuse lobe; direct
+ * light may be left to shadow rays.
  */
 static inline bool is_stored(const struct light_path *path, const rt_params *params)
 {

@@ -90,7 +90,7 @@ INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tr
                             const struct photon_start *start, const struct photon_query *query,
                             const rt_density_params *estimate)
 {
-    return SELDOM(!point_is_constant(query->point))
+    return UNLIKELY(!point_is_constant(query->point))
                ? sum_by_lobe(sum, tree, start, query, estimate)
                : sum_photons(sum, tree, start, query, estimate, 0);
 }

@@ -24,7 +24,7 @@ struct photon_tree {
 struct photon_query {
     float3 position;
     float3 normal;
-    global const rt_gather_point *point; /* whose lobe scatters them */
+    global const rt_gather_point *point; /* the gather point whose lobe scatters them */
 };
 
 static inline struct photon_query query_of_point(global const rt_gather_point *point)
@@ -52,7 +52,7 @@ INLINE_ALWAYS float8 photon_distances(global const rt_photon_block *block,
                            query->position.z - vload8(0, block->position[2]));
 }
 
-/* Which of eight photons lie on a surface like the point's. */
+/* Which of eight photons have a normal close to the point's, and so are accepted. */
 INLINE_ALWAYS int8 photons_accepted(global const rt_photon_block *block,
                                     const struct photon_query *query)
 {
@@ -218,7 +218,7 @@ INLINE_ALWAYS uint count_photons(const struct photon_tree *tree, const struct ph
         const uint level = entry >> ENTRY_LEVEL_SHIFT, index = entry & ENTRY_INDEX;
         global const rt_photon_node *node = tree->nodes + tree->shape.first_node[level] + index;
         uint near = lane_mask(box_distances(node, query) < squared_radius);
-        /* A child that lies inside by more than rounding counts whole. */
+        /* A child that is inside by more than rounding counts as a whole. */
         const uint inside =
             near & lane_mask(box_reaches(node, query) < squared_radius * (1.0f - 0x1p-20f));
         for (; near; near &= near - 1u) {

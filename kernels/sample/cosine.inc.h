@@ -1,5 +1,5 @@
 /*
- * cosine.inc.h - the unit disc, and the hemisphere in proportion to the cosine, over a width (see
+ * cosine.inc.h - the unit disc, and the hemisphere in proportion to the cosine, width-generic (see
  * math/width1.inc.h).
  *
  * References:

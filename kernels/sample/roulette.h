@@ -1,10 +1,10 @@
 /*
- * roulette.h - Russian roulette: the survival probability of a path. A surviving path is divided by
- * it, so the estimator stays unbiased.
+ * roulette.h - Russian roulette: the survival probability of a path. The throughput of a survivor
+ * is divided by it, so the estimator stays unbiased.
  *
- * Photon paths take as reference the flux that arrived, so that all photons keep about the same.
- * Eye paths take a threshold, from a given length on: those that go on from below it all carry as
- * much as it.
+ * For photon paths the reference is the incident flux, so that all photons carry about the same
+ * flux. For eye paths, from a given length on, it is a threshold, to which roulette raises the
+ * throughput of survivors.
  *
  * References:
  *   Arvo, Kirk: "Particle Transport and Image Synthesis", SIGGRAPH 1990.

@@ -1,13 +1,16 @@
-/* roulette.inc.h - the chance to survive Russian roulette, over a width (see math/width1.inc.h). */
+/*
+ * roulette.inc.h - the survival probability of Russian roulette, width-generic (see
+ * math/width1.inc.h).
+ */
 
-/* The strongest channel of what would be left over a reference, at most 1. */
+/* The largest channel of the throughput or flux to come over a reference, at most 1. */
 static inline REAL W(roulette_survival)(VEC3 left, REAL reference)
 {
-    const REAL chance = LARGEST3(left) / reference;
-    return chance < 1.0f ? chance : (REAL)(1.0f);
+    const REAL survival = LARGEST3(left) / reference;
+    return survival < 1.0f ? survival : (REAL)(1.0f);
 }
 
-/* The chance of an eye path after `depth` segments that would be left this throughput. */
+/* The survival probability of an eye path after `depth` segments, with this throughput to come. */
 static inline REAL W(eye_path_survival)(const rt_params *params, UINT depth, VEC3 throughput)
 {
     return depth < params->roulette_depth

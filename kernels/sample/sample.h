@@ -24,7 +24,7 @@
 /* (sin x, cos x) for |x| <= 2 pi, absolute error below 3e-7. */
 static inline float2 sin_cos(float x)
 {
-    /* Take off the nearest multiple k of pi/2, in two parts so that nothing is lost. */
+    /* Subtract the nearest multiple k of pi/2, in two parts to keep full precision. */
     const float turns = x * 0.636619772f;
     const int k = (int)(turns + (turns < 0.0f ? -0.5f : 0.5f));
     const float2 arc = sin_cos_eighth((x - (float)k * 1.5703125f) - (float)k * 4.83826792e-4f);
@@ -101,12 +101,12 @@ static inline float2 sample_tent(float2 u)
 /* ---- Rectangle by solid angle -------------------------------------------- */
 
 /*
- * A rectangle seen from a point: sides from x0 to x1 and y0 to y1, at distance z > 0, in a frame
- * along its edges. With p = (-y0, x1, y1, -x0), going round the sides, the inner angles are
- * g[i] = pi/2 + a[i] with a[i] = asin(n[i] n[i+1]), n[i] = p[i] / sqrt(p[i]^2 + z^2) (Urena et al.,
+ * A rectangle as seen from a point: sides from x0 to x1 and y0 to y1, at distance z > 0, in a frame
+ * along its edges. With p = (-y0, x1, y1, -x0), going round the sides, the inner angles are g[i] =
+ * pi/2 + a[i] with a[i] = asin(n[i] n[i+1]), n[i] = p[i] / sqrt(p[i]^2 + z^2) (Urena et al.,
  * section 3), and the solid angle is a[0] + a[1] + a[2] + a[3]. In place of asin, which loses half
  * the digits near 1, here a[i] = atan(p[i] p[i+1] / (z sqrt(p[i]^2 + p[i+1]^2 + z^2))): equal, and
- * exact to the last digits for points close to the rectangle's plane.
+ * accurate to the last digits for points close to the rectangle's plane.
  */
 struct seen_rectangle {
     float4 p;

@@ -1,5 +1,5 @@
 /*
- * triangle.inc.h - points of a triangle, uniform in area, over a width (see math/width1.inc.h).
+ * triangle.inc.h - points of a triangle, uniform in area, width-generic (see math/width1.inc.h).
  *
  * References:
  *   Heitz: "A Low-Distortion Map Between Triangle and Square", 2019.

@@ -80,8 +80,8 @@ static inline struct box_face box_face(uint face)
 }
 
 /*
- * The point of a face at p. It keeps off the edges by what rounding may do to it: a ray that enters
- * through the face then starts on the inside of the others.
+ * The point of a face at p. It is kept off the edges by its rounding error, so that a ray that
+ * enters through the face starts inside the other faces.
  */
 static inline struct object_point box_point(global const rt_transform_data *placement, float3 p,
                                             uint index)
@@ -124,9 +124,9 @@ static inline struct tangents box_tangents(global const rt_shape *shape, float3 
 /* Areas in the world of the faces at one side of x, y and z. */
 static inline float3 box_areas(global const rt_transform_data *placement)
 {
-    return 4.0f * (float3)(area_stretch(placement, (float3)(1.0f, 0.0f, 0.0f)),
-                           area_stretch(placement, (float3)(0.0f, 1.0f, 0.0f)),
-                           area_stretch(placement, (float3)(0.0f, 0.0f, 1.0f)));
+    return 4.0f * (float3)(area_scale(placement, (float3)(1.0f, 0.0f, 0.0f)),
+                           area_scale(placement, (float3)(0.0f, 1.0f, 0.0f)),
+                           area_scale(placement, (float3)(0.0f, 0.0f, 1.0f)));
 }
 
 /* A point, uniform in area; u.x chooses the face and is used again. */
@@ -148,9 +148,9 @@ static inline struct object_point box_sample(global const rt_shape *shape,
 
 static inline float box_sample_pdf_a(global const rt_shape *shape,
                                      global const rt_transform_data *placement, float3 n,
-                                     float stretch)
+                                     float scale)
 {
-    (void)shape, (void)n, (void)stretch;
+    (void)shape, (void)n, (void)scale;
     const float3 areas = box_areas(placement);
     return 0.5f / (areas.x + areas.y + areas.z);
 }

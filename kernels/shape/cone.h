@@ -24,9 +24,9 @@ static inline struct object_point cone_sample(global const rt_shape *shape,
 
 static inline float cone_sample_pdf_a(global const rt_shape *shape,
                                       global const rt_transform_data *placement, float3 n,
-                                      float stretch)
+                                      float scale)
 {
-    return frustum_sample_pdf_a(shape, shape->p[0], placement, n, stretch);
+    return frustum_sample_pdf_a(shape, shape->p[0], placement, n, scale);
 }
 
 static inline struct tangents cone_tangents(global const rt_shape *shape, float3 p, float3 n)

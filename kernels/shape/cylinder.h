@@ -25,9 +25,9 @@ cylinder_sample(global const rt_shape *shape, global const rt_transform_data *pl
 
 static inline float cylinder_sample_pdf_a(global const rt_shape *shape,
                                           global const rt_transform_data *placement, float3 n,
-                                          float stretch)
+                                          float scale)
 {
-    return frustum_sample_pdf_a(shape, 1.0f, placement, n, stretch);
+    return frustum_sample_pdf_a(shape, 1.0f, placement, n, scale);
 }
 
 static inline struct tangents cylinder_tangents(global const rt_shape *shape, float3 p, float3 n)

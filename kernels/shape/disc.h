@@ -57,10 +57,10 @@ static inline struct object_point disc_sample(global const rt_shape *shape,
 
 static inline float disc_sample_pdf_a(global const rt_shape *shape,
                                       global const rt_transform_data *placement, float3 n,
-                                      float stretch)
+                                      float scale)
 {
     (void)placement, (void)n;
-    return 1.0f / (RT_PI * (1.0f - square(shape->p[0])) * stretch);
+    return 1.0f / (RT_PI * (1.0f - square(shape->p[0])) * scale);
 }
 
 static inline struct tangents disc_tangents(global const rt_shape *shape, float3 p, float3 n)

@@ -10,7 +10,7 @@ static inline float ellipsoid_intersect(global const rt_shape *shape, const stru
                                         uint *part)
 {
     (void)shape;
-    return intersect_ball((float3)(0.0f), 1.0f, ray, part);
+    return intersect_sphere((float3)(0.0f), 1.0f, ray, part);
 }
 
 static inline struct object_point ellipsoid_point(float3 p)
@@ -45,10 +45,10 @@ ellipsoid_sample(global const rt_shape *shape, global const rt_transform_data *p
 
 static inline float ellipsoid_sample_pdf_a(global const rt_shape *shape,
                                            global const rt_transform_data *placement, float3 n,
-                                           float stretch)
+                                           float scale)
 {
     (void)shape, (void)placement, (void)n;
-    return 1.0f / (4.0f * RT_PI * stretch);
+    return 1.0f / (4.0f * RT_PI * scale);
 }
 
 static inline struct tangents ellipsoid_tangents(global const rt_shape *shape, float3 p, float3 n)

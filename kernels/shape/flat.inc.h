@@ -1,5 +1,5 @@
 /*
- * flat.inc.h - points on flat triangles and parallelograms, and on those that emit, over a width
+ * flat.inc.h - points on flat triangles and parallelograms, and on those that emit, width-generic
  * (see math/width1.inc.h).
  */
 

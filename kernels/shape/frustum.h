@@ -74,14 +74,14 @@ static inline bool cross_side(const struct line *line, float top, float2 *roots,
         return false;
     const float q = -(b + copysign(sqrt(fmax(discriminant, 0.0f)), b));
     if (q == 0.0f) {
-        /* Along the axis of a cylinder: inside for good or never. */
+        /* Parallel to the axis of a cylinder: inside everywhere or nowhere. */
         *roots = *inside = (float2)(-INFINITY, INFINITY);
         return a == 0.0f && c <= 0.0f;
     }
     float lo = shift + fmin(c / q, q / a), hi = shift + fmax(c / q, q / a);
     const bool lo_is_hit = polish_root(line, top, &lo), hi_is_hit = polish_root(line, top, &hi);
     if (a > 0.0f && !lo_is_hit && !hi_is_hit)
-        return false; /* roots that rounding made of a miss near an apex */
+        return false; /* spurious roots near an apex, made by rounding */
     *roots = (float2)(lo_is_hit ? lo : -INFINITY, hi_is_hit ? hi : INFINITY);
     if (a >= 0.0f)
         *inside = (float2)(lo, hi);
@@ -142,8 +142,8 @@ static inline struct object_point frustum_cap(float3 p, float radius, float z, f
 }
 
 /*
- * The point at p of a part. Where parts meet it keeps off the other part by what rounding may do to
- * it: a ray that leaves the one then starts on the inside of the other.
+ * The point at p of a part. Where parts meet it is kept off the other part by its rounding error,
+ * so that a ray that leaves the one starts inside the other.
  */
 static inline struct object_point frustum_point(global const rt_shape *shape, float top,
                                                 global const rt_transform_data *placement, float3 p,
@@ -194,17 +194,17 @@ static inline struct tangents frustum_tangents(float top, float3 p, float3 n)
 /* ---- Area sampling ---------------------------------------------------------- */
 
 /*
- * Areas in the world of the side, an estimate from its stretch in two directions, and of the caps
- * at z = 0 and z = 1, which are 0 when open. A part is chosen in proportion to them.
+ * Areas in the world of the side, estimated by its area scale in two directions, and of the caps at
+ * z = 0 and z = 1, which are 0 when open. A part is chosen in proportion to them.
  */
 static inline float3 frustum_areas(global const rt_shape *shape, float top,
                                    global const rt_transform_data *placement)
 {
     const float slope = 1.0f - top;
-    const float side = 0.5f * (area_stretch(placement, (float3)(1.0f, 0.0f, slope)) +
-                               area_stretch(placement, (float3)(0.0f, 1.0f, slope)));
+    const float side = 0.5f * (area_scale(placement, (float3)(1.0f, 0.0f, slope)) +
+                               area_scale(placement, (float3)(0.0f, 1.0f, slope)));
     const float cap =
-        shape->flags & RT_SHAPE_CAPS ? area_stretch(placement, (float3)(0.0f, 0.0f, 1.0f)) : 0.0f;
+        shape->flags & RT_SHAPE_CAPS ? area_scale(placement, (float3)(0.0f, 0.0f, 1.0f)) : 0.0f;
     return RT_PI * (float3)((1.0f + top) * side, cap, cap * top * top);
 }
 
@@ -235,15 +235,15 @@ static inline struct object_point frustum_sample(global const rt_shape *shape, f
 
 static inline float frustum_sample_pdf_a(global const rt_shape *shape, float top,
                                          global const rt_transform_data *placement, float3 n,
-                                         float stretch)
+                                         float scale)
 {
     const float3 areas = frustum_areas(shape, top, placement);
     const float all = areas.x + areas.y + areas.z;
     if (n.z < -0.9f)
-        return areas.y / (all * RT_PI * stretch);
+        return areas.y / (all * RT_PI * scale);
     if (n.z > 0.9f) /* the side's normal rises by 45 degrees at most */
-        return areas.z / (all * RT_PI * square(top) * stretch);
-    return areas.x / (all * RT_PI * (1.0f + top) * sqrt(1.0f + square(1.0f - top)) * stretch);
+        return areas.z / (all * RT_PI * square(top) * scale);
+    return areas.x / (all * RT_PI * (1.0f + top) * sqrt(1.0f + square(1.0f - top)) * scale);
 }
 
 #endif

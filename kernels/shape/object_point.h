@@ -18,8 +18,8 @@ struct object_point {
 };
 
 /*
- * A hit notes the part of the shape that it lies on, in hit.u: a number that means what the shape's
- * header says, and of curved shapes whether the ray goes out there.
+ * hit.u holds the part of the shape that was hit: a number defined in the shape's header and, for
+ * curved shapes, whether the ray leaves the shape there.
  */
 #define PART_MASK 7u
 #define PART_EXITS 8u

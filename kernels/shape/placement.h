@@ -68,10 +68,10 @@ static inline struct ray ray_to_object(global const rt_transform_data *placement
 }
 
 /*
- * The factor by which the map stretches a surface element of unit normal n: |C n|, C the cofactors
- * of L.
+ * The factor by which the map scales the area of a surface element of unit normal n: |C n|, with C
+ * the cofactors of L.
  */
-static inline float area_stretch(global const rt_transform_data *placement, float3 n)
+static inline float area_scale(global const rt_transform_data *placement, float3 n)
 {
     const float3 x = linear_row(placement->to_world[0]);
     const float3 y = linear_row(placement->to_world[1]);

@@ -4,7 +4,7 @@
  *
  * Below RT_SMALL_SOLID_ANGLE, where float32 no longer resolves the difference of angles, a
  * rectangle is sampled by area as well: seen so small, both densities are nearly the same, and each
- * is used with its own pdf, so the mean has no seam.
+ * is used with its own pdf, so the mean is seamless.
  */
 #ifndef RT_KERNELS_SHAPE_QUAD_H
 #define RT_KERNELS_SHAPE_QUAD_H

@@ -1,5 +1,5 @@
 /*
- * shapes.h - the list of shapes, and the functions that go by the kind of a shape.
+ * shapes.h - the list of shapes, and the functions that dispatch on the kind of a shape.
  *
  * Both compilers read the list. From it come the kinds below; for the device the switches of this
  * file, which call the functions of the shapes' own headers; for the host the table of classes in
@@ -35,8 +35,8 @@
  *   struct object_point name_hit(shape, placement, ray, p, part)
  *   struct tangents name_tangents(shape, p, n)
  *   struct object_point name_sample(shape, placement, u)
- *   float name_sample_pdf_a(shape, placement, n, stretch)   density of name_sample over the area in
- *                                                           the world; stretch: see area_stretch
+ *   float name_sample_pdf_a(shape, placement, n, scale)   density of name_sample over the area in
+ *                                                           the world; scale: see area_scale
  */
 #define RT_PLACED_SHAPES(X)                                                                        \
     X(ELLIPSOID, ellipsoid, 4)                                                                     \
@@ -208,9 +208,9 @@ static inline struct tangents tangents_at(const struct scene *scene, const struc
 /* ---- Area sampling ---------------------------------------------------------- */
 
 /*
- * A placed shape is sampled evenly, or evenly over each of its parts, in object space. The
- * placement, with cofactors C, stretches a surface element of unit normal n by |C n|, so the
- * density over the world's area is the even one over |C n|.
+ * A placed shape is sampled uniformly in object space, or uniformly over each of its parts. The
+ * placement, with cofactors C, scales the area of a surface element of unit normal n by |C n|, so
+ * the density over area in the world is that in object space over |C n|.
  */
 
 /* The density over the world's area at a point with this normal in object space, of any length. */
@@ -219,11 +219,11 @@ static inline float placed_pdf_a(const struct scene *scene, global const rt_shap
 {
     global const rt_transform_data *placement = scene->transforms + shape->transform;
     const float3 n = unit(normal);
-    const float stretch = area_stretch(placement, n);
+    const float scale = area_scale(placement, n);
     switch (shape->kind) {
 #define CASE(KIND, name, number)                                                                   \
     case RT_SHAPE_##KIND:                                                                          \
-        return name##_sample_pdf_a(shape, placement, n, stretch);
+        return name##_sample_pdf_a(shape, placement, n, scale);
         RT_PLACED_SHAPES(CASE)
 #undef CASE
     }

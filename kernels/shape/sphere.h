@@ -26,12 +26,12 @@ static inline float root_of_product(float x, float y)
 }
 
 /*
- * The nearest t in [t_min, t_max] at which the ray meets the ball about `centre`, or infinity. The
- * discriminant and the smaller root are computed without cancellation: Haines, Gunther and
+ * The nearest t in [t_min, t_max] at which the ray meets the sphere about `centre`, or infinity.
+ * The discriminant and the smaller root are computed without cancellation: Haines, Gunther and
  * Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019,
  * chapter 7.
  */
-static inline float intersect_ball(float3 centre, float radius, const struct ray *ray, uint *part)
+static inline float intersect_sphere(float3 centre, float radius, const struct ray *ray, uint *part)
 {
     const float3 f = ray->origin - centre;
     const float3 d = ray->direction;
@@ -55,7 +55,7 @@ static inline float intersect_ball(float3 centre, float radius, const struct ray
 static inline float sphere_intersect(global const rt_shape *shape, const struct ray *ray,
                                      uint *part)
 {
-    return intersect_ball(vload3(0, shape->p), shape->p[3], ray, part);
+    return intersect_sphere(vload3(0, shape->p), shape->p[3], ray, part);
 }
 
 /* ---- Texture coordinates ---------------------------------------------------- */
@@ -84,7 +84,7 @@ static inline void locate_on_sphere(struct surface *surface, const struct scene 
     surface->v = uv.y;
 }
 
-/* Of the unit sphere at p: longitude and latitude as sphere_parameters counts them. */
+/* The tangents of the unit sphere at p, by the longitude and latitude of sphere_parameters. */
 static inline struct tangents unit_sphere_tangents(float3 p)
 {
     const float r = length(p.xz);

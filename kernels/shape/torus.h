@@ -72,9 +72,9 @@ static inline float2 torus_concave(const struct line *line)
 }
 
 /*
- * Looks for a point between a and b at which a convex h is negative; it is not at a, where it
- * slopes down, nor at b, where it slopes up. The tangents at a and b bound h from below: where they
- * meet above 0 there is none.
+ * Finds a point between a and b at which a convex h is negative; it is not at a, where it slopes
+ * down, nor at b, where it slopes up. The tangents at a and b bound h from below: where they meet
+ * above 0 there is none.
  */
 static inline bool torus_dip(const struct line *line, float minor, float sign, struct torus_point a,
                              struct torus_point b, struct torus_point *dip)
@@ -248,10 +248,10 @@ static inline struct object_point torus_sample(global const rt_shape *shape,
 
 static inline float torus_sample_pdf_a(global const rt_shape *shape,
                                        global const rt_transform_data *placement, float3 n,
-                                       float stretch)
+                                       float scale)
 {
     (void)placement, (void)n;
-    return 1.0f / (4.0f * square(RT_PI) * shape->p[0] * stretch);
+    return 1.0f / (4.0f * square(RT_PI) * shape->p[0] * scale);
 }
 
 #endif

@@ -111,7 +111,8 @@ static inline void triangle_surface(struct surface *surface, const struct scene 
 }
 
 /*
- * By the edges of the triangle or parallelogram; zero where texture coordinates do not span it.
+ * From the edges of the triangle or parallelogram; zero where its texture coordinates are
+ * degenerate.
  */
 static inline struct tangents block_tangents(const struct scene *scene,
                                              global const rt_shape *shape,

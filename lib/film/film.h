@@ -13,7 +13,7 @@ struct rt_film {
     rt_ledger ledger;      /* of all photon paths */
     rt_film_pixel *pixels; /* [height][width], the sums */
     float *rgb;            /* [height][width][3], the means */
-    /* [RT_LAYER_COUNT][height][width], the sums that the kernel aov makes, or NULL */
+    /* [RT_LAYER_COUNT][height][width], the sums of the kernel first_hit, or NULL */
     rt_film_pixel *layer_sums;
     rt_film_layers layers; /* each [height][width][channels] */
 };

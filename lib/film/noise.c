@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "film/student.h"
+#include "film/student_t.h"
 
 /* Length of the replicates at the first test that can end a render. */
 enum { fewest = 4 };
@@ -128,7 +128,7 @@ static double relative_error(const rt_noise *noise, double *bound)
         variance += parts[r];
     for (uint32_t r = 0; r < noise->replicates; r++)
         spread += pow(parts[r] - variance / replicates, 2) / (replicates - 1);
-    double t = rt_student_quantile(RT_NORMAL_ONE_SIDE, replicates - 1);
+    double t = rt_student_t_quantile(RT_NORMAL_ONE_SIDE, replicates - 1);
     double error = variance > 0 ? sqrt(variance) / fabs(radiance) : 0;
     double deviation = variance > 0 ? sqrt(spread) * replicates / variance : 0;
     *bound = noise->replicates < RT_REPLICATES
@@ -172,7 +172,7 @@ rt_status rt_noise_resolve(const rt_noise *noise, rt_film *film, rt_error *error
         film->layers.data[RT_FILM_VARIANCE][i] =
             (float)value_of(noise, i / 3, (int)(i % 3)).variance;
     stats->replicates = noise->replicates;
-    stats->interval_factor = rt_student_quantile(RT_NORMAL_BOTH_SIDES, noise->replicates - 1.0);
+    stats->interval_factor = rt_student_t_quantile(RT_NORMAL_BOTH_SIDES, noise->replicates - 1.0);
     stats->relative_error = relative_error(noise, &stats->relative_error_bound);
     return RT_OK;
 }

@@ -15,9 +15,9 @@
 #include "light/lights.h"
 
 /*
- * What lights in a ball add to their squared distance, as a part of the ball's squared radius.
- * Their mean is farther than the middle, by 0.5 for a disc, but the nearest contribute most; 0.1 to
- * 0.3 made the least noise, 1 twice that.
+ * What is added to the squared distance of a cluster for its extent, as a fraction of the squared
+ * radius of its bounding sphere. For a disc the mean squared distance calls for 0.5, but the
+ * nearest lights contribute most: 0.1 to 0.3 gave the least noise, 1 twice that.
  */
 static const double extent_of_ball = 0.3;
 

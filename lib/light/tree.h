@@ -8,8 +8,8 @@
 size_t rt_light_tree_leaves(const rt_scene *scene);
 
 /*
- * Fills nodes[2 leaves] from the lights of the scene, whose finite shapes lie in the ball of the
- * header, and the shape of each primitive. Fails only for want of memory.
+ * Fills nodes[2 leaves] from the lights of the scene, whose finite shapes lie in the bounding
+ * sphere of the header, and the shape of each primitive. Fails only for want of memory.
  */
 rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene,
                              const rt_scene_header *header, const rt_light_data *lights,

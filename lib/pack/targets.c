@@ -49,7 +49,7 @@ static void write_sphere_of_all(rt_target *out, const rt_scene *scene)
             hi[axis] = fmaxf(hi[axis], shape->hi[axis]);
         }
     }
-    radius = rt_bounds_ball(centre, lo, hi);
+    radius = rt_bounds_sphere(centre, lo, hi);
     write_target(out, centre, has_infinite ? INFINITY : radius);
 }
 
@@ -80,7 +80,7 @@ void rt_pack_targets(const rt_packing *p)
         double centre[3], radius;
         if (!is_specular(scene, shape))
             continue;
-        radius = rt_shape_ball(scene, shape, centre);
+        radius = rt_shape_bounding_sphere(scene, shape, centre);
         write_target(out++, centre, radius);
     }
 }

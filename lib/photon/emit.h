@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "device/device.h"
 #include "photon/photon_map.h"
-#include "photon/sources.h"
+#include "photon/light_sources.h"
 
 /* A scene's lights, and memory for a batch of paths. Serves any number of emissions. */
 typedef struct rt_emitter rt_emitter;

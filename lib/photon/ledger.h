@@ -12,7 +12,7 @@
 #ifndef RT_LIB_PHOTON_LEDGER_H
 #define RT_LIB_PHOTON_LEDGER_H
 
-#include "photon/sources.h"
+#include "photon/light_sources.h"
 #include "rt.h"
 #include "types.h"
 

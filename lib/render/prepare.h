@@ -7,7 +7,7 @@
 
 /*
  * Builds one of the library's kernels, and has the driver compile it for the device's work-group
- * size by a launch without items, so that the first true launch is not the slow one. args as for
+ * size by a launch that does nothing, so that the first real launch is not slow. args as for
  * rt_kernel_args; the first must be an rt_params, which is sent with item_count 0. Runs as part of
  * a stage. The caller releases *out.
  */

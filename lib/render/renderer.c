@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "render/enclose.h"
+#include "render/enclosing_media.h"
 #include "scene/view.h"
 
 /* What later calls need of the scene itself. */
@@ -57,7 +57,7 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
     if (status == RT_OK)
         status = upload(renderer, error);
     if (status == RT_OK)
-        status = rt_enclose(device, renderer->scene, scene, &progress, error);
+        status = rt_enclosing_media_find(device, renderer->scene, scene, &progress, error);
     if (status == RT_OK)
         status = rt_stage_end(&progress, &renderer->build_seconds);
     if (status == RT_OK)

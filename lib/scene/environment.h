@@ -3,7 +3,7 @@
  *
  * The image covers the unit square: u from 0 to 1 along a row, v from 0 at the top, +y, to 1 at the
  * bottom. Each pixel is chosen in proportion to the mean of its channels times the sine of the
- * polar angle of its row's middle; kernels/light/sky.h says how a direction follows.
+ * polar angle of its row's middle; kernels/light/environment.h samples directions from it.
  */
 #ifndef RT_LIB_SCENE_ENVIRONMENT_H
 #define RT_LIB_SCENE_ENVIRONMENT_H

@@ -5,7 +5,8 @@
 #include "scene/scene.h"
 
 /*
- * Whether light can enter a solid of this material; the same as is_transparent in kernels/medium.h.
+ * Whether light can enter a solid of this material; the same as is_transparent in
+ * kernels/material/medium.h.
  */
 int rt_material_is_transparent(const rt_material *material);
 

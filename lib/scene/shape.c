@@ -1,6 +1,6 @@
 /*
- * shape.c - what all shapes share: checks on adding one, transforms, what they emit, balls around
- * them. Their kinds are in lib/shape.
+ * shape.c - what all shapes share: checks on adding one, transforms, emission, bounding spheres.
+ * lib/shape has what differs by kind.
  */
 #include <math.h>
 #include <string.h>
@@ -194,16 +194,17 @@ double rt_point_distance(const double a[3], const float b[3])
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-double rt_bounds_ball(double centre[3], const float lo[3], const float hi[3])
+double rt_bounds_sphere(double centre[3], const float lo[3], const float hi[3])
 {
     for (int i = 0; i < 3; i++)
         centre[i] = 0.5 * ((double)lo[i] + hi[i]);
     return rt_point_distance(centre, hi);
 }
 
-double rt_shape_ball(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
+double rt_shape_bounding_sphere(const rt_scene *scene, const rt_scene_shape *shape,
+                                double centre[3])
 {
     const rt_shape_class *class = rt_shape_class_of(shape->kind);
-    return class->ball ? class->ball(scene, shape, centre)
-                       : rt_bounds_ball(centre, shape->lo, shape->hi);
+    return class->bounding_sphere ? class->bounding_sphere(scene, shape, centre)
+                                  : rt_bounds_sphere(centre, shape->lo, shape->hi);
 }

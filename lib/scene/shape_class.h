@@ -1,6 +1,6 @@
 /*
- * shape_class.h - what the host knows of a kind of shape: a table of functions for each kind of the
- * list in kernels/shape/shapes.h, in lib/shape a file each.
+ * shape_class.h - the interface of the shapes: the functions that each kind of shape has on the
+ * host. lib/shape implements them, a file for each kind of kernels/shape/shapes.h.
  */
 #ifndef RT_LIB_SCENE_SHAPE_CLASS_H
 #define RT_LIB_SCENE_SHAPE_CLASS_H
@@ -37,8 +37,8 @@ typedef struct rt_shape_class {
     void (*extent)(const rt_scene_shape *shape, const double row[4], double *lo, double *hi);
     /* Of shapes in object space: the area in the world, m^2, to 1e-6 of it. */
     double (*area)(const rt_scene_shape *shape);
-    /* The radius, and the centre, of a ball around it; NULL: that of its bounds. */
-    double (*ball)(const rt_scene *scene, const rt_scene_shape *shape, double centre[3]);
+    /* Radius and centre of a bounding sphere; NULL: that of its bounding box. */
+    double (*bounding_sphere)(const rt_scene *scene, const rt_scene_shape *shape, double centre[3]);
     /* Sets kind and geometry of the light that a primitive is; NULL: RT_LIGHT_SHAPE. */
     void (*light)(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
                   size_t primitive);
@@ -48,11 +48,12 @@ typedef struct rt_shape_class {
 const rt_shape_class *rt_shape_class_of(rt_u32 kind);
 
 /*
- * A ball around a shape: its radius, and the centre; infinite around a plane. And that about the
- * middle of bounds.
+ * The bounding sphere of a shape: returns its radius, infinite for a plane, and writes the centre.
+ * And that of a bounding box.
  */
-double rt_shape_ball(const rt_scene *scene, const rt_scene_shape *shape, double centre[3]);
-double rt_bounds_ball(double centre[3], const float lo[3], const float hi[3]);
+double rt_shape_bounding_sphere(const rt_scene *scene, const rt_scene_shape *shape,
+                                double centre[3]);
+double rt_bounds_sphere(double centre[3], const float lo[3], const float hi[3]);
 
 /* Distance between two points. */
 double rt_point_distance(const double a[3], const float b[3]);

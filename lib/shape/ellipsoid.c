@@ -5,7 +5,7 @@
  * complex elliptic integrals", Numerical Algorithms 10, 1995; NIST Digital Library of Mathematical
  * Functions, 19.33.1 and 19.21.10.
  */
-#include "shape/ball.h"
+#include "shape/unit_sphere.h"
 
 #include <math.h>
 
@@ -111,5 +111,5 @@ rt_status rt_scene_add_ellipsoid(rt_scene *scene, uint32_t *out, const float cen
     if (status != RT_OK)
         return status;
     rt_affine placement = rt_placement_scaled(centre, radii[0], radii[1], radii[2]);
-    return rt_shape_add_ball(scene, out, &placement, surface, "ellipsoid", error);
+    return rt_shape_add_unit_sphere(scene, out, &placement, surface, "ellipsoid", error);
 }

@@ -9,16 +9,18 @@ static rt_shape_boundary boundary(const rt_scene *scene, const rt_scene_shape *s
     return RT_BOUNDARY_HALF_SPACE;
 }
 
-/* It has no end, and so has its ball. */
-static double ball(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
+/* Its bounding sphere is infinite too. */
+static double bounding_sphere(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
 {
     (void)scene, (void)shape;
     centre[0] = centre[1] = centre[2] = 0;
     return INFINITY;
 }
 
-const rt_shape_class rt_shape_plane = {
-    .name = "plane", .storage = RT_STORED_INFINITE, .boundary = boundary, .ball = ball};
+const rt_shape_class rt_shape_plane = {.name = "plane",
+                                       .storage = RT_STORED_INFINITE,
+                                       .boundary = boundary,
+                                       .bounding_sphere = bounding_sphere};
 
 rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3],
                              const float normal[3], const rt_surface *surface, rt_error *error)

@@ -1,5 +1,5 @@
 /* sphere.c - the sphere, in world space: p[0..2] centre, p[3] radius. */
-#include "shape/ball.h"
+#include "shape/unit_sphere.h"
 
 #include <string.h>
 
@@ -10,7 +10,7 @@ static int contains(const rt_scene *scene, const rt_scene_shape *shape, const do
     return rt_vec_length(to) < shape->p[3];
 }
 
-static double ball(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
+static double bounding_sphere(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
 {
     (void)scene;
     for (int i = 0; i < 3; i++)
@@ -31,7 +31,7 @@ const rt_shape_class rt_shape_sphere = {.name = "sphere",
                                         .storage = RT_STORED_ANALYTIC,
                                         .boundary = rt_boundary_solid,
                                         .contains = contains,
-                                        .ball = ball,
+                                        .bounding_sphere = bounding_sphere,
                                         .light = light};
 
 rt_status rt_scene_add_sphere(rt_scene *scene, uint32_t *out, const float centre[3], float radius,
@@ -43,5 +43,5 @@ rt_status rt_scene_add_sphere(rt_scene *scene, uint32_t *out, const float centre
     if (status != RT_OK)
         return status;
     rt_affine placement = rt_placement_scaled(centre, radius, radius, radius);
-    return rt_shape_add_ball(scene, out, &placement, surface, "sphere", error);
+    return rt_shape_add_unit_sphere(scene, out, &placement, surface, "sphere", error);
 }

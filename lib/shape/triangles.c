@@ -71,9 +71,9 @@ static int contains(const rt_scene *scene, const rt_scene_shape *shape, const do
 /* ---- Ball and light ---------------------------------------------------------- */
 
 /* About the middle of its bounds: of an instance that of these, else that of its vertices. */
-static double ball(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
+static double bounding_sphere(const rt_scene *scene, const rt_scene_shape *shape, double centre[3])
 {
-    double radius = rt_bounds_ball(centre, shape->lo, shape->hi), farthest = 0;
+    double radius = rt_bounds_sphere(centre, shape->lo, shape->hi), farthest = 0;
     if (rt_scene_is_instance(scene, shape))
         return radius;
     for (size_t i = 0; i < scene->meshes[shape->mesh].vertex_count; i++) {
@@ -102,7 +102,7 @@ static void light(rt_light_data *out, const rt_scene *scene, const rt_scene_shap
 #define PLACED_MESH(title)                                                                         \
     {                                                                                              \
         .name = title, .storage = RT_STORED_MESH, .boundary = boundary, .contains = contains,      \
-        .ball = ball, .light = light                                                               \
+        .bounding_sphere = bounding_sphere, .light = light                                         \
     }
 const rt_shape_class rt_shape_triangles = PLACED_MESH("mesh");
 /* The same: a shape of the scene is one or the other on the device. */

@@ -1,6 +1,6 @@
 /*
- * texture.h - images made ready for kernels/texture.h: texels in the table that all textures of a
- * scene share.
+ * texture.h - images made ready for kernels/material/texture.h: texels in the table that all
+ * textures of a scene share.
  *
  * The choice of format is by content and loses nothing that can be seen:
  *   code8  when every value is a multiple of 1/255, as in every 8-bit file: 4 bytes a texel, and

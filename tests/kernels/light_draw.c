@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "chance.h"
-#include "photon/sources.h"
+#include "photon/light_sources.h"
 
 rt_scene *light_scene(void)
 {

@@ -1,4 +1,4 @@
-/* shape_check.c - shapes on the device against shape_truth. */
+/* shape_check.c - shapes on the device against shape_reference. */
 #include "kernels/shape_check.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 static const double band = 1e-4;
 static const double pi = 3.14159265358979323846;
 
-const truth_shape shape_kinds[] = {
+const reference_shape shape_kinds[] = {
     {.kind = RT_SHAPE_ELLIPSOID},
     {.kind = RT_SHAPE_DISC},
     {.kind = RT_SHAPE_DISC, .p = 0.6f},
@@ -59,11 +59,11 @@ static void rotate(double a[3][3], rays_stream *stream)
     }
 }
 
-truth_shape shape_placed(rays_stream *stream, size_t kind, size_t place)
+reference_shape shape_placed(rays_stream *stream, size_t kind, size_t place)
 {
     const shape_place *where = shape_places + place;
     double m[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, stretch[3][3] = {{0}};
-    truth_shape shape = shape_kinds[kind];
+    reference_shape shape = shape_kinds[kind];
     rt_transform transform;
     float to[3];
     rays_direction(stream, to);
@@ -81,7 +81,7 @@ truth_shape shape_placed(rays_stream *stream, size_t kind, size_t place)
             transform.m[i][j] = where->size * (float)m[i][j];
         transform.m[i][3] = where->size * where->offset * to[i];
     }
-    truth_place(&shape, &transform);
+    reference_place(&shape, &transform);
     return shape;
 }
 
@@ -93,14 +93,14 @@ static const float zero[3] = {0, 0, 0}, one[3] = {1, 1, 1}, up[3] = {0, 0, 1};
  * Of each kind: a call that adds it, and a point and the normal there, in object space, at these
  * turns and v in [0, 1].
  */
-static rt_status ellipsoid_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
-                               rt_error *error)
+static rt_status ellipsoid_add(rt_scene *scene, const reference_shape *shape,
+                               const rt_surface *surface, rt_error *error)
 {
     (void)shape;
     return rt_scene_add_ellipsoid(scene, NULL, zero, one, surface, error);
 }
 
-static void ellipsoid_point(const truth_shape *shape, double turn, double v, double p[3],
+static void ellipsoid_point(const reference_shape *shape, double turn, double v, double p[3],
                             double n[3])
 {
     (void)shape;
@@ -110,13 +110,14 @@ static void ellipsoid_point(const truth_shape *shape, double turn, double v, dou
     memcpy(n, p, 3 * sizeof *n);
 }
 
-static rt_status disc_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+static rt_status disc_add(rt_scene *scene, const reference_shape *shape, const rt_surface *surface,
                           rt_error *error)
 {
     return rt_scene_add_disc(scene, NULL, zero, up, 1, (float)shape->p, surface, error);
 }
 
-static void disc_point(const truth_shape *shape, double turn, double v, double p[3], double n[3])
+static void disc_point(const reference_shape *shape, double turn, double v, double p[3],
+                       double n[3])
 {
     const double r = shape->p + (1 - shape->p) * v;
     p[0] = r * cos(turn);
@@ -135,38 +136,40 @@ static void frustum_point(double top, double turn, double v, double p[3], double
     n[2] = (1 - top) * nr;
 }
 
-static rt_status cylinder_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
-                              rt_error *error)
+static rt_status cylinder_add(rt_scene *scene, const reference_shape *shape,
+                              const rt_surface *surface, rt_error *error)
 {
     return rt_scene_add_cylinder(scene, NULL, zero, up, 1, shape->caps, surface, error);
 }
 
-static void cylinder_point(const truth_shape *shape, double turn, double v, double p[3],
+static void cylinder_point(const reference_shape *shape, double turn, double v, double p[3],
                            double n[3])
 {
     (void)shape;
     frustum_point(1, turn, v, p, n);
 }
 
-static rt_status cone_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+static rt_status cone_add(rt_scene *scene, const reference_shape *shape, const rt_surface *surface,
                           rt_error *error)
 {
     return rt_scene_add_cone(scene, NULL, zero, up, 1, (float)shape->p, shape->caps, surface,
                              error);
 }
 
-static void cone_point(const truth_shape *shape, double turn, double v, double p[3], double n[3])
+static void cone_point(const reference_shape *shape, double turn, double v, double p[3],
+                       double n[3])
 {
     frustum_point(shape->p, turn, v, p, n);
 }
 
-static rt_status torus_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+static rt_status torus_add(rt_scene *scene, const reference_shape *shape, const rt_surface *surface,
                            rt_error *error)
 {
     return rt_scene_add_torus(scene, NULL, zero, up, 1, (float)shape->p, surface, error);
 }
 
-static void torus_point(const truth_shape *shape, double turn, double v, double p[3], double n[3])
+static void torus_point(const reference_shape *shape, double turn, double v, double p[3],
+                        double n[3])
 {
     const double x = cos(2 * pi * v), z = sin(2 * pi * v), r = 1 + shape->p * x;
     p[0] = r * cos(turn);
@@ -177,7 +180,7 @@ static void torus_point(const truth_shape *shape, double turn, double v, double 
     n[2] = z;
 }
 
-static rt_status box_add(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+static rt_status box_add(rt_scene *scene, const reference_shape *shape, const rt_surface *surface,
                          rt_error *error)
 {
     static const float two[3] = {2, 2, 2};
@@ -186,7 +189,7 @@ static rt_status box_add(rt_scene *scene, const truth_shape *shape, const rt_sur
 }
 
 /* The turn chooses one of six faces, and a place across it; v is the place along it. */
-static void box_point(const truth_shape *shape, double turn, double v, double p[3], double n[3])
+static void box_point(const reference_shape *shape, double turn, double v, double p[3], double n[3])
 {
     const double x = fmin(3 * turn / pi, 6 - 1e-9);
     const int face = (int)x, axis = face / 2;
@@ -198,12 +201,12 @@ static void box_point(const truth_shape *shape, double turn, double v, double p[
 
 #define KIND_CHECK(KIND, name, number) [RT_SHAPE_##KIND] = {name##_add, name##_point},
 static const struct {
-    rt_status (*add)(rt_scene *scene, const truth_shape *shape, const rt_surface *surface,
+    rt_status (*add)(rt_scene *scene, const reference_shape *shape, const rt_surface *surface,
                      rt_error *error);
-    void (*point)(const truth_shape *shape, double turn, double v, double p[3], double n[3]);
+    void (*point)(const reference_shape *shape, double turn, double v, double p[3], double n[3]);
 } checks[] = {RT_PLACED_SHAPES(KIND_CHECK)};
 
-rt_scene *shape_scene(const truth_shape *shape)
+rt_scene *shape_scene(const reference_shape *shape)
 {
     const rt_surface surface = {.transform = shape->to_world};
     rt_scene *scene = rays_scene();
@@ -223,7 +226,8 @@ void shape_expect_all_kinds(void)
 /* ---- Rays ------------------------------------------------------------------ */
 
 /* A point of the surface and its normal, in object space. */
-static void surface_point(rays_stream *stream, const truth_shape *shape, double p[3], double n[3])
+static void surface_point(rays_stream *stream, const reference_shape *shape, double p[3],
+                          double n[3])
 {
     const double turn = 2 * pi * rays_uniform(stream), v = rays_uniform(stream);
     for (int i = 0; i < 3; i++)
@@ -231,7 +235,7 @@ static void surface_point(rays_stream *stream, const truth_shape *shape, double 
     checks[shape->kind].point(shape, turn, v, p, n);
 }
 
-rt_ray shape_ray(rays_stream *stream, const truth_shape *shape)
+rt_ray shape_ray(rays_stream *stream, const reference_shape *shape)
 {
     const float choice = rays_uniform(stream);
     double from[3], to[3], n[3], o[3], d[3];
@@ -278,7 +282,7 @@ rt_ray shape_ray(rays_stream *stream, const truth_shape *shape)
 
 /* What may come of a ray when the shape is not sure to within the band. */
 typedef struct verdict {
-    truth_hit hit;
+    reference_hit hit;
     double normal[3];
     int is_sure;       /* all agree on hit or miss, and roughly on t */
     double speed;      /* length of the ray's direction in object space */
@@ -290,25 +294,25 @@ static double gap(const double a[3], const double b[3])
     return fmax(fabs(a[0] - b[0]), fmax(fabs(a[1] - b[1]), fabs(a[2] - b[2])));
 }
 
-static verdict judge(const truth_shape *shape, const rt_ray *ray)
+static verdict judge(const reference_shape *shape, const rt_ray *ray)
 {
     double o[3], d[3];
-    const double speed = truth_ray(shape, ray, o, d);
-    verdict v = {.hit = truth_nearest(shape, 0, 0, ray), .speed = speed, .is_sure = 1};
+    const double speed = reference_ray(shape, ray, o, d);
+    verdict v = {.hit = reference_nearest(shape, 0, 0, ray), .speed = speed, .is_sure = 1};
     const int is_hit = v.hit.t < INFINITY;
     if (shape->kind == RT_SHAPE_DISC && fabs(d[2]) < band * speed && fabs(o[2]) < 10 * band)
         v.is_sure = 0; /* in the disc's plane */
     if (is_hit)
-        truth_normal(shape, v.hit.normal, v.normal);
+        reference_normal(shape, v.hit.normal, v.normal);
     for (int i = 0; i < 4; i++) {
-        const truth_hit other =
-            truth_nearest(shape, i & 1 ? band : -band, i & 2 ? band : -band, ray);
+        const reference_hit other =
+            reference_nearest(shape, i & 1 ? band : -band, i & 2 ? band : -band, ray);
         if ((other.t < INFINITY) != is_hit)
             v.is_sure = 0;
         if (!is_hit || !v.is_sure)
             continue;
         double normal[3];
-        truth_normal(shape, other.normal, normal);
+        reference_normal(shape, other.normal, normal);
         v.t = fmax(v.t, fabs(other.t - v.hit.t));
         v.turning = fmax(v.turning, gap(v.normal, normal));
     }
@@ -324,16 +328,16 @@ static verdict judge(const truth_shape *shape, const rt_ray *ray)
  * Whether the ray hits a shape that differs by the band or less: it may run inside the band without
  * crossing it.
  */
-static int runs_in_band(const truth_shape *shape, const rt_ray *ray)
+static int runs_in_band(const reference_shape *shape, const rt_ray *ray)
 {
     for (double by = band; by > 1e-4 * band; by *= 0.5)
-        if (truth_nearest(shape, by, 0, ray).t < INFINITY ||
-            truth_nearest(shape, -by, 0, ray).t < INFINITY)
+        if (reference_nearest(shape, by, 0, ray).t < INFINITY ||
+            reference_nearest(shape, -by, 0, ray).t < INFINITY)
             return 1;
     return 0;
 }
 
-static void expect_hit(const truth_shape *shape, const verdict *v, const rt_hit *hit)
+static void expect_hit(const reference_shape *shape, const verdict *v, const rt_hit *hit)
 {
     const double speed = v->speed;
     const double normal[3] = {hit->normal[0], hit->normal[1], hit->normal[2]};
@@ -344,14 +348,14 @@ static void expect_hit(const truth_shape *shape, const verdict *v, const rt_hit 
     double uv[2];
     assert_true(fabs(hit->t - v->hit.t) <= 1e-5 * v->hit.t + precision * v->t + 2e-6 / speed);
     assert_true(gap(normal, v->normal) <= 1e-4 + bend + precision * v->turning);
-    if (v->t * speed < 10 * band && truth_parameters(shape, &v->hit, uv)) {
+    if (v->t * speed < 10 * band && reference_parameters(shape, &v->hit, uv)) {
         const double off = fabs(hit->u - uv[0]), off_v = fabs(hit->v - uv[1]);
         assert_true(fmin(off, fabs(1 - off)) <= 2e-3);
         assert_true(fmin(off_v, fabs(1 - off_v)) <= 2e-3);
     }
 }
 
-void shape_expect_truth(const truth_shape *shape, size_t count, uint64_t seed)
+void shape_expect_reference(const reference_shape *shape, size_t count, uint64_t seed)
 {
     rays_stream stream = {seed};
     rt_scene *scene = shape_scene(shape);

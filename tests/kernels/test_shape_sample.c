@@ -22,7 +22,7 @@ enum { parts_max = 6 };
  * Of each kind: the number of its parts, each of which has u and v for itself; the part with this
  * unit normal in object space; and the point of a part at u, v.
  */
-static int one_part(const truth_shape *shape)
+static int one_part(const reference_shape *shape)
 {
     (void)shape;
     return 1;
@@ -36,7 +36,7 @@ static int first_part(const double n[3])
 
 #define ellipsoid_parts one_part
 #define ellipsoid_part_of first_part
-static void ellipsoid_point(const truth_shape *shape, int part, double u, double v, double p[3])
+static void ellipsoid_point(const reference_shape *shape, int part, double u, double v, double p[3])
 {
     (void)shape, (void)part;
     p[0] = sin(pi * v) * cos(2 * pi * u);
@@ -53,7 +53,7 @@ static void ring_point(double r, double z, double u, double p[3])
 
 #define disc_parts one_part
 #define disc_part_of first_part
-static void disc_point(const truth_shape *shape, int part, double u, double v, double p[3])
+static void disc_point(const reference_shape *shape, int part, double u, double v, double p[3])
 {
     (void)part;
     ring_point(shape->p + (1 - shape->p) * v, 0, u, p);
@@ -62,7 +62,7 @@ static void disc_point(const truth_shape *shape, int part, double u, double v, d
 /* Of a cylinder or cone: the side, and the caps. */
 enum { side, base, top };
 
-static int frustum_parts(const truth_shape *shape)
+static int frustum_parts(const reference_shape *shape)
 {
     return shape->caps ? 3 : 1;
 }
@@ -82,7 +82,7 @@ static void frustum_point(double end, int part, double u, double v, double p[3])
 
 #define cylinder_parts frustum_parts
 #define cylinder_part_of frustum_part_of
-static void cylinder_point(const truth_shape *shape, int part, double u, double v, double p[3])
+static void cylinder_point(const reference_shape *shape, int part, double u, double v, double p[3])
 {
     (void)shape;
     frustum_point(1, part, u, v, p);
@@ -90,20 +90,20 @@ static void cylinder_point(const truth_shape *shape, int part, double u, double 
 
 #define cone_parts frustum_parts
 #define cone_part_of frustum_part_of
-static void cone_point(const truth_shape *shape, int part, double u, double v, double p[3])
+static void cone_point(const reference_shape *shape, int part, double u, double v, double p[3])
 {
     frustum_point(shape->p, part, u, v, p);
 }
 
 #define torus_parts one_part
 #define torus_part_of first_part
-static void torus_point(const truth_shape *shape, int part, double u, double v, double p[3])
+static void torus_point(const reference_shape *shape, int part, double u, double v, double p[3])
 {
     (void)part;
     ring_point(1 + shape->p * cos(2 * pi * v), shape->p * sin(2 * pi * v), u, p);
 }
 
-static int box_parts(const truth_shape *shape)
+static int box_parts(const reference_shape *shape)
 {
     (void)shape;
     return 6;
@@ -115,7 +115,7 @@ static int box_part_of(const double n[3])
     return 2 * axis + (n[axis] > 0);
 }
 
-static void box_point(const truth_shape *shape, int part, double u, double v, double p[3])
+static void box_point(const reference_shape *shape, int part, double u, double v, double p[3])
 {
     const int axis = part / 2, side = part % 2 ? 1 : -1;
     (void)shape;
@@ -127,13 +127,13 @@ static void box_point(const truth_shape *shape, int part, double u, double v, do
 #define KIND_PARTS(KIND, name, number)                                                             \
     [RT_SHAPE_##KIND] = {name##_parts, name##_part_of, name##_point},
 static const struct {
-    int (*parts)(const truth_shape *shape);
+    int (*parts)(const reference_shape *shape);
     int (*part_of)(const double normal[3]);
-    void (*point)(const truth_shape *shape, int part, double u, double v, double p[3]);
+    void (*point)(const reference_shape *shape, int part, double u, double v, double p[3]);
 } kinds[] = {RT_PLACED_SHAPES(KIND_PARTS)};
 
 /* The point of a part at u, v, in the world. */
-static void world_point(const truth_shape *shape, int part, double u, double v, double out[3])
+static void world_point(const reference_shape *shape, int part, double u, double v, double out[3])
 {
     double p[3];
     kinds[shape->kind].point(shape, part, u, v, p);
@@ -142,7 +142,7 @@ static void world_point(const truth_shape *shape, int part, double u, double v, 
                  shape->to_world.m[i][2] * p[2];
 }
 
-static int part_of(const truth_shape *shape, const float normal[3])
+static int part_of(const reference_shape *shape, const float normal[3])
 {
     double n[3] = {0}, length;
     for (int j = 0; j < 3; j++)
@@ -157,7 +157,7 @@ static int part_of(const truth_shape *shape, const float normal[3])
 /* ---- Areas ------------------------------------------------------------------- */
 
 /* The area of a bin, by central differences at the middles of a fine grid. */
-static double bin_area(const truth_shape *shape, int part, int bin_u, int bin_v)
+static double bin_area(const reference_shape *shape, int part, int bin_u, int bin_v)
 {
     const double h = 1e-5, width = 1.0 / (bins * fine);
     double area = 0;
@@ -185,7 +185,7 @@ typedef struct points {
 } points;
 
 /* Chooses points of the shape, one in each cell of a grid of u. */
-static points *choose(const truth_shape *shape, uint64_t seed)
+static points *choose(const reference_shape *shape, uint64_t seed)
 {
     static float u[samples][2];
     const int across = 200;
@@ -221,7 +221,7 @@ static points *choose(const truth_shape *shape, uint64_t seed)
 }
 
 /* Each point is met by a ray that falls on it along its normal, with the same normal. */
-static void expect_on_surface(const truth_shape *shape, const float position[4],
+static void expect_on_surface(const reference_shape *shape, const float position[4],
                               const float normal[4])
 {
     rt_ray ray = {.t_min = 0, .t_max = INFINITY};
@@ -231,14 +231,14 @@ static void expect_on_surface(const truth_shape *shape, const float position[4],
         ray.origin[i] = position[i] + back * normal[i];
         ray.direction[i] = -normal[i];
     }
-    const truth_hit hit = truth_nearest(shape, 1e-5, 1e-5, &ray);
+    const reference_hit hit = reference_nearest(shape, 1e-5, 1e-5, &ray);
     assert_true(fabs(hit.t - back) <= 0.02 * back);
-    truth_normal(shape, hit.normal, n);
+    reference_normal(shape, hit.normal, n);
     for (int i = 0; i < 3; i++)
         assert_true(fabs(n[i] - normal[i]) <= 2e-3);
 }
 
-static void expect_areas(const truth_shape *shape, const points *chosen)
+static void expect_areas(const reference_shape *shape, const points *chosen)
 {
     static double sums[parts_max][bins][bins], squares[parts_max][bins][bins];
     const int parts = kinds[shape->kind].parts(shape);
@@ -272,7 +272,7 @@ static void points_have_their_density(void **state)
     shape_expect_all_kinds();
     rays_stream stream = {3};
     for (size_t kind = 0; kind < shape_kind_count; kind++) {
-        const truth_shape shape = shape_placed(&stream, kind, 1);
+        const reference_shape shape = shape_placed(&stream, kind, 1);
         points *chosen = choose(&shape, test_seed(70 + (uint32_t)kind));
         if (shape.p != 0.01f)
             for (int i = 0; i < samples; i += 37)

@@ -17,8 +17,8 @@ static void placed_shapes_match_extended_precision(void **state)
     rays_stream stream = {1};
     for (size_t kind = 0; kind < shape_kind_count; kind++)
         for (size_t place = 0; place < shape_place_count; place++) {
-            const truth_shape shape = shape_placed(&stream, kind, place);
-            shape_expect_truth(&shape, rays_each, 100 * kind + place);
+            const reference_shape shape = shape_placed(&stream, kind, place);
+            shape_expect_reference(&shape, rays_each, 100 * kind + place);
         }
 }
 
@@ -26,7 +26,7 @@ static void placed_shapes_match_extended_precision(void **state)
  * How far the rays get, in their own t, that leave what these rays met in the direction `sign`
  * times theirs.
  */
-static float *leave(const truth_shape *shape, const rt_ray *rays, float sign)
+static float *leave(const reference_shape *shape, const rt_ray *rays, float sign)
 {
     static float away[leaving_each][4];
     for (int i = 0; i < leaving_each; i++)
@@ -39,17 +39,17 @@ static float *leave(const truth_shape *shape, const rt_ray *rays, float sign)
  * The t from the ray's first hit to the next. Returns whether it is well told: the ray neither
  * grazes nor cuts a corner off.
  */
-static int truth_chord(const truth_shape *shape, const rt_ray *ray, const truth_hit *first,
-                       double *chord)
+static int reference_chord(const reference_shape *shape, const rt_ray *ray,
+                           const reference_hit *first, double *chord)
 {
     double o[3], d[3], cosine = 0;
-    const double speed = truth_ray(shape, ray, o, d), step = 1e-3 / speed;
+    const double speed = reference_ray(shape, ray, o, d), step = 1e-3 / speed;
     rt_ray on = *ray;
     for (int a = 0; a < 3; a++) {
         on.origin[a] += (float)(first->t + step) * on.direction[a];
         cosine += first->normal[a] * d[a] / speed;
     }
-    *chord = truth_nearest(shape, 0, 0, &on).t + step;
+    *chord = reference_nearest(shape, 0, 0, &on).t + step;
     return fabs(cosine) > 0.1 && *chord * speed > 0.01;
 }
 
@@ -65,20 +65,20 @@ static void rays_leave_placed_shapes(void **state)
     rays_stream stream = {2};
     for (size_t kind = 0; kind < shape_kind_count; kind++)
         for (size_t place = 0; place < shape_place_count; place++) {
-            const truth_shape shape = shape_placed(&stream, kind, place);
+            const reference_shape shape = shape_placed(&stream, kind, place);
             const size_t share = shape_places[place].offset > 500.0f ? 10 : 500;
             size_t met = 0, returned = 0, chords = 0, strayed = 0;
             for (int i = 0; i < leaving_each; i++)
                 rays[i] = shape_ray(&stream, &shape);
             float *back = leave(&shape, rays, -1), *on = leave(&shape, rays, 1);
             for (int i = 0; i < leaving_each; i++) {
-                const truth_hit first = truth_nearest(&shape, 0, 0, rays + i);
+                const reference_hit first = reference_nearest(&shape, 0, 0, rays + i);
                 double chord;
                 if (back[i] < 0 || isinf(first.t))
                     continue;
                 met++;
                 returned += back[i] < 0.99 * first.t;
-                if (truth_chord(&shape, rays + i, &first, &chord)) {
+                if (reference_chord(&shape, rays + i, &first, &chord)) {
                     chords++;
                     strayed += isinf(chord) ? !isinf(on[i]) : !(fabs(on[i] - chord) < 0.1 * chord);
                 }

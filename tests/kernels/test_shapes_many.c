@@ -13,9 +13,9 @@ static void a_million_rays_match_extended_precision(void **state)
         variants[shape_kinds[kind].kind]++;
     for (size_t kind = 0; kind < shape_kind_count; kind++)
         for (size_t place = 0; place < shape_place_count; place++) {
-            const truth_shape shape = shape_placed(&stream, kind, place);
-            shape_expect_truth(&shape, 1000000 / shape_place_count / variants[shape.kind] + 1,
-                               1000 * kind + place);
+            const reference_shape shape = shape_placed(&stream, kind, place);
+            shape_expect_reference(&shape, 1000000 / shape_place_count / variants[shape.kind] + 1,
+                                   1000 * kind + place);
         }
 }
 

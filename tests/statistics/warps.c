@@ -1,4 +1,4 @@
-/* maps.c - from the unit square to discs, directions, triangles, rectangles, lenses and filters. */
+/* warps.c - warps of the unit square to discs, directions, triangles, lenses and filters. */
 #include <math.h>
 
 #include "kernels/statistics.h"

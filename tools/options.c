@@ -1,4 +1,4 @@
-/* option_table.c - the options of rtc but settings of a render, whose table is rt/setting.h. */
+/* options.c - the options of rtc but settings of a render, whose table is rt/setting.h. */
 #include "options.h"
 
 #include "rt.h"

@@ -1,9 +1,9 @@
-/* test_student.c - quantiles of Student's t against the tables. */
+/* test_student_t.c - quantiles of Student's t against the tables. */
 #include "support.h"
 
 #include <math.h>
 
-#include "film/student.h"
+#include "film/student_t.h"
 
 /* The 0.975 and 0.95 quantiles, to the digits of the usual tables. */
 static void quantiles_are_those_of_the_tables(void **state)
@@ -15,11 +15,11 @@ static void quantiles_are_those_of_the_tables(void **state)
                 {30, 2.0423, 1.6973}, {1e9, 1.9600, 1.6449}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        assert_float_equal(rt_student_quantile(RT_NORMAL_BOTH_SIDES, rows[i].freedom) /
+        assert_float_equal(rt_student_t_quantile(RT_NORMAL_BOTH_SIDES, rows[i].freedom) /
                                rows[i].both_sides,
                            1, 2e-3);
         assert_float_equal(
-            rt_student_quantile(RT_NORMAL_ONE_SIDE, rows[i].freedom) / rows[i].one_side, 1, 2e-3);
+            rt_student_t_quantile(RT_NORMAL_ONE_SIDE, rows[i].freedom) / rows[i].one_side, 1, 2e-3);
     }
 }
 

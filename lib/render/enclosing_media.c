@@ -1,5 +1,5 @@
-/* enclose.c - the kernel enclose run for the camera and each light. */
-#include "render/enclose.h"
+/* enclosing_media.c - runs the kernel enclosing_media for the camera and each light. */
+#include "render/enclosing_media.h"
 
 #include <string.h>
 
@@ -17,8 +17,8 @@ static int has_solids(const rt_scene *scene)
     return 0;
 }
 
-rt_status rt_enclose(rt_device *device, cl_mem image, const rt_scene *scene,
-                     rt_stage_progress *progress, rt_error *error)
+rt_status rt_enclosing_media_find(rt_device *device, cl_mem image, const rt_scene *scene,
+                                  rt_stage_progress *progress, rt_error *error)
 {
     float eye[4] = {scene->camera.eye[0], scene->camera.eye[1], scene->camera.eye[2], 0};
     cl_kernel kernel = NULL;
@@ -28,8 +28,8 @@ rt_status rt_enclose(rt_device *device, cl_mem image, const rt_scene *scene,
         return RT_OK;
     memset(&params, 0, sizeof params);
     rt_arg args[] = {RT_ARG(params), RT_ARG(image), RT_ARG(eye)};
-    rt_status status =
-        rt_kernel_prepare(device, &kernel, "enclose", "enclose", args, 3, progress, error);
+    rt_status status = rt_kernel_prepare(device, &kernel, "enclosing_media", "enclosing_media",
+                                         args, 3, progress, error);
     if (status != RT_OK)
         return status;
     params.item_count = (rt_u32)rt_lights_count(scene) + 1;

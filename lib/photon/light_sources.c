@@ -1,5 +1,8 @@
-/* sources.c - entries of the light table joined to lights, and their shares of the paths. */
-#include "photon/sources.h"
+/*
+ * light_sources.c - groups the entries of the light table by light, and shares out the photon
+ * paths.
+ */
+#include "photon/light_sources.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /*
- * enclose.cl - which solids paths start in: those around the camera and around each light.
+ * enclosing_media.cl - the media that paths start in: the solids around the camera and each light.
  *
  * A ray is followed from the point to infinity. A solid that it leaves without having entered it is
  * around the point. The solids are nested in the order in which the ray leaves them, the innermost
- * first; what is opaque is passed through.
+ * first; opaque surfaces are passed through.
  */
 #include "entry.h"
 #include "light/emit.h"
@@ -15,7 +15,7 @@
 /* The media list of a path that starts here. */
 static uint4 media_around(const struct scene *scene, float3 from)
 {
-    /* Any direction serves; one along no axis and no diagonal meets few edges. */
+    /* Any direction will do; one off all axes and diagonals seldom meets an edge. */
     struct ray ray = make_ray(from, unit((float3)(0.3017f, 0.8731f, 0.3829f)), 0.0f, INFINITY);
     uint4 entered = RT_VACUUM;
     uint left[4]; /* solids around the point */
@@ -35,7 +35,7 @@ static uint4 media_around(const struct scene *scene, float3 from)
             left[count++] = material;
     }
 
-    /* Enter them as a path from outside would: the outermost first. */
+    /* Enter them as a path from outside would, outermost first. */
     uint4 media = RT_VACUUM;
     while (count > 0)
         media = media_enter(scene, media, left[--count]);
@@ -63,11 +63,8 @@ static uint4 media_around_light(const struct scene *scene, global const rt_light
     return media_around(scene, leave_surface(&emission.at, emission.at.normal));
 }
 
-/*
- * Item 0: the camera at `eye`; item i: light i - 1. Only scenes with solids that light enters need
- * it.
- */
-KERNEL enclose(const rt_params params, global rt_scene_header *header, const float4 eye)
+/* Item 0: the camera at `eye`; item i: light i - 1. Needed only where a material lets light in. */
+KERNEL enclosing_media(const rt_params params, global rt_scene_header *header, const float4 eye)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)

@@ -1,5 +1,5 @@
-/* shape_truth.c - what a ray meets, by equations in double and extended precision. */
-#include "kernels/shape_truth.h"
+/* shape_reference.c - the nearest hit, by equations in double and extended precision. */
+#include "kernels/shape_reference.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,7 +9,7 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- Placement ------------------------------------------------------------- */
 
-void truth_place(truth_shape *shape, const rt_transform *to_world)
+void reference_place(reference_shape *shape, const rt_transform *to_world)
 {
     double c[3][3], det = 0;
     shape->to_world = *to_world;
@@ -30,7 +30,7 @@ void truth_place(truth_shape *shape, const rt_transform *to_world)
     }
 }
 
-double truth_ray(const truth_shape *shape, const rt_ray *ray, double o[3], double d[3])
+double reference_ray(const reference_shape *shape, const rt_ray *ray, double o[3], double d[3])
 {
     for (int i = 0; i < 3; i++) {
         o[i] = shape->to_object[i][3];
@@ -43,7 +43,7 @@ double truth_ray(const truth_shape *shape, const rt_ray *ray, double o[3], doubl
     return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-void truth_normal(const truth_shape *shape, const double normal[3], double out[3])
+void reference_normal(const reference_shape *shape, const double normal[3], double out[3])
 {
     double square = 0;
     for (int j = 0; j < 3; j++) {
@@ -60,10 +60,10 @@ void truth_normal(const truth_shape *shape, const double normal[3], double out[3
 
 /* A ray in the shape's space, and the nearest hit so far. */
 typedef struct search {
-    const truth_shape *shape;
+    const reference_shape *shape;
     double wider, longer;
     double o[3], d[3];
-    truth_hit best;
+    reference_hit best;
 } search;
 
 static void at(const search *s, double t, double p[3])
@@ -287,7 +287,8 @@ static double from_axis(const double p[3])
     return hypot(p[0], p[1]);
 }
 
-static int ellipsoid_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+static int ellipsoid_parameters(const reference_shape *shape, const reference_hit *hit,
+                                double uv[2])
 {
     const double *p = hit->position;
     (void)shape;
@@ -296,7 +297,7 @@ static int ellipsoid_parameters(const truth_shape *shape, const truth_hit *hit, 
     return hypot(p[0], p[2]) > 0.05;
 }
 
-static int disc_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+static int disc_parameters(const reference_shape *shape, const reference_hit *hit, double uv[2])
 {
     const double *p = hit->position;
     uv[0] = turns(hit->normal[2] > 0 ? -p[1] : p[1], p[0]);
@@ -304,7 +305,7 @@ static int disc_parameters(const truth_shape *shape, const truth_hit *hit, doubl
     return from_axis(p) > 0.05;
 }
 
-static int frustum_parameters(const truth_hit *hit, double top, double uv[2])
+static int frustum_parameters(const reference_hit *hit, double top, double uv[2])
 {
     const double *p = hit->position, *n = hit->normal;
     const int is_cap = fabs(n[2]) > 0.9;
@@ -313,18 +314,18 @@ static int frustum_parameters(const truth_hit *hit, double top, double uv[2])
     return from_axis(p) > 0.05;
 }
 
-static int cylinder_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+static int cylinder_parameters(const reference_shape *shape, const reference_hit *hit, double uv[2])
 {
     (void)shape;
     return frustum_parameters(hit, 1, uv);
 }
 
-static int cone_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+static int cone_parameters(const reference_shape *shape, const reference_hit *hit, double uv[2])
 {
     return frustum_parameters(hit, shape->p, uv);
 }
 
-static int torus_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+static int torus_parameters(const reference_shape *shape, const reference_hit *hit, double uv[2])
 {
     const double *p = hit->position;
     (void)shape;
@@ -334,7 +335,7 @@ static int torus_parameters(const truth_shape *shape, const truth_hit *hit, doub
 }
 
 /* As from a picture on each face: u to the right and v up, seen from outside. */
-static int box_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+static int box_parameters(const reference_shape *shape, const reference_hit *hit, double uv[2])
 {
     const double *p = hit->position, *n = hit->normal;
     (void)shape;
@@ -346,21 +347,22 @@ static int box_parameters(const truth_shape *shape, const truth_hit *hit, double
 /* ---- All ------------------------------------------------------------------- */
 
 /* The functions above, by kind. */
-#define TRUTH(KIND, name, number) [RT_SHAPE_##KIND] = {name##_meet, name##_parameters},
+#define REFERENCE(KIND, name, number) [RT_SHAPE_##KIND] = {name##_meet, name##_parameters},
 static const struct {
     void (*meet)(search *s);
-    int (*parameters)(const truth_shape *shape, const truth_hit *hit, double uv[2]);
-} truths[] = {RT_PLACED_SHAPES(TRUTH)};
+    int (*parameters)(const reference_shape *shape, const reference_hit *hit, double uv[2]);
+} references[] = {RT_PLACED_SHAPES(REFERENCE)};
 
-truth_hit truth_nearest(const truth_shape *shape, double wider, double longer, const rt_ray *ray)
+reference_hit reference_nearest(const reference_shape *shape, double wider, double longer,
+                                const rt_ray *ray)
 {
     search s = {shape, wider, longer, {0}, {0}, {INFINITY, {0}, {0}}};
-    truth_ray(shape, ray, s.o, s.d);
-    truths[shape->kind].meet(&s);
+    reference_ray(shape, ray, s.o, s.d);
+    references[shape->kind].meet(&s);
     return s.best;
 }
 
-int truth_parameters(const truth_shape *shape, const truth_hit *hit, double uv[2])
+int reference_parameters(const reference_shape *shape, const reference_hit *hit, double uv[2])
 {
-    return truths[shape->kind].parameters(shape, hit, uv);
+    return references[shape->kind].parameters(shape, hit, uv);
 }

@@ -1,13 +1,16 @@
-/* ball.c - adding a sphere or an ellipsoid, as the placement of the unit sphere asks. */
-#include "shape/ball.h"
+/*
+ * unit_sphere.c - a placed unit sphere: a sphere where the placement is a similarity, else an
+ * ellipsoid.
+ */
+#include "shape/unit_sphere.h"
 
 #include <float.h>
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
 
-rt_status rt_shape_add_ball(rt_scene *scene, uint32_t *out, const rt_affine *placement,
-                            const rt_surface *surface, const char *who, rt_error *error)
+rt_status rt_shape_add_unit_sphere(rt_scene *scene, uint32_t *out, const rt_affine *placement,
+                                   const rt_surface *surface, const char *who, rt_error *error)
 {
     rt_scene_shape shape = {.kind = RT_SHAPE_ELLIPSOID, .surface = *surface};
     rt_affine transform = rt_affine_from(&surface->transform),

@@ -1,7 +1,4 @@
-/*
- * numbers.c - the random numbers themselves, two coordinates at a time: along one stream, and over
- * many streams.
- */
+/* random_numbers.c - pairs of random numbers: within one stream, and across many streams. */
 #include "kernels/rng_draw.h"
 #include "statistics/space.h"
 

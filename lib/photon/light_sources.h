@@ -1,12 +1,12 @@
 /*
- * sources.h - the lights of a scene, each emissive shape counted once, and their shares of the
- * photon paths.
+ * light_sources.h - the lights of a scene, each emissive shape as one light, and their shares of
+ * the photon paths.
  *
  * The kernels' table of lights has an entry for each emissive primitive; here an emissive shape is
  * one light, however many triangles it has.
  */
-#ifndef RT_LIB_PHOTON_SOURCES_H
-#define RT_LIB_PHOTON_SOURCES_H
+#ifndef RT_LIB_PHOTON_LIGHT_SOURCES_H
+#define RT_LIB_PHOTON_LIGHT_SOURCES_H
 
 #include "device/device.h"
 #include "types.h"

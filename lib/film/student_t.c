@@ -1,16 +1,16 @@
 /*
- * student.c - quantiles of Student's t: in closed form for one and two degrees of freedom, else by
- * an expansion.
+ * student_t.c - quantiles of Student's t distribution: closed forms for one and two degrees of
+ * freedom, else an asymptotic expansion.
  *
  * Reference: Abramowitz, Stegun: "Handbook of Mathematical Functions", 1964, 26.7.5.
  */
-#include "film/student.h"
+#include "film/student_t.h"
 
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
 
-double rt_student_quantile(double z, double freedom)
+double rt_student_t_quantile(double z, double freedom)
 {
     double above = 0.5 * erfc(z / sqrt(2)), z2 = z * z, v = 1 / freedom;
     if (freedom == 1)

@@ -1,0 +1,11 @@
+/* unit_sphere.h - adds a placed unit sphere to the scene, which is a sphere or an ellipsoid. */
+#ifndef RT_LIB_SHAPE_UNIT_SPHERE_H
+#define RT_LIB_SHAPE_UNIT_SPHERE_H
+
+#include "shape/placed.h"
+
+/* Adds a sphere where placement and transform together are a similarity, else an ellipsoid. */
+rt_status rt_shape_add_unit_sphere(rt_scene *scene, uint32_t *out, const rt_affine *placement,
+                                   const rt_surface *surface, const char *who, rt_error *error);
+
+#endif
