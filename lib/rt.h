@@ -7,8 +7,8 @@
  * (rt_device) is one OpenCL device. A renderer (rt_renderer) is a scene made ready on a
  * device: the bounding volume hierarchy is built on the host and everything the kernels
  * need is uploaded. rt_render makes a film (rt_film) from it, by path tracing or photon
- * mapping; rt_photon_map_emit makes the photons alone, to be looked at, saved, merged and
- * rendered with; rt_trace follows single rays. A film is read in memory or written as an image.
+ * mapping; rt_photon_map_emit emits the photons alone, to be inspected, saved, merged and rendered
+ * with; rt_trace follows single rays. A film is read in memory or written as an image.
  *
  *     text or calls -> rt_scene -+
  *                                +-> rt_renderer -> rt_film -> memory, .exr, .png, ...
@@ -62,20 +62,21 @@
  * written only on success, unless a call says otherwise. Pointers passed in are not kept
  * after the call returns, unless a call says otherwise. Destroying NULL does nothing.
  *
- * NULL may be passed only where a call says so: in place of a path, a text or an object (but a
- * scene under construction) it makes a call that returns rt_status fail with RT_ERROR_USAGE, and
- * anywhere else, as in place of a result or an array, the call is undefined.
+ * NULL may be passed only where a call says so: for a path, a text or an object (other than a scene
+ * under construction) it makes a call that returns rt_status fail with RT_ERROR_USAGE; anywhere
+ * else, as for a result or an array, the behaviour is undefined.
  *
  * Option structs: set what you need, leave the rest zero; zero always means the default
  * that the member's comment states. Passing NULL for an option struct means all defaults.
  *
- * There is no global state, but for one setting of FLANN, its type of distance: it belongs to the
- * process, and the calls that search photons set it behind a lock of the library's own. Different
- * objects may be used from different threads at once; one object from one thread at a time. The
- * library does not print, exit, install signal handlers or change the environment.
+ * The library has no global state, but two libraries that it uses do: calls that search photons set
+ * FLANN's type of distance, under a lock and until they are done, and turn its log off; calls that
+ * load a mesh silence OpenMesh's error stream meanwhile. Different objects may be used from
+ * different threads at once; one object from one thread at a time. The library does not print,
+ * exit, install signal handlers or change the environment.
  *
  * Coordinates lie within 1e15 metres, and the components of a colour, of whatever unit, between 0
- * and 1e28; what lies outside is refused.
+ * and 1e28; values outside are refused.
  */
 #ifndef RT_RT_H
 #define RT_RT_H

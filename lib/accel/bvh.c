@@ -1,4 +1,4 @@
-/* bvh.c - from the input to the arrays that the kernels read. */
+/* bvh.c - builds the hierarchy from its input, and writes the arrays that kernels read. */
 #include "accel/bvh.h"
 
 #include <assert.h>

@@ -4,9 +4,9 @@
 #include <math.h>
 
 /*
- * Costs of a visit: a node's eight boxes with the sorting of those met, and a leaf's eight
- * triangles, took about as long where this was tuned. The leaves are given, so only the node's cost
- * decides.
+ * The cost of visiting a node. Its eight boxes, with the sorting of those hit, took about as long
+ * as a leaf's eight triangles where this was tuned; the leaves are given, so only the cost of nodes
+ * matters.
  */
 static const float node_cost = 1.0f;
 static const float leaf_cost = 1.0f;

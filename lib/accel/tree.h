@@ -1,4 +1,4 @@
-/* tree.h - the binary tree that comes before the eight-wide one. */
+/* tree.h - the binary tree that is collapsed to the eight-wide one. */
 #ifndef RT_LIB_ACCEL_TREE_H
 #define RT_LIB_ACCEL_TREE_H
 

@@ -1,4 +1,4 @@
-/* wide.c - depth first, so that what a ray visits next lies near. */
+/* wide.c - numbers nodes depth first, so that those visited in turn are close in memory. */
 #include "accel/wide.h"
 
 #include <math.h>

@@ -19,7 +19,7 @@ rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, co
 
 /*
  * Names the file that was worked on in *error (may be NULL) when status is a failure of that work,
- * unless a file that it names in turn is to blame. Returns status.
+ * unless the error already names another file. Returns status.
  */
 rt_status rt_at_file(rt_status status, const char *path, rt_error *error);
 

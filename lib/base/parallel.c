@@ -38,7 +38,7 @@ void rt_parallel(uint32_t threads, uint32_t jobs, rt_parallel_job *job, void *us
     uint32_t wanted = threads < jobs ? threads : jobs;
     uint32_t started = 0;
 
-    /* A helper that cannot start is no failure: those that did, and this thread, do its share. */
+    /* A thread that cannot be started is not an error: the others and this one do its share. */
     while (started + 1 < wanted && started < MAX_HELPERS &&
            pthread_create(&helpers[started], NULL, work, &q) == 0)
         started++;

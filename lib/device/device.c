@@ -28,7 +28,7 @@ typedef struct device_list {
     cl_uint count;
 } device_list;
 
-/* Collects the devices of all platforms. */
+/* Collects the devices of all platforms, up to devices_max. */
 static rt_status list_devices(device_list *list, rt_error *error)
 {
     cl_platform_id platforms[platforms_max];

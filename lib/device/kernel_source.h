@@ -11,7 +11,7 @@ typedef struct rt_kernel_source {
     size_t length;
 } rt_kernel_source;
 
-/* The library's programs; the last entry has a NULL name. Made at build from kernels/. */
+/* The library's programs; the last entry has a NULL name. Generated from kernels/ by the build. */
 extern const rt_kernel_source rt_kernel_sources[];
 
 #endif

@@ -23,7 +23,7 @@ static void first_error(char *line, size_t size, const char *log)
     line[length] = '\0';
 }
 
-/* Tells why a program did not build: all to the log, the first error to *error. */
+/* Reports why a program did not build: the whole log to the hooks, the first error to *error. */
 static rt_status report_build(rt_device *device, cl_program program, const char *name, cl_int code,
                               const rt_hooks *hooks, rt_error *error)
 {

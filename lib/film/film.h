@@ -1,4 +1,4 @@
-/* film.h - the picture and what is known of its making. */
+/* film.h - the film: sums of samples, the means made of them, layers and statistics. */
 #ifndef RT_LIB_FILM_FILM_H
 #define RT_LIB_FILM_FILM_H
 

@@ -86,7 +86,10 @@ rt_status rt_noise_read(rt_noise *noise, const rt_sample_range *range, rt_device
 
 /* ---- The error -------------------------------------------------------------- */
 
-/* A channel of a pixel: its mean, its variance, and the part of each replicate in that. */
+/*
+ * A channel of a pixel: its mean, its variance, and the contribution of each replicate to the
+ * variance.
+ */
 typedef struct noise_value {
     double mean, variance, part[RT_REPLICATES];
 } noise_value;

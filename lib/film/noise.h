@@ -1,10 +1,10 @@
 /*
- * noise.h - how far a picture is from the mean that it estimates.
+ * noise.h - the error of a picture: how far it is from its expected value.
  *
- * The samples of one scrambled Sobol sequence depend on each other, so the spread among them says
- * nothing of the error of their mean. Where the error is to be estimated, R independent sequences
- * share the samples (replicates.h; in photon mapping each has photons of its own), and the spread
- * among them estimates the variance of a pixel (Owen 1997: internal replication).
+ * The samples of one scrambled Sobol sequence depend on each other, so the variance among them says
+ * nothing about the error of their mean. Where the error is to be estimated, the samples are
+ * divided among R independent sequences (replicates.h; in photon mapping each has photons of its
+ * own), and the variance among these estimates that of a pixel (Owen 1997: internal replication).
  *
  * A pixel is a quotient of sums, Q = sum of S_r over sum of W_r. S_r is the weighted radiance of
  * replicate r and W_r its sum of weights, which is the number of its samples unless the filter has
@@ -18,21 +18,21 @@
  *
  * The relative error of the picture is sqrt(mean of var Q) / mean of Q, means over all pixels and
  * channels: the expected root mean squared error over the mean radiance. The mean of var Q has no
- * bias. Its root is low by at most 3.5 %, where all pixels err as one (the mean of the square root
- * of a chi-square of 7 degrees); where they do not, by less than 100 renders would show. The true
- * error lies, with 95 % confidence, below a bound found from the share of each replicate,
+ * bias. Its root is too low by at most 3.5 %, where all pixels are fully correlated (the mean of
+ * the square root of a chi-square of 7 degrees); where they are not, by less than 100 renders would
+ * show. The true error lies, with 95 % confidence, below a bound found from the share of each
+ * replicate,
  *
  *   q_r = mean of R/(R - 1) z_r^2 / (sum of W_r)^2,
  *
- * whose sum is the mean of var Q. R q_r is spread like the mean squared error of the picture
- * itself, or more, because the sum of all replicates is closer to normal than one. Where errors of
- * pixels are correlated, as those are that share photons, both are spread more. So with s the
- * standard deviation of q_r over their mean, and as if their logarithm were normal, the error is at
- * most
+ * whose sum is the mean of var Q. R q_r varies as the mean squared error of the picture itself
+ * does, or more, because the sum of all replicates is closer to normal than one. Where the errors
+ * of pixels are correlated, as where they share photons, both vary more. With s the standard
+ * deviation of q_r over their mean, and treating q_r as log-normal, the error is at most
  *
  *   relative error times exp(t s sqrt(1 + 1/R) / 2),    t one-sided.
  *
- * With few replicates s says nothing (of two, z_1 = -z_2), so there is no bound until all have
+ * With few replicates s is meaningless (for two, z_1 = -z_2), so there is no bound until all have
  * samples.
  *
  * References:
@@ -66,9 +66,9 @@ rt_status rt_noise_read(rt_noise *noise, const rt_sample_range *range, rt_device
 
 /*
  * Estimates the error where it is due, all replicates having `length` samples or passes: at the
- * lengths that rt_replicate_grow gives, so seldom that the chance to find it small by luck stays
- * near that of a single test. Returns whether its bound is at most `target`, from a length of 4 on
- * and if target is above 0.
+ * lengths that rt_replicate_grow gives, so seldom that the probability of a low estimate by chance
+ * stays near that of a single test. Returns whether its bound is at most `target`, from a length of
+ * 4 on and if target is above 0.
  */
 int rt_noise_test(rt_noise *noise, uint32_t length, double target);
 

@@ -1,7 +1,7 @@
 /* replicates.c - which samples of which replicate come next. */
 #include "film/replicates.h"
 
-/* Sets first and count: what this replicate, which has its share of all samples at most, takes. */
+/* Sets first and count of this replicate, up to its share of all samples. */
 static rt_sample_range take(rt_sample_range s)
 {
     uint32_t share = s.total / s.replicates + (s.replicate < s.total % s.replicates);

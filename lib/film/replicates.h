@@ -2,7 +2,7 @@
  * replicates.h - the order in which samples are taken where the error is to be estimated: a few
  * sequences of samples, each scrambled on its own (rt_params.replicate), which grow together. Few
  * and long sequences keep most of the advantage that a Sobol sequence has over independent samples;
- * the spread among them estimates the error (see noise.h).
+ * the variance among them estimates the error (see noise.h).
  */
 #ifndef RT_LIB_FILM_REPLICATES_H
 #define RT_LIB_FILM_REPLICATES_H

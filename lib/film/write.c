@@ -13,7 +13,7 @@ static rt_status set_number(rt_image *image, const char *name, double value, rt_
     return rt_image_set_attribute(image, name, text, error);
 }
 
-/* What is needed to make the picture again. */
+/* Records what is needed to render the picture again. */
 static rt_status describe(rt_image *image, const rt_film *film, const rt_image_options *options,
                           rt_error *error)
 {

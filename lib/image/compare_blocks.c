@@ -104,7 +104,10 @@ static double scatter_of_block(const rt_pictures *p, const rt_image_block *b, ui
     return residual > 0.0 ? residual / (count - 1.0) / count : 0.0;
 }
 
-/* S: few renders say little about one block, so its neighbours are heard too. */
+/*
+ * S, averaged over the block and its neighbours, because a few renders estimate that of one block
+ * poorly.
+ */
 static double scatter_around(double (*scatter)[3], uint32_t columns, uint32_t rows, uint32_t column,
                              uint32_t row, uint32_t channel)
 {
@@ -133,11 +136,11 @@ static void judge(rt_image_block *b, const rt_pictures *p, uint32_t channel, dou
     double mean = block_mean(p, p->mean, b, channel),
            reference = block_mean(p, p->reference, b, channel);
     double error = error_of_block(p, b, channel, scatter);
-    /* An error that is not known allows nothing. */
+    /* An unknown standard error allows no deviation beyond the tolerance. */
     double allowed = fmax(tolerance * fabs(reference), ERRORS_ALLOWED * error);
     double difference = fabs(mean - reference);
     double excess = difference > 0.0 ? difference / allowed : 0.0;
-    /* What is not a number is no agreement. */
+    /* NaN counts as disagreement. */
     if (!isfinite(mean) || !isfinite(reference) || isnan(excess))
         excess = INFINITY;
     b->mean[channel] = mean;

@@ -1,6 +1,6 @@
 /*
  * difference.c - rt_comparison_write_difference: the signed difference of two pictures, as numbers
- * or for the eye.
+ * or as colours.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* display.h - from linear radiance to the 8-bit sRGB picture of a display. */
+/* display.h - from linear radiance to an 8-bit sRGB picture. */
 #ifndef RT_LIB_IMAGE_DISPLAY_H
 #define RT_LIB_IMAGE_DISPLAY_H
 

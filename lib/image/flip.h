@@ -1,4 +1,4 @@
-/* flip.h - the difference that a person sees when two pictures alternate in the same place. */
+/* flip.h - FLIP, the perceived difference of two pictures that alternate in the same place. */
 #ifndef RT_LIB_IMAGE_FLIP_H
 #define RT_LIB_IMAGE_FLIP_H
 

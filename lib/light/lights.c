@@ -1,4 +1,4 @@
-/* lights.c - fills the table of lights, and gives each its part of all power. */
+/* lights.c - fills the table of lights, and sets their probabilities in proportion to power. */
 #include "light/lights.h"
 
 #include <math.h>
@@ -24,10 +24,10 @@ size_t rt_lights_count(const rt_scene *scene)
 }
 
 /*
- * The power of a light that is no area light, W, mean of the channels. Light from infinitely far
- * counts where it meets a disc of the scene's radius: pi r^2 of it from a direction, the same from
- * every one of 4 pi sr from an environment. A spot's falloff 3x^2 - 2x^3 is 1/2 in the mean over
- * its edge.
+ * The power of a light other than an area light, W, mean of the channels. Of light from infinitely
+ * far it is the flux through a disc of the scene's radius r: pi r^2 times the irradiance of a
+ * directional light, 4 pi sr times pi r^2 times the mean radiance of an environment. The mean of a
+ * spot's falloff 3x^2 - 2x^3 over its edge is 1/2.
  */
 static double light_power(const rt_scene *scene, const rt_scene_light *light, double radius)
 {

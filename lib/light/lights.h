@@ -5,17 +5,17 @@
 #include "scene/scene.h"
 
 /*
- * How many lights the scene has: lights that are no shapes, and the primitives of shapes that emit.
+ * The number of lights of the scene: delta lights, the environment, and the primitives of emissive
+ * shapes.
  */
 size_t rt_lights_count(const rt_scene *scene);
 
 /*
- * Fills lights[rt_lights_count(scene)], shape by shape after the lights that are none, and
- * first_light[shape_count] with the light of each shape's first primitive, or RT_NONE.
+ * Fills lights[rt_lights_count(scene)], delta lights and the environment first, then shape by
+ * shape, and first_light[shape_count] with the light of each shape's first primitive, or RT_NONE.
  * first_prim[shape_count] says where each shape's primitives begin; radius is that of a sphere
- * around all finite shapes, metres, or 0 when there are none. A light is given its part of all
- * power (the mean of its three channels), by which photon paths choose. Returns the power of all
- * lights, W.
+ * around all finite shapes, metres, or 0 when there are none. pmf and cdf are set in proportion to
+ * power, the mean of the three channels. Returns the power of all lights, W.
  */
 double rt_lights_fill(const rt_scene *scene, const rt_u32 *first_prim, double radius,
                       rt_light_data *lights, rt_u32 *first_light);

@@ -19,22 +19,22 @@
  * radius of its bounding sphere. For a disc the mean squared distance calls for 0.5, but the
  * nearest lights contribute most: 0.1 to 0.3 gave the least noise, 1 twice that.
  */
-static const double extent_of_ball = 0.3;
+static const double extent_factor = 0.3;
 
-/* A light and the middle of its bounds. */
-typedef struct spot {
+/* A light and the centre of its bounds. */
+typedef struct light_centre {
     double at[3];
     rt_u32 light;
-} spot;
+} light_centre;
 
-/* What a node stands for. */
+/* The lights of a node. */
 typedef struct cluster {
     double lo[3], hi[3]; /* lo > hi: empty */
     double power;
     int is_distant;
 } cluster;
 
-typedef struct planting {
+typedef struct tree_builder {
     rt_light_node *nodes;
     const rt_scene *scene;
     const rt_scene_header *header;
@@ -42,7 +42,7 @@ typedef struct planting {
     const rt_u32 *prim_shape;
     size_t leaves;
     double total_power, least_radius;
-} planting;
+} tree_builder;
 
 static int is_distant(rt_u32 kind)
 {
@@ -104,7 +104,7 @@ static void include_edges(cluster *c, const rt_light_data *light)
 }
 
 /* Widens the bounds by those of a light; light from infinitely far is put in the scene's middle. */
-static void include_light(cluster *c, const planting *p, const rt_light_data *light)
+static void include_light(cluster *c, const tree_builder *p, const rt_light_data *light)
 {
     const rt_scene_header *h = p->header;
     const double a[3] = {light->a[0], light->a[1], light->a[2]};
@@ -137,7 +137,7 @@ static void include_light(cluster *c, const planting *p, const rt_light_data *li
     }
 }
 
-static cluster cluster_of(const planting *p, rt_u32 index)
+static cluster cluster_of(const tree_builder *p, rt_u32 index)
 {
     const rt_light_data *light = p->lights + index;
     cluster c = empty();
@@ -149,54 +149,55 @@ static cluster cluster_of(const planting *p, rt_u32 index)
 
 /* ---- Halves ---------------------------------------------------------------- */
 
-static int is_before(const spot *a, const spot *b, int axis)
+static int is_before(const light_centre *a, const light_centre *b, int axis)
 {
     return a->at[axis] != b->at[axis] ? a->at[axis] < b->at[axis] : a->light < b->light;
 }
 
-static void swap(spot *a, spot *b)
+static void swap(light_centre *a, light_centre *b)
 {
-    spot kept = *a;
+    light_centre kept = *a;
     *a = *b;
     *b = kept;
 }
 
 /*
- * Moves the `half` spots that come first along the axis before the others (Hoare, "Find", CACM
- * 4(7), 1961).
+ * Partitions the lights so that the `half` of them that come first along the axis are in front
+ * (Hoare, "Find", CACM 4(7), 1961).
  */
-static void select_first(spot *spots, size_t count, size_t half, int axis)
+static void select_first(light_centre *centres, size_t count, size_t half, int axis)
 {
     while (count > 1) {
-        const spot pivot = spots[(count - 1) / 2]; /* not the last: then both parts have less */
+        /* not the last, so that both parts are smaller */
+        const light_centre pivot = centres[(count - 1) / 2];
         size_t i = 0, j = count - 1;
         for (;; i++, j--) {
-            while (is_before(spots + i, &pivot, axis))
+            while (is_before(centres + i, &pivot, axis))
                 i++;
-            while (is_before(&pivot, spots + j, axis))
+            while (is_before(&pivot, centres + j, axis))
                 j--;
             if (i >= j)
                 break;
-            swap(spots + i, spots + j);
+            swap(centres + i, centres + j);
         }
         /* All before j + 1 come before all behind. */
         size_t first = j + 1;
         if (half < first) {
             count = first;
         } else {
-            spots += first;
+            centres += first;
             count -= first;
             half -= first;
         }
     }
 }
 
-static int longest_axis(const spot *spots, size_t count)
+static int longest_axis(const light_centre *centres, size_t count)
 {
     cluster c = empty();
     int axis = 0;
     for (size_t i = 0; i < count; i++)
-        include(&c, spots[i].at, 0);
+        include(&c, centres[i].at, 0);
     for (int i = 1; i < 3; i++)
         if (c.hi[i] - c.lo[i] > c.hi[axis] - c.lo[axis])
             axis = i;
@@ -205,7 +206,7 @@ static int longest_axis(const spot *spots, size_t count)
 
 /* ---- Nodes ----------------------------------------------------------------- */
 
-static void fill_node(const planting *p, rt_light_node *node, const cluster *c)
+static void fill_node(const tree_builder *p, rt_light_node *node, const cluster *c)
 {
     double radius = 0;
     for (int i = 0; i < 3 && c->lo[i] <= c->hi[i]; i++) {
@@ -214,49 +215,49 @@ static void fill_node(const planting *p, rt_light_node *node, const cluster *c)
     }
     radius = fmax(radius, p->least_radius);
     node->falloff = c->is_distant ? 0 : 1;
-    node->extent = (float)fmax(extent_of_ball * radius * radius, FLT_MIN);
-    /* The power of what comes from there was counted through a disc of the scene's radius. */
+    node->extent = (float)fmax(extent_factor * radius * radius, FLT_MIN);
+    /* The power of distant lights was computed for a disc of the scene's radius. */
     if (c->is_distant)
         node->extent = p->header->radius > 0 ? p->header->radius * p->header->radius : 1;
     node->power = (float)c->power;
 }
 
 /* Fills a node and all below it with these lights, no more than there are leaves below. */
-static cluster plant(const planting *p, size_t index, spot *spots, size_t count)
+static cluster build_node(const tree_builder *p, size_t index, light_centre *centres, size_t count)
 {
     cluster c = empty();
     if (index < p->leaves) {
         size_t half = (count + 1) / 2;
         if (count > 1)
-            select_first(spots, count, half, longest_axis(spots, count));
-        c = plant(p, 2 * index, spots, half);
-        cluster other = plant(p, 2 * index + 1, spots + half, count - half);
+            select_first(centres, count, half, longest_axis(centres, count));
+        c = build_node(p, 2 * index, centres, half);
+        cluster other = build_node(p, 2 * index + 1, centres + half, count - half);
         c.is_distant |= other.is_distant;
         join(&c, &other);
     } else if (count > 0) {
-        c = cluster_of(p, spots->light);
-        p->nodes[index].light = spots->light;
-        p->nodes[spots->light].leaf = (rt_u32)index;
+        c = cluster_of(p, centres->light);
+        p->nodes[index].light = centres->light;
+        p->nodes[centres->light].leaf = (rt_u32)index;
     }
     fill_node(p, p->nodes + index, &c);
     return c;
 }
 
-/* Lists the nearby lights before the distant ones; returns the number of those nearby. */
-static size_t list_spots(planting *p, spot *spots, size_t count)
+/* Lists the finite lights before the distant ones; returns the number of finite ones. */
+static size_t list_centres(tree_builder *p, light_centre *centres, size_t count)
 {
     size_t nearby = 0, distant = count;
     cluster all = empty();
     for (size_t i = 0; i < count; i++) {
         cluster c = cluster_of(p, (rt_u32)i);
-        spot *s = spots + (c.is_distant ? --distant : nearby++);
+        light_centre *s = centres + (c.is_distant ? --distant : nearby++);
         s->light = (rt_u32)i;
         for (int k = 0; k < 3; k++)
             s->at[k] = 0.5 * (c.lo[k] + c.hi[k]);
         if (!c.is_distant)
             join(&all, &c);
     }
-    /* A point light must not draw all choices to itself from where it is. */
+    /* At the position of a point light, others must still have a chance to be chosen. */
     for (int k = 0; k < 3 && nearby > 0; k++)
         p->least_radius = fmax(p->least_radius, 0x1p-20 * (all.hi[k] - all.lo[k]));
     return nearby;
@@ -266,28 +267,28 @@ rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene,
                              const rt_scene_header *header, const rt_light_data *lights,
                              const rt_u32 *prim_shape, rt_error *error)
 {
-    planting p = {.nodes = nodes,
-                  .scene = scene,
-                  .header = header,
-                  .lights = lights,
-                  .prim_shape = prim_shape};
+    tree_builder p = {.nodes = nodes,
+                      .scene = scene,
+                      .header = header,
+                      .lights = lights,
+                      .prim_shape = prim_shape};
     size_t count = rt_lights_count(scene);
     p.leaves = rt_light_tree_leaves(scene);
     for (size_t i = 0; i < count; i++)
         p.total_power += lights[i].power;
     if (!(p.total_power > 0))
         return RT_OK;
-    spot *spots = malloc(count * sizeof *spots);
-    if (!spots)
+    light_centre *centres = malloc(count * sizeof *centres);
+    if (!centres)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the tree of %zu lights", count);
-    size_t nearby = list_spots(&p, spots, count);
+    size_t nearby = list_centres(&p, centres, count);
     if (nearby == 0 || nearby == count) {
-        plant(&p, 1, spots, count);
+        build_node(&p, 1, centres, count);
     } else {
         nodes[1].power = 1;
-        plant(&p, 2, spots, nearby);
-        plant(&p, 3, spots + nearby, count - nearby);
+        build_node(&p, 2, centres, nearby);
+        build_node(&p, 3, centres + nearby, count - nearby);
     }
-    free(spots);
+    free(centres);
     return RT_OK;
 }

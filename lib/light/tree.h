@@ -1,4 +1,4 @@
-/* tree.h - the tree by which lights are chosen for the point that they are to light. */
+/* tree.h - the light tree, from which kernels choose a light for a point. */
 #ifndef RT_LIB_LIGHT_TREE_H
 #define RT_LIB_LIGHT_TREE_H
 

@@ -1,4 +1,4 @@
-/* canonical.c - fills the plain form: vertices by number, faces as fans of triangles. */
+/* canonical.c - fills the canonical form: vertices by number, faces as triangle fans. */
 #include "mesh/canonical.h"
 
 #include <stdlib.h>

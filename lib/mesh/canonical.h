@@ -1,5 +1,5 @@
 /*
- * canonical.h - a mesh in the one plain form that OpenMesh is given to read.
+ * canonical.h - a mesh in canonical form, the only one that OpenMesh is given to read.
  *
  * OpenMesh's own readers hang, overflow or lose faces on files that are damaged or merely unusual.
  * So a reader of ours goes through each file first, trusts nothing in it, and writes what it found

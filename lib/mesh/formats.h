@@ -3,8 +3,8 @@
  *
  * Each goes through the whole file, checks all that a mesh is made of (counts against the size of
  * the file, types, indices, finite numbers) and leaves the result in canonical form. Each fails
- * with RT_ERROR_INPUT and the line, RT_ERROR_MEMORY or RT_CANCELLED. Free *mesh, which begins all
- * zero, also after a failure.
+ * with RT_ERROR_INPUT (and the line, in text files), RT_ERROR_MEMORY or RT_CANCELLED. Free *mesh,
+ * which begins all zero, also after a failure.
  */
 #ifndef RT_LIB_MESH_FORMATS_H
 #define RT_LIB_MESH_FORMATS_H

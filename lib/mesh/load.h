@@ -6,8 +6,8 @@
 #include "rt.h"
 
 /*
- * Reads a mesh. The format is told by the content, else by the name's ending. Reports RT_STAGE_LOAD
- * to the hooks (may be NULL), and to the log what was left out or made up. Fails with
+ * Reads a mesh. The format is detected from the content, else from the extension. Reports
+ * RT_STAGE_LOAD to the hooks (may be NULL), and to the log what was left out or made up. Fails with
  * RT_ERROR_INPUT, error->file and, in a text file, error->line set; RT_ERROR_MEMORY; or
  * RT_CANCELLED. The caller destroys *out.
  */

@@ -25,7 +25,7 @@ typedef struct obj {
     int some_uv, some_normals;
 } obj;
 
-/* Statements without which the mesh is the same, and those whose loss the log tells. */
+/* Statements that do not affect the mesh, and those whose loss is logged. */
 static const char *const silent[] = {"g",     "o",        "s",        "mg",  "vp",
                                      "bevel", "c_interp", "d_interp", "lod", NULL};
 static const char *const materials[] = {"usemtl",     "mtllib",    "usemap", "maplib",

@@ -1,5 +1,6 @@
 /*
- * mode.h - what a mode of rendering is. Each has a folder here, and modes.c lists them.
+ * mode.h - the interface of a mode of rendering. Each mode has a folder here, and modes.c lists
+ * them.
  */
 #ifndef RT_LIB_MODE_MODE_H
 #define RT_LIB_MODE_MODE_H
@@ -19,9 +20,9 @@ typedef struct rt_render_job {
     rt_first_hit_layers *layers; /* summed beside the picture; without a kernel: none */
 } rt_render_job;
 
-/* Its word, and what it shows, stand in RT_MODES beside the enum. */
+/* The class of a mode. Its name and help are in RT_MODES, beside the enum. */
 typedef struct rt_mode_class {
-    int has_noise;     /* it is made of independent replicates, whose spread is its error */
+    int has_noise;     /* it renders independent replicates, whose variance gives the error */
     size_t state_size; /* bytes of what prepare, run and release share; zero before prepare */
 
     /* Fails where complete options do not fit together in this mode; or NULL. */

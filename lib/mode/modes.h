@@ -1,4 +1,4 @@
-/* modes.h - the modes there are. A new one is declared here and listed in modes.c. */
+/* modes.h - the classes of all modes. A new mode is declared here and listed in modes.c. */
 #ifndef RT_LIB_MODE_MODES_H
 #define RT_LIB_MODE_MODES_H
 

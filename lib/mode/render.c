@@ -1,4 +1,4 @@
-/* render.c - rt_render: completes and checks the options, makes a film, runs the mode on it. */
+/* render.c - rt_render: checks and completes the options, makes a film, and runs the mode on it. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 /* ---- Options ---------------------------------------------------------------- */
 
-/* Whether the mode can tell the error that is asked for. */
+/* Fails where an estimate of the error is asked for and the mode has none. */
 static rt_status check_noise(const rt_render_options *o, rt_error *error)
 {
     const rt_mode_class *mode = rt_mode_class_of(o->mode);
@@ -63,7 +63,7 @@ static rt_status resolve(const rt_mode_class *mode, const rt_render_job *job, rt
     rt_status status = rt_first_hit_layers_read(job->layers, film, error);
     if (status != RT_OK)
         return status;
-    /* A layer that is the picture has the counts of its samples too. */
+    /* Where a layer is the picture, the film takes its sample counts too. */
     if (mode->show && film->layer_sums)
         memcpy(film->pixels, film->layer_sums, pixels * sizeof *film->pixels);
     rt_film_resolve(film);

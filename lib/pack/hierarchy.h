@@ -1,6 +1,6 @@
 /*
- * hierarchy.h - the bounding volume hierarchies of a scene: one of all shapes, and one of each mesh
- * that instances share, which are leaves of the first.
+ * hierarchy.h - the bounding volume hierarchies of a scene: one over all shapes, and one for each
+ * mesh that instances share; instances are leaves of the first.
  */
 #ifndef RT_LIB_PACK_HIERARCHY_H
 #define RT_LIB_PACK_HIERARCHY_H

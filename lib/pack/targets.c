@@ -32,7 +32,7 @@ static void write_target(rt_target *out, const double centre[3], double radius)
     out->radius = (float)(radius + slack * (radius + reach));
 }
 
-/* One bounding sphere of all. */
+/* One bounding sphere around all specular shapes. */
 static void write_sphere_of_all(rt_target *out, const rt_scene *scene)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};

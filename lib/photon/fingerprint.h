@@ -1,5 +1,5 @@
 /*
- * fingerprint.h - a number that tells scenes apart, so that photons are used only in the scene that
+ * fingerprint.h - a hash that identifies a scene, so that photons are used only in the scene that
  * they were emitted in.
  */
 #ifndef RT_LIB_PHOTON_FINGERPRINT_H

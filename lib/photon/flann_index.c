@@ -1,12 +1,12 @@
 /*
  * flann_index.c - FLANN behind the library's conventions.
  *
- * What FLANN 1.9.2's C interface needs to be told or kept from:
+ * Pitfalls of FLANN 1.9.2's C interface:
  *   - the distance type picks, at every call, the C++ type that an index pointer is cast to,
  *     so it must be the same at building, searching and freeing;
  *   - sorted = 0 is its default, and counts above k = 250, where the results come from a heap;
  *   - cores > 1 makes it share out queries by OpenMP, evenly, and gather the results on one thread;
- *     callers share out better themselves, and finish their share while it is in the cache;
+ *     callers balance the work better, and use their results while these are in the cache;
  *   - it writes fewer than k results when there are fewer points, or distances that overflow;
  *   - it lets std::bad_alloc escape through C, so its memory is tried before each call;
  *   - a positive random_seed would seed the C library's generator.
@@ -34,7 +34,7 @@ struct rt_flann_index {
     flann_index_t tree; /* NULL for an empty set */
 };
 
-/* FLANN's process-wide state is ours while calls are under way; then it is what it was before. */
+/* FLANN's type of distance belongs to the process: set while calls are under way, then restored. */
 static struct {
     pthread_mutex_t lock;
     int calls; /* under way */

@@ -1,9 +1,9 @@
 /*
  * flann_index.h - exact nearest neighbours among points, by FLANN's kd-tree.
  *
- * The one place that calls FLANN, whose distance type and log level are global to the
- * process: flann_index.c sets them while any call of its own is under way. All functions may be
- * called from many threads at once.
+ * The one place that calls FLANN, whose distance type and log level are global to the process: the
+ * type is set while any call from here is under way and then restored; the log is turned off by
+ * each call and stays off. All functions may be called from many threads at once.
  */
 #ifndef RT_LIB_PHOTON_FLANN_INDEX_H
 #define RT_LIB_PHOTON_FLANN_INDEX_H

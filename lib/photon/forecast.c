@@ -1,4 +1,4 @@
-/* forecast.c - how many photons are to come, beside the memory of this machine. */
+/* forecast.c - compares the photons still to come with the memory of this machine. */
 #include "photon/forecast.h"
 
 #include <unistd.h>

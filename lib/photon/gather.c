@@ -1,4 +1,4 @@
-/* gather.c - one gatherer for both searches. */
+/* gather.c - the gatherer, which dispatches to one of the two searches. */
 #include "photon/gather.h"
 
 #include <assert.h>

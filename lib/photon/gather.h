@@ -15,7 +15,7 @@
 
 typedef struct rt_gatherer rt_gatherer;
 
-/* The most gather points that are taken at once. */
+/* The maximum number of gather points per call. */
 enum { RT_GATHER_POINTS_MAX = 1 << 16 };
 
 typedef enum rt_photon_search {
@@ -64,7 +64,7 @@ void rt_gatherer_limit_pixels(rt_gatherer *gatherer, cl_mem squared, float facto
 /* Gathers with another density kernel from here on; the photons found stay the same. */
 void rt_gatherer_set_density(rt_gatherer *gatherer, rt_density density, float cone_k);
 
-/* The most points that rt_gatherer_add takes at once, at most RT_GATHER_POINTS_MAX. */
+/* The maximum number of points per call of rt_gatherer_add, at most RT_GATHER_POINTS_MAX. */
 size_t rt_gatherer_capacity(const rt_gatherer *gatherer);
 
 /*

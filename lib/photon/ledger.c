@@ -57,7 +57,7 @@ void rt_ledger_reset(rt_ledger *ledger)
     ledger->paths = ledger->rejected = 0;
 }
 
-/* Accounts to be booked in equal shares, each into rows of its own, which are then added. */
+/* Accounts being booked by several jobs, each into rows of its own, which are then added. */
 typedef struct booking {
     const rt_light_sources *lights;
     const rt_path_account *accounts;
@@ -76,7 +76,7 @@ static int is_sound(const rt_path_account *a)
     return sum == 0;
 }
 
-/* Adds flux to a column; what is absurdly large is held to where it cannot overflow. */
+/* Adds flux to a column, clamped so that the sums cannot overflow. */
 static void book(int64_t sums[3], const float flux[3], double per_unit)
 {
     static const double most = 1099511627776.0; /* 2^40 units */

@@ -3,11 +3,11 @@
  *
  * Sums are kept as whole numbers of a small unit, so that they are exact in whatever order and in
  * how many parts the paths are taken: the ledger of two joined maps is that of the whole, to the
- * bit. Each light has a unit of its own, so that the light of weak ones is not lost beside that of
- * strong ones.
+ * bit. Each light has a unit of its own, so that a weak light keeps its precision beside strong
+ * ones.
  *
- * Paths of the caustic list are in no ledger: aimed as they are, they carry a part of the lights'
- * flux only. Those of the global list follow all of it, caustics included.
+ * Paths of the caustic list are not in the ledger: they are aimed, and carry only part of the
+ * lights' flux. Those of the global list carry all of it, caustics included.
  */
 #ifndef RT_LIB_PHOTON_LEDGER_H
 #define RT_LIB_PHOTON_LEDGER_H

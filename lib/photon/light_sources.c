@@ -15,7 +15,7 @@ static const void *table(const rt_scene_header *scene, rt_u32 offset)
     return (const char *)scene + (size_t)offset * RT_SCENE_ROW;
 }
 
-/* Groups the entries of the table of lights by the shape that they are part of. */
+/* Groups the entries of the light table by the shape that they are part of. */
 static void group_lights(rt_light_sources *s, const rt_scene_header *scene)
 {
     const rt_light_data *lights = table(scene, scene->lights);
@@ -91,8 +91,8 @@ static void share_by_power(rt_light_sources *s, const rt_light_data *lights)
 }
 
 /*
- * How far around the middle of the scene light from infinitely far is followed, where it matters:
- * see emit_distant.
+ * The radius within which light from infinitely far is followed to planes; 0 where there is no such
+ * light or no plane. See emit_distant.
  */
 static double reach(const rt_scene_header *scene)
 {

@@ -1,4 +1,4 @@
-/* map_check.c - a loaded map beside the scene and the options of a render. */
+/* map_check.c - checks a loaded map against the scene and the options of a render. */
 #include "photon/map_check.h"
 
 #include <stddef.h>

@@ -1,8 +1,8 @@
 /*
  * map_read.c - a photon map from a file; map_file.h describes the bytes.
  *
- * Nothing in a file is believed: sizes are compared with what is there before memory is taken, and
- * what passes the checksum is still checked number by number, because other programs write such
+ * Nothing in a file is trusted: sizes are checked against its length before memory is allocated,
+ * and what passes the checksum is still checked number by number, because other programs write such
  * files too.
  */
 #include <math.h>
@@ -154,7 +154,7 @@ static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
     return RT_OK;
 }
 
-/* Takes `count` entries of a size off the bytes that are left; 0 when there are not so many. */
+/* Subtracts `count` entries of a size from the bytes left; 0 when there are too few. */
 static int take(uint64_t *left, uint64_t count, uint64_t size)
 {
     if (count > *left / size)

@@ -7,8 +7,8 @@
 #include "base/progress.h"
 
 /*
- * Paths below which the light of an emitter is noisy by more than 1 / sqrt(100), and lights that a
- * warning names.
+ * Paths below which the noise of a light exceeds 1 / sqrt(100), and how many lights a warning
+ * names.
  */
 enum { PATHS_ENOUGH = 100, LIGHTS_NAMED = 4 };
 

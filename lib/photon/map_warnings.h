@@ -12,7 +12,7 @@
 void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass,
                                 uint32_t k, uint32_t caustic_k, const rt_hooks *hooks);
 
-/* Warns where the hull is to be used with photons that are spread too evenly for it. */
+/* Warns where the hull is used with Sobol photons, which are too evenly distributed for it. */
 void rt_photon_map_warn_even(const rt_photon_map *map, rt_area area, const rt_hooks *hooks);
 
 #endif

@@ -12,7 +12,7 @@
  *   - at the k-th, which gives the radius and does not count;
  *   - at the limit on the radius, when fewer than k lie inside it: all of these count;
  *   - at the farthest of all, when the whole map has fewer than k and there is no limit;
- *   - at the (16 k)-th photon, accepted or not, so that a surface that no photon fits costs
+ *   - at the (16 k)-th photon, accepted or not, so that a point whose surface has no photons costs
  *     bounded time.
  * Where photons are a Poisson field, the first, the second and the last rule, and any mixture
  * of them, make the sum of K exactly unbiased: each radius is a stopping time of the field, and

@@ -1,4 +1,4 @@
-/* photon_list.c - photons of many paths put one behind the other. */
+/* photon_list.c - appends the photons of many paths, in the order of the paths. */
 #include "photon/photon_list.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /*
  * point_order.c - Hilbert keys and a parallel radix sort.
  *
- * On a plane without end, some points lie so far out that the rest would share a cell. Cells are
+ * On an infinite plane some points lie so far out that all others would share a cell. Cells are
  * therefore cubes of one size where most of the points are, and grow outside of that.
  *
  * References:
@@ -128,10 +128,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/*
- * Finds where most of the points are, from some of them; the reach leaves them half as much room
- * again.
- */
+/* Finds the region of most points from a sample, and enlarges it by half. */
 static void find_most(sorting *s)
 {
     float sample[SAMPLE];

@@ -52,7 +52,10 @@ typedef enum rt_stage {
     RT_STAGE_COMPILE, /* building OpenCL kernels; quick once the driver has them cached */
     RT_STAGE_EMIT,    /* photon emission */
     RT_STAGE_GATHER,  /* photon mode: building the search tree, then camera paths and gathering */
-    RT_STAGE_RENDER   /* the other modes: camera paths; photon mode in passes: all of them */
+    /*
+     * the other modes: camera paths; photon mode with passes: emission and gathering of all passes
+     */
+    RT_STAGE_RENDER
 } rt_stage;
 
 typedef struct rt_progress {

@@ -133,7 +133,7 @@ typedef struct rt_field {
     rt_field_need need;
     rt_range range;
     const char *unit;     /* "" for none */
-    const char *fallback; /* what it is when left out, in words; "" when it is required */
+    const char *fallback; /* the default, in words; "" when the field is required */
     const rt_word *words; /* of RT_FIELD_CHOICE */
     size_t offset, size;  /* of the member */
     const char *help;     /* what it means, in one sentence; other fields stand in backquotes */

@@ -22,8 +22,9 @@ RT_API rt_status rt_render_options_check(const rt_render_options *options, rt_er
 /*
  * Renders; options NULL: the scene's own. The caller owns *out. When a progress callback cancels,
  * returns RT_CANCELLED and *out still receives the film of the samples so far (NULL when there are
- * none yet). In photon mode warns as rt_photon_map_emit does, and when most queries of the photon
- * map found no photon. The film does not depend on the renderer, which may be destroyed before it.
+ * none yet). In photon mode warns as rt_photon_map_emit does, and when more than half of the
+ * queries at the ends of eye paths found no photon. The film does not depend on the renderer, which
+ * may be destroyed before it.
  */
 RT_API rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options,
                            rt_error *error);
@@ -39,7 +40,7 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  * an .exr after the number of channels:
  *
  *   with rt_render_options.aov, and in the modes that show one: the first hit, as means over the
- *   samples that the picture has
+ *   samples of the picture
  *
  *   albedo           3  .R .G .B  kd + ks + kt, ks of a metal by its reflectance; 0 on a miss
  *   normal           3  .X .Y .Z  shading normal in the world, as the shape has it, not turned to
@@ -61,11 +62,10 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  *
  *   with rt_render_options.photon_layers
  *
- *   photon.count     1  itself    mean number of photons that count at the end of an eye path
- *   photon.radius    1  itself    mean radius of the disc that they lie in, m
- *   photon.density   1  itself    mean of their number over the disc's area, 1/m^2
- *   photon.variance  1  itself    variance of the pixel, the mean of its three channels (2)
- *   photon.bias      1  itself    bias of the pixel, the mean of its three channels (3)
+ *   photon.count 1 itself mean number of photons summed at the end of an eye path photon.radius 1
+ *   itself mean radius of the disc that they lie in, m photon.density 1 itself mean of their number
+ *   over the disc's area, 1/m^2 photon.variance 1 itself variance of the pixel, the mean of its
+ *   three channels (2) photon.bias 1 itself bias of the pixel, the mean of its three channels (3)
  *
  * (1) The expected value of the pixel is within rt_film_stats.interval_factor sqrt(variance) of the
  * pixel, with a confidence of 95 %. In photon mode variance is the noise alone, without the bias of
@@ -78,10 +78,10 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  * (L - L'), where L' gathers once more within half the squared radius, or k/(k - k') (L - L') with
  * the k' = (k + 1)/2 nearest (Richardson's extrapolation). It is as noisy as L', so take means of
  * it over many pixels. At edges of light and of surfaces, where the bias grows as the radius and
- * not as its square, it is 2 - sqrt 2 = 0.59 of the bias. Photons of the sampler sobol are spread
- * too evenly for small k, a bias of another kind that is not in proportion to k and comes in with
- * the wrong sign. It is 0, and says nothing, for queries of k 2, and below k 9 with the hull. The
- * layer takes about twice the time of gathering.
+ * not as its square, it is 2 - sqrt 2 = 0.59 of the bias. Sobol photons are too evenly distributed
+ * for a small k; that bias is not proportional to k and enters with the wrong sign. It is 0, and
+ * says nothing, for queries of k 2, and below k 9 with the hull. The layer takes about twice the
+ * time of gathering.
  */
 RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
 
@@ -112,8 +112,8 @@ typedef struct rt_film_stats {
     double relative_error;
     /*
      * the relative error is below this with a confidence of 95 %, provided that the samples have
-     * met all light: no estimate knows of light that no path has met. Infinite below 8 samples, or
-     * passes in photon mode
+     * met all light: no estimate can include light that no path has found. Infinite below 8
+     * samples, or passes in photon mode
      */
     double relative_error_bound;
     /*

@@ -32,8 +32,8 @@ typedef struct rt_image rt_image;
 RT_API rt_status rt_image_read(rt_image **out, const char *path, rt_error *error);
 
 /*
- * The picture rgb [height][width][3], linear, top row first, as an image; it is copied. The caller
- * owns *out.
+ * The picture rgb [height][width][3], linear, top row first, as an image; the values are copied.
+ * The caller owns *out.
  */
 RT_API rt_status rt_image_from_rgb(rt_image **out, const float *rgb, uint32_t width,
                                    uint32_t height, rt_error *error);

@@ -16,7 +16,8 @@ extern "C" {
  * same path, so a map is the same to the bit whatever the number of threads and the work-group
  * size, and parts of it can be made apart and merged. Photons that come straight from a light are
  * stored only with RT_DIRECT_PHOTONS. The paths of caustic photons kept apart start towards
- * specular shapes only, with as much less flux, so that the mean is that of all paths.
+ * specular shapes only, each with proportionally less flux, so that the expected value is that of
+ * all paths.
  */
 typedef enum rt_photon_kind {
     RT_PHOTONS_GLOBAL = 0, /* all photons, or all but the caustic ones when these are kept apart */
@@ -54,7 +55,7 @@ typedef struct rt_photon_map_info {
     uint64_t scene;      /* a number that stands for the scene's geometry, materials and lights */
     int split;           /* caustic photons are kept apart */
     rt_direct direct;
-    rt_sampler sampler; /* that the photons were drawn by */
+    rt_sampler sampler; /* of the photon paths */
     uint32_t max_depth;
     size_t lights; /* in the ledger */
 } rt_photon_map_info;
@@ -67,8 +68,8 @@ typedef struct rt_path_range {
 } rt_path_range;
 
 /*
- * The ranges of paths that a list is made of, ascending by seed and first, and as many as there are
- * gaps; its photons follow in this order. Owned by the map.
+ * The ranges of paths that a list is made of, ascending by seed and first, adjacent ones joined;
+ * the photons are in the same order. Owned by the map.
  */
 RT_API const rt_path_range *rt_photon_map_ranges(const rt_photon_map *map, rt_photon_kind kind,
                                                  size_t *count);
@@ -79,8 +80,9 @@ RT_API const rt_photon *rt_photon_map_photons(const rt_photon_map *map, rt_photo
 
 /*
  * The energy ledger of a light: emitted = absorbed + escaped + cut_off + roulette, in W, but for
- * rounding. A light is a light of the scene, or a whole emissive shape. All of it is a mean over
- * photon paths, so `emitted` scatters about the light's power with the number of paths that it got.
+ * rounding. A light is a light of the scene, or a whole emissive shape. All values are estimates by
+ * photon paths, so `emitted` equals the light's power up to noise that falls with its number of
+ * paths.
  */
 typedef struct rt_light_ledger {
     uint32_t shape; /* the emissive shape, or RT_NONE */
@@ -114,7 +116,7 @@ RT_API rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, 
                                           rt_error *error);
 
 /*
- * Joins maps of the same scene and options made of different seeds or parts; the result does not
+ * Joins maps of the same scene and options made with different seeds or parts; the result does not
  * depend on their order, and is the map that would have been made at once, to the bit. Fails with
  * RT_ERROR_INPUT when they do not fit together or hold the same paths. The caller owns *out.
  */

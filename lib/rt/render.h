@@ -38,7 +38,7 @@ typedef enum rt_mode {
 /* The word of a mode, such as "path"; static storage. */
 RT_API const char *rt_mode_name(rt_mode mode);
 
-/* How photons are found. */
+/* How the photons near a gather point are found. */
 typedef enum rt_gather { RT_GATHER_AUTO = 0, RT_GATHER_FLANN, RT_GATHER_DEVICE } rt_gather;
 
 #define RT_GATHERS(X)                                                                              \
@@ -81,9 +81,9 @@ typedef struct rt_render_options {
     double time;
     /*
      * 1: also the layer variance, and the error in rt_film_stats. Samples, or passes, are then
-     * drawn from 8 independent sequences, which give the error but are noisier than one of the same
-     * length. Not for a single photon map, whose samples share its photons, nor for modes that show
-     * no light
+     * drawn from 8 independent sequences, which give the error but are noisier than a single one
+     * with as many samples. Not for photon mode without passes, where all samples share the photons
+     * of one map, nor for modes that show no light
      */
     int variance;
     /*
@@ -108,21 +108,22 @@ typedef struct rt_render_options {
      * of 3 x 3 pixels and at most the mean of all; behind the final gather that mean. 1: no passes
      */
     uint32_t passes;
-    float alpha; /* the larger, the slower the radius shrinks */
+    float alpha; /* the larger, the more slowly the radius shrinks */
     /* 1: also the layers photon.count and the like, see rt_film_layer; gathers twice */
     int photon_layers;
     rt_density kernel;
     /*
      * the area that the flux is divided by. RT_AREA_HULL leaves the density kernel out, and is for
-     * the k nearest by FLANN. It supposes independent photons: they are then emitted by
+     * the k nearest by FLANN. It assumes independent photons, so they are emitted by
      * RT_SAMPLER_INDEPENDENT, whatever the sampler of the camera paths
      */
     rt_area area;
     float cone_k; /* constant of the cone kernel */
     rt_direct direct;
-    uint32_t final_gather; /* gather after so many diffuse bounces, not at the first surface */
+    /* diffuse bounces before photons are gathered; 0: gather at the first diffuse surface */
+    uint32_t final_gather;
     /*
-     * keep caustic photons in a map of their own, filled by so many further paths, aimed at
+     * keep caustic photons in a map of their own, filled by this many additional paths, aimed at
      * specular shapes; 0: one map for all
      */
     uint64_t caustic_photons;
@@ -130,7 +131,7 @@ typedef struct rt_render_options {
     float caustic_radius; /* as radius, in the caustic map */
     rt_density caustic_kernel;
 
-    /* What follows are no settings: they belong to one call and are not kept in a scene. */
+    /* The members below are not settings: they belong to one call and are not stored in a scene. */
 
     /*
      * [light_share_count]: the share of photon paths that each light gets, in proportion and in the
@@ -183,9 +184,9 @@ typedef enum rt_trace_kind {
 } rt_trace_kind;
 
 /*
- * Follows count rays on the device and writes count hits. Rays must be finite, with an origin whose
- * coordinates lie within 1e15, a direction of a length from 1e-15 to 1e15, and t_min <= t_max;
- * t_max may be infinite. Fails with RT_ERROR_USAGE, naming the first ray that is not so.
+ * Follows count rays on the device and writes count hits. Rays must be finite, with coordinates of
+ * the origin within 1e15, a direction of length 1e-15 to 1e15, and t_min <= t_max; t_max may be
+ * infinite. Fails with RT_ERROR_USAGE, naming the first ray that is not so.
  */
 RT_API rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays,
                           size_t count, rt_hit *hits, rt_error *error);

@@ -25,7 +25,7 @@ typedef enum rt_finding_kind {
     RT_FINDING_CAMERA_IN_MEDIUM,
     /* a light is inside an opaque solid, and the camera is not */
     RT_FINDING_LIGHT_IN_OPAQUE,
-    /* a shape of glass bounds nothing, not even with others of its material */
+    /* a shape of glass encloses nothing, not even with others of its material */
     RT_FINDING_OPEN_GLASS
 } rt_finding_kind;
 
@@ -49,23 +49,23 @@ typedef struct rt_diagnostic {
 } rt_diagnostic;
 
 typedef struct rt_load_options {
-    /* told of every error and warning */
+    /* called for every error and warning */
     void (*diagnostic)(void *user, const rt_diagnostic *diagnostic);
     void *user;
-    /* 1: the scene is to be rendered as it is; tell also what rt_scene_check finds, at its place */
+    /* 1: the scene is complete; also report what rt_scene_check finds, at its place in the text */
     int check;
     /*
-     * told of every file that is read because the text names it, and of the text's own; not of what
+     * called for every file that is read: that of the text, and those that it names; not those that
      * a mesh file names in turn
      */
     void (*file)(void *user, const char *path);
 } rt_load_options;
 
 /*
- * Reads a scene from a .rts file. All errors of the text are reported to the diagnostic
- * callback, in the order of their places; *error gets the first and the number of others.
- * Files that the text names are looked up relative to the file that names them.
- * Fails with RT_ERROR_INPUT. The caller owns *out.
+ * Reads a scene from a .rts file. All errors of the text are reported to the diagnostic callback,
+ * in the order of the text; *error gets the first, and how many more there are. Files that the text
+ * names are looked up relative to the file that names them. Fails with RT_ERROR_INPUT. The caller
+ * owns *out.
  */
 RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options,
                                rt_error *error);
@@ -153,7 +153,7 @@ typedef struct rt_material {
     float absorption[3]; /* Beer-Lambert coefficient of the inside, 1/m */
     rt_fresnel fresnel;
     int two_sided; /* 1: emission on both sides */
-    /* nested media: where two solids overlap, the higher priority is inside; >= 0 */
+    /* nested media: where two solids overlap, the one of higher priority fills the overlap; >= 0 */
     int priority;
     /*
      * Texture handles; a texture multiplies the colour beside it, and where that is all zero,
@@ -340,9 +340,9 @@ RT_API rt_status rt_scene_add_directional_light(rt_scene *scene, const rt_direct
                                                 rt_error *error);
 
 /*
- * Light from all around, infinitely far: constant, or an image of latitude and longitude whose
- * centre column is seen towards -z and whose top row is +y, turned by `rotation` degrees about y.
- * One a scene.
+ * Light from infinitely far in all directions: constant, or an image of latitude and longitude
+ * whose centre column is seen towards -z and whose top row is +y, turned by `rotation` degrees
+ * about y. At most one per scene.
  */
 typedef struct rt_environment {
     float radiance[3]; /* W/(m^2 sr); multiplies the image; all zero means 1 with an image */
@@ -401,12 +401,12 @@ typedef struct rt_finding {
 } rt_finding;
 
 /*
- * Tells a callback what makes the picture of a complete scene, with its own options, black or
- * empty, and of glass without an inside; returns how many warnings there were. There are no false
+ * Reports to a callback what makes the picture of a complete scene, with its own options, black or
+ * empty, and glass that encloses nothing; returns the number of warnings. There are no false
  * alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed
  * meshes; what is inside of them is decided in double precision, and a light only counts as shut in
- * when all of it is. Light that a room of several shapes shuts out is not found, and of many lights
- * the first 256 are looked at.
+ * when all of it is. Light shut out by a room of several shapes is not detected, and only the first
+ * 256 lights, and as many open shapes of glass, are checked.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,
                              void (*found)(void *user, const rt_finding *finding), void *user);

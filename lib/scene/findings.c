@@ -12,8 +12,8 @@
 #include "setting/options.h"
 
 /*
- * Most lights, and most open shapes of glass, that are checked: of a row of copies the first show
- * the mistake.
+ * The number of lights, and of open shapes of glass, that are checked: of many copies the first
+ * show the mistake.
  */
 enum { checked_max = 256 };
 

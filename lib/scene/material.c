@@ -1,4 +1,4 @@
-/* material.c - adding materials to a scene: defaults, ranges, and that none gains energy. */
+/* material.c - adding materials to a scene: defaults, ranges, and energy conservation. */
 #include <stdio.h>
 
 #include "base/error.h"

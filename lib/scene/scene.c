@@ -1,4 +1,4 @@
-/* scene.c - a scene's life, options and contents. What it is filled with is in the files beside. */
+/* scene.c - creates and destroys a scene, and sets its options; the files beside add to it. */
 #include "scene/scene.h"
 
 #include <stdlib.h>

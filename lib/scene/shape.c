@@ -145,7 +145,7 @@ static rt_status check_infinite(const rt_scene *scene, const rt_surface *s, cons
     return RT_OK;
 }
 
-/* A power may be too much for the shape's area. */
+/* Refuses a power that is too large for the shape's area. */
 static rt_status check_power(const rt_scene *scene, const rt_scene_shape *shape, const char *who,
                              rt_error *error)
 {

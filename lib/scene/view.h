@@ -1,4 +1,4 @@
-/* view.h - where a camera looks. */
+/* view.h - the rays of a camera, and which shapes are in its view. */
 #ifndef RT_LIB_SCENE_VIEW_H
 #define RT_LIB_SCENE_VIEW_H
 

@@ -60,7 +60,7 @@ rt_status rt_options_check(const rt_render_options *options, rt_error *error)
 
 /* ---- Defaults -------------------------------------------------------------- */
 
-/* Those that depend on other settings, or are no decimal number. */
+/* Defaults that depend on other settings, or cannot be written as a decimal number. */
 static void complete_dependent(rt_render_options *o)
 {
     int has_passes = o->passes > 1;

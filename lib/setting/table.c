@@ -88,7 +88,7 @@ static const rt_setting_need light_needs[] = {LIGHT_IS_SHOWN, END};
 static const rt_setting_need photon_needs[] = {PHOTON_MODE, END};
 static const rt_setting_need pass_needs[] = {
     PHOTON_MODE, {{ABOVE("passes", 1)}, "without `passes`"}, END};
-/* Passes gather within a radius, and look for the k-th photon where none is given. */
+/* Passes gather within a radius; k only chooses the first one where no radius is given. */
 static const rt_setting_need k_needs[] = {
     PHOTON_MODE,
     {{{"passes", RT_TEST_BELOW, 2}, IS("radius", 0)}, "with `passes` and `radius`"},
@@ -136,10 +136,10 @@ static const rt_setting settings[] = {
            "adds direct light"),
      RT_TOPIC_RENDER, RT_SETTING_EMITS, light_needs},
     /*
-     * Measured variance times time of thresholds 1, 1/2, 1/4 and 1/8, from the second segment on:
-     * 1, 0.60, 0.53, 0.56 in a closed room under a point light, 1, 0.76, 0.76, 0.81 under an area
-     * light, 1, 0.72, 0.78, 0.85 with a mirror and a glass ball, 1, 0.79, 0.83, 0.93 among shapes
-     * under a sky. Of the good ones 1/2 gives the most samples a second.
+     * Measured variance times time for the thresholds 1, 1/2, 1/4 and 1/8, from the second segment
+     * on: 1, 0.60, 0.53, 0.56 in a closed room under a point light, 1, 0.76, 0.76, 0.81 under an
+     * area light, 1, 0.72, 0.78, 0.85 with a mirror and a glass ball, 1, 0.79, 0.83, 0.93 among
+     * shapes under a sky. Of the good thresholds 1/2 gives the most samples per second.
      */
     {WHOLE(roulette_depth, 1, 4096, "segments", "2",
            "segments from the camera after which Russian roulette may end a path; `max_depth` or "
@@ -160,13 +160,13 @@ static const rt_setting settings[] = {
             "the noise, not the expected value"),
      RT_TOPIC_RENDER, 0, light_needs},
     {REAL(time, RT_RANGE_CLOSED, 0, 1e9, "s", "0, no limit",
-          "stop rendering after so long, once every pixel has a sample; without `spp`, go on until "
-          "then. The first emission of photons is not cut short"),
+          "stop rendering after this time, once every pixel has a sample; without `spp`, render "
+          "until then. The first emission of photons is not cut short"),
      RT_TOPIC_RENDER, 0, NULL},
     {REAL(target_error, RT_RANGE_CLOSED, 0, 1, "", "0, none",
           "stop when the relative RMSE of the picture is below this with 95 % confidence; `spp`, "
-          "`passes` and `time` are then limits. In photon mode it needs `passes`, and tells the "
-          "noise, not the bias of gathering"),
+          "`passes` and `time` are then limits. In photon mode it needs `passes`, and measures "
+          "the noise, not the bias of gathering"),
      RT_TOPIC_RENDER, 0, NULL},
 
     {WHOLE(width, 1, 65536, "pixels", "512", "columns of the picture"), RT_TOPIC_FILM, 0, NULL},
@@ -190,32 +190,35 @@ static const rt_setting settings[] = {
     {RADIUS(radius, "0, no limit", "largest gather radius; with `passes`, that of the first pass"),
      RT_TOPIC_PHOTON, 0, photon_needs},
     {CHOICE(gather, gathers, "auto", "where photons are found"), RT_TOPIC_PHOTON, 0, photon_needs},
-    {WHOLE(passes, 1, 16777216, "", "1",
-           "progressive photon mapping: so many passes, each with fresh photons and camera paths, "
-           "gathered within a radius that shrinks from pass to pass. Without `radius` it begins, "
-           "for each pixel, with the distance of its k-th photon"),
+    {WHOLE(
+         passes, 1, 16777216, "", "1",
+         "progressive photon mapping: this many passes, each with fresh photons and camera paths, "
+         "gathered within a radius that shrinks from pass to pass. Without `radius` it begins, "
+         "for each pixel, with the distance of its k-th photon"),
      RT_TOPIC_PHOTON, 0, photon_needs},
     {REAL(alpha, RT_RANGE_BETWEEN, 0, 1, "", "2/3",
           "how slowly the radius of `passes` shrinks; near 1 it hardly does"),
      RT_TOPIC_PHOTON, 0, pass_needs},
     {CHOICE(kernel, densities, "epanechnikov",
-            "density kernel: the weight of a photon at the distance t times the gather radius r"),
+            "density kernel: the weight of a photon at t times the gather radius r from the point"),
      RT_TOPIC_PHOTON, 0, kernel_needs},
     {REAL(cone_k, RT_RANGE_CLOSED, 1, 1e6, "", "1.1", "constant of the cone kernel"),
      RT_TOPIC_PHOTON, 0, cone_needs},
-    {CHOICE(area, areas, "disc",
-            "area that the flux of an estimate is divided by. hull takes the k nearest by FLANN, "
-            "leaves the density kernel out, is not for `passes`, and has photons emitted by "
-            "`sampler` independent, which it supposes"),
+    {CHOICE(
+         area, areas, "disc",
+         "area that the flux of an estimate is divided by. hull uses the k nearest by FLANN "
+         "and no density kernel, does not go with `passes`, and has photons emitted by `sampler` "
+         "independent, because it assumes independent photons"),
      RT_TOPIC_PHOTON, 0, photon_needs},
     {CHOICE(direct, directs, "nee", "where direct light comes from"), RT_TOPIC_PHOTON,
      RT_SETTING_EMITS, photon_needs},
     {WHOLE(final_gather, 0, 4096, "bounces", "0",
-           "gather after so many diffuse bounces instead of at the first diffuse surface"),
+           "gather after this many diffuse bounces instead of at the first diffuse surface"),
      RT_TOPIC_PHOTON, 0, photon_needs},
     {WHOLE(caustic_photons, 0, 4e9, "", "0",
            "keep caustic photons (light, mirrors or glass, diffuse surface) in a map of their own, "
-           "filled by so many further photon paths, aimed at specular shapes; 0: one map for all"),
+           "filled by this many additional photon paths, aimed at specular shapes; 0: one map for "
+           "all"),
      RT_TOPIC_PHOTON, RT_SETTING_EMITS, photon_needs},
     {COUNT(caustic_k, "that of `k`", "nearest photons in the caustic map, as `k`"), RT_TOPIC_PHOTON,
      0, caustic_k_needs},

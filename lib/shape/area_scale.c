@@ -1,4 +1,4 @@
-/* area_scale.c - by how much a placement scales areas. */
+/* area_scale.c - the factor by which a placement scales areas. */
 #include "shape/area_scale.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /*
- * area_scale.h - by how much a placement scales areas: a linear map with cofactor matrix C
+ * area_scale.h - the factor by which a placement scales areas: a linear map with cofactor matrix C
  * scales the area of a surface element of unit normal n by |C n|.
  */
 #ifndef RT_LIB_SHAPE_AREA_SCALE_H

@@ -1,4 +1,4 @@
-/* placed.c - checks, placements and bounds of shapes; adding one that is kept in object space. */
+/* placed.c - checks, placements and bounds of shapes, and adding a placed shape. */
 #include "shape/placed.h"
 
 #include <float.h>

@@ -7,7 +7,8 @@
 #include "base/error.h"
 
 /*
- * Whether the query points lie on what the pixel sees, so that one sample is near the others.
+ * Whether the query points lie on the surface seen in the pixel, so that its samples are close
+ * together.
  */
 static int seen_by_pixels(const rt_photon_render *r, rt_query query)
 {
@@ -26,7 +27,7 @@ static double mean_distance(const float *squared, size_t pixels)
     return found ? sum / (double)found : 0;
 }
 
-/* The middle one of up to nine, which are sorted by it; of an even number the larger. */
+/* The median of up to nine values, which it sorts; of an even number, the upper one. */
 static float median(float *values, int count)
 {
     for (int i = 1; i < count; i++)
@@ -82,7 +83,7 @@ rt_status rt_photon_render_choose_radius(rt_photon_render *r, rt_query query, ui
     rt_gatherer_destroy(r->queries.gatherers[query]);
     r->queries.gatherers[query] = NULL;
 
-    /* Keep the mean, and the radii of the pixels where they mean something. */
+    /* Keep the mean, and the radii of the pixels where these are meaningful. */
     const double mean = mean_distance(squared, pixels);
     if (status == RT_OK && mean > 0 && seen_by_pixels(r, query)) {
         limit_radii(limits, squared, o->width, o->height, mean);

@@ -11,7 +11,7 @@
 
 /* ---- Options ---------------------------------------------------------------- */
 
-/* What the search by neighbour lists, and by the tree, cannot do. */
+/* Refuses what neighbour lists, or the tree, cannot do. */
 static rt_status check_gather(const rt_render_options *o, rt_error *error)
 {
     int all = o->k == RT_K_ALL || o->caustic_k == RT_K_ALL, in_passes = o->passes > 1;

@@ -17,8 +17,8 @@ typedef struct rt_photon_render {
     cl_kernel emit;
     rt_eye_kernels eye_kernels;
     rt_emitter *emitter;
-    rt_photon_map map;           /* what is emitted */
-    const rt_photon_map *in_use; /* that, or the one of the options */
+    rt_photon_map map;           /* the map that is emitted */
+    const rt_photon_map *in_use; /* that map, or the one of the options */
     /* for the final gather, copies out of the global list where there is no caustic list */
     rt_photon_list caustics;
     rt_eye_paths eye_paths;

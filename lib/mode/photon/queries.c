@@ -1,4 +1,4 @@
-/* queries.c - what holds for the gatherers of all queries. */
+/* queries.c - closes the gatherers of all queries, and finds their common capacity. */
 #include "mode/photon/queries.h"
 
 #include <string.h>

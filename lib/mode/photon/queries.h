@@ -6,9 +6,9 @@
 #include "photon/gather.h"
 
 typedef enum rt_query {
-    RT_QUERY_GLOBAL,  /* of the global map, where the path ends */
-    RT_QUERY_CAUSTIC, /* of the caustic map, at the same points, where it is kept apart */
-    RT_QUERY_EARLIER, /* of caustic photons alone, at the earlier vertices of a final gather */
+    RT_QUERY_GLOBAL,  /* the global map, where the path ends */
+    RT_QUERY_CAUSTIC, /* the caustic map, at the same points, where there is one */
+    RT_QUERY_EARLIER, /* caustic photons alone, at the earlier vertices of a final gather */
     RT_QUERIES
 } rt_query;
 
@@ -21,7 +21,7 @@ typedef struct rt_queries {
 /* Frees all gatherers. */
 void rt_queries_close(rt_queries *queries);
 
-/* The most points that all gatherers take at once, at most `capacity`. */
+/* The number of points that all gatherers can take at once, at most `capacity`. */
 size_t rt_queries_capacity(const rt_queries *queries, size_t capacity);
 
 #endif
