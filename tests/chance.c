@@ -1,4 +1,4 @@
-/* chance.c - spends the allowed rate of false alarms, and repeats suspect runs. */
+/* chance.c - adds up the rate of false alarms, and repeats suspect tests. */
 #include "chance.h"
 
 #include <math.h>

@@ -1,14 +1,14 @@
 /*
- * chance.h - how often tests of random numbers may fail where nothing is wrong: all of `make check`
- * together in fewer than one of 10^4 runs, were seeds drawn afresh for each. As they are fixed, the
+ * chance.h - the false-alarm rate of statistical tests: all of `make check` together fails in fewer
+ * than one of 10^4 runs of correct code, were seeds drawn anew for each. As seeds are fixed, the
  * verdict on one machine never changes.
  *
- * A statistical test makes comparisons, T of them, each with the chance that what is right is as
- * far off or farther. The test is suspect when one of these is below CHANCE_SUSPECT / T, which by
- * Bonferroni's inequality happens in fewer than CHANCE_SUSPECT of all runs, whatever T is and
- * however the comparisons hang together. Then the whole test runs again with other seeds, and only
- * one that is suspect again has failed: CHANCE_TEST of all runs. What is wrong is so with any seed:
- * a limit of 3.5 standard errors for one comparison, and 4.9 for 500, is enough.
+ * A statistical test makes T comparisons, each with a p-value: the probability that correct code
+ * deviates at least as much. The test is suspect when one of these is below CHANCE_SUSPECT / T,
+ * which by Bonferroni's inequality happens in fewer than CHANCE_SUSPECT of all runs, whatever T is
+ * and however the comparisons are correlated. Then the whole test runs again with other seeds, and
+ * fails only if it is suspect again: CHANCE_TEST of all runs. Wrong code is wrong with any seed, so
+ * limits of 3.5 standard errors for one comparison, and of 4.9 for 500, are enough.
  *
  * Where the standard error is known only from other seeds, a bound is stated, of 5 standard
  * deviations over 14 seeds or 7 over 8: Student's t of as many degrees of freedom less one is
@@ -22,8 +22,8 @@
  *     T' tests, each suspect and again so        2              T' (0.01 / T')^2          1.2e-6
  *                                                                                           5.3e-5
  *
- * Nobody has to keep this table true: each program adds up its own part as it runs, and
- * tests/run.sh all of them, which fails when they are more than 1e-4.
+ * This table need not be kept up to date: each program adds up its own part as it runs, and
+ * tests/run.sh adds up all of them and fails above 1e-4.
  */
 #ifndef RT_TESTS_CHANCE_H
 #define RT_TESTS_CHANCE_H
@@ -34,14 +34,14 @@
 #define CHANCE_TEST (CHANCE_SUSPECT * CHANCE_SUSPECT)
 
 /*
- * The seed of random numbers: as given, another one when a suspect runs again, and others yet for
- * each number in the environment variable RT_TEST_SEED, for whoever wants to see the false alarms.
+ * The seed of random numbers: as given, another one when a suspect runs again, and other ones for
+ * each value of the environment variable RT_TEST_SEED, with which false alarms can be counted.
  */
 uint32_t test_seed(uint32_t seed);
 
 /*
- * A test that compares by chance_compare or by what kernels/statistics.h has of it: an entry of a
- * cmocka group, which has no state of its own, as that would take the place of the entry's.
+ * A test that compares by chance_compare, or by the functions of kernels/statistics.h, as an entry
+ * of a cmocka group. The group must have no state of its own, which would replace the entry's.
  */
 typedef struct chance_test {
     void (*test)(void **state);
@@ -57,7 +57,7 @@ typedef struct chance_test {
     }
 void chance_run(void **state);
 
-/* One comparison of a statistical test, with its chance and what it compared. */
+/* One comparison of a statistical test: its p-value and what it compared. */
 void chance_compare(double chance, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /*
@@ -66,10 +66,7 @@ void chance_compare(double chance, const char *format, ...) __attribute__((forma
  */
 double chance_of_student(double t, double freedom);
 
-/*
- * Adds to the chance that this program fails where nothing is wrong; a statistical test has done so
- * itself.
- */
+/* Adds to the false-alarm rate of this program; statistical tests do so themselves. */
 void chance_spend(double chance);
 
 #endif

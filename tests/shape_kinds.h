@@ -1,4 +1,4 @@
-/* shape_kinds.h - tests that go through every kind of shape: one that is left out is a failure. */
+/* shape_kinds.h - for tests of every kind of shape: one that is left out fails the test. */
 #ifndef RT_TESTS_SHAPE_KINDS_H
 #define RT_TESTS_SHAPE_KINDS_H
 

@@ -1,6 +1,5 @@
 /*
- * test_chance.c - statistical tests fail by chance as seldom as they say, and what is wrong fails
- * them.
+ * test_chance.c - statistical tests have the false-alarm rate that they state, and detect errors.
  */
 #include <math.h>
 #include <stdio.h>
@@ -117,8 +116,8 @@ static double draw(int kind, rays_stream *stream)
 }
 
 /*
- * Of true means a share p, or less, has a chance below p: 20 000 means each, to five standard
- * deviations and a half.
+ * Of correct means at most a fraction p has a p-value below p: 20 000 means each, to 5.5 standard
+ * deviations.
  */
 static void chances_of_means_are_chances(void **state)
 {

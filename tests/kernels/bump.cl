@@ -1,4 +1,4 @@
-/* bump.cl - how surfaces run along u and v, for its test. */
+/* bump.cl - tangents and bumped normals of surfaces, for their test. */
 #include "material/material.h"
 #include "accel/traverse.h"
 

@@ -1,4 +1,6 @@
-/* leave.cl - what a ray meets when it leaves the surface that another ray met, for its test. */
+/*
+ * leave.cl - traces rays that leave the surfaces hit by others, for the test of self-intersection.
+ */
 #include "accel/traverse.h"
 
 /*

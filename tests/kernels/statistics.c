@@ -1,4 +1,4 @@
-/* statistics.c - means, counts and their chances. */
+/* statistics.c - p-values of means and counts. */
 #include "statistics.h"
 
 #include <math.h>
@@ -69,31 +69,31 @@ static void measure(const double *values, size_t n, double *mean, double *error,
 }
 
 /*
- * Where few of the values carry most of the sum, t is skewed to the other side: too few came, and
- * the error is small as well. Hall's transformation takes that away: "On the Removal of Skewness by
- * Transformation", J. R. Statist. Soc. B 54(1), 1992.
+ * Where few of the values carry most of the sum, t is skewed: where too few of them were sampled,
+ * mean and standard error are both too small. Hall's transformation corrects that: "On the Removal
+ * of Skewness by Transformation", J. R. Statist. Soc. B 54(1), 1992.
  */
 static double without_skewness(double t, double skewness)
 {
     return t + skewness * t * t / 3 + skewness * skewness * t * t * t / 27 + skewness / 6;
 }
 
-double chance_of_mean(const double *values, size_t n, double truth, double rounding)
+double chance_of_mean(const double *values, size_t n, double exact, double rounding)
 {
     double mean, error, skewness;
     measure(values, n, &mean, &error, &skewness);
-    if (fabs(mean - truth) <= rounding)
+    if (fabs(mean - exact) <= rounding)
         return 1;
-    const double t = copysign(fabs(mean - truth) - rounding, mean - truth) / error;
+    const double t = copysign(fabs(mean - exact) - rounding, mean - exact) / error;
     return chance_of_student(without_skewness(t, skewness), (double)(n - 1));
 }
 
-void expect_mean(const double *values, size_t n, double truth, double rounding, const char *what)
+void expect_mean(const double *values, size_t n, double exact, double rounding, const char *what)
 {
     double mean, error, skewness;
     measure(values, n, &mean, &error, &skewness);
-    chance_compare(chance_of_mean(values, n, truth, rounding),
-                   "%s: mean %.9g, should be %.9g, standard error %.3g", what, mean, truth, error);
+    chance_compare(chance_of_mean(values, n, exact, rounding),
+                   "%s: mean %.9g, should be %.9g, standard error %.3g", what, mean, exact, error);
 }
 
 void expect_deviate(double deviate, const char *what)
@@ -102,8 +102,8 @@ void expect_deviate(double deviate, const char *what)
                    deviate);
 }
 
-void expect_close(double found, double truth, double bound, const char *what)
+void expect_close(double found, double exact, double bound, const char *what)
 {
-    chance_compare(fabs(found - truth) <= bound, "%s: %.9g, should be %.9g to %.3g", what, found,
-                   truth, bound);
+    chance_compare(fabs(found - exact) <= bound, "%s: %.9g, should be %.9g to %.3g", what, found,
+                   exact, bound);
 }

@@ -1,6 +1,6 @@
 /*
  * test_batch.c - eight paths at a time have the same radiance, but for rounding, as the scalar
- * integrator finds one by one.
+ * integrator computes.
  */
 #include "support.h"
 

@@ -1,5 +1,5 @@
 /*
- * test_bsdf.c - mixtures of events: energy, choice, Snell's law, what radiance and flux keep,
+ * test_bsdf.c - mixtures of lobes: energy, choice, Snell's law, scaling of radiance and flux,
  * shading normals.
  */
 #include "support.h"
@@ -74,7 +74,7 @@ static void fresnel_agrees_with_the_closed_form(void **state)
     rt_kernel_release(kernel);
 }
 
-/* The mean of weights is what the events keep of the light, whatever the roulette. */
+/* The mean weight is the albedo, whatever the roulette. */
 static void expect_energy(const rt_material_data *material, const situation *at,
                           const double kept[3], const char *what)
 {
@@ -230,7 +230,7 @@ static void shading_normals_leak_no_light(void **state)
     memcpy(matte.kt, black, sizeof black);
     int lost = count_lost(&matte, &at);
     assert_true(lost > 0 && lost < n);
-    /* What is smooth as well goes by the geometric normal then. */
+    /* A mixture with a smooth lobe uses the geometric normal there. */
     assert_int_equal(count_lost(&mixture, &at), 0);
 }
 

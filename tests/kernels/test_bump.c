@@ -1,7 +1,4 @@
-/*
- * test_bump.c - derivatives of every shape by its u and v, and normals tilted by a height, against
- * differences.
- */
+/* test_bump.c - the tangents of every shape, and bumped normals, against finite differences. */
 #include "support.h"
 
 #include <math.h>

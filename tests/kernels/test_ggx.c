@@ -205,7 +205,7 @@ static void a_white_furnace_loses_what_meets_two_facets(void **state)
         float alpha;
         /* metal, glass, and glass from inside, each at normal view and on average */
         double loss[6];
-    } truths[] = {
+    } losses[] = {
         {0.01f, {0, 0, 0, 0, 0, 0}},
         {0.1f, {0.01, 0.03, 0, 0.01, 0.01, 0.03}},
         {0.2f, {0.05, 0.08, 0.01, 0.02, 0.04, 0.10}},
@@ -214,18 +214,18 @@ static void a_white_furnace_loses_what_meets_two_facets(void **state)
     };
     (void)state;
     for (int i = 0; i < 5; i++) {
-        const boundary metal = {1, 0, truths[i].alpha, 1},
-                       glass = {0, 1, truths[i].alpha, 1 / 1.5f},
-                       inside = {0, 1, truths[i].alpha, 1.5f};
+        const boundary metal = {1, 0, losses[i].alpha, 1},
+                       glass = {0, 1, losses[i].alpha, 1 / 1.5f},
+                       inside = {0, 1, losses[i].alpha, 1.5f};
         const double found[6] = {
             kept(&plain, metal, 1),       kept_on_average(&plain, metal),
             kept(&dielectric, glass, 1),  kept_on_average(&dielectric, glass),
             kept(&dielectric, inside, 1), kept_on_average(&dielectric, inside)};
         /* Stated in whole hundredths; the noise is below half of one. */
         for (int k = 0; k < 6; k++)
-            if (!(found[k] <= 1 + 1e-6 && fabs(1 - found[k] - truths[i].loss[k]) < 0.01))
-                fail_msg("alpha %g: keeps %g, should lose %g", truths[i].alpha, found[k],
-                         truths[i].loss[k]);
+            if (!(found[k] <= 1 + 1e-6 && fabs(1 - found[k] - losses[i].loss[k]) < 0.01))
+                fail_msg("alpha %g: keeps %g, should lose %g", losses[i].alpha, found[k],
+                         losses[i].loss[k]);
     }
 }
 

@@ -2,8 +2,8 @@
  * test_intersect.c - each primitive against its closed form in float64, and rays that leave a
  * surface.
  *
- * A hit is asked for where the closed form clears the edge by more than a band of 1e-4 of the size,
- * a miss where it fails by more; within the band either is right.
+ * A hit is expected where the closed form is inside the edge by more than 1e-4 of the size, a miss
+ * where it is outside by more; in between either is right.
  */
 #include <float.h>
 #include <math.h>
@@ -17,18 +17,18 @@
 enum { rays_each = 250000 };
 static const double band = 1e-4;
 
-/* What the closed form says of a ray. */
-typedef struct truth {
+/* The closed form for a ray. */
+typedef struct solution {
     double clearance; /* relative to the size: positive inside, negative outside */
     double t, normal[3];
     double u, v;
     int u_is_known;
-} truth;
+} solution;
 
 typedef struct shape {
     float p[9];  /* as the primitive needs */
     double size; /* its extent */
-    truth (*solve)(const struct shape *shape, const rt_ray *ray);
+    solution (*solve)(const struct shape *shape, const rt_ray *ray);
 } shape;
 
 static void minus(double out[3], const double a[3], const double b[3])
@@ -56,10 +56,10 @@ static void load(double out[3], const float in[3])
 }
 
 /* Solves origin + t direction = p0 + u e1 + v e2 by Cramer's rule. */
-static truth solve_edges(const double p0[3], const double e1[3], const double e2[3],
-                         const rt_ray *ray)
+static solution solve_edges(const double p0[3], const double e1[3], const double e2[3],
+                            const rt_ray *ray)
 {
-    truth result = {0};
+    solution result = {0};
     double o[3], d[3], s[3], n[3], q[3];
     load(o, ray->origin);
     load(d, ray->direction);
@@ -76,32 +76,32 @@ static truth solve_edges(const double p0[3], const double e1[3], const double e2
     return result;
 }
 
-static truth solve_triangle(const shape *shape, const rt_ray *ray)
+static solution solve_triangle(const shape *shape, const rt_ray *ray)
 {
     double v[3][3], e1[3], e2[3];
     for (int c = 0; c < 3; c++)
         load(v[c], shape->p + 3 * c);
     minus(e1, v[1], v[0]);
     minus(e2, v[2], v[0]);
-    truth result = solve_edges(v[0], e1, e2, ray);
+    solution result = solve_edges(v[0], e1, e2, ray);
     result.clearance = fmin(fmin(result.u, result.v), 1.0 - result.u - result.v);
     return result;
 }
 
-static truth solve_quad(const shape *shape, const rt_ray *ray)
+static solution solve_quad(const shape *shape, const rt_ray *ray)
 {
     double p0[3], e1[3], e2[3];
     load(p0, shape->p);
     load(e1, shape->p + 3);
     load(e2, shape->p + 6);
-    truth result = solve_edges(p0, e1, e2, ray);
+    solution result = solve_edges(p0, e1, e2, ray);
     result.clearance = fmin(fmin(result.u, result.v), fmin(1.0 - result.u, 1.0 - result.v));
     return result;
 }
 
-static truth solve_sphere(const shape *shape, const rt_ray *ray)
+static solution solve_sphere(const shape *shape, const rt_ray *ray)
 {
-    truth result = {0};
+    solution result = {0};
     double c[3], o[3], d[3], f[3];
     const double r = shape->p[3];
     load(c, shape->p);
@@ -128,9 +128,9 @@ static truth solve_sphere(const shape *shape, const rt_ray *ray)
     return result;
 }
 
-static truth solve_plane(const shape *shape, const rt_ray *ray)
+static solution solve_plane(const shape *shape, const rt_ray *ray)
 {
-    truth result = {0};
+    solution result = {0};
     double p[3], n[3], o[3], d[3], s[3];
     load(p, shape->p);
     load(n, shape->p + 3);
@@ -149,7 +149,7 @@ static truth solve_plane(const shape *shape, const rt_ray *ray)
  * How precisely t can be known: rounding of coordinates and of the plane's normal, seen at the
  * ray's angle.
  */
-static double t_tolerance(const truth *exact, const shape *shape, const rt_ray *ray)
+static double t_tolerance(const solution *exact, const shape *shape, const rt_ray *ray)
 {
     double o[3], d[3];
     load(o, ray->origin);
@@ -159,7 +159,8 @@ static double t_tolerance(const truth *exact, const shape *shape, const rt_ray *
     return 1e-5 * exact->t + (1e-6 * (sqrt(dot(o, o)) + shape->size) + lateral) / along;
 }
 
-static void expect_hit(const truth *exact, const rt_hit *hit, const shape *shape, const rt_ray *ray)
+static void expect_hit(const solution *exact, const rt_hit *hit, const shape *shape,
+                       const rt_ray *ray)
 {
     assert_int_equal(hit->shape, 0);
     assert_int_equal(hit->prim, 0);
@@ -203,7 +204,7 @@ static void expect_closed_form(rt_scene *scene, const shape *shape, const float 
     rt_hit *hits = rays_trace(renderer, RT_TRACE_CLOSEST, rays, rays_each);
     size_t hit = 0, missed = 0;
     for (size_t i = 0; i < rays_each; i++) {
-        const truth exact = shape->solve(shape, &rays[i]);
+        const solution exact = shape->solve(shape, &rays[i]);
         double o[3], d[3];
         load(o, rays[i].origin);
         load(d, rays[i].direction);
@@ -435,7 +436,7 @@ static void spheres_are_met_at_every_scale(void **state)
         rt_hit *hits = rays_trace(renderer, RT_TRACE_CLOSEST, rays, rays_a_scale);
         size_t met = 0;
         for (int i = 0; i < rays_a_scale; i++) {
-            const truth expected = solve_sphere(&sphere, rays + i);
+            const solution expected = solve_sphere(&sphere, rays + i);
             if (fabs(expected.clearance) < 1e-3)
                 continue;
             assert_int_equal(hits[i].shape != RT_NONE, expected.clearance > 0);

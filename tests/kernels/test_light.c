@@ -1,6 +1,5 @@
 /*
- * test_light.c - lights seen from points: what arrives, with which density; and the light paths
- * that they start.
+ * test_light.c - sampling lights from a point: radiance and density; and the starts of light paths.
  */
 #include "support.h"
 

@@ -1,5 +1,5 @@
 /*
- * test_light_tree.c - choosing lights for a point: every one by the chance that is told, the near
+ * test_light_tree.c - choosing lights for a point: each with the probability that is returned, near
  * ones more often.
  */
 #include <math.h>
@@ -62,8 +62,8 @@ static rt_scene *a_field(int count, float scale, float move)
 }
 
 /*
- * Each light is chosen by as many of evenly spaced numbers as its chance says, and that chance is
- * told beside it.
+ * Each light is chosen by its probability's share of evenly spaced numbers, and that probability is
+ * returned.
  */
 static void expect_chances(rt_scene *scene, size_t lights, const float from[3])
 {

@@ -96,7 +96,7 @@ static void a_sample_weighs_what_is_evaluated(void **state)
         }
 }
 
-/* GGX loses what meets two facets; the others scatter their albedo. */
+/* GGX loses the light that meets two facets; the other lobes scatter their albedo. */
 static void the_mean_weight_is_the_albedo(void **state)
 {
     static double values[n];
@@ -153,7 +153,7 @@ static void integrate_density(double *out, uint32_t lobe, const situation *at)
         out[i / (fine * fine)] += values[i][3] * 4 * PI / points;
 }
 
-/* Half a count in a cell is excused: the midpoint rule is off by less. */
+/* Half a count per cell is allowed: the error of the midpoint rule is less. */
 static void directions_come_as_their_density_says(void **state)
 {
     static uint32_t counts[rings * sectors];

@@ -1,6 +1,6 @@
 /*
- * test_oren_nayar.c - rough diffuse reflection: against double precision, both ways alike, and a
- * white furnace.
+ * test_oren_nayar.c - rough diffuse reflection: against double precision, reciprocity, and the
+ * white-furnace test.
  */
 #include "support.h"
 
@@ -63,9 +63,9 @@ static void light_is_that_of_the_definition(void **state)
             for (int c = 0; c < 3; c++) {
                 const double between = (double)wo[i][0] * wi[i][0] + (double)wo[i][1] * wi[i][1] +
                                        (double)wo[i][2] * wi[i][2];
-                const double truth =
+                const double exact =
                     oren_nayar_fr(material.kd[c], roughnesses[r], wo[i][2], wi[i][2], between);
-                assert_float_equal(found[i][c] / wi[i][2], truth, 1e-3 * truth);
+                assert_float_equal(found[i][c] / wi[i][2], exact, 1e-3 * exact);
             }
     }
 }

@@ -1,6 +1,6 @@
 /*
- * test_path.c - path tracing against closed forms, and the same bits however samples are shared
- * out.
+ * test_path.c - path tracing against closed forms, and the same bits however samples are divided
+ * into launches.
  */
 #include "support.h"
 
@@ -418,7 +418,9 @@ static void samples_that_are_not_finite_are_counted_and_left_out(void **state)
     rt_kernel_release(kernel);
 }
 
-/* No photons are gathered at a point that is nowhere: it must not pass for a dark one. */
+/*
+ * No photons are gathered at a point whose position is not finite: it must be rejected, not black.
+ */
 static void samples_that_gather_nowhere_are_rejected(void **state)
 {
     const float places[][3] = {{1, 2, 3}, {NAN, 2, 3}, {1, INFINITY, 3}};

@@ -1,7 +1,4 @@
-/*
- * test_rng.c - the random numbers: how evenly they lie, and that streams do not resemble each
- * other.
- */
+/* test_rng.c - the random numbers: stratification, and streams without correlation. */
 #include "rng_draw.h"
 
 #include <math.h>
@@ -169,8 +166,8 @@ static void streams_sets_and_seeds_are_unrelated(void **state)
 }
 
 /*
- * What makes a mean unbiased: a single sample is even over the scramblings, and so are any two of
- * its coordinates.
+ * What makes a mean unbiased: over all scramblings a single sample is uniform, and so are any two
+ * of its coordinates.
  */
 static void one_sample_is_even_over_the_streams(void **state)
 {

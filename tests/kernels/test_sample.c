@@ -1,6 +1,6 @@
 /*
- * test_sample.c - where the sampling routines put their samples, and closed forms;
- * tests/statistics/ has densities.
+ * test_sample.c - the sampling routines: ranges and closed forms; tests/statistics/ tests their
+ * densities.
  */
 #include "support.h"
 
@@ -89,8 +89,8 @@ static void solid_angle_of_a_rectangle_agrees_with_the_closed_form(void **state)
         const float *s = w->shape;
         rt_arg args[] = {RT_ARG(w->shape), RT_ARG(w->z)};
         draw("rectangle", 0, args, 2);
-        double truth = solid_angle(s[0], s[1], (double)s[0] + s[2], (double)s[1] + s[3], w->z);
-        assert_float_equal(samples[0][2], truth, 1e-6);
+        double exact = solid_angle(s[0], s[1], (double)s[0] + s[2], (double)s[1] + s[3], w->z);
+        assert_float_equal(samples[0][2], exact, 1e-6);
         assert_float_equal(samples[0][3] * samples[0][2], 1, 1e-6);
     }
 }

@@ -36,8 +36,8 @@ static float *leave(const reference_shape *shape, const rt_ray *rays, float sign
 }
 
 /*
- * The t from the ray's first hit to the next. Returns whether it is well told: the ray neither
- * grazes nor cuts a corner off.
+ * The t from the ray's first hit to the next. Returns whether it is well conditioned: the ray
+ * neither grazes the shape nor cuts off a corner.
  */
 static int reference_chord(const reference_shape *shape, const rt_ray *ray,
                            const reference_hit *first, double *chord)

@@ -1,7 +1,7 @@
 /*
  * test_traverse.c - the tree against testing every primitive: the same hits to the bit. Both tests
- * run the same intersections, and ties go to the lower primitive, so nothing is left to the order
- * of the walk.
+ * run the same intersections, and ties go to the lower primitive, so the result does not depend on
+ * the order of traversal.
  */
 #include <float.h>
 #include <math.h>

@@ -13,32 +13,32 @@ made=$(mktemp "${TMPDIR:-/tmp}/librt-proof.XXXXXX")
 trap 'rm -f "$made"' EXIT
 
 cat >"$made" <<'END'
-# Is the light right?
+# Validation
 
-Written by `make proof`; the same checks run in `make check`.
+Written by `make proof`. `make check` runs the same checks, without those of the last two sections.
 
-Every scene below is rendered 32 times, each time with another seed. The scatter of the 32 results
+Every scene is rendered 32 times, each time with a different seed. The scatter of the 32 results
 gives the standard error of their mean, to which 10^-6 of the value is added for single precision;
-nothing is assumed of pixels or samples. A check fails where the mean is off by more than 6.9
-standard errors, which happens by chance in less than one of 10^7 checks (Student's t distribution,
-31 degrees of freedom). Where two ways to render are compared, so is every pixel, with a limit for
-all of them together. Seeds are fixed: a test that passes does so again. What was measured may
-differ in its last digits on another machine.
+nothing is assumed about pixels or samples. A check fails where the mean is off by more than 6.9
+standard errors, which happens by chance in fewer than one of 10^7 checks (Student's t distribution,
+31 degrees of freedom). Where two techniques are compared, so is every pixel, with one limit for all
+of them together. Seeds are fixed: a test that passes does so again. What was measured may differ in
+its last digits on another machine.
 
-Each entry names the scene, how it was rendered or what was measured of it, and the closed form or
-the peer beside it. `path` is path tracing, `direct` the mode of that name; `photons` takes all
-light at diffuse surfaces from the photon map, and its closed form is smoothed by the density
-kernel as the map is; `photons and shadow rays` leaves direct light to shadow rays. L is radiance,
-E irradiance, P power, I intensity, a albedo, R reflectance and T transmittance. The relative RMSE
-of a converging mean is told at 1, 4, 16, 64 and 256 samples a pixel.
+Each entry names the scene, how it was rendered or what was measured, and the closed form or the
+technique that it is compared with. `path` is path tracing, `direct` the mode of that name;
+`photons` takes all light at diffuse surfaces from the photon map, and its closed form is smoothed
+by the density kernel as the map is; `photons and shadow rays` leaves direct light to shadow rays. L
+is radiance, E irradiance, P power, I intensity, a albedo, R reflectance and T transmittance. The
+relative RMSE of a converging mean is given at 1, 4, 16, 64 and 256 samples a pixel.
 
-The last two sections are about another program, Mitsuba 3: renders of it that were made once, of
-three box scenes, with 2048 samples a pixel (8192 for the caustic), and renders that `make
-check-peers` makes of these and two more, from scenes written for it separately (see
+The last two sections are about another program, Mitsuba 3: stored renders of three box scenes, with
+2048 samples a pixel (8192 for the caustic), and renders that `make check-peers` makes of these and
+two more, from scenes written for it separately (see
 [../peers/mitsuba_scenes.py](../peers/mitsuba_scenes.py)). There the mean ratio, 1 where both agree,
 is over all pixels, with a standard error from the noise of both pictures. A picture agrees where no
 block of 16x16 pixels has a mean off by more than 1 % (2 % for the caustic) and by more than four
-standard errors in any channel; the worst block is told as a part of what is allowed.
+standard errors in any channel; the worst block is given as a fraction of what is allowed.
 END
 
 # The program adds its section, or is shown where it fails.
@@ -67,7 +67,7 @@ done
 if [ -n "${RT_REFERENCE:-}" ]; then
     add "${B:-build}/tests/render/test_reference"
 else
-    keep 'Against renders that are kept' 'RT_REFERENCE names no directory'
+    keep 'Against stored renders' 'RT_REFERENCE names no directory'
 fi
 if "${PYTHON:-python3}" -c 'import mitsuba' 2>/dev/null; then
     add tests/peers/compare.sh

@@ -117,11 +117,11 @@ static int is_wrong(double off, double checks)
 void proof_check(proof_row row, double expected, const proof_values *values)
 {
     estimate e = estimate_of(values, expected, expected);
-    page_row(proof_text("%s, %s: %s\n  expected %.6g,", row.scene, row.by, row.truth, expected),
+    page_row(proof_text("%s, %s: %s\n  expected %.6g,", row.scene, row.by, row.formula, expected),
              proof_text("ours %.6g: off by %+.2f standard errors of %.1e", e.mean, e.off, e.error));
     if (is_wrong(e.off, 1))
         fail_msg("%s by %s, %s: %.8g, should be %.8g; %+.1f standard errors of %.2g", row.scene,
-                 row.by, row.truth, e.mean, expected, e.off, e.error);
+                 row.by, row.formula, e.mean, expected, e.off, e.error);
 }
 
 void proof_radiance(proof_row row, double expected, const char *text,
@@ -171,16 +171,16 @@ void proof_same(proof_row row, const proof_films *a, const proof_films *peer)
     proof_values x = proof_mean(a, 1), y = proof_mean(peer, 1), d = difference(&x, &y);
     estimate ours = estimate_of(&x, 0, 0), theirs = estimate_of(&y, 0, 0),
              e = estimate_of(&d, 0, ours.mean);
-    page_row(proof_text("%s, %s: %s\n ", row.scene, row.by, row.truth),
+    page_row(proof_text("%s, %s: %s\n ", row.scene, row.by, row.formula),
              proof_text("expected %.6g, ours %.6g: off by %+.2f standard errors of %.1e; "
                         "worst of %d %+.2f",
                         theirs.mean, ours.mean, e.off, e.error, (int)count, worst_off));
     if (is_wrong(e.off, 1))
         fail_msg("%s by %s and by %s: mean %.8g and %.8g, %+.1f standard errors", row.scene, row.by,
-                 row.truth, ours.mean, theirs.mean, e.off);
+                 row.formula, ours.mean, theirs.mean, e.off);
     if (is_wrong(worst_off, (double)count))
         fail_msg("%s by %s and by %s: channel %d of pixel %d, %d differs by %+.1f standard errors",
-                 row.scene, row.by, row.truth, (int)(worst % 3), (int)(worst / 3 % a->width),
+                 row.scene, row.by, row.formula, (int)(worst % 3), (int)(worst / 3 % a->width),
                  (int)(worst / 3 / a->width), worst_off);
 }
 

@@ -4,9 +4,9 @@
  *
  * A scene is rendered `proof_renders` times, each time with another seed. A measure of each render,
  * such as the mean of its film, gives that many independent values, whose spread is the standard
- * error of their mean: nothing is assumed of pixels or samples. The difference to what is expected,
- * in standard errors, has Student's t distribution, and a check fails where chance would bring it
- * in less than one of 10^7 runs: beyond 6.9 standard errors.
+ * error of their mean: nothing is assumed of pixels or samples. The deviation from what is
+ * expected, in standard errors, has Student's t distribution, and a check fails beyond 6.9 standard
+ * errors, which happens by chance in fewer than one of 10^7 runs.
  *
  * Every check is a row of tests/proof/README.md, which `make proof` writes; see page.h.
  */
@@ -42,7 +42,7 @@ typedef struct proof_values {
  * or the peer.
  */
 typedef struct proof_row {
-    const char *scene, *by, *truth;
+    const char *scene, *by, *formula;
 } proof_row;
 
 /* The text of a scene, or of a cell, from a format; lives until eight more were made. */

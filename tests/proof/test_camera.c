@@ -1,5 +1,5 @@
 /*
- * test_camera.c - where things are in the picture: pinholes, lenses, and textures.
+ * test_camera.c - projection, depth of field, and texture coordinates.
  *
  * A camera of horizontal angle fov and W columns sees a point d = x right + y up + z axis from the
  * eye at the column W (1/2 + (x/z) / (2 tan(fov/2))). A lens of radius a, focused at f, spreads a
@@ -158,7 +158,7 @@ static void other_cameras(void **state)
     for (int k = 0; k < 3; k++) {
         proof_values sum = moment(&films, k, 0, 0), x = ratio(moment(&films, k, 1, 0), sum),
                      y = ratio(moment(&films, k, 0, 1), sum);
-        const char *scene = proof_text("camera of all directions, sphere %d", k + 1);
+        const char *scene = proof_text("environment camera, sphere %d", k + 1);
         proof_check((proof_row){scene, "column", "longitude"}, 20 + 40 * turns[k], &x);
         proof_check((proof_row){scene, "row", "latitude"}, 10, &y);
     }

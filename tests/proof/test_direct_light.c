@@ -2,9 +2,9 @@
  * test_direct_light.c - the light of one emitter on a white floor, whose radiance is its irradiance
  * over pi.
  *
- * The camera looks straight down on a square of the floor. The truth is the mean of the closed form
- * over that square; a photon map sees it smoothed by the density kernel, which is taken into the
- * truth, so that nothing is left to bias.
+ * The camera looks straight down on a square of the floor. The expected value is the mean of the
+ * closed form over that square; for a photon map it is smoothed by the density kernel too, so that
+ * no bias is left.
  *
  * References:
  *   Lambert: "Photometria", 1760 (polygons).
@@ -80,20 +80,21 @@ static double smoothed(double x, double z)
     return sum / (rings * spokes);
 }
 
-static void expect_by_paths(const char *scene, const char *truth, irradiance *e, const char *light)
+static void expect_by_paths(const char *scene, const char *formula, irradiance *e,
+                            const char *light)
 {
     const char *text = proof_text(FLOOR "%s", light);
-    proof_radiance((proof_row){scene, "path", truth}, mean_of_square(e) / pi, text, &path);
-    proof_radiance((proof_row){scene, "direct", truth}, mean_of_square(e) / pi, text, &direct);
+    proof_radiance((proof_row){scene, "path", formula}, mean_of_square(e) / pi, text, &path);
+    proof_radiance((proof_row){scene, "direct", formula}, mean_of_square(e) / pi, text, &direct);
 }
 
 /* By path tracing, by direct light alone, and all from the photon map. */
-static void expect_irradiance(const char *scene, const char *truth, irradiance *e,
+static void expect_irradiance(const char *scene, const char *formula, irradiance *e,
                               const char *light)
 {
-    expect_by_paths(scene, truth, e, light);
+    expect_by_paths(scene, formula, e, light);
     sharp = e;
-    proof_radiance((proof_row){scene, "photons", truth}, mean_of_square(smoothed) / pi,
+    proof_radiance((proof_row){scene, "photons", formula}, mean_of_square(smoothed) / pi,
                    proof_text(FLOOR "%s", light), &map);
 }
 

@@ -62,7 +62,7 @@ static void integrating_spheres(void **state)
     expect_sphere("path", &path);
     expect_sphere("photons", &map);
     expect_sphere("photons and shadow rays", &nee);
-    expect_sphere("photons after a bounce", &gathered);
+    expect_sphere("photons, final gather", &gathered);
 }
 
 static void depth_by_depth(void **state)
@@ -102,7 +102,7 @@ static void off_centre(void **state)
 
 /* ---- The white furnace --------------------------------------------------------------- */
 
-static const char *const estimators[] = {"path", "path, lights sampled", "path, materials sampled"};
+static const char *const estimators[] = {"path", "path, light sampling", "path, BSDF sampling"};
 
 static void closed_furnaces(void **state)
 {
@@ -171,7 +171,7 @@ static void metal_furnace(void **state)
 static void balls_in_a_white_furnace(void **state)
 {
     static const struct {
-        const char *name, *truth, *material;
+        const char *name, *formula, *material;
         double expected;
     } balls[] = {
         {"diffuse ball", "a L", "kd 0.7", 0.7},
@@ -189,7 +189,7 @@ static void balls_in_a_white_furnace(void **state)
     for (size_t i = 0; i < sizeof balls / sizeof *balls; i++)
         proof_radiance(
             (proof_row){proof_text("%s under a uniform sky", balls[i].name), "path",
-                        balls[i].truth},
+                        balls[i].formula},
             balls[i].expected,
             proof_text(
                 "camera { eye 0 0 -2  look_at 0 0 0  fov 40 }\nlight environment { radiance 1 }\n"

@@ -55,10 +55,10 @@ static void light_and_material_sampling(void **state)
     (void)state;
     options.seed = 100;
     options.estimator = RT_ESTIMATOR_LIGHT;
-    expect_same("path, lights sampled", &options);
+    expect_same("path, light sampling", &options);
     options.seed = 200;
     options.estimator = RT_ESTIMATOR_BSDF;
-    expect_same("path, materials sampled", &options);
+    expect_same("path, BSDF sampling", &options);
 }
 
 static void roulette_on_and_off(void **state)
@@ -91,9 +91,9 @@ static void photons(void **state)
     direct.direct = RT_DIRECT_PHOTONS;
     expect_same("photons alone", &direct);
     gathered.final_gather = 1;
-    expect_same("photons after a bounce", &gathered);
+    expect_same("photons, final gather", &gathered);
     split.caustic_photons = 40000;
-    expect_same("photons, caustics apart", &split);
+    expect_same("photons, caustic map", &split);
 }
 
 /* Each pass has fresh photons and a smaller radius; the mean of all is what counts. */

@@ -40,13 +40,13 @@ refuses() {
     check "$name" $?
 }
 
-write_page 'Direct light' 'Against renders that are kept' 'Against Mitsuba 3'
-make_page && grep -qx 'rows of Against renders that are kept' "$page" &&
+write_page 'Direct light' 'Against stored renders' 'Against Mitsuba 3'
+make_page && grep -qx 'rows of Against stored renders' "$page" &&
     grep -qx 'rows of Against Mitsuba 3' "$page"
 check sections_that_are_not_measured_are_kept $?
 ! grep -q 'rows of Direct light' "$page"
 check sections_that_are_measured_are_not $?
-refuses missing_renders_are_told 'Against renders that are kept' 'Against Mitsuba 3'
+refuses missing_renders_are_told 'Against stored renders' 'Against Mitsuba 3'
 refuses missing_peer_is_told 'Against Mitsuba 3' \
-    'Against renders that are kept' 'Against Mitsuba 3 or 4'
+    'Against stored renders' 'Against Mitsuba 3 or 4'
 exit $bad

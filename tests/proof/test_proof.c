@@ -1,6 +1,6 @@
 /*
- * test_proof.c - the yardsticks: Student's distribution, and what boundaries reflect, where they
- * are known.
+ * test_proof.c - the references of the other proofs: Student's t distribution, and closed forms of
+ * reflectance.
  */
 #include <math.h>
 

@@ -43,11 +43,11 @@ static void endless_corridor(void **state)
         proof_values right = proof_mean_of(&films, 1, k ? 30 + 4 * k - 2 : 28, 0, last, 2);
         proof_values left =
             proof_mean_of(&films, 1, 60 - last, 0, k ? 60 - (30 + 4 * k - 2) : 32, 2);
-        const char *truth = proof_text("ks^%u L", k);
-        proof_check((proof_row){"mirror corridor, image to the right", "path", truth}, pow(0.9, k),
-                    &right);
+        const char *formula = proof_text("ks^%u L", k);
+        proof_check((proof_row){"mirror corridor, image to the right", "path", formula},
+                    pow(0.9, k), &right);
         if (k > 0)
-            proof_check((proof_row){"mirror corridor, image to the left", "path", truth},
+            proof_check((proof_row){"mirror corridor, image to the left", "path", formula},
                         pow(0.9, k), &left);
     }
     proof_free(&films);

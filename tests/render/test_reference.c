@@ -142,7 +142,7 @@ static void agrees_with_the_reference(void **state)
 static void the_page_says_so(void **state)
 {
     (void)state;
-    page_section("Against renders that are kept");
+    page_section("Against stored renders");
 }
 
 int main(void)

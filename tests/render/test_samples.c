@@ -14,7 +14,7 @@
 
 #include "support.h"
 
-/* Pictures are so much narrower and lower than the scenes say: samples count here, not pixels. */
+/* Factor by which pictures are smaller than in the scenes: samples count here, not pixels. */
 #define SHRINK 4u
 
 static glob_t scenes;

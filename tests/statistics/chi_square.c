@@ -15,7 +15,7 @@
 enum { most_cells = 4096, most_tests = 256, jobs = 32, fresh = 1000 };
 
 static const double family_alpha = 0.01;
-static const double near = 5e-3; /* relative error of a told density that rounding excuses */
+static const double near = 5e-3; /* relative error of a returned density that rounding explains */
 
 static uint32_t samples_a_test, seeds_a_test;
 static double alpha; /* of one test */
@@ -127,9 +127,9 @@ static void expect_told_density(const subject *s)
         const sampled p = r->method->place(r->setup, i);
         if (p.x < -0.5 || isnan(p.pdf))
             continue;
-        const double truth = s->factor * density_at(r, p.x, p.y);
+        const double exact = s->factor * density_at(r, p.x, p.y);
         told++;
-        wrong += !(fabs(p.pdf - truth) <= near * truth);
+        wrong += !(fabs(p.pdf - exact) <= near * exact);
     }
     if (wrong > told / 200)
         fail_msg("%s: the density that the kernels tell is wrong at %u of %u samples", r->name,

@@ -1,17 +1,17 @@
 /*
- * chi_square.h - sampling routines of the kernels against the densities that they should have.
+ * chi_square.h - chi-square tests of the kernels' sampling routines against their densities.
  *
  * A routine's samples are brought to the unit square by coordinates that suit it: r and angle on a
  * disc, height and longitude on a sphere. The density over that square is stated here again, in
  * float64 and by the definition of what is sampled, and integrated over each of a grid of cells;
- * what the samples count there is held against it by Pearson's test. Where kernels tell a density
- * themselves, it must be the same function, measure and all.
+ * what the samples count there is held against it by Pearson's test. Where kernels return a density
+ * themselves, it must be the same function, in the same measure.
  *
  * False alarms. A family of tests is one run: every routine with every seed, T tests. A test raises
- * suspicion when counts as far off have a chance below 0.01 / T (Bonferroni), so that a run of true
- * routines suspects one in 1 run of 100. Then samples of a fresh seed must clear the routine, at
- * the same level, or it fails: together T (0.01 / T)^2 = 1e-4 / T a run. As all seeds are fixed,
- * the verdict on one machine is always the same as well.
+ * suspicion when counts as far off have a chance below 0.01 / T (Bonferroni), so that with correct
+ * routines 1 run of 100 has a suspect. Samples of a new seed must then clear the routine, at the
+ * same level, or it fails: together T (0.01 / T)^2 = 1e-4 / T a run. As all seeds are fixed, the
+ * verdict on one machine is always the same as well.
  */
 #ifndef RT_TESTS_STATISTICS_CHI_SQUARE_H
 #define RT_TESTS_STATISTICS_CHI_SQUARE_H
@@ -21,7 +21,9 @@
 
 #define PI 3.14159265358979323846
 
-/* The most samples of a seed, and the first of them, whose told densities are looked at. */
+/*
+ * The maximum number of samples per seed, and how many of the first have their densities checked.
+ */
 enum { most_samples = 1000000, told_samples = 4096 };
 
 /* A sample on the unit square. */

@@ -1,7 +1,7 @@
 /*
  * emitters.h - area lights of every shape, with a parametrisation of each over the unit square.
  *
- * Shapes with a part for each third of x (side, base and top) have x run along each part.
+ * Shapes with three parts (side, base and top) have a third of x for each.
  */
 #ifndef RT_TESTS_STATISTICS_EMITTERS_H
 #define RT_TESTS_STATISTICS_EMITTERS_H

@@ -1,5 +1,5 @@
 /*
- * facets.h - what boundaries do with light, in double precision and by the papers' definitions.
+ * facets.h - Fresnel equations and microfacets, in double precision and by the papers' definitions.
  *
  * References:
  *   Walter, Marschner, Li, Torrance: "Microfacet Models for Refraction through Rough Surfaces",

@@ -1,4 +1,4 @@
-/* sky.h - a sky, even or of a picture of a few pixels, around a small sphere. */
+/* sky.h - an environment, uniform or an image of a few pixels, around a small sphere. */
 #ifndef RT_TESTS_STATISTICS_SKY_H
 #define RT_TESTS_STATISTICS_SKY_H
 

@@ -1,6 +1,6 @@
 /*
  * test_scattering.c - for every kind of material: evaluation, sampling and density agree, BSDFs
- * are reciprocal, densities are those of chances, and none gives back more light than it gets.
+ * are reciprocal, densities integrate to probabilities, and no material gains energy.
  */
 #include <math.h>
 #include <stdio.h>
@@ -123,13 +123,13 @@ static void sampled_light_is_the_light_that_is_evaluated(void **state)
     for (int m = 0; m < material_count; m++)
         for (int v = 0; v < view_count; v++) {
             const situation at = view_of(v);
-            const integrals truth = integrate(&materials[m].material, &at);
+            const integrals exact = integrate(&materials[m].material, &at);
             draw_scatter(&materials[m].material, &at, carry_radiance, (uint32_t)(10 * m + v), n,
                          draws);
             for (int c = 0; c < 3; c++) {
                 for (int i = 0; i < n; i++)
                     values[i] = spreads(draws + i) ? draws[i].weight[c] * draws[i].eta_scale : 0;
-                expect_mean(values, n, truth.light[c], 2e-4, materials[m].name);
+                expect_mean(values, n, exact.light[c], 2e-4, materials[m].name);
             }
         }
 }

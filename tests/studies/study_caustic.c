@@ -9,13 +9,15 @@
  *
  * The region is the floor within 0.3 m of where the line from the light's centre through the
  * sphere's meets it, as far as whole pixels see it beside the sphere. A picture's squared error is
- * the mean product of its differences from two truths of independent noises, so that these leave no
- * trace but in its standard error. It is told twice:
- *   - by paths and photons: one truth is path traced with REFERENCE samples a pixel (1024), or is
+ * the mean product of its differences from two references with independent noise, which therefore
+ * enters its standard error only. It is measured twice:
+ *   - by paths and photons: one reference is path traced with REFERENCE samples a pixel (1024), or
+ *   is
  *     the picture FILE, of the same size, and the other is of photons, of another seed, in twice as
  *     many passes with half the radius around caustics. It owes nothing to photons being right, but
  *     paths that rarely meet the light make it uncertain;
- *   - by photons and photons: both truths are of that kind, of seeds of their own. Of bias, which
+ *   - by photons and photons: both references are of that kind, with seeds of their own. Of bias,
+ *   which
  *     goes with the squared radius, they have a quarter, and the product 9/16 of the square.
  */
 #include <math.h>
@@ -197,13 +199,14 @@ int main(int argc, char **argv)
         errors[i][1] = error_of(rgb, by_photons[0], by_photons[1]);
     }
     double mean = region_mean(by_photons[0]);
-    printf("%-28s %8s %22s %22s %9s\n", "caustic under glass", "seconds", "RMSE, path truth",
-           "RMSE, photon truth", "mean");
+    printf("%-28s %8s %22s %22s %9s\n", "caustic under glass", "seconds", "RMSE, path reference",
+           "RMSE, photon reference", "mean");
     snprintf(what, sizeof what, "path, %u samples a pixel", equal);
     print_row(what, path, path_seconds, errors[0], mean);
     snprintf(what, sizeof what, "photon, %u passes", passes);
     print_row(what, photon, photon_seconds, errors[1], mean);
-    printf("photons have 1/%.1f of the error by the one truth, 1/%.1f by the other; the path truth "
+    printf("photons have 1/%.1f of the error by the one reference, 1/%.1f by the other; the path "
+           "reference "
            "has a mean of %.5f\n\n",
            errors[0][0].rmse / errors[1][0].rmse, errors[0][1].rmse / errors[1][1].rmse,
            region_mean(by_paths) / mean);

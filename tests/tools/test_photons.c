@@ -1,5 +1,5 @@
 /*
- * test_photons.c - `rtc photons` and --photon-map: maps made, joined, looked at, exported and
+ * test_photons.c - `rtc photons` and --photon-map: maps emitted, merged, inspected, exported and
  * rendered with.
  */
 #include <fcntl.h>

@@ -41,14 +41,14 @@ static void release(written *tree)
     free(tree->analytic);
 }
 
-/* What a walk over the whole tree finds. */
-typedef struct walk {
+/* What a traversal of the whole tree finds. */
+typedef struct traversal {
     const written *tree;
     const rt_bvh_input *input;
     uint32_t *seen;          /* [prims], how often each triangle or quad was met */
     uint32_t *seen_analytic; /* [shapes] */
     uint32_t nodes, blocks, analytic;
-} walk;
+} traversal;
 
 static void expect_inside(const float p[3], const float lo[3], const float hi[3])
 {
@@ -58,7 +58,7 @@ static void expect_inside(const float p[3], const float lo[3], const float hi[3]
     }
 }
 
-static void walk_block(walk *w, uint32_t index, const float lo[3], const float hi[3])
+static void visit_block(traversal *w, uint32_t index, const float lo[3], const float hi[3])
 {
     assert_true(index < w->tree->counts.blocks);
     const rt_tri_block *block = &w->tree->blocks[index];
@@ -81,7 +81,7 @@ static void walk_block(walk *w, uint32_t index, const float lo[3], const float h
     }
 }
 
-static void walk_analytic(walk *w, uint32_t index, const float lo[3], const float hi[3])
+static void visit_analytic(traversal *w, uint32_t index, const float lo[3], const float hi[3])
 {
     assert_true(index < w->tree->counts.analytic);
     const uint32_t shape = w->tree->analytic[index];
@@ -95,7 +95,7 @@ static void walk_analytic(walk *w, uint32_t index, const float lo[3], const floa
 }
 
 /* Returns the entries that the node's visit adds to a traversal's stack at most. */
-static uint32_t walk_node(walk *w, uint32_t index, const float *lo, const float *hi)
+static uint32_t visit_node(traversal *w, uint32_t index, const float *lo, const float *hi)
 {
     assert_true(index < w->tree->counts.nodes);
     const rt_bvh_node *node = &w->tree->nodes[index];
@@ -119,11 +119,11 @@ static uint32_t walk_node(walk *w, uint32_t index, const float *lo, const float 
             expect_inside(child_hi, lo, hi);
         }
         if (child & RT_CHILD_LEAF && child & RT_CHILD_ANALYTIC) {
-            walk_analytic(w, child & RT_CHILD_INDEX, child_lo, child_hi);
+            visit_analytic(w, child & RT_CHILD_INDEX, child_lo, child_hi);
         } else if (child & RT_CHILD_LEAF) {
-            walk_block(w, child & RT_CHILD_INDEX, child_lo, child_hi);
+            visit_block(w, child & RT_CHILD_INDEX, child_lo, child_hi);
         } else {
-            const uint32_t below = walk_node(w, child, child_lo, child_hi);
+            const uint32_t below = visit_node(w, child, child_lo, child_hi);
             deepest = below > deepest ? below : deepest;
         }
     }
@@ -134,14 +134,14 @@ static uint32_t walk_node(walk *w, uint32_t index, const float *lo, const float 
 static void expect_sound(const rt_bvh_input *input, uint32_t prims)
 {
     written tree = build(input, 1);
-    walk w = {&tree,
-              input,
-              calloc(prims + 1, sizeof(uint32_t)),
-              calloc(input->analytic_count + 1, sizeof(uint32_t)),
-              0,
-              0,
-              0};
-    const uint32_t stack = walk_node(&w, 0, NULL, NULL);
+    traversal w = {&tree,
+                   input,
+                   calloc(prims + 1, sizeof(uint32_t)),
+                   calloc(input->analytic_count + 1, sizeof(uint32_t)),
+                   0,
+                   0,
+                   0};
+    const uint32_t stack = visit_node(&w, 0, NULL, NULL);
     assert_true(stack <= RT_BVH_STACK);
     assert_int_equal(w.nodes, tree.counts.nodes);
     assert_int_equal(w.blocks, tree.counts.blocks);

@@ -1,10 +1,10 @@
 /*
- * test_noise.c - what a render says of its own error is true: of each pixel, of the whole picture,
- * and where it stops.
+ * test_noise.c - the error that a render estimates is right: for each pixel, for the whole picture,
+ * and with target_error.
  *
- * Over 100 renders the share of pixels whose interval holds the truth has a standard error below
- * 0.3 %. Of the pictures 95 of 100 or more are within their bound: how many are not has a binomial
- * distribution.
+ * Over 100 renders the share of pixels whose interval contains the exact value has a standard error
+ * below 0.3 %. Of the pictures 95 of 100 or more are within their bound: how many are not has a
+ * binomial distribution.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -91,7 +91,7 @@ static const float *variance_of(const rt_film *film)
     return variance;
 }
 
-/* What a series of renders with fixed seeds comes to. */
+/* The results of a series of renders with fixed seeds. */
 typedef struct tally {
     double inside, pictures;            /* of pixels and pictures */
     double estimated_mse, measured_mse; /* sums */
@@ -99,10 +99,10 @@ typedef struct tally {
 } tally;
 
 /*
- * Compares a film with the truth, which is known up to truth_variance: `factor` widens the film's
+ * Compares a film with the exact picture, known up to exact_variance: `factor` widens the film's
  * own variance. limit is what the picture's relative error should be below.
  */
-static void count(tally *t, const rt_film *film, const float *truth, const float *truth_variance,
+static void count(tally *t, const rt_film *film, const float *exact, const float *exact_variance,
                   double factor, double limit)
 {
     const float *rgb = rt_film_rgb(film), *variance = variance_of(film);
@@ -112,12 +112,12 @@ static void count(tally *t, const rt_film *film, const float *truth, const float
     assert_int_equal(stats.replicates, 8);
     assert_float_equal(stats.interval_factor, 2.3646, 0.002);
     for (int i = 0; i < values; i++) {
-        double off = rgb[i] - truth[i], unknown = truth_variance ? truth_variance[i] : 0;
+        double off = rgb[i] - exact[i], unknown = exact_variance ? exact_variance[i] : 0;
         /* A pixel without noise differs by rounding alone. */
         t->inside += fabs(off) <=
-                     stats.interval_factor * sqrt(factor * variance[i] + unknown) + 1e-6 * truth[i];
+                     stats.interval_factor * sqrt(factor * variance[i] + unknown) + 1e-6 * exact[i];
         mse += off * off / factor - unknown;
-        mean += truth[i];
+        mean += exact[i];
     }
     t->pictures += sqrt(fmax(mse / values, 0)) <= limit * mean / values;
     t->estimated_mse += pow(stats.relative_error * mean / values, 2);
@@ -169,20 +169,20 @@ static const rt_film *reference(rt_filter filter)
 static void calibrate(const char *what, rt_sampler sampler, rt_filter filter)
 {
     rt_render_options options = path_options(sampler, filter);
-    const rt_film *truth = reference(filter);
+    const rt_film *exact = reference(filter);
     tally t = {0};
     for (int i = 0; i < renders; i++) {
         rt_film_stats stats;
         options.seed = test_seed((uint32_t)i);
         rt_film *film = render(&options);
         rt_film_get_stats(film, &stats);
-        count(&t, film, rt_film_rgb(truth), variance_of(truth), 1, stats.relative_error_bound);
+        count(&t, film, rt_film_rgb(exact), variance_of(exact), 1, stats.relative_error_bound);
         rt_film_destroy(film);
     }
     expect_calibrated(what, &t, renders);
 }
 
-static void intervals_hold_the_truth_95_times_of_100(void **state)
+static void intervals_contain_the_exact_value_95_times_of_100(void **state)
 {
     (void)state;
     calibrate("Sobol", RT_SAMPLER_SOBOL, RT_FILTER_BOX);
@@ -200,7 +200,7 @@ static void a_target_is_reached_when_it_says_so(void **state)
 {
     const double target = 0.039; /* at which some end with 64 samples and some with 96 */
     rt_render_options options = path_options(RT_SAMPLER_SOBOL, RT_FILTER_BOX);
-    const rt_film *truth = reference(RT_FILTER_BOX);
+    const rt_film *exact = reference(RT_FILTER_BOX);
     tally t = {0};
     (void)state;
     options.spp = 0;
@@ -212,7 +212,7 @@ static void a_target_is_reached_when_it_says_so(void **state)
         rt_film *film = render(&options);
         rt_film_get_stats(film, &stats);
         assert_true(stats.relative_error_bound <= target);
-        count(&t, film, rt_film_rgb(truth), variance_of(truth), 1, target);
+        count(&t, film, rt_film_rgb(exact), variance_of(exact), 1, target);
         rt_film_destroy(film);
     }
     print_message("%.0f of %d below the target, %.0f samples\n", t.pictures, renders,
@@ -363,7 +363,7 @@ static void a_bound_takes_all_sequences(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        statistical_test(intervals_hold_the_truth_95_times_of_100),
+        statistical_test(intervals_contain_the_exact_value_95_times_of_100),
         statistical_test(they_do_so_with_other_filters),
         statistical_test(a_target_is_reached_when_it_says_so),
         cmocka_unit_test(samples_and_time_are_limits),

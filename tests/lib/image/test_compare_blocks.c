@@ -34,8 +34,8 @@ static float *picture(double scale, double deviation, uint64_t seed)
     seed = test_seed((uint32_t)seed);
     for (uint32_t i = 0; i < VALUES; i++) {
         uint32_t x = i / 3 % SIDE, y = i / 3 / SIDE;
-        double truth = (0.2 + 0.01 * y + (x > 37 ? 1.0 : 0.0)) * (1 + i % 3);
-        rgb[i] = (float)(scale * truth * (1.0 + deviation * noise(&seed)));
+        double exact = (0.2 + 0.01 * y + (x > 37 ? 1.0 : 0.0)) * (1 + i % 3);
+        rgb[i] = (float)(scale * exact * (1.0 + deviation * noise(&seed)));
     }
     return rgb;
 }
@@ -54,7 +54,7 @@ typedef struct result {
 static result compare_renders(const float *const *renders, size_t count, const float *reference,
                               double tolerance)
 {
-    rt_image *images[RENDERS_MAX] = {0}, *truth = NULL;
+    rt_image *images[RENDERS_MAX] = {0}, *exact = NULL;
     rt_comparison *comparison = NULL;
     rt_compare_options options = {.tolerance = tolerance};
     rt_error error;
@@ -62,8 +62,8 @@ static result compare_renders(const float *const *renders, size_t count, const f
     size_t blocks;
     for (size_t i = 0; i < count; i++)
         expect_ok(rt_image_from_rgb(&images[i], renders[i], SIDE, SIDE, &error), &error);
-    expect_ok(rt_image_from_rgb(&truth, reference, SIDE, SIDE, &error), &error);
-    expect_ok(rt_image_compare(&comparison, (const rt_image *const *)images, count, truth, &options,
+    expect_ok(rt_image_from_rgb(&exact, reference, SIDE, SIDE, &error), &error);
+    expect_ok(rt_image_compare(&comparison, (const rt_image *const *)images, count, exact, &options,
                                &error),
               &error);
     rt_comparison_get_info(comparison, &r.info);
@@ -75,7 +75,7 @@ static result compare_renders(const float *const *renders, size_t count, const f
     r.error = block->error[r.info.worst_channel];
     r.excess = block->excess[r.info.worst_channel];
     rt_comparison_destroy(comparison);
-    rt_image_destroy(truth);
+    rt_image_destroy(exact);
     for (size_t i = 0; i < count; i++)
         rt_image_destroy(images[i]);
     return r;

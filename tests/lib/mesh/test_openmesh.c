@@ -1,6 +1,6 @@
 /*
- * Reading through OpenMesh: no face is lost, nothing leaves as an exception, one file does not
- * colour the next.
+ * Reading through OpenMesh: no face is lost, no exception escapes, and no state is left over from
+ * one file to the next.
  */
 #include <pthread.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /*
- * test_photon_bias.c - the layer photon.bias tells how far gathered light is from the truth, by
- * every way of gathering, where the truth is known.
+ * test_photon_bias.c - the layer photon.bias estimates the bias of gathered light, for every way of
+ * gathering, where the exact value is known.
  */
 #include "support.h"
 
@@ -90,7 +90,7 @@ static const struct {
 static void every_render_tells_how_much_a_peak_is_lowered(void **state)
 {
     const double a = 0.05, h = 0.25,
-                 truth = 0.5 / pi * 4 * asin(a * a / (a * a + h * h)) / (4 * a * a);
+                 exact = 0.5 / pi * 4 * asin(a * a / (a * a + h * h)) / (4 * a * a);
     (void)state;
     for (size_t i = 0; i < sizeof peaks / sizeof *peaks; i++) {
         rt_render_options options = peaks[i].options;
@@ -104,10 +104,10 @@ static void every_render_tells_how_much_a_peak_is_lowered(void **state)
                              : RT_DIRECT_PHOTONS;
         rt_film *film = render(renderer, &options);
         means_of(film, 0, side, &picture, &bias);
-        print_message("%s: bias %.4f of the truth, %.4f in the layer\n", peaks[i].name,
-                      picture / truth - 1, bias / truth);
-        assert_true(picture < 0.96 * truth);
-        assert_true(fabs(bias / (picture - truth) - 1) < peaks[i].tolerance);
+        print_message("%s: bias %.4f of the exact value, %.4f in the layer\n", peaks[i].name,
+                      picture / exact - 1, bias / exact);
+        assert_true(picture < 0.96 * exact);
+        assert_true(fabs(bias / (picture - exact) - 1) < peaks[i].tolerance);
         rt_film_destroy(film);
         rt_renderer_destroy(renderer);
     }
@@ -194,7 +194,7 @@ static void uniform_irradiance_has_no_bias(void **state)
     rt_renderer_destroy(renderer);
 }
 
-/* With k 2 there are no fewer photons to ask for, with the hull below 9; the layer is then 0. */
+/* With k 2, or below 9 with the hull, there is no smaller k to gather with; the layer is then 0. */
 static void without_fewer_photons_the_layer_is_black(void **state)
 {
     static const rt_render_options ways[] = {{.k = 2}, {.k = 8, .area = RT_AREA_HULL}};

@@ -5,7 +5,7 @@
  * absorbs nothing: whatever is seen from outside has radiance 1, whatever is seen in a medium of
  * index n has radiance n^2, and the irradiance of a ball in that medium is pi n^2 (Veach 1997,
  * section 5.2). Photons carry flux, which is not scaled, eye paths radiance, which is: with the
- * factor (eta_i/eta_t)^2 left out or in both, the three cannot all come out. From no ball a ray
+ * factor (eta_i/eta_t)^2 in neither or in both, not all three can be right. From no ball a ray
  * meets the boundaries beyond the critical angle, so that paths are short.
  */
 #include "kernels/statistics.h"
@@ -91,16 +91,16 @@ static rt_render_options options_of(rt_mode mode)
 
 static void expect_seen(const view *v, const char *by, double mean, double close)
 {
-    double truth = v->seen * v->seen;
-    print_message("%s by %s: %.4f of the truth\n", v->name, by, mean / truth);
-    expect_close(mean, truth, close * truth, v->name);
+    double exact = v->seen * v->seen;
+    print_message("%s by %s: %.4f of the exact value\n", v->name, by, mean / exact);
+    expect_close(mean, exact, close * exact, v->name);
 }
 
 /*
- * Clear and even, each path alone brings the truth, but for the few that are cut off. Photons are
- * held to five standard deviations, which over 14 seeds were 3.5 % at most. A disc of k photons on
- * a ball is a cap, whose area is that of a flat disc of the same chord: a large k blurs nothing
- * here.
+ * The glass is clear and the sky uniform, so every single path has the exact radiance, but for the
+ * few that are cut off. Photons are held to five standard deviations, which over 14 seeds were 3.5
+ * % at most. A disc of k photons on a ball is a cap, whose area is that of a flat disc of the same
+ * chord: a large k blurs nothing here.
  */
 static void radiance_is_the_index_squared(void **state)
 {
@@ -114,7 +114,7 @@ static void radiance_is_the_index_squared(void **state)
         expect_seen(views + i, "photons", mean_of(renderer, &options), 0.2);
         options.direct = RT_DIRECT_PHOTONS;
         options.final_gather = 1;
-        expect_seen(views + i, "photons after a bounce", mean_of(renderer, &options), 0.2);
+        expect_seen(views + i, "photons, final gather", mean_of(renderer, &options), 0.2);
         rt_renderer_destroy(renderer);
     }
 }
@@ -132,14 +132,14 @@ static void flux_in_glass_is_that_of_the_index_squared(void **state)
         rt_photon_map *map = NULL;
         rt_error error;
         double flux = 0, r = views[i].ball,
-               truth = pi * views[i].index * views[i].index * 4 * pi * r * r;
+               exact = pi * views[i].index * views[i].index * 4 * pi * r * r;
         rt_renderer *renderer = open_view(views + i);
         expect_ok(rt_photon_map_emit(&map, renderer, &options, &error), &error);
         const rt_photon *photons = rt_photon_map_photons(map, RT_PHOTONS_GLOBAL);
         for (size_t k = 0; k < rt_photon_map_count(map, RT_PHOTONS_GLOBAL); k++)
             flux += photons[k].flux[0] / (double)render.photons;
-        print_message("%s: flux %.4f of the truth\n", views[i].name, flux / truth);
-        expect_close(flux, truth, 0.012 * truth, views[i].name);
+        print_message("%s: flux %.4f of the exact value\n", views[i].name, flux / exact);
+        expect_close(flux, exact, 0.012 * exact, views[i].name);
         rt_photon_map_destroy(map);
         rt_renderer_destroy(renderer);
     }

@@ -1,6 +1,6 @@
 /*
- * test_photon_hull.c - the hull estimate through the whole pipeline, and what it is told of the
- * photons it gets.
+ * test_photon_hull.c - the hull estimate through the whole pipeline, and its warning about Sobol
+ * photons.
  *
  * A point light of intensity I stands the height h above a plane. Over a square of half the side a
  * below it, the mean irradiance is I times the square's solid angle, 4 asin(a^2 / (a^2 + h^2)),
@@ -29,7 +29,7 @@ static double mean_of(const rt_film *film)
     return sum;
 }
 
-static double truth(void)
+static double exact(void)
 {
     const double pi = 3.14159265358979323846, a = 0.5, h = 1;
     return 0.5 / pi * 4 * asin(a * a / (a * a + h * h)) / (4 * a * a);
@@ -53,13 +53,13 @@ static void the_mean_of_the_hull_is_right_with_the_default_sampler(void **state)
         rt_error error;
         options.seed = 5 + i;
         expect_ok(rt_render(&film, renderer, &options, &error), &error);
-        double ratio = mean_of(film) / truth();
+        double ratio = mean_of(film) / exact();
         sum += ratio;
         squares += ratio * ratio;
         rt_film_destroy(film);
     }
     double mean = sum / renders, sigma = sqrt((squares / renders - mean * mean) / (renders - 1));
-    print_message("%.4f of the truth, standard error %.4f\n", mean, sigma);
+    print_message("%.4f of the exact value, standard error %.4f\n", mean, sigma);
     assert_true(sigma < 0.01);
     assert_true(fabs(mean - 1) < 8 * sigma); /* Student's t with 7 degrees of freedom: below 1e-4 */
     rt_renderer_destroy(renderer);

@@ -1,6 +1,6 @@
 /*
- * test_photon_mode.c - photon mapping makes the picture that path tracing makes, by each of its
- * ways.
+ * test_photon_mode.c - photon mapping renders the same picture as path tracing, with every choice
+ * of its options.
  */
 #include "kernels/statistics.h"
 #include "support.h"
@@ -363,11 +363,11 @@ static void the_variance_layer_is_that_of_other_seeds(void **state)
     }
     double radiance = albedo / pi * irradiance,
            expected = (double)options.photons * pow(radius / floor_radius, 2);
-    double truth = radiance * radiance / (expected * passes);
-    print_message("variance %g; of the layer %.4f, of other seeds %.4f of it\n", truth,
-                  foretold / truth, seen / truth);
-    expect_close(foretold, truth, 0.025 * truth, "variance of the layer");
-    expect_close(seen, truth, 0.16 * truth, "variance of other seeds");
+    double exact = radiance * radiance / (expected * passes);
+    print_message("variance %g; of the layer %.4f, of other seeds %.4f of it\n", exact,
+                  foretold / exact, seen / exact);
+    expect_close(foretold, exact, 0.025 * exact, "variance of the layer");
+    expect_close(seen, exact, 0.16 * exact, "variance of other seeds");
     rt_film_destroy(a);
     rt_film_destroy(b);
     rt_renderer_destroy(renderer);

@@ -1,7 +1,4 @@
-/*
- * test_pack.c - the tables that a scene becomes: instances share, references point where they
- * should.
- */
+/* test_pack.c - the tables of a packed scene: instances share data, and indices are right. */
 #include "support.h"
 
 #include <math.h>

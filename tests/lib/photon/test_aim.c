@@ -1,6 +1,5 @@
 /*
- * test_aim.c - paths aimed at specular shapes lay down the caustics that paths of all directions
- * do.
+ * test_aim.c - paths aimed at specular shapes make the same caustics as paths in all directions.
  *
  * Caustic photons kept apart come from aimed paths. Without that, they are among those of all
  * paths, flagged. The two are independent estimates of the same flux in each cell of a grid over

@@ -1,4 +1,6 @@
-/* test_fingerprint.c - scenes are told apart by what photons see of them, and by nothing else. */
+/*
+ * test_fingerprint.c - fingerprints differ exactly where scenes differ in what photons depend on.
+ */
 #include "support.h"
 
 #include "lib/image/scratch.h"

@@ -1,6 +1,6 @@
 /*
- * test_ledger.c - the energy ledger closes, says what happened, and does not depend on how paths
- * are shared out.
+ * test_ledger.c - the energy ledger balances, has the right columns, and does not depend on how
+ * paths are distributed.
  *
  * In a closed room of one albedo all columns are known: escaped is 0, the flux left after n bounces
  * is albedo^n of the power, the rest is absorbed. Random sums are held to standard errors.

@@ -1,6 +1,6 @@
 /*
- * test_point_order.c - the order names every photon once and keeps neighbours together, however far
- * some photons lie.
+ * test_point_order.c - the order has every photon once and keeps neighbours together, however far
+ * away some photons are.
  */
 #include "support.h"
 

@@ -1,5 +1,5 @@
 /*
- * test_stored_flux.c - the photons of a wall carry the flux that path tracing says reaches it.
+ * test_stored_flux.c - the photons on a wall carry the flux that path tracing finds there.
  *
  * From a camera that sees all of a diffuse wall and nothing else, the flux is pi / kd times the
  * mean radiance times the area. The two share geometry and materials, but neither emission nor the

@@ -7,7 +7,7 @@
  * far apart in one map. The mean over a field's gather points is one independent estimate, and the
  * standard error comes from the scatter of the fields. Where the radius is that of the k-th of n
  * photons, the share of the area inside has the distribution Beta(k, n - k + 1), so that (k - 1) /
- * share has the mean n: the truth is known exactly.
+ * share has the mean n, and the exact value is known.
  */
 #include "support.h"
 
@@ -159,11 +159,11 @@ static void estimate(const prepared *p, int at_edge, double *mean, double *error
 }
 
 /*
- * Every kernel's mean is `truth`; a box that counts the k-th photon as well would be caught. The
+ * Every kernel's mean is `exact`; a box kernel that counted the k-th photon as well would fail. The
  * kernels are evaluated by the same function in both searches: two of them do for FLANN.
  */
 static void check(const field_map *map, int points, uint32_t k, float max_radius, int on_device,
-                  double truth)
+                  double exact)
 {
     const rt_gather_options options = {k, max_radius, 0, cone_k, RT_AREA_DISC, on_device};
     prepared p;
@@ -174,13 +174,13 @@ static void check(const field_map *map, int points, uint32_t k, float max_radius
         estimate(&p, 0, &mean, &sigma);
         print_message("%s, k %u, radius %g, %s: %.3f of %.0f, %+.2f standard errors of %.4f %%\n",
                       on_device ? "device" : "FLANN", (unsigned)k, max_radius,
-                      kernel_names[density], mean, truth, (mean - truth) / sigma,
-                      100 * sigma / truth);
-        chance_compare(chance_of_student((mean - truth) / sigma, fields - 1),
+                      kernel_names[density], mean, exact, (mean - exact) / sigma,
+                      100 * sigma / exact);
+        chance_compare(chance_of_student((mean - exact) / sigma, fields - 1),
                        "%s, k %u: %g, should be %g, +- %g", kernel_names[density], (unsigned)k,
-                       mean, truth, sigma);
-        if (k > 0 && max_radius == 0 && density == RT_DENSITY_BOX && truth > 1000)
-            assert_true(truth / (k - 1) > 6 * sigma);
+                       mean, exact, sigma);
+        if (k > 0 && max_radius == 0 && density == RT_DENSITY_BOX && exact > 1000)
+            assert_true(exact / (k - 1) > 6 * sigma);
     }
     release(&p);
 }
@@ -244,7 +244,7 @@ static double share(const field_map *map, rt_area area, uint32_t k, int at_edge,
     prepare(&p, map, &options, points_of_small_discs);
     estimate(&p, at_edge, &mean, &sigma);
     release(&p);
-    print_message("%s: %.4f of the truth, sigma %.4f\n", what, mean / n, sigma / n);
+    print_message("%s: %.4f of the exact value, sigma %.4f\n", what, mean / n, sigma / n);
     return mean / n;
 }
 
@@ -272,7 +272,7 @@ static void photons_that_face_elsewhere_leave_the_density_true(void **state)
     enum { n = 4000, k = 10, facing = 25, points = 400 * fields };
     field_map map;
     (void)state;
-    /* With few that fit, nearly all searches end at the most photons looked at. */
+    /* With few accepted photons, nearly all searches end at max_candidates. */
     lay_down(&map, n, facing, margin_of_large_discs);
     for (int on_device = 0; on_device < 2; on_device++)
         check(&map, points, k, 0, on_device, n / facing);

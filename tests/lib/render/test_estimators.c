@@ -1,6 +1,6 @@
 /*
- * test_estimators.c - light sampling, material sampling and their combination bring the same mean
- * for every kind of light, and the combination less noise.
+ * test_estimators.c - light sampling, BSDF sampling and MIS have the same mean for every kind of
+ * light, and MIS the least noise.
  */
 #include "support.h"
 

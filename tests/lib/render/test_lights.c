@@ -62,13 +62,14 @@ static double irradiance(rt_scene *scene, rt_mode mode)
 }
 
 /*
- * Path tracing to `close` of the truth; the map, of which the film sees some 10^4 photons, to 3 %.
+ * Path tracing to `close` of the exact value; the map, of which the film sees about 10^4 photons,
+ * to 3 %.
  */
-static void expect_irradiance(rt_scene *(*make)(void), double truth, double close)
+static void expect_irradiance(rt_scene *(*make)(void), double exact, double close)
 {
-    expect_close(irradiance(make(), RT_MODE_PATH), truth, close * truth, "irradiance");
-    expect_close(irradiance(make(), RT_MODE_DIRECT), truth, close * truth, "irradiance");
-    expect_close(irradiance(make(), RT_MODE_PHOTON), truth, 0.03 * truth, "irradiance");
+    expect_close(irradiance(make(), RT_MODE_PATH), exact, close * exact, "irradiance");
+    expect_close(irradiance(make(), RT_MODE_DIRECT), exact, close * exact, "irradiance");
+    expect_close(irradiance(make(), RT_MODE_PHOTON), exact, 0.03 * exact, "irradiance");
 }
 
 /* Seen 0.4 m wide, so that the light is nearly even there. */

@@ -72,8 +72,8 @@ static void expect_floor(rt_render_options options, double tolerance, const char
     for (int back = 0; back < 2; back++) {
         render(back ? FLOOR("-3") : FLOOR("3"), options);
         for (int c = 0; c < 3; c++) {
-            const double truth = floor_radiance(kd[c], back ? -3 : 3);
-            expect_close(mean(c), truth, tolerance * truth, what);
+            const double exact = floor_radiance(kd[c], back ? -3 : 3);
+            expect_close(mean(c), exact, tolerance * exact, what);
         }
     }
 }

@@ -1,7 +1,4 @@
-/*
- * test_vertices.c - what meshes keep at their vertices, as the modes that show the first hit have
- * it.
- */
+/* test_vertices.c - normals and colours of mesh vertices, seen by the modes normals and albedo. */
 #include "support.h"
 
 #include <math.h>

@@ -1,6 +1,4 @@
-/*
- * test_findings.c - points inside solids, shapes in view, and what rt_scene_check says of scenes.
- */
+/* test_findings.c - points inside solids, shapes in view, and the findings of rt_scene_check. */
 #include "support.h"
 
 #include <math.h>
