@@ -35,7 +35,7 @@ static const char *const usages[COMMAND_COUNT] = {
                      "  torus    around the y axis, radii 0.7 and 0.3\n"
                      "  knot     a tube along the trefoil\n"
                      "  terrain  hills over a square, y up\n"
-                     "Each is centred in the origin and fits in the cube from -1 to 1.\n",
+                     "Each is centred at the origin and fits in the cube from -1 to 1.\n",
     [COMMAND_DEVICES] =
         "usage: rtc devices\n"
         "\n"

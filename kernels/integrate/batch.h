@@ -71,7 +71,7 @@ static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
 }
 
 /* The lane that lane i reads from: itself where it holds something, else the first that does. */
-static inline uint held_lane(uint held, uint i)
+static inline uint lane_or_first(uint held, uint i)
 {
     return held >> i & 1u ? i : lane_first(held);
 }
@@ -110,7 +110,7 @@ static inline struct surface_x8 diffuse_surfaces(struct diffuse_batch *batch,
     const uint flat = batch->taken & ~batch->curved;
     if (flat) {
         for (uint i = 0u; i < 8u; i++)
-            batch->corner[i] = batch->corner[held_lane(flat, i)];
+            batch->corner[i] = batch->corner[lane_or_first(flat, i)];
         surface = flat_surfaces(batch, hits);
     }
     if (batch->curved)
@@ -211,7 +211,7 @@ static inline struct light_sample_x8 sample_lights(struct chosen_lights *lights,
     struct light_sample_x8 sample;
     if (lights->flat) {
         for (uint i = 0u; i < 8u; i++)
-            lights->light[i] = lights->light[held_lane(lights->flat, i)];
+            lights->light[i] = lights->light[lane_or_first(lights->flat, i)];
         sample = sample_flat_lights(lights->light, from, numbers);
     }
     if (lights->single)

@@ -3,11 +3,11 @@
  *
  * A disc that reaches over the edge of a surface covers area where no photon can lie, and half of
  * the light or more is lost there (boundary bias). The hull of the photons stays on the surface.
- * For n uniform points in a convex region of area a, the expected area of the hull is (1 - E[v]/(n
- * + 1)) a, where v is the number of corners of the hull of n + 1 points (Efron, "The convex hull of
- * a random set of points", Biometrika 52, 1965), so (n - v) points over the hull's area estimate
- * the density almost without bias. The corners define the hull and are excluded, as the k-th photon
- * is from a disc.
+ * For n uniform points in a convex region of area a, the expected area of the hull is a (1 -
+ * E[v]/(n + 1)), with v the corners of the hull of n + 1 points (Efron, "The convex hull of a
+ * random set of points", Biometrika 52, 1965). So (n - v) points over the hull's area estimate the
+ * density almost without bias. The corners define the hull and are excluded, as the k-th photon is
+ * from a disc.
  */
 #ifndef RT_KERNELS_PHOTON_HULL_H
 #define RT_KERNELS_PHOTON_HULL_H
@@ -33,7 +33,7 @@ static inline float cross2(float2 a, float2 b)
  * Whether `candidate` rather than `best` is the next corner after `at`: farther to the right or, on
  * the same line, farther away.
  */
-static inline bool wraps_more(float2 at, float2 candidate, float2 best)
+static inline bool is_next_corner(float2 at, float2 candidate, float2 best)
 {
     const float2 to_candidate = candidate - at, to_best = best - at;
     const float turn = cross2(to_best, to_candidate);
@@ -66,8 +66,8 @@ static inline float3 hull_sum(float3 origin, const struct bsdf *bsdf,
         const float2 at = in_plane(photons + list[corner], origin, &frame);
         uint next = corner == 0u ? 1u : 0u;
         for (uint i = 0u; i < count; i++)
-            if (i != corner && wraps_more(at, in_plane(photons + list[i], origin, &frame),
-                                          in_plane(photons + list[next], origin, &frame)))
+            if (i != corner && is_next_corner(at, in_plane(photons + list[i], origin, &frame),
+                                              in_plane(photons + list[next], origin, &frame)))
                 next = i;
         inside -= photons[list[corner]].shading * photon_term(bsdf, photons + list[corner]);
         twice_area += cross2(at, in_plane(photons + list[next], origin, &frame));

@@ -1,8 +1,8 @@
 /*
  * device.h - one OpenCL device: its context, queue, programs, buffers and launches.
  *
- * OpenCL is called from here and from the files that set kernel arguments; what a call
- * returns goes through rt_cl_check, so that every failure names the call and the error.
+ * OpenCL is called from here and from the files that set kernel arguments; failures are reported by
+ * rt_cl_check, which names the call and the error.
  */
 #ifndef RT_LIB_DEVICE_DEVICE_H
 #define RT_LIB_DEVICE_DEVICE_H

@@ -1,4 +1,4 @@
-/* noise.c - sums of a film by replicate, and the error estimated from their spread. */
+/* noise.c - sums of a film by replicate, and the error estimated from them. */
 #include "film/noise.h"
 
 #include <math.h>
@@ -115,7 +115,7 @@ static noise_value value_of(const rt_noise *noise, size_t pixel, int channel)
     return value;
 }
 
-/* The relative error, and its bound. The parts of the replicates are q of the header by R^2. */
+/* The relative error, and its bound. parts[r] is q_r of noise.h. */
 static double relative_error(const rt_noise *noise, double *bound)
 {
     double parts[RT_REPLICATES] = {0}, radiance = 0, variance = 0, spread = 0,

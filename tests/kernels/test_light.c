@@ -239,7 +239,7 @@ static void area_lights_emit_by_the_cosine_and_points_evenly(void **state)
     rt_renderer_destroy(renderer);
 }
 
-static void two_sided_lights_shine_to_both_sides(void **state)
+static void two_sided_lights_emit_on_both_sides(void **state)
 {
     static const float corner[3] = {0, 2, 0}, e1[3] = {1, 0, 0}, e2[3] = {0, 0, 1};
     rt_material material = {.emission = {1, 1, 1}, .two_sided = 1};
@@ -274,7 +274,7 @@ int main(void)
         cmocka_unit_test(point_lights_fall_off_with_the_square_of_distance),
         statistical_test(light_paths_carry_the_power_of_all_lights),
         statistical_test(area_lights_emit_by_the_cosine_and_points_evenly),
-        statistical_test(two_sided_lights_shine_to_both_sides),
+        statistical_test(two_sided_lights_emit_on_both_sides),
     };
     return cmocka_run_group_tests_name("kernels/light", tests, NULL, NULL);
 }
