@@ -5,7 +5,11 @@
 #include "photon/photon_map.h"
 #include "render/renderer.h"
 
-/* Fails where a map is not of the renderer's scene or does not fit the options' direct light. */
+/*
+ * Fails where a map is not of the renderer's scene, has photons on shapes that the scene lacks, or
+ * does not fit the options' direct light. Warns of another max_depth, and of Sobol photons for the
+ * hull.
+ */
 rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *renderer,
                               const rt_render_options *options, rt_error *error);
 

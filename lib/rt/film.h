@@ -22,9 +22,10 @@ RT_API rt_status rt_render_options_check(const rt_render_options *options, rt_er
 /*
  * Renders; options NULL: the scene's own. The caller owns *out. When a progress callback cancels,
  * returns RT_CANCELLED and *out still receives the film of the samples so far (NULL when there are
- * none yet). In photon mode warns as rt_photon_map_emit does, and when more than half of the
- * queries at the ends of eye paths found no photon. The film does not depend on the renderer, which
- * may be destroyed before it.
+ * none yet). Warns of a scene without light; in path mode of caustics that RT_MODE_PATH leaves out;
+ * in photon mode as rt_photon_map_emit does, and when more than half of the queries at the ends of
+ * eye paths found no photon. The film does not depend on the renderer, which may be destroyed
+ * before it.
  */
 RT_API rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options,
                            rt_error *error);

@@ -38,11 +38,11 @@ typedef struct rt_emit_options {
  * Emits photons from the lights of a scene on the device and collects them; options NULL: the
  * scene's own. Warns of lights with power that fewer than 100 paths came from (their light is then
  * noisy by more than 10 %), of a list that is empty or has fewer photons than the k of an estimate,
- * and of planes under light from infinitely far, which is followed to them only within the sphere
- * around all finite shapes. Fails with RT_ERROR_USAGE when an option is out of its range, with
- * RT_ERROR_MEMORY as soon as the first paths show that the photons will not fit into the machine's
- * memory, as does rt_render, and with RT_CANCELLED when a progress callback cancels. The caller
- * owns *out.
+ * of photons that were rejected, and of planes under light from infinitely far, which is followed
+ * to them only within the sphere around all finite shapes. Fails with RT_ERROR_USAGE when an option
+ * is out of its range, with RT_ERROR_MEMORY as soon as the first paths show that the photons will
+ * not fit into the machine's memory, as does rt_render, and with RT_CANCELLED when a progress
+ * callback cancels. The caller owns *out.
  */
 RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
                                     const rt_emit_options *options, rt_error *error);
