@@ -1,4 +1,4 @@
-/* collapse.c - costs from the leaves up, choices from the root down. */
+/* collapse.c - computes costs from the leaves up, and makes the choices from the root down. */
 #include "accel/collapse.h"
 
 #include <math.h>

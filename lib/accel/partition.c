@@ -1,5 +1,6 @@
 /*
- * partition.c - in place, in parallel, and in an order that does not depend on the threads.
+ * partition.c - partitions references in place and in parallel; the order does not depend on
+ * threads.
  *
  * First each chunk of fixed length is partitioned by itself. Then the left references that lie
  * behind the boundary are exchanged with the right ones that lie before it, both counted in order.

@@ -1,4 +1,4 @@
-/* refs.h - the builder's references to primitives: their bounds and where they come from. */
+/* refs.h - the builder's references to primitives: bounds and source. */
 #ifndef RT_LIB_ACCEL_REFS_H
 #define RT_LIB_ACCEL_REFS_H
 

@@ -1,4 +1,6 @@
-/* tree_node.h - a node of the binary tree, and how it is collapsed to eight-wide ones. */
+/*
+ * tree_node.h - a node of the binary tree, and the choices by which it is collapsed to wide nodes.
+ */
 #ifndef RT_LIB_ACCEL_TREE_NODE_H
 #define RT_LIB_ACCEL_TREE_NODE_H
 

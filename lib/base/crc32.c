@@ -1,5 +1,5 @@
 /*
- * crc32.c - four bytes a step, by four tables made at each call.
+ * crc32.c - the CRC by four bytes per step, with four tables made at each call.
  *
  * Reference:
  *   Kounavis, Berry: "A Systematic Approach to Building High Performance Software-Based CRC

@@ -1,4 +1,7 @@
-/* parallel.c - threads live for one call; each takes the next job until none is left. */
+/*
+ * parallel.c - runs jobs on threads that live for one call; each takes the next job until none is
+ * left.
+ */
 #include "base/parallel.h"
 
 #include <pthread.h>

@@ -1,4 +1,4 @@
-/* buffer.c - device memory, kernel arguments and launches. */
+/* buffer.c - creates and copies buffers, sets kernel arguments, and launches kernels. */
 #include <stdio.h>
 
 #include "base/error.h"
@@ -157,7 +157,9 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
     size_t local = device->work_group, largest = 0;
     if (items == 0)
         return RT_OK;
-    /* A kernel that needs much of a compute unit takes fewer items than the device allows. */
+    /*
+     * A kernel that needs many registers may allow fewer work-items per group than the device does.
+     */
     if (clGetKernelWorkGroupInfo(kernel, device->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof largest,
                                  &largest, NULL) == CL_SUCCESS &&
         largest > 0 && largest < local)

@@ -1,4 +1,4 @@
-/* compare.h - what the parts of a comparison share: the pictures, and what is measured of them. */
+/* compare.h - what the files of a comparison share: the pictures, and the results. */
 #ifndef RT_LIB_IMAGE_COMPARE_H
 #define RT_LIB_IMAGE_COMPARE_H
 

@@ -1,4 +1,4 @@
-/* exr_core.c - keeps what OpenEXRCore complains of, and orders channels. */
+/* exr_core.c - collects the error messages of OpenEXRCore, and matches channels. */
 #include "image/exr_core.h"
 
 #include <stdio.h>

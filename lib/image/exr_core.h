@@ -1,6 +1,6 @@
 /*
- * exr_core.h - the header of OpenEXRCore, what it complains of, which it would print otherwise, and
- * channels.
+ * exr_core.h - includes OpenEXRCore, collects its error messages, which it would print otherwise,
+ * and matches channels.
  */
 #ifndef RT_LIB_IMAGE_EXR_CORE_H
 #define RT_LIB_IMAGE_EXR_CORE_H
@@ -17,7 +17,7 @@
 
 #include "image/image.h"
 
-/* The first complaint, or empty. */
+/* The first error message, or empty. */
 typedef struct rt_exr_message {
     char text[256];
 } rt_exr_message;
@@ -25,7 +25,7 @@ typedef struct rt_exr_message {
 /* An error handler for a context whose user data begins with an rt_exr_message. */
 void rt_exr_on_error(exr_const_context_t context, exr_result_t code, const char *text);
 
-/* The complaint, or else what the code says by itself. */
+/* The error message, or else the meaning of the code. */
 const char *rt_exr_reason(const rt_exr_message *message, exr_result_t code);
 
 /*

@@ -76,9 +76,9 @@ typedef struct compressor {
 } compressor;
 
 /*
- * The compression that OpenEXRCore chose, and one fault of it mended: where what it made is exactly
- * as long as the pixels, the file must hold the pixels, for equal lengths tell a reader that a
- * chunk is not compressed.
+ * The compression that OpenEXRCore chose, and with one of its faults corrected: where the result is
+ * exactly as long as the pixels, the pixels are stored instead, because to a reader equal lengths
+ * mean that a chunk is not compressed.
  */
 static exr_result_t compress(exr_encode_pipeline_t *pipeline)
 {

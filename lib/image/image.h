@@ -1,8 +1,8 @@
 /*
- * image.h - the inside of an rt_image: named float channels and text attributes.
+ * image.h - the members of rt_image: named float channels and text attributes.
  *
  * Colour channels are named R, G, B and hold linear sRGB, or codes of the sRGB transfer function
- * where is_srgb says so; grey alone is named Y. A channel of a further layer is named
+ * where is_srgb says so; a single grey channel is named Y. A channel of a further layer is named
  * LAYER.CHANNEL, such as albedo.R or depth.Z.
  */
 #ifndef RT_LIB_IMAGE_IMAGE_H

@@ -155,10 +155,7 @@ static int decode(png_structp png, png_infop info, reader *r)
     png_set_read_fn(png, r, on_read);
     png_set_user_limits(png, RT_IMAGE_SIDE_MAX, RT_IMAGE_SIDE_MAX);
     png_set_chunk_malloc_max(png, CHUNK_MEMORY_MAX);
-    /*
-     * No chunk matters that pixels can do without: texts, profiles and the like are passed over
-     * unread.
-     */
+    /* Chunks that pixels do not need, such as texts and profiles, are skipped unread. */
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     png_read_info(png, info);
     create_image(png, info, r);

@@ -1,4 +1,4 @@
-/* fields.c - numbers of a line, checked, and growing lists of them. */
+/* fields.c - reads and checks the numbers of a line, and appends them to lists. */
 #include "mesh/fields.h"
 
 #include <float.h>

@@ -1,4 +1,4 @@
-/* fields.h - what the text formats are made of: numbers and indices, with errors that name them. */
+/* fields.h - numbers and indices of the text formats, checked, with errors that name the field. */
 #ifndef RT_LIB_MESH_FIELDS_H
 #define RT_LIB_MESH_FIELDS_H
 

@@ -1,4 +1,4 @@
-/* ply_header.c - parses the header of a PLY file, and bounds what it may announce. */
+/* ply_header.c - parses the header of a PLY file, and limits what it may declare. */
 #include "mesh/ply_header.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* source.h - the file that a mesh is read from, and how its readers report. */
+/* source.h - the file that a mesh is read from, and its readers' errors, log and progress. */
 #ifndef RT_LIB_MESH_SOURCE_H
 #define RT_LIB_MESH_SOURCE_H
 

@@ -1,4 +1,4 @@
-/* unique.h - numbers distinct triples of words in the order in which they first come. */
+/* unique.h - numbers distinct triples of 32-bit words in the order of their first occurrence. */
 #ifndef RT_LIB_MESH_UNIQUE_H
 #define RT_LIB_MESH_UNIQUE_H
 

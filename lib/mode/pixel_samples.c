@@ -1,4 +1,4 @@
-/* pixel_samples.c - launches over the film, of a size that keeps progress moving. */
+/* pixel_samples.c - launches over the film, sized for frequent progress and a prompt cancel. */
 #include "mode/pixel_samples.h"
 
 #include <math.h>
@@ -7,12 +7,12 @@
 #include "base/error.h"
 #include "render/prepare.h"
 
-/* A launch aims at this long: short enough for lively progress and a prompt cancel. */
+/* Target duration of a launch: short enough for frequent progress and a prompt cancel. */
 static const double launch_seconds = 0.2;
 
 enum { samples_per_launch_max = 64 };
 
-/* Where a render stands: samples are given to all pixels before any pixel gets more. */
+/* The state of a render: every pixel gets its samples of a round before any gets more. */
 typedef struct schedule {
     uint32_t pixels, spp;
     uint32_t done;            /* samples of each pixel */

@@ -1,4 +1,4 @@
-/* packing.h - a scene being packed: what the files that fill the tables share. */
+/* packing.h - the state of packing a scene, shared by the files that fill the tables. */
 #ifndef RT_LIB_PACK_PACKING_H
 #define RT_LIB_PACK_PACKING_H
 

@@ -1,4 +1,4 @@
-/* emit.c - photon paths run on the device in batches, their photons taken into a map. */
+/* emit.c - runs photon paths on the device in batches, and appends their photons to a map. */
 #include "photon/emit.h"
 
 #include <stdlib.h>
@@ -119,7 +119,10 @@ static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_e
     return status;
 }
 
-/* Takes what a batch of paths left into the map; mapped memory is not copied where it is shared. */
+/*
+ * Appends the photons and accounts of a batch to the map; memory shared with the device is mapped,
+ * not copied.
+ */
 static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, size_t paths,
                             rt_error *error)
 {

@@ -1,4 +1,6 @@
-/* gather_neighbours.c - neighbour lists made on the host, sent and summed. */
+/*
+ * gather_neighbours.c - makes neighbour lists on the host, and launches the kernel that sums them.
+ */
 #include "photon/gather_neighbours.h"
 
 #include <stdlib.h>

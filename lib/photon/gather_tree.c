@@ -1,4 +1,4 @@
-/* gather_tree.c - the tree of photons uploaded, and the kernel that traverses it. */
+/* gather_tree.c - uploads the tree of photons, and launches the kernel that traverses it. */
 #include "photon/gather_tree.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* map_ply.c - a photon map as a cloud of points that MeshLab and Blender show. */
+/* map_ply.c - exports a photon map as a point cloud for MeshLab or Blender. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* neighbour_search.c - candidates from FLANN, ranked on all threads. */
+/* neighbour_search.c - finds candidates by FLANN and ranks them, on all threads. */
 #include "photon/neighbour_search.h"
 
 #include <math.h>
@@ -131,7 +131,7 @@ static int rank(const rt_neighbour_search *search, const rt_gather_point *point,
     if (candidates == search->count) {
         if (search->squared_limit < HUGE_VALF)
             return 1;
-        /* No limit, and the map has too few: the farthest stands for the k-th. */
+        /* No limit, and fewer than k in the map: the farthest photon gives the radius. */
         disc->squared_radius = accepted ? squared[last] : 0;
         disc->count = accepted ? accepted - 1 : 0;
         return 1;

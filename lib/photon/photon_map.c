@@ -1,4 +1,4 @@
-/* photon_map.c - a photon map as an object. */
+/* photon_map.c - photon maps: settings, ranges of paths, and access to photons. */
 #include "photon/photon_map.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* photon_tree.c - the tree of photons built level by level. */
+/* photon_tree.c - builds the tree of photons, level by level. */
 #include "photon/photon_tree.h"
 
 #include <math.h>

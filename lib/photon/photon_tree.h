@@ -2,8 +2,8 @@
  * photon_tree.h - the tree of photons that the device gathers from; see rt_photon_tree in types.h.
  *
  * The order of the photons is Hilbert's curve through the box around them, by 12 bits an axis;
- * photons of one cell of the curve keep the order of the map. So the same map makes the same tree,
- * whatever the threads.
+ * photons of one cell of the curve keep the order of the map. So the tree depends on the map alone,
+ * not on the number of threads.
  */
 #ifndef RT_LIB_PHOTON_PHOTON_TREE_H
 #define RT_LIB_PHOTON_PHOTON_TREE_H

@@ -1,4 +1,4 @@
-/* prepare.c - a kernel built and compiled on a thread of its own. */
+/* prepare.c - builds and compiles a kernel on a thread of its own. */
 #include "render/prepare.h"
 
 #include <string.h>

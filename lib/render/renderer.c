@@ -1,4 +1,4 @@
-/* renderer.c - hierarchy and tables built, and the scene uploaded. */
+/* renderer.c - builds the hierarchy and the tables of a scene, and uploads them. */
 #include "render/renderer.h"
 
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include "render/enclosing_media.h"
 #include "scene/view.h"
 
-/* What later calls need of the scene itself. */
+/* Keeps what later calls need of the scene. */
 static void note_scene(rt_renderer *renderer, const rt_scene *scene)
 {
     renderer->camera = scene->camera;

@@ -20,7 +20,7 @@ struct rt_renderer {
 /* Parameters of a launch that follow from the options; items and samples are left to the caller. */
 rt_params rt_params_make(const rt_render_options *options);
 
-/* Aims the camera of the scene on the device at a film of the options' size, with their filter. */
+/* Sets up the camera of the scene on the device for a film of the options' size and filter. */
 rt_status rt_renderer_aim(rt_renderer *renderer, const rt_render_options *options, rt_error *error);
 
 #endif

@@ -6,7 +6,9 @@
 
 enum { rays_per_batch = 1 << 22 };
 
-/* Within these the squares of lengths, and distances along the ray, are numbers of float32. */
+/*
+ * Within these limits the squares of lengths, and distances along the ray, do not overflow float32.
+ */
 static const double length_min = 1e-15, length_max = 1e15, coordinate_max = 1e15;
 
 static rt_status check_ray(const rt_ray *ray, size_t index, rt_error *error)

@@ -1,11 +1,11 @@
 /*
  * first_hit.c - the modes that show a layer of the first hit: normals, albedo and depth. They have
- * no kernel of their own: what is shown is a layer of layers.h.
+ * no kernel of their own, but show a layer of layers.h.
  */
 #include "mode/modes.h"
 #include "mode/pixel_samples.h"
 
-/* (n + 1) / 2, faded to black by the part of the samples that miss. */
+/* (n + 1) / 2, weighted by the fraction of the samples that hit. */
 static void show_normals(float rgb[3], const rt_film *film, size_t i)
 {
     size_t pixels = rt_film_pixels(film);

@@ -1,4 +1,4 @@
-/* layers.c - the kernel first_hit launched beside a mode, and layers made from its sums. */
+/* layers.c - launches the kernel first_hit beside a mode, and makes the layers from its sums. */
 #include "mode/first_hit/layers.h"
 
 #include <stdlib.h>
@@ -63,7 +63,7 @@ rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *f
 
 /* ---- In the film ------------------------------------------------------------ */
 
-/* What is made of a sum. */
+/* How a channel is computed from its sums. */
 typedef enum rule {
     MEAN,         /* over the film's divisor: the sum of the filter's weights */
     MEAN_OF_HITS, /* over the number of samples that hit; 0 without any */

@@ -1,6 +1,6 @@
 /*
- * layers.h - layers of the film that say what the first surface is like, summed by the kernel
- * first_hit over the samples that the picture has.
+ * layers.h - the layers of the first hit, summed by the kernel first_hit over the samples of the
+ * picture.
  */
 #ifndef RT_LIB_MODE_FIRST_HIT_LAYERS_H
 #define RT_LIB_MODE_FIRST_HIT_LAYERS_H

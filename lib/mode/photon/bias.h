@@ -4,15 +4,16 @@
  * A density estimate blurs light over the disc that it gathers from, which to first order makes an
  * error in proportion to the disc's area: E[L_a] = L + c a. A second estimate from the same photons
  * over a smaller area q a then gives the error of the first (Richardson's extrapolation): (L_a -
- * L_qa) / (1 - q). A given radius is made that of half the area. The area of k nearest photons is
- * on average in proportion to k, so (k + 1) / 2 of them, in whole numbers, take their place.
+ * L_qa) / (1 - q). Where the radius is given, it is that of half the area. The area of the k
+ * nearest photons is on average proportional to k, so the finer gather uses (k + 1) / 2 of them,
+ * rounded down.
  */
 #ifndef RT_LIB_MODE_PHOTON_BIAS_H
 #define RT_LIB_MODE_PHOTON_BIAS_H
 
 #include "photon/gather.h"
 
-/* A gatherer over a smaller area than the one it stands beside. */
+/* A gatherer over a smaller area, beside an ordinary one. */
 typedef struct rt_finer {
     rt_gatherer *gatherer; /* or NULL */
     double factor;         /* 1 / (1 - q) */

@@ -1,4 +1,4 @@
-/* emission.c - the photons of one pass: which paths of which seed. */
+/* emission.c - emits the photons of one pass: the next paths of the seed. */
 #include "mode/photon/emission.h"
 
 /*

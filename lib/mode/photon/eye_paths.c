@@ -1,4 +1,4 @@
-/* eye_paths.c - batches of eye paths followed, gathered for and added to the film. */
+/* eye_paths.c - follows eye paths in batches, gathers at their ends, and adds them to the film. */
 #include "mode/photon/eye_paths.h"
 
 #include <math.h>
@@ -186,7 +186,7 @@ static rt_status gather_all(rt_eye_paths *paths, const rt_queries *queries, size
     return status;
 }
 
-/* Adds a batch that was gathered for to the layers. */
+/* Adds a batch to the layers, after gathering. */
 static rt_status add_to_layers(rt_eye_paths *paths, const rt_queries *queries, size_t count,
                                rt_error *error)
 {
@@ -223,7 +223,7 @@ static rt_status add_to_film(rt_eye_paths *paths, const rt_params *params, rt_er
 
 /* ---- A sample of the film --------------------------------------------------- */
 
-/* What is done with a batch of eye paths that were followed. */
+/* The work on a batch of eye paths. */
 typedef rt_status batch_work(rt_eye_paths *paths, const rt_queries *queries,
                              const rt_params *params, void *data, rt_error *error);
 

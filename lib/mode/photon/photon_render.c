@@ -1,4 +1,4 @@
-/* photon_render.c - gatherers opened by query, and samples of the film taken with them. */
+/* photon_render.c - creates the gatherers of the queries, and samples the film with them. */
 #include "mode/photon/photon_render.h"
 
 #include <string.h>

@@ -41,7 +41,7 @@ void rt_photon_render_free(rt_photon_render *r);
 /* How many replicates passes take turns at, so that the error can be estimated. */
 uint32_t rt_photon_render_replicates(const rt_photon_render *r);
 
-/* The photons that a query is of; NULL when the render does not make it. */
+/* The photons that a query searches; NULL when the render does not make the query. */
 const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_query query);
 
 /* Makes the gatherer of a query. */
