@@ -54,24 +54,31 @@ static inline float3 hull_sum(float3 origin, const struct bsdf *bsdf,
         return inside; /* all are corners */
     float twice_area = 0.0f;
     uint lowest = 0u;
+    float2 low = in_plane(photons + list[0], origin, &frame);
     for (uint i = 0u; i < count; i++) {
         const float2 place = in_plane(photons + list[i], origin, &frame);
-        const float2 low = in_plane(photons + list[lowest], origin, &frame);
         inside += photons[list[i]].shading * photon_term(bsdf, photons + list[i]);
-        if (place.y < low.y || (place.y == low.y && place.x < low.x))
+        if (place.y < low.y || (place.y == low.y && place.x < low.x)) {
             lowest = i;
+            low = place;
+        }
     }
     uint corner = lowest;
+    float2 at = low;
     for (uint corners = 0u; corners < count; corners++) {
-        const float2 at = in_plane(photons + list[corner], origin, &frame);
         uint next = corner == 0u ? 1u : 0u;
-        for (uint i = 0u; i < count; i++)
-            if (i != corner && is_next_corner(at, in_plane(photons + list[i], origin, &frame),
-                                              in_plane(photons + list[next], origin, &frame)))
+        float2 best = in_plane(photons + list[next], origin, &frame);
+        for (uint i = 0u; i < count; i++) {
+            const float2 place = in_plane(photons + list[i], origin, &frame);
+            if (i != corner && is_next_corner(at, place, best)) {
                 next = i;
+                best = place;
+            }
+        }
         inside -= photons[list[corner]].shading * photon_term(bsdf, photons + list[corner]);
-        twice_area += cross2(at, in_plane(photons + list[next], origin, &frame));
+        twice_area += cross2(at, best);
         corner = next;
+        at = best;
         if (corner == lowest)
             break;
     }

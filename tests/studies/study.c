@@ -86,24 +86,29 @@ static int near_emitter(const rt_film *reference, uint32_t x, uint32_t y, float 
     return 0;
 }
 
-double study_mse(const rt_film *film, const rt_film *reference)
+double study_mse_of_two(const rt_film *film, const rt_film *a, const rt_film *b)
 {
     uint32_t width, height;
     double sum = 0, count = 0;
-    rt_film_get_size(reference, &width, &height);
-    float threshold = emitter_threshold(reference, (size_t)3 * width * height);
+    rt_film_get_size(a, &width, &height);
+    float threshold = emitter_threshold(a, (size_t)3 * width * height);
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++) {
-            if (near_emitter(reference, x, y, threshold))
+            if (near_emitter(a, x, y, threshold))
                 continue;
             for (int c = 0; c < 3; c++) {
                 size_t at = 3 * ((size_t)y * width + x) + c;
-                double difference = (double)rt_film_rgb(film)[at] - rt_film_rgb(reference)[at];
-                sum += difference * difference;
+                double value = rt_film_rgb(film)[at];
+                sum += (value - rt_film_rgb(a)[at]) * (value - rt_film_rgb(b)[at]);
                 count++;
             }
         }
     return count > 0 ? sum / count : 0;
+}
+
+double study_mse(const rt_film *film, const rt_film *reference)
+{
+    return study_mse_of_two(film, reference, reference);
 }
 
 double study_mean(const rt_film *film)

@@ -37,6 +37,12 @@ void study_write(const study *s, const rt_film *const *films, int count, const c
  * the mean. Their noise is that of the pixel's coverage, whatever lights the scene.
  */
 double study_mse(const rt_film *film, const rt_film *reference);
+
+/*
+ * The same from two references of independent noise: the mean product of the differences from each,
+ * to which their noise adds nothing on average.
+ */
+double study_mse_of_two(const rt_film *film, const rt_film *a, const rt_film *b);
 double study_mean(const rt_film *film);
 
 /* The slope of the straight line that fits log y against log x best. */
