@@ -1,6 +1,7 @@
 /* chi_square.c - counts samples in cells, and compares the counts with the density. */
 #include "statistics/chi_square.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 #include "statistics/quadrature.h"
 #include "support.h"
 
-enum { most_cells = 4096, most_tests = 256, jobs = 32, fresh = 1000 };
+enum { most_cells = 4096, most_tests = 256, most_seeds = 8, jobs = 32, fresh = 1000 };
 
 static const double family_alpha = 0.01;
 static const double near = 5e-3; /* relative error of a returned density that rounding explains */
@@ -28,7 +29,14 @@ typedef struct subject {
     double factor;
     double shares[most_cells + 1]; /* of each cell, and what is not sampled */
     size_t cells;
+    /* what the samples say */
+    int is_tested;
+    double chances[most_seeds];       /* that true samples would be counted so, by seed */
+    uint32_t off_square, told, wrong; /* samples; those of a told density, and of a wrong one */
 } subject;
+
+static subject subjects[most_tests];
+static size_t subject_count;
 
 static double density_at(const void *of, double x, double y)
 {
@@ -96,60 +104,81 @@ static void count_part(void *user, uint32_t job)
     }
 }
 
-/* Draws samples; the chance that true ones would be counted so. */
-static double chance(const subject *s, uint32_t seed)
+/* The chance that true samples would be counted as those drawn are. */
+static double count_samples(subject *s)
 {
     static double expected[most_cells + 1];
-    const routine *r = s->routine;
-    r->method->draw(r->setup, test_seed(seed), samples_a_test);
-    rt_parallel(test_device()->threads, jobs, count_part, (void *)(uintptr_t)s);
+    rt_parallel(test_device()->threads, jobs, count_part, s);
     for (size_t i = 0; i <= s->cells + 1; i++)
         for (size_t j = 1; j < jobs; j++)
             counts[0][i] += counts[j][i];
-    if (counts[0][s->cells + 1] > 0)
-        fail_msg("%s: %u samples lie off the square", r->name, counts[0][s->cells + 1]);
+    s->off_square += counts[0][s->cells + 1];
     for (size_t i = 0; i <= s->cells; i++)
         expected[i] = samples_a_test * s->shares[i];
     return chance_of_counts(counts[0], expected, s->cells + 1);
 }
 
-/* ---- Tests --------------------------------------------------------------------- */
-
-/*
- * Where samples are, the kernels tell the stated density; one in 200 may be where it is too steep
- * for float32.
- */
-static void expect_told_density(const subject *s)
+/* Compares the densities that the kernels tell of samples with the stated one. */
+static void compare_told(subject *s)
 {
     const routine *r = s->routine;
-    uint32_t told = 0, wrong = 0;
     for (uint32_t i = 0; i < told_samples; i++) {
         const sampled p = r->method->place(r->setup, i);
         if (p.x < -0.5 || isnan(p.pdf))
             continue;
         const double exact = s->factor * density_at(r, p.x, p.y);
-        told++;
-        wrong += !(fabs(p.pdf - exact) <= near * exact);
+        s->told++;
+        s->wrong += !(fabs(p.pdf - exact) <= near * exact);
     }
-    if (wrong > told / 200)
-        fail_msg("%s: the density that the kernels tell is wrong at %u of %u samples", r->name,
-                 wrong, told);
 }
 
+/* ---- Tests --------------------------------------------------------------------- */
+
+static int draw_alike(const routine *a, const routine *b)
+{
+    const size_t bytes = a->method->drawn_bytes;
+    return a == b || (bytes > 0 && a->method->draw == b->method->draw &&
+                      memcmp(a->setup, b->setup, bytes) == 0);
+}
+
+/* Draws the samples of a routine, and tests with them all that draw alike. */
+static void test_alike(const routine *drawn)
+{
+    for (size_t i = 0; i < subject_count; i++)
+        if (draw_alike(drawn, subjects[i].routine))
+            find_shares(subjects + i, subjects[i].routine);
+    for (uint32_t seed = 0; seed < seeds_a_test; seed++) {
+        drawn->method->draw(drawn->setup, test_seed(seed + 1), samples_a_test);
+        for (subject *s = subjects; s < subjects + subject_count; s++)
+            if (draw_alike(drawn, s->routine)) {
+                s->chances[seed] = count_samples(s);
+                compare_told(s);
+                s->is_tested = 1;
+            }
+    }
+}
+
+/* One told density in 200 may be where the density is too steep for float32. */
 static void samples_have_their_density(void **state)
 {
-    static subject s;
-    find_shares(&s, *state);
-    for (uint32_t seed = 1; seed <= seeds_a_test; seed++) {
-        const double first = chance(&s, seed);
-        expect_told_density(&s);
-        if (first >= alpha)
+    subject *s = *state;
+    const routine *r = s->routine;
+    if (!s->is_tested)
+        test_alike(r);
+    if (s->wrong > s->told / 200)
+        fail_msg("%s: the density that the kernels tell is wrong at %u of %u samples", r->name,
+                 s->wrong, s->told);
+    for (uint32_t seed = 0; seed < seeds_a_test; seed++) {
+        if (s->chances[seed] >= alpha)
             continue;
-        const double second = chance(&s, fresh + seed);
+        r->method->draw(r->setup, test_seed(fresh + seed + 1), samples_a_test);
+        const double second = count_samples(s);
         if (second < alpha)
-            fail_msg("%s: such counts have a chance of %g, of a fresh seed %g", s.routine->name,
-                     first, second);
+            fail_msg("%s: such counts have a chance of %g, of a fresh seed %g", r->name,
+                     s->chances[seed], second);
     }
+    if (s->off_square > 0)
+        fail_msg("%s: %u samples lie off the square", r->name, s->off_square);
 }
 
 int test_routines(const char *group, uint32_t sample_count, uint32_t seeds)
@@ -158,13 +187,16 @@ int test_routines(const char *group, uint32_t sample_count, uint32_t seeds)
                                                   &emission_routines, &scatter_routines};
     static struct CMUnitTest tests[most_tests];
     size_t count = 0;
+    assert(seeds <= most_seeds);
     memset(tests, 0, sizeof tests);
     for (size_t t = 0; t < sizeof tables / sizeof *tables; t++)
         for (size_t i = 0; i < tables[t]->count && count < most_tests; i++, count++) {
             const routine *r = tables[t]->routines + i;
+            subjects[count].routine = r;
             tests[count] = (struct CMUnitTest){r->name, samples_have_their_density, NULL, NULL,
-                                               (void *)(uintptr_t)r};
+                                               subjects + count};
         }
+    subject_count = count;
     samples_a_test = sample_count;
     seeds_a_test = seeds;
     alpha = family_alpha / ((double)count * seeds);

@@ -42,6 +42,11 @@ typedef struct method {
     /* over the square; what lacks to 1 is not sampled */
     double (*density)(const void *setup, double x, double y);
     int is_proportional; /* the density is known but for a factor, which makes its integral 1 */
+    /*
+     * How many bytes at the beginning of a setup `draw` reads, where routines differ in the rest
+     * alone: those are tested on the same samples. 0: each draws its own.
+     */
+    size_t drawn_bytes;
 } method;
 
 typedef struct routine {

@@ -3,6 +3,7 @@
  * they start at.
  */
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "kernels/light_draw.h"
@@ -301,12 +302,13 @@ static double by_power(const void *setup, double x, double y)
 
 /* ---- Table ----------------------------------------------------------------------- */
 
-static const method by_area_light = {draw_area_light, place_area_light, of_area_light, 0};
-static const method by_point = {draw_point, place_point, even, 0};
-static const method by_spot = {draw_spot, place_spot, of_spot, 1};
-static const method by_sun = {draw_sun, place_sun, on_disc, 0};
-static const method by_heaven = {draw_heaven, place_heaven, of_heaven, 1};
-static const method by_choice = {draw_choice, place_choice, by_power, 0};
+static const method by_area_light = {draw_area_light, place_area_light, of_area_light, 0,
+                                     offsetof(emission, aspect)};
+static const method by_point = {draw_point, place_point, even, 0, 0};
+static const method by_spot = {draw_spot, place_spot, of_spot, 1, 0};
+static const method by_sun = {draw_sun, place_sun, on_disc, 0, 0};
+static const method by_heaven = {draw_heaven, place_heaven, of_heaven, 1, offsetof(heaven, aspect)};
+static const method by_choice = {draw_choice, place_choice, by_power, 0, 0};
 
 static const routine routines[] = {
     {"emission: rectangle", 16, 16, &by_area_light, &(const emission){EMIT_RECTANGLE, START}},

@@ -147,9 +147,9 @@ static double by_chance(const void *setup, double x, double y)
 
 /* ---- Table ----------------------------------------------------------------------- */
 
-static const method by_area_light = {draw_area_light, place_area_light, of_area_light, 1};
-static const method by_sky = {draw_sky, place_sky, of_sky, 1};
-static const method by_choice = {draw_choice, place_choice, by_chance, 0};
+static const method by_area_light = {draw_area_light, place_area_light, of_area_light, 1, 0};
+static const method by_sky = {draw_sky, place_sky, of_sky, 1, 0};
+static const method by_choice = {draw_choice, place_choice, by_chance, 0, 0};
 
 static const routine routines[] = {
     {"light: rectangle", 16, 16, &by_area_light,

@@ -35,7 +35,7 @@ static double even(const void *setup, double x, double y)
 
 enum { S = RT_SAMPLER_SOBOL, I = RT_SAMPLER_INDEPENDENT };
 
-static const method by_numbers = {draw_numbers, place_numbers, even, 0};
+static const method by_numbers = {draw_numbers, place_numbers, even, 0, 0};
 
 static const routine routines[] = {
     {"Sobol, x and y", 32, 32, &by_numbers, &(const choice){S, 1, 0, 0, 1}},

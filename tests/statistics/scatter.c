@@ -1,5 +1,6 @@
 /* scatter.c - the normals of facets, and the events and directions of materials. */
 #include <math.h>
+#include <stddef.h>
 
 #include "kernels/bsdf_draw.h"
 #include "statistics/facets.h"
@@ -176,8 +177,9 @@ static const rt_material_data
 #define INTO (1 / 1.5)
 #define OUT_OF 1.5
 
-static const method by_normals = {draw_normals, place_normals, of_normals, 0};
-static const method by_surface = {draw_surface, place_surface, of_surface, 0};
+static const method by_normals = {draw_normals, place_normals, of_normals, 0, 0};
+static const method by_surface = {draw_surface, place_surface, of_surface, 0,
+                                  offsetof(surface, aspect)};
 
 static const routine routines[] = {
     {"facets that are seen, alpha 0.001", 16, 16, &by_normals, &(const facets){1e-3f, 0.9}},

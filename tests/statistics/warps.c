@@ -247,14 +247,14 @@ static double filter_magnitude(const void *setup, double x, double y)
 
 /* ---- Tables -------------------------------------------------------------------- */
 
-static const method by_disc = {draw_disc, place_disc, disc, 0};
-static const method by_cosine = {draw_cosine, place_cosine, cosine, 0};
-static const method by_sphere = {draw_sphere, place_sphere, even, 0};
-static const method by_triangle = {draw_triangle, place_triangle, triangle, 0};
-static const method by_rectangle = {draw_rectangle, place_rectangle, by_solid_angle, 1};
-static const method by_cap = {draw_cap, place_cap, even, 0};
-static const method by_polygon = {draw_polygon, place_polygon, in_polygon, 0};
-static const method by_filter = {draw_filter, place_filter, filter_magnitude, 1};
+static const method by_disc = {draw_disc, place_disc, disc, 0, 0};
+static const method by_cosine = {draw_cosine, place_cosine, cosine, 0, 0};
+static const method by_sphere = {draw_sphere, place_sphere, even, 0, 0};
+static const method by_triangle = {draw_triangle, place_triangle, triangle, 0, 0};
+static const method by_rectangle = {draw_rectangle, place_rectangle, by_solid_angle, 1, 0};
+static const method by_cap = {draw_cap, place_cap, even, 0, 0};
+static const method by_polygon = {draw_polygon, place_polygon, in_polygon, 0, 0};
+static const method by_filter = {draw_filter, place_filter, filter_magnitude, 1, 0};
 
 static const routine routines[] = {
     {"disc", 16, 16, &by_disc, NULL},
