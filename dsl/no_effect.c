@@ -25,10 +25,14 @@ static int is_specular(const rt_block_fields *fields)
     return !is_black(m->ks) || !is_black(m->kt) || m->ks_texture || m->kt_texture;
 }
 
+int rt_block_has_kd(const rt_block_fields *fields)
+{
+    return !is_black(fields->material.kd) || fields->material.kd_texture != 0;
+}
+
 static int has_colour(const rt_block_fields *fields)
 {
-    const rt_material *m = &fields->material;
-    return !is_black(m->kd) || m->kd_texture || is_specular(fields);
+    return rt_block_has_kd(fields) || is_specular(fields);
 }
 
 static int has_bumps(const rt_block_fields *fields)
@@ -66,6 +70,11 @@ static int is_image(const rt_block_fields *fields)
     return fields->texture.kind == RT_TEXTURE_IMAGE;
 }
 
+static int has_edges(const rt_block_fields *fields)
+{
+    return fields->texture.kind != RT_TEXTURE_CHECKER;
+}
+
 static int is_no_image(const rt_block_fields *fields)
 {
     return fields->texture.kind != RT_TEXTURE_IMAGE;
@@ -94,6 +103,7 @@ static const struct {
     {RT_BLOCK_CAMERA, "blade_rotation", has_blades, "'blades'"},
     {RT_BLOCK_TEXTURE, "file", is_image, "'pattern image'"},
     {RT_BLOCK_TEXTURE, "linear", is_image, "'pattern image'"},
+    {RT_BLOCK_TEXTURE, "wrap", has_edges, "'pattern image' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "a", is_no_image, "'pattern checker' or 'pattern gradient'"},
     {RT_BLOCK_TEXTURE, "b", is_no_image, "'pattern checker' or 'pattern gradient'"},
 };
@@ -146,6 +156,35 @@ static void warn_setting(const rt_entry *entry, const rt_render_options *options
                 rt_setting_text(phrase, sizeof phrase, need->otherwise, RT_NAME_QUOTED));
 }
 
+/* Whether a block has a field that holds a colour other than 0. */
+static int emits_by(const rt_block *block, const char *name, const rt_block_fields *fields)
+{
+    const rt_field *field = rt_schema_field(block, (rt_text){name, strlen(name)});
+    float colour[3] = {0, 0, 0};
+    if (field)
+        memcpy(colour, (const unsigned char *)fields + field->offset, sizeof colour);
+    return !is_black(colour);
+}
+
+/* Warns where the texture of a shape has neither a diffuse albedo nor emission to multiply. */
+static void warn_shape_texture(const rt_statement *statement, const rt_entry *entry,
+                               const rt_block_fields *fields, const rt_scope *scope,
+                               rt_reports *reports)
+{
+    const rt_block *block = statement->block;
+    const rt_field *field = rt_schema_field(block, (rt_text){"material", strlen("material")});
+    const rt_entry *material = field ? rt_statement_entry(statement, field) : NULL;
+    char quote[RT_QUOTE_SIZE];
+    if (!material || entry->field->type != RT_FIELD_TEXTURE ||
+        emits_by(block, "radiance", fields) || emits_by(block, "power", fields))
+        return;
+    const rt_text word = rt_place_text(&material->word);
+    const size_t found = rt_names_find(&scope->materials, word);
+    if (found != RT_NAME_NONE && !scope->materials.items[found].has_kd)
+        rt_report_warning(reports, entry->name, "'%s' has no effect: material '%s' has no 'kd'",
+                          entry->field->name, rt_text_quote(quote, word));
+}
+
 static void warn_entry(const rt_statement *statement, const rt_entry *entry,
                        const rt_block_fields *fields, rt_reports *reports)
 {
@@ -163,8 +202,10 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
 }
 
 void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fields,
-                       rt_reports *reports)
+                       const rt_scope *scope, rt_reports *reports)
 {
-    for (int i = 0; i < statement->entry_count; i++)
+    for (int i = 0; i < statement->entry_count; i++) {
         warn_entry(statement, &statement->entries[i], fields, reports);
+        warn_shape_texture(statement, &statement->entries[i], fields, scope, reports);
+    }
 }

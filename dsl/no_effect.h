@@ -2,10 +2,14 @@
 #ifndef RT_DSL_NO_EFFECT_H
 #define RT_DSL_NO_EFFECT_H
 
+#include "dsl/scope.h"
 #include "dsl/statement.h"
 
 /* Warns of each such field of a sound block, whose values are in fields. */
 void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fields,
-                       rt_reports *reports);
+                       const rt_scope *scope, rt_reports *reports);
+
+/* Whether the fields of a material make it reflect diffusely. */
+int rt_block_has_kd(const rt_block_fields *fields);
 
 #endif

@@ -201,7 +201,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
     if (is_good)
         is_good = build(reader, statement, &fields, &as);
     if (is_good && !reader->is_further_iteration)
-        rt_no_effect_warn(statement, &fields, &reader->reports);
+        rt_no_effect_warn(statement, &fields, &reader->scope, &reader->reports);
     if (is_good && reader->options->check &&
         !rt_origins_add(&reader->origins, block, statement->place))
         reader->reports.out_of_memory = 1;
@@ -218,6 +218,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
             name->index = as.index;
             name->texture = as.texture;
             name->is_broken = !is_good;
+            name->has_kd = block->id == RT_BLOCK_MATERIAL && rt_block_has_kd(&fields);
         }
     }
 }

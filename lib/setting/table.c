@@ -83,7 +83,7 @@ static const rt_setting_need camera_path_needs[] = {
      "in photon mode without `final_gather`"},
     END};
 static const rt_setting_need filter_radius_needs[] = {
-    {{IS_NOT("filter", RT_FILTER_BOX)}, "with `filter` box"}, END};
+    {{IS_NOT("filter", RT_FILTER_BOX), IS("filter_radius", 0)}, "with `filter` box"}, END};
 static const rt_setting_need light_needs[] = {LIGHT_IS_SHOWN, END};
 static const rt_setting_need photon_needs[] = {PHOTON_MODE, END};
 static const rt_setting_need pass_needs[] = {

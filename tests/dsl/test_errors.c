@@ -438,6 +438,11 @@ static const struct {
      "'linear' has no effect without 'pattern image'"},
     {"texture t { file \"scenes/textures/letter.png\" a 1 }", 47,
      "'a' has no effect without 'pattern checker' or 'pattern gradient'"},
+    {"texture t { pattern checker a 1 wrap clamp }", 33,
+     "'wrap' has no effect without 'pattern image' or 'pattern gradient'"},
+    {"texture t { pattern checker a 1 } material glass { kt 1 } sphere { centre 0 0 0 radius 1 "
+     "material glass texture t }",
+     105, "'texture' has no effect: material 'glass' has no 'kd'"},
     {"material m { emission 7 } sphere { radiance 0 centre 0 0 0 radius 1 material m }", 36,
      "'radiance' of 0 has no effect: it counts as left out"},
     {"material m { emission 7 } disc { centre 0 0 0 normal 0 1 0 radius 1 power 0 material m }", 69,
@@ -455,6 +460,17 @@ static const struct {
     {"repeat i from 1 to 3 { material m { ior 1.2 } }\nfilm { width 4 }", 37,
      "'ior' has no effect"},
 };
+
+/* What is given as it would be without it needs nothing beside it. */
+static void a_default_is_not_warned_of(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_text(&c, "film { filter_radius 0 }");
+    assert_int_equal(c.status, RT_OK);
+    assert_int_equal(c.count, 0);
+    collected_free(&c);
+}
 
 /* Each is read, and changes nothing beside the others of its block. */
 static void fields_without_effect_are_warned_of(void **state)
@@ -580,6 +596,7 @@ int main(void)
         cmocka_unit_test(what_nothing_uses_is_warned_of),
         cmocka_unit_test(a_repeat_without_iterations_is_warned_of),
         cmocka_unit_test(fields_without_effect_are_warned_of),
+        cmocka_unit_test(a_default_is_not_warned_of),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
         cmocka_unit_test(deep_and_long_texts_are_refused),
