@@ -58,6 +58,16 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
     }
 }
 
+/* A word with hyphens, which was reported, may be a field as an option of `rtc` has it. */
+static void hint_joined_field(rt_parser *parser, rt_statement *statement, rt_place place)
+{
+    rt_suggestion suggestion = rt_suggestion_begin(rt_place_text(&place));
+    rt_suggestion_offer_fields(&suggestion, statement->block);
+    if (suggestion.best.at)
+        rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
+    statement->is_incomplete = 1;
+}
+
 static void parse_unknown_field(rt_parser *parser, rt_statement *statement)
 {
     int is_broken = 0;
@@ -66,7 +76,7 @@ static void parse_unknown_field(rt_parser *parser, rt_statement *statement)
     if (!is_broken)
         report_unknown_field(parser, statement, place);
     else
-        statement->is_incomplete = 1;
+        hint_joined_field(parser, statement, place);
 
     /* Skip its value: one word, or whatever no field begins with. */
     const rt_token *token = rt_parser_peek(parser, 0);

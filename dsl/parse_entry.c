@@ -276,13 +276,27 @@ static void parse_word(rt_parser *parser, rt_context *context)
     rt_parser_skip_value(parser, context->block);
 }
 
-/* A number, or the word `all` in its place. */
+/* Whether the next token is a word like one that the field takes, and no constant. */
+static int is_near_word(rt_parser *parser, const rt_field *field)
+{
+    const rt_token *token = rt_parser_peek(parser, 0);
+    rt_text word = rt_place_text(&token->place);
+    rt_nearest search;
+    if (token->kind != RT_TOKEN_WORD || is_constant(parser, token))
+        return 0;
+    rt_nearest_begin(&search, word.at, word.length);
+    rt_nearest_offer_words(&search, rt_field_words(field));
+    return search.best != NULL;
+}
+
+/* A number, or the word `all` in its place, which may be mistyped. */
 static void parse_count(rt_parser *parser, rt_context *context)
 {
     skip_separators(parser, context);
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind == RT_TOKEN_WORD &&
-        is_known_word(parser, context->entry->field, rt_place_text(&token->place)))
+        (is_known_word(parser, context->entry->field, rt_place_text(&token->place)) ||
+         (is_near_word(parser, context->entry->field) && !is_field(context->block, token))))
         parse_word(parser, context);
     else
         parse_numbers(parser, context);

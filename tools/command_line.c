@@ -20,6 +20,15 @@ const char *command_name(command_id command)
     return command_names[command];
 }
 
+const char *command_nearest(const char *word)
+{
+    rt_nearest search;
+    rt_nearest_begin(&search, word, strlen(word));
+    for (int i = COMMAND_RENDER + 1; i < COMMAND_COUNT; i++)
+        rt_nearest_offer(&search, command_names[i], strlen(command_names[i]));
+    return search.best;
+}
+
 /* The subcommand that word names, or COMMAND_RENDER. */
 static command_id find_command(const char *word)
 {
@@ -255,6 +264,8 @@ int arguments_parse(command_line *out, int argc, char **argv)
         out->command = find_command(argv[at]);
     if (at == 2 && argc > at && out->command == COMMAND_RENDER && strcmp(argv[at], "render") != 0) {
         message_error("there is no command '%s' to help with; see `rtc --help`", argv[at]);
+        if (command_nearest(argv[at]))
+            message_hint("did you mean %s?", command_nearest(argv[at]));
         return STATUS_USAGE;
     }
     if (out->command != COMMAND_RENDER)

@@ -12,6 +12,9 @@
 int arguments_parse(command_line *out, int argc, char **argv);
 void arguments_free(command_line *arguments);
 
+/* The subcommand that a mistyped word probably meant, or NULL. */
+const char *command_nearest(const char *word);
+
 /* The name of a subcommand as typed; "" for COMMAND_RENDER. */
 const char *command_name(command_id command);
 

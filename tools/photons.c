@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include "inputs.h"
 #include "message.h"
@@ -223,6 +224,20 @@ static int check_options(const command_line *arguments, const photons_form *form
     return status;
 }
 
+/* What is not there as a scene may be a mistyped form. Returns whether there is a hint. */
+static int hint_form(const char *word)
+{
+    rt_nearest search;
+    if (access(word, F_OK) == 0)
+        return 0;
+    rt_nearest_begin(&search, word, strlen(word));
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        rt_nearest_offer(&search, forms[i].word, strlen(forms[i].word));
+    if (search.best)
+        message_hint("did you mean `rtc photons %s`?", search.best);
+    return search.best != NULL;
+}
+
 int command_photons(const command_line *arguments)
 {
     if (arguments->operand_count == 0)
@@ -236,7 +251,15 @@ int command_photons(const command_line *arguments)
         message_error("`rtc photons` has no form help: try `rtc help photons`");
         return STATUS_USAGE;
     }
-    if (arguments->operand_count > 1)
-        return fail_operands("SCENE.rts --out MAP.rtp, or info, merge, diff or export");
-    return photons_emit(arguments);
+    if (arguments->operand_count > 1) {
+        message_error("usage: rtc photons %s",
+                      "SCENE.rts --out MAP.rtp, or info, merge, diff or export");
+        if (!hint_form(arguments->operands[0]))
+            message_hint("`rtc photons --help` says what each form does");
+        return STATUS_USAGE;
+    }
+    int status = photons_emit(arguments);
+    if (status != STATUS_DONE)
+        hint_form(arguments->operands[0]);
+    return status;
 }

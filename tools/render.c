@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "command_line.h"
 #include "commands.h"
@@ -217,6 +218,14 @@ static int run(render_job *job)
     return status;
 }
 
+/* What is not there as a scene may be a mistyped subcommand. */
+static void hint_command(const char *word)
+{
+    const char *command = access(word, F_OK) != 0 ? command_nearest(word) : NULL;
+    if (command)
+        message_hint("did you mean `rtc %s`?", command);
+}
+
 /* Says that there is not one scene; a mistyped subcommand looks like a scene too many. */
 static int fail_operands(const command_line *arguments)
 {
@@ -227,12 +236,7 @@ static int fail_operands(const command_line *arguments)
     }
     message_error("one scene at a time: '%s' and '%s'", arguments->operands[0],
                   arguments->operands[1]);
-    rt_nearest search;
-    rt_nearest_begin(&search, arguments->operands[0], strlen(arguments->operands[0]));
-    for (int i = COMMAND_RENDER + 1; i < COMMAND_COUNT; i++)
-        rt_nearest_offer(&search, command_name((command_id)i), strlen(command_name((command_id)i)));
-    if (search.best)
-        message_hint("did you mean `rtc %s`?", search.best);
+    hint_command(arguments->operands[0]);
     return STATUS_USAGE;
 }
 
@@ -244,6 +248,8 @@ int command_render(const command_line *arguments)
     session_begin(&job.session, arguments);
     job.scene_path = arguments->operands[0];
     int status = run(&job);
+    if (status == STATUS_INPUT && !job.scene)
+        hint_command(job.scene_path);
     rt_film_destroy(job.film);
     rt_photon_map_destroy(job.photon_map);
     rt_renderer_destroy(job.renderer);

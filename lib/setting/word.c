@@ -4,7 +4,8 @@
 
 #include "rt/field.h"
 
-#define LENGTH_MAX 48 /* longer names get no suggestion */
+#define LENGTH_MAX 48   /* longer names get no suggestion */
+#define BEGINNING_MIN 4 /* letters of a word that may stand for a name that it begins */
 
 /* ---- Lists ---------------------------------------------------------------- */
 
@@ -78,6 +79,47 @@ static size_t tolerance(size_t length)
     return length < 3 ? 0 : length < 5 ? 1 : length < 9 ? 2 : 3;
 }
 
+/* What other programs call a thing, and what it is called here: as near as if it were mistyped. */
+static const struct {
+    const char *other, *name;
+} synonyms[] = {
+    {"cube", "box"},          {"ball", "sphere"},       {"rectangle", "quad"},
+    {"disk", "disc"},         {"albedo", "kd"},         {"diffuse", "kd"},
+    {"color", "kd"},          {"colour", "kd"},         {"color", "radiance"},
+    {"colour", "radiance"},   {"color", "intensity"},   {"colour", "intensity"},
+    {"color", "irradiance"},  {"colour", "irradiance"}, {"specular", "ks"},
+    {"transmission", "kt"},   {"emit", "emission"},     {"emissive", "emission"},
+    {"samples", "spp"},       {"output", "out"},        {"depth", "max_depth"},
+    {"bounces", "max_depth"}, {"position", "eye"},      {"from", "eye"},
+    {"target", "look_at"},    {"lookat", "look_at"},    {"position", "centre"},
+};
+
+static int is_text(const char *text, size_t length, const char *word)
+{
+    size_t i = 0;
+    while (i < length && word[i] && is_same(lower(text[i]), word[i]))
+        i++;
+    return i == length && !word[i];
+}
+
+static int is_synonym(const char *other, size_t other_length, const char *name, size_t length)
+{
+    for (size_t i = 0; i < sizeof synonyms / sizeof *synonyms; i++)
+        if (is_text(other, other_length, synonyms[i].other) &&
+            is_text(name, length, synonyms[i].name))
+            return 1;
+    return 0;
+}
+
+/* Whether a word of some letters is the beginning of a name, as `ortho` is. */
+static int is_beginning(const char *text, size_t text_length, const char *name, size_t length)
+{
+    size_t i = 0;
+    while (i < text_length && i < length && lower(text[i]) == lower(name[i]))
+        i++;
+    return i == text_length && text_length >= BEGINNING_MIN;
+}
+
 void rt_nearest_begin(rt_nearest *search, const char *wanted, size_t length)
 {
     memset(search, 0, sizeof *search);
@@ -92,6 +134,10 @@ void rt_nearest_offer(rt_nearest *search, const char *name, size_t length)
         return;
     size_t distance =
         rt_edit_distance(search->wanted, search->wanted_length, name, length, search->distance - 1);
+    if (is_synonym(search->wanted, search->wanted_length, name, length))
+        distance = 0;
+    else if (is_beginning(search->wanted, search->wanted_length, name, length) && distance > 1)
+        distance = 1;
     if (distance < search->distance) {
         search->distance = distance;
         search->best = name;

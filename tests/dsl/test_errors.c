@@ -41,6 +41,15 @@ static const bad_text bad_texts[] = {
 
     /* Statements. */
     {"spere { centre 0 0 0 radius 1 }", 1, 1, 5, "unknown block 'spere'", "did you mean 'sphere'?"},
+    {"cube { centre 0 0 0 }", 1, 1, 4, "unknown block 'cube'", "did you mean 'box'?"},
+    {"material m { color 0.7 }", 1, 14, 5, "unknown field 'color' in material",
+     "did you mean 'kd'?"},
+    {"render { max-depth 3 }", 1, 10, 9, "'max-depth' is not a name", "did you mean 'max_depth'?"},
+    {"render { k ALL }", 1, 12, 3, "'k' takes a whole number or all, found 'ALL'",
+     "did you mean 'all'?"},
+    {"camera { eye 0 0 0 look_at 0 0 1 projection ortho }", 1, 45, 5,
+     "'projection' takes perspective, orthographic or environment, found 'ortho'",
+     "did you mean 'orthographic'?"},
     {"Camera { eye 0 0 0 }", 1, 1, 6, "unknown block 'Camera'", "did you mean 'camera'?"},
     {"teapot { size 3 }", 1, 1, 6, "unknown block 'teapot'",
      "begins with one of: let include repeat camera film"},

@@ -74,6 +74,9 @@ static const struct {
     {"a.rts --photn 3", "did you mean --photons?"},
     {"a.rts --frobnicate", "unknown option '--frobnicate'"},
     {"help frobnicate", "there is no command 'frobnicate'"},
+    {"help photon", "did you mean photons?"},
+    {"photons exprot n.rtp --out n.ply", "did you mean `rtc photons export`?"},
+    {"photons inof", "did you mean `rtc photons info`?"},
     {"a.rts -s 3", "unknown option '-s'"},
     {"a.rts --verbose --quiet", "exclude each other"},
     {"a.rts --out a.jpg", "the extension tells the format"},
@@ -150,6 +153,21 @@ static void wrong_usage_is_refused_with_status_2(void **state)
     }
     /* Nothing was rendered. */
     assert_int_equal(scratch_count(), 1);
+}
+
+/* A scene that is not there may be a mistyped subcommand; one that is there is wrong itself. */
+static void a_mistyped_subcommand_gets_a_hint(void **state)
+{
+    (void)state;
+    run device = run_rtc("device");
+    expect_status(&device, 1);
+    expect_err(&device, "hint: did you mean `rtc devices`?");
+    run_free(&device);
+    scratch_write("device", "nonsense");
+    run scene = run_rtc("device");
+    expect_status(&scene, 1);
+    expect_no_err(&scene, "devices");
+    run_free(&scene);
 }
 
 static void several_mistakes_are_all_told(void **state)
@@ -562,6 +580,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(wrong_usage_is_refused_with_status_2),
+        TEST(a_mistyped_subcommand_gets_a_hint),
         TEST(several_mistakes_are_all_told),
         TEST(outputs_spare_what_is_read),
         TEST(typed_options_are_named_when_the_scene_disagrees),

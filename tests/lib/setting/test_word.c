@@ -77,12 +77,28 @@ static void only_near_names_are_suggested(void **state)
     assert_null(nearest("a_very_long_word_that_is_longer_than_any_name_in_the_language"));
 }
 
+static void beginnings_and_synonyms_are_near(void **state)
+{
+    (void)state;
+    assert_string_equal(nearest("spher"), "sphere");
+    assert_string_equal(nearest("ball"), "sphere");
+    assert_string_equal(nearest("Color"), "kd");
+    assert_null(nearest("sph"));
+    assert_null(nearest("balls"));
+    rt_nearest search;
+    rt_nearest_begin(&search, "ortho", 5);
+    rt_nearest_offer(&search, "environment", 11);
+    rt_nearest_offer(&search, "orthographic", 12);
+    assert_string_equal(search.best, "orthographic");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edit_distances_are_those_of_optimal_alignment),
         cmocka_unit_test(words_are_found_and_joined),
         cmocka_unit_test(only_near_names_are_suggested),
+        cmocka_unit_test(beginnings_and_synonyms_are_near),
     };
     return cmocka_run_group_tests_name("word", tests, NULL, NULL);
 }
