@@ -63,7 +63,7 @@ const option option_table[OPTION_COUNT] = {
 
     [OPTION_LAYER] =
         {"layer", "NAME", KIND_TEXT, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, "the picture itself",
-         "compare a layer of .exr files, such as albedo, normal, depth or photon.count"},
+         "compare a layer of .exr files, such as albedo, normal, depth, uv or photon.count"},
     [OPTION_BLOCK] = {"block", "N", KIND_WHOLE, GROUP_COMPARE, COMPARE, 1, UINT32_MAX, NULL, 0,
                       "16", "side of the blocks in pixels"},
     [OPTION_TOLERANCE] =

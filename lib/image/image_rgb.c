@@ -66,32 +66,57 @@ static uint32_t find_single(const rt_image *image, const char *layer)
     return found;
 }
 
-/* Whether there is such a layer; then the channels that stand for red, green and blue. */
+/*
+ * Whether there is such a layer; then the channels that stand for red, green and blue. The third of
+ * a pair is RT_IMAGE_NO_CHANNEL.
+ */
 static int find_channels(uint32_t channels[3], const rt_image *image, const char *layer)
 {
-    static const char *const triples[2][3] = {{"R", "G", "B"}, {"X", "Y", "Z"}};
-    for (int i = 0; i < 2; i++) {
-        for (int c = 0; c < 3; c++)
-            channels[c] = find_in_layer(image, layer, triples[i][c]);
-        if (channels[0] != RT_IMAGE_NO_CHANNEL && channels[1] != RT_IMAGE_NO_CHANNEL &&
-            channels[2] != RT_IMAGE_NO_CHANNEL)
+    static const char *const sets[][3] = {
+        {"R", "G", "B"}, {"X", "Y", "Z"}, {"U", "V", NULL}, {"X", "Y", NULL}};
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+        int missing = 0;
+        for (int c = 0; c < 3; c++) {
+            channels[c] =
+                sets[i][c] ? find_in_layer(image, layer, sets[i][c]) : RT_IMAGE_NO_CHANNEL;
+            missing += sets[i][c] && channels[c] == RT_IMAGE_NO_CHANNEL;
+        }
+        if (!missing && (sets[i][2] || layer))
             return 1;
     }
     channels[0] = channels[1] = channels[2] = find_single(image, layer);
     return channels[0] != RT_IMAGE_NO_CHANNEL;
 }
 
+/* " (did you mean 'albedo'?)", or "" where no layer's name is near. */
+static void suggest_layer(char *out, size_t size, const rt_image *image, const char *layer)
+{
+    rt_nearest search;
+    rt_nearest_begin(&search, layer, strlen(layer));
+    for (uint32_t i = 0; i < image->channel_count; i++) {
+        const char *name = image->names[i], *dot = strrchr(name, '.');
+        rt_nearest_offer(&search, name, dot ? (size_t)(dot - name) : strlen(name));
+        rt_nearest_offer(&search, name, strlen(name));
+    }
+    out[0] = '\0';
+    if (search.best)
+        snprintf(out, size, " (did you mean '%.*s'?)", (int)search.best_length, search.best);
+}
+
 static rt_status fail_layer(const rt_image *image, const char *layer, rt_error *error)
 {
-    char names[256] = "";
+    char names[256] = "", hint[RT_IMAGE_NAME_SIZE + 32] = "";
     for (uint32_t i = 0; i < image->channel_count; i++) {
         size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", image->names[i]);
     }
     if (layer)
+        suggest_layer(hint, sizeof hint, image, layer);
+    if (layer)
         return rt_fail_field(error, RT_ERROR_INPUT, "layer",
-                             "no layer '%.60s' of colours or of one channel among %s", layer,
-                             names);
+                             "no layer '%.60s'%s of colours, of U and V or of one channel among "
+                             "%s",
+                             layer, hint, names);
     return rt_fail(error, RT_ERROR_INPUT, "no picture, of R, G and B or of one channel, among %s",
                    names);
 }
@@ -112,7 +137,9 @@ rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer,
     size_t pixel_count = (size_t)image->width * image->height;
     for (size_t i = 0; i < pixel_count; i++)
         for (size_t c = 0; c < 3; c++) {
-            float value = image->data[i * image->channel_count + channels[c]];
+            float value = channels[c] == RT_IMAGE_NO_CHANNEL
+                              ? 0.0f
+                              : image->data[i * image->channel_count + channels[c]];
             rgb[3 * i + c] = image->is_srgb ? (float)rt_srgb_decode(value) : value;
         }
     return RT_OK;

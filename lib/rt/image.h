@@ -42,10 +42,10 @@ RT_API void rt_image_get_size(const rt_image *image, uint32_t *width, uint32_t *
 
 /*
  * Copies a layer to rgb [height][width][3], linear, top row first; NULL stands for the picture
- * itself. The layer's channels are R, G, B, or X, Y, Z, whatever their order in the file, or a
- * single one, copied to all three: that whose whole name it is (photon.count), grey Y, or the only
- * one. 1, 8 and 16 bit samples are decoded from sRGB. Fails with RT_ERROR_INPUT when there is no
- * such layer.
+ * itself. The layer's channels are R, G, B, or X, Y, Z, whatever their order in the file; or U, V,
+ * or X, Y, with 0 as the third; or a single one, copied to all three: that whose whole name it is
+ * (photon.count), grey Y, or the only one. 1, 8 and 16 bit samples are decoded from sRGB. Fails
+ * with RT_ERROR_INPUT when there is no such layer.
  */
 RT_API rt_status rt_image_get_rgb(float *rgb, const rt_image *image, const char *layer,
                                   rt_error *error);

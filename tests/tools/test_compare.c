@@ -185,6 +185,7 @@ static void formats_of_one_render_are_equal(void **state)
         "r.exr r.exr --layer albedo --max-mse 0",
         "r.exr r.exr --layer normal --max-mse 0",
         "r.exr r.exr --layer depth --max-mse 0",
+        "r.exr r.exr --layer uv --max-mse 0",
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         run run = run_rtc("compare %s", lines[i]);
@@ -192,6 +193,10 @@ static void formats_of_one_render_are_equal(void **state)
         assert_string_equal(run.err, "");
         run_free(&run);
     }
+    run near = run_rtc("compare r.exr r.exr --layer abledo");
+    expect_status(&near, 1);
+    expect_err(&near, "r.exr has no layer 'abledo' (did you mean 'albedo'?)");
+    run_free(&near);
     run differ = run_rtc("compare r.png r.exr --max-mse 0");
     expect_status(&differ, 1);
     run_free(&differ);

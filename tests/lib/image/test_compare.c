@@ -243,13 +243,13 @@ static void known_variance_is_the_noise(void **state)
 static void layers_are_found_by_name(void **state)
 {
     (void)state;
-    static const char *const names[] = {"A",   "B",   "G",       "R",    "n.Z",
-                                        "n.Y", "n.X", "depth.Z", "a.b.R"};
+    static const char *const names[] = {"A",   "B",       "G",     "R",    "n.Z", "n.Y",
+                                        "n.X", "depth.Z", "a.b.R", "uv.V", "uv.U"};
     rt_image *image = NULL;
     rt_error error;
     float rgb[3];
-    assert_int_equal(rt_image_create(&image, 1, 1, names, 9, NULL), RT_OK);
-    for (int i = 0; i < 9; i++)
+    assert_int_equal(rt_image_create(&image, 1, 1, names, 11, NULL), RT_OK);
+    for (int i = 0; i < 11; i++)
         image->data[i] = (float)i;
     expect_ok(rt_image_get_rgb(rgb, image, NULL, &error), &error);
     assert_true(rgb[0] == 3 && rgb[1] == 2 && rgb[2] == 1);
@@ -261,6 +261,10 @@ static void layers_are_found_by_name(void **state)
     assert_true(rgb[0] == 8);
     expect_ok(rt_image_get_rgb(rgb, image, "n.Y", &error), &error);
     assert_true(rgb[0] == 5 && rgb[2] == 5);
+    expect_ok(rt_image_get_rgb(rgb, image, "uv", &error), &error);
+    assert_true(rgb[0] == 10 && rgb[1] == 9 && rgb[2] == 0);
+    assert_int_equal(rt_image_get_rgb(rgb, image, "detph", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "(did you mean 'depth'?)"));
     assert_int_equal(rt_image_get_rgb(rgb, image, "a", &error), RT_ERROR_INPUT);
     assert_int_equal(rt_image_get_rgb(rgb, image, "albedo", &error), RT_ERROR_INPUT);
     assert_non_null(strstr(error.message, "albedo"));
