@@ -9,12 +9,14 @@
 #include "status.h"
 
 static volatile sig_atomic_t deferred, pending;
-static int as_json;
+static int as_json, is_quiet;
 
 /* Only write() may be called in a handler. */
 static void say(const char *plain, const char *json)
 {
     const char *text = as_json ? json : plain;
+    if (is_quiet)
+        return;
     if (write(STDERR_FILENO, text, strlen(text)) < 0) {
         /* There is nobody to tell. */
     }
@@ -53,9 +55,10 @@ static void catch_one(int signal_number)
     sigaction(signal_number, &action, NULL);
 }
 
-void interrupt_catch(int in_json)
+void interrupt_catch(int in_json, int quiet)
 {
     as_json = in_json;
+    is_quiet = quiet;
     catch_one(SIGINT);
     catch_one(SIGTERM);
 }

@@ -8,9 +8,9 @@
 /*
  * From now on SIGINT and SIGTERM end the program at once with STATUS_INTERRUPTED, also where it
  * waits for a file or for stdin. A signal that was ignored when the program began stays ignored.
- * What is said of it is JSON if asked for.
+ * What is said of it is JSON if asked for, and nothing where quiet.
  */
-void interrupt_catch(int in_json);
+void interrupt_catch(int in_json, int quiet);
 
 /*
  * From now on the first of them only sets a flag, and the next one ends the program by its default

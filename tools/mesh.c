@@ -148,7 +148,7 @@ int command_mesh(const command_line *arguments)
     status = check_extension(path);
     if (status != STATUS_DONE)
         return status;
-    interrupt_catch(0);
+    interrupt_catch(0, 0);
     interrupt_defer();
     status = write_mesh(path, &grid);
     if (status == STATUS_DONE)

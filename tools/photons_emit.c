@@ -103,7 +103,8 @@ static int emit(emit_job *job)
         result = rt_photon_map_emit(&job->map, job->renderer, &job->options, &error);
     progress_clear(&job->session.progress);
     if (session_was_interrupted(result)) {
-        message_note("interrupted; nothing was written");
+        if (!job->session.quiet)
+            message_note("interrupted; nothing was written");
         return STATUS_INTERRUPTED;
     }
     return result == RT_OK ? STATUS_DONE : session_fail(&error);

@@ -175,7 +175,8 @@ static void say_how_good_it_is(const render_job *job)
 static int write_images(const render_job *job, int status)
 {
     if (!job->film) {
-        message_note("interrupted before the first sample; nothing was written");
+        if (!job->session.quiet)
+            message_note("interrupted before the first sample; nothing was written");
         return STATUS_INTERRUPTED;
     }
     rt_image_options options = {0};
@@ -191,7 +192,7 @@ static int write_images(const render_job *job, int status)
     free(command);
     if (written != STATUS_DONE)
         return written;
-    if (!job->session.quiet || status == STATUS_INTERRUPTED)
+    if (!job->session.quiet)
         say_what_was_written(job, status == STATUS_INTERRUPTED);
     if (!job->session.quiet)
         say_how_good_it_is(job);

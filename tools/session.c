@@ -46,7 +46,7 @@ void session_begin(session *s, const command_line *arguments)
     s->hooks.user = s;
     if (s->progress.style == PROGRESS_JSON)
         message_as_json();
-    interrupt_catch(s->progress.style == PROGRESS_JSON);
+    interrupt_catch(s->progress.style == PROGRESS_JSON, s->quiet);
 }
 
 const option_value *session_value(const session *s, option_id id)

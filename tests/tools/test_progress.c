@@ -138,6 +138,22 @@ static void what_would_be_black_is_warned_of(void **state)
     run_free(&run);
 }
 
+/* Neither a larger radius nor more photons help where no light falls on anything. */
+static void an_empty_map_is_warned_of_once(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", "camera { eye 0 0 -4  look_at 0 0 0 }\nfilm { width 8  height 8 }\n"
+                           "material white { kd 0.7 }\n"
+                           "sphere { centre 0 0 0  radius 1  material white }\n"
+                           "light spot { position 3 4 3  target 9 9 9  intensity 20\n"
+                           "             inner 5  outer 10 }\n");
+    run run = run_rtc("a.rts --mode photon --photons 1000 --spp 1 --out a.pfm");
+    expect_status(&run, 0);
+    expect_err(&run, "warning: the photon map is empty: none of 1000 photon paths left a photon");
+    expect_no_err(&run, "found no photon");
+    run_free(&run);
+}
+
 static void quiet_says_nothing(void **state)
 {
     (void)state;
@@ -359,6 +375,25 @@ static void interrupted_photon_render_writes_its_samples(void **state)
     interrupt_render(SIGINT, "--mode photon --photons 1000", "\"gather\"");
 }
 
+/* The status alone tells of it. */
+static void quiet_says_nothing_of_an_interrupt(void **state)
+{
+    static const char *const options[] = {"--spp 16000000 --quiet --out a.pfm",
+                                          "--mode photon --photons 1e9 --quiet --out b.pfm"};
+    const struct timespec nap = {1, 0};
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+        static char said[1 << 16];
+        said[0] = '\0';
+        running running = start_rtc("a.rts %s", options[i]);
+        nanosleep(&nap, NULL);
+        assert_int_equal(kill(running.pid, SIGINT), 0);
+        assert_int_equal(running_finish(&running, said, sizeof said), 130);
+        assert_string_equal(said, "");
+    }
+}
+
 static void second_interrupt_kills(void **state)
 {
     (void)state;
@@ -414,6 +449,7 @@ int main(void)
         TEST(options_without_effect_beside_others_are_warned_of),
         TEST(layers_without_a_place_are_warned_of),
         TEST(what_would_be_black_is_warned_of),
+        TEST(an_empty_map_is_warned_of_once),
         TEST(quiet_says_nothing),
         TEST(verbose_names_the_device_and_its_threads),
         TEST(plain_progress_names_the_stages),
@@ -426,6 +462,7 @@ int main(void)
         TEST(interrupted_path_render_writes_its_samples),
         TEST(terminated_path_render_writes_its_samples),
         TEST(interrupted_photon_render_writes_its_samples),
+        TEST(quiet_says_nothing_of_an_interrupt),
         TEST(second_interrupt_kills),
         TEST(interrupted_wait_for_stdin_ends_at_once),
     };
