@@ -1,6 +1,7 @@
 /* reader.c - the statements of a text, one after another: includes, repeats, blocks. */
 #include "dsl/reader.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -225,6 +226,20 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
 
 /* ---- Texts --------------------------------------------------------------- */
 
+/* "a.rts includes b.rts, which includes it": how a text that includes itself does so. */
+static void hint_loop(rt_reports *reports, const rt_source *source)
+{
+    const rt_source *around = rt_source_around(source);
+    char path[256] = "";
+    for (const rt_source *s = source->includer; around && s != around; s = s->includer) {
+        char rest[sizeof path];
+        snprintf(rest, sizeof rest, "%s", path);
+        snprintf(path, sizeof path, "%.60s, which includes %.160s", s->path, rest);
+    }
+    if (around && path[0])
+        rt_report_hint(reports, "%s includes %sit", around->path, path);
+}
+
 static void read_include(rt_reader *reader, const rt_statement *statement)
 {
     char cause[128];
@@ -249,6 +264,7 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
         rt_text shown = {source->path, strlen(source->path)};
         rt_report_error(&reader->reports, statement->path, "cannot include '%s': %s",
                         rt_text_quote(quote, shown), cause);
+        hint_loop(&reader->reports, source);
     } else {
         rt_reader_tell_file(reader, source->path);
         rt_reader_read(reader, source);

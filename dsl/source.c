@@ -100,12 +100,12 @@ static rt_status read_all(rt_source *source, FILE *file, size_t limit, char *cau
     }
 }
 
-static int is_being_read(const rt_source *source)
+const rt_source *rt_source_around(const rt_source *source)
 {
-    for (const rt_source *s = source->includer; s; s = s->includer)
+    for (const rt_source *s = source->includer; s && source->is_file; s = s->includer)
         if (s->is_file && s->device == source->device && s->inode == source->inode)
-            return 1;
-    return 0;
+            return s;
+    return NULL;
 }
 
 rt_status rt_source_read(rt_sources *sources, rt_source *source, char *cause, size_t cause_size)
@@ -140,7 +140,7 @@ rt_status rt_source_read(rt_sources *sources, rt_source *source, char *cause, si
     source->is_file = 1;
     source->device = (uint64_t)info.st_dev;
     source->inode = (uint64_t)info.st_ino;
-    if (is_being_read(source)) {
+    if (rt_source_around(source)) {
         status = fail(cause, cause_size, RT_ERROR_INPUT, "it would include itself");
         goto out;
     }

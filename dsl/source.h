@@ -51,6 +51,9 @@ rt_source *rt_sources_add(rt_sources *sources, const char *path, const rt_source
 rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *text,
                          const char **cause);
 
+/* The text, among those that include this one, that is the same file; NULL if there is none. */
+const rt_source *rt_source_around(const rt_source *source);
+
 /*
  * Fills a source from the file of its path. Fails with RT_ERROR_INPUT or RT_ERROR_MEMORY;
  * cause (of cause_size bytes) then says why, as a part of a sentence.

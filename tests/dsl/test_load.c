@@ -259,7 +259,7 @@ static const char placed_text[] =
     "texture letter { file \"scenes/textures/letter.png\" wrap mirror scale 4 2 offset 0.5 -1 "
     "linear true }\n"
     "texture squares { pattern checker a 1 b 0 0.5 0 }\n"
-    "material gold { ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture "
+    "material gold { kd 0.1 ks 0.9 fresnel conductor eta 0.2 k 3 2 1 roughness 0.1 bump_texture "
     "letter bump_scale 0.1 }\n"
     "material water { kt 1 fresnel dielectric absorption 0.1 0.2 0.3 kt_texture squares }\n"
     "mesh knot { file \"scenes/meshes/knot.ply\" }\n"
@@ -429,6 +429,8 @@ static void cycles_and_explosions_of_includes_are_refused(void **state)
     assert_int_equal(c.items[0].line, 1);
     assert_non_null(strstr(c.items[0].file, "/b.rts"));
     assert_non_null(strstr(c.items[0].message, "it would include itself"));
+    assert_non_null(strstr(c.items[0].hint, "/a.rts includes "));
+    assert_non_null(strstr(c.items[0].hint, "/b.rts, which includes it"));
 }
 
 static void what_is_no_text_is_one_error(void **state)
