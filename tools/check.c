@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "commands.h"
+#include "json.h"
 #include "message.h"
 #include "rt.h"
 #include "status.h"
@@ -13,26 +14,49 @@ static const char *plural(uint64_t count)
 }
 
 /* Says what a sound scene holds. */
-static void print_summary(const char *path, const rt_scene *scene, unsigned warnings)
+static void print_summary(const char *name, const rt_scene_info *info, unsigned warnings)
 {
-    rt_scene_info info;
-    rt_scene_get_info(scene, &info);
-    printf("%s: ok: %llu shape%s, %llu triangle%s, %llu material%s, %llu light%s", path,
-           (unsigned long long)info.shapes, plural(info.shapes), (unsigned long long)info.triangles,
-           plural(info.triangles), (unsigned long long)info.materials, plural(info.materials),
-           (unsigned long long)info.lights, plural(info.lights));
+    printf("%s: ok: %llu shape%s, %llu triangle%s, %llu material%s, %llu light%s", name,
+           (unsigned long long)info->shapes, plural(info->shapes),
+           (unsigned long long)info->triangles, plural(info->triangles),
+           (unsigned long long)info->materials, plural(info->materials),
+           (unsigned long long)info->lights, plural(info->lights));
     if (warnings)
         printf("; %u warning%s", warnings, plural(warnings));
     putchar('\n');
 }
 
-static int check(const char *path)
+/* The same as a line of JSON, and of a scene with errors how many; info NULL: it holds nothing. */
+static void print_json(const char *name, const rt_scene_info *info, const scene_findings *findings)
 {
+    printf("{\"scene\":");
+    json_string(name);
+    printf(",\"ok\":%s", info ? "true" : "false");
+    json_member("errors", findings->errors);
+    json_member("warnings", findings->warnings);
+    if (info) {
+        json_member("shapes", (double)info->shapes);
+        json_member("triangles", (double)info->triangles);
+        json_member("materials", (double)info->materials);
+        json_member("lights", (double)info->lights);
+    }
+    puts("}");
+}
+
+static int check(const char *path, const command_line *arguments)
+{
+    int is_quiet = arguments->options[OPTION_QUIET].given;
     rt_scene *scene = NULL;
-    scene_findings findings;
-    int status = scene_file_load(&scene, path, SCENE_TO_CHECK, &findings, NULL);
+    rt_scene_info info;
+    scene_findings findings = {0, 0};
+    int status = scene_file_load(&scene, path, is_quiet ? SCENE_TO_CHECK_QUIETLY : SCENE_TO_CHECK,
+                                 &findings, NULL);
     if (status == STATUS_DONE)
-        print_summary(path, scene, findings.warnings);
+        rt_scene_get_info(scene, &info);
+    if (arguments->options[OPTION_JSON].given)
+        print_json(scene_file_name(path), status == STATUS_DONE ? &info : NULL, &findings);
+    else if (status == STATUS_DONE && !is_quiet)
+        print_summary(scene_file_name(path), &info, findings.warnings);
     rt_scene_destroy(scene);
     return status;
 }
@@ -43,9 +67,11 @@ int command_check(const command_line *arguments)
         message_error("which scene? usage: rtc check SCENE.rts...");
         return STATUS_USAGE;
     }
+    if (arguments->options[OPTION_JSON].given)
+        message_as_json();
     int status = STATUS_DONE;
     for (size_t i = 0; i < arguments->operand_count; i++) {
-        int now = check(arguments->operands[i]);
+        int now = check(arguments->operands[i], arguments);
         status = status == STATUS_DONE ? now : status;
     }
     return status;

@@ -212,6 +212,8 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     if (!is_taken(&meaning, out->command)) {
         message_error("`rtc%s%s` takes no option --%.*s", out->command == COMMAND_RENDER ? "" : " ",
                       command_name(out->command), (int)length, name);
+        if (out->command == COMMAND_CHECK && meaning.setting)
+            message_hint("a scene is checked with the settings of its own film and render blocks");
         return STATUS_USAGE;
     }
     const char *text = equals ? equals + 1 : NULL;

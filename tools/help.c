@@ -23,10 +23,12 @@ static const char *const usages[COMMAND_COUNT] = {
         "Renders a scene of the .rts language by path tracing or photon mapping. The\n"
         "name - stands for stdin, whose images are stdin.png and stdin.exr. An option is\n"
         "written --name value or --name=value; the last one of several wins.\n",
-    [COMMAND_CHECK] = "usage: rtc check SCENE.rts...\n"
-                      "\n"
-                      "Reads scenes without rendering them and reports all errors, each with its\n"
-                      "place. SCENE - reads from stdin.\n",
+    [COMMAND_CHECK] =
+        "usage: rtc check SCENE.rts... [OPTION]...\n"
+        "\n"
+        "Reads scenes without rendering them and reports all errors, each with its\n"
+        "place. SCENE - reads from stdin. A scene is checked as it is written, with the\n"
+        "settings of its own film and render blocks.\n",
     [COMMAND_MESH] = "usage: rtc mesh KIND [OPTION]...\n"
                      "\n"
                      "Writes a mesh made from a formula, with normals and texture coordinates.\n"
@@ -48,10 +50,11 @@ static const char *const usages[COMMAND_COUNT] = {
     [COMMAND_PHOTONS] =
         "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
         "       rtc photons info MAP...                          what maps hold\n"
-        "       rtc photons merge MAP... --out MAP               join maps into one\n"
+        "       rtc photons merge MAP... --out MAP.rtp           join maps into one\n"
         "       rtc photons diff MAP MAP                         say how two maps differ\n"
         "       rtc photons export MAP --out FILE.ply            points for MeshLab or Blender\n"
         "\n"
+        "The name of a map that is written must end in .rtp.\n"
         "`rtc SCENE.rts --photon-map MAP.rtp` renders with a map. Parts made by --part, or\n"
         "maps of different seeds, merge in any order into the map that would have been\n"
         "made at once, to the bit. `diff` exits with 0 for equal maps and 1 for others.\n"
@@ -109,22 +112,46 @@ static void print_wrapped(const char *text, size_t column, size_t left)
     fputc('\n', stdout);
 }
 
-/* What an option does in a command, where it is not what the table says. */
-static const char *help_of(const option *option, command_id command)
+/*
+ * What an option does in a command, or in a form of `rtc photons`, where it is not what the table
+ * says.
+ */
+static const struct {
+    option_id option;
+    command_id command;
+    const char *form; /* "" for emission; NULL: of any command but `rtc photons` */
+    const char *help;
+} own_helps[] = {
+    {OPTION_OUT, COMMAND_PHOTONS, "", "where the map goes; its name ends in .rtp"},
+    {OPTION_OUT, COMMAND_PHOTONS, "merge", "where the merged map goes; its name ends in .rtp"},
+    {OPTION_OUT, COMMAND_PHOTONS, "export", "where the points go; its name ends in .ply"},
+    {OPTION_OUT, COMMAND_COMPARE, NULL,
+     "where the signed difference goes; .png .ppm: white where equal, red where A is brighter, "
+     "blue where B is; .exr .pfm: A - B as it is; may be repeated"},
+    {OPTION_STATS, COMMAND_PHOTONS, "",
+     "print what the map holds on stdout, as `rtc photons info` does"},
+    {OPTION_JSON, COMMAND_RENDER, NULL,
+     "print --stats as one JSON object; null stands for what is not a finite number"},
+    {OPTION_JSON, COMMAND_CHECK, NULL,
+     "print what each scene holds as a JSON object on a line of stdout, and errors and warnings as "
+     "such lines on stderr"},
+    {OPTION_JSON, COMMAND_PHOTONS, "", "print --stats as one JSON object"},
+    {OPTION_JSON, COMMAND_PHOTONS, "info", "print what each map holds as a JSON object on a line"},
+    {OPTION_JSON, COMMAND_PHOTONS, "diff", "print how the maps differ as one JSON object"},
+    {OPTION_QUIET, COMMAND_CHECK, NULL, "say nothing but errors"},
+    {OPTION_QUIET, COMMAND_PHOTONS, "info", "say nothing but errors, and the results"},
+    {OPTION_QUIET, COMMAND_PHOTONS, "diff", "say nothing but errors, and the results"},
+    {OPTION_QUIET, COMMAND_PHOTONS, "merge", "say nothing but errors"},
+    {OPTION_QUIET, COMMAND_PHOTONS, "export", "say nothing but errors"},
+};
+
+static const char *help_of(const option *option, command_id command, const photons_form *form)
 {
-    if (command == COMMAND_PHOTONS && option == &option_table[OPTION_OUT])
-        return "where the map, or the file of points, goes";
-    if (command == COMMAND_COMPARE && option == &option_table[OPTION_OUT])
-        return "where the signed difference goes; .png .ppm: white where equal, red where A is "
-               "brighter, blue where B "
-               "is; .exr .pfm: A - B as it is; may be repeated";
-    if (command == COMMAND_PHOTONS && option == &option_table[OPTION_STATS])
-        return "print what the map holds on stdout, as `rtc photons info` does";
-    if (command == COMMAND_RENDER && option == &option_table[OPTION_JSON])
-        return "print --stats as one JSON object; null stands for what is not a finite number";
-    if (command == COMMAND_PHOTONS && option == &option_table[OPTION_JSON])
-        return "print what maps hold, here with --stats, or how they differ, as a JSON object on a "
-               "line for each";
+    const char *word = form ? form->word : "";
+    for (size_t i = 0; i < sizeof own_helps / sizeof *own_helps; i++)
+        if (option == &option_table[own_helps[i].option] && own_helps[i].command == command &&
+            (!own_helps[i].form || strcmp(own_helps[i].form, word) == 0))
+            return own_helps[i].help;
     return option->help;
 }
 
@@ -142,10 +169,10 @@ static void print_entry(const char *name, const char *value, const char *help, c
     print_wrapped(text, (size_t)column, LEFT);
 }
 
-static void print_option(const option *option, command_id command)
+static void print_option(const option *option, command_id command, const photons_form *form)
 {
     char words[128] = "";
-    const char *help = help_of(option, command);
+    const char *help = help_of(option, command, form);
     if (option->words)
         rt_words_join(words, sizeof words, option->words);
     print_entry(option->name, option->value, help, words,
@@ -223,7 +250,7 @@ static int group_options(option_group group, command_id command, const photons_f
         if (option_table[i].group == group && takes(command, form, (option_id)i)) {
             found++;
             if (print)
-                print_option(&option_table[i], command);
+                print_option(&option_table[i], command, form);
         }
     return found;
 }

@@ -8,6 +8,7 @@
 #include "interrupt.h"
 #include "mesh_shape.h"
 #include "message.h"
+#include "outputs.h"
 #include "status.h"
 
 enum { DEFAULT_TRIANGLES = 20000 };
@@ -122,9 +123,8 @@ static int write_mesh(const char *path, const mesh_grid *grid)
 
 static int check_extension(const char *path)
 {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    if (dot && strcasecmp(dot, ".ply") == 0)
-        return STATUS_DONE;
+    if (strcasecmp(outputs_extension(path), ".ply") == 0)
+        return outputs_check_writable(path);
     message_error("--out %s: a mesh is written as .ply", path);
     return STATUS_USAGE;
 }

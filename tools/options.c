@@ -4,6 +4,7 @@
 #include "rt.h"
 
 #define RENDER (1u << COMMAND_RENDER)
+#define CHECK (1u << COMMAND_CHECK)
 #define MESH (1u << COMMAND_MESH)
 #define DOCTOR (1u << COMMAND_DOCTOR)
 #define PHOTONS (1u << COMMAND_PHOTONS)
@@ -81,8 +82,8 @@ const option option_table[OPTION_COUNT] = {
          "print of every block the ratio, its standard error, and the difference as a part of what "
          "is allowed"},
     [OPTION_JSON] =
-        {"json", NULL, KIND_FLAG, GROUP_TALK, RENDER | COMPARE | PHOTONS, 0, 0, NULL, 0, NULL,
-         "print the results as one JSON object; null stands for what is not a finite number"},
+        {"json", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | COMPARE | PHOTONS, 0, 0, NULL, 0,
+         NULL, "print the results as one JSON object; null stands for what is not a finite number"},
 
     [OPTION_MAX_MSE] = {"max-mse", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1e15, NULL, 0, NULL,
                         "largest mean squared error"},
@@ -118,8 +119,8 @@ const option option_table[OPTION_COUNT] = {
                       "print what the render did and how long it took on stdout"},
     [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR, 0, 0,
                         NULL, 0, NULL, "log details to stderr"},
-    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
-                      "say nothing but errors; progress only where --progress asks for it"},
+    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | PHOTONS, 0, 0, NULL, 0,
+                      NULL, "say nothing but errors; progress only where --progress asks for it"},
     [OPTION_HELP] = {"help", NULL, KIND_FLAG, GROUP_TALK, ALL, 0, 0, NULL, 0, NULL,
                      "print this and stop"},
     [OPTION_VERSION] = {"version", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,

@@ -24,18 +24,17 @@ static const char *file_part(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* The extension with its dot, or "". */
-static const char *extension(const char *path)
+const char *outputs_extension(const char *path)
 {
-    const char *dot = strrchr(file_part(path), '.');
-    return dot ? dot : "";
+    const char *name = file_part(path), *dot = strrchr(name, '.');
+    return dot && dot != name ? dot : "";
 }
 
 /* The index in formats, or -1. */
 static int find_format(const char *path)
 {
     for (int i = 0; i < FORMAT_COUNT; i++)
-        if (strcasecmp(extension(path), formats[i].name) == 0)
+        if (strcasecmp(outputs_extension(path), formats[i].name) == 0)
             return i;
     return -1;
 }
@@ -46,7 +45,7 @@ static int check_format(const char *path)
         return STATUS_DONE;
     message_error("--out %s: the extension tells the format: .exr, .png, .ppm or .pfm", path);
     rt_nearest search;
-    rt_nearest_begin(&search, extension(path), strlen(extension(path)));
+    rt_nearest_begin(&search, outputs_extension(path), strlen(outputs_extension(path)));
     for (int i = 0; i < FORMAT_COUNT; i++)
         rt_nearest_offer(&search, formats[i].name, strlen(formats[i].name));
     if (search.best)
@@ -99,10 +98,23 @@ static int add_defaults(output_list *out, const char *scene)
 {
     const char *name = strcmp(scene, "-") == 0 ? "stdin" : file_part(scene);
     size_t stem = strlen(name);
-    if (strcmp(extension(name), ".rts") == 0 && stem > 4)
+    if (strcmp(outputs_extension(name), ".rts") == 0 && stem > 4)
         stem -= 4;
     int status = add(out, name, stem, ".png");
     return status == STATUS_DONE ? add(out, name, stem, ".exr") : status;
+}
+
+/* Whether two paths are one file, which need not be there: of one name in one directory. */
+static int is_same_output(const char *a, const char *b)
+{
+    char folders[2][OUTPUT_PATH];
+    struct stat of_a, of_b;
+    if (strcmp(file_part(a), file_part(b)) != 0)
+        return 0;
+    snprintf(folders[0], OUTPUT_PATH, "%.*s.", (int)(file_part(a) - a), a);
+    snprintf(folders[1], OUTPUT_PATH, "%.*s.", (int)(file_part(b) - b), b);
+    return strcmp(a, b) == 0 || (stat(folders[0], &of_a) == 0 && stat(folders[1], &of_b) == 0 &&
+                                 of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino);
 }
 
 static int add_given(output_list *out, const command_line *arguments)
@@ -110,7 +122,7 @@ static int add_given(output_list *out, const command_line *arguments)
     for (size_t i = 0; i < arguments->output_count; i++) {
         const char *path = arguments->outputs[i];
         for (size_t j = 0; j < i; j++)
-            if (strcmp(path, arguments->outputs[j]) == 0) {
+            if (is_same_output(path, arguments->outputs[j])) {
                 message_error("--out %s is given twice", path);
                 return STATUS_USAGE;
             }

@@ -22,6 +22,9 @@ typedef struct output_list {
 int outputs_plan(output_list *out, const command_line *arguments, const char *scene);
 void outputs_free(output_list *outputs);
 
+/* The extension of a path with its dot, or ""; a name that is an extension alone has none. */
+const char *outputs_extension(const char *path);
+
 /*
  * Whether a file can be written, without writing it. Returns an exit status, with a message when it
  * is not STATUS_DONE.

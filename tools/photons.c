@@ -27,8 +27,8 @@ int photons_output(const char **out, const command_line *arguments, const char *
         message_error("%s goes to one file: --out FILE", what);
         return STATUS_USAGE;
     }
-    const char *path = arguments->outputs[0], *dot = strrchr(path, '.');
-    if (!dot || strcasecmp(dot, extension) != 0) {
+    const char *path = arguments->outputs[0];
+    if (strcasecmp(outputs_extension(path), extension) != 0) {
         message_error("--out %s: %s goes to a file called NAME%s", path, what, extension);
         return STATUS_USAGE;
     }
@@ -41,6 +41,19 @@ static int fail_operands(const char *usage)
     message_error("usage: rtc photons %s", usage);
     message_hint("`rtc photons --help` says what each form does");
     return STATUS_USAGE;
+}
+
+/* Whether maps that are to be joined are different files. */
+static int check_maps(const command_line *arguments)
+{
+    for (size_t i = 2; i < arguments->operand_count; i++)
+        for (size_t j = 1; j < i; j++)
+            if (inputs_are_same(arguments->operands[j], arguments->operands[i])) {
+                message_error("%s is given twice: merged maps must be of different parts or seeds",
+                              arguments->operands[i]);
+                return STATUS_USAGE;
+            }
+    return STATUS_DONE;
 }
 
 /* Whether a form's output is none of the maps that it reads. */
@@ -94,10 +107,12 @@ static int merge(const command_line *arguments)
     rt_photon_map *whole = NULL;
     rt_error error;
     if (count < 1)
-        return fail_operands("merge MAP... --out MAP");
+        return fail_operands("merge MAP... --out MAP.rtp");
     int status = photons_output(&path, arguments, "the merged map", ".rtp");
     if (status == STATUS_DONE)
         status = check_inputs(arguments, path);
+    if (status == STATUS_DONE)
+        status = check_maps(arguments);
     if (status != STATUS_DONE)
         return status;
     rt_photon_map **maps = calloc(count, sizeof *maps);
@@ -167,7 +182,7 @@ static const photons_form forms[] = {
      "Prints what maps hold on stdout: paths, photons, flux, bounds, and the energy\n"
      "ledger of each light.\n"},
     {"merge", merge, 1,
-     "usage: rtc photons merge MAP... --out MAP\n"
+     "usage: rtc photons merge MAP... --out MAP.rtp\n"
      "\n"
      "Joins parts of a map made by --part, or maps of different seeds, in any order,\n"
      "into the map that would have been made at once, to the bit.\n"},
@@ -196,8 +211,8 @@ const photons_form *photons_find_form(const command_line *arguments)
 
 int photons_form_takes(const photons_form *form, option_id id)
 {
-    return id == OPTION_QUIET || id == OPTION_VERBOSE || id == OPTION_HELP ||
-           (id == OPTION_OUT && form->writes) || (id == OPTION_JSON && !form->writes);
+    return id == OPTION_QUIET || id == OPTION_HELP || (id == OPTION_OUT && form->writes) ||
+           (id == OPTION_JSON && !form->writes);
 }
 
 /* Emission has many options, the other forms few. */

@@ -25,7 +25,8 @@ static int is_wanted(const rt_diagnostic *diagnostic, scene_purpose purpose)
 {
     if (diagnostic->severity == RT_SEVERITY_ERROR || purpose == SCENE_TO_CHECK)
         return 1;
-    return purpose != SCENE_QUIETLY && diagnostic->severity == RT_SEVERITY_WARNING &&
+    return purpose != SCENE_QUIETLY && purpose != SCENE_TO_CHECK_QUIETLY &&
+           diagnostic->severity == RT_SEVERITY_WARNING &&
            diagnostic->finding != RT_FINDING_NO_LIGHT;
 }
 
@@ -45,6 +46,11 @@ static void on_file(void *user, const char *path)
     scene_reading *reading = user;
     if (reading->inputs)
         inputs_add(reading->inputs, path);
+}
+
+const char *scene_file_name(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "stdin" : path;
 }
 
 /* All of stdin as a string that the caller frees, or NULL after saying why not. */
@@ -82,7 +88,7 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     char *text = read_stdin(&status);
     if (!text)
         return status;
-    *result = rt_scene_parse(out, text, "stdin", options, error);
+    *result = rt_scene_parse(out, text, scene_file_name("-"), options, error);
     free(text);
     return STATUS_DONE;
 }
@@ -92,7 +98,8 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
 {
     scene_reading reading = {{0, 0}, purpose, inputs};
     rt_load_options options = {.diagnostic = on_diagnostic, .user = &reading, .file = on_file};
-    options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_RENDER;
+    options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_CHECK_QUIETLY ||
+                    purpose == SCENE_TO_RENDER;
     rt_error error;
     rt_status result = RT_OK;
     int status = STATUS_DONE;
@@ -108,8 +115,9 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
     if (reading.findings.errors == 0)
         return message_failure(&error);
     if (reading.findings.errors > ERRORS_SHOWN)
-        message_note("%s: and %u more errors", path, reading.findings.errors - ERRORS_SHOWN);
+        message_note("%s: and %u more errors", scene_file_name(path),
+                     reading.findings.errors - ERRORS_SHOWN);
     else if (reading.findings.errors > 1)
-        message_note("%s: %u errors", path, reading.findings.errors);
+        message_note("%s: %u errors", scene_file_name(path), reading.findings.errors);
     return STATUS_INPUT;
 }

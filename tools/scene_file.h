@@ -12,11 +12,15 @@ typedef struct scene_findings {
 
 /* What a scene is read for decides what is said of it beside its errors. */
 typedef enum scene_purpose {
-    SCENE_TO_CHECK,  /* everything */
-    SCENE_TO_RENDER, /* warnings, but for what the render itself will warn of */
-    SCENE_TO_EMIT,   /* warnings of the text: photons need no camera */
-    SCENE_QUIETLY    /* nothing */
+    SCENE_TO_CHECK,         /* everything */
+    SCENE_TO_CHECK_QUIETLY, /* nothing, but everything is found */
+    SCENE_TO_RENDER,        /* warnings, but for what the render itself will warn of */
+    SCENE_TO_EMIT,          /* warnings of the text: photons need no camera */
+    SCENE_QUIETLY           /* nothing */
 } scene_purpose;
+
+/* What a scene's path is called in what rtc says: "stdin" for "-". */
+const char *scene_file_name(const char *path);
 
 /*
  * Reads the scene at path, "-" for stdin, and prints every error and what else its purpose asks

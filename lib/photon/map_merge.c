@@ -90,12 +90,13 @@ static rt_status check_overlap(const piece *pieces, size_t count, rt_error *erro
 {
     for (size_t i = 1; i < count; i++) {
         const rt_path_range *a = pieces[i - 1].range, *b = pieces[i].range;
-        if (a->seed == b->seed && b->first < a->first + a->count)
+        uint64_t end = a->first + a->count, b_end = b->first + b->count;
+        if (a->seed == b->seed && b->first < end)
             return fail_pair(pieces[i - 1].map, pieces[i].map, error,
-                             "the photon maps hold the same paths, %llu and more of seed %u; a "
-                             "different seed or part "
-                             "makes others",
-                             (unsigned long long)b->first, b->seed);
+                             "the photon maps hold the same paths, %llu to %llu of seed %u; a "
+                             "different seed or part makes others",
+                             (unsigned long long)b->first,
+                             (unsigned long long)(end < b_end ? end : b_end) - 1, b->seed);
     }
     return RT_OK;
 }

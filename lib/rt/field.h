@@ -34,8 +34,8 @@ RT_API const rt_word *rt_word_find(const rt_word *words, const char *text, size_
 RT_API const char *rt_words_join(char *out, size_t size, const rt_word *words);
 
 /*
- * A search for the name that a mistyped one probably meant: begin, offer each name, read `best`. The
- * beginning of a name and what other programs call it, as `cube` for box, are near to it too.
+ * A search for the name that a mistyped one probably meant: begin, offer each name, read `best`.
+ * The beginning of a name and what other programs call it, as `cube` for box, are near to it too.
  */
 typedef struct rt_nearest {
     const char *wanted;

@@ -270,16 +270,20 @@ static void broken_maps_and_places_have_their_status(void **state)
         {"a.rts --photon-map . --out a.pfm", 1, "directory"},
         {"photons info none.rtp", 1, "none.rtp: No such file"},
         {"photons diff a.rtp a.rts", 1, "no photon map"},
-        {"photons merge a.rtp a.rtp --out c.rtp", 1,
-         "a.rtp and a.rtp: the photon maps hold the same paths"},
+        {"photons merge a.rtp ./a.rtp --out c.rtp", 2,
+         "./a.rtp is given twice: merged maps must be of different parts or seeds"},
+        {"photons merge a.rtp b.rtp --out c.rtp", 1,
+         "a.rtp and b.rtp: the photon maps hold the same paths, 0 to 99 of seed 0"},
+        {"mesh sphere --out none/m.ply", 4, "none/m.ply: there is no such directory"},
         {"photons export a.rtp --out nowhere/a.ply", 4, "nowhere/a.ply"},
         {"photons merge a.rtp --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
         {"photons a.rts --photons 10 --out nowhere/a.rtp", 4, "nowhere/a.rtp"},
-        {"photons none.rts --out b.rtp", 1, "none.rts"},
+        {"photons none.rts --out d.rtp", 1, "none.rts"},
         {"a.rts --photon-map none.rtp --out a.pfm", 1, "none.rtp"},
     };
     (void)state;
     succeed("photons a.rts --photons 100 --quiet --out a.rtp");
+    succeed("photons a.rts --photons 150 --quiet --out b.rtp");
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         run run = run_rtc("%s", cases[i].line);
         expect_status(&run, cases[i].status);
@@ -287,7 +291,7 @@ static void broken_maps_and_places_have_their_status(void **state)
         expect_err(&run, cases[i].says);
         run_free(&run);
     }
-    assert_int_equal(scratch_count(), 2);
+    assert_int_equal(scratch_count(), 3);
 }
 
 static void starved_lights_are_told_without_verbose(void **state)

@@ -116,6 +116,50 @@ static void five_mistakes_are_five_errors(void **state)
     run_free(&run);
 }
 
+static void a_scene_of_stdin_has_one_name(void **state)
+{
+    (void)state;
+    run run = run_rtc_input("foo\nfilm { widht 3 }\n", 21, "check -");
+    expect_status(&run, 1);
+    expect_err(&run, "stdin:1:1: error: ");
+    expect_err(&run, "stdin: 2 errors\n");
+    run_free(&run);
+    run = run_rtc_input(CAMERA WHITE BALL LIGHT, strlen(CAMERA WHITE BALL LIGHT), "check -");
+    expect_status(&run, 0);
+    expect_out(&run, "stdin: ok: 1 shape, ");
+    run_free(&run);
+}
+
+/* One line for each scene, sound or not; what is said of it is JSON too. */
+static void check_prints_json(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", CAMERA WHITE BALL LIGHT);
+    scratch_write("b.rts", CAMERA "film { widht 64 }\n");
+    run run = run_rtc("check a.rts b.rts --json");
+    expect_status(&run, 1);
+    expect_out(&run, "{\"scene\":\"a.rts\",\"ok\":true,\"errors\":0,\"warnings\":0,\"shapes\":1,"
+                     "\"triangles\":0,\"materials\":1,\"lights\":1}\n");
+    expect_out(&run, "{\"scene\":\"b.rts\",\"ok\":false,\"errors\":1,\"warnings\":0}\n");
+    expect_err(&run, "{\"severity\":\"error\",\"file\":\"b.rts\",\"line\":2,\"column\":8,");
+    run_free(&run);
+}
+
+static void quiet_check_tells_errors_alone(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", CAMERA WHITE BALL);
+    scratch_write("b.rts", CAMERA "film { widht 64 }\n");
+    run dark = run_rtc("check a.rts --quiet"), bad = run_rtc("check b.rts --quiet");
+    expect_status(&dark, 0);
+    assert_string_equal(dark.out, "");
+    assert_string_equal(dark.err, "");
+    expect_status(&bad, 1);
+    expect_err(&bad, "b.rts:2:8: error: ");
+    run_free(&dark);
+    run_free(&bad);
+}
+
 static void error_in_an_included_file_names_that_file(void **state)
 {
     (void)state;
@@ -222,6 +266,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(each_mistake_is_placed_and_explained),
         TEST(five_mistakes_are_five_errors),
+        TEST(a_scene_of_stdin_has_one_name),
+        TEST(check_prints_json),
+        TEST(quiet_check_tells_errors_alone),
         TEST(error_in_an_included_file_names_that_file),
         TEST(caret_stands_under_the_place),
         TEST(long_line_is_cut_around_the_place),

@@ -83,6 +83,11 @@ static const struct {
     {"a.rts --out a.exrr", "did you mean .exr?"},
     {"a.rts --out noextension", "the extension tells the format"},
     {"a.rts --out a.png --out a.png", "--out a.png is given twice"},
+    {"a.rts --out a.png --out ./a.png", "--out ./a.png is given twice"},
+    {"a.rts --out .exr", "--out .exr: the extension tells the format"},
+    {"photons a.rts --out .rtp", "called NAME.rtp"},
+    {"mesh sphere --out .ply", "--out .ply: a mesh is written as .ply"},
+    {"photons info m.rtp --verbose", "`rtc photons info` takes no option --verbose"},
     {"a.rts --mode photon --area hull --k 4", "--k: area hull needs k of at least 5"},
     {"a.rts --mode photon --k 1", "--k takes a whole number from 2 to 65536"},
     {"a.rts --width 65537", "--width takes a whole number from 1 to 65536"},
@@ -94,6 +99,7 @@ static const struct {
     {"a.rts --work-group 1e6", "--work-group: "},
     {"check", "which scene?"},
     {"check a.rts --spp 3", "`rtc check` takes no option --spp"},
+    {"check a.rts --mode photon", "hint: a scene is checked with the settings of its own film"},
     {"devices --spp 3", "`rtc devices` takes no option --spp"},
     {"devices a.rts", "takes no argument"},
     {"doctor a.rts", "takes no argument but options"},
@@ -388,10 +394,13 @@ static void each_form_of_photons_has_its_help(void **state)
     static const struct {
         const char *form, *usage;
         int writes;
-    } cases[] = {{"info", "usage: rtc photons info MAP...\n", 0},
-                 {"merge", "usage: rtc photons merge MAP... --out MAP\n", 1},
-                 {"diff", "usage: rtc photons diff MAP MAP\n", 0},
-                 {"export", "usage: rtc photons export MAP --out FILE.ply\n", 1}};
+        const char *says;
+    } cases[] = {{"info", "usage: rtc photons info MAP...\n", 0, "print what each map holds"},
+                 {"merge", "usage: rtc photons merge MAP... --out MAP.rtp\n", 1,
+                  "where the merged map goes; its name ends in .rtp"},
+                 {"diff", "usage: rtc photons diff MAP MAP\n", 0, "print how the maps differ"},
+                 {"export", "usage: rtc photons export MAP --out FILE.ply\n", 1,
+                  "where the points go; its name ends in .ply"}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         run run = run_rtc("help photons %s", cases[i].form),
@@ -401,13 +410,25 @@ static void each_form_of_photons_has_its_help(void **state)
         assert_memory_equal(run.out, cases[i].usage, strlen(cases[i].usage));
         assert_int_equal(strstr(run.out, "\n  --out ") != NULL, cases[i].writes);
         expect_out(&run, "\n  --quiet ");
+        expect_out(&run, cases[i].says);
         assert_null(strstr(run.out, "--photons"));
+        assert_null(strstr(run.out, "--stats"));
+        assert_null(strstr(run.out, "--progress"));
         assert_null(strstr(run.out, "--device"));
         for (const char *line = run.out; *line; line += strcspn(line, "\n") + 1)
             assert_true(strcspn(line, "\n") <= 80);
         run_free(&run);
         run_free(&same);
     }
+}
+
+static void the_name_of_a_photon_map_is_told(void **state)
+{
+    (void)state;
+    run run = run_rtc("help photons");
+    expect_out(&run, "The name of a map that is written must end in .rtp.");
+    expect_out(&run, "where the map goes; its name ends in .rtp");
+    run_free(&run);
 }
 
 static void version_is_told(void **state)
@@ -592,6 +613,7 @@ int main(void)
         TEST(help_describes_every_option),
         TEST(each_command_has_its_help),
         TEST(each_form_of_photons_has_its_help),
+        TEST(the_name_of_a_photon_map_is_told),
         TEST(version_is_told),
         TEST(devices_are_listed),
         TEST(doctor_finds_all_well),
