@@ -118,6 +118,17 @@ check example_builds_statically build_static static
 check static_example_needs_no_shared_library eval '! objdump -p static | grep librt-render'
 check static_example_renders_the_same eval 'says_radiance static && is_same shared.out static.out'
 
+# ---- In a folder of one's own -------------------------------------------------------
+
+# As the README says, from `make install PREFIX=` to `./a.out`.
+sed -n '/^    make install PREFIX=/,/^    \.\/a\.out/p' "$OLDPWD/README.md" |
+    sed "s/^    //; s|^make |env -u MAKEFLAGS -u MAKELEVEL make -s -C $OLDPWD |" >own.sh
+run_own() {
+    env -u PKG_CONFIG_SYSROOT_DIR -u PKG_CONFIG_PATH HOME="$work" sh -e own.sh >own.out &&
+        cat own.out && tail -n 1 own.out >own.radiance && is_radiance own.radiance
+}
+check readme_installs_without_root run_own
+
 # ---- Away again --------------------------------------------------------------------
 
 cd "$OLDPWD" || exit 1
