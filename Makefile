@@ -63,6 +63,7 @@ LIB_SRC := \
 	lib/photon/map_check.c lib/photon/map_emit.c lib/photon/map_merge.c lib/photon/map_ply.c \
 	lib/photon/map_read.c lib/photon/map_warnings.c lib/photon/map_write.c \
 	lib/photon/neighbour_search.c \
+	lib/photon/photon_boxes.c \
 	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_tree.c \
 	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
 	lib/render/enclosing_media.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \

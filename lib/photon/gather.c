@@ -70,7 +70,7 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
         status = rt_tree_gather_prepare(&g->tree, device, list, &estimate, g->capacity, error);
     } else {
         status = rt_neighbour_gather_prepare(&g->neighbours, device, list, &estimate, max_radius,
-                                             g->capacity, error);
+                                             options->skip_empty, g->capacity, error);
         g->capacity = g->neighbours.capacity;
     }
     if (status == RT_OK)

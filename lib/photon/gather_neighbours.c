@@ -37,11 +37,12 @@ static rt_status create_buffers(rt_neighbour_gather *g, rt_device *device,
 
 rt_status rt_neighbour_gather_prepare(rt_neighbour_gather *g, rt_device *device,
                                       const rt_photon_list *list, const rt_density_params *estimate,
-                                      float max_radius, size_t capacity, rt_error *error)
+                                      float max_radius, int skip_empty, size_t capacity,
+                                      rt_error *error)
 {
     memset(g, 0, sizeof *g);
     rt_status status = rt_neighbour_search_create(&g->search, list, estimate->k, max_radius,
-                                                  device->threads, error);
+                                                  skip_empty, device->threads, error);
     if (status != RT_OK)
         return status;
     size_t stride = rt_neighbour_search_stride(g->search);

@@ -26,7 +26,8 @@ typedef struct rt_neighbour_gather {
  */
 rt_status rt_neighbour_gather_prepare(rt_neighbour_gather *out, rt_device *device,
                                       const rt_photon_list *list, const rt_density_params *estimate,
-                                      float max_radius, size_t capacity, rt_error *error);
+                                      float max_radius, int skip_empty, size_t capacity,
+                                      rt_error *error);
 void rt_neighbour_gather_release(rt_neighbour_gather *gather);
 
 /*

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "photon/flann_index.h"
+#include "photon/photon_boxes.h"
 #include "photon/point_order.h"
 
 /* Neighbours that a thread finds at a time, 16 bytes each: few enough to stay in its cache. */
@@ -16,8 +17,9 @@ enum { NEIGHBOURS_A_JOB = 1 << 16 };
 
 struct rt_neighbour_search {
     rt_flann_index *index;
-    float (*normals)[3]; /* of the photons */
-    size_t count;        /* photons */
+    float (*normals)[3];    /* of the photons */
+    rt_photon_boxes *boxes; /* NULL: empty discs are searched for as others are */
+    size_t count;           /* photons */
     uint32_t k;
     float squared_limit; /* of the radius */
     uint32_t threads;
@@ -45,7 +47,7 @@ static size_t max_candidates(const rt_neighbour_search *search)
 }
 
 rt_status rt_neighbour_search_create(rt_neighbour_search **out, const rt_photon_list *map,
-                                     uint32_t k, float max_radius, uint32_t threads,
+                                     uint32_t k, float max_radius, int skip_empty, uint32_t threads,
                                      rt_error *error)
 {
     rt_neighbour_search *search = calloc(1, sizeof *search);
@@ -66,6 +68,9 @@ rt_status rt_neighbour_search_create(rt_neighbour_search **out, const rt_photon_
         status = rt_fail(error, RT_ERROR_MEMORY, "no memory to search %zu photons", map->count);
     if (status == RT_OK)
         status = rt_flann_index_create(&search->index, positions[0], map->count, error);
+    if (status == RT_OK && skip_empty && map->count <= RT_POINT_ORDER_INDEX)
+        status =
+            rt_photon_boxes_create(&search->boxes, map, max_candidates(search), threads, error);
     free(positions);
     if (status == RT_OK)
         *out = search;
@@ -79,6 +84,7 @@ void rt_neighbour_search_destroy(rt_neighbour_search *search)
     if (!search)
         return;
     rt_flann_index_destroy(search->index);
+    rt_photon_boxes_destroy(search->boxes);
     free(search->normals);
     free(search);
 }
@@ -259,6 +265,62 @@ static rt_status find_queries(rt_u32 *queries, size_t *count, const rt_gather_po
     return status;
 }
 
+/* ---- Discs without photons ------------------------------------------------- */
+
+enum { POINTS_A_TEST = 1 << 10, TEST_EVERY = 16 }; /* points of a job, and those tested first */
+
+/* Points in the order of a curve that may have no photon. */
+typedef struct emptiness {
+    const rt_neighbour_search *search;
+    const rt_gather_point *points;
+    const rt_u32 *queries; /* [count] */
+    size_t count, every;
+    const rt_gather_disc *discs; /* what was found so far */
+    unsigned char *empty;        /* [count], set where it is so */
+} emptiness;
+
+static int is_empty(const emptiness *e, size_t i)
+{
+    const rt_gather_point *point = e->points + e->queries[i];
+    return e->discs[e->queries[i]].count == 0 &&
+           rt_photon_boxes_none(e->search->boxes, point->position, point->normal,
+                                e->search->squared_limit);
+}
+
+/* Tests some of the points of a share; and, where one of these is empty, those up to the next. */
+static void test_share(void *user, uint32_t index)
+{
+    const emptiness *e = user;
+    size_t end = smaller(((size_t)index + 1) * POINTS_A_TEST, e->count);
+    for (size_t i = (size_t)index * POINTS_A_TEST; i < end; i++)
+        if (i % e->every == 0 || e->empty[i - i % e->every])
+            e->empty[i] = (unsigned char)is_empty(e, i);
+}
+
+/* Takes the points away that surely have no photon, looking closer at every so many. */
+static rt_status drop_empty(const rt_neighbour_search *search, const rt_gather_point *points,
+                            rt_u32 *queries, size_t *count, size_t every, rt_gather_disc *discs,
+                            rt_error *error)
+{
+    size_t left = 0;
+    if (!search->boxes || *count == 0)
+        return RT_OK;
+    emptiness e = {search, points, queries, *count, every, discs, calloc(*count, 1)};
+    if (!e.empty)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to find photons at %zu points", *count);
+    rt_parallel(search->threads, (uint32_t)((*count + POINTS_A_TEST - 1) / POINTS_A_TEST),
+                test_share, &e);
+    for (size_t i = 0; i < *count; i++) {
+        if (e.empty[i])
+            discs[queries[i]].count = 0;
+        else
+            queries[left++] = queries[i];
+    }
+    free(e.empty);
+    *count = left;
+    return RT_OK;
+}
+
 rt_status rt_neighbour_search_find(const rt_neighbour_search *search, const rt_gather_point *points,
                                    size_t count, rt_u32 *lists, rt_gather_disc *discs,
                                    rt_error *error)
@@ -275,11 +337,18 @@ rt_status rt_neighbour_search_find(const rt_neighbour_search *search, const rt_g
         discs[queries[i]].is_query = 1;
     if (search->count == 0)
         left = 0;
+    if (status == RT_OK)
+        status = drop_empty(search, points, queries, &left, TEST_EVERY, discs, error);
     /* Most points are done with k candidates; the others take twice as many, and again. */
-    for (size_t candidates = rt_neighbour_search_stride(search); left > 0 && status == RT_OK;) {
+    size_t first = rt_neighbour_search_stride(search);
+    for (size_t candidates = first; left > 0 && status == RT_OK;) {
         status = rank_all(search, points, queries, &left, candidates, lists, discs, error);
+        if (status == RT_OK && candidates == first)
+            status = drop_empty(search, points, queries, &left, 1, discs, error);
         candidates = smaller(2 * candidates, max_candidates(search));
     }
+    for (size_t i = 0; i < count && search->boxes; i++)
+        discs[i].squared_radius = discs[i].count > 0 ? discs[i].squared_radius : 0;
     free(queries);
     return status;
 }

@@ -189,7 +189,9 @@ static const rt_setting settings[] = {
      RT_TOPIC_PHOTON, 0, k_needs},
     {RADIUS(radius, "0, no limit", "largest gather radius; with `passes`, that of the first pass"),
      RT_TOPIC_PHOTON, 0, photon_needs},
-    {CHOICE(gather, gathers, "auto", "where photons are found"), RT_TOPIC_PHOTON, 0, photon_needs},
+    {CHOICE(gather, gathers, "auto",
+            "where photons are found; the faster one depends on the scene and `k`"),
+     RT_TOPIC_PHOTON, 0, photon_needs},
     {WHOLE(
          passes, 1, 16777216, "", "1",
          "progressive photon mapping: this many passes, each with fresh photons and camera paths, "

@@ -192,7 +192,8 @@ static void compete(problem *p)
     parameters.leaf_max_size = 10;
     flann_index_t tree =
         flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
-    must(rt_neighbour_search_create(&search, &p->map, p->k, HUGE_VALF, p->threads, &error), &error);
+    must(rt_neighbour_search_create(&search, &p->map, p->k, HUGE_VALF, 0, p->threads, &error),
+         &error);
 
     open_device(&d, p);
     gather_on_device(&d, p); /* the driver compiles at the first launch */

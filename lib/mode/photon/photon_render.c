@@ -8,11 +8,13 @@ static void set_gather_options(rt_photon_render *r)
 {
     const rt_render_options *o = r->job->options;
     r->options[RT_QUERY_GLOBAL] =
-        (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->search};
+        (rt_gather_options){o->k, o->radius, o->kernel, o->cone_k, o->area, r->search, 0};
     r->options[RT_QUERY_CAUSTIC] = (rt_gather_options){
-        o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, o->area, r->search};
+        o->caustic_k, o->caustic_radius, o->caustic_kernel, o->cone_k, o->area, r->search, 1};
     r->options[RT_QUERY_EARLIER] =
         r->options[r->in_use->settings.split ? RT_QUERY_CAUSTIC : RT_QUERY_GLOBAL];
+    /* Many points have no caustic near them, and no layer shows the radius of these queries. */
+    r->options[RT_QUERY_EARLIER].skip_empty = 1;
     for (rt_query query = 0; query < RT_QUERIES; query++) {
         r->first_radius[query] = r->options[query].max_radius;
         if (r->options[query].k == RT_K_ALL)

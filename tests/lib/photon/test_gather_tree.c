@@ -239,8 +239,8 @@ static void compete(const problem *p, size_t brute)
     expect_ok(rt_tree_gather_prepare(&on, test_device(), &p->list, &estimate, part, &error),
               &error);
     if (p->k)
-        expect_ok(rt_neighbour_search_create(&search, &p->list, p->k, limit, test_device()->threads,
-                                             &error),
+        expect_ok(rt_neighbour_search_create(&search, &p->list, p->k, limit, 0,
+                                             test_device()->threads, &error),
                   &error);
     for (size_t first = 0; first < p->queries; first += part) {
         size_t count = p->queries - first < part ? p->queries - first : part;

@@ -7,6 +7,7 @@
 
 #include "lib/photon/points.h"
 #include "photon/neighbour_search.h"
+#include "photon/photon_boxes.h"
 
 static const float up[3] = {0, 1, 0}, down[3] = {0, -1, 0}, sideways[3] = {1, 0, 0};
 
@@ -42,7 +43,7 @@ static rt_gather_disc ask(rt_photon *photons, size_t count, uint32_t k, float ma
     rt_neighbour_search *search = NULL;
     rt_gather_disc disc;
     rt_error error;
-    expect_ok(rt_neighbour_search_create(&search, &map, k, max_radius, 2, &error), &error);
+    expect_ok(rt_neighbour_search_create(&search, &map, k, max_radius, 0, 2, &error), &error);
     expect_ok(rt_neighbour_search_find(search, &point, 1, list, &disc, &error), &error);
     rt_neighbour_search_destroy(search);
     return disc;
@@ -152,7 +153,7 @@ static void points_without_weight_or_place_are_not_asked(void **state)
     (void)state;
     fill_row(photons, 20);
     points[0].weight[1] = 0;
-    expect_ok(rt_neighbour_search_create(&search, &map, 5, INFINITY, 1, &error), &error);
+    expect_ok(rt_neighbour_search_create(&search, &map, 5, INFINITY, 0, 1, &error), &error);
     expect_ok(rt_neighbour_search_find(search, points, 3, lists, discs, &error), &error);
     rt_neighbour_search_destroy(search);
     assert_int_equal(discs[0].is_query, 0);
@@ -181,7 +182,7 @@ static void many_points_at_once_find_what_one_finds(void **state)
     }
     for (size_t i = 0; i < asked; i++)
         points[i] = point_at(points_uniform(&stream), points_uniform(&stream));
-    expect_ok(rt_neighbour_search_create(&search, &map, k, 0.06f, 2, &error), &error);
+    expect_ok(rt_neighbour_search_create(&search, &map, k, 0.06f, 0, 2, &error), &error);
     expect_ok(rt_neighbour_search_find(search, points, asked, lists, discs, &error), &error);
     rt_neighbour_search_destroy(search);
     for (size_t i = 0; i < asked; i += 97) {
@@ -190,6 +191,80 @@ static void many_points_at_once_find_what_one_finds(void **state)
         assert_true(disc.squared_radius == discs[i].squared_radius);
         assert_memory_equal(list, lists + i * k, disc.count * sizeof *list);
     }
+}
+
+/*
+ * A floor with a dense spot, and walls around it where few photons or none lie: what a search that
+ * skips empty discs finds is what the other one does, but for the radius of those.
+ */
+static void skipping_empty_discs_changes_no_other(void **state)
+{
+    enum { count = 20000, asked = 6000, k = 20 };
+    static rt_photon photons[count];
+    static rt_gather_point points[asked];
+    static rt_gather_disc discs[2][asked];
+    static rt_u32 lists[2][asked * k];
+    const float *const normals[] = {up, down, sideways};
+    points_stream stream = {5};
+    rt_photon_list map = {photons, count, count, count, 0};
+    rt_error error;
+    size_t empty = 0;
+    (void)state;
+    for (size_t i = 0; i < count; i++) {
+        float x = points_uniform(&stream), z = points_uniform(&stream);
+        photons[i] = i % 100 ? photon_at(0.1f * x, 0, 0.1f * z, up)
+                             : photon_at(1, x, z, i % 200 ? sideways : up);
+    }
+    for (size_t i = 0; i < asked; i++) {
+        points[i] = point_at(points_uniform(&stream), points_uniform(&stream));
+        points[i].position[1] = i % 2 ? points_uniform(&stream) : 0;
+        memcpy(points[i].normal, normals[i % 3], sizeof points[i].normal);
+    }
+    for (float limit = 0.2f; limit < 3; limit = limit < 1 ? 1.5f : HUGE_VALF) {
+        for (int skip = 0; skip < 2; skip++) {
+            rt_neighbour_search *search = NULL;
+            expect_ok(rt_neighbour_search_create(&search, &map, k, limit, skip, 2, &error), &error);
+            expect_ok(
+                rt_neighbour_search_find(search, points, asked, lists[skip], discs[skip], &error),
+                &error);
+            rt_neighbour_search_destroy(search);
+        }
+        for (size_t i = 0; i < asked; i++) {
+            rt_gather_disc expected = discs[0][i];
+            expected.squared_radius = expected.count > 0 ? expected.squared_radius : 0;
+            assert_memory_equal(&discs[1][i], &expected, sizeof expected);
+            assert_memory_equal(lists[1] + i * k, lists[0] + i * k,
+                                expected.count * sizeof **lists);
+            empty += expected.count == 0;
+        }
+    }
+    assert_true(empty > asked);
+}
+
+/* Where a spot on the floor has enough photons and those of a wall are farther, none fits. */
+static void an_empty_disc_is_known_without_a_search(void **state)
+{
+    enum { spot = 1024, wall = 1024, reach = 320 };
+    static rt_photon photons[spot + wall];
+    points_stream stream = {7};
+    rt_photon_list map = {photons, spot + wall, spot + wall, spot + wall, 0};
+    const float near_spot[3] = {0.2f, 0.1f, 0}, at_wall[3] = {8.9f, 9, 9};
+    rt_photon_boxes *boxes = NULL;
+    rt_error error;
+    (void)state;
+    for (size_t i = 0; i < spot + wall; i++) {
+        float x = points_uniform(&stream), z = points_uniform(&stream);
+        photons[i] = i < spot ? photon_at(0.1f * x, 0, 0.1f * z, up)
+                              : photon_at(9, 9 - 0.1f * x, 9 - 0.1f * z, sideways);
+    }
+    expect_ok(rt_photon_boxes_create(&boxes, &map, reach, 2, &error), &error);
+    assert_true(rt_photon_boxes_none(boxes, near_spot, sideways, HUGE_VALF));
+    assert_true(rt_photon_boxes_none(boxes, near_spot, down, HUGE_VALF));
+    assert_false(rt_photon_boxes_none(boxes, near_spot, up, HUGE_VALF));
+    assert_false(rt_photon_boxes_none(boxes, at_wall, sideways, HUGE_VALF));
+    /* Nothing at all lies within a limit that is small enough. */
+    assert_true(rt_photon_boxes_none(boxes, near_spot, up, 1e-4f));
+    rt_photon_boxes_destroy(boxes);
 }
 
 int main(void)
@@ -202,6 +277,8 @@ int main(void)
         cmocka_unit_test(a_surface_that_no_photon_fits_has_none),
         cmocka_unit_test(points_without_weight_or_place_are_not_asked),
         cmocka_unit_test(many_points_at_once_find_what_one_finds),
+        cmocka_unit_test(skipping_empty_discs_changes_no_other),
+        cmocka_unit_test(an_empty_disc_is_known_without_a_search),
     };
     return cmocka_run_group_tests_name("lib/photon/neighbour_search", tests, NULL, NULL);
 }
