@@ -68,7 +68,7 @@ rt_status rt_neighbour_search_create(rt_neighbour_search **out, const rt_photon_
         status = rt_fail(error, RT_ERROR_MEMORY, "no memory to search %zu photons", map->count);
     if (status == RT_OK)
         status = rt_flann_index_create(&search->index, positions[0], map->count, error);
-    if (status == RT_OK && skip_empty && map->count <= RT_POINT_ORDER_INDEX)
+    if (status == RT_OK && skip_empty && map->count > 0 && map->count <= RT_POINT_ORDER_INDEX)
         status =
             rt_photon_boxes_create(&search->boxes, map, max_candidates(search), threads, error);
     free(positions);

@@ -267,9 +267,29 @@ static void an_empty_disc_is_known_without_a_search(void **state)
     rt_photon_boxes_destroy(boxes);
 }
 
+static void without_photons_every_disc_is_empty(void **state)
+{
+    rt_gather_point point = point_at(0, 0);
+    rt_photon_list map = {0};
+    rt_error error;
+    (void)state;
+    for (int skip_empty = 0; skip_empty < 2; skip_empty++) {
+        rt_neighbour_search *search = NULL;
+        rt_gather_disc disc;
+        expect_ok(rt_neighbour_search_create(&search, &map, 5, HUGE_VALF, skip_empty, 2, &error),
+                  &error);
+        expect_ok(rt_neighbour_search_find(search, &point, 1, NULL, &disc, &error), &error);
+        assert_int_equal(disc.is_query, 1);
+        assert_int_equal(disc.count, 0);
+        assert_true(disc.squared_radius == 0);
+        rt_neighbour_search_destroy(search);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_photons_every_disc_is_empty),
         cmocka_unit_test(the_kth_gives_the_radius_and_does_not_count),
         cmocka_unit_test(all_inside_the_limit_count_when_they_are_fewer_than_k),
         cmocka_unit_test(the_farthest_stands_for_the_kth_in_a_small_map),
