@@ -35,6 +35,7 @@ static rt_film *render(const char *path, rt_mode mode, double samples)
     options.height = (options.height ? options.height : 512) / SHRINK;
     options.spp = (uint32_t)ceil(samples / ((double)options.width * options.height));
     options.photons = (uint64_t)ceil(samples);
+    options.gather = RT_GATHER_DEVICE; /* the faster one */
     expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
     expect_ok(rt_render(&film, renderer, &options, &error), &error);
     rt_renderer_destroy(renderer);

@@ -62,7 +62,7 @@ static const struct {
      PEAK,
      {.k = 60000, .radius = 0.1f, .gather = RT_GATHER_DEVICE},
      0.2},
-    {"hull", PEAK, {.k = 20000, .area = RT_AREA_HULL}, 0.3},
+    {"hull", PEAK, {.k = 5000, .photons = 100000, .area = RT_AREA_HULL}, 0.3},
     {"passes", PEAK, {.passes = 4, .radius = 0.1f, .alpha = 0.999f}, 0.2},
     {"passes, pixels' own radii", PEAK, {.passes = 4, .k = 14000, .alpha = 0.999f}, 0.2},
     {"caustic map",
@@ -96,7 +96,8 @@ static void every_render_tells_how_much_a_peak_is_lowered(void **state)
         rt_render_options options = peaks[i].options;
         rt_renderer *renderer = test_renderer(peaks[i].scene);
         double picture, bias;
-        options.photons = 400000;
+        if (!options.photons)
+            options.photons = 400000;
         options.spp = 1;
         options.seed = 3;
         options.direct = peaks[i].options.caustic_photons || options.final_gather
