@@ -165,7 +165,7 @@ static void estimate(const prepared *p, int at_edge, double *mean, double *error
 static void check(const field_map *map, int points, uint32_t k, float max_radius, int on_device,
                   double exact)
 {
-    const rt_gather_options options = {k, max_radius, 0, cone_k, RT_AREA_DISC, on_device};
+    const rt_gather_options options = {k, max_radius, 0, cone_k, RT_AREA_DISC, on_device, 0};
     prepared p;
     prepare(&p, map, &options, points);
     for (uint32_t density = 0; density < (on_device ? kernels : 2u); density++) {
@@ -238,7 +238,7 @@ static void a_fixed_radius_gives_the_true_density(void **state)
 static double share(const field_map *map, rt_area area, uint32_t k, int at_edge, int n,
                     const char *what)
 {
-    const rt_gather_options options = {k, 0, RT_DENSITY_BOX, cone_k, area, RT_SEARCH_NEIGHBOURS};
+    const rt_gather_options options = {k, 0, RT_DENSITY_BOX, cone_k, area, RT_SEARCH_NEIGHBOURS, 0};
     double mean, sigma;
     prepared p;
     prepare(&p, map, &options, points_of_small_discs);
