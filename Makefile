@@ -274,10 +274,11 @@ $(B)/libtests.a: $(TEST_SUPPORT)
 $(B)/tests/%: $(B)/tests/%.o $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
 
-# Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build.
+# Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build. One
+# test more than cores runs at a time, as a test often waits for its device.
 JOBS     ?= $(shell nproc 2>/dev/null || echo 1)
 MAKE_JOBS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
-RUN_TESTS = tests/run.sh -j $(JOBS)
+RUN_TESTS = tests/run.sh -j $(shell expr $(JOBS) + 1)
 
 check-quick: deps
 	+$(MAKE) --no-print-directory $(MAKE_JOBS) run-quick

@@ -31,7 +31,7 @@ static inline double distance(double x, double y)
     return sqrt(x * x + y * y);
 }
 
-/* The angle of (x, y) in turns, from 0 to 1; float32 is far finer than a cell, and twice as fast. */
+/* The angle of (x, y) in turns, from 0 to 1; float32 is far finer than a cell, and faster. */
 static inline double turns_of(double x, double y)
 {
     const double t = atan2f((float)y, (float)x) / (2 * PI);
