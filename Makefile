@@ -157,8 +157,8 @@ TESTS_QUICK := \
 	tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c
 TESTS_FULL  := \
-	tests/lib/photon/test_unbiased.c tests/statistics/test_chi_square.c \
-	tests/lib/mode/test_progressive.c tests/render/test_samples.c \
+	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
+	tests/lib/photon/test_unbiased.c tests/render/test_samples.c \
 	tests/lib/mode/test_photon_mode.c tests/lib/film/test_noise.c \
 	tests/lib/mode/test_photon_bias.c tests/tools/test_progress.c tests/tools/test_rtc.c \
 	tests/tools/test_determinism.c tests/kernels/test_shapes_many.c \
@@ -289,9 +289,11 @@ check: deps
 run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
 	$(RUN_TESTS) $(call TEST_BIN,$(TESTS_QUICK))
 
-# The long ones first, so that none of them is left to run alone.
+# The longest first, so that it is not left to run alone; it fills the cores while the quick ones
+# wait for their device to open.
 run-all: all $(call TEST_BIN,$(TESTS_QUICK) $(TESTS_FULL))
-	$(RUN_TESTS) $(call TEST_BIN,$(TESTS_FULL)) $(TESTS_SHELL) $(call TEST_BIN,$(TESTS_QUICK))
+	$(RUN_TESTS) $(call TEST_BIN,$(firstword $(TESTS_FULL)) $(TESTS_QUICK)) $(TESTS_SHELL) \
+	    $(call TEST_BIN,$(wordlist 2,$(words $(TESTS_FULL)),$(TESTS_FULL)))
 
 # The page of what was compared with what: tests/proof/README.md.
 proof: all $(call TEST_BIN,$(TESTS_PROOF)) $(B)/tests/render/test_reference

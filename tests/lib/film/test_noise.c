@@ -16,7 +16,7 @@ enum {
     side = 16,
     values = 3 * side * side,
     renders = 100,
-    samples = 128,
+    samples = 64,
     reference_samples = 8192
 };
 
