@@ -48,6 +48,7 @@ LIB_SRC := \
 	lib/pack/hierarchy.c lib/pack/materials.c lib/pack/pack.c lib/pack/shapes.c \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
+	lib/pack/touch.c \
 	lib/film/film.c lib/film/layers.c lib/film/noise.c lib/film/replicates.c \
 	lib/film/student_t.c \
 	lib/film/write.c \

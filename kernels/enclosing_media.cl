@@ -12,6 +12,37 @@
 
 #define RT_MAX_SURFACES 1024 /* surfaces that a ray is followed through */
 
+/*
+ * Leaves the solids whose faces a ray goes out through: those that it entered, or else notes that
+ * they are around its start.
+ */
+static void leave_faces(const struct scene *scene, const struct coincident *coincident,
+                        bool entering, uint4 *entered, uint left[4], int *count)
+{
+    for (uint i = 0u; i < coincident->count; i++) {
+        const uint material = coincident->faces[i].material;
+        if (coincident->faces[i].is_opposite != entering ||
+            !is_transparent(scene->materials + material))
+            continue;
+        if (any(*entered == material))
+            *entered = media_leave(*entered, material);
+        else if (*count < 4)
+            left[(*count)++] = material;
+    }
+}
+
+/* Enters those whose faces it goes in through. */
+static void enter_faces(const struct scene *scene, const struct coincident *coincident,
+                        bool entering, uint4 *entered)
+{
+    for (uint i = 0u; i < coincident->count; i++) {
+        const uint material = coincident->faces[i].material;
+        if (coincident->faces[i].is_opposite != entering &&
+            is_transparent(scene->materials + material))
+            *entered = media_enter(scene, *entered, material);
+    }
+}
+
 /* The media list of a path that starts here. */
 static uint4 media_around(const struct scene *scene, float3 from)
 {
@@ -22,17 +53,14 @@ static uint4 media_around(const struct scene *scene, float3 from)
     int count = 0;
     struct hit hit;
     for (int i = 0; i < RT_MAX_SURFACES && closest_hit(scene, &ray, &hit); i++) {
-        const struct surface surface = surface_at(scene, &ray, &hit);
-        const uint material = scene->shapes[surface.shape].material;
+        struct surface surface = surface_at(scene, &ray, &hit);
+        const bool entering = dot(ray.direction, surface.normal) < 0.0f;
+        struct coincident coincident;
+        find_coincident(&coincident, scene, &surface);
+        surface.error = coincident.lift;
         ray.origin = leave_surface(&surface, ray.direction);
-        if (!is_transparent(scene->materials + material))
-            continue;
-        if (dot(ray.direction, surface.normal) < 0.0f)
-            entered = media_enter(scene, entered, material);
-        else if (any(entered == material))
-            entered = media_leave(entered, material);
-        else if (count < 4)
-            left[count++] = material;
+        leave_faces(scene, &coincident, entering, &entered, left, &count);
+        enter_faces(scene, &coincident, entering, &entered);
     }
 
     /* Enter them as a path from outside would, outermost first. */

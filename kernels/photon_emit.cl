@@ -18,6 +18,7 @@
  */
 #include "accel/traverse.h"
 #include "entry.h"
+#include "material/contact.h"
 #include "photon/light_path.h"
 #include "photon/store.h"
 #include "sample/rng.h"
@@ -65,13 +66,10 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         struct surface surface;
         if (!reach_surface(&path, scene, &surface, &end))
             break;
-        const uint material_index = scene->shapes[surface.shape].material;
-        global const rt_material_data *material = scene->materials + material_index;
         const float3 wo = -path.ray.direction;
 
         /* Skip a boundary suppressed by a medium of higher priority. */
-        const struct boundary boundary =
-            media_meet(scene, path.media, material_index, dot(wo, surface.normal) > 0.0f);
+        const struct boundary boundary = meet_boundary(scene, path.media, &surface, wo);
         if (!boundary.exists) {
             path.straight = false;
             alive = pass_boundary(&path.ray, &path.media, &path.hidden, &surface, boundary.beyond);
@@ -79,6 +77,8 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         }
 
         /* Store a photon where the map takes one. */
+        global const rt_material_data *material =
+            scene->materials + scene->shapes[surface.shape].material;
         const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, boundary.eta, path.flux);
         if (bsdf_is_diffuse(&bsdf) && is_stored(&path, params))
             store_photon(&path, params, &surface, &bsdf, index, slots);

@@ -95,6 +95,11 @@ RT_SIZE(rt_hit, 32);
 #define RT_SHAPE_LAMBERT 64u /* flag: Lambert's lobe alone, and no emission */
 /* flag: triangles or quads in world space, neither smooth, varied nor mirrored */
 #define RT_SHAPE_FLAT 128u
+/*
+ * flag: its faces may coincide with those of another shape, and one of the two is transparent:
+ * accel/coincident.h
+ */
+#define RT_SHAPE_TOUCHES 256u
 
 typedef struct rt_shape {
     rt_u32 kind;       /* rt_shape_kind */
@@ -115,8 +120,8 @@ typedef struct rt_shape {
     rt_u32 first_colour; /* ... and in colours */
     rt_u32 first_block;  /* instance: blocks of the mesh's tree, one after the other */
     rt_u32 block_count;
-    rt_u32 reserved;
-    float p[8]; /* parameters, as the header of the shape says */
+    float reach; /* RT_SHAPE_TOUCHES: the largest error of the other shapes' surfaces, m; else 0 */
+    float p[8];  /* parameters, as the header of the shape says */
 } rt_shape;
 RT_SIZE(rt_shape, 96);
 

@@ -54,6 +54,8 @@ static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
     if (!(shape->flags & RT_SHAPE_LAMBERT) || path->media.x != RT_NONE ||
         path->depth == params->max_depth)
         return false;
+    if (SELDOM(shape->flags & RT_SHAPE_TOUCHES) && is_shared(scene, &path->ray, hit))
+        return false;
     global const rt_material_data *material = scene->materials + shape->material;
     if (shape->flags & RT_SHAPE_FLAT) {
         batch->corner[lane] = scene->blocks[hit->slot >> 3].v0[0] + (hit->slot & 7u);

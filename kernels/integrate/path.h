@@ -20,6 +20,7 @@
 #include "integrate/emission.h"
 #include "integrate/gather.h"
 #include "integrate/path_state.h"
+#include "material/contact.h"
 #include "sample/roulette.h"
 
 /*
@@ -31,16 +32,15 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
                                struct connection *connection, const uint purpose,
                                const struct gather *gather)
 {
-    const struct surface surface = surface_at(scene, &path->ray, hit);
-    const uint material = scene->shapes[surface.shape].material;
+    struct surface surface = surface_at(scene, &path->ray, hit);
     const float3 wo = -path->ray.direction;
 
     /* Attenuate by the medium. */
     path->beta *= medium_transmittance(scene->materials, path->media.x, hit->t);
 
     /* Skip a boundary suppressed by a medium of higher priority. */
-    const struct boundary boundary =
-        media_meet(scene, path->media, material, dot(wo, surface.normal) > 0.0f);
+    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
+    const uint material = scene->shapes[surface.shape].material;
     if (!boundary.exists) {
         path->pdf_w = 0.0f;
         path->alive =

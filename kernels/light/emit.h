@@ -5,14 +5,16 @@
 #ifndef RT_KERNELS_LIGHT_EMIT_H
 #define RT_KERNELS_LIGHT_EMIT_H
 
+#include "accel/coincident.h"
 #include "light/light.h"
 #include "shape/shapes.h"
 
 /* The start of a light path. */
 struct emission {
-    struct surface at; /* position, normal and error only */
-    float3 direction;  /* unit */
-    float3 flux;       /* W; the mean over all choices is the power of all lights */
+    /* position, normal and error only; that of a surface is off all faces that coincide there */
+    struct surface at;
+    float3 direction; /* unit */
+    float3 flux;      /* W; the mean over all choices is the power of all lights */
     uint light;
 };
 
@@ -134,6 +136,7 @@ static inline void emit_area(const struct scene *scene, struct emission *emissio
         if (light->texture != RT_NONE)
             locate_on_light(scene, light, &emission->at);
     }
+    lift_off_coincident(scene, &emission->at, light->prim);
     const float3 normal = two_sided && side < 0.5f ? -emission->at.normal : emission->at.normal;
     emission->direction = frame_to_world(frame_about(normal), sample_cosine(turn));
     emission->flux = (two_sided ? 2.0f : 1.0f) * RT_PI * area * row3(light->emission);

@@ -138,6 +138,9 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
     rt_status status = rt_pack_number(&p, error);
     if (status != RT_OK)
         goto out;
+    status = rt_pack_touch(&p, error);
+    if (status != RT_OK)
+        goto out;
     status = build(&p, threads, progress, error);
     if (status != RT_OK)
         goto out;

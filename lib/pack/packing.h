@@ -17,6 +17,7 @@ typedef struct rt_mesh_place {
 typedef struct rt_shape_place {
     rt_u32 transform;
     rt_u32 normal; /* of triangles and instances; that of the mesh, or of a placed copy */
+    float reach;   /* as rt_shape.reach */
 } rt_shape_place;
 
 typedef struct rt_packing {
@@ -37,6 +38,9 @@ void *rt_packing_table(const rt_packing *packing, rt_u32 offset);
 
 /* Counts and numbers what shapes put into tables (shapes.c). */
 rt_status rt_pack_number(rt_packing *packing, rt_error *error);
+
+/* Sets the reach of shapes that another one may touch (touch.c); after they are numbered. */
+rt_status rt_pack_touch(rt_packing *packing, rt_error *error);
 
 /*
  * Fill the tables of shapes, and of what they refer to: primitives, planes, transforms, vertices

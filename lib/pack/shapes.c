@@ -178,6 +178,9 @@ static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
         out->flags |= RT_SHAPE_LAMBERT;
     if (is_flat(out))
         out->flags |= RT_SHAPE_FLAT;
+    out->reach = p->shapes[index].reach;
+    if (out->reach > 0)
+        out->flags |= RT_SHAPE_TOUCHES;
 }
 
 void rt_pack_shapes(const rt_packing *p)

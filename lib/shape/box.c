@@ -28,6 +28,7 @@ static int contains(const rt_scene *scene, const rt_scene_shape *shape, const do
 
 const rt_shape_class rt_shape_box = {.name = "box",
                                      .storage = RT_STORED_ANALYTIC,
+                                     .faces = RT_FACES_FLAT,
                                      .boundary = rt_boundary_solid,
                                      .contains = contains,
                                      .extent = extent,

@@ -26,6 +26,7 @@ static double area(const rt_scene_shape *shape)
 
 const rt_shape_class rt_shape_disc = {.name = "disc",
                                       .storage = RT_STORED_ANALYTIC,
+                                      .faces = RT_FACES_FLAT,
                                       .boundary = rt_boundary_flat,
                                       .extent = extent,
                                       .area = area};

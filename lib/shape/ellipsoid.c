@@ -97,6 +97,7 @@ static double area(const rt_scene_shape *shape)
 
 const rt_shape_class rt_shape_ellipsoid = {.name = "ellipsoid",
                                            .storage = RT_STORED_ANALYTIC,
+                                           .faces = RT_FACES_BALL,
                                            .boundary = rt_boundary_solid,
                                            .contains = contains,
                                            .extent = extent,

@@ -19,6 +19,7 @@ static double bounding_sphere(const rt_scene *scene, const rt_scene_shape *shape
 
 const rt_shape_class rt_shape_plane = {.name = "plane",
                                        .storage = RT_STORED_INFINITE,
+                                       .faces = RT_FACES_FLAT,
                                        .boundary = boundary,
                                        .bounding_sphere = bounding_sphere};
 

@@ -19,8 +19,11 @@ static void light(rt_light_data *out, const rt_scene *scene, const rt_scene_shap
     rt_light_set_edges(out, b, c);
 }
 
-const rt_shape_class rt_shape_quad = {
-    .name = "quad", .storage = RT_STORED_QUAD, .boundary = rt_boundary_flat, .light = light};
+const rt_shape_class rt_shape_quad = {.name = "quad",
+                                      .storage = RT_STORED_QUAD,
+                                      .faces = RT_FACES_FLAT,
+                                      .boundary = rt_boundary_flat,
+                                      .light = light};
 
 rt_status rt_scene_add_quad(rt_scene *scene, uint32_t *out, const float corner[3],
                             const float edge1[3], const float edge2[3], const rt_surface *surface,

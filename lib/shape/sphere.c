@@ -29,6 +29,7 @@ static void light(rt_light_data *out, const rt_scene *scene, const rt_scene_shap
 
 const rt_shape_class rt_shape_sphere = {.name = "sphere",
                                         .storage = RT_STORED_ANALYTIC,
+                                        .faces = RT_FACES_BALL,
                                         .boundary = rt_boundary_solid,
                                         .contains = contains,
                                         .bounding_sphere = bounding_sphere,

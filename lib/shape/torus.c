@@ -47,6 +47,7 @@ static double area(const rt_scene_shape *shape)
 
 const rt_shape_class rt_shape_torus = {.name = "torus",
                                        .storage = RT_STORED_ANALYTIC,
+                                       .faces = RT_FACES_TORUS,
                                        .boundary = rt_boundary_solid,
                                        .contains = contains,
                                        .extent = extent,

@@ -101,8 +101,8 @@ static void light(rt_light_data *out, const rt_scene *scene, const rt_scene_shap
 
 #define PLACED_MESH(title)                                                                         \
     {                                                                                              \
-        .name = title, .storage = RT_STORED_MESH, .boundary = boundary, .contains = contains,      \
-        .bounding_sphere = bounding_sphere, .light = light                                         \
+        .name = title, .storage = RT_STORED_MESH, .faces = RT_FACES_FLAT, .boundary = boundary,    \
+        .contains = contains, .bounding_sphere = bounding_sphere, .light = light                   \
     }
 const rt_shape_class rt_shape_triangles = PLACED_MESH("mesh");
 /* The same: a shape of the scene is one or the other on the device. */

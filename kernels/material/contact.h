@@ -1,0 +1,136 @@
+/*
+ * contact.h - the boundary that light meets at a surface: of one solid, or of several that touch
+ * there.
+ *
+ * Faces that coincide (accel/coincident.h) are one boundary. It lies between the medium before all
+ * of them and the medium behind all of them: the path leaves the solids that end there, then enters
+ * those that begin. Of the two media the one of higher priority gives the surface, as where the
+ * solids overlap; among equals, one whose boundary obeys the Fresnel equations, then the material
+ * defined first. An opaque face hides the others.
+ */
+#ifndef RT_KERNELS_MATERIAL_CONTACT_H
+#define RT_KERNELS_MATERIAL_CONTACT_H
+
+#include "accel/coincident.h"
+#include "material/medium.h"
+
+/* The first opaque face, that of the surface itself before others; count where there is none. */
+static inline uint opaque_face(const struct scene *scene, const struct coincident *coincident,
+                               const struct surface *surface)
+{
+    uint found = coincident->count;
+    for (uint i = coincident->count; i > 0u; i--) {
+        const struct face *face = &coincident->faces[i - 1u];
+        if (is_transparent(scene->materials + face->material))
+            continue;
+        if (face->prim == surface->prim)
+            return i - 1u;
+        found = i - 1u;
+    }
+    return found;
+}
+
+/*
+ * Leaves the solids whose faces the path goes out through, and enters the others. A solid that is
+ * left without being listed counts as listed in *media.
+ */
+static inline uint4 cross_faces(const struct scene *scene, uint4 *media,
+                                const struct coincident *coincident, bool entering)
+{
+    uint4 beyond = *media;
+    for (uint i = 0u; i < coincident->count; i++) {
+        const struct face *face = &coincident->faces[i];
+        if (face->is_opposite != entering)
+            continue;
+        if (any(beyond == face->material))
+            beyond = media_leave(beyond, face->material);
+        else
+            *media = media_enter(scene, *media, face->material);
+    }
+    for (uint i = 0u; i < coincident->count; i++)
+        if (coincident->faces[i].is_opposite != entering)
+            beyond = media_enter(scene, beyond, coincident->faces[i].material);
+    return beyond;
+}
+
+/*
+ * The rank of a face between the media a and b: 0 where it bounds neither. What emits comes first,
+ * as light sampling counts on a path that meets it.
+ */
+static inline ulong face_rank(const struct scene *scene, const struct face *face, uint a, uint b)
+{
+    global const rt_material_data *material = scene->materials + face->material;
+    if (face->material != a && face->material != b)
+        return 0u;
+    const ulong emits = scene->shapes[face->shape].first_light != RT_NONE;
+    const ulong fresnel = (material->flags & RT_MATERIAL_FRESNEL) != 0u;
+    return (emits << 34) + ((ulong)material->priority << 2) + (fresnel << 1) + 1u;
+}
+
+static inline uint highest_face(const struct scene *scene, const struct coincident *coincident,
+                                uint a, uint b)
+{
+    uint found = 0u;
+    ulong highest = 0u;
+    for (uint i = 0u; i < coincident->count; i++) {
+        const ulong rank = face_rank(scene, &coincident->faces[i], a, b);
+        found = rank > highest ? i : found;
+        highest = max(rank, highest);
+    }
+    return found;
+}
+
+/*
+ * The boundary at a surface that other shapes may touch. *surface becomes that of the face that
+ * light meets; rays that leave it start off all of them.
+ */
+INLINE_NEVER struct boundary meet_coincident(const struct scene *scene, uint4 media,
+                                             struct surface *surface, float3 wo)
+{
+    const bool entering = dot(wo, surface->normal) > 0.0f;
+    struct coincident coincident;
+    find_coincident(&coincident, scene, surface);
+    if (coincident.count == 1u)
+        return media_meet(scene, media, coincident.faces[0].material, entering);
+
+    struct boundary boundary;
+    uint chosen = opaque_face(scene, &coincident, surface);
+    if (chosen < coincident.count) {
+        boundary = media_meet(scene, media, coincident.faces[chosen].material, entering);
+    } else {
+        boundary.beyond = cross_faces(scene, &media, &coincident, entering);
+        boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
+        boundary.exists = boundary.beyond.x != media.x;
+        chosen = highest_face(scene, &coincident, media.x, boundary.beyond.x);
+    }
+    const struct face *face = &coincident.faces[chosen];
+    if (face->prim != surface->prim)
+        *surface = surface_at(scene, &coincident.probe, &face->hit);
+    surface->error = coincident.lift + fabs(face->offset);
+    return boundary;
+}
+
+/* The boundary at a surface that a path meets along -wo. */
+static inline struct boundary meet_boundary(const struct scene *scene, uint4 media,
+                                            struct surface *surface, float3 wo)
+{
+    global const rt_shape *shape = scene->shapes + surface->shape;
+    if (SELDOM(shape->flags & RT_SHAPE_TOUCHES)) {
+        struct surface shared = *surface; /* a copy, so that *surface can live in registers */
+        const struct boundary boundary = meet_coincident(scene, media, &shared, wo);
+        *surface = shared;
+        return boundary;
+    }
+    return media_meet(scene, media, shape->material, dot(wo, surface->normal) > 0.0f);
+}
+
+/* Whether faces of other shapes coincide with the surface at a hit on a shape that they may touch. */
+INLINE_NEVER bool is_shared(const struct scene *scene, const struct ray *ray, const struct hit *hit)
+{
+    const struct surface surface = surface_at(scene, ray, hit);
+    struct coincident coincident;
+    find_coincident(&coincident, scene, &surface);
+    return coincident.count > 1u;
+}
+
+#endif
