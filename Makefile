@@ -147,7 +147,7 @@ TESTS_QUICK := \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
-	tests/lib/render/test_oren_nayar.c \
+	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
 	tests/lib/film/test_replicates.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \
