@@ -7,6 +7,7 @@
 #include "entry.h"
 #include "camera/film.h"
 #include "accel/traverse.h"
+#include "material/contact.h"
 
 /*
  * The distance along the view axis; an environment camera has none: there, the distance from the
@@ -24,8 +25,10 @@ static void layers_of(float3 *value, const struct scene *scene, const struct ray
                       const struct hit *hit, float weight)
 {
     struct surface surface = surface_at(scene, ray, hit);
-    global const rt_shape *shape = scene->shapes + surface.shape;
     const float3 wo = -ray->direction;
+    /* Of faces that coincide, the one that light meets. */
+    meet_boundary(scene, vload4(0, scene->header->eye_media) - 1u, &surface, wo);
+    global const rt_shape *shape = scene->shapes + surface.shape;
     const struct bsdf bsdf =
         bsdf_at(scene, scene->materials + shape->material, &surface, wo, 1.0f, (float3)(1.0f));
     /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */

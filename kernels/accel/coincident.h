@@ -54,8 +54,8 @@ static inline void insert_face(struct coincident *coincident, const struct face 
 }
 
 /* Takes a hit of the probe if its face coincides with the surface. */
-INLINE_NEVER void take_face(struct coincident *coincident, const struct scene *scene,
-                            const struct hit *hit)
+CALLED_SELDOM void take_face(struct coincident *coincident, const struct scene *scene,
+                             const struct hit *hit)
 {
     const float3 normal = coincident->probe.direction;
     const struct surface surface = surface_at(scene, &coincident->probe, hit);
@@ -78,9 +78,9 @@ INLINE_NEVER void take_face(struct coincident *coincident, const struct scene *s
 /* ---- The probe -------------------------------------------------------------- */
 
 /* Takes the faces of a block; instance: the primitive that it is part of, or RT_NONE. */
-INLINE_NEVER void take_block(struct coincident *coincident, const struct scene *scene,
-                             const struct ray *ray, const struct ray_frame *frame, uint index,
-                             uint instance)
+CALLED_SELDOM void take_block(struct coincident *coincident, const struct scene *scene,
+                              const struct ray *ray, const struct ray_frame *frame, uint index,
+                              uint instance)
 {
     global const rt_tri_block *block = scene->blocks + index;
     struct block_hits found;
@@ -102,8 +102,8 @@ INLINE_NEVER void take_block(struct coincident *coincident, const struct scene *
     }
 }
 
-INLINE_NEVER void take_instance(struct coincident *coincident, const struct scene *scene,
-                                global const rt_shape *shape)
+CALLED_SELDOM void take_instance(struct coincident *coincident, const struct scene *scene,
+                                 global const rt_shape *shape)
 {
     const struct ray ray = ray_to_object(scene->transforms + shape->transform, &coincident->probe);
     if (!can_follow(&ray))
@@ -171,8 +171,8 @@ static inline void probe_shapes(struct coincident *coincident, const struct scen
 }
 
 /* Finds the faces at a surface of which shape, prim, position, normal and error are set. */
-INLINE_NEVER void find_coincident(struct coincident *coincident, const struct scene *scene,
-                                  const struct surface *surface)
+CALLED_SELDOM void find_coincident(struct coincident *coincident, const struct scene *scene,
+                                   const struct surface *surface)
 {
     global const rt_shape *shape = scene->shapes + surface->shape;
     const float reach = surface->error + shape->reach;

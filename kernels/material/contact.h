@@ -84,8 +84,8 @@ static inline uint highest_face(const struct scene *scene, const struct coincide
  * The boundary at a surface that other shapes may touch. *surface becomes that of the face that
  * light meets; rays that leave it start off all of them.
  */
-INLINE_NEVER struct boundary meet_coincident(const struct scene *scene, uint4 media,
-                                             struct surface *surface, float3 wo)
+CALLED_SELDOM struct boundary meet_coincident(const struct scene *scene, uint4 media,
+                                              struct surface *surface, float3 wo)
 {
     const bool entering = dot(wo, surface->normal) > 0.0f;
     struct coincident coincident;
@@ -124,8 +124,9 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
     return media_meet(scene, media, shape->material, dot(wo, surface->normal) > 0.0f);
 }
 
-/* Whether faces of other shapes coincide with the surface at a hit on a shape that they may touch. */
-INLINE_NEVER bool is_shared(const struct scene *scene, const struct ray *ray, const struct hit *hit)
+/* Whether faces of other shapes coincide with the surface that a ray hits. */
+CALLED_SELDOM bool is_shared(const struct scene *scene, const struct ray *ray,
+                             const struct hit *hit)
 {
     const struct surface surface = surface_at(scene, ray, hit);
     struct coincident coincident;

@@ -26,6 +26,13 @@
 #define INLINE_NEVER static inline
 #endif
 
+/* What few rays need is called at any width: inlined, it would crowd the registers of the others. */
+#if defined(__clang__)
+#define CALLED_SELDOM static __attribute__((noinline))
+#else
+#define CALLED_SELDOM static inline
+#endif
+
 static inline float8 lane_min(float8 a, float8 b)
 {
     return a < b ? a : b;

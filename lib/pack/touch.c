@@ -116,8 +116,8 @@ static extent extent_of(const rt_scene *scene, rt_u32 index)
                   .faces = rt_shape_class_of(shape->kind)->faces,
                   .shape = index,
                   .source = shape};
-    if ((out.faces & RT_FACES_ROUND) && !shape->caps)
-        out.faces = RT_FACES_ROUND;
+    if ((out.faces & RT_FACES_FRUSTUM) && !shape->caps)
+        out.faces = RT_FACES_FRUSTUM;
     for (int i = 0; i < 3; i++) {
         out.lo[i] = shape->lo[i] - out.error;
         out.hi[i] = shape->hi[i] + out.error;

@@ -27,15 +27,15 @@ typedef enum rt_shape_boundary {
 /* The forms of faces: only faces of the same form can coincide. */
 enum {
     RT_FACES_FLAT = 1,
-    RT_FACES_BALL = 2,  /* of spheres and ellipsoids */
-    RT_FACES_ROUND = 4, /* the sides of cylinders and cones */
+    RT_FACES_BALL = 2,    /* of spheres and ellipsoids */
+    RT_FACES_FRUSTUM = 4, /* the sides of cylinders and cones */
     RT_FACES_TORUS = 8
 };
 
 typedef struct rt_shape_class {
     const char *name; /* as messages name it */
     rt_shape_storage storage;
-    unsigned faces; /* RT_FACES_*; flat ones beside round ones are caps, where it has them */
+    unsigned faces; /* RT_FACES_*; flat ones of a frustum are its caps, where it has them */
     rt_shape_boundary (*boundary)(const rt_scene *scene, const rt_scene_shape *shape);
     /*
      * Whether a point of the world within its bounds lies inside; see rt_shape_contains. NULL: it

@@ -19,7 +19,7 @@ static int contains(const rt_scene *scene, const rt_scene_shape *shape, const do
 
 const rt_shape_class rt_shape_cone = {.name = "cone",
                                       .storage = RT_STORED_ANALYTIC,
-                                      .faces = RT_FACES_ROUND | RT_FACES_FLAT,
+                                      .faces = RT_FACES_FRUSTUM | RT_FACES_FLAT,
                                       .boundary = rt_frustum_boundary,
                                       .contains = contains,
                                       .extent = extent,

@@ -349,6 +349,34 @@ static void the_camera_is_in_the_water_below_glass(void **state)
 }
 
 /*
+ * Glass of the size of a hand on water 4 km wide, turned so that its rounded corners are a tenth of
+ * a millimetre off: the errors of both faces count for whether they coincide, and for where rays
+ * that leave them start.
+ */
+static void a_small_solid_touches_a_large_one(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        const double eye[3] = {0, 0.3, 0}, to[3] = {0.02, 0.6, 0.01};
+        placement at = tilted;
+        rt_camera camera = {.fov = 5};
+        char text[text_most], tail[64];
+        at.angle = 8 + 11 * i;
+        snprintf(tail, sizeof tail, "rotate 1 2 3 %g  translate 3 -2 5", at.angle);
+        at.tail = tail;
+        int used = sprintf(text, CLEAR);
+        used += write_slab(text + used, BOX, 0.6, 0.8, "glass", tail);
+        sprintf(text + used,
+                "model { file \"cube.off\"  scale 2000 0.2 2000  translate 0 0.4 0  "
+                "material water %s }\n",
+                tail);
+        turn(camera.eye, &at, eye, 1);
+        turn(camera.look_at, &at, to, 1);
+        expect_furnace(text, &camera, 1.33 * 1.33, "from the water of a lake");
+    }
+}
+
+/*
  * White surfaces on glass, or below all of it, send back all light. What total reflection would
  * trap meets them again.
  */
@@ -372,6 +400,45 @@ static void white_surfaces_touch_glass(void **state)
         expect_furnace(text, &camera, 1, what);
     }
 }
+
+/* ---- Layers ------------------------------------------------------------------------- */
+
+static void layers_show_the_face_that_light_meets(void **state)
+{
+    static const char label[] =
+        "quad { corner -1 0.6 -1  edge1 0 0 2  edge2 2 0 0  material white %s }\n";
+    (void)state;
+    for (int i = 0; i < 2 * KINDS; i++) {
+        const placement *at = i / 2 % 2 ? &tilted : &upright;
+        rt_render_options options = {
+            .width = side, .height = side, .mode = RT_MODE_DIRECT, .spp = 1, .aov = 1};
+        rt_camera camera = camera_above(at, 50);
+        rt_renderer *renderer = NULL;
+        rt_scene *scene = NULL;
+        rt_film *film = NULL;
+        rt_error error;
+        char text[text_most];
+        int used = sprintf(text, CLEAR);
+        if (i % 2)
+            used += sprintf(text + used, label, at->tail);
+        used += write_slab(text + used, (kind)(i / 2), 0.4, 0.6, "glass", at->tail);
+        if (i % 2 == 0)
+            sprintf(text + used, label, at->tail);
+        expect_ok(rt_scene_parse(&scene, text, "test", NULL, &error), &error);
+        expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
+        expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+        expect_ok(rt_render(&film, renderer, &options, &error), &error);
+        const float *shape = rt_film_layer(film, "shape", NULL);
+        assert_non_null(shape);
+        for (int k = 0; k < pixels; k++)
+            assert_int_equal((int)shape[k], i % 2 ? 1 : 2); /* 0: the cube far away */
+        rt_film_destroy(film);
+        rt_renderer_destroy(renderer);
+        rt_scene_destroy(scene);
+    }
+}
+
+/* ---- Curved faces ------------------------------------------------------------------- */
 
 /* Balls of the same centre and radius, and pipes in pipes. */
 static void curved_faces_coincide(void **state)
@@ -409,8 +476,10 @@ int main(void)
         statistical_test(a_lamp_emits_into_the_glass_that_lies_on_it),
         statistical_test(a_plane_of_water_may_bear_glass),
         statistical_test(the_camera_is_in_the_water_below_glass),
+        statistical_test(a_small_solid_touches_a_large_one),
         statistical_test(white_surfaces_touch_glass),
         statistical_test(curved_faces_coincide),
+        cmocka_unit_test(layers_show_the_face_that_light_meets),
     };
     void *scratch = NULL;
     if (scratch_enter(&scratch) != 0)
