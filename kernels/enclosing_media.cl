@@ -55,8 +55,9 @@ static uint4 media_around(const struct scene *scene, float3 from)
     for (int i = 0; i < RT_MAX_SURFACES && closest_hit(scene, &ray, &hit); i++) {
         struct surface surface = surface_at(scene, &ray, &hit);
         const bool entering = dot(ray.direction, surface.normal) < 0.0f;
+        global const rt_scene_header *header = scene->header;
         struct coincident coincident;
-        find_coincident(&coincident, scene, &surface);
+        find_coincident(&coincident, header, &surface);
         surface.error = coincident.lift;
         ray.origin = leave_surface(&surface, ray.direction);
         leave_faces(scene, &coincident, entering, &entered, left, &count);

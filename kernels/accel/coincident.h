@@ -171,10 +171,12 @@ static inline void probe_shapes(struct coincident *coincident, const struct scen
 }
 
 /* Finds the faces at a surface of which shape, prim, position, normal and error are set. */
-CALLED_SELDOM void find_coincident(struct coincident *coincident, const struct scene *scene,
+CALLED_SELDOM void find_coincident(struct coincident *coincident,
+                                   global const rt_scene_header *header,
                                    const struct surface *surface)
 {
-    global const rt_shape *shape = scene->shapes + surface->shape;
+    const struct scene scene = scene_open(header);
+    global const rt_shape *shape = scene.shapes + surface->shape;
     const float reach = surface->error + shape->reach;
     coincident->probe = make_ray(surface->position, surface->normal, -reach, reach);
     coincident->error = coincident->lift = surface->error;
@@ -186,22 +188,34 @@ CALLED_SELDOM void find_coincident(struct coincident *coincident, const struct s
     coincident->faces[0].is_opposite = false;
     if (!(shape->flags & RT_SHAPE_TOUCHES))
         return;
-    for (uint i = 0u; i < scene->header->plane_count; i++)
-        take_shape(coincident, scene, scene->planes[i], surface->shape);
-    probe_shapes(coincident, scene, surface->shape);
+    for (uint i = 0u; i < header->plane_count; i++)
+        take_shape(coincident, &scene, scene.planes[i], surface->shape);
+    probe_shapes(coincident, &scene, surface->shape);
 }
 
-/* Makes a ray that leaves this point of a primitive start off the faces that coincide with it. */
-static inline void lift_off_coincident(const struct scene *scene, struct surface *surface,
-                                       uint prim)
+/* The error that makes a ray that leaves the surface start off all faces there. */
+CALLED_SELDOM float coincident_lift(global const rt_scene_header *header,
+                                    const struct surface *surface)
 {
-    surface->shape = scene->prim_shape[prim];
-    surface->prim = prim;
-    if (!(scene->shapes[surface->shape].flags & RT_SHAPE_TOUCHES))
-        return;
     struct coincident coincident;
-    find_coincident(&coincident, scene, surface);
-    surface->error = coincident.lift;
+    find_coincident(&coincident, header, surface);
+    return coincident.lift;
+}
+
+/* The same for a point of a primitive of which position, normal and error are set. */
+static inline float lift_off_coincident(const struct scene *scene, const struct surface *at,
+                                        uint prim)
+{
+    const uint shape = scene->prim_shape[prim];
+    if (!(scene->shapes[shape].flags & RT_SHAPE_TOUCHES))
+        return at->error;
+    struct surface surface;
+    surface.position = at->position;
+    surface.normal = at->normal;
+    surface.error = at->error;
+    surface.shape = shape;
+    surface.prim = prim;
+    return coincident_lift(scene->header, &surface);
 }
 
 #endif

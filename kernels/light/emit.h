@@ -136,7 +136,7 @@ static inline void emit_area(const struct scene *scene, struct emission *emissio
         if (light->texture != RT_NONE)
             locate_on_light(scene, light, &emission->at);
     }
-    lift_off_coincident(scene, &emission->at, light->prim);
+    emission->at.error = lift_off_coincident(scene, &emission->at, light->prim);
     const float3 normal = two_sided && side < 0.5f ? -emission->at.normal : emission->at.normal;
     emission->direction = frame_to_world(frame_about(normal), sample_cosine(turn));
     emission->flux = (two_sided ? 2.0f : 1.0f) * RT_PI * area * row3(light->emission);

@@ -80,34 +80,36 @@ static inline uint highest_face(const struct scene *scene, const struct coincide
     return found;
 }
 
+/* A surface that other shapes may touch, and the boundary there. */
+struct contact {
+    struct surface surface;
+    struct boundary boundary;
+};
+
 /*
- * The boundary at a surface that other shapes may touch. *surface becomes that of the face that
- * light meets; rays that leave it start off all of them.
+ * Finds the boundary at a contact's surface. The surface becomes that of the face that light meets;
+ * rays that leave it start off all faces.
  */
-CALLED_SELDOM struct boundary meet_coincident(const struct scene *scene, uint4 media,
-                                              struct surface *surface, float3 wo)
+CALLED_SELDOM void meet_coincident(struct contact *contact, global const rt_scene_header *header,
+                                   uint4 media, float3 wo)
 {
+    const struct scene scene = scene_open(header);
+    struct surface *surface = &contact->surface;
     const bool entering = dot(wo, surface->normal) > 0.0f;
     struct coincident coincident;
-    find_coincident(&coincident, scene, surface);
-    if (coincident.count == 1u)
-        return media_meet(scene, media, coincident.faces[0].material, entering);
-
-    struct boundary boundary;
-    uint chosen = opaque_face(scene, &coincident, surface);
+    find_coincident(&coincident, header, surface);
+    uint chosen = coincident.count == 1u ? 0u : opaque_face(&scene, &coincident, surface);
     if (chosen < coincident.count) {
-        boundary = media_meet(scene, media, coincident.faces[chosen].material, entering);
+        contact->boundary = media_meet(&scene, media, coincident.faces[chosen].material, entering);
     } else {
-        boundary.beyond = cross_faces(scene, &media, &coincident, entering);
-        boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
-        boundary.exists = boundary.beyond.x != media.x;
-        chosen = highest_face(scene, &coincident, media.x, boundary.beyond.x);
+        const uint4 beyond = cross_faces(&scene, &media, &coincident, entering);
+        contact->boundary = media_between(&scene, media, beyond);
+        chosen = highest_face(&scene, &coincident, media.x, beyond.x);
     }
     const struct face *face = &coincident.faces[chosen];
     if (face->prim != surface->prim)
-        *surface = surface_at(scene, &coincident.probe, &face->hit);
+        *surface = surface_at(&scene, &coincident.probe, &face->hit);
     surface->error = coincident.lift + fabs(face->offset);
-    return boundary;
 }
 
 /* The boundary at a surface that a path meets along -wo. */
@@ -115,13 +117,17 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
                                             struct surface *surface, float3 wo)
 {
     global const rt_shape *shape = scene->shapes + surface->shape;
-    if (SELDOM(shape->flags & RT_SHAPE_TOUCHES)) {
-        struct surface shared = *surface; /* a copy, so that *surface can live in registers */
-        const struct boundary boundary = meet_coincident(scene, media, &shared, wo);
-        *surface = shared;
-        return boundary;
-    }
-    return media_meet(scene, media, shape->material, dot(wo, surface->normal) > 0.0f);
+    if (!SELDOM(shape->flags & RT_SHAPE_TOUCHES))
+        return media_meet(scene, media, shape->material, dot(wo, surface->normal) > 0.0f);
+    struct contact contact; /* a copy, so that *surface can live in registers */
+    struct boundary boundary;
+    contact.surface = *surface;
+    meet_coincident(&contact, scene->header, media, wo);
+    *surface = contact.surface;
+    boundary.beyond = contact.boundary.beyond;
+    boundary.eta = contact.boundary.eta;
+    boundary.exists = contact.boundary.exists;
+    return boundary;
 }
 
 /* Whether faces of other shapes coincide with the surface that a ray hits. */
@@ -130,7 +136,7 @@ CALLED_SELDOM bool is_shared(const struct scene *scene, const struct ray *ray,
 {
     const struct surface surface = surface_at(scene, ray, hit);
     struct coincident coincident;
-    find_coincident(&coincident, scene, &surface);
+    find_coincident(&coincident, scene->header, &surface);
     return coincident.count > 1u;
 }
 

@@ -89,17 +89,25 @@ static inline float3 medium_transmittance(global const rt_material_data *materia
                                        : (float3)(1.0f);
 }
 
+/* The boundary between two media lists. */
+static inline struct boundary media_between(const struct scene *scene, uint4 media, uint4 beyond)
+{
+    struct boundary boundary;
+    boundary.beyond = beyond;
+    boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
+    boundary.exists = boundary.beyond.x != media.x;
+    return boundary;
+}
+
 /* Crosses the boundary of a solid of this material, from outside (entering) or from inside. */
 static inline struct boundary media_cross(const struct scene *scene, uint4 media, uint material,
                                           bool entering)
 {
-    struct boundary boundary;
     if (!entering && !any(media == material))
         media = media_enter(scene, media, material);
-    boundary.beyond = entering ? media_enter(scene, media, material) : media_leave(media, material);
-    boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
-    boundary.exists = boundary.beyond.x != media.x;
-    return boundary;
+    return media_between(scene, media,
+                         entering ? media_enter(scene, media, material)
+                                  : media_leave(media, material));
 }
 
 /* The boundary that a path meets at a surface of this material. */

@@ -26,7 +26,10 @@
 #define INLINE_NEVER static inline
 #endif
 
-/* What few rays need is called at any width: inlined, it would crowd the registers of the others. */
+/*
+ * What few rays need is called at any width: inlined, it would crowd the registers of the others.
+ * Its arguments are numbers, addresses of global memory and copies, which leave no register for it.
+ */
 #if defined(__clang__)
 #define CALLED_SELDOM static __attribute__((noinline))
 #else

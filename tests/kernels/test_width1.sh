@@ -54,14 +54,18 @@ for program in path photon_camera photon_emit gather_tree; do
     compile 1 "$program" -emit-llvm -S -mllvm -inline-threshold=1000000 -o "$work/code" 2>/dev/null
     sed -n 's/.*= alloca \(.*\), align.*/\1/p' "$work/code" | sort | uniq -c |
         sed "s/^/$program: /" >>"$work/private"
+    # What is still called, few rays need (CALLED_SELDOM): all others have the memory of the kernel.
+    sed -n '/^define.* amdgpu_kernel /,/^}/s/.*= alloca \(.*\), align.*/\1/p' "$work/code" | sort |
+        uniq -c | sed "s/^/$program: /" >>"$work/own"
 done
 check programs_compile_without_a_warning_at_both_widths "$work/warnings"
 
 grep -E '\[[0-9]+ x (%|<|float)' "$work/private" >"$work/arrays"
 check no_array_of_paths_hits_or_lanes_is_in_private_memory "$work/arrays"
 
-# Stacks: of the children to visit, with where the ray enters them or alone.
-grep -E '^(path|photon_camera):' "$work/private" |
-    grep -vE ' (%struct\.stack|\[96 x i32\])' >"$work/rest"
+# Stacks: of the children to visit, with where the ray enters them or alone. And the surface that a
+# path hands to a call where solids touch, and the words that a pixel of the film reserves.
+grep -E '^(path|photon_camera):' "$work/own" |
+    grep -vE ' (%struct\.stack|%struct\.contact|\[(96|3) x i32\])' >"$work/rest"
 check a_path_has_nothing_in_private_memory_but_stacks "$work/rest"
 exit $bad
