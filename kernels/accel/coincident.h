@@ -54,7 +54,7 @@ static inline void insert_face(struct coincident *coincident, const struct face 
 }
 
 /* Takes a hit of the probe if its face coincides with the surface. */
-CALLED_SELDOM void take_face(struct coincident *coincident, const struct scene *scene,
+RARELY_CALLED void take_face(struct coincident *coincident, const struct scene *scene,
                              const struct hit *hit)
 {
     const float3 normal = coincident->probe.direction;
@@ -78,7 +78,7 @@ CALLED_SELDOM void take_face(struct coincident *coincident, const struct scene *
 /* ---- The probe -------------------------------------------------------------- */
 
 /* Takes the faces of a block; instance: the primitive that it is part of, or RT_NONE. */
-CALLED_SELDOM void take_block(struct coincident *coincident, const struct scene *scene,
+RARELY_CALLED void take_block(struct coincident *coincident, const struct scene *scene,
                               const struct ray *ray, const struct ray_frame *frame, uint index,
                               uint instance)
 {
@@ -102,7 +102,7 @@ CALLED_SELDOM void take_block(struct coincident *coincident, const struct scene 
     }
 }
 
-CALLED_SELDOM void take_instance(struct coincident *coincident, const struct scene *scene,
+RARELY_CALLED void take_instance(struct coincident *coincident, const struct scene *scene,
                                  global const rt_shape *shape)
 {
     const struct ray ray = ray_to_object(scene->transforms + shape->transform, &coincident->probe);
@@ -171,7 +171,7 @@ static inline void probe_shapes(struct coincident *coincident, const struct scen
 }
 
 /* Finds the faces at a surface of which shape, prim, position, normal and error are set. */
-CALLED_SELDOM void find_coincident(struct coincident *coincident,
+RARELY_CALLED void find_coincident(struct coincident *coincident,
                                    global const rt_scene_header *header,
                                    const struct surface *surface)
 {
@@ -194,7 +194,7 @@ CALLED_SELDOM void find_coincident(struct coincident *coincident,
 }
 
 /* The error that makes a ray that leaves the surface start off all faces there. */
-CALLED_SELDOM float coincident_lift(global const rt_scene_header *header,
+RARELY_CALLED float coincident_lift(global const rt_scene_header *header,
                                     const struct surface *surface)
 {
     struct coincident coincident;

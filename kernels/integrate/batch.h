@@ -54,7 +54,7 @@ static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
     if (!(shape->flags & RT_SHAPE_LAMBERT) || path->media.x != RT_NONE ||
         path->depth == params->max_depth)
         return false;
-    if (SELDOM(shape->flags & RT_SHAPE_TOUCHES) && is_shared(scene, &path->ray, hit))
+    if (UNLIKELY(shape->flags & RT_SHAPE_TOUCHES) && is_shared(scene, &path->ray, hit))
         return false;
     global const rt_material_data *material = scene->materials + shape->material;
     if (shape->flags & RT_SHAPE_FLAT) {

@@ -90,7 +90,7 @@ struct contact {
  * Finds the boundary at a contact's surface. The surface becomes that of the face that light meets;
  * rays that leave it start off all faces.
  */
-CALLED_SELDOM void meet_coincident(struct contact *contact, global const rt_scene_header *header,
+RARELY_CALLED void meet_coincident(struct contact *contact, global const rt_scene_header *header,
                                    uint4 media, float3 wo)
 {
     const struct scene scene = scene_open(header);
@@ -117,7 +117,7 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
                                             struct surface *surface, float3 wo)
 {
     global const rt_shape *shape = scene->shapes + surface->shape;
-    if (!SELDOM(shape->flags & RT_SHAPE_TOUCHES))
+    if (!UNLIKELY(shape->flags & RT_SHAPE_TOUCHES))
         return media_meet(scene, media, shape->material, dot(wo, surface->normal) > 0.0f);
     struct contact contact; /* a copy, so that *surface can live in registers */
     struct boundary boundary;
@@ -131,7 +131,7 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
 }
 
 /* Whether faces of other shapes coincide with the surface that a ray hits. */
-CALLED_SELDOM bool is_shared(const struct scene *scene, const struct ray *ray,
+RARELY_CALLED bool is_shared(const struct scene *scene, const struct ray *ray,
                              const struct hit *hit)
 {
     const struct surface surface = surface_at(scene, ray, hit);

@@ -31,9 +31,9 @@
  * Its arguments are numbers, addresses of global memory and copies, which leave no register for it.
  */
 #if defined(__clang__)
-#define CALLED_SELDOM static __attribute__((noinline))
+#define RARELY_CALLED static __attribute__((noinline))
 #else
-#define CALLED_SELDOM static inline
+#define RARELY_CALLED static inline
 #endif
 
 static inline float8 lane_min(float8 a, float8 b)

@@ -54,7 +54,7 @@ for program in path photon_camera photon_emit gather_tree; do
     compile 1 "$program" -emit-llvm -S -mllvm -inline-threshold=1000000 -o "$work/code" 2>/dev/null
     sed -n 's/.*= alloca \(.*\), align.*/\1/p' "$work/code" | sort | uniq -c |
         sed "s/^/$program: /" >>"$work/private"
-    # What is still called, few rays need (CALLED_SELDOM): all others have the memory of the kernel.
+    # What is still called, few rays need (RARELY_CALLED): all others have the memory of the kernel.
     sed -n '/^define.* amdgpu_kernel /,/^}/s/.*= alloca \(.*\), align.*/\1/p' "$work/code" | sort |
         uniq -c | sed "s/^/$program: /" >>"$work/own"
 done
