@@ -26,11 +26,13 @@ static void layers_of(float3 *value, const struct scene *scene, const struct ray
 {
     struct surface surface = surface_at(scene, ray, hit);
     const float3 wo = -ray->direction;
-    /* Of faces that coincide, the one that light meets. */
-    meet_boundary(scene, vload4(0, scene->header->eye_media) - 1u, &surface, wo);
+    /* Of faces that coincide, the one that light meets; the albedo is that in air. */
+    struct boundary boundary =
+        meet_boundary(scene, vload4(0, scene->header->eye_media) - 1u, &surface, wo);
+    boundary.eta = 1.0f;
     global const rt_shape *shape = scene->shapes + surface.shape;
     const struct bsdf bsdf =
-        bsdf_at(scene, scene->materials + shape->material, &surface, wo, 1.0f, (float3)(1.0f));
+        bsdf_at(scene, scene->materials + shape->material, &surface, wo, &boundary, (float3)(1.0f));
     /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */
     const float side = dot(wo, surface.normal) < 0.0f ? -1.0f : 1.0f;
     const float depth = depth_of(&scene->header->camera, surface.position);

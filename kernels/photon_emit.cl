@@ -79,7 +79,7 @@ INLINE_NEVER void follow_light_path(const struct scene *scene, const rt_params *
         /* Store a photon where the map takes one. */
         global const rt_material_data *material =
             scene->materials + scene->shapes[surface.shape].material;
-        const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, boundary.eta, path.flux);
+        const struct bsdf bsdf = bsdf_at(scene, material, &surface, wo, &boundary, path.flux);
         if (bsdf_is_diffuse(&bsdf) && is_stored(&path, params))
             store_photon(&path, params, &surface, &bsdf, index, slots);
 

@@ -12,7 +12,8 @@ struct specular {
     float3 ks, kt;
     float eta;                               /* index on the side of wo over that on the other */
     float alpha;                             /* roughness of GGX; 0: smooth */
-    global const rt_material_data *material; /* whether and which Fresnel equations hold */
+    bool fresnel;                            /* whether those of dielectrics hold */
+    global const rt_material_data *material; /* and those of a metal */
 };
 
 /* What a boundary, or a facet of one, does with light. */
@@ -37,7 +38,7 @@ static inline struct split split_light(const struct specular *specular, float co
         split.reflected = specular->ks * fresnel_conductor(cos_i, row3(material->eta) * inverse,
                                                            row3(material->k) * inverse);
         split.refracted = (float3)(0.0f);
-    } else if (material->flags & RT_MATERIAL_FRESNEL) {
+    } else if (specular->fresnel) {
         split.reflected = reflectance * both;
         split.refracted = (1.0f - reflectance) * both;
     } else {

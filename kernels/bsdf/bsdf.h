@@ -24,6 +24,7 @@
 
 #include "bsdf/lobes.h"
 #include "material/material.h"
+#include "material/medium.h"
 #include "scene.h"
 #include "shape/surface.h"
 #include "types.h"
@@ -75,11 +76,13 @@ static inline void keep_sides(struct bsdf *bsdf)
 
 /* Adds the specular part of a material, and sets the probabilities of the lobes. */
 static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *params,
-                                global const rt_material_data *material, float eta, float3 beta)
+                                global const rt_material_data *material,
+                                const struct boundary *boundary, float3 beta)
 {
     bsdf->specular.ks = params->ks;
     bsdf->specular.kt = params->kt;
-    bsdf->specular.eta = eta;
+    bsdf->specular.eta = boundary->eta;
+    bsdf->specular.fresnel = boundary->fresnel;
     bsdf->specular.material = material;
     if (material->roughness >= RT_SMOOTH_ALPHA)
         roughen(bsdf, material->roughness);
@@ -98,13 +101,13 @@ static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *par
 }
 
 /*
- * The scattering of a surface for a path that arrives along -wo with throughput beta. eta is the
- * index on the side of wo over that on the other. Lobes are chosen in proportion to throughput
- * times albedo.
+ * The scattering of a surface, at this boundary, for a path that arrives along -wo with throughput
+ * beta. Lobes are chosen in proportion to throughput times albedo.
  */
 static inline struct bsdf bsdf_at(const struct scene *scene,
                                   global const rt_material_data *material,
-                                  const struct surface *surface, float3 wo, float eta, float3 beta)
+                                  const struct surface *surface, float3 wo,
+                                  const struct boundary *boundary, float3 beta)
 {
     const struct bsdf_params params = evaluate_material(scene, material, surface);
     const float side = dot(wo, surface->normal) < 0.0f ? -1.0f : 1.0f;
@@ -122,7 +125,7 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
     bsdf.reflection = 0.0f;
     bsdf.refraction = 0.0f;
     if (largest3(params.ks + params.kt) > 0.0f)
-        add_specular(&bsdf, &params, material, eta, beta);
+        add_specular(&bsdf, &params, material, boundary, beta);
     return bsdf;
 }
 

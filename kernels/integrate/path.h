@@ -57,7 +57,7 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
 
     /* Sample direct light. */
     const struct bsdf bsdf =
-        bsdf_at(scene, scene->materials + material, &surface, wo, boundary.eta, path->beta);
+        bsdf_at(scene, scene->materials + material, &surface, wo, &boundary, path->beta);
     const bool last = ends_at_gather_point(path, params, purpose);
     if (bsdf_is_diffuse(&bsdf) || bsdf_is_rough(&bsdf))
         connect_light(connection, scene, params, path, &surface, &bsdf, boundary.beyond.x, u.lo,

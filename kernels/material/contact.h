@@ -126,6 +126,7 @@ static inline struct boundary meet_boundary(const struct scene *scene, uint4 med
     *surface = contact.surface;
     boundary.beyond = contact.boundary.beyond;
     boundary.eta = contact.boundary.eta;
+    boundary.fresnel = contact.boundary.fresnel;
     boundary.exists = contact.boundary.exists;
     return boundary;
 }

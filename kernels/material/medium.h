@@ -28,6 +28,7 @@
 struct boundary {
     uint4 beyond; /* the media list on its other side */
     float eta;    /* index on this side / index on the other */
+    bool fresnel; /* dielectric, as one of the two media says; ks + kt is split Fr : 1 - Fr */
     /* false: both sides are the same medium, because another one or more of the same hides it */
     bool exists;
 };
@@ -89,11 +90,20 @@ static inline float3 medium_transmittance(global const rt_material_data *materia
                                        : (float3)(1.0f);
 }
 
-/* The boundary between two media lists. */
+static inline bool media_fresnel(const struct scene *scene, uint4 media)
+{
+    return media.x != RT_NONE && (scene->materials[media.x].flags & RT_MATERIAL_FRESNEL) != 0u;
+}
+
+/*
+ * The boundary between two media lists. Fresnel's equations are those of both media: air without
+ * them, as a bubble in water that has them, reflects as the water does.
+ */
 static inline struct boundary media_between(const struct scene *scene, uint4 media, uint4 beyond)
 {
     struct boundary boundary;
     boundary.beyond = beyond;
+    boundary.fresnel = media_fresnel(scene, media) || media_fresnel(scene, beyond);
     boundary.eta = media_ior(scene, media) / media_ior(scene, boundary.beyond);
     boundary.exists = boundary.beyond.x != media.x;
     return boundary;
@@ -119,6 +129,7 @@ static inline struct boundary media_meet(const struct scene *scene, uint4 media,
     struct boundary boundary;
     boundary.beyond = media;
     boundary.eta = media_ior(scene, media);
+    boundary.fresnel = false;
     boundary.exists = true;
     return boundary;
 }

@@ -15,7 +15,10 @@ static struct bsdf situated(global const rt_scene_header *header, const struct s
     surface.normal = at->normal.xyz;
     surface.shading = at->shading.xyz;
     surface.shape = 0u;
-    return bsdf_at(&scene, scene.materials, &surface, at->wo.xyz, at->wo.w, at->beta.xyz);
+    struct boundary boundary;
+    boundary.eta = at->wo.w;
+    boundary.fresnel = (scene.materials->flags & RT_MATERIAL_FRESNEL) != 0u;
+    return bsdf_at(&scene, scene.materials, &surface, at->wo.xyz, &boundary, at->beta.xyz);
 }
 
 /* Reflectance and cosine beyond, for each (cosine, eta). */

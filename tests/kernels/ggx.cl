@@ -10,6 +10,7 @@ static struct specular boundary_of(global const rt_material_data *material, floa
     specular.kt = (float3)(numbers.y);
     specular.alpha = numbers.z;
     specular.eta = numbers.w;
+    specular.fresnel = (material->flags & RT_MATERIAL_FRESNEL) != 0u;
     specular.material = material;
     return specular;
 }

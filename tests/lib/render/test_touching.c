@@ -124,6 +124,7 @@ static void turn(float out[3], const placement *at, const double v[3], double aw
     "material glass { kt 1  ior 1.5  fresnel dielectric  absorption 1 }\n"                         \
     "material water { kt 1  ior 1.33  fresnel dielectric  absorption 2 }\n"                        \
     "material heavy { kt 1  ior 1.33  fresnel dielectric  absorption 2  priority 1 }\n"            \
+    "material air { kt 1  ior 1  priority 1 }\n"                                                   \
     "mesh cube { file \"cube.off\" }\ninstance cube { material black  translate 900 0 0 }\n"
 #define SKY "light environment { radiance 1 0 0 }\n"
 
@@ -220,6 +221,18 @@ static const stack stacks[] = {
      {0.8, 0.6},
      {{1.33, 2, 0.2}, {1, 0, 0}, {1.5, 1, 0.2}},
      3},
+    {"a bubble of air without Fresnel equations, in water",
+     {"air", "water"},
+     {0.5, 0.4},
+     {0.6, 0.8},
+     {{1.33, 2, 0.2}, {1, 0, 0.1}, {1.33, 2, 0.1}},
+     3},
+    {"air without Fresnel equations in glass, both with the same bottom",
+     {"air", "glass"},
+     {0.4, 0.4},
+     {0.6, 0.8},
+     {{1.5, 1, 0.2}, {1, 0, 0.2}},
+     2},
 };
 enum { stack_count = sizeof stacks / sizeof *stacks };
 
