@@ -49,6 +49,7 @@ LIB_SRC := \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
 	lib/pack/touch.c \
+	lib/film/cut_off.c \
 	lib/film/film.c lib/film/layers.c lib/film/noise.c lib/film/replicates.c \
 	lib/film/student_t.c \
 	lib/film/write.c \
@@ -149,6 +150,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
+	tests/lib/film/test_cut_off.c \
 	tests/lib/film/test_replicates.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c \

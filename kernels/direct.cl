@@ -21,9 +21,11 @@ KERNEL direct(const rt_params params, global const rt_scene_header *header,
     for (uint i = 0; i < params.sample_count; i++) {
         const struct sampler sampler =
             sampler_start(&scene, &params, index, params.first_sample + i);
-        float weight;
+        float weight, cut_off;
         const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
-        film_add(&pixel, follow_path(&scene, &params, &sampler, ray, FOLLOW_DIRECT, 0), weight);
+        const float3 radiance =
+            follow_path(&scene, &params, &sampler, ray, FOLLOW_DIRECT, 0, &cut_off);
+        film_add(&pixel, radiance, weight, cut_off);
     }
     film[index] = pixel;
 }

@@ -76,7 +76,7 @@ KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
         for (uint layer = 0; layer < RT_LAYER_COUNT; layer++) {
             if (layer == RT_LAYER_IDS && sums[layer].sum[2] != 0.0f)
                 continue; /* ids have no mean: the first is kept */
-            film_add(&sums[layer], value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f);
+            film_add(&sums[layer], value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f, 0.0f);
         }
     }
     for (uint layer = 0; layer < RT_LAYER_COUNT; layer++)

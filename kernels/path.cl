@@ -21,9 +21,11 @@ static inline void sample_pixels(const struct scene *scene, const rt_params *par
         for (uint i = 0u; i < params->sample_count; i++) {
             const struct sampler sampler =
                 sampler_start(scene, params, index, params->first_sample + i);
-            float weight;
+            float weight, cut_off;
             const struct ray ray = pixel_ray(&scene->header->camera, params, &sampler, at, &weight);
-            film_add(&pixel, follow_path(scene, params, &sampler, ray, FOLLOW_ALL, 0), weight);
+            const float3 radiance =
+                follow_path(scene, params, &sampler, ray, FOLLOW_ALL, 0, &cut_off);
+            film_add(&pixel, radiance, weight, cut_off);
         }
         film[index] = pixel;
     }

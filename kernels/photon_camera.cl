@@ -32,6 +32,9 @@ KERNEL photon_camera(const rt_params params, global const rt_scene_header *heade
     clear_gather_point(gather.point, index, params.first_sample, film_weight);
     for (uint i = 0u; i < params.final_gather; i++)
         clear_gather_point(gather.caustics + i * stride, index, params.first_sample, film_weight);
-    const float3 radiance = follow_path(&scene, &params, &sampler, ray, FOLLOW_TO_GATHER, &gather);
+    float cut_off;
+    const float3 radiance =
+        follow_path(&scene, &params, &sampler, ray, FOLLOW_TO_GATHER, &gather, &cut_off);
     vstore3(radiance, 0, points[item].radiance);
+    points[item].cut_off = cut_off;
 }

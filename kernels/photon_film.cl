@@ -27,6 +27,6 @@ KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
     for (uint i = 0u; i < params.final_gather; i++)
         radiance += radiance_of(caustics + i * stride + item);
     rt_film_pixel pixel = film[index];
-    film_add(&pixel, radiance, points[item].film_weight);
+    film_add(&pixel, radiance, points[item].film_weight, points[item].cut_off);
     film[index] = pixel;
 }

@@ -395,7 +395,8 @@ typedef struct rt_film_pixel {
     float lost[3];   /* what rounding lost from sum */
     rt_u32 count;    /* samples */
     rt_u32 rejected; /* samples that were not finite, left out */
-    rt_u32 reserved[3];
+    float cut_off;   /* sum of the throughputs that max_depth cut off */
+    rt_u32 reserved[2];
 } rt_film_pixel;
 RT_SIZE(rt_film_pixel, 48);
 
@@ -477,7 +478,7 @@ typedef struct rt_gather_point {
     float kd[3];
     float roughness;
     float shading[3]; /* unit shading normal, on the side of wo */
-    rt_u32 reserved;
+    float cut_off;    /* the throughput of the camera path where max_depth cut it off, or 0 */
 } rt_gather_point;
 RT_SIZE(rt_gather_point, 112);
 

@@ -59,6 +59,15 @@ static void print_ledger(const rt_film *film,
     free(rows);
 }
 
+/* What max_depth cut off, of all light. */
+static void print_cut_off(const rt_film_stats *stats, rt_mode mode)
+{
+    printf("throughput cut off: %.3g %%, largest in a block %.3g %%\n",
+           100.0 * stats->cut_off_throughput, 100.0 * stats->cut_off_in_block);
+    if (mode == RT_MODE_PHOTON)
+        printf("photon flux cut off: %.3g %%\n", 100.0 * stats->cut_off_flux);
+}
+
 static void print_error(const rt_film_stats *stats)
 {
     if (stats->replicates == 0)
@@ -86,6 +95,7 @@ void stats_print(const rt_scene *scene, const rt_device *device, const rt_render
     printf("size: %u x %u pixels\n", (unsigned)width, (unsigned)height);
     print_count("samples a pixel", stats.spp);
     print_count("samples rejected", stats.rejected);
+    print_cut_off(&stats, options->mode);
     print_error(&stats);
     print_seconds("build time", stats.build_seconds);
     print_seconds("compile time", stats.compile_seconds);
@@ -129,6 +139,9 @@ static void put_film(const rt_film_stats *stats)
         json_member("interval_factor", stats->interval_factor);
     }
     json_member("light_power", stats->light_power);
+    json_member("cut_off_throughput", stats->cut_off_throughput);
+    json_member("cut_off_in_block", stats->cut_off_in_block);
+    json_member("cut_off_flux", stats->cut_off_flux);
     json_member("build_seconds", stats->build_seconds);
     json_member("compile_seconds", stats->compile_seconds);
 }

@@ -27,12 +27,12 @@ static inline uint2 pixel_of_item(const rt_params *params, uint item)
 }
 
 /*
- * Adds a sample, of weight 1 or -1, to the pixel. Rounding errors are compensated (Kahan, "Further
- * remarks on reducing truncation errors", CACM 8(1), 1965), and samples are added in their order,
- * so the film does not depend on how they are divided into launches. A sample that is not finite is
- * left out and counted as rejected.
+ * Adds a sample, of weight 1 or -1, and the throughput that max_depth cut off from it. Rounding
+ * errors are compensated (Kahan, "Further remarks on reducing truncation errors", CACM 8(1), 1965),
+ * and samples are added in their order, so the film does not depend on how they are divided into
+ * launches. A sample that is not finite is left out and counted as rejected.
  */
-static inline void film_add(rt_film_pixel *pixel, float3 radiance, float weight)
+static inline void film_add(rt_film_pixel *pixel, float3 radiance, float weight, float cut_off)
 {
 #pragma OPENCL FP_CONTRACT OFF
     const bool is_finite = all(isfinite(radiance));
@@ -47,6 +47,7 @@ static inline void film_add(rt_film_pixel *pixel, float3 radiance, float weight)
         pixel->sum[i] = sum;
     }
     pixel->weight += weight;
+    pixel->cut_off += cut_off;
     pixel->count++;
 }
 

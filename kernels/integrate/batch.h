@@ -396,7 +396,7 @@ INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *para
             if (paths[i].alive || !(under_way >> i & 1u))
                 continue;
             rt_film_pixel pixel = film[samples[i].index];
-            film_add(&pixel, paths[i].radiance, samples[i].weight);
+            film_add(&pixel, paths[i].radiance, samples[i].weight, paths[i].cut_off);
             film[samples[i].index] = pixel;
             if (!next_sample(scene, params, &item, end, &samples[i], &paths[i]))
                 under_way ^= 1u << i;

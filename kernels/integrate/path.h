@@ -50,8 +50,9 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
 
     /* Add what the surface emits; end the path at the maximum depth. */
     add_emission(path, scene, params, &surface, wo, purpose);
-    path->alive =
-        path->depth != params->max_depth && !(purpose == FOLLOW_DIRECT && path->scattered);
+    path->alive = !(purpose == FOLLOW_DIRECT && path->scattered);
+    if (path->alive && path->depth == params->max_depth)
+        path_cut_off(path, scene->materials + material);
     if (!path->alive)
         return;
 
@@ -79,10 +80,10 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
 }
 
-/* Follows one path to its end and returns its radiance. */
+/* Follows one path to its end; returns its radiance and writes the throughput that was cut off. */
 static inline float3 follow_path(const struct scene *scene, const rt_params *params,
                                  const struct sampler *sampler, struct ray ray, const uint purpose,
-                                 const struct gather *gather)
+                                 const struct gather *gather, float *cut_off)
 {
     struct path path;
     path_begin(&path, scene, sampler, ray);
@@ -105,6 +106,7 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
         /* Add the direct light that arrives. */
         add_connection(&path, scene, &connection);
     }
+    *cut_off = path.cut_off;
     return path.radiance;
 }
 

@@ -29,6 +29,7 @@ struct path {
      * the camera, a delta event or a skipped boundary
      */
     float pdf_w;
+    float cut_off;       /* throughput at the end of the longest paths, else 0 */
     uint4 media;         /* the solids it is inside of */
     uint depth;          /* segments, the one under way included */
     uint hidden;         /* boundaries skipped inside a medium of higher priority */
@@ -55,6 +56,7 @@ static inline void path_begin(struct path *path, const struct scene *scene,
     path->beta = (float3)(1.0f);
     path->eta_scale = 1.0f;
     path->pdf_w = 0.0f;
+    path->cut_off = 0.0f;
     path->media = vload4(0, scene->header->eye_media) - 1u;
     path->depth = 1u;
     path->hidden = 0u;
@@ -68,6 +70,17 @@ static inline void path_begin(struct path *path, const struct scene *scene,
 static inline float8 path_numbers(const struct path *path)
 {
     return sampler_pair(&path->sampler, set_light(path->depth - 1u));
+}
+
+/*
+ * Ends a path at its longest length, at this material: what it would have scattered, without its
+ * textures, is the throughput that is cut off.
+ */
+static inline void path_cut_off(struct path *path, global const rt_material_data *material)
+{
+    path->alive = false;
+    path->cut_off =
+        mean3(path->beta * (row3(material->kd) + row3(material->ks) + row3(material->kt)));
 }
 
 /* Samples the chosen lobe with u in [0,1)^3 and spawns the next ray. */

@@ -37,7 +37,7 @@ static inline void clear_gather_point(global rt_gather_point *point, uint pixel,
     point->film_weight = film_weight;
     point->lobe = RT_LOBE_LAMBERT;
     point->roughness = 0.0f;
-    point->reserved = 0u;
+    point->cut_off = 0.0f;
 }
 
 /* Gathers photons at a surface, by its diffuse lobe; throughput: from there to the film. */

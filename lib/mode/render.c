@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "film/cut_off.h"
 #include "mode/modes.h"
 #include "setting/options.h"
 
@@ -67,6 +68,7 @@ static rt_status resolve(const rt_mode_class *mode, const rt_render_job *job, rt
     if (mode->show && film->layer_sums)
         memcpy(film->pixels, film->layer_sums, pixels * sizeof *film->pixels);
     rt_film_resolve(film);
+    rt_film_check_cut_off(film, job->options->hooks);
     rt_first_hit_layers_resolve(film);
     for (size_t i = 0; i < pixels && mode->show; i++)
         if (film->pixels[i].count > 0)

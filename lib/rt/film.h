@@ -88,8 +88,16 @@ RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_
 
 /* Statistics of a render. */
 typedef struct rt_film_stats {
-    uint32_t spp;             /* samples that every pixel has */
-    uint64_t rejected;        /* samples left out because they were not finite */
+    uint32_t spp;      /* samples that every pixel has */
+    uint64_t rejected; /* samples left out because they were not finite */
+    /*
+     * of the throughput of camera paths, the part from 0 to 1 that max_depth cut off: what the
+     * longest paths would have scattered at their last surface. The second is that of the block of
+     * 16 x 16 pixels where it is largest. rt_render warns when that is surely more than 2 %
+     */
+    double cut_off_throughput, cut_off_in_block;
+    /* the same of the flux of photon paths; it warns above 2 %. 0 without photons */
+    double cut_off_flux;
     uint64_t photons_emitted; /* photon paths */
     uint64_t photons_stored;
     /* photons left out because they were not finite or lay beyond 1e15 m */

@@ -17,6 +17,6 @@ kernel void add(global const float *red, uint count, global rt_film_pixel *film)
         return;
     rt_film_pixel pixel = film[0];
     for (uint i = 0; i < count; i++)
-        film_add(&pixel, (float3)(red[i], 1.0f, 1.0f), 1.0f);
+        film_add(&pixel, (float3)(red[i], 1.0f, 1.0f), 1.0f, 0.0f);
     film[0] = pixel;
 }

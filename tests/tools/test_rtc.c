@@ -391,6 +391,30 @@ static void samples_that_are_not_finite_are_shown(void **state)
     run_free(&run);
 }
 
+static void light_that_max_depth_cuts_off_is_told(void **state)
+{
+    static const char *const modes[] = {"path", "photon --photons 1000"};
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    scratch_write("b.rts", "camera { eye 0 0 0  look_at 0 0 1 }\n"
+                           "film { width 16  height 16 }\n"
+                           "material mirror { ks 0.95 }\n"
+                           "sphere { centre 0 0 0  radius 1  material mirror }\n"
+                           "light spot { position 0 0 0  target 0 0 1  intensity 1 }\n");
+    for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
+        run loud = run_rtc("b.rts --mode %s --max-depth 4 --out a.pfm", modes[i]);
+        run deep = run_rtc("b.rts --mode %s --max-depth 256 --out a.pfm", modes[i]);
+        run quiet = run_rtc("b.rts --mode %s --max-depth 4 --quiet --stats --out a.pfm", modes[i]);
+        expect_err(&loud, "warning: max_depth 4 cuts off ");
+        expect_no_err(&deep, "cuts off");
+        assert_string_equal(quiet.err, "");
+        assert_float_equal(stats_number(&quiet, "throughput cut off"), 100 * pow(0.95, 4), 0.1);
+        run_free(&loud);
+        run_free(&deep);
+        run_free(&quiet);
+    }
+}
+
 static void output_that_cannot_be_written_is_status_4_before_rendering(void **state)
 {
     (void)state;
@@ -450,6 +474,7 @@ int main(void)
         TEST(variance_is_a_layer_and_the_error_is_said),
         TEST(a_render_ends_at_the_target_error),
         TEST(samples_that_are_not_finite_are_shown),
+        TEST(light_that_max_depth_cuts_off_is_told),
         TEST(output_that_cannot_be_written_is_status_4_before_rendering),
         TEST(full_disk_is_status_4),
         TEST(scene_comes_from_stdin_too),
