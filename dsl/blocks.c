@@ -62,16 +62,17 @@ static const rt_field material_fields[] = {
     {"ior", NUMBER, OPTIONAL, FROM_TO(0.1, 10), "", "1.5", NULL, AT(rt_material, ior),
      "index of refraction of the inside"},
     {"fresnel", CHOICE, OPTIONAL, ANY, "", "off", fresnels, AT(rt_material, fresnel),
-     "how reflection and refraction depend on the angle"},
+     "how reflection and refraction depend on the angle; dielectric between two media where that "
+     "of either is"},
     {"eta", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "required of a conductor", NULL,
      AT(rt_material, eta), "of a conductor: index of refraction, by channel"},
     {"k", COLOUR, OPTIONAL, FROM_TO(0, 100), "", "0", NULL, AT(rt_material, k),
      "of a conductor: extinction, by channel"},
     {"roughness", NUMBER, OPTIONAL, UNIT, "", "0", NULL, AT(rt_material, roughness),
-     "of ks and kt: alpha of the GGX distribution of microfacets; below 0.001 is smooth. Light "
-     "that meets a second facet is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of "
-     "kd "
-     "without ks and kt: roughness of the Oren-Nayar model; 0 is Lambert's law"},
+     "of ks and kt: alpha of the GGX distribution of microfacets, with Smith's masking-shadowing "
+     "for correlated heights (Heitz 2014); below 0.001 is smooth. Light that meets a second facet "
+     "is lost: of a white metal 3 % at 0.1, 8 % at 0.2, 30 % at 0.5. Of kd without ks and kt: "
+     "roughness of the Oren-Nayar model; 0 is Lambert's law"},
     {"absorption", COLOUR, OPTIONAL, LIGHT, "1/m", "0", NULL, AT(rt_material, absorption),
      "of the inside, by channel: light is attenuated to exp(-absorption) per metre; colours thick "
      "glass"},
@@ -79,7 +80,8 @@ static const rt_field material_fields[] = {
      "true: both sides emit"},
     {"priority", INTEGER, OPTIONAL, FROM_TO(0, INTEGER_LAST), "", "0", NULL,
      AT(rt_material, priority),
-     "where solids overlap, the material of higher priority fills the overlap"},
+     "where solids overlap, the material of higher priority fills the overlap, among equals the "
+     "one that light entered last"},
     {"kd_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, kd_texture),
      "multiplies kd; replaces it where kd is left out"},
     {"ks_texture", TEXTURE, OPTIONAL, ANY, "", "none", NULL, AT(rt_material, ks_texture),
@@ -113,8 +115,8 @@ static const rt_field spot_light_fields[] = {
     {"outer", NUMBER, OPTIONAL, HALF_TURN, "degrees", "30", NULL, AT(rt_spot_light, outer),
      "angle from the axis beyond which nothing is emitted"},
     {"inner", NUMBER, OPTIONAL, FROM_TO(0, 180), "degrees", "0", NULL, AT(rt_spot_light, inner),
-     "angle from the axis up to which the intensity is full; at most `outer`; between the two it "
-     "falls smoothly"},
+     "angle from the axis up to which the intensity is full; at most `outer`; between the two, at "
+     "the angle a, it falls as 3 x^2 - 2 x^3, x = (cos a - cos outer) / (cos inner - cos outer)"},
 };
 
 static const rt_field directional_light_fields[] = {

@@ -132,8 +132,9 @@ static const rt_setting settings[] = {
            "samples per pixel; with `passes`, in each pass"),
      RT_TOPIC_RENDER, 0, NULL},
     {WHOLE(max_depth, 1, 4096, "segments", "16",
-           "longest path, from the camera or from a light; 1 shows emitters alone, 2 "
-           "adds direct light"),
+           "longest path, from the camera or from a light; 1 shows emitters alone, 2 adds direct "
+           "light. Each face of glass that a path meets takes a segment: 16 are too few for a "
+           "glass of water. A render that cuts off much light warns"),
      RT_TOPIC_RENDER, RT_SETTING_EMITS, light_needs},
     /*
      * Measured variance times time for the thresholds 1, 1/2, 1/4 and 1/8, from the second segment
