@@ -452,7 +452,7 @@ help:
 	@echo 'make check-quick     only the tests that take seconds'
 	@echo 'make check-sanitize  the quick tests under the address and UB sanitizers'
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
-	@echo 'make check-peers     five scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-peers     six scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'

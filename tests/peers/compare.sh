@@ -1,5 +1,5 @@
 #!/bin/sh
-# compare.sh - five scenes as rtc renders them beside Mitsuba 3, an independent renderer.
+# compare.sh - six scenes as rtc renders them beside Mitsuba 3, an independent renderer.
 #
 #   tests/peers/compare.sh [SCENE]...
 #
@@ -37,7 +37,7 @@ page_row() {
 }
 
 failed=0
-[ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass stage
+[ $# -gt 0 ] || set -- box_point box_area box_caustic metal_glass stage tumbler
 printf '%-12s %8s %8s  %-20s %-11s %-10s %s\n' scene samples seconds 'mean ratio' \
     'blocks off' RMSE 'worst block, of what is allowed'
 : >$out/rows.md

@@ -164,5 +164,64 @@ def stage():
               "to_world": Transform().translate([0.1, 0.6, 0.3]).scale(0.45)})
 
 
+# ---- Solids that touch: a tumbler of water -----------------------------------------
+
+RING = 1024  # corners of the rim, a polygon
+
+
+def dielectric(inside, outside):
+    """Of indices behind and before the normal."""
+    return {"type": "dielectric", "int_ior": float(inside), "ext_ior": float(outside)}
+
+
+def wall(radius, bottom, top, bsdf, **more):
+    return {"type": "cylinder", "p0": [0, bottom, 0], "p1": [0, top, 0], "radius": radius,
+            "bsdf": bsdf, **more}
+
+
+def level(radius, height, bsdf, **more):
+    """A disc whose normal points up."""
+    place = Transform().translate([0, height, 0]).rotate([1, 0, 0], -90).scale(radius)
+    return {"type": "disk", "to_world": place, "bsdf": bsdf, **more}
+
+
+def rim(inner, outer, height, bsdf):
+    """The ring between two circles, its normal up."""
+    properties = mi.Properties()
+    properties["bsdf"] = mi.load_dict(bsdf)
+    properties["face_normals"] = True
+    mesh = mi.Mesh("rim", 2 * RING, 2 * RING, props=properties)
+    angle = np.arange(RING) * (2 * np.pi / RING)
+    circle = np.stack([np.cos(angle), np.zeros(RING), np.sin(angle)], 1)
+    corners = np.concatenate([inner * circle, outer * circle]) + [0, height, 0]
+    a = np.arange(RING)
+    b = (a + 1) % RING
+    faces = np.concatenate([np.stack([a, b, a + RING], 1), np.stack([b, b + RING, a + RING], 1)])
+    parameters = mi.traverse(mesh)
+    parameters["vertex_positions"] = corners.astype(np.float32).ravel()
+    parameters["faces"] = faces.astype(np.uint32).ravel()
+    parameters.update()
+    return mesh
+
+
+def tumbler():
+    water = {"type": "homogeneous", "albedo": rgb(0), "sigma_t": rgb(1, 0.36, 0.12), "scale": 2.5}
+    black = {"type": "diffuse", "reflectance": rgb(0)}
+    parts = scene(
+        64, (0.9, 1.7, -2.6), (0, 0.45, 0), 34,
+        light={"type": "constant", "radiance": rgb(0.5, 0.6, 0.8)},
+        ground=quad((-3, 0, -3), (0, 0, 6), (6, 0, 0), matte(0.55, 0.5, 0.4)),
+        lamp=quad((-2, 0.2, 1), (0, 2, 0), (1.2, 0, 1.2), black,
+                  emitter={"type": "area", "radiance": rgb(6, 5, 4)}),
+        outside=wall(0.5, 0, 1, dielectric(1.5, 1)),
+        rim=rim(0.42, 0.5, 1, dielectric(1.5, 1)),
+        dry=wall(0.42, 0.7, 1, dielectric(1, 1.5)),
+        wet=wall(0.42, 0.12, 0.7, dielectric(1.33, 1.5), interior=water),
+        bottom=level(0.42, 0.12, dielectric(1.5, 1.33), exterior=water),
+        surface=level(0.42, 0.7, dielectric(1.33, 1), interior=water))
+    parts["integrator"] = {"type": "volpath", "max_depth": 64}
+    return parts
+
+
 SCENES = {function.__name__: function
-          for function in (box_point, box_area, box_caustic, metal_glass, stage)}
+          for function in (box_point, box_area, box_caustic, metal_glass, stage, tumbler)}

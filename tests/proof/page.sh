@@ -34,7 +34,7 @@ relative RMSE of a converging mean is given at 1, 4, 16, 64 and 256 samples a pi
 
 The last two sections are about another program, Mitsuba 3: stored renders of three box scenes, with
 2048 samples a pixel (8192 for the caustic), and renders that `make check-peers` makes of these and
-two more, from scenes written for it separately (see
+three more, from scenes written for it separately (see
 [../peers/mitsuba_scenes.py](../peers/mitsuba_scenes.py)). There the mean ratio, 1 where both agree,
 is over all pixels, with a standard error from the noise of both pictures. A picture agrees where no
 block of 16x16 pixels has a mean off by more than 1 % (2 % for the caustic) and by more than four
