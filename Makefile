@@ -71,7 +71,7 @@ LIB_SRC := \
 	lib/render/enclosing_media.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/findings.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
-	lib/scene/mesh_file.c lib/scene/scene.c lib/scene/shape.c \
+	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/scene.c lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/word.c \

@@ -45,7 +45,7 @@ static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
         return origins->lights.items[finding->light];
     if (finding->emitter != RT_NONE)
         return origins->shapes.items[finding->emitter];
-    if (finding->kind == RT_FINDING_OPEN_GLASS)
+    if (finding->kind == RT_FINDING_OPEN_GLASS || finding->other != RT_NONE)
         return origins->shapes.items[finding->shape];
     if (finding->kind == RT_FINDING_NOTHING_IN_VIEW ||
         finding->kind == RT_FINDING_CAMERA_IN_OPAQUE ||
@@ -59,7 +59,8 @@ static void report(void *user, const rt_finding *finding)
     reporting *r = user;
     rt_place place = place_of(r->origins, finding);
     /* The iterations of a repeat are at one place: say once what is wrong there. */
-    if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || finding->kind == RT_FINDING_OPEN_GLASS) {
+    if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || finding->kind == RT_FINDING_OPEN_GLASS ||
+        finding->other != RT_NONE) {
         if (place.source == r->last.source && place.offset == r->last.offset)
             return;
         r->last = place;
@@ -68,6 +69,11 @@ static void report(void *user, const rt_finding *finding)
     if (finding->kind == RT_FINDING_OPEN_GLASS) {
         rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
                                    "sheet without refraction");
+    } else if (finding->other != RT_NONE) {
+        const rt_place *other = &r->origins->shapes.items[finding->other];
+        rt_report_hint(r->reports,
+                       "the other is at %s:%d; give the material of one of them a higher priority",
+                       other->source->path, other->line);
     } else if (finding->shape != RT_NONE) {
         const rt_place *solid = &r->origins->shapes.items[finding->shape];
         rt_text word = rt_place_text(solid);

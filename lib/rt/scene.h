@@ -26,7 +26,11 @@ typedef enum rt_finding_kind {
     /* a light is inside an opaque solid, and the camera is not */
     RT_FINDING_LIGHT_IN_OPAQUE,
     /* a shape of glass encloses nothing, not even with others of its material */
-    RT_FINDING_OPEN_GLASS
+    RT_FINDING_OPEN_GLASS,
+    /* parts of two transparent solids overlap, of materials of the same priority */
+    RT_FINDING_OVERLAP,
+    /* two transparent solids of the same priority touch, and their surfaces differ */
+    RT_FINDING_CONTACT
 } rt_finding_kind;
 
 typedef enum rt_severity {
@@ -395,6 +399,7 @@ typedef struct rt_finding {
     rt_finding_kind kind;
     rt_severity severity;
     uint32_t shape;   /* the solid or open shape that it is about, or RT_NONE */
+    uint32_t other;   /* the solid that it meets, or RT_NONE */
     uint32_t emitter; /* the area light inside it, or RT_NONE, or ... */
     /* ... the delta light, counted from 0 in the order in which they were added */
     uint32_t light;
@@ -403,11 +408,14 @@ typedef struct rt_finding {
 
 /*
  * Reports to a callback what makes the picture of a complete scene, with its own options, black or
- * empty, and glass that encloses nothing; returns the number of warnings. There are no false
+ * empty, glass that encloses nothing, and transparent solids that overlap or touch where their
+ * priorities do not settle what is there; returns the number of warnings. There are no false
  * alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed
  * meshes; what is inside of them is decided in double precision, and a light only counts as shut in
- * when all of it is. Light shut out by a room of several shapes is not detected, and only the first
- * 256 lights, and as many open shapes of glass, are checked.
+ * when all of it is. Light shut out by a room of several shapes is not detected, nor a contact of
+ * curved faces or of faces that no axis of the world is normal to, nor an overlap too small for 512
+ * samples of the bounds that the two share. Only the first 256 lights, open shapes of glass and
+ * transparent solids are checked.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,
                              void (*found)(void *user, const rt_finding *finding), void *user);

@@ -7,6 +7,7 @@
 
 #include "scene/check.h"
 #include "scene/inside.h"
+#include "scene/overlap.h"
 #include "scene/shape_class.h"
 #include "scene/view.h"
 #include "setting/options.h"
@@ -47,7 +48,7 @@ static rt_finding finding_of(rt_finding_kind kind)
 {
     rt_severity severity =
         kind == RT_FINDING_CAMERA_IN_MEDIUM ? RT_SEVERITY_NOTE : RT_SEVERITY_WARNING;
-    return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, NULL};
+    return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, RT_NONE, NULL};
 }
 
 /* ---- What is missing ------------------------------------------------------- */
@@ -262,12 +263,74 @@ static void find_open_glass(inspection *in)
     }
 }
 
+/* ---- Solids that meet ------------------------------------------------------- */
+
+static int same_colour(const float a[3], const float b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static int same_surface(const rt_material *a, const rt_material *b)
+{
+    return same_colour(a->kd, b->kd) && same_colour(a->ks, b->ks) && same_colour(a->kt, b->kt) &&
+           a->roughness == b->roughness && a->kd_texture == b->kd_texture &&
+           a->ks_texture == b->ks_texture && a->kt_texture == b->kt_texture;
+}
+
+static int same_medium(const rt_material *a, const rt_material *b)
+{
+    return a->ior == b->ior && same_colour(a->absorption, b->absorption);
+}
+
+/* Reports two solids that meet if their priorities do not settle what is where they do. */
+static void find_meeting(inspection *in, uint32_t first, uint32_t second, size_t *work)
+{
+    const rt_scene *scene = in->scene;
+    const rt_scene_shape *a = scene->shapes + first, *b = scene->shapes + second;
+    const rt_material *m = scene->materials + a->surface.material,
+                      *n = scene->materials + b->surface.material;
+    double p[3];
+    if (a->surface.material == b->surface.material || m->priority != n->priority ||
+        (same_surface(m, n) && same_medium(m, n)))
+        return;
+    const rt_meeting meeting = rt_shapes_meeting(scene, b, a, p, work);
+    if (meeting == RT_APART || (meeting == RT_TOUCHING && same_surface(m, n)))
+        return;
+    const int is_overlap = meeting == RT_OVERLAPPING;
+    rt_finding finding = finding_of(is_overlap ? RT_FINDING_OVERLAP : RT_FINDING_CONTACT);
+    finding.shape = second;
+    finding.other = first;
+    report(in, finding,
+           is_overlap ? "this %s overlaps a %s of the same priority near (%.4g, %.4g, %.4g): the "
+                        "medium there is that of the solid entered last"
+                      : "this %s touches a %s of the same priority and another surface near (%.4g, "
+                        "%.4g, %.4g): the material defined first gives the surface there",
+           shape_name(b), shape_name(a), p[0], p[1], p[2]);
+}
+
+static void find_meetings(inspection *in)
+{
+    const rt_scene *scene = in->scene;
+    size_t work = 20000000; /* evaluations, about a second */
+    uint32_t solids[checked_max], count = 0;
+    for (size_t i = 0; i < scene->shape_count && count < checked_max; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (rt_shape_class_of(shape->kind)->contains &&
+            rt_material_is_transparent(scene->materials + shape->surface.material))
+            solids[count++] = (uint32_t)i;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = i + 1; k < count; k++)
+            find_meeting(in, solids[i], solids[k], &work);
+}
+
 size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_finding *finding),
                       void *user)
 {
     inspection in = {scene, found, user, 0};
     find_missing(&in);
     find_open_glass(&in);
+    find_meetings(&in);
     if (scene->has_camera) {
         find_empty_view(&in);
         find_camera_inside(&in);

@@ -197,7 +197,7 @@ static void keep(void *user, const rt_finding *finding)
 /* What is told of a scene; nothing, or one finding. */
 static told findings_of(const char *text)
 {
-    told t = {0, {RT_FINDING_NONE, RT_SEVERITY_ERROR, 0, 0, 0, NULL}, ""};
+    told t = {0, {RT_FINDING_NONE, RT_SEVERITY_ERROR, 0, 0, 0, 0, NULL}, ""};
     rt_scene *scene = NULL;
     rt_error error;
     expect_ok(rt_scene_parse(&scene, text, NULL, NULL, &error), &error);
@@ -376,9 +376,49 @@ static void a_light_in_a_solid_is_reported(void **state)
     assert_true(t.last.shape == 0 && t.last.emitter == 1 && t.last.light == RT_NONE);
 }
 
+#define SOLIDS                                                                                     \
+    "material glass { kt 1 ior 1.5 fresnel dielectric }"                                           \
+    "material water { kt 1 ior 1.33 fresnel dielectric }"                                          \
+    "material frosted { kt 1 ior 1.5 fresnel dielectric roughness 0.3 }"                           \
+    "material filling { kt 1 ior 1.33 fresnel dielectric priority 1 }" SUN VIEW
+#define CUBE(x, m) "box { centre " x " 0 0 size 2 2 2 material " m " }"
+
+static void solids_whose_priorities_settle_nothing_are_reported(void **state)
+{
+    static const scene_case cases[] = {
+        {SOLIDS CUBE("0", "glass") CUBE("1.5", "water"), RT_FINDING_OVERLAP},
+        {SOLIDS CUBE("0", "water") CUBE("1.5", "glass"), RT_FINDING_OVERLAP},
+        {SOLIDS CUBE("0", "glass") CUBE("1.5", "glass"), RT_FINDING_NONE},
+        {SOLIDS CUBE("0", "glass") CUBE("1.5", "filling"), RT_FINDING_NONE},
+        {SOLIDS "sphere { centre 0 0 0 radius 1 material glass }"
+                "sphere { centre 1.2 0 0 radius 1 material water }",
+         RT_FINDING_OVERLAP},
+        /* One inside the other is settled: the one entered last. */
+        {SOLIDS CUBE("0", "glass") "sphere { centre 0 0 0 radius 0.5 material water }",
+         RT_FINDING_NONE},
+        {SOLIDS CUBE("0", "glass") "sphere { centre 0.8 0 0 radius 0.5 material water }",
+         RT_FINDING_OVERLAP},
+        {SOLIDS CUBE("0", "glass") CUBE("2", "frosted"), RT_FINDING_CONTACT},
+        {SOLIDS CUBE("0", "frosted") CUBE("2", "glass"), RT_FINDING_CONTACT},
+        {SOLIDS CUBE("0", "frosted") CUBE("2", "filling"), RT_FINDING_NONE},
+        /* The same surface, whichever of the two gives it. */
+        {SOLIDS CUBE("0", "glass") CUBE("2", "water"), RT_FINDING_NONE},
+        /* A gap is none. */
+        {SOLIDS CUBE("0", "glass") CUBE("2.0001", "frosted"), RT_FINDING_NONE},
+        {SOLIDS "cylinder { a 0 0 0 b 0 1 0 radius 0.5 material glass }"
+                "cylinder { a 0 1 0 b 0 2 0 radius 0.3 material frosted }",
+         RT_FINDING_CONTACT},
+    };
+    (void)state;
+    EXPECT(cases);
+    told t = findings_of(cases[0].text);
+    assert_true(t.last.shape == 1 && t.last.other == 0 && t.last.emitter == RT_NONE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(solids_whose_priorities_settle_nothing_are_reported),
         cmocka_unit_test(points_in_solids_are_those_of_their_equations),
         cmocka_unit_test(only_closed_shapes_have_an_inside),
         cmocka_unit_test(what_is_missing_is_reported),
