@@ -66,7 +66,7 @@ static int reaches_beyond(const rt_scene_shape *a, const rt_scene_shape *b, doub
     return 0;
 }
 
-/* Whether a point lies between the two: one of them is on one side of it, the other on the other. */
+/* Whether a point lies between the two: one is on one side of it, the other on the other. */
 static int is_between(const rt_scene *scene, const rt_scene_shape *a, const rt_scene_shape *b,
                       const double p[3], int axis, double step)
 {
