@@ -231,6 +231,12 @@ $(B)/%.o: %.c | need-deps
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
+# Tests are compiled more often than they run: quickly, unless someone gives CFLAGS.
+ifeq ($(origin CFLAGS),file)
+$(B)/tests/%.o: CFLAGS := -O1 -g1
+$(B)/tests/kernels/shape_reference.o: CFLAGS := -O2 -g1 # a million rays in extended precision
+endif
+
 $(B)/%.o: %.cc | need-deps
 	@mkdir -p $(@D)
 	$(CXX) $(CXX_FLAGS) -MMD -MP -c -o $@ $<
