@@ -234,7 +234,8 @@ $(B)/%.o: %.c | need-deps
 # Tests are compiled more often than they run: quickly, unless someone gives CFLAGS.
 ifeq ($(origin CFLAGS),file)
 $(B)/tests/%.o: CFLAGS := -O1 -g1
-$(B)/tests/kernels/shape_reference.o: CFLAGS := -O2 -g1 # a million rays in extended precision
+# A million rays in extended precision.
+$(B)/tests/kernels/shape_reference.o: CFLAGS := -O2 -g1
 endif
 
 $(B)/%.o: %.cc | need-deps
