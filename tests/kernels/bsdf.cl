@@ -2,6 +2,8 @@
 #include "bsdf/bsdf.h"
 #include "sample/rng.h"
 
+#define EVENTS_AN_ITEM 16u /* as in bsdf_draw.c */
+
 /* What a test wants of a surface: rows of four floats. */
 struct situation {
     float4 normal, shading, wo, beta; /* wo.w: eta; beta.w: survival */
@@ -97,24 +99,24 @@ kernel void evaluate_lobe(uint count, global const rt_scene_header *header,
     out[i] = (float4)(value.value, value.pdf_w);
 }
 
-/* Two rows an item: wi and its density, the event. */
+/* Two rows for each of `count` events: wi and its density, the event; EVENTS_AN_ITEM to an item. */
 kernel void events(uint seed, uint count, global const rt_scene_header *header,
                    global const struct situation *situation, global float4 *out)
 {
-    const uint i = (uint)get_global_id(0);
-    if (i >= count)
-        return;
+    const uint first = (uint)get_global_id(0) * EVENTS_AN_ITEM;
     const struct situation at = *situation;
     const struct bsdf bsdf = situated(header, &at);
-    const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 5u)) >> 8) * 0x1p-24f;
-    const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
-    struct scatter made;
-    made.wi = bsdf.normal;
-    made.pdf_w = 0.0f;
-    if (event != RT_LOBE_NONE)
-        made = bsdf_scatter(&bsdf, event, u.xyw, CARRY_RADIANCE);
-    out[2u * i] = (float4)(made.wi, made.pdf_w);
-    out[2u * i + 1u] = (float4)((float)event, 0.0f, 0.0f, 0.0f);
+    for (uint i = first; i < min(first + EVENTS_AN_ITEM, count); i++) {
+        const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 5u)) >> 8) * 0x1p-24f;
+        const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
+        struct scatter made;
+        made.wi = bsdf.normal;
+        made.pdf_w = 0.0f;
+        if (event != RT_LOBE_NONE)
+            made = bsdf_scatter(&bsdf, event, u.xyw, CARRY_RADIANCE);
+        out[2u * i] = (float4)(made.wi, made.pdf_w);
+        out[2u * i + 1u] = (float4)((float)event, 0.0f, 0.0f, 0.0f);
+    }
 }
 
 /*

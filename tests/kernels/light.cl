@@ -59,7 +59,7 @@ kernel void chances(global const rt_scene_header *header, float4 from, global fl
         out[i] = light_pmf(&scene, i, from.xyz);
 }
 
-/* Four rows an item: position, direction, flux and light, normal. */
+/* Four rows an item: position, direction, flux and light, normal; all 0 where nothing starts. */
 kernel void emit(global const rt_scene_header *header, uint seed, uint count,
                  global const rt_light_share *shares, global float4 *out)
 {
@@ -68,8 +68,11 @@ kernel void emit(global const rt_scene_header *header, uint seed, uint count,
         return;
     const struct scene scene = scene_open(header);
     struct emission made;
-    if (!light_emit(&scene, shares, numbers(seed, 2u * i), numbers(seed, 2u * i + 1u), &made))
+    if (!light_emit(&scene, shares, numbers(seed, 2u * i), numbers(seed, 2u * i + 1u), &made)) {
+        for (uint row = 0u; row < 4u; row++)
+            out[4u * i + row] = (float4)(0.0f);
         return;
+    }
     out[4u * i] = (float4)(made.at.position, 0.0f);
     out[4u * i + 1u] = (float4)(made.direction, 0.0f);
     out[4u * i + 2u] = (float4)(made.flux, (float)made.light);

@@ -39,7 +39,7 @@ static const struct {
     {"direct light by shadow rays", RT_DIRECT_NEE, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
     {"direct light from the map", RT_DIRECT_PHOTONS, 0, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
     {"final gather", RT_DIRECT_NEE, 1, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
-    {"final gather of all light", RT_DIRECT_PHOTONS, 1, RT_GATHER_FLANN, 50, 0, 0, 16, 300000, 0},
+    {"final gather of all light", RT_DIRECT_PHOTONS, 1, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 0},
     {"two final bounces", RT_DIRECT_NEE, 2, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 0},
     {"gather on the device", RT_DIRECT_NEE, 0, RT_GATHER_DEVICE, 50, 0, 0, 16, 300000, 0},
     {"fixed radius", RT_DIRECT_PHOTONS, 0, RT_GATHER_AUTO, RT_K_ALL, 0.02f, 0, 16, 300000, 0},
