@@ -14,7 +14,7 @@
 
 #include "studies/study.h"
 
-enum { side = 32, counts = 6, fewest = 4, renders = 4 };
+enum { side = 32, counts = 6, fewest = 8, renders = 4 };
 
 static rt_render_options pass_options(const study *s, uint32_t passes)
 {
