@@ -2,8 +2,6 @@
 #include "bsdf/bsdf.h"
 #include "sample/rng.h"
 
-#define EVENTS_AN_ITEM 16u /* as in bsdf_draw.c */
-
 /* What a test wants of a surface: rows of four floats. */
 struct situation {
     float4 normal, shading, wo, beta; /* wo.w: eta; beta.w: survival */
@@ -99,14 +97,14 @@ kernel void evaluate_lobe(uint count, global const rt_scene_header *header,
     out[i] = (float4)(value.value, value.pdf_w);
 }
 
-/* Two rows for each of `count` events: wi and its density, the event; EVENTS_AN_ITEM to an item. */
-kernel void events(uint seed, uint count, global const rt_scene_header *header,
+/* Two rows for each of `count` events, `each` of them to an item: wi and its density, the event. */
+kernel void events(uint seed, uint count, uint each, global const rt_scene_header *header,
                    global const struct situation *situation, global float4 *out)
 {
-    const uint first = (uint)get_global_id(0) * EVENTS_AN_ITEM;
+    const uint first = (uint)get_global_id(0) * each;
     const struct situation at = *situation;
     const struct bsdf bsdf = situated(header, &at);
-    for (uint i = first; i < min(first + EVENTS_AN_ITEM, count); i++) {
+    for (uint i = first; i < min(first + each, count); i++) {
         const float4 u = convert_float4(pcg4d((uint4)(i, seed, 1u, 5u)) >> 8) * 0x1p-24f;
         const uint event = bsdf_choose(&bsdf, at.beta.w, u.z);
         struct scatter made;

@@ -52,12 +52,13 @@ void draw_scatter(const rt_material_data *material, const situation *at, uint32_
 void draw_events(const rt_material_data *material, const situation *at, uint32_t seed,
                  uint32_t count, bsdf_event *out)
 {
-    enum { events_an_item = 16 }; /* as in bsdf.cl */
+    const rt_u32 each = 16; /* events an item: what does not change is evaluated once */
     cl_kernel kernel = test_kernel("bsdf", "events");
     cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
     cl_mem made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(made)};
-    test_run(kernel, args, 5, (count + events_an_item - 1) / events_an_item);
+    rt_arg args[] = {RT_ARG(seed),  RT_ARG(count), RT_ARG(each),
+                     RT_ARG(scene), RT_ARG(s),     RT_ARG(made)};
+    test_run(kernel, args, 6, (count + each - 1) / each);
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(scene);
     rt_buffer_release(s);
