@@ -412,10 +412,9 @@ typedef struct rt_finding {
  * priorities do not settle what is there; returns the number of warnings. There are no false
  * alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed
  * meshes; what is inside of them is decided in double precision, and a light only counts as shut in
- * when all of it is. Light shut out by a room of several shapes is not detected, nor a contact of
- * curved faces or of faces that no axis of the world is normal to, nor an overlap too small for 512
- * samples of the bounds that the two share. Only the first 256 lights, open shapes of glass and
- * transparent solids are checked.
+ * when all of it is. Light shut out by a room of several shapes is not detected, nor an overlap
+ * or a contact so small that 512 points and lines miss it. Only the first 256 lights, open shapes
+ * of glass and transparent solids are checked.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,
                              void (*found)(void *user, const rt_finding *finding), void *user);

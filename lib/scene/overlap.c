@@ -7,43 +7,59 @@
 
 #include "scene/inside.h"
 
-enum { samples_max = 512 };
+enum { samples_max = 512, bisections = 48 };
 
-/* What two solids have in common of their bounds. */
-typedef struct shared_bounds {
+/* A box that points are sampled in. */
+typedef struct region {
     double lo[3], hi[3];
-    double step; /* farther than rounding moves a face, and far less than a gap that one sees */
-} shared_bounds;
+} region;
 
-/* Returns whether the bounds meet. */
-static int share_bounds(shared_bounds *out, const rt_scene_shape *a, const rt_scene_shape *b)
+/*
+ * Point i of a sequence that fills a region evenly: the additive recurrence by the powers of the
+ * root of x^4 = x + 1 (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
+ */
+static void sample_point(double p[3], const region *of, int i)
+{
+    static const double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    for (int axis = 0; axis < 3; axis++) {
+        const double turn = 0.5 + i * steps[axis];
+        p[axis] = of->lo[axis] + (turn - floor(turn)) * (of->hi[axis] - of->lo[axis]);
+    }
+}
+
+/* Farther than rounding moves a face of either, and far less than a gap that one sees. */
+static double step_of(const rt_scene_shape *a, const rt_scene_shape *b)
 {
     double largest = 0;
     for (int i = 0; i < 3; i++) {
         largest = fmax(largest, fmax(fabs(a->lo[i]), fabs(a->hi[i])));
         largest = fmax(largest, fmax(fabs(b->lo[i]), fabs(b->hi[i])));
     }
-    out->step = 16 * FLT_EPSILON * largest;
+    return 16 * FLT_EPSILON * largest;
+}
+
+/* What the bounds of two solids share; returns whether they come as close as a step. */
+static int shared_bounds(region *out, const rt_scene_shape *a, const rt_scene_shape *b, double step)
+{
     for (int i = 0; i < 3; i++) {
         out->lo[i] = fmax(a->lo[i], b->lo[i]);
         out->hi[i] = fmin(a->hi[i], b->hi[i]);
-        if (!(out->lo[i] <= out->hi[i] + out->step))
+        if (!(out->lo[i] <= out->hi[i] + step))
             return 0;
     }
     return 1;
 }
 
-/*
- * Point i of a sequence that fills the bounds evenly: the additive recurrence by the powers of the
- * root of x^4 = x + 1 (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
- */
-static void sample_point(double p[3], const shared_bounds *s, int i)
+/* The bounds of a solid, and a tenth of their size on every side. */
+static region around(const rt_scene_shape *shape)
 {
-    static const double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-    for (int axis = 0; axis < 3; axis++) {
-        const double turn = 0.5 + i * steps[axis];
-        p[axis] = s->lo[axis] + (turn - floor(turn)) * (s->hi[axis] - s->lo[axis]);
+    region out;
+    for (int i = 0; i < 3; i++) {
+        const double tenth = 0.1 * ((double)shape->hi[i] - shape->lo[i]);
+        out.lo[i] = shape->lo[i] - tenth;
+        out.hi[i] = shape->hi[i] + tenth;
     }
+    return out;
 }
 
 /* Evaluations that one test of a point takes. */
@@ -66,41 +82,72 @@ static int reaches_beyond(const rt_scene_shape *a, const rt_scene_shape *b, doub
     return 0;
 }
 
-/* Whether a point lies between the two: one is on one side of it, the other on the other. */
-static int is_between(const rt_scene *scene, const rt_scene_shape *a, const rt_scene_shape *b,
-                      const double p[3], int axis, double step)
+static double bounds_size(const rt_scene_shape *shape)
 {
-    double before[3] = {p[0], p[1], p[2]}, behind[3] = {p[0], p[1], p[2]};
-    before[axis] -= step;
-    behind[axis] += step;
-    const int a_before = contains(scene, a, before), a_behind = contains(scene, a, behind),
-              b_before = contains(scene, b, before), b_behind = contains(scene, b, behind);
-    return a_before != a_behind && b_before != b_behind && a_before != b_before;
+    double size = 0;
+    for (int i = 0; i < 3; i++)
+        size = hypot(size, (double)shape->hi[i] - shape->lo[i]);
+    return size;
 }
 
-/* Whether the solids touch where their bounds share no more than a face across this axis. */
-static rt_meeting touching(const rt_scene *scene, const rt_scene_shape *a, const rt_scene_shape *b,
-                           const shared_bounds *s, int axis, double place[3], size_t *work)
+/* A point at the fraction t from p to q. */
+static void between(double out[3], const double p[3], const double q[3], double t)
 {
-    const size_t cost = 4 * (cost_of(scene, a) + cost_of(scene, b));
+    for (int i = 0; i < 3; i++)
+        out[i] = p[i] + t * (q[i] - p[i]);
+}
+
+/*
+ * Where the line from p, inside of a, to q, outside, leaves it; returns whether a face of b is
+ * there too, so that b's inside changes within the same two steps.
+ */
+static int share_face(const rt_scene *scene, const rt_scene_shape *a, const rt_scene_shape *b,
+                      const double p[3], const double q[3], double step, double place[3])
+{
+    double inside = 0, outside = 1, length = 0, before[3], behind[3];
+    for (int i = 0; i < bisections; i++) {
+        const double middle = 0.5 * (inside + outside);
+        between(place, p, q, middle);
+        *(contains(scene, a, place) ? &inside : &outside) = middle;
+    }
+    for (int i = 0; i < 3; i++)
+        length = hypot(length, q[i] - p[i]);
+    between(before, p, q, inside - step / length);
+    between(behind, p, q, outside + step / length);
+    return contains(scene, b, before) != contains(scene, b, behind);
+}
+
+/* Whether faces of the two coincide: where lines out of a leave it, b begins or ends. */
+static rt_meeting touching(const rt_scene *scene, const rt_scene_shape *a, const rt_scene_shape *b,
+                           double step, double place[3], size_t *work)
+{
+    const size_t cost = (bisections + 2) * (cost_of(scene, a) + cost_of(scene, b));
+    const region bounds = around(a);
+    int found = 0;
     for (int i = 0; i < samples_max && *work >= cost; i++, *work -= cost) {
-        sample_point(place, s, i);
-        if (is_between(scene, a, b, place, axis, s->step))
+        double p[3], q[3];
+        sample_point(p, &bounds, i);
+        sample_point(q, &bounds, 7919 * i + 1); /* in ever new directions */
+        if (contains(scene, a, p) && !contains(scene, a, q) &&
+            share_face(scene, a, b, p, q, step, place) && ++found == 2)
             return RT_TOUCHING;
     }
     return RT_APART;
 }
 
 static rt_meeting overlapping(const rt_scene *scene, const rt_scene_shape *a,
-                              const rt_scene_shape *b, const shared_bounds *s, double place[3],
-                              size_t *work)
+                              const rt_scene_shape *b, const region *shared, double step,
+                              double place[3], size_t *work)
 {
     const size_t cost = cost_of(scene, a) + cost_of(scene, b);
-    int is_both = 0, is_a_alone = reaches_beyond(a, b, s->step),
-        is_b_alone = reaches_beyond(b, a, s->step);
+    for (int i = 0; i < 3; i++)
+        if (shared->hi[i] - shared->lo[i] <= step)
+            return RT_APART;
+    int is_both = 0, is_a_alone = reaches_beyond(a, b, step),
+        is_b_alone = reaches_beyond(b, a, step);
     for (int i = 0; i < samples_max && *work >= cost; i++, *work -= cost) {
         double p[3];
-        sample_point(p, s, i);
+        sample_point(p, shared, i);
         const int in_a = contains(scene, a, p), in_b = contains(scene, b, p);
         is_a_alone |= in_a && !in_b;
         is_b_alone |= in_b && !in_a;
@@ -116,11 +163,13 @@ static rt_meeting overlapping(const rt_scene *scene, const rt_scene_shape *a,
 rt_meeting rt_shapes_meeting(const rt_scene *scene, const rt_scene_shape *a,
                              const rt_scene_shape *b, double place[3], size_t *work)
 {
-    shared_bounds s;
-    if (!share_bounds(&s, a, b))
+    const double step = step_of(a, b);
+    region shared;
+    if (!shared_bounds(&shared, a, b, step))
         return RT_APART;
-    for (int axis = 0; axis < 3; axis++)
-        if (s.hi[axis] - s.lo[axis] <= s.step)
-            return touching(scene, a, b, &s, axis, place, work);
-    return overlapping(scene, a, b, &s, place, work);
+    if (overlapping(scene, a, b, &shared, step, place, work) == RT_OVERLAPPING)
+        return RT_OVERLAPPING;
+    /* More of the lines out of the smaller one meet the other. */
+    return bounds_size(a) <= bounds_size(b) ? touching(scene, a, b, step, place, work)
+                                            : touching(scene, b, a, step, place, work);
 }

@@ -408,6 +408,20 @@ static void solids_whose_priorities_settle_nothing_are_reported(void **state)
         {SOLIDS "cylinder { a 0 0 0 b 0 1 0 radius 0.5 material glass }"
                 "cylinder { a 0 1 0 b 0 2 0 radius 0.3 material frosted }",
          RT_FINDING_CONTACT},
+        /* In any direction, and where the faces are curved. */
+        {SOLIDS "box { centre -0.25 0.5 0 size 0.5 1 1 material glass rotate 1 2 3 30 }"
+                "box { centre 0.25 0.5 0 size 0.5 1 1 material frosted rotate 1 2 3 30 }",
+         RT_FINDING_CONTACT},
+        {SOLIDS "box { centre -0.2501 0.5 0 size 0.5 1 1 material glass rotate 1 2 3 30 }"
+                "box { centre 0.25 0.5 0 size 0.5 1 1 material frosted rotate 1 2 3 30 }",
+         RT_FINDING_NONE},
+        {SOLIDS "cylinder { a 0 0 0 b 0 1 0 radius 0.5 material glass rotate 0 0 1 30 }"
+                "cylinder { a 0 0.2 0 b 0 0.8 0 radius 0.5 material frosted rotate 0 0 1 30 }",
+         RT_FINDING_CONTACT},
+        /* A single point is no face. */
+        {SOLIDS "sphere { centre 0 0.5 0 radius 0.4 material glass }"
+                "box { centre 0 0.5 0.9 size 1 1 1 material frosted }",
+         RT_FINDING_NONE},
     };
     (void)state;
     EXPECT(cases);
