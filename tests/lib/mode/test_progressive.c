@@ -71,8 +71,8 @@ static void the_error_falls_as_theory_says(void **state)
     follow("scenes/box_point.rts", 256, 0.1);
     follow("scenes/box_area.rts", 256, 0.1);
     /*
-     * A caustic is narrower than the first discs: -0.72 over these passes, with a deviation of
-     * 0.033 over 6 seeds.
+     * A caustic is narrower than the first discs: -0.78 over these passes, with a deviation of
+     * 0.036 over 5 seeds.
      */
     follow("scenes/box_caustic.rts", 1024, 0.2);
 }
