@@ -12,13 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    side = 16,
-    values = 3 * side * side,
-    renders = 100,
-    samples = 64,
-    reference_samples = 8192
-};
+enum { side = 16, values = 3 * side * side, renders = 100, samples = 64, reference_samples = 8192 };
 
 /* An open box with a block, under a light out of sight: soft shadows and colour bleeding. */
 static const char box[] =
