@@ -31,9 +31,11 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
-	lib/base/bytes.c lib/base/crc32.c lib/base/error.c lib/base/file.c lib/base/half.c \
+	lib/base/bytes.c lib/base/claim.c lib/base/crc32.c lib/base/error.c lib/base/file.c \
+	lib/base/half.c \
 	lib/base/parallel.c lib/base/progress.c lib/base/version.c \
-	lib/device/buffer.c lib/device/device.c lib/device/program.c \
+	lib/device/buffer.c lib/device/device.c lib/device/kernel_cache.c \
+	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \
 	lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c \
 	lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/flip.c \
 	lib/image/image.c lib/image/image_file.c lib/image/image_rgb.c lib/image/pfm.c \
@@ -126,6 +128,7 @@ TESTS_QUICK := \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
 	tests/lib/base/test_file.c tests/lib/base/test_half.c \
+	tests/lib/device/test_kernel_cache.c \
 	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
 	tests/lib/image/test_display.c \
 	tests/lib/image/test_exr.c tests/lib/image/test_flip.c \

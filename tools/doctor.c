@@ -26,12 +26,19 @@ typedef struct doctor_visit {
     rt_renderer *renderer;
     rt_film *film;
     int verbose;
+    const char *remedy; /* instead of the check's own, where a check knows better */
 } doctor_visit;
 
 static void on_log(void *user, const char *line)
 {
     (void)user;
     message_note("%s", line);
+}
+
+static void on_warning(void *user, const char *line)
+{
+    (void)user;
+    message_warning("%s", line);
 }
 
 static rt_status fail(rt_error *error, rt_status status, const char *message)
@@ -44,7 +51,7 @@ static rt_status fail(rt_error *error, rt_status status, const char *message)
 
 /* ---- The checks: each says what it found and returns RT_OK, or fills *error --- */
 
-enum { SAID = 768 }; /* room for what a check says */
+enum { SAID = 1024 }; /* room for what a check says */
 
 static rt_status check_language(doctor_visit *visit, char *said, rt_error *error)
 {
@@ -57,10 +64,12 @@ static rt_status check_platform(doctor_visit *visit, char *said, rt_error *error
 {
     rt_device_info *devices;
     size_t count;
-    (void)visit;
     rt_status status = rt_devices_list(&devices, &count, error);
-    if (status != RT_OK)
+    if (status != RT_OK) {
+        if (strcmp(error->field, "cache") == 0)
+            visit->remedy = "TMPDIR must name a folder that has room and may hold programs";
         return status;
+    }
     snprintf(said, SAID, "OpenCL has %zu device%s", count, count == 1 ? "" : "s");
     rt_devices_free(devices);
     return RT_OK;
@@ -78,8 +87,9 @@ static rt_status check_device(doctor_visit *visit, char *said, rt_error *error)
     if (status != RT_OK)
         return status;
     rt_device_get_info(visit->device, &info);
-    snprintf(said, SAID, "opened %s (%s, %s, driver %s)", info.name, info.platform, info.version,
-             info.driver);
+    snprintf(said, SAID, "opened %s (%s, %s, driver %s); kernels it compiles are %s%s", info.name,
+             info.platform, info.version, info.driver, *info.kernel_cache ? "kept in " : "not kept",
+             info.kernel_cache);
     return RT_OK;
 }
 
@@ -88,6 +98,7 @@ static rt_status check_build(doctor_visit *visit, char *said, rt_error *error)
     rt_hooks hooks = {0};
     rt_renderer_options options = {0};
     hooks.log = visit->verbose ? on_log : NULL;
+    hooks.warning = on_warning;
     options.hooks = &hooks;
     rt_status status =
         rt_renderer_create(&visit->renderer, visit->scene, visit->device, &options, error);
@@ -118,6 +129,7 @@ static rt_status check_mode(doctor_visit *visit, char *said, rt_mode mode, const
     rt_render_options options;
     rt_scene_get_options(visit->scene, &options);
     hooks.log = visit->verbose ? on_log : NULL;
+    hooks.warning = on_warning;
     options.hooks = &hooks;
     options.mode = mode;
     options.spp = 4;
@@ -125,8 +137,10 @@ static rt_status check_mode(doctor_visit *visit, char *said, rt_mode mode, const
     rt_film_destroy(visit->film);
     visit->film = NULL;
     rt_status status = rt_render(&visit->film, visit->renderer, &options, error);
-    if (status != RT_OK)
+    if (status != RT_OK) {
+        visit->remedy = "--verbose shows the compiler's log; another --device may do";
         return status;
+    }
     const float *rgb = rt_film_rgb(visit->film);
     float middle = rgb[3 * (8 * 16 + 8)], corner = rgb[3 * (15 * 16 + 15)];
     rt_film_stats stats;
@@ -207,7 +221,8 @@ int command_doctor(const command_line *arguments)
             fflush(stdout);
             continue;
         }
-        printf("FAIL  %s\n      %s\n", error.message, checks[i].remedy);
+        printf("FAIL  %s\n      %s\n", error.message,
+               visit.remedy ? visit.remedy : checks[i].remedy);
         status = message_status(error.status);
     }
     if (status == STATUS_DONE)

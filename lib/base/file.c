@@ -12,8 +12,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/claim.h"
+
 #define READ_CHUNK 65536u
-#define NAME_TRIES 1000u
 
 /* Reports errno for path. The precision keeps the cause in the message, however long the path. */
 static rt_status fail_errno(rt_error *error, rt_status status, const char *verb, const char *path,
@@ -167,25 +168,19 @@ static int write_in_place(const char *path, const rt_bytes *bytes)
 }
 
 /*
- * Opens a new file beside target under a name that no other file has. The name does not grow with
- * target's own, so that a name of the greatest allowed length works too.
+ * Opens a new file beside target, and removes those that killed processes left there. The name does
+ * not grow with target's own, so that a name of the greatest allowed length works too.
  */
 static int open_temporary(int *fd, char *name, size_t name_size, const char *target)
 {
+    char folder[PATH_MAX];
     const char *slash = strrchr(target, '/');
-    int directory_length = slash ? (int)(slash - target) + 1 : 0;
-    for (unsigned i = 0; i < NAME_TRIES; i++) {
-        int length = snprintf(name, name_size, "%.*s.rt-%ld-%u.tmp", directory_length, target,
-                              (long)getpid(), i);
-        if (length < 0 || (size_t)length >= name_size)
-            return ENAMETOOLONG;
-        *fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (*fd >= 0)
-            return 0;
-        if (errno != EEXIST)
-            return errno;
-    }
-    return EEXIST;
+    int length =
+        snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - target) + 1 : 0, target);
+    if (length < 0 || (size_t)length >= sizeof folder)
+        return ENAMETOOLONG;
+    rt_claim_clean(folder, ".rt-", ".tmp", NULL);
+    return rt_claim_new(fd, name, name_size, folder, ".rt-", ".tmp", 0666);
 }
 
 /*

@@ -34,7 +34,8 @@ rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_
  * permissions that open() gives (0666 less the umask), a replaced one keeps its own; a symbolic
  * link stays and its target is replaced, or made where there is none. What is not a regular file (a
  * device, a pipe) is written in place. Fails with RT_ERROR_OUTPUT, naming path and cause; the
- * temporary file is then gone.
+ * temporary file is then gone. One that a killed process left is removed by the next write into
+ * that folder.
  */
 rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error);
 

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "device/device.h"
+#include "device/kernel_cache.h"
 
 const char *rt_cl_error_name(cl_int code)
 {
@@ -175,5 +176,12 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
 
 rt_status rt_device_finish(rt_device *device, rt_error *error)
 {
-    return rt_cl_check(clFinish(device->queue), "waiting for the device", error);
+    rt_status status = rt_cl_check(clFinish(device->queue), "waiting for the device", error);
+    if (device->has_new_kernels) {
+        rt_driver_lock();
+        rt_kernel_cache_keep();
+        rt_driver_unlock();
+        device->has_new_kernels = 0;
+    }
+    return status;
 }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "device/kernel_cache.h"
 
 enum {
     platforms_max = 16,
@@ -29,7 +30,7 @@ typedef struct device_list {
 } device_list;
 
 /* Collects the devices of all platforms, up to devices_max. */
-static rt_status list_devices(device_list *list, rt_error *error)
+static rt_status ask_platforms(device_list *list, rt_error *error)
 {
     cl_platform_id platforms[platforms_max];
     cl_uint platform_count = 0;
@@ -59,6 +60,20 @@ static rt_status list_devices(device_list *list, rt_error *error)
     return RT_OK;
 }
 
+/*
+ * The same, starting the drivers when it is the first time; under rt_driver_lock, as a driver that
+ * several threads start at once may crash.
+ */
+static rt_status list_devices(device_list *list, rt_error *error)
+{
+    rt_status status = rt_kernel_cache_open(error);
+    if (status != RT_OK)
+        return status;
+    status = ask_platforms(list, error);
+    rt_kernel_cache_opened();
+    return status;
+}
+
 static void describe(rt_device_info *info, cl_platform_id platform, cl_device_id id)
 {
     cl_ulong memory = 0, largest = 0;
@@ -78,12 +93,15 @@ static void describe(rt_device_info *info, cl_platform_id platform, cl_device_id
     info->largest_buffer = largest;
     info->compute_units = units;
     info->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    snprintf(info->kernel_cache, sizeof info->kernel_cache, "%.255s", rt_kernel_cache_store());
 }
 
 rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error)
 {
     device_list list;
+    rt_driver_lock();
     rt_status status = list_devices(&list, error);
+    rt_driver_unlock();
     if (status != RT_OK)
         return status;
     rt_device_info *infos = malloc(list.count * sizeof *infos);
@@ -191,6 +209,7 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     rt_device *device = calloc(1, sizeof *device);
     if (!device)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a device");
+    rt_driver_lock();
     if ((status = select_device(device, options->select, error)) != RT_OK)
         goto out;
 
@@ -206,6 +225,7 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     device->queue = clCreateCommandQueue(device->context, device->id, 0, &code);
     status = rt_cl_check(code, "creating an OpenCL command queue", error);
 out:
+    rt_driver_unlock();
     if (status == RT_OK)
         *out = device;
     else
@@ -217,12 +237,15 @@ void rt_device_close(rt_device *device)
 {
     if (!device)
         return;
+    rt_driver_lock();
+    rt_kernel_cache_keep();
     for (int i = 0; i < device->program_count; i++)
         clReleaseProgram(device->programs[i].program);
     if (device->queue)
         clReleaseCommandQueue(device->queue);
     if (device->context)
         clReleaseContext(device->context);
+    rt_driver_unlock();
     free(device);
 }
 

@@ -30,6 +30,7 @@ struct rt_device {
         cl_program program;
     } programs[RT_PROGRAMS_MAX]; /* built so far */
     int program_count;
+    int has_new_kernels; /* made since rt_device_finish: the driver may have compiled them */
 };
 
 /* The name of an OpenCL error code; static storage. */
@@ -102,6 +103,7 @@ rt_status rt_kernel_args(cl_kernel kernel, const rt_arg *args, cl_uint count, rt
  * the true number and ignores the rest. Does not wait; rt_device_finish does.
  */
 rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error *error);
+/* Waits for what was enqueued; stores the kernels that it made the driver compile. */
 rt_status rt_device_finish(rt_device *device, rt_error *error);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "device/kernel_cache.h"
 
 /* Copies the first line of a build log that speaks of an error. */
 static void first_error(char *line, size_t size, const char *log)
@@ -57,6 +58,45 @@ static void build_options(char *options, size_t size, const rt_device *device)
                                                        : "");
 }
 
+static uint64_t hash(uint64_t h, const void *data, size_t size)
+{
+    const unsigned char *at = data;
+    for (size_t i = 0; i < size; i++)
+        h = (h ^ at[i]) * 0x100000001b3u;
+    return h;
+}
+
+static uint64_t hash_text(uint64_t h, const char *text)
+{
+    return hash(h, text, strlen(text) + 1);
+}
+
+/*
+ * What identifies a compiled program: its source, the options, the device and the driver. By
+ * FNV-1a (Fowler, Noll, Vo, Eastlake: "The FNV Non-Cryptographic Hash Algorithm", IETF draft).
+ */
+static uint64_t cache_key(const rt_device *device, const rt_kernel_source *source,
+                          const char *options)
+{
+    uint64_t h = hash(0xcbf29ce484222325u, source->text, source->length);
+    h = hash_text(hash_text(h, source->name), options);
+    h = hash_text(hash_text(h, device->info.platform), device->info.name);
+    return hash_text(hash_text(h, device->info.version), device->info.driver);
+}
+
+/* Builds for the device, out of the cache where the program is there. */
+static cl_int build_cached(rt_device *device, cl_program program, const rt_kernel_source *source,
+                           const char *options)
+{
+    uint64_t key = cache_key(device, source, options);
+    rt_driver_lock();
+    rt_kernel_cache_fetch(key, source->name);
+    cl_int code = clBuildProgram(program, 1, &device->id, options, NULL, NULL);
+    rt_kernel_cache_built(key);
+    rt_driver_unlock();
+    return code;
+}
+
 static rt_status build(rt_device *device, cl_program *out, const rt_kernel_source *source,
                        const rt_hooks *hooks, rt_error *error)
 {
@@ -69,7 +109,7 @@ static rt_status build(rt_device *device, cl_program *out, const rt_kernel_sourc
     if (status != RT_OK)
         return status;
     build_options(options, sizeof options, device);
-    code = clBuildProgram(program, 1, &device->id, options, NULL, NULL);
+    code = build_cached(device, program, source, options);
     if (code != CL_SUCCESS) {
         status = report_build(device, program, source->name, code, hooks, error);
         clReleaseProgram(program);
@@ -118,6 +158,8 @@ rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kern
     cl_kernel made = clCreateKernel(built, kernel, &code);
     if ((status = rt_cl_check(code, kernel, error)) == RT_OK)
         *out = made;
+    device->has_new_kernels = 1;
+    rt_kernel_cache_tell(hooks);
     return status;
 }
 

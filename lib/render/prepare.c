@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/bytes.h"
+#include "device/kernel_cache.h"
 #include "types.h"
 
 /*
@@ -55,6 +56,7 @@ rt_status rt_kernel_prepare(rt_device *device, cl_kernel *out, const char *progr
     for (size_t at = 0; at < p.log.size; at += strlen((const char *)p.log.data + at) + 1)
         rt_log(progress->hooks, "%s", (const char *)p.log.data + at);
     rt_bytes_free(&p.log);
+    rt_kernel_cache_tell(progress->hooks);
     if (status == RT_OK)
         *out = p.made;
     else

@@ -17,6 +17,11 @@ typedef struct rt_device_info {
     uint32_t compute_units;
     uint64_t memory, largest_buffer; /* bytes */
     int is_cpu;
+    /*
+     * Where the kernels are kept that the driver compiles, if it leaves that to the library, as
+     * PoCL does; empty where there is no place for them.
+     */
+    char kernel_cache[256];
 } rt_device_info;
 
 /*
@@ -34,7 +39,17 @@ typedef struct rt_device_options {
     uint32_t width; /* paths that a work-item follows at a time: 1 or 8; 0: 8 on a CPU, else 1 */
 } rt_device_options;
 
-/* Opens an OpenCL device. Fails with RT_ERROR_DEVICE when there is none or none is so named. */
+/*
+ * Opens an OpenCL device. Fails with RT_ERROR_DEVICE when there is none or none is so named.
+ *
+ * What PoCL compiles is kept in the folder POCL_CACHE_DIR, else $XDG_CACHE_HOME/librt, else
+ * ~/.cache/librt, each program in a file with a checksum: a damaged one is dropped, compiled again
+ * and told by the warning callback of the call that needed it. The driver itself works in a
+ * temporary folder of this process, which is removed at its end; while the first call of
+ * rt_devices_list or rt_device_open starts the drivers, POCL_CACHE_DIR names that folder, so no
+ * other thread should change the environment meanwhile. A program that has used OpenCL before keeps
+ * the cache that its driver has chosen.
+ */
 RT_API rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error);
 RT_API void rt_device_close(rt_device *device);
 RT_API void rt_device_get_info(const rt_device *device, rt_device_info *out);

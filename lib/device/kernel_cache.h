@@ -1,0 +1,46 @@
+/*
+ * kernel_cache.h - where drivers compile and what is kept of it between runs.
+ *
+ * PoCL keeps what it compiles in the folder that POCL_CACHE_DIR names when it is first asked for
+ * its devices, for the whole process. It is given a work folder of this process alone; what lies in
+ * the user's cache folder is checked before it goes in there, and stored from there. Other drivers
+ * leave the work folder empty, and keep their own caches.
+ *
+ * The state is the process's, as the drivers' is. The functions are called under rt_driver_lock.
+ */
+#ifndef RT_LIB_DEVICE_KERNEL_CACHE_H
+#define RT_LIB_DEVICE_KERNEL_CACHE_H
+
+#include "rt.h"
+
+/* One thread at a time starts drivers, builds programs and changes the state below. */
+void rt_driver_lock(void);
+void rt_driver_unlock(void);
+
+/*
+ * Before and after the first call of OpenCL: makes the work folder and hands it to the driver by
+ * POCL_CACHE_DIR, and restores that variable. Fails with RT_ERROR_DEVICE where there is no place
+ * for a work folder. Later calls do nothing.
+ */
+rt_status rt_kernel_cache_open(rt_error *error);
+void rt_kernel_cache_opened(void);
+
+/*
+ * Before and after a program is built: unpacks what is stored of it, and notes which folder the
+ * driver took. The key is that of everything that the compiled program depends on.
+ */
+void rt_kernel_cache_fetch(uint64_t key, const char *program);
+void rt_kernel_cache_built(uint64_t key);
+
+/* Stores the programs of which something was compiled since. */
+void rt_kernel_cache_keep(void);
+
+/*
+ * Hands what went wrong since to the hooks' warning callback, if they have one. Not under the lock.
+ */
+void rt_kernel_cache_tell(const rt_hooks *hooks);
+
+/* The folder in which programs are stored; empty where they are not. */
+const char *rt_kernel_cache_store(void);
+
+#endif

@@ -1,0 +1,381 @@
+/*
+ * test_kernel_cache.c - compiled kernels between runs: kept, shared, damaged, and without a place
+ * to keep them. The cache belongs to a process, so each run is one.
+ */
+#define _XOPEN_SOURCE 700
+
+#include <dirent.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "../image/scratch.h"
+#include "base/bytes.h"
+#include "base/file.h"
+#include "device/kernel_cache.h"
+#include "device/kernel_store.h"
+#include "device/work_folder.h"
+#include "support.h"
+
+/* ---- A run ----------------------------------------------------------------------------------- */
+
+enum { items = 64, crowd = 4, threads = 8 };
+
+static const char source_text[] = "__kernel void answer(__global uint *out)\n"
+                                  "{ out[get_global_id(0)] = 3 * get_global_id(0) + 1; }\n";
+static const rt_kernel_source sources[] = {
+    {"answer", (const unsigned char *)source_text, sizeof source_text - 1}, {NULL, NULL, 0}};
+
+/* Warnings of a run go into this file of the scratch directory. */
+static void on_warning(void *user, const char *line)
+{
+    (void)user;
+    FILE *file = fopen("warnings", "a");
+    if (file) {
+        fprintf(file, "%s\n", line);
+        fclose(file);
+    }
+}
+
+/* Opens a device, compiles the kernel and runs it. Returns the exit status of the run. */
+static int answer(void)
+{
+    const rt_hooks hooks = {.warning = on_warning};
+    rt_device *device = NULL;
+    cl_kernel kernel = NULL;
+    cl_mem out = NULL;
+    rt_error error;
+    uint32_t values[items] = {0};
+    int is_right = rt_device_open(&device, NULL, &error) == RT_OK &&
+                   rt_device_kernel_from(device, &kernel, sources, "answer", "answer", &hooks,
+                                         &error) == RT_OK &&
+                   rt_buffer_create(device, &out, CL_MEM_READ_WRITE, sizeof values, NULL,
+                                    "the answer", &error) == RT_OK;
+    if (is_right) {
+        rt_arg args[] = {RT_ARG(out)};
+        is_right = rt_kernel_args(kernel, args, 1, &error) == RT_OK &&
+                   rt_launch(device, kernel, items, &error) == RT_OK &&
+                   rt_device_finish(device, &error) == RT_OK &&
+                   rt_buffer_read(device, out, 0, sizeof values, values, &error) == RT_OK;
+    }
+    rt_kernel_cache_tell(&hooks);
+    for (uint32_t i = 0; i < items && is_right; i++)
+        is_right = values[i] == 3 * i + 1;
+    if (!is_right)
+        on_warning(NULL, error.message);
+    rt_buffer_release(out);
+    rt_kernel_release(kernel);
+    rt_device_close(device);
+    return is_right ? 0 : error.status == RT_ERROR_DEVICE ? 3 : 1;
+}
+
+/* Starts a process that calls work and ends as it returns. */
+static pid_t begin(int (*work)(void))
+{
+    fflush(NULL);
+    pid_t child = fork();
+    assert_int_not_equal(child, -1);
+    if (child == 0)
+        exit(work());
+    return child;
+}
+
+/* The exit status of a run, or 128 + the signal that ended it. */
+static int end(pid_t child)
+{
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+static int run(void)
+{
+    unlink("warnings");
+    return end(begin(answer));
+}
+
+/* Checks what the last run warned of; NULL: nothing. */
+static void expect_warning(const char *part)
+{
+    rt_bytes said = {0};
+    rt_error error;
+    if (access("warnings", F_OK) != 0) {
+        if (part)
+            fail_msg("no warning; expected '%s'", part);
+        return;
+    }
+    expect_ok(rt_file_read(&said, "warnings", 1 << 16, &error), &error);
+    expect_ok(rt_bytes_put(&said, said.size, "", 1, &error), &error);
+    if (!part || !strstr((const char *)said.data, part))
+        fail_msg("warned '%s' instead of '%s'", (const char *)said.data, part ? part : "nothing");
+    rt_bytes_free(&said);
+}
+
+/* The only file in "cache", a stored program; work folders are gone. */
+static const char *stored(void)
+{
+    static char path[RT_PATH_MAX];
+    struct dirent *entry;
+    int count = 0;
+    DIR *folder = opendir("cache");
+    assert_non_null(folder);
+    while ((entry = readdir(folder)))
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0) {
+            snprintf(path, sizeof path, "cache/%s", entry->d_name);
+            count++;
+        }
+    closedir(folder);
+    assert_int_equal(count, 1);
+    assert_string_equal(path + strlen(path) - strlen(RT_STORED_SUFFIX), RT_STORED_SUFFIX);
+    return path;
+}
+
+static ino_t stored_inode(void)
+{
+    struct stat info;
+    assert_int_equal(stat(stored(), &info), 0);
+    return info.st_ino;
+}
+
+static int enter(void **state)
+{
+    int code = scratch_enter(state);
+    setenv("POCL_CACHE_DIR", "cache", 1);
+    return code;
+}
+
+static int leave(void **state)
+{
+    static const char *const folders[] = {"cache", "from", "work"};
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++)
+        rt_folder_remove(folders[i]);
+    return scratch_leave(state);
+}
+
+/* ---- Tests ----------------------------------------------------------------------------------- */
+
+static void a_second_run_takes_what_the_first_compiled(void **state)
+{
+    (void)state;
+    assert_int_equal(run(), 0);
+    expect_warning(NULL);
+    ino_t first = stored_inode();
+    assert_int_equal(run(), 0);
+    expect_warning(NULL);
+    /* What is fetched is not stored again. */
+    assert_int_equal(stored_inode(), first);
+}
+
+static void damage(int kind)
+{
+    rt_bytes bytes = {0};
+    rt_error error;
+    const char *path = stored();
+    expect_ok(rt_file_read(&bytes, path, 1 << 26, &error), &error);
+    if (kind == 0)
+        bytes.size = 0;
+    else if (kind == 1)
+        bytes.size /= 2;
+    else
+        memset(bytes.data + bytes.size / 2, 0x5a, 64);
+    expect_ok(rt_file_replace(path, &bytes, &error), &error);
+    rt_bytes_free(&bytes);
+}
+
+static void a_damaged_program_is_dropped_and_compiled_again(void **state)
+{
+    (void)state;
+    assert_int_equal(run(), 0);
+    for (int kind = 0; kind < 3; kind++) {
+        damage(kind);
+        assert_int_equal(run(), 0);
+        expect_warning("are damaged; they are compiled again");
+        expect_warning(stored()); /* its name */
+    }
+    assert_int_equal(run(), 0);
+    expect_warning(NULL);
+}
+
+static void every_damaged_byte_is_seen(void **state)
+{
+    (void)state;
+    rt_bytes bytes = {0};
+    rt_error error;
+    char folder[RT_STORED_FOLDER_MAX];
+    size_t files;
+    assert_int_equal(mkdir("from", 0700) | mkdir("from/a", 0700) | mkdir("from/a/b", 0700), 0);
+    assert_int_equal(mkdir("work", 0700), 0);
+    scratch_write("from/a/b/program.bc", "the program");
+    scratch_write("from/a/b/kernel.so", "the kernel, and more of it");
+    scratch_write("from/a/b/aside.temp", "not yet whole");
+    expect_ok(rt_stored_write("stored", 42, "from", "a/b", &error), &error);
+    expect_ok(rt_stored_read(folder, &files, "stored", 42, "work", &error), &error);
+    assert_string_equal(folder, "a/b");
+    assert_int_equal(files, 2);
+    scratch_expect("work/a/b/program.bc", "the program");
+    scratch_expect("work/a/b/kernel.so", "the kernel, and more of it");
+    assert_int_equal(access("work/a/b/aside.temp", F_OK), -1);
+    rt_folder_remove("work/a");
+
+    expect_ok(rt_file_read(&bytes, "stored", 1 << 20, &error), &error);
+    size_t whole = bytes.size;
+    for (size_t i = 0; i < 2 * whole; i++) {
+        uint8_t *at = &bytes.data[i % whole], old = *at;
+        if (i < whole)
+            *at ^= (uint8_t)(1 << (i % 8));
+        else
+            bytes.size = i - whole;
+        FILE *file = fopen("damaged", "wb");
+        assert_non_null(file);
+        assert_int_equal(fwrite(bytes.data, 1, bytes.size, file), bytes.size);
+        assert_int_equal(fclose(file), 0);
+        assert_int_equal(rt_stored_read(folder, &files, "damaged", 42, "work", &error),
+                         RT_ERROR_INPUT);
+        assert_int_equal(access("work/a/b", F_OK), -1);
+        *at = old;
+        bytes.size = whole;
+    }
+    /* Nor is one taken for another program's. */
+    assert_int_equal(rt_stored_read(folder, &files, "stored", 43, "work", &error), RT_ERROR_INPUT);
+    rt_bytes_free(&bytes);
+}
+
+static void a_place_that_cannot_be_written_is_told(void **state)
+{
+    (void)state;
+    scratch_write("cache", "no folder");
+    assert_int_equal(run(), 0);
+    expect_warning("compiled kernels are not kept: cache: Not a directory");
+    unlink("cache");
+    assert_int_equal(run(), 0);
+    const char *path = stored();
+    assert_int_equal(chmod(path, 0444) | chmod("cache", 0555) | chmod(".", 0777), 0);
+    scratch_drop_rights();
+    assert_int_equal(run(), 0); /* what is there is read */
+    expect_warning(NULL);
+    scratch_take_rights();
+    assert_int_equal(chmod("cache", 0755) | unlink(path) | chmod("cache", 0555), 0);
+    unlink("warnings");
+    scratch_drop_rights();
+    assert_int_equal(run(), 0);
+    scratch_take_rights();
+    expect_warning("/cache/answer-");
+    assert_int_equal(chmod("cache", 0755), 0);
+}
+
+static int answer_without_room(void)
+{
+    const struct rlimit small = {1 << 16, 1 << 16};
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    return answer();
+}
+
+static void no_room_anywhere_is_a_device_error(void **state)
+{
+    (void)state;
+    unlink("warnings");
+    assert_int_equal(end(begin(answer_without_room)), 3);
+    expect_warning("/cache (File too large), ");
+    expect_warning("/tmp (File too large)");
+    expect_warning("; TMPDIR may name another");
+}
+
+static void a_crowd_shares_a_cold_and_a_damaged_cache(void **state)
+{
+    (void)state;
+    pid_t runs[crowd];
+    for (int kind = -1; kind < 1; kind++) {
+        if (kind >= 0)
+            damage(kind);
+        for (int i = 0; i < crowd; i++)
+            runs[i] = begin(answer);
+        for (int i = 0; i < crowd; i++)
+            assert_int_equal(end(runs[i]), 0);
+        stored();
+    }
+    unlink("warnings");
+    assert_int_equal(run(), 0);
+    expect_warning(NULL);
+}
+
+static int answer_and_die(void)
+{
+    rt_device *device;
+    rt_error error;
+    if (rt_device_open(&device, NULL, &error) == RT_OK)
+        raise(SIGKILL);
+    return 1;
+}
+
+static void a_killed_run_leaves_nothing_behind_for_long(void **state)
+{
+    (void)state;
+    assert_int_equal(end(begin(answer_and_die)), 128 + SIGKILL);
+    DIR *folder = opendir("cache");
+    assert_non_null(folder);
+    int count = 0;
+    while (readdir(folder))
+        count++;
+    closedir(folder);
+    assert_int_equal(count, 4); /* ".", "..", its work folder and the claim */
+    assert_int_equal(run(), 0);
+    stored();
+}
+
+static void *open_and_close(void *failed)
+{
+    rt_device *device;
+    rt_error error;
+    for (int i = 0; i < 3; i++) {
+        if (rt_device_open(&device, NULL, &error) != RT_OK)
+            *(int *)failed = 1;
+        else
+            rt_device_close(device);
+    }
+    return NULL;
+}
+
+static int open_in_threads(void)
+{
+    pthread_t started[threads];
+    int failed[threads] = {0}, all = 0;
+    for (int i = 0; i < threads; i++)
+        if (pthread_create(&started[i], NULL, open_and_close, &failed[i]) != 0)
+            return 2;
+    for (int i = 0; i < threads; i++) {
+        pthread_join(started[i], NULL);
+        all |= failed[i];
+    }
+    return all;
+}
+
+/* PoCL crashes where several threads start it. */
+static void threads_may_open_the_first_device_at_once(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(end(begin(open_in_threads)), 0);
+}
+
+int main(void)
+{
+#define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, enter, leave)
+    const struct CMUnitTest tests[] = {
+        IN_SCRATCH(a_second_run_takes_what_the_first_compiled),
+        IN_SCRATCH(a_damaged_program_is_dropped_and_compiled_again),
+        IN_SCRATCH(every_damaged_byte_is_seen),
+        IN_SCRATCH(a_place_that_cannot_be_written_is_told),
+        IN_SCRATCH(no_room_anywhere_is_a_device_error),
+        IN_SCRATCH(a_crowd_shares_a_cold_and_a_damaged_cache),
+        IN_SCRATCH(a_killed_run_leaves_nothing_behind_for_long),
+        IN_SCRATCH(threads_may_open_the_first_device_at_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
