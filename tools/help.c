@@ -83,8 +83,8 @@ static const char *const usages[COMMAND_COUNT] = {
 static const char footer[] =
     "\n"
     "Exit status: 0 done, 1 the scene or an input file is wrong, 2 usage, 3 device,\n"
-    "OpenCL or memory, 4 an output could not be written, 130 interrupted. On Ctrl-C\n"
-    "the samples so far are written; a second one stops at once.\n"
+    "OpenCL or memory, 4 an output could not be written, 130 interrupted. On Ctrl-C,\n"
+    "SIGTERM or SIGHUP the samples so far are written; a second one stops at once.\n"
     "\n"
     "Example: rtc scenes/cornell.rts --mode photon --k 50 --kernel epanechnikov\n";
 

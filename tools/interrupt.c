@@ -1,17 +1,45 @@
-/* interrupt.c - what Ctrl-C and SIGTERM do. */
+/*
+ * interrupt.c - what Ctrl-C and the other signals that end a program do.
+ *
+ * They are blocked in all threads, and one thread waits for them: drivers install handlers of their
+ * own (LLVM, inside PoCL, takes all of these when it compiles), which then are never called.
+ */
 #include "interrupt.h"
 
-#include <errno.h>
+#include <pthread.h>
 #include <signal.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "status.h"
 
-static volatile sig_atomic_t deferred, pending;
-static int as_json, is_quiet;
+static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
-/* Only write() may be called in a handler. */
+/* What the thread that waits and the others share. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static int deferred, pending;
+
+/* Set before that thread begins. */
+static int as_json, is_quiet;
+static sigset_t waited, ignored;
+
+static int get(const int *flag)
+{
+    pthread_mutex_lock(&lock);
+    int value = *flag;
+    pthread_mutex_unlock(&lock);
+    return value;
+}
+
+static void set(int *flag)
+{
+    pthread_mutex_lock(&lock);
+    *flag = 1;
+    pthread_mutex_unlock(&lock);
+}
+
+/* Past stdio: the other threads may hold its locks, and the end must not wait for them. */
 static void say(const char *plain, const char *json)
 {
     const char *text = as_json ? json : plain;
@@ -22,53 +50,67 @@ static void say(const char *plain, const char *json)
     }
 }
 
-static void handle(int signal_number)
+/* Ends the program as the signal does by default. */
+static void die_of(int signal_number)
 {
-    int saved = errno;
-    if (!deferred) {
-        say("\nrtc: interrupted; nothing was written\n",
-            "{\"severity\":\"note\",\"message\":\"interrupted; nothing was written\"}\n");
-        _exit(STATUS_INTERRUPTED);
-    }
-    if (pending) {
-        /* The second one: end as the signal does, once it is no longer blocked. */
-        signal(signal_number, SIG_DFL);
-        raise(signal_number);
-        return;
-    }
-    pending = 1;
-    say("\nrtc: stopping; interrupt again to stop at once\n",
-        "{\"severity\":\"note\",\"message\":\"stopping; interrupt again to stop at once\"}\n");
-    errno = saved;
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, signal_number);
+    signal(signal_number, SIG_DFL);
+    pthread_sigmask(SIG_UNBLOCK, &one, NULL);
+    raise(signal_number);
 }
 
-static void catch_one(int signal_number)
+static void *wait_for_signals(void *data)
 {
-    struct sigaction old, action = {0};
-    if (sigaction(signal_number, NULL, &old) != 0 || old.sa_handler == SIG_IGN)
-        return;
-    action.sa_handler = handle;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    sigaddset(&action.sa_mask, SIGINT);
-    sigaddset(&action.sa_mask, SIGTERM);
-    sigaction(signal_number, &action, NULL);
+    int signal_number;
+    (void)data;
+    while (sigwait(&waited, &signal_number) == 0) {
+        if (sigismember(&ignored, signal_number))
+            continue;
+        if (signal_number == SIGQUIT || get(&pending)) {
+            die_of(signal_number);
+        } else if (!get(&deferred)) {
+            say("\nrtc: interrupted; nothing was written\n",
+                "{\"severity\":\"note\",\"message\":\"interrupted; nothing was written\"}\n");
+            _exit(STATUS_INTERRUPTED);
+        } else {
+            set(&pending);
+            say("\nrtc: stopping; interrupt again to stop at once\n",
+                "{\"severity\":\"note\",\"message\":\"stopping; interrupt again to stop at "
+                "once\"}\n");
+        }
+    }
+    return NULL;
 }
 
 void interrupt_catch(int in_json, int quiet)
 {
+    pthread_t thread;
     as_json = in_json;
     is_quiet = quiet;
-    catch_one(SIGINT);
-    catch_one(SIGTERM);
+    sigemptyset(&waited);
+    sigemptyset(&ignored);
+    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++) {
+        struct sigaction old;
+        sigaddset(&waited, caught[i]);
+        if (sigaction(caught[i], NULL, &old) == 0 && old.sa_handler == SIG_IGN)
+            sigaddset(&ignored, caught[i]);
+    }
+    pthread_sigmask(SIG_BLOCK, &waited, NULL);
+    /* Without the thread each ends the program at once. */
+    if (pthread_create(&thread, NULL, wait_for_signals, NULL) != 0)
+        pthread_sigmask(SIG_UNBLOCK, &waited, NULL);
+    else
+        pthread_detach(thread);
 }
 
 void interrupt_defer(void)
 {
-    deferred = 1;
+    set(&deferred);
 }
 
 int interrupt_pending(void)
 {
-    return pending;
+    return get(&pending);
 }

@@ -1,14 +1,14 @@
 /*
- * interrupt.h - Ctrl-C and SIGTERM: at once while nothing is lost by it; later the first asks, the
- * second kills.
+ * interrupt.h - what Ctrl-C, SIGTERM and SIGHUP (a lost connection) do: at once while nothing is
+ * lost by it; later the first asks, the second kills. SIGQUIT kills always.
  */
 #ifndef RTC_INTERRUPT_H
 #define RTC_INTERRUPT_H
 
 /*
- * From now on SIGINT and SIGTERM end the program at once with STATUS_INTERRUPTED, also where it
- * waits for a file or for stdin. A signal that was ignored when the program began stays ignored.
- * What is said of it is JSON if asked for, and nothing where quiet.
+ * From now on these signals end the program at once with STATUS_INTERRUPTED, also where it waits
+ * for a file or for stdin. One that was ignored when the program began stays ignored. What is said
+ * of it is JSON if asked for, and nothing where quiet. Call it once, before any thread begins.
  */
 void interrupt_catch(int in_json, int quiet);
 

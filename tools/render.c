@@ -171,12 +171,21 @@ static void say_how_good_it_is(const render_job *job)
         message_warning("the target error of %.3g %% was not reached", 100.0 * target);
 }
 
+/* And what would have helped: a single map is gathered only once it is whole. */
+static void say_that_nothing_was_written(const rt_render_options *options)
+{
+    message_note("interrupted before the first sample; nothing was written");
+    if (options->mode == RT_MODE_PHOTON && options->passes < 2 && !options->photon_map)
+        message_hint("with --passes N each pass emits photons and adds to the picture, so that an "
+                     "interrupt loses one pass; `rtc photons emit` keeps photons in a file");
+}
+
 /* Writes the film; an interrupted one is written too, as far as it came. */
 static int write_images(const render_job *job, int status)
 {
     if (!job->film) {
         if (!job->session.quiet)
-            message_note("interrupted before the first sample; nothing was written");
+            say_that_nothing_was_written(&job->options);
         return STATUS_INTERRUPTED;
     }
     rt_image_options options = {0};

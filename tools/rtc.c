@@ -33,6 +33,8 @@ int main(int argc, char **argv)
 {
     /* A closed pipe is an error of the write, not the end of a render. */
     signal(SIGPIPE, SIG_IGN);
+    /* Nor is a file that reaches the limit of its size (ulimit -f). */
+    signal(SIGXFSZ, SIG_IGN);
 
     command_line arguments;
     int status = arguments_parse(&arguments, argc, argv);

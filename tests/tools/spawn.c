@@ -69,6 +69,8 @@ static pid_t start(streams streams, char *line)
     /* What the caller of the tests ignores is not to be inherited. */
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
+    signal(SIGHUP, SIG_DFL);
+    signal(SIGQUIT, SIG_DFL);
     become_rtc(line);
     return 0;
 }

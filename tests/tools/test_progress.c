@@ -1,4 +1,6 @@
 /* test_progress.c - what the command says while it renders, and how it is interrupted. */
+#define _XOPEN_SOURCE 700
+
 #include <fcntl.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -8,12 +10,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
+#include "device/work_folder.h"
 #include "expect.h"
 #include "lib/image/scratch.h"
 #include "small_scene.h"
@@ -369,6 +373,48 @@ static void terminated_path_render_writes_its_samples(void **state)
     interrupt_render(SIGTERM, "", "\"render\"");
 }
 
+static void a_lost_connection_writes_the_samples(void **state)
+{
+    (void)state;
+    interrupt_render(SIGHUP, "", "\"render\"");
+}
+
+/* Also after the driver has compiled: LLVM takes this signal. */
+static void quit_ends_a_render_at_once(void **state)
+{
+    static char said[1 << 20];
+    const struct rlimit no_core = {0, 0};
+    struct rlimit core;
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    said[0] = '\0';
+    assert_int_equal(getrlimit(RLIMIT_CORE, &core) | setrlimit(RLIMIT_CORE, &no_core), 0);
+    running running =
+        start_rtc("POCL_CACHE_DIR=empty rtc a.rts --spp 16000000 --progress json --out a.pfm");
+    assert_int_equal(running_wait_for(&running, "\"render\"", said, sizeof said), 0);
+    assert_int_equal(kill(running.pid, SIGQUIT), 0);
+    assert_int_equal(running_finish(&running, said, sizeof said), 128 + SIGQUIT);
+    expect_no_file("a.pfm");
+    setrlimit(RLIMIT_CORE, &core);
+    rt_folder_remove("empty");
+}
+
+/* Nothing can be written before all photons are there, and the hint says what can be done. */
+static void an_interrupt_while_photons_are_emitted_says_what_helps(void **state)
+{
+    static char said[1 << 20];
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    said[0] = '\0';
+    running running = start_rtc("a.rts --mode photon --photons 1e9 --progress json --out a.pfm");
+    assert_int_equal(running_wait_for(&running, "\"emit\"", said, sizeof said), 0);
+    assert_int_equal(kill(running.pid, SIGINT), 0);
+    assert_int_equal(running_finish(&running, said, sizeof said), 130);
+    assert_non_null(strstr(said, "interrupted before the first sample; nothing was written"));
+    assert_non_null(strstr(said, "with --passes N each pass"));
+    expect_no_file("a.pfm");
+}
+
 static void interrupted_photon_render_writes_its_samples(void **state)
 {
     (void)state;
@@ -415,7 +461,7 @@ static void second_interrupt_kills(void **state)
 /* A scene that never ends on stdin: the first signal stops the reading, and with it the run. */
 static void interrupted_wait_for_stdin_ends_at_once(void **state)
 {
-    static const int signals[] = {SIGINT, SIGTERM};
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     static char blanks[(1 << 16) + 1]; /* more than a pipe holds: once they are gone, rtc reads */
     (void)state;
     memset(blanks, ' ', sizeof blanks);
@@ -432,10 +478,12 @@ static void interrupted_wait_for_stdin_ends_at_once(void **state)
             done += (size_t)count;
         }
         assert_int_equal(kill(running.pid, signals[i]), 0);
-        /* One that waits on sees an empty scene now, and ends with another status. */
+        /* While the pipe is open. One that waits on would not end. */
+        assert_int_equal(running_wait_for(&running, "rtc: interrupted; nothing was written\n", said,
+                                          sizeof said),
+                         0);
         close(pipes[1]);
         assert_int_equal(running_finish(&running, said, sizeof said), 130);
-        assert_non_null(strstr(said, "rtc: interrupted; nothing was written\n"));
         expect_no_file("a.pfm");
     }
 }
@@ -462,6 +510,9 @@ int main(void)
         TEST(interrupted_path_render_writes_its_samples),
         TEST(terminated_path_render_writes_its_samples),
         TEST(interrupted_photon_render_writes_its_samples),
+        TEST(a_lost_connection_writes_the_samples),
+        TEST(quit_ends_a_render_at_once),
+        TEST(an_interrupt_while_photons_are_emitted_says_what_helps),
         TEST(quiet_says_nothing_of_an_interrupt),
         TEST(second_interrupt_kills),
         TEST(interrupted_wait_for_stdin_ends_at_once),

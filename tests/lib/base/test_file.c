@@ -1,6 +1,7 @@
 /* Whole files: what is written arrives, and what fails leaves nothing behind. */
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -9,10 +10,13 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
+#include "base/claim.h"
 #include "base/file.h"
 #include "lib/image/scratch.h"
 
@@ -128,6 +132,48 @@ static void a_stale_temporary_file_does_not_matter(void **state)
     assert_int_equal(replace("new", "text", NULL), RT_OK);
     scratch_expect("new", "text");
     scratch_expect(name, "another's");
+}
+
+/* As a killed run leaves it: made, claimed, and not removed. */
+static void leave_temporary_file(int wait_for)
+{
+    char path[PATH_MAX], byte;
+    int fd;
+    if (rt_claim_new(&fd, path, sizeof path, "", ".rt-", ".tmp", 0666) != 0)
+        _exit(1);
+    if (read(wait_for, &byte, 1) != 1)
+        _exit(1);
+    _exit(0);
+}
+
+static void temporary_files_of_ended_processes_are_removed(void **state)
+{
+    (void)state;
+    int pipes[2], status;
+    char name[64];
+    assert_int_equal(pipe(pipes), 0);
+    fflush(NULL);
+    pid_t child = fork();
+    assert_int_not_equal(child, -1);
+    if (child == 0)
+        leave_temporary_file(pipes[0]);
+    snprintf(name, sizeof name, ".rt-%ld-0.tmp", (long)child);
+    const struct timespec nap = {0, 10000000};
+    while (access(name, F_OK) != 0)
+        nanosleep(&nap, NULL);
+    nanosleep(&nap, NULL); /* it claims the file at once */
+    /* It lives, and so does its file. */
+    assert_int_equal(replace("new", "text", NULL), RT_OK);
+    assert_int_equal(access(name, F_OK), 0);
+    assert_int_equal(write(pipes[1], "x", 1), 1);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+    scratch_write(".rt-1-x.tmp", "a user's own");
+    assert_int_equal(replace("new", "text", NULL), RT_OK);
+    assert_int_not_equal(access(name, F_OK), 0);
+    scratch_expect(".rt-1-x.tmp", "a user's own");
+    close(pipes[0]);
+    close(pipes[1]);
 }
 
 static void impossible_places_are_named(void **state)
@@ -255,6 +301,7 @@ int main(void)
         IN_SCRATCH(a_symbolic_link_to_nothing_gets_its_target),
         IN_SCRATCH(the_longest_name_works),
         IN_SCRATCH(a_stale_temporary_file_does_not_matter),
+        IN_SCRATCH(temporary_files_of_ended_processes_are_removed),
         IN_SCRATCH(impossible_places_are_named),
         IN_SCRATCH(an_unwritable_directory_is_left_alone),
         IN_SCRATCH(a_full_device_is_an_error),
