@@ -69,6 +69,19 @@ cl_mem test_buffer(size_t bytes, const void *host)
     return buffer;
 }
 
+cl_mem test_output(size_t bytes, void *host)
+{
+    /* A float8 is the widest that kernels write. */
+    const int in_place = test_device()->info.is_cpu && (uintptr_t)host % 32 == 0;
+    const cl_mem_flags flags = CL_MEM_READ_WRITE | (in_place ? CL_MEM_USE_HOST_PTR : 0);
+    rt_error error;
+    cl_mem buffer = NULL;
+    expect_ok(rt_buffer_create(test_device(), &buffer, flags, bytes, in_place ? host : NULL,
+                               "test data", &error),
+              &error);
+    return buffer;
+}
+
 void test_run(cl_kernel kernel, const rt_arg *args, cl_uint count, size_t items)
 {
     rt_error error;

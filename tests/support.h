@@ -45,6 +45,13 @@ cl_kernel test_kernel(const char *program, const char *kernel);
  */
 cl_mem test_buffer(size_t bytes, const void *host);
 
+/*
+ * A buffer for a kernel's output, which test_read then copies to `host`: on a CPU it is that
+ * memory, where its alignment allows, which saves the copy and the pages. Release it with
+ * rt_buffer_release.
+ */
+cl_mem test_output(size_t bytes, void *host);
+
 /* Sets the arguments, launches `items` work-items and waits. */
 void test_run(cl_kernel kernel, const rt_arg *args, cl_uint count, size_t items);
 

@@ -55,7 +55,7 @@ void draw_events(const rt_material_data *material, const situation *at, uint32_t
     const rt_u32 each = 16; /* events an item: what does not change is evaluated once */
     cl_kernel kernel = test_kernel("bsdf", "events");
     cl_mem scene = scene_of(material), s = test_buffer(sizeof *at, at);
-    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    cl_mem made = test_output(count * sizeof *out, out);
     rt_arg args[] = {RT_ARG(seed),  RT_ARG(count), RT_ARG(each),
                      RT_ARG(scene), RT_ARG(s),     RT_ARG(made)};
     test_run(kernel, args, 6, (count + each - 1) / each);

@@ -27,7 +27,7 @@ void rng_draw_pairs(rt_sampler kind, uint32_t seed, int along, uint32_t set, uin
     params.sampler = kind;
     params.seed = seed;
     cl_kernel kernel = test_kernel("rng", "pairs");
-    cl_mem scene = rng_scene(), made = test_buffer(count * sizeof *out, NULL);
+    cl_mem scene = rng_scene(), made = test_output(count * sizeof *out, out);
     rt_arg args[] = {RT_ARG(params), RT_ARG(scene), RT_ARG(is_along),
                      RT_ARG(set),    RT_ARG(count), RT_ARG(made)};
     test_run(kernel, args, 6, count);

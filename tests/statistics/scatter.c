@@ -51,7 +51,7 @@ static void draw_normals(const void *setup, uint32_t seed, uint32_t count)
     view(wo, f->cosine);
     as_floats(from, wo);
     cl_kernel kernel = test_kernel("ggx", "visible_normals");
-    cl_mem made = test_buffer(count * sizeof *rows, NULL);
+    cl_mem made = test_output(count * sizeof *rows, rows);
     rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(f->alpha), RT_ARG(from), RT_ARG(made)};
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *rows, rows);

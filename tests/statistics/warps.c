@@ -13,7 +13,7 @@ static void draw_rows(const char *program, const char *name, uint32_t seed, uint
                       const rt_arg *own, cl_uint own_count)
 {
     cl_kernel kernel = test_kernel(program, name);
-    cl_mem out = test_buffer(count * sizeof *rows, NULL);
+    cl_mem out = test_output(count * sizeof *rows, rows);
     rt_arg args[8] = {RT_ARG(seed), RT_ARG(count)};
     cl_uint used = 2;
     for (cl_uint i = 0; i < own_count; i++)
@@ -214,7 +214,7 @@ static void draw_filter(const void *setup, uint32_t seed, uint32_t count)
     const uint32_t filter = *(const uint32_t *)setup;
     const float own_radius = 0;
     cl_kernel kernel = test_kernel("filter", "sample");
-    cl_mem made = test_buffer(count * sizeof *rows, NULL);
+    cl_mem made = test_output(count * sizeof *rows, rows);
     rt_arg args[] = {RT_ARG(filter), RT_ARG(own_radius), RT_ARG(seed), RT_ARG(count), RT_ARG(made)};
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *rows, rows);
