@@ -9,10 +9,10 @@ static float4 numbers(uint seed, uint i)
 
 /*
  * Four rows an item: position and 1 / pdf_w, wi and delta, radiance and light_pdf_w at the same
- * point, normal and lift.
+ * point, of the first `told` items alone, normal and lift.
  */
-kernel void sample(global const rt_scene_header *header, uint seed, uint count, float4 from,
-                   global float4 *out)
+kernel void sample(global const rt_scene_header *header, uint seed, uint count, uint told,
+                   float4 from, global float4 *out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -26,9 +26,9 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
     float again = 0.0f, pmf;
     if (!sample_light(&scene, from.xyz, u, &made))
         made.radiance = (float3)(0.0f);
-    else if (made.distant && !made.delta)
+    else if (i < told && made.distant && !made.delta)
         again = environment_light_pdf_w(&scene, from.xyz, made.wi);
-    else if (!made.delta)
+    else if (i < told && !made.delta)
         again = light_pdf_w(&scene, scene.lights + choose_light(&scene, from.xyz, u.z, &pmf),
                             from.xyz, &made.at);
     out[4u * i] = (float4)(made.at.position, made.inv_pdf);

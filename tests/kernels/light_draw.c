@@ -27,18 +27,24 @@ rt_renderer *light_renderer(rt_scene *scene)
     return renderer;
 }
 
-void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count,
-                      light_draw *out)
+static void draw_told(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count,
+                      uint32_t told, light_draw *out)
 {
     float point[4] = {from[0], from[1], from[2], 0};
     cl_kernel kernel = test_kernel("light", "sample");
-    cl_mem made = test_buffer(count * sizeof *out, NULL);
-    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(point),
-                     RT_ARG(made)};
-    test_run(kernel, args, 5, count);
+    cl_mem made = test_output(count * sizeof *out, out);
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(told),
+                     RT_ARG(point),           RT_ARG(made)};
+    test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
     rt_buffer_release(made);
     rt_kernel_release(kernel);
+}
+
+void draw_many_lights(rt_renderer *renderer, uint32_t seed, const float from[3], uint32_t count,
+                      light_draw *out)
+{
+    draw_told(renderer, seed, from, count, 0, out);
 }
 
 void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, emission_draw *out)
@@ -49,7 +55,7 @@ void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, e
     expect_ok(rt_light_sources_read(&lights, test_device(), renderer->scene, NULL, 0, &error),
               &error);
     cl_mem shares = test_buffer(lights.light_count * sizeof *lights.shares, lights.shares);
-    cl_mem made = test_buffer(count * sizeof *out, NULL);
+    cl_mem made = test_output(count * sizeof *out, out);
     rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seed), RT_ARG(count), RT_ARG(shares),
                      RT_ARG(made)};
     test_run(kernel, args, 5, count);
@@ -62,7 +68,7 @@ void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, e
 
 void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out)
 {
-    draw_many_lights(renderer, test_seed(seed), from, light_draws, out);
+    draw_told(renderer, test_seed(seed), from, light_draws, light_draws, out);
 }
 
 void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out)
