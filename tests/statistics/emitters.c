@@ -1,6 +1,7 @@
 /* emitters.c - scenes with one area light, and points on it. */
 #include "statistics/emitters.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -127,17 +128,31 @@ rt_scene *emitter_scene(emitter kind)
 /* ---- Parameters ------------------------------------------------------------------ */
 
 /* Axes of the cylinders and cones: the last is theirs, and not of unit length but theirs. */
-static void axes_of(emitter kind, double s[3], double t[3], double along[3])
+typedef struct axes {
+    double s[3], t[3], along[3];
+} axes;
+
+/* Those of disc and torus, and of the others. */
+static axes across_top, from_centre;
+
+static void find_axes(void)
 {
     double unit[3];
-    wide(unit, top);
-    if (kind >= EMIT_PIPE)
-        rt_vec_sub(unit, top, centre);
-    memcpy(along, unit, 3 * sizeof *along);
+    wide(across_top.along, top);
+    normalise(across_top.along);
+    axes_about(across_top.along, across_top.s, across_top.t);
+    rt_vec_sub(from_centre.along, top, centre);
+    memcpy(unit, from_centre.along, sizeof unit);
     normalise(unit);
-    axes_about(unit, s, t);
-    if (kind < EMIT_PIPE)
-        memcpy(along, unit, 3 * sizeof *along);
+    axes_about(unit, from_centre.s, from_centre.t);
+}
+
+/* Found once, as every sample is placed by them. */
+static const axes *axes_of(emitter kind)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, find_axes);
+    return kind < EMIT_PIPE ? &across_top : &from_centre;
 }
 
 /* Radius and height of the cylinders and cones, before the transform. */
@@ -162,12 +177,12 @@ static void profile(emitter kind, double x, double *radius, double *height)
 
 static void cylinder_point(emitter kind, double x, double y, double out[3])
 {
-    double s[3], t[3], along[3], radius, height;
-    axes_of(kind, s, t, along);
+    const axes *a = axes_of(kind);
+    double radius, height;
     profile(kind, x, &radius, &height);
     for (int i = 0; i < 3; i++)
-        out[i] = centre[i] + radius * (cos(2 * PI * y) * s[i] + sin(2 * PI * y) * t[i]) +
-                 height * along[i];
+        out[i] = centre[i] + radius * (cos(2 * PI * y) * a->s[i] + sin(2 * PI * y) * a->t[i]) +
+                 height * a->along[i];
 }
 
 static void ball_point(emitter kind, double x, double y, double out[3])
@@ -274,16 +289,16 @@ static void flat_place(emitter kind, const double p[3], double *x, double *y)
 static void round_place(emitter kind, const double p[3], const float normal[3], double *x,
                         double *y)
 {
-    double s[3], t[3], along[3], away[3], n[3], at_base, at_top;
-    axes_of(kind, s, t, along);
+    const axes *a = axes_of(kind);
+    double away[3], n[3], at_base, at_top;
     cylinder_radii(kind, &at_base, &at_top);
     for (int i = 0; i < 3; i++)
         away[i] = p[i] - centre[i];
     wide(n, normal);
-    const double radius = distance(dot3(away, s), dot3(away, t)),
-                 height = dot3(away, along) / dot3(along, along);
-    const double facing = dot3(n, along) / rt_vec_length(along);
-    *y = turns_of(dot3(away, s), dot3(away, t));
+    const double radius = distance(dot3(away, a->s), dot3(away, a->t)),
+                 height = dot3(away, a->along) / dot3(a->along, a->along);
+    const double facing = dot3(n, a->along) / rt_vec_length(a->along);
+    *y = turns_of(dot3(away, a->s), dot3(away, a->t));
     if (kind == EMIT_DISC)
         *x = (radius - disc_hole) / (disc_radius - disc_hole);
     else if (kind == EMIT_TORUS)

@@ -16,12 +16,19 @@ double dielectric_reflectance(double cosine, double eta)
     return (s * s + p * p) / 2;
 }
 
+/* |z|^2 */
+static double square_of(double complex z)
+{
+    return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
 double metal_reflectance(double cosine, double eta, double k)
 {
     const double complex index = eta + k * I, beyond = csqrt(index * index - (1 - cosine * cosine));
-    const double s = cabs((cosine - beyond) / (cosine + beyond));
-    const double p = cabs((index * index * cosine - beyond) / (index * index * cosine + beyond));
-    return (s * s + p * p) / 2;
+    const double complex steep = index * index * cosine;
+    const double s2 = square_of(cosine - beyond) / square_of(cosine + beyond);
+    const double p2 = square_of(steep - beyond) / square_of(steep + beyond);
+    return (s2 + p2) / 2;
 }
 
 void boundary_split(const rt_material_data *material, int channel, double cosine, double eta,

@@ -52,7 +52,7 @@ rt_scene *sky_scene(int has_picture)
 
 void sky_place(const float w[3], double *u, double *v)
 {
-    *u = 0.5 + atan2(w[0], -w[2]) / (2 * PI) + rotation / 360;
+    *u = 0.5 + turns_of(-w[2], w[0]) + rotation / 360;
     *u -= floor(*u);
     *v = acos(fmax(-1, fmin(1, w[1]))) / PI;
 }
