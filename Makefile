@@ -159,6 +159,8 @@ TESTS_QUICK := \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c \
 	tests/lib/scene/test_scene.c \
 	tests/lib/scene/test_shapes.c \
+	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \
+	tests/lib/setting/test_word.c \
 	tests/lib/texture/test_texture.c \
 	tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c

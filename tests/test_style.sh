@@ -1,7 +1,8 @@
 #!/bin/sh
 # test_style.sh - what the sources promise of their form: length of lines and functions, no default
-# over an enum, the field's words, and files that say what they are. Reads the sources from the
-# repository root and needs no build; -c prints the counts alone, file by file.
+# over an enum, the field's words, files that say what they are, and that no test is left out of the
+# Makefile. Reads the sources from the repository root and needs no build; -c prints the counts
+# alone, file by file.
 set -u
 LC_ALL=C
 export LC_ALL
@@ -131,6 +132,13 @@ nameless() {
         END { finish() }' "$@"
 }
 
+# unlisted FILE...: tests that the Makefile does not name, so that nothing runs them.
+unlisted() {
+    for file; do
+        grep -qF "$file" Makefile || printf '%s: not in the Makefile\n' "$file"
+    done
+}
+
 # made NAME FUNCTION SEEN...: the function finds these lines in a made file, and only these.
 made() {
     name=$1
@@ -169,6 +177,9 @@ self_test() {
     printf '#include <a.h>\n/* made.c - too late. */\n' >"$work/made.c"
     echo 'made.c: does not open by saying what it is' >"$work/planted"
     made nameless nameless
+    echo 'TESTS := other.c' >"$work/Makefile"
+    echo 'made.c: not in the Makefile' >"$work/planted"
+    made unlisted unlisted
     check planted_offences_are_seen "$work/offences"
 }
 
@@ -189,10 +200,12 @@ check the_sources_are_found "$work/few"
     words $(cat "$work/shipped") README.md $(sources '*.md' | grep '^dsl/') >"$work/words"
     nameless $(cat "$work/code") >"$work/nameless"
     nameless $(cat "$work/scripts") >>"$work/nameless"
+    unlisted $(sources 'test_*.c') >"$work/unlisted"
 }
 check lines_have_at_most_100_columns "$work/over"
 check functions_have_at_most_50_lines "$work/long"
 check no_default_over_an_enum "$work/defaults"
 check only_the_words_of_the_field "$work/words"
 check every_file_says_what_it_is "$work/nameless"
+check every_test_is_in_the_makefile "$work/unlisted"
 exit $bad

@@ -69,28 +69,61 @@ static const char *read_exponent(rt_digits *d, const char *c, const char *end)
     return c;
 }
 
+/*
+ * Where the digits and the power of ten are both exact in double precision, their product or
+ * quotient is rounded once, and so is the nearest double (Clinger, "How to Read Floating Point
+ * Numbers Accurately", 1990). Returns whether they are.
+ */
+static int is_exact(double *size, const rt_digits *d)
+{
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    enum { digits_exact = 15, power_exact = 22 };
+    int64_t digits = 0;
+    if (FLT_EVAL_METHOD != 0 || d->count > digits_exact || d->exponent < -power_exact ||
+        d->exponent > power_exact)
+        return 0;
+    for (int i = 0; i < d->count; i++)
+        digits = 10 * digits + (d->digits[i] - '0');
+    *size = d->exponent < 0 ? (double)digits / powers[-d->exponent]
+                            : (double)digits * powers[d->exponent];
+    return 1;
+}
+
+/*
+ * The number nearest to the digits, by the library: as an integer with an exponent it has no
+ * decimal point for a locale to change.
+ */
+static double nearest(rt_digits *d)
+{
+    char spelling[DIGITS_MAX + 32];
+    if (d->tail) {
+        d->digits[d->count++] = '1';
+        d->exponent--;
+    }
+    snprintf(spelling, sizeof spelling, "%.*se%ld", d->count, d->digits, d->exponent);
+    return strtod(spelling, NULL);
+}
+
 rt_number_result rt_number_read(double *out, const char *text, size_t length)
 {
-    rt_digits d = {{0}, 0, 0, 0, 0};
+    rt_digits d;
     const char *c = text, *end = text + length;
     int negative = length > 0 && *c == '-';
+    d.count = d.seen = d.tail = 0;
+    d.exponent = 0;
     c = read_mantissa(&d, c + (length > 0 && (*c == '-' || *c == '+')), end);
     c = d.seen ? read_exponent(&d, c, end) : NULL;
     if (c != end)
         return RT_NUMBER_MALFORMED;
-
-    /* As an integer with an exponent the number has no decimal point for a locale to change. */
     if (d.count == 0) {
         *out = 0.0;
         return RT_NUMBER_OK;
     }
-    if (d.tail) {
-        d.digits[d.count++] = '1';
-        d.exponent--;
-    }
-    char spelling[DIGITS_MAX + 32];
-    snprintf(spelling, sizeof spelling, "%.*se%ld", d.count, d.digits, d.exponent);
-    double size = strtod(spelling, NULL);
+    double size;
+    if (!is_exact(&size, &d))
+        size = nearest(&d);
     *out = negative ? -size : size;
     return isinf(size) ? RT_NUMBER_TOO_LARGE : size < FLT_MIN ? RT_NUMBER_TOO_SMALL : RT_NUMBER_OK;
 }

@@ -74,6 +74,23 @@ static void decimal_numbers_round_as_strtod(void **state)
     }
 }
 
+/* Among them those that a scene has most: few digits and small exponents. */
+static void short_decimal_numbers_round_as_strtod(void **state)
+{
+    uint64_t bits = 1;
+    (void)state;
+    for (int i = 0; i < 300000; i++) {
+        char text[64];
+        double value;
+        bits = bits * 6364136223846793005u + 1442695040888963407u;
+        const int digits = 1 + (int)(bits >> 60), exponent = (int)(bits >> 50 & 63) - 31;
+        const unsigned long long number = (bits & 0xffffffffffffu) * 37;
+        snprintf(text, sizeof text, i % 2 ? "%.*llue%d" : "0.%.*llue%d", digits, number, exponent);
+        assert_int_not_equal(read_number(&value, text), RT_NUMBER_MALFORMED);
+        assert_true(value == strtod(text, NULL));
+    }
+}
+
 static void what_is_no_number_is_refused(void **state)
 {
     static const char *const texts[] = {"",    ".",   "e5",  ".e5", "1e", "1e-", "1.2.3", "1 ",
@@ -116,6 +133,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(decimal_numbers_round_as_strtod),
+        cmocka_unit_test(short_decimal_numbers_round_as_strtod),
         cmocka_unit_test(what_is_no_number_is_refused),
         cmocka_unit_test(a_sign_may_stand_before),
         cmocka_unit_test(the_locale_does_not_matter),
