@@ -138,7 +138,7 @@ static int check_step(const rt_checker *checker, const rt_entry *entry, rt_steps
     return 1;
 }
 
-/* Stores the steps of a transform, if there are any. */
+/* Stores the steps of a transform. */
 static void store_transform(const rt_steps *steps, const rt_statement *statement,
                             rt_block_fields *fields)
 {
@@ -147,7 +147,7 @@ static void store_transform(const rt_steps *steps, const rt_statement *statement
         for (int j = 0; j < 4; j++)
             transform.m[i][j] = (float)steps->m[i][j];
     const rt_field *field;
-    for (size_t i = 0; (field = rt_block_field(statement->block, i)) && steps->count > 0; i++)
+    for (size_t i = 0; (field = rt_block_field(statement->block, i)) != NULL; i++)
         if (rt_field_is_transform(field))
             memcpy((unsigned char *)fields + field->offset, &transform, sizeof transform);
 }
@@ -286,57 +286,72 @@ static void join_group(char out[RT_PHRASE_SIZE], const rt_block *block, rt_field
     }
 }
 
-static int check_group(const rt_checker *checker, const rt_statement *statement, rt_field_need need)
+/* The fields of a block that need each other. */
+typedef struct rt_group {
+    int size, given;
+    const rt_entry *last; /* the latest given */
+} rt_group;
+
+/* Counts the fields of a block by their need. */
+static void count_groups(rt_group groups[RT_NEED_ALL_OR_NONE_TOO + 1],
+                         const rt_statement *statement)
 {
-    const rt_block *block = statement->block;
-    const rt_entry *last = NULL;
-    int size = 0, given = 0;
-    char group[RT_PHRASE_SIZE], title[RT_BLOCK_TITLE_SIZE];
     const rt_field *field;
-    for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++) {
-        if (field->need != need)
+    memset(groups, 0, (RT_NEED_ALL_OR_NONE_TOO + 1) * sizeof *groups);
+    for (size_t i = 0; (field = rt_block_field(statement->block, i)) != NULL; i++) {
+        if (field->need == RT_NEED_OPTIONAL)
             continue;
+        rt_group *group = &groups[field->need];
         const rt_entry *entry = rt_statement_entry(statement, field);
-        size++;
-        given += entry != NULL;
-        if (entry && (!last || entry->name.order > last->name.order))
-            last = entry;
+        group->size++;
+        group->given += entry != NULL;
+        if (entry && (!group->last || entry->name.order > group->last->name.order))
+            group->last = entry;
     }
-    rt_block_title(title, block);
-    if (need == RT_NEED_ALL_OR_NONE || need == RT_NEED_ALL_OR_NONE_TOO) {
-        if (given == 0 || given == size || statement->is_incomplete)
-            return 1;
-        join_group(group, block, need, " and ");
-        rt_report_error(checker->reports, statement->place, "%s needs all of %s, or none", title,
-                        group);
-        return 0;
-    }
-    join_group(group, block, need, " or ");
-    if (given > 1) {
-        rt_report_error(checker->reports, last->name, "%s takes %s, not both", title, group);
-        return 0;
-    }
-    if (size > 0 && given == 0 && need == RT_NEED_ONE_OF && !statement->is_incomplete) {
-        rt_report_error(checker->reports, statement->place, "%s needs %s", title, group);
-        return 0;
-    }
-    return 1;
 }
 
-static int check_required(const rt_checker *checker, const rt_statement *statement)
+static int check_all_or_none(const rt_checker *checker, const rt_statement *statement,
+                             rt_field_need need, const rt_group *group)
+{
+    char names[RT_PHRASE_SIZE], title[RT_BLOCK_TITLE_SIZE];
+    if (group->given == 0 || group->given == group->size || statement->is_incomplete)
+        return 1;
+    join_group(names, statement->block, need, " and ");
+    rt_report_error(checker->reports, statement->place, "%s needs all of %s, or none",
+                    rt_block_title(title, statement->block), names);
+    return 0;
+}
+
+static int check_one(const rt_checker *checker, const rt_statement *statement, rt_field_need need,
+                     const rt_group *group)
+{
+    char names[RT_PHRASE_SIZE], title[RT_BLOCK_TITLE_SIZE];
+    const int is_missing =
+        need == RT_NEED_ONE_OF && group->size > 0 && group->given == 0 && !statement->is_incomplete;
+    if (group->given <= 1 && !is_missing)
+        return 1;
+    join_group(names, statement->block, need, " or ");
+    rt_block_title(title, statement->block);
+    if (is_missing)
+        rt_report_error(checker->reports, statement->place, "%s needs %s", title, names);
+    else
+        rt_report_error(checker->reports, group->last->name, "%s takes %s, not both", title, names);
+    return 0;
+}
+
+static int check_required(const rt_checker *checker, const rt_statement *statement,
+                          const rt_group *group)
 {
     const rt_block *block = statement->block;
     char list[RT_PHRASE_SIZE] = "", title[RT_BLOCK_TITLE_SIZE];
     size_t used = 0;
-    if (statement->is_incomplete)
+    if (group->given == group->size || statement->is_incomplete)
         return 1;
     const rt_field *field;
     for (size_t i = 0; (field = rt_block_field(block, i)) && used < sizeof list; i++)
         if (field->need == RT_NEED_REQUIRED && !rt_statement_entry(statement, field))
             used += (size_t)snprintf(list + used, sizeof list - used, "%s'%s'", used ? ", " : "",
                                      field->name);
-    if (used == 0)
-        return 1;
     rt_report_error(checker->reports, statement->place, "%s needs %s", rt_block_title(title, block),
                     list);
     return 0;
@@ -346,6 +361,7 @@ int rt_check_block(const rt_checker *checker, const rt_statement *statement,
                    rt_block_fields *fields)
 {
     int is_good = !statement->is_broken;
+    rt_group groups[RT_NEED_ALL_OR_NONE_TOO + 1];
     rt_steps steps;
     rt_steps_begin(&steps);
     for (int i = 0; i < statement->entry_count; i++) {
@@ -353,11 +369,13 @@ int rt_check_block(const rt_checker *checker, const rt_statement *statement,
         is_good &= rt_field_is_transform(entry->field) ? check_step(checker, entry, &steps)
                                                        : check_entry(checker, entry, fields);
     }
-    store_transform(&steps, statement, fields);
-    is_good &= check_required(checker, statement);
-    is_good &= check_group(checker, statement, RT_NEED_ONE_OF);
-    is_good &= check_group(checker, statement, RT_NEED_AT_MOST_ONE);
-    is_good &= check_group(checker, statement, RT_NEED_ALL_OR_NONE);
-    is_good &= check_group(checker, statement, RT_NEED_ALL_OR_NONE_TOO);
+    if (steps.count > 0)
+        store_transform(&steps, statement, fields);
+    count_groups(groups, statement);
+    is_good &= check_required(checker, statement, &groups[RT_NEED_REQUIRED]);
+    for (rt_field_need need = RT_NEED_ONE_OF; need <= RT_NEED_AT_MOST_ONE; need++)
+        is_good &= check_one(checker, statement, need, &groups[need]);
+    for (rt_field_need need = RT_NEED_ALL_OR_NONE; need <= RT_NEED_ALL_OR_NONE_TOO; need++)
+        is_good &= check_all_or_none(checker, statement, need, &groups[need]);
     return is_good;
 }

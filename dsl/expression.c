@@ -14,22 +14,21 @@
  */
 #define STACK_SIZE (4 * (RT_NESTING_MAX + 1) + 4)
 
-int rt_operations_add(rt_operations *operations, rt_operation operation, rt_reports *reports)
+rt_operation *rt_operations_add(rt_operations *operations, rt_reports *reports)
 {
     if (operations->count == RT_OPERATIONS_MAX)
-        return 0;
+        return NULL;
     if (operations->count == operations->capacity) {
         size_t capacity = operations->capacity ? 2 * operations->capacity : 64;
         rt_operation *items = realloc(operations->items, capacity * sizeof *items);
         if (!items) {
             reports->out_of_memory = 1;
-            return 0;
+            return NULL;
         }
         operations->items = items;
         operations->capacity = capacity;
     }
-    operations->items[operations->count++] = operation;
-    return 1;
+    return &operations->items[operations->count++];
 }
 
 void rt_operations_free(rt_operations *operations)
@@ -110,6 +109,10 @@ int rt_expression_evaluate(rt_value *out, const rt_expression *expression,
                            rt_reports *reports)
 {
     rt_value stack[STACK_SIZE], *top = stack;
+    if (expression->count == 0) {
+        *out = number_value(expression->number);
+        return 1;
+    }
     for (size_t i = 0; i < expression->count; i++) {
         const rt_operation *operation = &operations->items[expression->first + i];
         assert(top < stack + STACK_SIZE);

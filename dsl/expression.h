@@ -37,16 +37,20 @@ typedef struct rt_operations {
     size_t count, capacity;
 } rt_operations;
 
-/* One expression among them. */
+/* One expression among them, or a number, which needs none. */
 typedef struct rt_expression {
     rt_place place;
-    size_t first, count;
+    size_t first, count; /* 0: it is a number as written */
+    double number;
     int is_vector; /* what it will yield; meaningless when broken */
     int is_broken; /* has an error already reported: not to be evaluated */
 } rt_expression;
 
-/* Appends an operation; returns 0 when there are too many or no memory (then set in reports). */
-int rt_operations_add(rt_operations *operations, rt_operation operation, rt_reports *reports);
+/*
+ * Appends an operation, to be filled by the caller; returns NULL when there are too many or no
+ * memory (then set in reports).
+ */
+rt_operation *rt_operations_add(rt_operations *operations, rt_reports *reports);
 void rt_operations_free(rt_operations *operations);
 
 /*

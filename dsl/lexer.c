@@ -3,24 +3,31 @@
 
 #include <string.h>
 
-static int is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
+/* What a byte may be; 0: it means nothing here. */
+enum { LETTER = 1, DIGIT = 2, SPACE = 4, PUNCTUATION = 8 };
 
-static int is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
+#define L LETTER
+#define D DIGIT
+#define S SPACE
+#define P PUNCTUATION
+static const unsigned char classes[256] = {
+    0, 0, 0, 0, 0, 0, 0, 0, 0, S, S, 0, 0, S, 0, 0, /* tab, line feed, carriage return */
+    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, /* */
+    S, 0, 0, 0, 0, P, 0, 0, P, P, P, P, P, P, 0, P, /*   % ( ) * + , - / */
+    D, D, D, D, D, D, D, D, D, D, P, P, 0, P, 0, 0, /* 0 to 9 : ; = */
+    0, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, /* A to O */
+    L, L, L, L, L, L, L, L, L, L, L, P, 0, P, P, L, /* P to Z [ ] ^ _ */
+    0, L, L, L, L, L, L, L, L, L, L, L, L, L, L, L, /* a to o */
+    L, L, L, L, L, L, L, L, L, L, L, P, 0, P, 0, 0, /* p to z { } */
+};
+#undef L
+#undef D
+#undef S
+#undef P
 
-static int is_space(char c)
+static int is(char c, int kinds)
 {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
-static int is_punctuation(char c)
-{
-    return c != '\0' && strchr("{}()[]+-*/=,;:^%", c) != NULL;
+    return classes[(unsigned char)c] & kinds;
 }
 
 /* Bytes of the well-formed UTF-8 sequence at s (Unicode, table 3-7), or 0. */
@@ -108,7 +115,7 @@ static void skip_space(rt_lexer *lexer)
         char c = byte_at(lexer, lexer->at);
         if (c == '#') {
             skip_free_text(lexer, '\0');
-        } else if (is_space(c)) {
+        } else if (is(c, SPACE)) {
             lexer->at++;
             if (c == '\n') {
                 lexer->line++;
@@ -129,7 +136,7 @@ static void skip_stray(rt_lexer *lexer)
     size_t start = lexer->at, length;
     while (lexer->at < source->size) {
         char c = byte_at(lexer, lexer->at);
-        if (is_letter(c) || is_digit(c) || is_space(c) || is_punctuation(c) || c == '"' || c == '#')
+        if (is(c, LETTER | DIGIT | SPACE | PUNCTUATION) || c == '"' || c == '#')
             break;
         length = utf8_length(source->text + lexer->at, source->size - lexer->at);
         if (!length)
@@ -161,7 +168,7 @@ static void read_number(rt_lexer *lexer, rt_token *token)
         char c = byte_at(lexer, lexer->at);
         char before = lexer->at > start ? byte_at(lexer, lexer->at - 1) : '\0';
         int is_sign = (c == '+' || c == '-') && (before == 'e' || before == 'E');
-        if (!is_letter(c) && !is_digit(c) && c != '.' && !is_sign)
+        if (!is(c, LETTER | DIGIT) && c != '.' && !is_sign)
             break;
     }
     token->kind = RT_TOKEN_NUMBER;
@@ -215,33 +222,33 @@ static void read_string(rt_lexer *lexer, rt_token *token)
     }
 }
 
-rt_token rt_lexer_next(rt_lexer *lexer)
+void rt_lexer_next(rt_lexer *lexer, rt_token *token)
 {
-    rt_token token;
-    memset(&token, 0, sizeof token);
+    token->number = 0;
+    token->is_broken = 0;
     for (;;) {
         skip_space(lexer);
-        token.first_on_line = lexer->first_on_line;
-        token.space_before = lexer->space_before || lexer->first_on_line;
+        token->first_on_line = lexer->first_on_line;
+        token->space_before = lexer->space_before || lexer->first_on_line;
 
         size_t start = lexer->at;
         char c = byte_at(lexer, start);
         if (start >= lexer->source->size) {
-            token.kind = RT_TOKEN_END;
-            token.place = place_of(lexer, start);
-        } else if (is_letter(c)) {
-            while (is_letter(byte_at(lexer, lexer->at)) || is_digit(byte_at(lexer, lexer->at)))
+            token->kind = RT_TOKEN_END;
+            token->place = place_of(lexer, start);
+        } else if (is(c, LETTER)) {
+            while (is(byte_at(lexer, lexer->at), LETTER | DIGIT))
                 lexer->at++;
-            token.kind = RT_TOKEN_WORD;
-            token.place = place_of(lexer, start);
-        } else if (is_digit(c) || (c == '.' && is_digit(byte_at(lexer, start + 1)))) {
-            read_number(lexer, &token);
+            token->kind = RT_TOKEN_WORD;
+            token->place = place_of(lexer, start);
+        } else if (is(c, DIGIT) || (c == '.' && is(byte_at(lexer, start + 1), DIGIT))) {
+            read_number(lexer, token);
         } else if (c == '"') {
-            read_string(lexer, &token);
-        } else if (is_punctuation(c)) {
+            read_string(lexer, token);
+        } else if (is(c, PUNCTUATION)) {
             lexer->at++;
-            token.kind = c;
-            token.place = place_of(lexer, start);
+            token->kind = c;
+            token->place = place_of(lexer, start);
         } else {
             skip_stray(lexer);
             if (rt_reports_full(lexer->reports))
@@ -249,7 +256,7 @@ rt_token rt_lexer_next(rt_lexer *lexer)
             continue;
         }
         lexer->first_on_line = lexer->space_before = 0;
-        return token;
+        return;
     }
 }
 

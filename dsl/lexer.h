@@ -34,8 +34,8 @@ typedef struct rt_lexer {
 /* Starts at the beginning of a text, after a byte-order mark if it has one. */
 void rt_lexer_begin(rt_lexer *lexer, const rt_source *source, rt_reports *reports, uint64_t *order);
 
-/* The next token. Characters outside the language are reported and passed over. */
-rt_token rt_lexer_next(rt_lexer *lexer);
+/* Reads the next token. Characters outside the language are reported and passed over. */
+void rt_lexer_next(rt_lexer *lexer, rt_token *token);
 
 /*
  * Reports what shows that a source is no UTF-8 text at all, such as a NUL byte; returns whether it

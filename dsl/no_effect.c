@@ -124,11 +124,13 @@ static int is_black_left_out(const rt_statement *statement, const rt_entry *entr
 {
     const rt_field *field = entry->field;
     float colour[3];
+    if (field->type != RT_FIELD_COLOUR)
+        return 0;
     int is_emission = field->need == RT_NEED_AT_MOST_ONE;
     int is_sky = statement->block->id == RT_BLOCK_ENVIRONMENT_LIGHT && fields->environment.path;
     int is_textured = statement->block->id == RT_BLOCK_MATERIAL &&
                       texture_beside(field->name, &fields->material) != 0;
-    if (field->type != RT_FIELD_COLOUR || !(is_emission || is_sky || is_textured))
+    if (!(is_emission || is_sky || is_textured))
         return 0;
     memcpy(colour, (const unsigned char *)fields + field->offset, sizeof colour);
     return is_black(colour);
@@ -172,11 +174,12 @@ static void warn_shape_texture(const rt_statement *statement, const rt_entry *en
                                rt_reports *reports)
 {
     const rt_block *block = statement->block;
+    char quote[RT_QUOTE_SIZE];
+    if (entry->field->type != RT_FIELD_TEXTURE)
+        return;
     const rt_field *field = rt_schema_field(block, (rt_text){"material", strlen("material")});
     const rt_entry *material = field ? rt_statement_entry(statement, field) : NULL;
-    char quote[RT_QUOTE_SIZE];
-    if (!material || entry->field->type != RT_FIELD_TEXTURE ||
-        emits_by(block, "radiance", fields) || emits_by(block, "power", fields))
+    if (!material || emits_by(block, "radiance", fields) || emits_by(block, "power", fields))
         return;
     const rt_text word = rt_place_text(&material->word);
     const size_t found = rt_names_find(&scope->materials, word);
@@ -191,7 +194,7 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
     const rt_block_id block = statement->block->id;
     if (block == RT_BLOCK_FILM || block == RT_BLOCK_RENDER)
         warn_setting(entry, &fields->options, reports);
-    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
+    for (size_t i = 0; i < sizeof needs / sizeof *needs && block < RT_BLOCK_MESH; i++)
         if (needs[i].block == block && strcmp(needs[i].field, entry->field->name) == 0 &&
             !needs[i].has_effect(fields))
             rt_report_warning(reports, entry->name, "'%s' has no effect without %s", needs[i].field,

@@ -4,18 +4,55 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int add_place(rt_places *places, rt_place place)
+static int add_origin(rt_origin_list *list, const rt_place *place)
 {
-    if (places->count == places->capacity) {
-        size_t capacity = places->capacity ? 2 * places->capacity : 64;
-        rt_place *items = realloc(places->items, capacity * sizeof *items);
+    if (list->count == list->capacity) {
+        size_t capacity = list->capacity ? 2 * list->capacity : 64;
+        rt_origin *items = realloc(list->items, capacity * sizeof *items);
         if (!items)
             return 0;
-        places->items = items;
-        places->capacity = capacity;
+        list->items = items;
+        list->capacity = capacity;
     }
-    places->items[places->count++] = place;
+    rt_origin *origin = &list->items[list->count++];
+    origin->at = (uint32_t)(place->source->before + place->offset);
+    origin->line = (uint32_t)place->line;
+    origin->order = place->order < UINT32_MAX ? (uint32_t)place->order : UINT32_MAX;
     return 1;
+}
+
+static int is_space(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+/* Bytes of the word at text[at], or 0. */
+static size_t word_length(const char *text, size_t at)
+{
+    size_t length = 0;
+    while ((text[at + length] >= 'a' && text[at + length] <= 'z') || text[at + length] == '_')
+        length++;
+    return length;
+}
+
+/* The words that begin the block at an origin: one, or two as in `light point` on one line. */
+static rt_place place_at(const rt_sources *sources, const rt_origin *origin)
+{
+    const rt_source *source = sources->latest;
+    while (origin->at < source->before || origin->at >= source->before + source->size)
+        source = source->next;
+    rt_place place = {source, origin->order, origin->at - source->before, (int)origin->line, 1, 0};
+    const char *text = source->text;
+    size_t length = word_length(text, place.offset), next = place.offset + length;
+    while (is_space(text[next]))
+        next++;
+    if (rt_text_equal((rt_text){text + place.offset, length}, "light"))
+        length = next + word_length(text, next) - place.offset;
+    place.length = (int)length;
+    while (place.offset - (size_t)(place.column - 1) > 0 &&
+           text[place.offset - (size_t)place.column] != '\n')
+        place.column++;
+    return place;
 }
 
 int rt_origins_add(rt_origins *origins, const rt_block *block, rt_place place)
@@ -24,29 +61,31 @@ int rt_origins_add(rt_origins *origins, const rt_block *block, rt_place place)
     if (block->id == RT_BLOCK_CAMERA)
         origins->camera = place;
     if (strcmp(block->word, "light") == 0)
-        return add_place(&origins->lights, place);
+        return add_origin(&origins->lights, &place);
     /* A shape is what has a material. */
     for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++)
         if (field->type == RT_FIELD_MATERIAL)
-            return add_place(&origins->shapes, place);
+            return add_origin(&origins->shapes, &place);
     return 1;
 }
 
 /* Reports under way. */
 typedef struct reporting {
     const rt_origins *origins;
+    const rt_sources *sources;
     rt_reports *reports;
     rt_place last; /* of a light or open shape that was reported, line 0 before the first */
 } reporting;
 
-static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
+static rt_place place_of(const reporting *r, const rt_finding *finding)
 {
+    const rt_origins *origins = r->origins;
     if (finding->light != RT_NONE)
-        return origins->lights.items[finding->light];
+        return place_at(r->sources, &origins->lights.items[finding->light]);
     if (finding->emitter != RT_NONE)
-        return origins->shapes.items[finding->emitter];
+        return place_at(r->sources, &origins->shapes.items[finding->emitter]);
     if (finding->kind == RT_FINDING_OPEN_GLASS || finding->other != RT_NONE)
-        return origins->shapes.items[finding->shape];
+        return place_at(r->sources, &origins->shapes.items[finding->shape]);
     if (finding->kind == RT_FINDING_NOTHING_IN_VIEW ||
         finding->kind == RT_FINDING_CAMERA_IN_OPAQUE ||
         finding->kind == RT_FINDING_CAMERA_IN_MEDIUM)
@@ -57,7 +96,7 @@ static rt_place place_of(const rt_origins *origins, const rt_finding *finding)
 static void report(void *user, const rt_finding *finding)
 {
     reporting *r = user;
-    rt_place place = place_of(r->origins, finding);
+    rt_place place = place_of(r, finding);
     /* The iterations of a repeat are at one place: say once what is wrong there. */
     if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || finding->kind == RT_FINDING_OPEN_GLASS ||
         finding->other != RT_NONE) {
@@ -70,21 +109,22 @@ static void report(void *user, const rt_finding *finding)
         rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
                                    "sheet without refraction");
     } else if (finding->other != RT_NONE) {
-        const rt_place *other = &r->origins->shapes.items[finding->other];
+        const rt_place other = place_at(r->sources, &r->origins->shapes.items[finding->other]);
         rt_report_hint(r->reports,
                        "the other is at %s:%d; give the material of one of them a higher priority",
-                       other->source->path, other->line);
+                       other.source->path, other.line);
     } else if (finding->shape != RT_NONE) {
-        const rt_place *solid = &r->origins->shapes.items[finding->shape];
-        rt_text word = rt_place_text(solid);
+        const rt_place solid = place_at(r->sources, &r->origins->shapes.items[finding->shape]);
+        rt_text word = rt_place_text(&solid);
         rt_report_hint(r->reports, "the %.*s is at %s:%d", (int)word.length, word.at,
-                       solid->source->path, solid->line);
+                       solid.source->path, solid.line);
     }
 }
 
-void rt_origins_report(const rt_origins *origins, const rt_scene *scene, rt_reports *reports)
+void rt_origins_report(const rt_origins *origins, const rt_sources *sources, const rt_scene *scene,
+                       rt_reports *reports)
 {
-    reporting r = {origins, reports, {NULL, 0, 0, 0, 0, 0}};
+    reporting r = {origins, sources, reports, {NULL, 0, 0, 0, 0, 0}};
     rt_scene_check(scene, report, &r);
 }
 

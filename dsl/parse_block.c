@@ -1,6 +1,7 @@
 /* parse_block.c - a block: its words, its braces and the fields between. */
 #include "dsl/parse_block.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "dsl/parse_entry.h"
@@ -28,6 +29,12 @@ static void hint_fields(rt_parser *parser, const rt_block *block)
     rt_report_hint(parser->reports, "the fields of %s are:%s", rt_block_title(title, block), list);
 }
 
+static void begin_entry(rt_entry *entry, const rt_field *field)
+{
+    memset(entry, 0, offsetof(rt_entry, values));
+    entry->field = field;
+}
+
 static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_place place)
 {
     const rt_block *block = statement->block;
@@ -51,8 +58,7 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
     const rt_field *meant = rt_schema_field(block, suggestion.best);
     if (!rt_statement_entry(statement, meant) && statement->entry_count < RT_ENTRIES_MAX) {
         rt_entry *entry = &statement->entries[statement->entry_count++];
-        memset(entry, 0, sizeof *entry);
-        entry->field = meant;
+        begin_entry(entry, meant);
         entry->name = place;
         entry->is_broken = 1;
     }
@@ -94,31 +100,30 @@ static void parse_field(rt_parser *parser, rt_statement *statement)
         parse_unknown_field(parser, statement);
         return;
     }
-    rt_entry entry;
-    memset(&entry, 0, sizeof entry);
-    entry.field = field;
-    entry.name = rt_parser_take(parser).place;
-    rt_parse_entry(parser, statement->block, &entry);
-    statement->is_broken |= entry.is_broken;
+    rt_entry *entry = &statement->entries[statement->entry_count];
+    begin_entry(entry, field);
+    entry->name = rt_parser_take(parser)->place;
+    rt_parse_entry(parser, statement->block, entry);
+    statement->is_broken |= entry->is_broken;
     /* it may have run over others */
-    statement->is_incomplete |= entry.is_broken && field->type == RT_FIELD_FILE;
+    statement->is_incomplete |= entry->is_broken && field->type == RT_FIELD_FILE;
 
     const rt_entry *earlier =
         rt_field_is_transform(field) ? NULL : rt_statement_entry(statement, field);
     if (!earlier && statement->entry_count < RT_ENTRIES_MAX) {
-        statement->entries[statement->entry_count++] = entry;
+        statement->entry_count++;
         return;
     }
     if (!earlier) {
         if (statement->entry_count == RT_ENTRIES_MAX && !statement->is_incomplete)
-            rt_report_error(parser->reports, entry.name, "a block holds at most %d fields",
+            rt_report_error(parser->reports, entry->name, "a block holds at most %d fields",
                             RT_ENTRIES_MAX);
         statement->is_broken = statement->is_incomplete = 1;
         return;
     }
     statement->is_broken = 1;
     if (rt_text_equal(rt_place_text(&earlier->name), field->name)) { /* not a misspelt one */
-        rt_report_error(parser->reports, entry.name, "'%s' is given twice", field->name);
+        rt_report_error(parser->reports, entry->name, "'%s' is given twice", field->name);
         rt_report_hint(parser->reports, "first at line %d", earlier->name.line);
     }
 }
@@ -165,15 +170,14 @@ static void parse_body(rt_parser *parser, rt_statement *statement)
 static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
 {
     char found[RT_FOUND_SIZE], quote[RT_QUOTE_SIZE];
-    if (!rt_schema_has_kinds(word)) {
-        statement->block = rt_schema_find(word, NULL);
+    statement->block = rt_schema_find(word, NULL);
+    if (statement->block)
         return 1;
-    }
     const rt_token *token = rt_parser_peek(parser, 0);
     rt_text kind = text_of(token);
     statement->block = token->kind == RT_TOKEN_WORD ? rt_schema_find(word, &kind) : NULL;
     if (statement->block) {
-        statement->place = rt_place_join(statement->place, rt_parser_take(parser).place);
+        statement->place = rt_place_join(statement->place, rt_parser_take(parser)->place);
         return 1;
     }
 
@@ -200,14 +204,13 @@ static void parse_block_name(rt_parser *parser, rt_statement *statement)
 {
     char found[RT_FOUND_SIZE], title[RT_BLOCK_TITLE_SIZE];
     const rt_token *token = rt_parser_peek(parser, 0);
-    rt_block_title(title, statement->block);
     if (statement->block->flags & (RT_BLOCK_NAMED | RT_BLOCK_REFERS)) {
         if (token->kind == RT_TOKEN_WORD) {
             statement->name = rt_parser_take_word(parser, &statement->is_broken);
             return;
         }
-        rt_report_error(parser->reports, statement->place, "%s needs a name, found %s", title,
-                        rt_parser_found(found, token));
+        rt_report_error(parser->reports, statement->place, "%s needs a name, found %s",
+                        rt_block_title(title, statement->block), rt_parser_found(found, token));
         rt_report_hint(parser->reports, "as in: %s %s { ... }", title,
                        statement->block->id == RT_BLOCK_MATERIAL  ? "white"
                        : statement->block->id == RT_BLOCK_TEXTURE ? "wood"
@@ -216,8 +219,8 @@ static void parse_block_name(rt_parser *parser, rt_statement *statement)
         if (token->kind != '{' && rt_parser_peek(parser, 1)->kind == '{')
             rt_parser_take(parser);
     } else if (token->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 1)->kind == '{') {
-        rt_report_error(parser->reports, token->place, "%s takes no name, found %s", title,
-                        rt_parser_found(found, token));
+        rt_report_error(parser->reports, token->place, "%s takes no name, found %s",
+                        rt_block_title(title, statement->block), rt_parser_found(found, token));
         rt_parser_take(parser);
         statement->is_broken = 1;
     }
@@ -237,7 +240,7 @@ static int is_stray_opening(rt_parser *parser, const rt_block *block)
 int rt_parse_block(rt_parser *parser, rt_statement *statement)
 {
     char found[RT_FOUND_SIZE], title[RT_BLOCK_TITLE_SIZE];
-    rt_token word = rt_parser_take(parser);
+    rt_token word = *rt_parser_take(parser);
     statement->kind = RT_STATEMENT_BLOCK;
     statement->place = word.place;
     if (!parse_kind(parser, statement, rt_place_text(&word.place))) {

@@ -10,12 +10,21 @@
 #include "dsl/parse_expression.h"
 #include "dsl/suggest.h"
 
-/* A field, the block around it and how messages name it. */
+/* A field and the block around it. */
 typedef struct rt_context {
     const rt_block *block;
     rt_entry *entry;
-    char phrase[RT_PHRASE_SIZE]; /* what the field takes */
 } rt_context;
+
+/* "three numbers": what a field takes, as messages say it. */
+typedef struct phrase {
+    char text[RT_PHRASE_SIZE];
+} phrase;
+
+static const char *phrase_of(phrase *out, const rt_context *context)
+{
+    return rt_field_phrase(out->text, sizeof out->text, context->entry->field);
+}
 
 static const char *count_word(int count)
 {
@@ -46,10 +55,12 @@ static int is_constant(const rt_parser *parser, const rt_token *token)
 static int is_value(rt_parser *parser, const rt_block *block)
 {
     const rt_token *token = rt_parser_peek(parser, 0);
+    if (token->kind != RT_TOKEN_WORD)
+        return token->kind == RT_TOKEN_NUMBER || token->kind == '(' || token->kind == '[' ||
+               token->kind == '-';
     if (rt_parser_call_follows(parser) && rt_function_find(rt_place_text(&token->place)) >= 0)
         return 1;
-    return token->kind == RT_TOKEN_NUMBER || token->kind == '(' || token->kind == '[' ||
-           token->kind == '-' || (is_constant(parser, token) && !is_field(block, token));
+    return !is_field(block, token) && is_constant(parser, token);
 }
 
 static int is_near_field(const rt_block *block, const rt_token *token)
@@ -145,6 +156,7 @@ static void skip_separators(rt_parser *parser, rt_context *context)
 
 static void report_count(rt_parser *parser, const rt_context *context)
 {
+    phrase taken;
     const rt_entry *entry = context->entry;
     const rt_token *token = rt_parser_peek(parser, 0);
     char found[RT_FOUND_SIZE];
@@ -153,11 +165,11 @@ static void report_count(rt_parser *parser, const rt_context *context)
     if (entry->value_count > 0) {
         rt_place place = rt_place_join(entry->name, entry->values[entry->value_count - 1].place);
         rt_report_error(parser->reports, place, "'%s' takes %s, found %s", entry->field->name,
-                        context->phrase, count_word(entry->value_count));
+                        phrase_of(&taken, context), count_word(entry->value_count));
         return;
     }
     rt_report_error(parser->reports, entry->name, "'%s' takes %s, found %s", entry->field->name,
-                    context->phrase, rt_parser_found(found, token));
+                    phrase_of(&taken, context), rt_parser_found(found, token));
     if (is_constant(parser, token)) {
         rt_report_hint(parser->reports,
                        "write the constant in parentheses to tell it from the field");
@@ -168,6 +180,7 @@ static void report_count(rt_parser *parser, const rt_context *context)
 /* Checks the number and the kinds of the values of an entry without errors so far. */
 static void check_values(rt_parser *parser, const rt_context *context)
 {
+    phrase taken;
     rt_entry *entry = context->entry;
     rt_field_type type = entry->field->type;
     int is_triple = numbers_of(type) == 3, is_grey = takes_one(type) && entry->value_count == 1;
@@ -176,7 +189,7 @@ static void check_values(rt_parser *parser, const rt_context *context)
             !(type == RT_FIELD_ROTATE && i == 0)) {
             rt_report_error(parser->reports, entry->values[i].place,
                             "'%s' takes %s, found a vector", entry->field->name,
-                            is_triple ? "three numbers or one vector" : context->phrase);
+                            is_triple ? "three numbers or one vector" : phrase_of(&taken, context));
             entry->is_broken = 1;
             return;
         }
@@ -191,6 +204,7 @@ static void check_values(rt_parser *parser, const rt_context *context)
  */
 static void check_end(rt_parser *parser, const rt_context *context)
 {
+    phrase taken;
     rt_entry *entry = context->entry;
     const rt_token *token = rt_parser_peek(parser, 0);
     char found[RT_FOUND_SIZE];
@@ -201,7 +215,8 @@ static void check_end(rt_parser *parser, const rt_context *context)
             rt_report_hint(parser->reports, "write arithmetic in parentheses, as in (2 * 3)");
     } else if (is_value(parser, context->block) || token->kind == RT_TOKEN_STRING) {
         rt_report_error(parser->reports, token->place, "'%s' takes %s, found one more: %s",
-                        entry->field->name, context->phrase, rt_parser_found(found, token));
+                        entry->field->name, phrase_of(&taken, context),
+                        rt_parser_found(found, token));
     } else {
         return;
     }
@@ -246,6 +261,7 @@ static int is_known_word(const rt_parser *parser, const rt_field *field, rt_text
 
 static void parse_word(rt_parser *parser, rt_context *context)
 {
+    phrase taken;
     rt_entry *entry = context->entry;
     char found[RT_FOUND_SIZE];
     skip_separators(parser, context);
@@ -270,7 +286,7 @@ static void parse_word(rt_parser *parser, rt_context *context)
     if (!entry->is_broken &&
         token->kind != RT_TOKEN_END) /* else the block is reported as not closed */
         rt_report_error(parser->reports, is_missing ? entry->name : token->place,
-                        "'%s' takes %s, found %s", entry->field->name, context->phrase,
+                        "'%s' takes %s, found %s", entry->field->name, phrase_of(&taken, context),
                         rt_parser_found(found, token));
     entry->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
@@ -304,12 +320,13 @@ static void parse_count(rt_parser *parser, rt_context *context)
 
 static void parse_string(rt_parser *parser, rt_context *context)
 {
+    phrase taken;
     rt_entry *entry = context->entry;
     char found[RT_FOUND_SIZE];
     skip_separators(parser, context);
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind == RT_TOKEN_STRING) {
-        rt_token string = rt_parser_take(parser);
+        rt_token string = *rt_parser_take(parser);
         entry->is_broken |= string.is_broken;
         entry->word = string.place;
         entry->word.offset++;
@@ -322,7 +339,7 @@ static void parse_string(rt_parser *parser, rt_context *context)
     int is_missing = token->kind == '}' || is_field(context->block, token);
     if (!entry->is_broken && token->kind != RT_TOKEN_END)
         rt_report_error(parser->reports, is_missing ? entry->name : token->place,
-                        "'%s' takes %s, found %s", entry->field->name, context->phrase,
+                        "'%s' takes %s, found %s", entry->field->name, phrase_of(&taken, context),
                         rt_parser_found(found, token));
     if (!entry->is_broken && !is_missing && token->kind == RT_TOKEN_WORD)
         rt_report_hint(parser->reports, "file names stand in double quotes");
@@ -339,10 +356,7 @@ static void parse_string(rt_parser *parser, rt_context *context)
 
 void rt_parse_entry(rt_parser *parser, const rt_block *block, rt_entry *entry)
 {
-    rt_context context;
-    context.block = block;
-    context.entry = entry;
-    rt_field_phrase(context.phrase, sizeof context.phrase, entry->field);
+    rt_context context = {block, entry};
     switch (entry->field->type) {
     case RT_FIELD_BOOLEAN:
     case RT_FIELD_CHOICE:

@@ -15,20 +15,27 @@
 #include "dsl/suggest.h"
 
 static int parse_sum(rt_parser *parser, int *is_vector);
+static int parse_signed_primary(rt_parser *parser, int *is_vector);
+static int parse_whole(rt_parser *parser, rt_expression *out, int (*parse)(rt_parser *, int *));
 
 static int add(rt_parser *parser, rt_operation_kind kind, rt_place place, double number,
                size_t constant)
 {
-    rt_operation operation = {kind, place, number, constant};
-    if (rt_operations_add(parser->operations, operation, parser->reports))
+    rt_operation *operation = rt_operations_add(parser->operations, parser->reports);
+    if (operation) {
+        operation->kind = kind;
+        operation->place = place;
+        operation->number = number;
+        operation->constant = constant;
         return 1;
+    }
     rt_report_error(parser->reports, place, "the expression is too long");
     return 0;
 }
 
 static int parse_number(rt_parser *parser, int *is_vector)
 {
-    rt_token token = rt_parser_take(parser);
+    rt_token token = *rt_parser_take(parser);
     parser->value_broken |= token.is_broken;
     *is_vector = 0;
     return add(parser, RT_OPERATION_NUMBER, token.place, token.number, 0);
@@ -57,7 +64,7 @@ static void report_unknown_constant(rt_parser *parser, rt_place place)
 
 static int parse_constant(rt_parser *parser, int *is_vector)
 {
-    rt_place place = rt_parser_take(parser).place;
+    rt_place place = rt_parser_take(parser)->place;
     size_t found = rt_names_find(&parser->scope->constants, rt_place_text(&place));
     *is_vector = 0;
     if (found == RT_NAME_NONE && rt_text_equal(rt_place_text(&place), "pi"))
@@ -76,7 +83,7 @@ static int parse_constant(rt_parser *parser, int *is_vector)
 
 static int open_bracket(rt_parser *parser, rt_place *open)
 {
-    *open = rt_parser_take(parser).place;
+    *open = rt_parser_take(parser)->place;
     if (++parser->depth <= RT_NESTING_MAX)
         return 1;
     rt_report_error(parser->reports, *open, "parentheses are nested deeper than %d",
@@ -125,7 +132,7 @@ static void report_unknown_function(rt_parser *parser, rt_place place)
 /* The function's name comes next, and its '(' touches it. */
 static int parse_call(rt_parser *parser, int *is_vector)
 {
-    rt_place place = rt_parser_take(parser).place, open;
+    rt_place place = rt_parser_take(parser)->place, open;
     int function = rt_function_find(rt_place_text(&place)), given = 0, is_more = 1;
     *is_vector = 0;
     if (function < 0)
@@ -182,7 +189,7 @@ static int parse_vector(rt_parser *parser, int *is_vector)
                             "a vector has three numbers, found %d", i);
             return 0;
         }
-        if (!rt_parse_value(parser, &component))
+        if (!parse_whole(parser, &component, parse_signed_primary))
             return 0;
         if (component.is_vector && !component.is_broken) {
             rt_report_error(parser->reports, component.place, "expected a number, found a vector");
@@ -236,7 +243,7 @@ static int parse_product(rt_parser *parser, int *is_vector)
         int kind = rt_parser_peek(parser, 0)->kind, right_is_vector;
         if (kind != '*' && kind != '/')
             return 1;
-        rt_place place = rt_parser_take(parser).place;
+        rt_place place = rt_parser_take(parser)->place;
         if (!parse_factor(parser, &right_is_vector))
             return 0;
         *is_vector |= right_is_vector;
@@ -253,7 +260,7 @@ static int parse_sum(rt_parser *parser, int *is_vector)
         int kind = rt_parser_peek(parser, 0)->kind, right_is_vector;
         if (kind != '+' && kind != '-')
             return 1;
-        rt_place place = rt_parser_take(parser).place;
+        rt_place place = rt_parser_take(parser)->place;
         if (!parse_product(parser, &right_is_vector))
             return 0;
         *is_vector |= right_is_vector;
@@ -272,7 +279,7 @@ static int parse_whole(rt_parser *parser, rt_expression *out, int (*parse)(rt_pa
     out->first = parser->operations->count;
     int parsed = parse(parser, &out->is_vector);
     out->count = parser->operations->count - out->first;
-    out->place = rt_place_join(out->place, parser->last);
+    out->place = rt_place_join(out->place, rt_parser_last(parser)->place);
     out->is_broken = !parsed || parser->value_broken;
     parser->value_broken |= outer_broken;
     return parsed;
@@ -289,8 +296,8 @@ static int parse_signed_primary(rt_parser *parser, int *is_vector)
 {
     if (rt_parser_peek(parser, 0)->kind != '-')
         return parse_primary(parser, is_vector);
-    int opens = parser->last_kind == '[';
-    rt_token minus = rt_parser_take(parser);
+    int opens = rt_parser_last(parser)->kind == '[';
+    rt_token minus = *rt_parser_take(parser);
     if ((!minus.space_before && !opens) || rt_parser_peek(parser, 0)->space_before) {
         rt_report_error(parser->reports, minus.place,
                         "this '-' is neither a sign nor inside parentheses");
@@ -302,5 +309,15 @@ static int parse_signed_primary(rt_parser *parser, int *is_vector)
 
 int rt_parse_value(rt_parser *parser, rt_expression *out)
 {
+    if (rt_parser_peek(parser, 0)->kind == RT_TOKEN_NUMBER) {
+        const rt_token *token = rt_parser_take(parser);
+        out->place = token->place;
+        out->count = 0;
+        out->number = token->number;
+        out->is_vector = 0;
+        out->is_broken = token->is_broken;
+        parser->value_broken |= token->is_broken;
+        return 1;
+    }
     return parse_whole(parser, out, parse_signed_primary);
 }

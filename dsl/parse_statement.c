@@ -15,7 +15,7 @@ static int parse_let(rt_parser *parser, rt_statement *statement)
 {
     char found[RT_FOUND_SIZE], quote[RT_QUOTE_SIZE];
     statement->kind = RT_STATEMENT_LET;
-    statement->place = rt_parser_take(parser).place;
+    statement->place = rt_parser_take(parser)->place;
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind != RT_TOKEN_WORD || token->first_on_line) {
         rt_report_error(parser->reports, statement->place, "expected a name after 'let', found %s",
@@ -60,7 +60,7 @@ static int parse_include(rt_parser *parser, rt_statement *statement)
 {
     char found[RT_FOUND_SIZE];
     statement->kind = RT_STATEMENT_INCLUDE;
-    statement->place = rt_parser_take(parser).place;
+    statement->place = rt_parser_take(parser)->place;
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind != RT_TOKEN_STRING) {
         rt_report_error(parser->reports, statement->place,
@@ -71,7 +71,7 @@ static int parse_include(rt_parser *parser, rt_statement *statement)
             rt_parser_skip_statement(parser);
         return 0;
     }
-    rt_token path = rt_parser_take(parser);
+    rt_token path = *rt_parser_take(parser);
     statement->is_broken = path.is_broken;
     statement->path = path.place;
     statement->path.offset++;
@@ -108,7 +108,7 @@ static int parse_repeat(rt_parser *parser, rt_statement *statement)
 {
     char found[RT_FOUND_SIZE];
     statement->kind = RT_STATEMENT_REPEAT;
-    statement->place = rt_parser_take(parser).place;
+    statement->place = rt_parser_take(parser)->place;
     const rt_token *token = rt_parser_peek(parser, 0);
     if (token->kind != RT_TOKEN_WORD || token->first_on_line) {
         rt_report_error(parser->reports, statement->place,
@@ -200,7 +200,7 @@ int rt_parse_statement(rt_parser *parser, rt_statement *statement)
             understood = parse_repeat(parser, statement);
         } else if (token->kind == '}' && parser->repeats > 0) {
             statement->kind = RT_STATEMENT_END;
-            statement->place = rt_parser_take(parser).place;
+            statement->place = rt_parser_take(parser)->place;
             parser->repeats--;
             understood = 1;
         } else if (token->kind == RT_TOKEN_WORD &&

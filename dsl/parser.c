@@ -19,23 +19,6 @@ void rt_parser_begin(rt_parser *parser, const rt_source *source, rt_reports *rep
     parser->scope = scope;
 }
 
-const rt_token *rt_parser_peek(rt_parser *parser, int n)
-{
-    while (parser->ahead_count <= n)
-        parser->ahead[parser->ahead_count++] = rt_lexer_next(&parser->lexer);
-    return &parser->ahead[n];
-}
-
-rt_token rt_parser_take(rt_parser *parser)
-{
-    rt_token token = *rt_parser_peek(parser, 0);
-    parser->ahead_count--;
-    memmove(parser->ahead, parser->ahead + 1, (size_t)parser->ahead_count * sizeof *parser->ahead);
-    parser->last_kind = token.kind;
-    parser->last = token.place;
-    return token;
-}
-
 const char *rt_parser_found(char out[RT_FOUND_SIZE], const rt_token *token)
 {
     if (token->kind == RT_TOKEN_END)
@@ -54,7 +37,7 @@ const char *rt_parser_found(char out[RT_FOUND_SIZE], const rt_token *token)
 rt_place rt_parser_expected_place(rt_parser *parser)
 {
     const rt_token *token = rt_parser_peek(parser, 0);
-    rt_place place = parser->last;
+    rt_place place = rt_parser_last(parser)->place;
     if (!token->first_on_line || !place.source)
         return token->place;
     place.offset += (size_t)place.length;
@@ -74,7 +57,7 @@ int rt_parser_hint_operator(rt_parser *parser, const rt_token *token)
 
 rt_place rt_parser_take_hyphenated(rt_parser *parser, int *is_joined)
 {
-    rt_place place = rt_parser_take(parser).place;
+    rt_place place = rt_parser_take(parser)->place;
     *is_joined = 0;
     for (;;) {
         const rt_token *hyphen = rt_parser_peek(parser, 0);
@@ -84,7 +67,7 @@ rt_place rt_parser_take_hyphenated(rt_parser *parser, int *is_joined)
         if ((next->kind != RT_TOKEN_WORD && next->kind != RT_TOKEN_NUMBER) || next->space_before)
             break;
         rt_parser_take(parser);
-        place = rt_place_join(place, rt_parser_take(parser).place);
+        place = rt_place_join(place, rt_parser_take(parser)->place);
         *is_joined = 1;
     }
     return place;
@@ -102,11 +85,6 @@ rt_place rt_parser_take_word(rt_parser *parser, int *is_broken)
         rt_report_hint(parser->reports, "names hold letters, digits and '_', no '-'");
     }
     return place;
-}
-
-int rt_token_is_word(const rt_token *token, const char *word)
-{
-    return token->kind == RT_TOKEN_WORD && rt_text_equal(rt_place_text(&token->place), word);
 }
 
 int rt_parser_call_follows(rt_parser *parser)
@@ -158,11 +136,10 @@ int rt_parser_statement_follows(rt_parser *parser)
     if (rt_token_is_word(word, "repeat"))
         return rt_parser_peek(parser, 1)->kind == RT_TOKEN_WORD &&
                rt_token_is_word(rt_parser_peek(parser, 2), "from");
-    if (!rt_schema_is_block(rt_place_text(&word->place)))
-        return 0;
     const rt_token *next = rt_parser_peek(parser, 1);
-    return next->kind == '{' ||
-           (next->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 2)->kind == '{');
+    return (next->kind == '{' ||
+            (next->kind == RT_TOKEN_WORD && rt_parser_peek(parser, 2)->kind == '{')) &&
+           rt_schema_is_block(rt_place_text(&word->place));
 }
 
 void rt_parser_skip_braces(rt_parser *parser)
@@ -190,7 +167,7 @@ void rt_parser_skip_statement(rt_parser *parser)
             rt_parser_skip_braces(parser);
             return;
         }
-        if (rt_parser_take(parser).kind == '}')
+        if (rt_parser_take(parser)->kind == '}')
             return;
     }
 }
@@ -214,7 +191,7 @@ void rt_parser_skip_repeat(rt_parser *parser)
 {
     int depth = 1;
     while (depth > 0 && rt_parser_peek(parser, 0)->kind != RT_TOKEN_END) {
-        int kind = rt_parser_take(parser).kind;
+        int kind = rt_parser_take(parser)->kind;
         depth += (kind == '{') - (kind == '}');
     }
     parser->repeats--;

@@ -13,15 +13,16 @@
 #include "dsl/schema.h"
 #include "dsl/scope.h"
 
+#define RT_TOKENS_AHEAD 4u /* a power of two: three that are looked at, and the latest taken */
+
 typedef struct rt_parser {
     rt_lexer lexer;
     rt_reports *reports;
     rt_operations *operations; /* of the current statement */
     const rt_scope *scope;
-    rt_token ahead[3];
+    rt_token ahead[RT_TOKENS_AHEAD]; /* a ring */
+    unsigned first_ahead;            /* of it, counted on and on */
     int ahead_count;
-    int last_kind;    /* kind of the latest token taken */
-    rt_place last;    /* and its place */
     int depth;        /* parentheses and brackets open */
     int repeats;      /* whose '}' is still to come */
     int value_broken; /* the expression being parsed has an error that does not stop parsing */
@@ -42,8 +43,28 @@ void rt_parser_skip_repeat(rt_parser *parser);
 /* ---- Tokens and words ------------------------------------------------------ */
 
 /* Looks n tokens ahead, n from 0 to 2; takes the next token. */
-const rt_token *rt_parser_peek(rt_parser *parser, int n);
-rt_token rt_parser_take(rt_parser *parser);
+static inline const rt_token *rt_parser_peek(rt_parser *parser, int n)
+{
+    for (; parser->ahead_count <= n; parser->ahead_count++)
+        rt_lexer_next(&parser->lexer,
+                      &parser->ahead[(parser->first_ahead + (unsigned)parser->ahead_count) %
+                                     RT_TOKENS_AHEAD]);
+    return &parser->ahead[(parser->first_ahead + (unsigned)n) % RT_TOKENS_AHEAD];
+}
+
+/* The latest token taken, until the next is; all zero before the first. */
+static inline const rt_token *rt_parser_last(const rt_parser *parser)
+{
+    return &parser->ahead[(parser->first_ahead - 1) % RT_TOKENS_AHEAD];
+}
+
+static inline const rt_token *rt_parser_take(rt_parser *parser)
+{
+    rt_parser_peek(parser, 0);
+    parser->first_ahead++;
+    parser->ahead_count--;
+    return rt_parser_last(parser);
+}
 
 /* "'radius'", "a string" or "the end of the file": a token as messages name it. */
 #define RT_FOUND_SIZE (RT_QUOTE_SIZE + 8)
@@ -68,7 +89,10 @@ rt_place rt_parser_take_hyphenated(rt_parser *parser, int *is_joined);
 rt_place rt_parser_take_word(rt_parser *parser, int *is_broken);
 
 /* Whether a token is this word. */
-int rt_token_is_word(const rt_token *token, const char *word);
+static inline int rt_token_is_word(const rt_token *token, const char *word)
+{
+    return token->kind == RT_TOKEN_WORD && rt_text_equal(rt_place_text(&token->place), word);
+}
 
 /* Whether the next tokens are a call: a word and, touching it, a parenthesis. */
 int rt_parser_call_follows(rt_parser *parser);

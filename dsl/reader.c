@@ -139,18 +139,18 @@ static void report_refusal(rt_reader *reader, const rt_statement *statement, con
 static int build(rt_reader *reader, const rt_statement *statement, const rt_block_fields *fields,
                  rt_build_name *as)
 {
-    rt_text text = statement->name.source ? rt_place_text(&statement->name) : (rt_text){"", 0};
-    char *name = malloc(text.length + 1);
-    if (!name) {
-        reader->reports.out_of_memory = 1;
-        return 0;
+    char *name = NULL;
+    if (statement->name.length > 0) {
+        rt_text text = rt_place_text(&statement->name);
+        name = rt_text_copy(text);
+        if (!name) {
+            reader->reports.out_of_memory = 1;
+            return 0;
+        }
     }
-    memcpy(name, text.at, text.length);
-    name[text.length] = '\0';
-
     rt_error error;
-    memset(&error, 0, sizeof error);
-    as->text = name;
+    error.file[0] = error.field[0] = error.message[0] = '\0';
+    as->text = name ? name : "";
     rt_status status = rt_build_block(reader->scene, statement->block, fields, as, &error);
     as->text = NULL;
     free(name);
@@ -438,7 +438,7 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
     if (reader->reports.errors == 0)
         rt_scope_warn(&reader->scope, &all, &reader->reports);
     if (reader->reports.errors == 0 && reader->options->check)
-        rt_origins_report(&reader->origins, reader->scene, &reader->reports);
+        rt_origins_report(&reader->origins, &reader->sources, reader->scene, &reader->reports);
     rt_status status = rt_reports_finish(&reader->reports, reader->options, error);
     if (status == RT_OK) {
         *out = reader->scene;

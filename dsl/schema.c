@@ -31,17 +31,7 @@ int rt_schema_is_block(rt_text word)
     return 0;
 }
 
-int rt_schema_has_kinds(rt_text word)
-{
-    const rt_block *block;
-    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++)
-        if (block->kind && rt_text_equal(word, block->word))
-            return 1;
-    return 0;
-}
-
-/* The index-th setting of `film`, or of `render`, which has all others; or NULL. */
-static const rt_field *setting_field(const rt_block *block, size_t index)
+const rt_field *rt_block_setting(const rt_block *block, size_t index)
 {
     size_t count;
     const rt_setting *settings = rt_settings(&count);
@@ -49,13 +39,6 @@ static const rt_field *setting_field(const rt_block *block, size_t index)
         if ((settings[i].topic == RT_TOPIC_FILM) == (block->id == RT_BLOCK_FILM) && index-- == 0)
             return &settings[i].field;
     return NULL;
-}
-
-const rt_field *rt_block_field(const rt_block *block, size_t index)
-{
-    if (!block->fields)
-        return setting_field(block, index);
-    return index < block->field_count ? &block->fields[index] : NULL;
 }
 
 const rt_field *rt_schema_field(const rt_block *block, rt_text name)

@@ -86,8 +86,16 @@ const rt_block *rt_schema_find(rt_text word, const rt_text *kind);
 int rt_schema_is_block(rt_text word);
 int rt_schema_has_kinds(rt_text word);
 
+/* The index-th setting of `film`, or of `render`, which has all others; or NULL. */
+const rt_field *rt_block_setting(const rt_block *block, size_t index);
+
 /* A block's fields, from 0 on; NULL behind the last. */
-const rt_field *rt_block_field(const rt_block *block, size_t index);
+static inline const rt_field *rt_block_field(const rt_block *block, size_t index)
+{
+    if (!block->fields)
+        return rt_block_setting(block, index);
+    return index < block->field_count ? &block->fields[index] : NULL;
+}
 
 /* The field of that name, or NULL. */
 const rt_field *rt_schema_field(const rt_block *block, rt_text name);

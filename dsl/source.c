@@ -9,12 +9,12 @@
 
 #define READ_CHUNK ((size_t)64 << 10)
 
-static char *copy_bytes(const char *bytes, size_t count)
+char *rt_text_copy(rt_text text)
 {
-    char *copy = malloc(count + 1);
+    char *copy = malloc(text.length + 1);
     if (copy) {
-        memcpy(copy, bytes, count);
-        copy[count] = '\0';
+        memcpy(copy, text.at, text.length);
+        copy[text.length] = '\0';
     }
     return copy;
 }
@@ -24,8 +24,8 @@ rt_source *rt_sources_add(rt_sources *sources, const char *path, const rt_source
     rt_source *source = calloc(1, sizeof *source);
     if (!source)
         return NULL;
-    source->path = copy_bytes(path, strlen(path));
-    source->text = copy_bytes("", 0);
+    source->path = rt_text_copy((rt_text){path, strlen(path)});
+    source->text = rt_text_copy((rt_text){"", 0});
     if (!source->path || !source->text) {
         free(source->path);
         free(source->text);
@@ -45,10 +45,10 @@ rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *tex
 {
     size_t size = strlen(text);
     if (size > RT_SOURCE_BYTES_MAX) {
-        *cause = "it is larger than 256 MiB";
+        *cause = "it is larger than 1 GiB";
         return RT_ERROR_INPUT;
     }
-    char *copy = copy_bytes(text, size);
+    char *copy = rt_text_copy((rt_text){text, size});
     if (!copy) {
         *cause = "memory is exhausted";
         return RT_ERROR_MEMORY;
@@ -56,6 +56,7 @@ rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *tex
     free(source->text);
     source->text = copy;
     source->size = size;
+    source->before = sources->bytes;
     sources->bytes += size;
     return RT_OK;
 }
@@ -73,14 +74,17 @@ static rt_status fail_errno(char *cause, size_t cause_size, int code)
     return RT_ERROR_INPUT;
 }
 
-/* Reads to the end of the file, at most `limit` bytes, growing the text as it comes. */
-static rt_status read_all(rt_source *source, FILE *file, size_t limit, char *cause,
+/*
+ * Reads to the end of the file, or to what shows that it is no text; at most `limit` bytes, growing
+ * the text as it comes beyond the `expected` ones.
+ */
+static rt_status read_all(rt_source *source, FILE *file, size_t expected, size_t limit, char *cause,
                           size_t cause_size)
 {
     size_t capacity = 0;
     for (;;) {
         if (capacity - source->size < READ_CHUNK + 1) {
-            capacity = capacity ? 2 * capacity : 2 * READ_CHUNK;
+            capacity = capacity ? 2 * capacity : expected + 2 * READ_CHUNK;
             char *grown = realloc(source->text, capacity);
             if (!grown)
                 return fail(cause, cause_size, RT_ERROR_MEMORY, "memory is exhausted");
@@ -92,10 +96,10 @@ static rt_status read_all(rt_source *source, FILE *file, size_t limit, char *cau
         source->text[source->size] = '\0';
         if (source->size > limit)
             return fail(cause, cause_size, RT_ERROR_INPUT,
-                        "the scene's files are larger than 256 MiB together");
+                        "the scene's files are larger than 1 GiB together");
         if (ferror(file))
             return fail_errno(cause, cause_size, code);
-        if (count == 0)
+        if (count == 0 || memchr(source->text + source->size - count, '\0', count))
             return RT_OK;
     }
 }
@@ -144,7 +148,10 @@ rt_status rt_source_read(rt_sources *sources, rt_source *source, char *cause, si
         status = fail(cause, cause_size, RT_ERROR_INPUT, "it would include itself");
         goto out;
     }
-    status = read_all(source, file, RT_SOURCE_BYTES_MAX - sources->bytes, cause, cause_size);
+    size_t limit = RT_SOURCE_BYTES_MAX - sources->bytes,
+           expected = S_ISREG(info.st_mode) ? (size_t)info.st_size : 0;
+    status = read_all(source, file, expected < limit ? expected : limit, limit, cause, cause_size);
+    source->before = sources->bytes;
     if (status == RT_OK)
         sources->bytes += source->size;
 out:
@@ -178,22 +185,11 @@ void rt_sources_free(rt_sources *sources)
     memset(sources, 0, sizeof *sources);
 }
 
-rt_text rt_place_text(const rt_place *place)
-{
-    rt_text text = {place->source->text + place->offset, (size_t)place->length};
-    return text;
-}
-
 rt_place rt_place_join(rt_place first, rt_place last)
 {
     if (first.line == last.line)
         first.length = last.column + last.length - first.column;
     return first;
-}
-
-int rt_text_equal(rt_text text, const char *word)
-{
-    return strlen(word) == text.length && memcmp(text.at, word, text.length) == 0;
 }
 
 const char *rt_text_quote(char out[RT_QUOTE_SIZE], rt_text text)

@@ -7,15 +7,16 @@
 
 #include "rt.h"
 
-#define RT_SOURCE_BYTES_MAX ((size_t)256 << 20) /* of all texts of a scene together */
-#define RT_SOURCE_COUNT_MAX 10000               /* texts of a scene */
-#define RT_SOURCE_DEPTH_MAX 32                  /* includes inside includes */
+#define RT_SOURCE_BYTES_MAX ((size_t)1 << 30) /* of all texts of a scene together, 1 GiB */
+#define RT_SOURCE_COUNT_MAX 10000             /* texts of a scene */
+#define RT_SOURCE_DEPTH_MAX 32                /* includes inside includes */
 
 /* One text: a file, or a string that the caller gave. It lives until the scene has been read. */
 typedef struct rt_source {
     char *path; /* as messages show it */
     char *text; /* size bytes, then a NUL */
     size_t size;
+    size_t before; /* bytes of all texts before it */
     /* what it names is relative to path; else to the current directory */
     int is_file;
     int depth;                        /* includes around it */
@@ -69,7 +70,11 @@ char *rt_source_resolve(const rt_source *source, rt_text name);
 void rt_sources_free(rt_sources *sources);
 
 /* The text that a place covers. */
-rt_text rt_place_text(const rt_place *place);
+static inline rt_text rt_place_text(const rt_place *place)
+{
+    rt_text text = {place->source->text + place->offset, (size_t)place->length};
+    return text;
+}
 
 /*
  * The place from the start of `first` to the end of `last`, or `first` alone when they are on
@@ -77,7 +82,16 @@ rt_text rt_place_text(const rt_place *place);
  */
 rt_place rt_place_join(rt_place first, rt_place last);
 
-int rt_text_equal(rt_text text, const char *word);
+static inline int rt_text_equal(rt_text text, const char *word)
+{
+    size_t i = 0;
+    while (i < text.length && word[i] == text.at[i] && word[i])
+        i++;
+    return i == text.length && word[i] == '\0';
+}
+
+/* A copy that ends with a NUL, to be freed; NULL without memory. */
+char *rt_text_copy(rt_text text);
 
 /* Room for any text that a message quotes. */
 #define RT_QUOTE_SIZE 64

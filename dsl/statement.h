@@ -11,9 +11,9 @@ typedef struct rt_entry {
     const rt_field *field;
     rt_place name;
     rt_place word; /* the word given, or the text of a string */
-    rt_expression values[RT_FIELD_VALUES_MAX];
     int value_count;
-    int is_broken; /* has an error already reported */
+    int is_broken;                             /* has an error already reported */
+    rt_expression values[RT_FIELD_VALUES_MAX]; /* last: only value_count are ever written */
 } rt_entry;
 
 typedef enum rt_statement_kind {
@@ -38,7 +38,11 @@ typedef struct rt_statement {
     int is_broken;     /* has an error already reported: not to be built */
     int is_incomplete; /* fields may be missing because of an error already reported */
     int entry_count;
-    rt_entry entries[RT_ENTRIES_MAX]; /* last: only the first entry_count are ever written */
+    /*
+     * last: only the first entry_count are ever written, and the one behind them, which is being
+     * parsed
+     */
+    rt_entry entries[RT_ENTRIES_MAX + 1];
 } rt_statement;
 
 /* The entry of a field in a block, or NULL. */

@@ -18,7 +18,7 @@ size_t rt_lights_count(const rt_scene *scene)
 {
     size_t count = scene->light_count;
     for (size_t i = 0; i < scene->shape_count; i++)
-        if (scene->shapes[i].emits)
+        if (scene->shapes[i].emission != RT_NONE)
             count += rt_scene_shape_primitives(scene, scene->shapes + i);
     return count;
 }
@@ -76,7 +76,7 @@ static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_
         class->light(light, scene, shape, primitive);
     else
         light->kind = RT_LIGHT_SHAPE;
-    for (int i = 0; i < 3 && rt_scene_is_mirrored(shape); i++)
+    for (int i = 0; i < 3 && rt_scene_is_mirrored(scene, shape); i++)
         light->normal[i] = -light->normal[i];
 }
 
@@ -87,7 +87,7 @@ static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_
 static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
                       size_t primitive, const float radiance[3])
 {
-    int two_sided = scene->materials[shape->surface.material].two_sided;
+    int two_sided = scene->materials[shape->material].two_sided;
     double area = rt_scene_primitive_area(scene, shape, primitive);
     uint32_t texture = rt_scene_emission_texture(scene, shape);
     float shown[3];
@@ -133,7 +133,7 @@ double rt_lights_fill(const rt_scene *scene, const rt_u32 *first_prim, double ra
         const rt_scene_shape *shape = scene->shapes + i;
         float radiance[3];
         first_light[i] = RT_NONE;
-        if (!shape->emits)
+        if (shape->emission == RT_NONE)
             continue;
         rt_scene_shape_radiance(scene, shape, radiance);
         first_light[i] = (rt_u32)count;

@@ -38,11 +38,11 @@ static rt_status list_mesh(rt_hierarchy *h, rt_bvh_mesh *out, const rt_scene *sc
     return status;
 }
 
-static void list_quad(rt_bvh_quad *quad, const rt_scene_shape *shape, rt_u32 prim)
+static void list_quad(rt_bvh_quad *quad, const float *p, rt_u32 prim)
 {
-    memcpy(quad->corner, shape->p, sizeof quad->corner);
-    memcpy(quad->edge1, shape->p + 3, sizeof quad->edge1);
-    memcpy(quad->edge2, shape->p + 6, sizeof quad->edge2);
+    memcpy(quad->corner, p, sizeof quad->corner);
+    memcpy(quad->edge1, p + 3, sizeof quad->edge1);
+    memcpy(quad->edge2, p + 6, sizeof quad->edge2);
     quad->prim = prim;
 }
 
@@ -78,7 +78,8 @@ static rt_status list_shapes(rt_hierarchy *h, rt_bvh_input *input, const rt_scen
                     list_mesh(h, h->meshes + input->mesh_count++, scene, i, first_prim[i], error);
             break;
         case RT_STORED_QUAD:
-            list_quad(h->quads + input->quad_count++, shape, first_prim[i]);
+            list_quad(h->quads + input->quad_count++, rt_scene_parameters(scene, shape),
+                      first_prim[i]);
             break;
         case RT_STORED_ANALYTIC:
             list_leaf(h->analytic + input->analytic_count++, shape, (rt_u32)i);

@@ -95,14 +95,14 @@ rt_status rt_pack_number(rt_packing *p, rt_error *error)
 
 /* ---- Shapes ---------------------------------------------------------------- */
 
-static void pack_transform(rt_transform_data *out, const rt_affine *to_world)
+static void pack_transform(rt_transform_data *out, rt_affine to_world)
 {
     rt_affine inverse;
     /* there is one: that was checked when the shape was added */
-    rt_affine_inverse(&inverse, to_world);
+    rt_affine_inverse(&inverse, &to_world);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
-            out->to_world[i][j] = (float)to_world->m[i][j];
+            out->to_world[i][j] = (float)to_world.m[i][j];
             out->to_object[i][j] = (float)inverse.m[i][j];
         }
 }
@@ -156,21 +156,21 @@ static int is_flat(const rt_shape *shape)
 static void pack_shape(const rt_packing *p, rt_shape *out, size_t index)
 {
     const rt_scene_shape *shape = p->scene->shapes + index;
-    const rt_surface *surface = &shape->surface;
+    const float *parameters = rt_scene_parameters(p->scene, shape);
     out->kind = shape->kind;
-    out->material = surface->material;
+    out->material = shape->material;
     out->first_prim = p->first_prim[index];
     out->prim_count = (rt_u32)rt_scene_shape_primitives(p->scene, shape);
     out->first_light = p->first_light[index];
     out->transform = p->shapes[index].transform;
     out->texture =
-        surface->texture && !rt_surface_has_light(surface) ? surface->texture - 1 : RT_NONE;
+        shape->texture && !rt_scene_has_own_light(p->scene, shape) ? shape->texture - 1 : RT_NONE;
     out->flags = shape->caps ? RT_SHAPE_CAPS : 0;
-    memcpy(out->p, shape->p, sizeof out->p);
+    memcpy(out->p, parameters, parameters == shape->p ? sizeof shape->p : sizeof out->p);
     if (shape->kind == RT_SHAPE_TRIANGLES)
         pack_mesh(p, out, shape, p->shapes[index].normal);
     if ((out->kind == RT_SHAPE_TRIANGLES || out->kind == RT_SHAPE_QUAD) &&
-        rt_scene_is_mirrored(shape))
+        rt_scene_is_mirrored(p->scene, shape))
         out->flags |= RT_SHAPE_MIRRORED;
     if (is_varied(p->scene, out))
         out->flags |= RT_SHAPE_VARIED;
@@ -193,7 +193,8 @@ void rt_pack_shapes(const rt_packing *p)
     for (size_t i = 0; i < p->scene->shape_count; i++) {
         pack_shape(p, out + i, i);
         if (out[i].transform != RT_NONE)
-            pack_transform(transforms + out[i].transform, &p->scene->shapes[i].to_world);
+            pack_transform(transforms + out[i].transform,
+                           rt_scene_to_world(p->scene, p->scene->shapes + i));
         for (rt_u32 k = 0; k < out[i].prim_count; k++)
             prim_shape[out[i].first_prim + k] = (rt_u32)i;
         if (out[i].kind == RT_SHAPE_PLANE)
@@ -242,11 +243,12 @@ static void pack_placed_normals(const rt_packing *p)
     for (size_t i = 0; i < p->scene->shape_count; i++) {
         const rt_scene_shape *shape = p->scene->shapes + i;
         rt_u32 first = p->shapes[i].normal;
-        rt_affine inverse;
+        rt_affine inverse, to_world;
         if (shape->kind != RT_SHAPE_TRIANGLES || first == RT_NONE ||
             first == p->meshes[shape->mesh].normal)
             continue;
-        rt_affine_inverse(&inverse, &shape->to_world);
+        to_world = rt_scene_to_world(p->scene, shape);
+        rt_affine_inverse(&inverse, &to_world);
         pack_normals(normals + first, p->scene->meshes + shape->mesh);
         map_normals(normals + first, p->scene->meshes[shape->mesh].vertex_count, &inverse);
     }

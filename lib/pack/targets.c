@@ -17,7 +17,7 @@ static const double slack = 1e-5;
  */
 static int is_specular(const rt_scene *scene, const rt_scene_shape *shape)
 {
-    const rt_material *m = scene->materials + shape->surface.material;
+    const rt_material *m = scene->materials + shape->material;
     int is_shiny = !rt_is_black(m->ks) || !rt_is_black(m->kt);
     return is_shiny && (m->roughness < RT_SMOOTH_ALPHA || rt_material_is_transparent(m));
 }

@@ -22,7 +22,7 @@ typedef struct extent {
     unsigned faces;      /* RT_FACES_* */
     int is_transparent;
     rt_u32 shape;
-    const rt_scene_shape *source;
+    const float *p; /* of a plane, as rt_shape.p */
 } extent;
 
 /* ---- Errors of surfaces ------------------------------------------------------- */
@@ -66,12 +66,13 @@ static double norm(const rt_affine *a)
  * Of a shape placed by a transform, whose points are within `reach` of the origin of object space,
  * where their error is `error`: place_surface.
  */
-static double error_of_placed(const rt_scene_shape *shape, double reach, double error)
+static double error_of_placed(const rt_scene *scene, const rt_scene_shape *shape, double reach,
+                              double error)
 {
-    rt_affine inverse;
-    if (!rt_affine_inverse(&inverse, &shape->to_world))
+    rt_affine inverse, to_world = rt_scene_to_world(scene, shape);
+    if (!rt_affine_inverse(&inverse, &to_world))
         return 0;
-    double scale = norm(&shape->to_world), condition = scale * norm(&inverse);
+    double scale = norm(&to_world), condition = scale * norm(&inverse);
     double mapping = 18 * scale * reach + 6 * largest_coordinate(shape->lo, shape->hi);
     return scale * error + unit_roundoff * condition * mapping;
 }
@@ -82,7 +83,7 @@ static double error_of(const rt_scene *scene, const rt_scene_shape *shape)
     case RT_STORED_MESH:
         if (rt_scene_is_instance(scene, shape)) {
             const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
-            return error_of_placed(shape, 2 * largest_coordinate(mesh->lo, mesh->hi),
+            return error_of_placed(scene, shape, 2 * largest_coordinate(mesh->lo, mesh->hi),
                                    error_of_triangles(mesh->lo, mesh->hi));
         }
         return error_of_triangles(shape->lo, shape->hi);
@@ -91,7 +92,7 @@ static double error_of(const rt_scene *scene, const rt_scene_shape *shape)
     case RT_STORED_ANALYTIC:
         if (shape->kind == RT_SHAPE_SPHERE)
             return error_of_triangles(shape->lo, shape->hi);
-        return error_of_placed(shape, 2, 16 * unit_roundoff);
+        return error_of_placed(scene, shape, 2, 16 * unit_roundoff);
     case RT_STORED_INFINITE:
         break;
     }
@@ -103,7 +104,7 @@ static double error_of_plane(const extent *plane, const extent *at)
 {
     double reach = 0;
     for (int i = 0; i < 3; i++)
-        reach += fabs(plane->source->p[i]) + fmax(fabs(at->lo[i]), fabs(at->hi[i]));
+        reach += fabs(plane->p[i]) + fmax(fabs(at->lo[i]), fabs(at->hi[i]));
     return 9 * unit_roundoff * reach;
 }
 
@@ -115,14 +116,14 @@ static extent extent_of(const rt_scene *scene, rt_u32 index)
     extent out = {.error = error_of(scene, shape),
                   .faces = rt_shape_class_of(shape->kind)->faces,
                   .shape = index,
-                  .source = shape};
+                  .p = rt_scene_parameters(scene, shape)};
     if ((out.faces & RT_FACES_FRUSTUM) && !shape->caps)
         out.faces = RT_FACES_FRUSTUM;
     for (int i = 0; i < 3; i++) {
         out.lo[i] = shape->lo[i] - out.error;
         out.hi[i] = shape->hi[i] + out.error;
     }
-    out.is_transparent = rt_material_is_transparent(scene->materials + shape->surface.material);
+    out.is_transparent = rt_material_is_transparent(scene->materials + shape->material);
     return out;
 }
 
@@ -150,7 +151,7 @@ static void touch(const rt_packing *p, const extent *a, const extent *b)
 
 static void touch_plane(const rt_packing *p, const extent *plane, const extent *b)
 {
-    const float *point = plane->source->p, *normal = point + 4;
+    const float *point = plane->p, *normal = point + 4;
     double distance = 0, half = 0, error = error_of_plane(plane, b);
     if (!may_share_faces(plane, b))
         return;
@@ -171,7 +172,7 @@ static void touch_planes(const rt_packing *p, const extent *a, const extent *b)
     if (!may_share_faces(a, b))
         return;
     for (int i = 0; i < 3; i++)
-        apart += a->source->p[4 + i] * ((double)b->source->p[i] - a->source->p[i]);
+        apart += a->p[4 + i] * ((double)b->p[i] - a->p[i]);
     if (fabs(apart) > error)
         return;
     note(p, a, error);

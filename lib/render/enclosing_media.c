@@ -12,7 +12,7 @@
 static int has_solids(const rt_scene *scene)
 {
     for (size_t i = 0; i < scene->shape_count; i++)
-        if (rt_material_is_transparent(scene->materials + scene->shapes[i].surface.material))
+        if (rt_material_is_transparent(scene->materials + scene->shapes[i].material))
             return 1;
     return 0;
 }

@@ -109,7 +109,7 @@ int rt_scene_has_light(const rt_scene *scene)
         if (!rt_is_black(scene->lights[i].emission))
             return 1;
     for (size_t i = 0; i < scene->shape_count; i++)
-        if (scene->shapes[i].emits)
+        if (scene->shapes[i].emission != RT_NONE)
             return 1;
     return 0;
 }
@@ -127,7 +127,7 @@ int rt_scene_casts_hidden_caustics(const rt_scene *scene)
 {
     int casts = 0, shows = 0;
     for (size_t i = 0; i < scene->shape_count; i++) {
-        const rt_material *m = scene->materials + scene->shapes[i].surface.material;
+        const rt_material *m = scene->materials + scene->shapes[i].material;
         casts |= m->roughness < RT_SMOOTH_ALPHA && !(rt_is_black(m->ks) && rt_is_black(m->kt));
         shows |= !rt_is_black(m->kd);
     }

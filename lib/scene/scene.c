@@ -29,6 +29,8 @@ void rt_scene_destroy(rt_scene *scene)
     free(scene->materials);
     free(scene->meshes);
     free(scene->shapes);
+    free(scene->emissions);
+    free(scene->placements);
     free(scene->lights);
     free(scene);
 }
@@ -66,6 +68,6 @@ void rt_scene_get_info(const rt_scene *scene, rt_scene_info *out)
         int is_mesh = shape->kind == RT_SHAPE_TRIANGLES;
         out->triangles += is_mesh ? scene->meshes[shape->mesh].triangle_count : 0;
         out->primitives += is_mesh ? scene->meshes[shape->mesh].triangle_count : 1;
-        out->lights += shape->emits;
     }
+    out->lights += scene->emission_count;
 }

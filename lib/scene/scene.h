@@ -29,23 +29,44 @@ typedef struct rt_scene_mesh {
     size_t placed; /* shapes that place it and do not emit */
 } rt_scene_mesh;
 
-/* One shape as it was added. */
+/*
+ * One shape as it was added. A scene may hold very many, so what most of them lack stands in tables
+ * of its own.
+ */
 typedef struct rt_scene_shape {
-    rt_u32 kind; /* RT_SHAPE_*; a placed mesh is RT_SHAPE_TRIANGLES, instance or not */
-    rt_u32 mesh; /* triangles: which */
-    rt_surface surface;
-    int caps;
-    int emits;
+    uint8_t kind; /* RT_SHAPE_*; a placed mesh is RT_SHAPE_TRIANGLES, instance or not */
+    uint8_t caps, has_transform;
+    rt_u32 mesh;              /* triangles: which */
+    rt_u32 material, texture; /* as in rt_surface */
+    rt_u32 emission;          /* which of the emissions; RT_NONE: it does not emit */
+    rt_u32 placement;         /* which of the placements; RT_NONE: see rt_scene_to_world */
+    float p[4];               /* the first parameters, see rt_scene_parameters */
+    float lo[3], hi[3];       /* bounds, world space; not of a plane */
+} rt_scene_shape;
+
+/* What an emissive shape has besides. */
+typedef struct rt_scene_emission {
+    float radiance[3], power[3]; /* as in rt_surface */
     /*
      * of all, world space, m^2; infinite for a plane; of a placed mesh only where its power is
      * given
      */
     double area;
-    float p[9]; /* as rt_shape.p; quad: corner, edge1, edge2, in world space */
-    int has_transform;
+} rt_scene_emission;
+
+/* Where a shape is, unless its parameters say all. */
+typedef struct rt_scene_placement {
     rt_affine to_world; /* of the shape's own space, or of the mesh's */
-    float lo[3], hi[3]; /* bounds, world space; not of a plane */
-} rt_scene_shape;
+    float p[9];         /* planes and quads: see rt_scene_parameters */
+} rt_scene_placement;
+
+/* A shape that is being added. */
+typedef struct rt_new_shape {
+    rt_scene_shape shape; /* but for material, texture, emission and placement */
+    const rt_surface *surface;
+    rt_scene_placement placement;
+    double area;
+} rt_new_shape;
 
 /* A delta light, or the environment. */
 typedef struct rt_scene_light {
@@ -74,6 +95,10 @@ struct rt_scene {
     size_t mesh_count, mesh_room;
     rt_scene_shape *shapes;
     size_t shape_count, shape_room;
+    rt_scene_emission *emissions;
+    size_t emission_count, emission_room;
+    rt_scene_placement *placements;
+    size_t placement_count, placement_room;
     rt_scene_light *lights;
     size_t light_count, light_room;
     rt_scene_environment environment;
@@ -100,10 +125,9 @@ size_t rt_scene_shape_primitives(const rt_scene *scene, const rt_scene_shape *sh
 void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape, float radiance[3]);
 
 /*
- * Whether a surface brings radiance or power of its own; its texture then multiplies that, and not
- * kd.
+ * Whether a shape has radiance or power of its own; its texture then multiplies that, and not kd.
  */
-int rt_surface_has_light(const rt_surface *surface);
+int rt_scene_has_own_light(const rt_scene *scene, const rt_scene_shape *shape);
 
 /* The handle of the texture that multiplies that radiance, or 0. */
 uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *shape);
@@ -112,18 +136,31 @@ uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *
 void rt_scene_vertex(const rt_scene *scene, const rt_scene_shape *shape, size_t vertex,
                      float out[3]);
 
-/* Area of one primitive of a finite shape, m^2. */
+/*
+ * Area of a triangle of a mesh as a map places it, m^2, by its vertices as the hierarchy has them;
+ * to_world NULL: the identity.
+ */
+double rt_triangle_area(const rt_scene_mesh *mesh, size_t triangle, const rt_affine *to_world);
+
+/* Area of one primitive of a finite shape that emits, m^2. */
 double rt_scene_primitive_area(const rt_scene *scene, const rt_scene_shape *shape,
                                size_t primitive);
 
 /* Whether placing the shape turns its inside out, so that a product of its edges points inwards. */
-int rt_scene_is_mirrored(const rt_scene_shape *shape);
+int rt_scene_is_mirrored(const rt_scene *scene, const rt_scene_shape *shape);
+
+/* From the shape's own space, or the mesh's, to the world. */
+rt_affine rt_scene_to_world(const rt_scene *scene, const rt_scene_shape *shape);
 
 /*
- * Checks what all shapes share and appends. The shape's kind, p, to_world, area and bounds are set.
+ * The parameters of a shape, as rt_shape.p, of which the first four alone may be set; of a quad,
+ * corner, edge1 and edge2 in world space.
  */
-rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who,
-                             rt_error *error);
+const float *rt_scene_parameters(const rt_scene *scene, const rt_scene_shape *shape);
+
+/* Checks what all shapes share and appends. */
+rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, const rt_new_shape *added,
+                             const char *who, rt_error *error);
 
 /* The RT_LOBE_* that scatters a material's kd. */
 rt_u32 rt_material_diffuse_lobe(const rt_material *material);

@@ -16,7 +16,7 @@ enum { shapes_max = 0x3fffffff };
 
 int rt_scene_is_instance(const rt_scene *scene, const rt_scene_shape *shape)
 {
-    return shape->kind == RT_SHAPE_TRIANGLES && !shape->emits &&
+    return shape->kind == RT_SHAPE_TRIANGLES && shape->emission == RT_NONE &&
            scene->meshes[shape->mesh].placed > 1;
 }
 
@@ -27,64 +27,126 @@ size_t rt_scene_shape_primitives(const rt_scene *scene, const rt_scene_shape *sh
     return scene->meshes[shape->mesh].triangle_count;
 }
 
-int rt_scene_is_mirrored(const rt_scene_shape *shape)
+/* ---- Where a shape is --------------------------------------------------------- */
+
+/* Whether a shape has more parameters than it holds itself. */
+static int has_many_parameters(const rt_scene_shape *shape)
 {
-    return shape->has_transform && rt_affine_determinant(&shape->to_world) < 0;
+    rt_shape_storage storage = rt_shape_class_of(shape->kind)->storage;
+    return storage == RT_STORED_QUAD || storage == RT_STORED_INFINITE;
+}
+
+const float *rt_scene_parameters(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    return has_many_parameters(shape) ? scene->placements[shape->placement].p : shape->p;
+}
+
+/* Without a row, it is a mesh as it stands in its file, or a sphere that is not turned. */
+rt_affine rt_scene_to_world(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    rt_affine a = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    if (shape->placement != RT_NONE)
+        return scene->placements[shape->placement].to_world;
+    for (int i = 0; i < 3 && shape->kind == RT_SHAPE_SPHERE; i++) {
+        a.m[i][i] = shape->p[3];
+        a.m[i][3] = shape->p[i];
+    }
+    return a;
+}
+
+int rt_scene_is_mirrored(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    return shape->has_transform &&
+           rt_affine_determinant(&scene->placements[shape->placement].to_world) < 0;
+}
+
+/* The map of a placed mesh; NULL: the identity. */
+static const rt_affine *map_of(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    return shape->has_transform ? &scene->placements[shape->placement].to_world : NULL;
+}
+
+static void place_vertex(float out[3], const rt_scene_mesh *mesh, size_t vertex,
+                         const rt_affine *to_world)
+{
+    const float *position = mesh->positions + 3 * vertex;
+    if (!to_world) {
+        memcpy(out, position, 3 * sizeof *out);
+        return;
+    }
+    double p[3] = {position[0], position[1], position[2]}, q[3];
+    rt_affine_point(q, to_world, p);
+    for (int i = 0; i < 3; i++)
+        out[i] = (float)q[i];
 }
 
 void rt_scene_vertex(const rt_scene *scene, const rt_scene_shape *shape, size_t vertex,
                      float out[3])
 {
-    const float *position = scene->meshes[shape->mesh].positions + 3 * vertex;
-    if (!shape->has_transform) {
-        memcpy(out, position, 3 * sizeof *out);
-        return;
-    }
-    double p[3] = {position[0], position[1], position[2]}, q[3];
-    rt_affine_point(q, &shape->to_world, p);
-    for (int i = 0; i < 3; i++)
-        out[i] = (float)q[i];
+    place_vertex(out, scene->meshes + shape->mesh, vertex, map_of(scene, shape));
 }
 
-double rt_scene_primitive_area(const rt_scene *scene, const rt_scene_shape *shape, size_t primitive)
+double rt_triangle_area(const rt_scene_mesh *mesh, size_t triangle, const rt_affine *to_world)
 {
     float v[3][3];
     double a[3], b[3], normal[3];
-    if (shape->kind != RT_SHAPE_TRIANGLES)
-        return shape->area;
-    const uint32_t *corner = scene->meshes[shape->mesh].indices + 3 * primitive;
+    const uint32_t *corner = mesh->indices + 3 * triangle;
     for (int i = 0; i < 3; i++)
-        rt_scene_vertex(scene, shape, corner[i], v[i]);
+        place_vertex(v[i], mesh, corner[i], to_world);
     rt_vec_sub(a, v[1], v[0]);
     rt_vec_sub(b, v[2], v[0]);
     rt_vec_cross(normal, a, b);
     return 0.5 * rt_vec_length(normal);
 }
 
-void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape, float radiance[3])
+/* ---- Emission ---------------------------------------------------------------- */
+
+double rt_scene_primitive_area(const rt_scene *scene, const rt_scene_shape *shape, size_t primitive)
 {
-    const rt_surface *s = &shape->surface;
-    const rt_material *m = scene->materials + s->material;
-    if (!rt_is_black(s->power)) {
+    if (shape->kind != RT_SHAPE_TRIANGLES)
+        return scene->emissions[shape->emission].area;
+    return rt_triangle_area(scene->meshes + shape->mesh, primitive, map_of(scene, shape));
+}
+
+/* The radiance that spreads the power, or that the surface or its material has. */
+static void radiance_of(float radiance[3], const rt_scene *scene, uint32_t material,
+                        const rt_scene_emission *e)
+{
+    const rt_material *m = scene->materials + material;
+    if (!rt_is_black(e->power)) {
         double sides = m->two_sided ? 2 : 1;
         for (int c = 0; c < 3; c++)
-            radiance[c] = (float)(s->power[c] / (pi * sides * shape->area));
+            radiance[c] = (float)(e->power[c] / (pi * sides * e->area));
     } else {
-        memcpy(radiance, rt_is_black(s->radiance) ? m->emission : s->radiance,
+        memcpy(radiance, rt_is_black(e->radiance) ? m->emission : e->radiance,
                3 * sizeof *radiance);
     }
 }
 
-int rt_surface_has_light(const rt_surface *s)
+void rt_scene_shape_radiance(const rt_scene *scene, const rt_scene_shape *shape, float radiance[3])
+{
+    radiance_of(radiance, scene, shape->material, scene->emissions + shape->emission);
+}
+
+static int has_light(const rt_surface *s)
 {
     return !rt_is_black(s->radiance) || !rt_is_black(s->power);
 }
 
+int rt_scene_has_own_light(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    const rt_scene_emission *e = scene->emissions + shape->emission;
+    return shape->emission != RT_NONE && (!rt_is_black(e->radiance) || !rt_is_black(e->power));
+}
+
 uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *shape)
 {
-    const rt_surface *s = &shape->surface;
-    return rt_surface_has_light(s) ? s->texture : scene->materials[s->material].emission_texture;
+    return rt_scene_has_own_light(scene, shape)
+               ? shape->texture
+               : scene->materials[shape->material].emission_texture;
 }
+
+/* ---- Adding ------------------------------------------------------------------ */
 
 rt_status rt_surface_transform(rt_affine *out, const rt_surface *surface, const char *who,
                                rt_error *error)
@@ -118,7 +180,7 @@ static rt_status check_surface(const rt_scene *scene, const rt_surface *s, const
     if (!rt_is_black(s->radiance) && !rt_is_black(s->power))
         return rt_fail_field(error, RT_ERROR_INPUT, "power", "%s: give radiance or power, not both",
                              who);
-    if (s->texture && !rt_surface_has_light(s))
+    if (s->texture && !has_light(s))
         return rt_material_check_albedo(scene, scene->materials + s->material, s->texture, who,
                                         "texture", error);
     return RT_OK;
@@ -139,53 +201,87 @@ static rt_status check_infinite(const rt_scene *scene, const rt_surface *s, cons
     const char *field = !rt_is_black(s->power)      ? "power"
                         : !rt_is_black(s->radiance) ? "radiance"
                                                     : "material";
-    if (rt_surface_has_light(s) || !rt_is_black(scene->materials[s->material].emission))
+    if (has_light(s) || !rt_is_black(scene->materials[s->material].emission))
         return rt_fail_field(error, RT_ERROR_INPUT, field, "%s: an infinite plane cannot emit",
                              who);
     return RT_OK;
 }
 
+static rt_scene_emission emission_of(const rt_new_shape *added)
+{
+    rt_scene_emission e;
+    memcpy(e.radiance, added->surface->radiance, sizeof e.radiance);
+    memcpy(e.power, added->surface->power, sizeof e.power);
+    e.area = added->area;
+    return e;
+}
+
 /* Refuses a power that is too large for the shape's area. */
-static rt_status check_power(const rt_scene *scene, const rt_scene_shape *shape, const char *who,
+static rt_status check_power(const rt_scene *scene, const rt_new_shape *added, const char *who,
                              rt_error *error)
 {
+    const rt_scene_emission e = emission_of(added);
     float radiance[3];
-    if (rt_is_black(shape->surface.power))
+    if (rt_is_black(e.power))
         return RT_OK;
-    rt_scene_shape_radiance(scene, shape, radiance);
+    radiance_of(radiance, scene, added->surface->material, &e);
     for (int i = 0; i < 3; i++)
         if (!(radiance[i] <= RT_COLOUR_MAX))
             return rt_fail_field(
                 error, RT_ERROR_INPUT, "power",
                 "%s: power is %g W on %g m^2; the radiance must not exceed %g W/(m^2 sr)", who,
-                shape->surface.power[i], shape->area, RT_COLOUR_MAX);
+                e.power[i], e.area, RT_COLOUR_MAX);
     return RT_OK;
 }
 
-rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, rt_scene_shape *shape, const char *who,
+static rt_status check_shape(const rt_scene *scene, const rt_new_shape *added, const char *who,
                              rt_error *error)
 {
-    const rt_surface *s = &shape->surface;
-    rt_status status = check_surface(scene, s, who, error);
-    if (status == RT_OK && rt_shape_class_of(shape->kind)->storage == RT_STORED_INFINITE)
-        status = check_infinite(scene, s, who, error);
+    rt_status status = check_surface(scene, added->surface, who, error);
+    if (status == RT_OK && rt_shape_class_of(added->shape.kind)->storage == RT_STORED_INFINITE)
+        status = check_infinite(scene, added->surface, who, error);
     else if (status == RT_OK)
-        status = check_extent(shape, who, error);
+        status = check_extent(&added->shape, who, error);
     if (status == RT_OK)
-        status = check_power(scene, shape, who, error);
+        status = check_power(scene, added, who, error);
     if (status == RT_OK && scene->shape_count >= shapes_max)
         status = rt_fail(error, RT_ERROR_INPUT, "more than %d shapes", shapes_max);
-    if (status == RT_OK)
-        status = rt_grow((void **)&scene->shapes, &scene->shape_room, scene->shape_count,
-                         sizeof *shape, error);
+    return status;
+}
+
+rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, const rt_new_shape *added,
+                             const char *who, rt_error *error)
+{
+    const rt_surface *s = added->surface;
+    rt_scene_shape shape = added->shape;
+    rt_status status = check_shape(scene, added, who, error);
     if (status != RT_OK)
         return status;
-    shape->emits = rt_surface_has_light(s) || !rt_is_black(scene->materials[s->material].emission);
-    if (shape->kind == RT_SHAPE_TRIANGLES && !shape->emits)
-        scene->meshes[shape->mesh].placed++;
+    const int emits = has_light(s) || !rt_is_black(scene->materials[s->material].emission);
+    const int is_placed = shape.has_transform || has_many_parameters(&shape);
+    status = rt_grow((void **)&scene->shapes, &scene->shape_room, scene->shape_count, sizeof shape,
+                     error);
+    if (status == RT_OK && emits)
+        status = rt_grow((void **)&scene->emissions, &scene->emission_room, scene->emission_count,
+                         sizeof *scene->emissions, error);
+    if (status == RT_OK && is_placed)
+        status = rt_grow((void **)&scene->placements, &scene->placement_room,
+                         scene->placement_count, sizeof *scene->placements, error);
+    if (status != RT_OK)
+        return status;
+    shape.material = s->material;
+    shape.texture = s->texture;
+    shape.emission = emits ? (rt_u32)scene->emission_count++ : RT_NONE;
+    shape.placement = is_placed ? (rt_u32)scene->placement_count++ : RT_NONE;
+    if (emits)
+        scene->emissions[shape.emission] = emission_of(added);
+    else if (shape.kind == RT_SHAPE_TRIANGLES)
+        scene->meshes[shape.mesh].placed++;
+    if (is_placed)
+        scene->placements[shape.placement] = added->placement;
     if (out)
         *out = (uint32_t)scene->shape_count;
-    scene->shapes[scene->shape_count++] = *shape;
+    scene->shapes[scene->shape_count++] = shape;
     return RT_OK;
 }
 

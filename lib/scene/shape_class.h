@@ -45,7 +45,7 @@ typedef struct rt_shape_class {
     /* Of shapes in object space: what the row of its placement maps it to, lo to hi. */
     void (*extent)(const rt_scene_shape *shape, const double row[4], double *lo, double *hi);
     /* Of shapes in object space: the area in the world, m^2, to 1e-6 of it. */
-    double (*area)(const rt_scene_shape *shape);
+    double (*area)(const rt_scene_shape *shape, const rt_affine *to_world);
     /* Radius and centre of a bounding sphere; NULL: that of its bounding box. */
     double (*bounding_sphere)(const rt_scene *scene, const rt_scene_shape *shape, double centre[3]);
     /* Sets kind and geometry of the light that a primitive is; NULL: RT_LIGHT_SHAPE. */

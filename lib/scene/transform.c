@@ -28,6 +28,15 @@ rt_affine rt_affine_from(const rt_transform *transform)
     return a;
 }
 
+int rt_transform_is_none(const rt_transform *transform)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            if (transform->m[i][j] != 0)
+                return 0;
+    return 1;
+}
+
 rt_affine rt_affine_product(const rt_affine *a, const rt_affine *b)
 {
     rt_affine c;

@@ -15,6 +15,9 @@ typedef struct rt_affine {
 /* The map that a transform of the public interface stands for; all zero is the identity. */
 rt_affine rt_affine_from(const rt_transform *transform);
 
+/* Whether a transform is all zero, and so the identity. */
+int rt_transform_is_none(const rt_transform *transform);
+
 /* First b, then a. */
 rt_affine rt_affine_product(const rt_affine *a, const rt_affine *b);
 

@@ -105,7 +105,7 @@ static int may_see_box(const rt_camera_data *c, const rt_scene_shape *box)
 }
 
 /* Whether a ray of the picture meets an infinite plane; if any does, so does one at a corner. */
-static int may_see_plane(const rt_camera_data *c, const rt_scene_shape *plane)
+static int may_see_plane(const rt_camera_data *c, const float plane[8])
 {
     if (c->aperture > 0)
         return 1;
@@ -115,9 +115,8 @@ static int may_see_plane(const rt_camera_data *c, const rt_scene_shape *plane)
             double at = c->corner[i] + (corner & 1) * (double)c->across[i] +
                         (corner >> 1) * (double)c->down[i];
             int is_perspective = c->kind == RT_CAMERA_KIND_PERSPECTIVE;
-            distance +=
-                plane->p[4 + i] * ((double)plane->p[i] - c->eye[i] - (is_perspective ? 0 : at));
-            slope += plane->p[4 + i] * (is_perspective ? at : c->axis[i]);
+            distance += plane[4 + i] * ((double)plane[i] - c->eye[i] - (is_perspective ? 0 : at));
+            slope += plane[4 + i] * (is_perspective ? at : c->axis[i]);
         }
         if (distance == 0 || distance * slope > 0)
             return 1;
@@ -125,10 +124,11 @@ static int may_see_plane(const rt_camera_data *c, const rt_scene_shape *plane)
     return 0;
 }
 
-int rt_view_may_see(const rt_camera_data *camera, const rt_scene_shape *shape)
+int rt_view_may_see(const rt_camera_data *camera, const rt_scene *scene,
+                    const rt_scene_shape *shape)
 {
     if (camera->kind == RT_CAMERA_KIND_ENVIRONMENT)
         return 1;
-    return shape->kind == RT_SHAPE_PLANE ? may_see_plane(camera, shape)
+    return shape->kind == RT_SHAPE_PLANE ? may_see_plane(camera, rt_scene_parameters(scene, shape))
                                          : may_see_box(camera, shape);
 }

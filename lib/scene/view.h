@@ -11,6 +11,7 @@ void rt_view_aim(rt_camera_data *out, const rt_camera *camera, uint32_t width, u
  * Whether the camera may see a shape. 0 is certain: all of the shape's bounds lie behind the eye or
  * beside the picture.
  */
-int rt_view_may_see(const rt_camera_data *camera, const rt_scene_shape *shape);
+int rt_view_may_see(const rt_camera_data *camera, const rt_scene *scene,
+                    const rt_scene_shape *shape);
 
 #endif

@@ -69,6 +69,13 @@ static const char *read_exponent(rt_digits *d, const char *c, const char *end)
     return c;
 }
 
+static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/* Digits that are exact in double precision, and the power of ten of the table that is. */
+enum { DIGITS_EXACT = 15, POWER_EXACT = 22 };
+
 /*
  * Where the digits and the power of ten are both exact in double precision, their product or
  * quotient is rounded once, and so is the nearest double (Clinger, "How to Read Floating Point
@@ -76,19 +83,34 @@ static const char *read_exponent(rt_digits *d, const char *c, const char *end)
  */
 static int is_exact(double *size, const rt_digits *d)
 {
-    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-    enum { digits_exact = 15, power_exact = 22 };
     int64_t digits = 0;
-    if (FLT_EVAL_METHOD != 0 || d->count > digits_exact || d->exponent < -power_exact ||
-        d->exponent > power_exact)
+    if (FLT_EVAL_METHOD != 0 || d->count > DIGITS_EXACT || d->exponent < -POWER_EXACT ||
+        d->exponent > POWER_EXACT)
         return 0;
     for (int i = 0; i < d->count; i++)
         digits = 10 * digits + (d->digits[i] - '0');
     *size = d->exponent < 0 ? (double)digits / powers[-d->exponent]
                             : (double)digits * powers[d->exponent];
     return 1;
+}
+
+/* The same for the plainest spelling: a few digits, and perhaps a point among them. */
+static int is_plain(double *out, const char *text, size_t length)
+{
+    int64_t digits = 0;
+    size_t point = length;
+    if (FLT_EVAL_METHOD != 0 || length > DIGITS_EXACT)
+        return 0;
+    for (size_t i = 0; i < length; i++) {
+        if (is_digit(text[i]))
+            digits = 10 * digits + (text[i] - '0');
+        else if (text[i] == '.' && point == length && length > 1)
+            point = i;
+        else
+            return 0;
+    }
+    *out = point == length ? (double)digits : (double)digits / powers[length - point - 1];
+    return length > 0;
 }
 
 /*
@@ -111,6 +133,8 @@ rt_number_result rt_number_read(double *out, const char *text, size_t length)
     rt_digits d;
     const char *c = text, *end = text + length;
     int negative = length > 0 && *c == '-';
+    if (is_plain(out, text, length))
+        return RT_NUMBER_OK;
     d.count = d.seen = d.tail = 0;
     d.exponent = 0;
     c = read_mantissa(&d, c + (length > 0 && (*c == '-' || *c == '+')), end);

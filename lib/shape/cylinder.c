@@ -7,15 +7,14 @@ static void extent(const rt_scene_shape *shape, const double row[4], double *lo,
     rt_frustum_extent(1, row, lo, hi);
 }
 
-static double area(const rt_scene_shape *shape)
+static double area(const rt_scene_shape *shape, const rt_affine *to_world)
 {
-    return rt_frustum_area(shape, 1);
+    return rt_frustum_area(shape, to_world, 1);
 }
 
 static int contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])
 {
-    (void)scene;
-    return rt_frustum_contains(shape, 1, p);
+    return rt_frustum_contains(scene, shape, 1, p);
 }
 
 const rt_shape_class rt_shape_cylinder = {.name = "cylinder",
@@ -30,6 +29,7 @@ rt_status rt_scene_add_cylinder(rt_scene *scene, uint32_t *out, const float a[3]
                                 float radius, int caps, const rt_surface *surface, rt_error *error)
 {
     static const char *const names[] = {"cylinder", "a", "b"};
-    rt_scene_shape shape = {.kind = RT_SHAPE_CYLINDER, .surface = *surface, .caps = caps};
-    return rt_frustum_add(scene, out, &shape, a, b, radius, names, error);
+    rt_new_shape added = {.shape = {.kind = RT_SHAPE_CYLINDER, .caps = caps != 0},
+                          .surface = surface};
+    return rt_frustum_add(scene, out, &added, a, b, radius, names, error);
 }

@@ -17,10 +17,10 @@ static void extent(const rt_scene_shape *shape, const double row[4], double *lo,
     *hi = row[3] + reach;
 }
 
-static double area(const rt_scene_shape *shape)
+static double area(const rt_scene_shape *shape, const rt_affine *to_world)
 {
     double c[3][3], hole = shape->p[0];
-    rt_affine_cofactors(c, &shape->to_world);
+    rt_affine_cofactors(c, to_world);
     return pi * (1 - hole * hole) * rt_area_scale(c, 0, 0, 1);
 }
 
@@ -35,7 +35,7 @@ rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3
                             const float normal[3], float radius, float inner_radius,
                             const rt_surface *surface, rt_error *error)
 {
-    rt_scene_shape shape = {.kind = RT_SHAPE_DISC, .surface = *surface};
+    rt_new_shape added = {.shape.kind = RT_SHAPE_DISC, .surface = surface};
     double n[3];
     rt_status status;
 
@@ -48,7 +48,7 @@ rt_status rt_scene_add_disc(rt_scene *scene, uint32_t *out, const float centre[3
             error, RT_ERROR_INPUT, "inner_radius",
             "disc: inner_radius is %g m; it must be at least 0 and less than radius, %g",
             inner_radius, radius);
-    shape.p[0] = inner_radius / radius;
+    added.shape.p[0] = inner_radius / radius;
     rt_affine placement = rt_placement_about(centre, n, radius, radius);
-    return rt_shape_add_placed(scene, out, &shape, &placement, "disc", error);
+    return rt_shape_add_placed(scene, out, &added, &placement, "disc", error);
 }

@@ -21,9 +21,8 @@ static void extent(const rt_scene_shape *shape, const double row[4], double *lo,
 
 static int contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])
 {
-    (void)scene;
     double q[3];
-    return rt_shape_to_object(q, shape, p) && hypot(hypot(q[0], q[1]), q[2]) < 1;
+    return rt_shape_to_object(q, scene, shape, p) && hypot(hypot(q[0], q[1]), q[2]) < 1;
 }
 
 /* ---- Area -------------------------------------------------------------------- */
@@ -78,10 +77,11 @@ static void carlson(double x, double y, double z, double *rf, double *rd)
  * 4 pi R_G(a^2 b^2, a^2 c^2, b^2 c^2), whose arguments are the squared singular values of the
  * cofactors.
  */
-static double area(const rt_scene_shape *shape)
+static double area(const rt_scene_shape *shape, const rt_affine *to_world)
 {
+    (void)shape;
     double c[3][3], square[3][3], e[3], rf, rd;
-    rt_affine_cofactors(c, &shape->to_world);
+    rt_affine_cofactors(c, to_world);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             square[i][j] = c[0][i] * c[0][j] + c[1][i] * c[1][j] + c[2][i] * c[2][j];

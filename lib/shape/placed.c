@@ -55,32 +55,35 @@ void rt_shape_set_bounds(rt_scene_shape *shape, int axis, double lo, double hi)
     shape->hi[axis] = nextafterf((float)(hi + room), FLT_MAX);
 }
 
-rt_status rt_shape_add_placed(rt_scene *scene, uint32_t *out, rt_scene_shape *shape,
+rt_status rt_shape_add_placed(rt_scene *scene, uint32_t *out, rt_new_shape *added,
                               const rt_affine *placement, const char *who, rt_error *error)
 {
+    rt_scene_shape *shape = &added->shape;
+    rt_affine *to_world = &added->placement.to_world;
     const rt_shape_class *class = rt_shape_class_of(shape->kind);
     rt_affine transform, inverse;
-    rt_status status = rt_surface_transform(&transform, &shape->surface, who, error);
+    rt_status status = rt_surface_transform(&transform, added->surface, who, error);
     if (status != RT_OK)
         return status;
-    shape->to_world = rt_affine_product(&transform, placement);
+    *to_world = rt_affine_product(&transform, placement);
     shape->has_transform = 1;
-    shape->area = class->area(shape);
-    if (!rt_affine_inverse(&inverse, &shape->to_world))
+    added->area = class->area(shape, to_world);
+    if (!rt_affine_inverse(&inverse, to_world))
         return rt_fail_field(error, RT_ERROR_INPUT, "transform", "%s: it is too small or too flat",
                              who);
     for (int i = 0; i < 3; i++) {
         double lo, hi;
-        class->extent(shape, shape->to_world.m[i], &lo, &hi);
+        class->extent(shape, to_world->m[i], &lo, &hi);
         rt_shape_set_bounds(shape, i, lo, hi);
     }
-    return rt_scene_add_shape(scene, out, shape, who, error);
+    return rt_scene_add_shape(scene, out, added, who, error);
 }
 
-int rt_shape_to_object(double out[3], const rt_scene_shape *shape, const double p[3])
+int rt_shape_to_object(double out[3], const rt_scene *scene, const rt_scene_shape *shape,
+                       const double p[3])
 {
-    rt_affine to_object;
-    if (!rt_affine_inverse(&to_object, &shape->to_world))
+    rt_affine to_object, to_world = rt_scene_to_world(scene, shape);
+    if (!rt_affine_inverse(&to_object, &to_world))
         return 0;
     rt_affine_point(out, &to_object, p);
     return 1;

@@ -26,8 +26,9 @@ const rt_shape_class rt_shape_plane = {.name = "plane",
 rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3],
                              const float normal[3], const rt_surface *surface, rt_error *error)
 {
-    rt_scene_shape shape = {.kind = RT_SHAPE_PLANE, .surface = *surface, .area = INFINITY};
+    rt_new_shape added = {.shape.kind = RT_SHAPE_PLANE, .surface = surface, .area = INFINITY};
     rt_affine transform, placement, inverse;
+    float *parameters = added.placement.p;
     double n[3], p[3], m[3];
     rt_status status;
 
@@ -35,20 +36,20 @@ rt_status rt_scene_add_plane(rt_scene *scene, uint32_t *out, const float point[3
         (status = rt_check_direction(n, normal, "plane", "normal", error)) != RT_OK ||
         (status = rt_surface_transform(&transform, surface, "plane", error)) != RT_OK)
         return status;
-    shape.has_transform = !rt_affine_is_identity(&transform);
+    added.shape.has_transform = !rt_affine_is_identity(&transform);
     placement = rt_placement_about(point, n, 1, 1);
-    shape.to_world = rt_affine_product(&transform, &placement);
+    added.placement.to_world = rt_affine_product(&transform, &placement);
     rt_affine_inverse(&inverse, &transform);
     rt_affine_normal(m, &inverse, n);
     rt_affine_point(p, &transform, (const double[3]){point[0], point[1], point[2]});
     double length = rt_vec_length(m);
     for (int i = 0; i < 3; i++) {
-        shape.p[i] = (float)p[i];
-        shape.p[4 + i] = (float)(m[i] / length);
-        if (!(fabsf(shape.p[i]) <= RT_COORDINATE_MAX))
+        parameters[i] = (float)p[i];
+        parameters[4 + i] = (float)(m[i] / length);
+        if (!(fabsf(parameters[i]) <= RT_COORDINATE_MAX))
             return rt_fail_field(error, RT_ERROR_INPUT, "transform",
                                  "plane: its point lies beyond coordinates of %g",
                                  RT_COORDINATE_MAX);
     }
-    return rt_scene_add_shape(scene, out, &shape, "plane", error);
+    return rt_scene_add_shape(scene, out, &added, "plane", error);
 }

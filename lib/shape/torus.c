@@ -17,19 +17,19 @@ static void extent(const rt_scene_shape *shape, const double row[4], double *lo,
 
 static int contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])
 {
-    (void)scene;
     double q[3];
-    return rt_shape_to_object(q, shape, p) && hypot(hypot(q[0], q[1]) - 1, q[2]) < shape->p[0];
+    return rt_shape_to_object(q, scene, shape, p) &&
+           hypot(hypot(q[0], q[1]) - 1, q[2]) < shape->p[0];
 }
 
 /*
  * The element is (cos phi cos theta, sin phi cos theta, sin theta) (1 + m cos theta) m dphi dtheta.
  */
-static double area(const rt_scene_shape *shape)
+static double area(const rt_scene_shape *shape, const rt_affine *to_world)
 {
     double c[3][3], sum = 0, before, m = shape->p[0], offset = 0;
     int steps = tube_steps_min, total = 0;
-    rt_affine_cofactors(c, &shape->to_world);
+    rt_affine_cofactors(c, to_world);
     do {
         before = total ? sum / total : 0;
         for (int i = 0; i < steps; i++) {
@@ -57,7 +57,7 @@ rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float centre[
                              const float axis[3], float major_radius, float minor_radius,
                              const rt_surface *surface, rt_error *error)
 {
-    rt_scene_shape shape = {.kind = RT_SHAPE_TORUS, .surface = *surface};
+    rt_new_shape added = {.shape.kind = RT_SHAPE_TORUS, .surface = surface};
     double n[3];
     rt_status status;
 
@@ -70,7 +70,7 @@ rt_status rt_scene_add_torus(rt_scene *scene, uint32_t *out, const float centre[
         return rt_fail_field(error, RT_ERROR_INPUT, "minor_radius",
                              "torus: minor_radius is %g m; it must be less than major_radius, %g",
                              minor_radius, major_radius);
-    shape.p[0] = minor_radius / major_radius;
+    added.shape.p[0] = minor_radius / major_radius;
     rt_affine placement = rt_placement_about(centre, n, major_radius, major_radius);
-    return rt_shape_add_placed(scene, out, &shape, &placement, "torus", error);
+    return rt_shape_add_placed(scene, out, &added, &placement, "torus", error);
 }

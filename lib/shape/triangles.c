@@ -65,7 +65,8 @@ static int mesh_contains(const rt_scene_mesh *mesh, const double p[3])
 static int contains(const rt_scene *scene, const rt_scene_shape *shape, const double p[3])
 {
     double q[3];
-    return rt_shape_to_object(q, shape, p) ? mesh_contains(scene->meshes + shape->mesh, q) : 0;
+    return rt_shape_to_object(q, scene, shape, p) ? mesh_contains(scene->meshes + shape->mesh, q)
+                                                  : 0;
 }
 
 /* ---- Ball and light ---------------------------------------------------------- */
@@ -114,22 +115,22 @@ const rt_shape_class rt_shape_instance = PLACED_MESH("mesh");
  * The area of a mesh in world space; a map that is no similarity stretches each triangle by its own
  * factor.
  */
-static double placed_area(const rt_scene *scene, const rt_scene_shape *shape)
+static double placed_area(const rt_scene_mesh *mesh, const rt_affine *to_world)
 {
-    const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
-    double scale = rt_affine_similarity(&shape->to_world), area = 0;
+    double scale = rt_affine_similarity(to_world), area = 0;
     if (scale > 0)
         return mesh->area * scale * scale;
     for (size_t i = 0; i < mesh->triangle_count; i++)
-        area += rt_scene_primitive_area(scene, shape, i);
+        area += rt_triangle_area(mesh, i, to_world);
     return area;
 }
 
 /* The bounds of the mesh's box as it is placed, rounded outwards. */
-static void place_bounds(rt_scene_shape *shape, const rt_scene_mesh *mesh)
+static void place_bounds(rt_scene_shape *shape, const rt_scene_mesh *mesh,
+                         const rt_affine *to_world)
 {
     for (int i = 0; i < 3; i++) {
-        const double *a = shape->to_world.m[i];
+        const double *a = to_world->m[i];
         double lo = a[3], hi = a[3], reach = fabs(a[3]);
         for (int j = 0; j < 3; j++) {
             double x = a[j] * mesh->lo[j], y = a[j] * mesh->hi[j];
@@ -145,18 +146,19 @@ static void place_bounds(rt_scene_shape *shape, const rt_scene_mesh *mesh)
 rt_status rt_scene_add_instance(rt_scene *scene, uint32_t *out, uint32_t mesh,
                                 const rt_surface *surface, rt_error *error)
 {
-    rt_scene_shape shape = {.kind = RT_SHAPE_TRIANGLES, .mesh = mesh, .surface = *surface};
+    rt_new_shape added = {.shape = {.kind = RT_SHAPE_TRIANGLES, .mesh = mesh}, .surface = surface};
+    rt_affine *to_world = &added.placement.to_world;
     if (mesh >= scene->mesh_count)
         return rt_fail_field(error, RT_ERROR_INPUT, "mesh",
                              "instance: there is no mesh %u among %zu", mesh, scene->mesh_count);
-    rt_status status = rt_surface_transform(&shape.to_world, surface, "instance", error);
+    rt_status status = rt_surface_transform(to_world, surface, "instance", error);
     if (status != RT_OK)
         return status;
-    shape.has_transform = !rt_affine_is_identity(&shape.to_world);
+    added.shape.has_transform = !rt_affine_is_identity(to_world);
     if (!rt_is_black(surface->power))
-        shape.area = placed_area(scene, &shape);
-    place_bounds(&shape, scene->meshes + mesh);
-    return rt_scene_add_shape(scene, out, &shape, "instance", error);
+        added.area = placed_area(scene->meshes + mesh, to_world);
+    place_bounds(&added.shape, scene->meshes + mesh, to_world);
+    return rt_scene_add_shape(scene, out, &added, "instance", error);
 }
 
 rt_status rt_scene_add_triangles(rt_scene *scene, uint32_t *out, const float *positions,

@@ -43,19 +43,19 @@ static void expect_shapes(const rt_scene *scene)
 {
     const rt_scene_shape *s = scene->shapes;
     assert_int_equal(scene->shape_count, 4);
-    assert_true(s[0].kind == RT_SHAPE_PLANE && s[0].surface.material == 1);
-    assert_true(s[1].kind == RT_SHAPE_SPHERE && s[1].surface.material == 0 && s[1].p[3] == 0.5f);
+    assert_true(s[0].kind == RT_SHAPE_PLANE && s[0].material == 1);
+    assert_true(s[1].kind == RT_SHAPE_SPHERE && s[1].material == 0 && s[1].p[3] == 0.5f);
     assert_vector(s[1].p, 1, 2, 3);
-    assert_vector(s[1].surface.radiance, 4, 5, 6);
+    assert_vector(scene->emissions[s[1].emission].radiance, 4, 5, 6);
     const rt_scene_mesh *triangle = &scene->meshes[s[2].mesh];
     assert_true(s[2].kind == RT_SHAPE_TRIANGLES && triangle->triangle_count == 1 &&
                 triangle->normals);
     assert_vector(triangle->positions + 3, 1, 0, 0);
     assert_vector(triangle->normals + 6, 1, 0, 1);
     assert_true(s[3].kind == RT_SHAPE_QUAD);
-    assert_vector(s[3].p + 3, 2, 0, 0);
-    assert_vector(s[3].p + 6, 0, 0, 2);
-    assert_vector(s[3].surface.power, 8, 8, 8);
+    assert_vector(rt_scene_parameters(scene, s + 3) + 3, 2, 0, 0);
+    assert_vector(rt_scene_parameters(scene, s + 3) + 6, 0, 0, 2);
+    assert_vector(scene->emissions[s[3].emission].power, 8, 8, 8);
 }
 
 static void every_field_reaches_the_scene(void **state)
@@ -188,12 +188,12 @@ static void functions_have_their_values(void **state)
     expect_position("2 * sin(a * 10) * v", 1, 2, 3);
 }
 
-/* The map of a shape, applied to a point. */
-static void expect_mapped(const rt_scene_shape *shape, double x, double y, double z, float u,
-                          float v, float w)
+/* The map of a placed mesh, applied to a point. */
+static void expect_mapped(const rt_scene *scene, size_t shape, double x, double y, double z,
+                          float u, float v, float w)
 {
     double p[3] = {x, y, z}, q[3];
-    rt_affine map = rt_affine_from(&shape->surface.transform);
+    rt_affine map = rt_scene_to_world(scene, scene->shapes + shape);
     rt_affine_point(q, &map, p);
     const float found[3] = {(float)q[0], (float)q[1], (float)q[2]};
     assert_vector(found, u, v, w);
@@ -204,21 +204,18 @@ static void transforms_apply_in_the_order_written(void **state)
     static const char text[] =
         "let up = [0 1 0]\n"
         "material m { }\n"
-        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  rotate 0 0 1 90  translate 5 0 0 }\n"
-        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  translate 5 0 0  rotate 0 0 1 90 }\n"
-        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  scale 1 2 3  scale 2  rotate up "
-        "(-90) }\n"
-        "disc { centre 0 0 0 normal 0 1 0 radius 1 material m  matrix 1 2 0 4  0 1 0 5  0 0 -1 6 "
-        "}\n";
+        "triangle { a 0 0 0 b 1 0 0 c 0 1 0 material m  rotate 0 0 1 90  translate 5 0 0 }\n"
+        "triangle { a 0 0 0 b 1 0 0 c 0 1 0 material m  translate 5 0 0  rotate 0 0 1 90 }\n"
+        "triangle { a 0 0 0 b 1 0 0 c 0 1 0 material m  scale 1 2 3  scale 2  rotate up (-90) }\n"
+        "triangle { a 0 0 0 b 1 0 0 c 0 1 0 material m  matrix 1 2 0 4  0 1 0 5  0 0 -1 6 }\n";
     static collected c;
     (void)state;
     collect_text(&c, text);
     expect_clean(&c, text);
-    const rt_scene_shape *s = c.scene->shapes;
-    expect_mapped(s, 1, 0, 0, 5, 1, 0);
-    expect_mapped(s + 1, 1, 0, 0, 0, 6, 0);
-    expect_mapped(s + 2, 1, 1, 1, -6, 4, 2);
-    expect_mapped(s + 3, 1, 1, 1, 7, 6, 5);
+    expect_mapped(c.scene, 0, 1, 0, 0, 5, 1, 0);
+    expect_mapped(c.scene, 1, 1, 0, 0, 0, 6, 0);
+    expect_mapped(c.scene, 2, 1, 1, 1, -6, 4, 2);
+    expect_mapped(c.scene, 3, 1, 1, 1, 7, 6, 5);
     collected_free(&c);
 }
 
@@ -244,8 +241,7 @@ static void repeats_count_and_scope_their_names(void **state)
     for (int i = 0; i < 6; i++) {
         const rt_scene_shape *s = &c.scene->shapes[i];
         assert_vector(s->p, 10.0f * (float)(i / 2 + 1), (float)(i / 2 + 1 + i % 2), 0);
-        assert_float_equal(c.scene->materials[s->surface.material].kd[0], (float)(i / 2 + 1) / 10,
-                           1e-6);
+        assert_float_equal(c.scene->materials[s->material].kd[0], (float)(i / 2 + 1) / 10, 1e-6);
     }
     assert_vector(c.scene->shapes[6].p, 7, 0, 0);
     collected_free(&c);
@@ -298,8 +294,7 @@ static void meshes_textures_and_lights_reach_the_scene(void **state)
 
     assert_true(s->shape_count == 7 && s->mesh_count == 3 && s->meshes[0].placed == 3);
     assert_true(s->meshes[0].normals && s->meshes[0].uv && s->meshes[0].triangle_count == 2400);
-    assert_true(!s->meshes[1].normals && s->shapes[2].surface.texture == 2 &&
-                s->shapes[3].surface.texture == 0);
+    assert_true(!s->meshes[1].normals && s->shapes[2].texture == 2 && s->shapes[3].texture == 0);
     assert_true(s->shapes[4].caps && !s->shapes[5].caps && s->meshes[2].uv[1] == 1 &&
                 s->meshes[2].uv[4] == 1);
 
@@ -453,8 +448,7 @@ static void a_file_that_cannot_be_read_is_an_error_without_place(void **state)
         const char *path, *message;
     } cases[] = {
         {"/no/such/scene.rts", "cannot read the scene: No such file or directory"},
-        {"/tmp", "cannot read the scene: it is a directory"},
-        {"/dev/zero", "cannot read the scene: the scene's files are larger than 256 MiB together"}};
+        {"/tmp", "cannot read the scene: it is a directory"}};
     static collected c;
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -467,6 +461,18 @@ static void a_file_that_cannot_be_read_is_an_error_without_place(void **state)
         assert_int_equal(c.items[0].line, 0);
         assert_string_equal(c.items[0].source_line, "");
     }
+}
+
+/* Not even a file without end is read further. */
+static void reading_ends_at_what_is_no_text(void **state)
+{
+    static collected c;
+    (void)state;
+    collect_file(&c, "/dev/zero");
+    assert_int_equal(c.status, RT_ERROR_INPUT);
+    assert_int_equal(c.count, 1);
+    assert_int_equal(c.items[0].line, 1);
+    assert_string_equal(c.error.message, "the file is not text: it holds a NUL byte here");
 }
 
 static void all_stands_for_a_number_of_photons(void **state)
@@ -519,6 +525,7 @@ int main(void)
                                         remove_scratch),
         cmocka_unit_test_setup_teardown(what_is_no_text_is_one_error, make_scratch, remove_scratch),
         cmocka_unit_test(a_file_that_cannot_be_read_is_an_error_without_place),
+        cmocka_unit_test(reading_ends_at_what_is_no_text),
         cmocka_unit_test(all_stands_for_a_number_of_photons),
         cmocka_unit_test(without_callback_or_error_it_still_works),
     };

@@ -1,0 +1,36 @@
+/* inspection.h - the state of rt_scene_check, for the files that look for its findings. */
+#ifndef RT_LIB_SCENE_INSPECTION_H
+#define RT_LIB_SCENE_INSPECTION_H
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+/*
+ * The number of lights, of open shapes of glass and of solids that are checked: of many copies the
+ * first show the mistake.
+ */
+enum { RT_CHECKED_MAX = 256 };
+
+/* The state of one check. */
+typedef struct rt_inspection {
+    const rt_scene *scene;
+    void (*found)(void *user, const rt_finding *finding);
+    void *user;
+    size_t warnings;
+} rt_inspection;
+
+/* A finding about nothing so far. */
+rt_finding rt_finding_of(rt_finding_kind kind);
+
+/* Passes a finding on with a message of this form. */
+void rt_inspection_report(rt_inspection *in, rt_finding finding, const char *format, ...)
+    RT_PRINTF(3, 4);
+
+/* What messages call a shape. */
+const char *rt_inspection_name(const rt_scene_shape *shape);
+
+/* Lights inside opaque solids (find_lights.c); solids that meet (find_solids.c). */
+void rt_find_lights_inside(rt_inspection *in);
+void rt_find_meetings(rt_inspection *in);
+
+#endif
