@@ -10,11 +10,22 @@
 #include "dsl/no_effect.h"
 #include "dsl/parse_statement.h"
 
+/* Stops reading, as a progress callback asked to. */
+static void cancel(rt_reader *reader)
+{
+    memset(&reader->fatal, 0, sizeof reader->fatal);
+    reader->fatal.status = RT_CANCELLED;
+    snprintf(reader->fatal.message, sizeof reader->fatal.message, "cancelled");
+}
+
 rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_error *error)
 {
     memset(reader, 0, sizeof *reader);
     reader->options = options;
-    return rt_scene_create(&reader->scene, error);
+    rt_status status = rt_scene_create(&reader->scene, error);
+    if (status == RT_OK && !rt_reading_begin(&reader->progress, options->hooks))
+        cancel(reader);
+    return status;
 }
 
 void rt_reader_free(rt_reader *reader)
@@ -266,8 +277,12 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
                         rt_text_quote(quote, shown), cause);
         hint_loop(&reader->reports, source);
     } else {
+        const rt_place *place = &statement->path;
+        double left = reader->progress.left;
         rt_reader_tell_file(reader, source->path);
+        reader->progress.left += (double)(place->source->size - place->offset);
         rt_reader_read(reader, source);
+        reader->progress.left = left;
     }
 }
 
@@ -364,7 +379,11 @@ static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *stat
     if (first > last)
         skip_empty(reader, parser, place, first, last);
     reader->repeats++;
+    double left = reader->progress.left, begun = reader->progress.done;
     for (size_t iteration = 0; first + (double)iteration <= last; iteration++) {
+        if (iteration > 0)
+            reader->progress.left = left + (last - first - (double)iteration) / (double)iteration *
+                                               (reader->progress.done - begun);
         if (iteration > 0)
             rt_parser_return(parser, &body);
         if ((double)++reader->iterations > ITERATIONS_MAX) {
@@ -379,6 +398,7 @@ static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *stat
                             first + (double)iteration, is_good, iteration == 0))
             break;
     }
+    reader->progress.left = left;
     reader->repeats--;
 }
 
@@ -388,7 +408,11 @@ static void read_repeat(rt_reader *reader, rt_parser *parser, rt_statement *stat
 static void read_statements(rt_reader *reader, rt_parser *parser, rt_statement *statement,
                             rt_operations *operations, int *is_closed)
 {
+    size_t from = parser->lexer.at;
     while (!must_stop(reader) && rt_parse_statement(parser, statement)) {
+        if (!rt_reading_step(&reader->progress, parser->lexer.at - from,
+                             parser->lexer.source->size - parser->lexer.at))
+            cancel(reader);
         switch (statement->kind) {
         case RT_STATEMENT_LET:
             read_let(reader, statement, operations);
@@ -406,6 +430,7 @@ static void read_statements(rt_reader *reader, rt_parser *parser, rt_statement *
             *is_closed = 1;
             return;
         }
+        from = parser->lexer.at;
     }
 }
 
@@ -429,16 +454,19 @@ void rt_reader_read(rt_reader *reader, const rt_source *source)
 
 rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
 {
+    static const rt_scope_counts all = {0, 0, 0, 0};
+    const int is_good = reader->fatal.status == RT_OK && reader->reports.errors == 0;
+    if (is_good)
+        rt_scope_warn(&reader->scope, &all, &reader->reports);
+    if (is_good && reader->options->check)
+        rt_origins_report(&reader->origins, &reader->sources, reader->scene, &reader->reports);
+    if (reader->fatal.status == RT_OK && !rt_reading_end(&reader->progress))
+        cancel(reader);
     if (reader->fatal.status != RT_OK) {
         if (error)
             *error = reader->fatal;
         return reader->fatal.status;
     }
-    static const rt_scope_counts all = {0, 0, 0, 0};
-    if (reader->reports.errors == 0)
-        rt_scope_warn(&reader->scope, &all, &reader->reports);
-    if (reader->reports.errors == 0 && reader->options->check)
-        rt_origins_report(&reader->origins, &reader->sources, reader->scene, &reader->reports);
     rt_status status = rt_reports_finish(&reader->reports, reader->options, error);
     if (status == RT_OK) {
         *out = reader->scene;

@@ -8,6 +8,7 @@
 
 #include "dsl/expression.h"
 #include "dsl/origin.h"
+#include "dsl/progress.h"
 #include "dsl/schema.h"
 #include "dsl/scope.h"
 
@@ -20,10 +21,11 @@ typedef struct rt_reader {
     rt_place once[RT_BLOCK_COUNT];
     rt_origins origins;             /* of what is in the scene, when it is to be checked */
     const rt_load_options *options; /* never NULL */
-    uint64_t order;                 /* tokens so far */
-    size_t blocks;                  /* blocks so far */
-    size_t iterations;              /* of all repeats so far */
-    int repeats;                    /* inside each other */
+    rt_reading progress;
+    uint64_t order;    /* tokens so far */
+    size_t blocks;     /* blocks so far */
+    size_t iterations; /* of all repeats so far */
+    int repeats;       /* inside each other */
     /* the text was read before, in an earlier iteration of a repeat around it */
     int is_further_iteration;
     /* a failure that is no fault of the text; status RT_OK while there is none */

@@ -49,8 +49,10 @@ static int check(const char *path, const command_line *arguments)
     rt_scene *scene = NULL;
     rt_scene_info info;
     scene_findings findings = {0, 0};
+    progress_display progress =
+        progress_begin_on_terminal(!is_quiet && !arguments->options[OPTION_JSON].given);
     int status = scene_file_load(&scene, path, is_quiet ? SCENE_TO_CHECK_QUIETLY : SCENE_TO_CHECK,
-                                 &findings, NULL);
+                                 &findings, NULL, &progress);
     if (status == STATUS_DONE)
         rt_scene_get_info(scene, &info);
     if (arguments->options[OPTION_JSON].given)

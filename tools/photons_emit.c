@@ -73,9 +73,9 @@ static int read_options(emit_job *job, const command_line *arguments)
 static int load(emit_job *job)
 {
     rt_error error;
-    int status =
-        scene_file_load(&job->scene, job->scene_path,
-                        job->session.quiet ? SCENE_QUIETLY : SCENE_TO_EMIT, NULL, &job->inputs);
+    int status = scene_file_load(&job->scene, job->scene_path,
+                                 job->session.quiet ? SCENE_QUIETLY : SCENE_TO_EMIT, NULL,
+                                 &job->inputs, &job->session.progress);
     if (status == STATUS_DONE)
         status = inputs_check(&job->inputs, job->map_path);
     if (status != STATUS_DONE)

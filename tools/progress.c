@@ -26,6 +26,11 @@ progress_display progress_begin(progress_style style)
     return progress;
 }
 
+progress_display progress_begin_on_terminal(int is_wanted)
+{
+    return progress_begin(is_wanted && stderr_is_terminal() ? PROGRESS_AUTO : PROGRESS_NONE);
+}
+
 void progress_format_time(char *out, size_t size, double seconds)
 {
     if (seconds < 9.95) {

@@ -18,6 +18,9 @@ typedef struct progress_display {
 
 progress_display progress_begin(progress_style style);
 
+/* Shows it on a terminal alone, if at all. */
+progress_display progress_begin_on_terminal(int is_wanted);
+
 /* Shows a report when it is time to. */
 void progress_show(progress_display *progress, const rt_progress *report);
 

@@ -77,9 +77,9 @@ static int set_options(render_job *job)
 static int load(render_job *job)
 {
     rt_error error;
-    int status =
-        scene_file_load(&job->scene, job->scene_path,
-                        job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER, NULL, &job->inputs);
+    int status = scene_file_load(&job->scene, job->scene_path,
+                                 job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER, NULL,
+                                 &job->inputs, &job->session.progress);
     if (status != STATUS_DONE)
         return status;
     status = set_options(job);

@@ -19,6 +19,7 @@ typedef struct scene_reading {
     scene_findings findings;
     scene_purpose purpose;
     input_list *inputs;
+    progress_display *progress;
 } scene_reading;
 
 static int is_wanted(const rt_diagnostic *diagnostic, scene_purpose purpose)
@@ -37,8 +38,17 @@ static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
     reading->findings.warnings += diagnostic->severity == RT_SEVERITY_WARNING;
     if (reading->findings.errors > ERRORS_SHOWN && diagnostic->severity == RT_SEVERITY_ERROR)
         return;
-    if (is_wanted(diagnostic, reading->purpose))
-        message_diagnostic(diagnostic);
+    if (!is_wanted(diagnostic, reading->purpose))
+        return;
+    progress_clear(reading->progress);
+    message_diagnostic(diagnostic);
+}
+
+static int on_progress(void *user, const rt_progress *report)
+{
+    scene_reading *reading = user;
+    progress_show(reading->progress, report);
+    return 0;
 }
 
 static void on_file(void *user, const char *path)
@@ -94,10 +104,12 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
 }
 
 int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
-                    scene_findings *findings, input_list *inputs)
+                    scene_findings *findings, input_list *inputs, progress_display *progress)
 {
-    scene_reading reading = {{0, 0}, purpose, inputs};
-    rt_load_options options = {.diagnostic = on_diagnostic, .user = &reading, .file = on_file};
+    scene_reading reading = {{0, 0}, purpose, inputs, progress};
+    const rt_hooks hooks = {.progress = on_progress, .user = &reading};
+    rt_load_options options = {
+        .diagnostic = on_diagnostic, .user = &reading, .file = on_file, .hooks = &hooks};
     options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_CHECK_QUIETLY ||
                     purpose == SCENE_TO_RENDER;
     rt_error error;
@@ -107,6 +119,7 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
         status = parse_stdin(out, &options, &result, &error);
     else
         result = rt_scene_load(out, path, &options, &error);
+    progress_clear(progress);
     if (findings)
         *findings = reading.findings;
     if (status != STATUS_DONE || result == RT_OK)

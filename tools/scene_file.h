@@ -3,6 +3,7 @@
 #define RTC_SCENE_FILE_H
 
 #include "inputs.h"
+#include "progress.h"
 #include "rt.h"
 
 /* How many errors and warnings were found. */
@@ -25,9 +26,10 @@ const char *scene_file_name(const char *path);
 /*
  * Reads the scene at path, "-" for stdin, and prints every error and what else its purpose asks
  * for. Returns an exit status; the caller owns *out, written only on STATUS_DONE. findings may be
- * NULL; inputs receives the files that were read, and may be NULL.
+ * NULL; inputs receives the files that were read, and may be NULL. progress shows how far it has
+ * come.
  */
 int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
-                    scene_findings *findings, input_list *inputs);
+                    scene_findings *findings, input_list *inputs, progress_display *progress);
 
 #endif

@@ -63,13 +63,18 @@ typedef struct rt_load_options {
      * a mesh file names in turn
      */
     void (*file)(void *user, const char *path);
+    /*
+     * progress of RT_STAGE_LOAD, but for the time that a file takes which the text names; NULL:
+     * none. Log and warnings have no use here
+     */
+    const rt_hooks *hooks;
 } rt_load_options;
 
 /*
  * Reads a scene from a .rts file. All errors of the text are reported to the diagnostic callback,
  * in the order of the text; *error gets the first, and how many more there are. Files that the text
- * names are looked up relative to the file that names them. Fails with RT_ERROR_INPUT. The caller
- * owns *out.
+ * names are looked up relative to the file that names them. Fails with RT_ERROR_INPUT, or with
+ * RT_CANCELLED when a progress callback cancels. The caller owns *out.
  */
 RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_options *options,
                                rt_error *error);

@@ -29,8 +29,8 @@ rt_affine rt_placement_scaled(const float centre[3], double x, double y, double 
 void rt_shape_set_bounds(rt_scene_shape *shape, int axis, double lo, double hi);
 
 /*
- * Adds a shape in object space whose kind, p, caps and surface are set: placed by `placement`, and then by
- * the transform of its surface.
+ * Adds a shape in object space whose kind, p, caps and surface are set: placed by `placement`, and
+ * then by the transform of its surface.
  */
 rt_status rt_shape_add_placed(rt_scene *scene, uint32_t *out, rt_new_shape *added,
                               const rt_affine *placement, const char *who, rt_error *error);

@@ -446,9 +446,8 @@ static void a_file_that_cannot_be_read_is_an_error_without_place(void **state)
 {
     static const struct {
         const char *path, *message;
-    } cases[] = {
-        {"/no/such/scene.rts", "cannot read the scene: No such file or directory"},
-        {"/tmp", "cannot read the scene: it is a directory"}};
+    } cases[] = {{"/no/such/scene.rts", "cannot read the scene: No such file or directory"},
+                 {"/tmp", "cannot read the scene: it is a directory"}};
     static collected c;
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -473,6 +472,61 @@ static void reading_ends_at_what_is_no_text(void **state)
     assert_int_equal(c.count, 1);
     assert_int_equal(c.items[0].line, 1);
     assert_string_equal(c.error.message, "the file is not text: it holds a NUL byte here");
+}
+
+/* What a progress callback was told, and when it asks to stop. */
+typedef struct watcher {
+    double last, stop_from;
+    int calls, is_wrong;
+} watcher;
+
+static int watch(void *user, const rt_progress *progress)
+{
+    watcher *w = user;
+    w->is_wrong |= progress->stage != RT_STAGE_LOAD || progress->fraction < w->last ||
+                   progress->fraction > 1 || (w->calls == 0 && progress->fraction != 0);
+    w->last = progress->fraction;
+    w->calls++;
+    return progress->fraction >= w->stop_from;
+}
+
+static rt_status read_watched(watcher *w, const char *text, rt_error *error)
+{
+    const rt_hooks hooks = {.progress = watch, .user = w};
+    const rt_load_options options = {.hooks = &hooks};
+    rt_scene *scene = NULL;
+    rt_status status = rt_scene_parse(&scene, text, NULL, &options, error);
+    assert_true((status == RT_OK) == (scene != NULL));
+    rt_scene_destroy(scene);
+    return status;
+}
+
+static void progress_goes_from_0_to_1_and_may_cancel(void **state)
+{
+    static const char few[] = "material m { }\nrepeat i from 1 to 3 {\nlet x = i\n}\n",
+                      many[] = "repeat i from 1 to 10000000 {\nlet x = i\n}\n";
+    static const struct {
+        const char *text;
+        double stop_from;
+        rt_status status;
+    } cases[] = {{few, 2, RT_OK},
+                 {few, 0, RT_CANCELLED},
+                 {few, 1, RT_CANCELLED},
+                 {many, 1e-9, RT_CANCELLED}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        watcher w = {0, cases[i].stop_from, 0, 0};
+        rt_error error;
+        assert_int_equal(read_watched(&w, cases[i].text, &error), cases[i].status);
+        assert_false(w.is_wrong);
+        assert_true(w.calls == (cases[i].stop_from == 0 ? 1 : 2));
+        if (cases[i].status == RT_OK)
+            assert_true(w.last == 1);
+        else
+            assert_string_equal(error.message, "cancelled");
+        if (cases[i].text == many)
+            assert_true(w.last < 0.9);
+    }
 }
 
 static void all_stands_for_a_number_of_photons(void **state)
@@ -525,6 +579,7 @@ int main(void)
                                         remove_scratch),
         cmocka_unit_test_setup_teardown(what_is_no_text_is_one_error, make_scratch, remove_scratch),
         cmocka_unit_test(a_file_that_cannot_be_read_is_an_error_without_place),
+        cmocka_unit_test(progress_goes_from_0_to_1_and_may_cancel),
         cmocka_unit_test(reading_ends_at_what_is_no_text),
         cmocka_unit_test(all_stands_for_a_number_of_photons),
         cmocka_unit_test(without_callback_or_error_it_still_works),

@@ -81,6 +81,23 @@ static void a_sphere_stays_one_under_a_similarity_only(void **state)
     rt_scene_destroy(scene);
 }
 
+/* Of ten million spheres: what few shapes have stands elsewhere. */
+static void a_plain_shape_takes_64_bytes(void **state)
+{
+    static const float radii[3] = {1, 2, 1};
+    rt_scene *scene = new_scene();
+    rt_surface plain = {0}, emissive = {.radiance = {1, 1, 1}};
+    rt_error error;
+    (void)state;
+    assert_true(sizeof(rt_scene_shape) <= 64);
+    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &plain, &error), &error);
+    assert_int_equal(scene->placement_count + scene->emission_count, 0);
+    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &emissive, &error), &error);
+    expect_ok(rt_scene_add_ellipsoid(scene, NULL, origin, radii, &plain, &error), &error);
+    assert_true(scene->placement_count == 1 && scene->emission_count == 1);
+    rt_scene_destroy(scene);
+}
+
 static void flat_shapes_are_brought_to_world_space(void **state)
 {
     rt_scene *scene = new_scene();
@@ -356,6 +373,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_transform_that_flattens_is_refused),
         cmocka_unit_test(a_sphere_stays_one_under_a_similarity_only),
+        cmocka_unit_test(a_plain_shape_takes_64_bytes),
         cmocka_unit_test(flat_shapes_are_brought_to_world_space),
         cmocka_unit_test(areas_under_affine_maps_match_brute_force),
         cmocka_unit_test(areas_of_plain_shapes_are_the_known_ones),
