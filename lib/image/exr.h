@@ -18,8 +18,8 @@ rt_status rt_exr_encode(rt_bytes *out, const rt_image *image, rt_error *error);
 /*
  * Decodes the first part of a scan-line or tiled file: every channel, converted to float, over the
  * data window, at full resolution, and the string attributes. Fails with RT_ERROR_INPUT for deep or
- * subsampled files and for damaged ones; `name` stands for the file in messages. The caller
- * destroys *out.
+ * subsampled files, for damaged ones, and for those that hold more than 2^28 values in less than a
+ * byte for each 64; `name` stands for the file in messages. The caller destroys *out.
  */
 rt_status rt_exr_decode(rt_image **out, const rt_bytes *file, const char *name, rt_error *error);
 

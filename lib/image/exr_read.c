@@ -49,7 +49,8 @@ static rt_status fail_input(const reader *r, const char *what, rt_error *error)
 }
 
 /* Checks what the header promises before anything is allocated for it. */
-static rt_status check_header(reader *r, exr_storage_t *storage, rt_error *error)
+static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *storage,
+                              rt_error *error)
 {
     if (exr_get_storage(r->context, 0, storage) != EXR_ERR_SUCCESS ||
         exr_get_data_window(r->context, 0, &r->window) != EXR_ERR_SUCCESS ||
@@ -65,8 +66,11 @@ static rt_status check_header(reader *r, exr_storage_t *storage, rt_error *error
         return fail_input(r, "the data window is empty or too large", error);
     if (count < 1 || count > RT_IMAGE_CHANNELS_MAX)
         return fail_input(r, "it has no channels or too many", error);
-    if ((uint64_t)width * (uint64_t)height * (uint64_t)count > RT_IMAGE_VALUES_MAX)
+    uint64_t values = (uint64_t)width * (uint64_t)height * (uint64_t)count;
+    if (values > RT_IMAGE_VALUES_MAX)
         return fail_input(r, "it holds more than 2^30 values", error);
+    if (rt_image_is_bomb(values, file->size))
+        return fail_input(r, "it is too large for its length: more than 64 values a byte", error);
     for (int i = 0; i < count; i++)
         if (r->channels->entries[i].x_sampling != 1 || r->channels->entries[i].y_sampling != 1)
             return fail_input(r, "subsampled channels are not supported", error);
@@ -126,6 +130,9 @@ static exr_result_t read_chunk(reader *r, exr_decode_pipeline_t *pipeline,
     if (chunk->width < 0 || chunk->height < 0 || (uint32_t)chunk->width > image->width - x ||
         (uint32_t)chunk->height > image->height - y)
         return EXR_ERR_BAD_CHUNK_LEADER;
+    /* OpenEXRCore reads on behind pixels that are cut short, as nothing is left to decompress. */
+    if (chunk->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size)
+        return EXR_ERR_BAD_CHUNK_LEADER;
     exr_result_t code = is_first ? exr_decoding_initialize(r->context, 0, chunk, pipeline)
                                  : exr_decoding_update(r->context, 0, chunk, pipeline);
     if (code != EXR_ERR_SUCCESS)
@@ -179,7 +186,7 @@ static exr_result_t read_tiles(reader *r, exr_decode_pipeline_t *pipeline)
 static rt_status read_image(reader *r, const source *s, rt_error *error)
 {
     exr_storage_t storage;
-    rt_status status = check_header(r, &storage, error);
+    rt_status status = check_header(r, s->file, &storage, error);
     if (status == RT_OK)
         status = create_image(r, error);
     if (status == RT_OK)

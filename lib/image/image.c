@@ -65,6 +65,11 @@ rt_status rt_image_create(rt_image **out, uint32_t width, uint32_t height, const
     return RT_OK;
 }
 
+int rt_image_is_bomb(uint64_t values, size_t file_size)
+{
+    return values > RT_IMAGE_VALUES_UNCHECKED && values / RT_IMAGE_VALUES_PER_BYTE > file_size;
+}
+
 void rt_image_destroy(rt_image *image)
 {
     if (!image)

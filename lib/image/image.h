@@ -16,7 +16,13 @@
 #define RT_IMAGE_SIDE_MAX 65536u
 #define RT_IMAGE_CHANNELS_MAX 256u
 #define RT_IMAGE_VALUES_MAX                                                                        \
-    (UINT64_C(1) << 30)         /* most pixels times channels that are read: 4 GiB of floats */
+    (UINT64_C(1) << 30) /* most pixels times channels that are read: 4 GiB of floats */
+/*
+ * A file that decodes to more than this many values, 1 GiB of floats, must have a byte for each
+ * RT_IMAGE_VALUES_PER_BYTE of them: pictures have, decompression bombs have not.
+ */
+#define RT_IMAGE_VALUES_UNCHECKED (UINT64_C(1) << 28)
+#define RT_IMAGE_VALUES_PER_BYTE 64
 #define RT_IMAGE_NAME_SIZE 256u /* with the closing zero; what the EXR format allows */
 #define RT_IMAGE_NO_CHANNEL UINT32_MAX
 
@@ -42,6 +48,12 @@ struct rt_image {
  */
 rt_status rt_image_create(rt_image **out, uint32_t width, uint32_t height, const char *const *names,
                           uint32_t channel_count, rt_error *error);
+
+/*
+ * Whether a file of so many bytes is too short for so many values, whatever its compression; asked
+ * before memory is taken for them.
+ */
+int rt_image_is_bomb(uint64_t values, size_t file_size);
 
 /* The index of the channel of that name, or RT_IMAGE_NO_CHANNEL. */
 uint32_t rt_image_channel(const rt_image *image, const char *name);

@@ -13,12 +13,6 @@
 #define CHUNK_MEMORY_MAX 65536 /* bytes that libpng may allocate for one chunk */
 /* maximum expansion: a match of 258 bytes takes at least two bits */
 #define DEFLATE_RATIO_MAX 1032
-/*
- * A file that decodes to more than VALUES_UNCHECKED values, 1 GiB of floats, must have a byte for
- * each VALUES_PER_BYTE of them: pictures have, decompression bombs have not.
- */
-#define VALUES_UNCHECKED (UINT64_C(1) << 28)
-#define VALUES_PER_BYTE 64
 
 /* A file being decoded. What must be freed is here, for libpng leaves by longjmp when it fails. */
 typedef struct reader {
@@ -73,7 +67,7 @@ static void create_image(png_structp png, png_infop info, reader *r)
         png_error(png, "it holds more than 2^30 values");
     if (bits / 8 / DEFLATE_RATIO_MAX > r->file->size)
         png_error(png, "it is too short for the size that it states");
-    if (values > VALUES_UNCHECKED && values / VALUES_PER_BYTE > r->file->size)
+    if (rt_image_is_bomb(values, r->file->size))
         png_error(png, "it is too large for its length: more than 64 values a byte");
     if (rt_image_create(&r->image, width, height, is_colour ? rgb : grey, is_colour ? 3 : 1,
                         &r->error) != RT_OK)

@@ -280,6 +280,34 @@ static void what_is_no_exr_is_refused(void **state)
     }
 }
 
+/* Where the value of a box attribute of the header begins. */
+static uint8_t *find_box(const rt_bytes *file, const char *name)
+{
+    size_t length = strlen(name) + 1;
+    for (size_t at = 0; at + length + 10 < file->size; at++)
+        if (memcmp(file->data + at, name, length) == 0)
+            return file->data + at + length + sizeof "box2i" + 4;
+    fail_msg("the file has no %s", name);
+    return NULL;
+}
+
+/* 2^14 x 2^14 pixels of three channels, 3 GiB of floats, in a few hundred bytes. */
+static void a_small_file_takes_little_memory(void **state)
+{
+    (void)state;
+    exr_sample sample = {
+        EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_ZIP, 0, 0, 4, 4, 0, 0};
+    rt_bytes bytes = exr_sample_file(&sample);
+    rt_image *image = NULL;
+    rt_error error = {0};
+    uint8_t *window = find_box(&bytes, "dataWindow");
+    window[8] = window[12] = 0xff;
+    window[9] = window[13] = 0x3f;
+    assert_int_equal(rt_exr_decode(&image, &bytes, "bomb", &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "too large for its length"));
+    rt_bytes_free(&bytes);
+}
+
 static void coding_touches_no_file(void **state)
 {
     (void)state;
@@ -310,6 +338,7 @@ int main(void)
         cmocka_unit_test(damaged_files_never_crash),
         cmocka_unit_test(damaged_tiles_never_crash),
         cmocka_unit_test(what_is_no_exr_is_refused),
+        cmocka_unit_test(a_small_file_takes_little_memory),
         cmocka_unit_test_setup_teardown(coding_touches_no_file, scratch_enter, scratch_leave),
     };
     return cmocka_run_group_tests_name("image/exr", tests, NULL, NULL);
