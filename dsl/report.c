@@ -116,7 +116,7 @@ static const char *cut_line(const rt_place *place, char **end, char *kept)
     char *stop = memchr(start, '\n', (size_t)(text + place->source->size - start));
     if (!stop)
         stop = text + place->source->size;
-    if (stop > start && stop[-1] == '\r')
+    else if (stop > start && stop[-1] == '\r')
         stop--;
     *end = stop;
     *kept = *stop;

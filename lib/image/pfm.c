@@ -121,7 +121,7 @@ static int parse_header(header *h, const rt_bytes *file)
 {
     char token[TOKEN_SIZE];
     size_t at = 0;
-    if (!next_token(token, &at, file))
+    if (file->size == 0 || is_space(file->data[0]) || !next_token(token, &at, file))
         return 0;
     if (strcmp(token, "PF") == 0)
         h->channel_count = 3;

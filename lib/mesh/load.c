@@ -44,7 +44,9 @@ static rt_status read_canonical(rt_canonical *canonical, const char *path,
     rt_status status = read_file(&bytes, path, error);
     if (status != RT_OK)
         return status;
-    rt_mesh_source source = {path, bytes.data, bytes.size, progress, error};
+    /* An empty file has no bytes to point at. */
+    const uint8_t *data = bytes.data ? bytes.data : (const uint8_t *)"";
+    rt_mesh_source source = {path, data, bytes.size, progress, error};
     reader *read = find_reader(&source);
     status =
         read ? read(canonical, &source)
