@@ -119,6 +119,7 @@ TESTS_QUICK := \
 	tests/test_api.c tests/test_chance.c \
 	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
+	tests/fuzz/test_fuzz.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
 	tests/kernels/test_density.c tests/kernels/test_filter.c tests/kernels/test_intersect.c \
 	tests/kernels/test_batch.c tests/kernels/test_light.c \
@@ -194,6 +195,7 @@ TEST_SUPPORT_SRC := \
 	tests/chance.c tests/support.c \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
+	tests/fuzz/blind.c \
 	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
 	tests/kernels/rng_draw.c \
 	tests/kernels/shape_check.c tests/kernels/shape_reference.c tests/kernels/statistics.c \
@@ -210,6 +212,14 @@ TEST_SUPPORT_SRC := \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
 	tests/studies/study.c \
 	tests/tools/expect.c tests/tools/spawn.c
+# What the programs of fuzzing share.
+FUZZ_SRC := \
+	tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c tests/fuzz/mesh.c \
+	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_map.c \
+	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
+	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \
+	tests/fuzz/target_scene.c tests/fuzz/target_stl.c tests/fuzz/targets.c \
+	tests/lib/image/exr_sample.c
 TEST_KERNEL_SRC  := \
 	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl \
 	tests/kernels/density.cl \
@@ -226,9 +236,10 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) \
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench check check-corpus check-memory check-mutation check-peers check-quick \
-	check-reference check-samples check-sanitize clean demo deps deps-lint format help install \
-	lint lint-quick need-deps proof run-all run-quick study uninstall
+.PHONY: all bench build-fuzz check check-corpus check-fuzz check-memory check-mutation \
+	check-peers check-quick check-reference check-samples check-sanitize clean demo deps \
+	deps-fuzz deps-lint format fuzz help install lint lint-quick need-deps proof run-all \
+	run-quick study uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -291,6 +302,15 @@ $(B)/libtests.a: $(TEST_SUPPORT)
 
 $(B)/tests/%: $(B)/tests/%.o $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
+
+# The targets of fuzzing, and the command line of rtc, which is one of them.
+FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) $(filter-out tools/rtc.c,$(TOOL_SRC)))
+$(B)/tests/fuzz/test_fuzz $(B)/tests/fuzz/make_inputs: \
+$(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
+	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
+
+$(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/librt.a
+	$(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
 
 # Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build. One
 # test more than cores runs at a time, as a test often waits for its device.
@@ -360,6 +380,34 @@ SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined 
 check-sanitize: deps
 	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
 	 $(MAKE) --no-print-directory $(MAKE_JOBS) B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
+
+# Fuzzing guided by coverage, with the sanitizers, by libFuzzer; see tests/fuzz/README.md. HOURS of
+# CPU time for each target, or for TARGET alone; what it finds interesting is kept in FUZZ_CORPUS.
+# The edges reached are counted in a second program, without the sanitizers' own branches.
+HOURS       ?= 1
+FUZZ_CC     ?= clang-14
+FUZZ_CXX    ?= clang++-14
+FUZZ_CORPUS ?= build/fuzz/corpus
+FUZZ_FLAGS  := -O1 -g -Wno-unused-function -DITERATIONS_MAX=20000.0 -fsanitize=fuzzer-no-link
+FUZZ_CHECKS := -fno-omit-frame-pointer -fsanitize=address,undefined,float-cast-overflow \
+               -fno-sanitize-recover=all
+FUZZ_RUN     = FUZZ_CORPUS='$(FUZZ_CORPUS)' tests/fuzz/fuzz.sh
+FUZZ_MAKE    = $(MAKE) --no-print-directory $(MAKE_JOBS) CC='$(FUZZ_CC)' CXX='$(FUZZ_CXX)'
+
+fuzz: build-fuzz
+	$(FUZZ_RUN) --hours $(HOURS) $(TARGET)
+
+# What a change is checked with: 20 s for each target.
+check-fuzz: build-fuzz
+	$(FUZZ_RUN) --seconds 20 $(TARGET)
+
+build-fuzz: deps deps-fuzz
+	+$(MAKE) --no-print-directory $(MAKE_JOBS) build/tests/fuzz/make_inputs
+	+$(FUZZ_MAKE) B=build/fuzz CFLAGS='$(FUZZ_FLAGS) $(FUZZ_CHECKS)' build/fuzz/fuzz
+	+$(FUZZ_MAKE) B=build/fuzz/edges CFLAGS='$(FUZZ_FLAGS)' build/fuzz/edges/fuzz
+
+deps-fuzz:
+	@FUZZ_CC='$(FUZZ_CC)' tools/deps.sh --fuzz
 
 # Small renders on Oclgrind, which sees reads and writes outside of buffers, races, and wrong calls
 # of OpenCL.
@@ -472,6 +520,8 @@ help:
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'
 	@echo 'make check-mutation  mutation testing: plants errors that the tests must see'
+	@echo 'make check-fuzz      20 s of fuzzing, guided by coverage, of each reader of files'
+	@echo 'make fuzz            HOURS ($(HOURS)) of CPU time of it for each, or for TARGET'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
 	@echo 'make study           numbers and pictures on photon mapping; study-k ... makes one'

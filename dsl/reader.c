@@ -49,7 +49,9 @@ static int must_stop(const rt_reader *reader)
 }
 
 #define REPEATS_MAX 32            /* repeats inside each other */
+#ifndef ITERATIONS_MAX            /* less where a fuzzer is to be quick */
 #define ITERATIONS_MAX 10000000.0 /* of all repeats of a scene */
+#endif
 
 /* ---- Names --------------------------------------------------------------- */
 

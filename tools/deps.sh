@@ -3,6 +3,7 @@
 #
 #   tools/deps.sh          finds what is missing and installs it from Debian packages
 #   tools/deps.sh --lint   the same for the programs of `make lint` and `make format`
+#   tools/deps.sh --fuzz   the same for those of `make fuzz`
 #   tools/deps.sh --check  only names what is missing; status 1 if anything is
 #
 # What counts is whether the thing works, not which package it came from: programs are
@@ -116,6 +117,14 @@ probe_clang_format() { has_program "${CLANG_FORMAT:-clang-format-14}"; }
 probe_shellcheck() { has_program shellcheck; }
 probe_cppcheck() { has_program cppcheck; }
 
+probe_libfuzzer() {
+    echo 'int LLVMFuzzerTestOneInput(const char *data); int LLVMFuzzerTestOneInput(const char *data)
+    { return data == 0; }' >"$work/probe.c"
+    ${FUZZ_CC:-clang-14} -fsanitize=fuzzer,address,undefined -o "$work/probe" "$work/probe.c" \
+        >/dev/null 2>&1
+}
+probe_symbolizer() { has_program llvm-symbolizer-14 || has_program llvm-symbolizer; }
+
 # ---- What is needed: probe, what it is, the Debian packages that bring it ----
 
 dependencies() {
@@ -138,6 +147,13 @@ lint_dependencies() {
 clang_format|clang-format 14|clang-format-14
 shellcheck|shellcheck|shellcheck
 cppcheck|cppcheck|cppcheck
+END
+}
+
+fuzz_dependencies() {
+    cat <<'END'
+libfuzzer|clang with libFuzzer and sanitizers|clang-14 libclang-rt-14-dev
+symbolizer|the symbolizer of LLVM|llvm-14
 END
 }
 
@@ -173,7 +189,8 @@ needed=dependencies
 case ${1:-} in
 '' | --check) ;;
 --lint) needed=lint_dependencies ;;
-*) stop "unknown argument '$1'; usage: tools/deps.sh [--check | --lint]" ;;
+--fuzz) needed=fuzz_dependencies ;;
+*) stop "unknown argument '$1'; usage: tools/deps.sh [--check | --lint | --fuzz]" ;;
 esac
 
 find_missing

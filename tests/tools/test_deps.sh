@@ -58,6 +58,9 @@ check compiler_there_is_not_installed eval '! called " gcc"'
 check still_missing_after_install_fails status_is 1
 check still_missing_after_install_is_said says 'not usable'
 
+run "$work/fake:$PATH" FUZZ_CC=false sh "$deps" --fuzz
+check fuzz_installs_what_it_needs called '^apt-get install .*libclang-rt-14-dev'
+
 run "$work/fake:$PATH" PKG_CONFIG=false FAKE_ID=1000 sh "$deps"
 check not_root_goes_through_sudo called '^sudo .*apt-get install'
 

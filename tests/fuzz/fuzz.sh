@@ -1,0 +1,184 @@
+#!/bin/sh
+# fuzz.sh - runs the targets of fuzzing under libFuzzer, one after another, and says how far they
+# came.
+#
+#   tests/fuzz/fuzz.sh --seconds S [TARGET...]   S seconds of CPU time for each target
+#   tests/fuzz/fuzz.sh --hours H [TARGET...]     H hours for each, in turns of ten minutes
+#   tests/fuzz/fuzz.sh --unreached TARGET        what its corpus does not reach in its own files
+#   tests/fuzz/fuzz.sh --totals                  sums over all runs, from the log
+#
+# `make fuzz` and `make check-fuzz` build what it needs and call it. Inputs that reached something
+# new are kept in FUZZ_CORPUS/TARGET and begin the next run. For each turn a line is printed and
+# added to FUZZ_LOG (fuzz.log beside the corpus): target, CPU seconds, executions, executions a
+# second, edges reached of those in the target's own files, inputs in the corpus, findings. An input
+# that breaks a promise is left in build/fuzz/findings; the status is then 1.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+top=$PWD
+fuzz=$top/build/fuzz/fuzz
+edges=$top/build/fuzz/edges/fuzz # without sanitizers, whose branches are none of the program
+inputs=$top/build/tests/fuzz/make_inputs
+corpus=${FUZZ_CORPUS:-build/fuzz/corpus}
+turn_seconds=600
+memory=2048 # MiB of a process
+largest=1100 # MiB of one allocation: 1 GiB of values is the most that a reader takes unasked
+
+stop() {
+    printf 'fuzz: %s\n' "$1" >&2
+    exit 2
+}
+
+# Folders are named from the root: the targets leave the directory.
+mkdir -p "$corpus" build/fuzz/findings || exit 2
+corpus=$(cd "$corpus" && pwd)
+log=${FUZZ_LOG:-$(dirname "$corpus")/fuzz.log}
+symbolizer=$(command -v llvm-symbolizer-14 || command -v llvm-symbolizer)
+
+# Scratch files in memory where there is such a folder: one is written for each input.
+base=/tmp
+[ -w /dev/shm ] && base=/dev/shm
+work=$(mktemp -d "$base/rt-fuzz.XXXXXX") || exit 2
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+
+# words TARGET: its dictionary: words of the program's tables, else all that its own files compare
+# with, the short strings in them.
+words() {
+    "$inputs" words "$1"
+    # shellcheck disable=SC2046 # patterns of files without spaces
+    grep -oh '"[A-Za-z_][A-Za-z_0-9]\{1,15\}"' $(sources_of "$1") | sort -u
+}
+
+sources_of() { "$inputs" list | sed -n "s/^$1 [0-9]* //p"; }
+size_of() { "$inputs" list | sed -n "s/^$1 \([0-9]*\) .*/\1/p"; }
+
+# libfuzzer TARGET ARGUMENT...: one run of $fuzz in a scratch folder of its own.
+libfuzzer() {
+    name=$1
+    shift
+    env RT_FUZZ="$name" TMPDIR="$work" ASAN_SYMBOLIZER_PATH="$symbolizer" \
+        ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1" \
+        LSAN_OPTIONS="suppressions=$top/tests/leaks.supp:print_suppressions=0" \
+        "$fuzz" -timeout=3600 -rss_limit_mb=$memory -malloc_limit_mb=$largest "$@" </dev/null
+    status=$?
+    rm -rf "$work"/rt-fuzz-*
+    return $status
+}
+
+# coverage TARGET: writes $work/coverage, a line for each function of its own files and each edge
+# that no input of the corpus reaches.
+coverage() {
+    fuzz=$edges libfuzzer "$1" -runs=0 -print_coverage=1 "$corpus/$1" >"$work/all" 2>&1
+    sources_of "$1" | tr ' ' '\n' | sed '/^$/d; s/\./\\./g; s/\*/.*/; s|^|/|; s|$|:|' |
+        sed 's|\.\*:|[^/]*:|' >"$work/patterns"
+    grep -E '^(UN)?COVERED_(FUNC|PC)|^ *UNCOVERED_PC' "$work/all" |
+        grep -E -f "$work/patterns" >"$work/coverage"
+}
+
+# count_edges: of $work/coverage, "REACHED ALL".
+count_edges() {
+    awk '$1 ~ /_FUNC:$/ {
+        for (i = 2; i < NF; i++)
+            if ($i == "edges:") { split($(i + 1), part, "/"); reached += part[1]; all += part[2] }
+    } END { print reached + 0, all + 0 }' "$work/coverage"
+}
+
+# stat_of NAME: a number of libFuzzer's summary; 0 where it has none.
+stat_of() {
+    stat=$(sed -n "s/^stat::$1: *//p" "$work/log" | tail -n 1)
+    echo "${stat:-0}"
+}
+
+# turn TARGET SECONDS: one run, until it has used so much CPU time.
+turn() {
+    mkdir -p "$corpus/$1"
+    rm -rf "$work/seeds"
+    mkdir "$work/seeds"
+    "$inputs" seeds "$1" "$work/seeds"
+    words "$1" >"$work/words"
+    RT_FUZZ_SECONDS=$2 libfuzzer "$1" -dict="$work/words" -max_len="$(size_of "$1")" \
+        -use_value_profile=1 -print_final_stats=1 -verbosity=1 \
+        -artifact_prefix="$top/build/fuzz/findings/$1-" "$corpus/$1" "$work/seeds" \
+        >"$work/log" 2>&1
+    ended=$?
+    found=0
+    if [ $ended -ne 0 ]; then
+        found=1
+        grep -v '^#' "$work/log" | tail -n 60 >&2
+    fi
+    coverage "$1"
+    # shellcheck disable=SC2046 # two numbers
+    set -- "$1" $(count_edges)
+    line=$(printf '%s %s %s %s %s %s %s %s' "$1" "$(stat_of cpu_seconds)" \
+        "$(stat_of number_of_executed_units)" "$(stat_of average_exec_per_sec)" "$2" "$3" \
+        "$(find "$corpus/$1" -type f | wc -l)" "$found")
+    printf '%s %s\n' "$(date -u +%Y-%m-%dT%H:%M:%SZ)" "$line" >>"$log"
+    report "$line"
+    return $found
+}
+
+# report "TARGET CPU EXECUTIONS RATE REACHED ALL INPUTS FINDINGS"
+report() {
+    echo "$1" | awk '{
+        printf "%-8s %8.0f CPU s %12.0f executions %7.0f/s  edges %5d of %5d  corpus %5d  " \
+            "findings %d\n", $1, $2, $3, $4, $5, $6, $7, $8
+    }'
+}
+
+# What all turns together did; edges and inputs are those of the latest.
+totals() {
+    [ -f "$log" ] || stop "there is no $log yet"
+    awk '{
+        if (!($2 in cpu)) names[++n] = $2
+        cpu[$2] += $3; runs[$2] += $4; reached[$2] = $6; all[$2] = $7; kept[$2] = $8; bad[$2] += $9
+    } END {
+        for (i = 1; i <= n; i++) {
+            t = names[i]
+            rate = cpu[t] > 0 ? runs[t] / cpu[t] : 0
+            print t, cpu[t], runs[t], rate, reached[t], all[t], kept[t], bad[t]
+        }
+    }' "$log" | while read -r line; do
+        report "$line"
+    done
+}
+
+# run_all SECONDS TARGET...: so much for each, in turns, so that all come as far when it is stopped.
+run_all() {
+    left=$1
+    shift
+    # shellcheck disable=SC2046 # words without spaces
+    [ $# -gt 0 ] || set -- $("$inputs" list | sed 's/ .*//')
+    bad=0
+    while [ "$left" -gt 0 ]; do
+        now=$((left < turn_seconds ? left : turn_seconds))
+        for target; do
+            turn "$target" "$now" || bad=1
+        done
+        left=$((left - now))
+    done
+    return $bad
+}
+
+case ${1:-} in
+--seconds) [ $# -ge 2 ] || stop 'which number of seconds?' ;;
+--hours) [ $# -ge 2 ] || stop 'which number of hours?' ;;
+--unreached) [ $# -eq 2 ] || stop 'which target?' ;;
+--totals) ;;
+*) stop 'usage: fuzz.sh --seconds S | --hours H [TARGET...], --unreached TARGET, --totals' ;;
+esac
+what=$1
+amount=${2:-}
+[ "$what" = --totals ] && {
+    totals
+    exit
+}
+shift 2
+case $what in
+--unreached)
+    coverage "$amount"
+    count_edges | awk '{ printf "%d of %d edges are reached\n", $1, $2 }'
+    grep UNCOVERED "$work/coverage"
+    ;;
+--seconds) run_all "$amount" "$@" ;;
+--hours) run_all "$(awk -v h="$amount" 'BEGIN { printf "%d", 3600 * h }')" "$@" ;;
+esac

@@ -1,0 +1,287 @@
+/* target_map.c - photon maps. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/crc32.h"
+#include "fuzz/targets.h"
+#include "mesh/load.h"
+#include "photon/map_file.h"
+
+static rt_photon_map *decode(const uint8_t *data, size_t size)
+{
+    rt_photon_map *map = fuzz_untouched;
+    rt_error error;
+    rt_status status = rt_photon_map_decode(&map, data, size, "fuzz", &error);
+    return fuzz_expect_answer(status, &error, map) ? map : NULL;
+}
+
+static void check_values(const rt_photon_map *map)
+{
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        for (size_t i = 0; i < rt_photon_map_count(map, (rt_photon_kind)kind); i++) {
+            const rt_photon *p = rt_photon_map_photons(map, (rt_photon_kind)kind) + i;
+            fuzz_expect_finite(p->position, 3);
+            fuzz_expect_finite(p->wi, 3);
+            fuzz_expect_finite(p->flux, 3);
+            fuzz_expect_finite(p->normal, 3);
+            fuzz_expect_finite(&p->shading, 1);
+        }
+    rt_light_ledger row;
+    if (rt_photon_map_ledger(map, &row, 1))
+        for (int c = 0; c < 3; c++)
+            FUZZ_EXPECT(isfinite(row.power[c]) && isfinite(row.emitted[c]) &&
+                        isfinite(row.roulette[c]));
+}
+
+/* Encoded again, and merged with nothing, a map is the same to the bit. */
+static void check_bytes(const rt_photon_map *map, const uint8_t *data, size_t size)
+{
+    rt_bytes bytes = {0};
+    rt_error error;
+    FUZZ_EXPECT(rt_photon_map_encode(&bytes, map, &error) == RT_OK);
+    FUZZ_EXPECT(bytes.size == size && memcmp(bytes.data, data, size) == 0);
+    rt_bytes_free(&bytes);
+}
+
+static void check_merge(const rt_photon_map *map, const uint8_t *data, size_t size)
+{
+    const rt_photon_map *const twice[2] = {map, map};
+    rt_photon_map *merged = fuzz_untouched;
+    rt_photon_map_info info;
+    rt_error error;
+    FUZZ_EXPECT(rt_photon_map_merge(&merged, twice, 1, &error) == RT_OK);
+    check_bytes(merged, data, size);
+    rt_photon_map_destroy(merged);
+    rt_photon_map_get_info(map, &info);
+    merged = fuzz_untouched;
+    rt_status status = rt_photon_map_merge(&merged, twice, 2, &error);
+    FUZZ_EXPECT(status != RT_OK || info.paths[0] + info.paths[1] == 0);
+    if (status == RT_OK)
+        rt_photon_map_destroy(merged);
+    else
+        FUZZ_EXPECT(merged == fuzz_untouched);
+}
+
+/* The points that it is exported as are a PLY file, with as many vertices as photons. */
+static void check_export(const rt_photon_map *map)
+{
+    rt_photon_map_info info;
+    rt_mesh *points = NULL;
+    rt_error error;
+    rt_photon_map_get_info(map, &info);
+    FUZZ_EXPECT(rt_photon_map_export(map, "map.ply", &error) == RT_OK);
+    FUZZ_EXPECT(rt_mesh_load(&points, "map.ply", NULL, &error) == RT_OK);
+    FUZZ_EXPECT(points->vertex_count == info.photons[0] + info.photons[1]);
+    rt_mesh_destroy(points);
+}
+
+static int run(const uint8_t *data, size_t size)
+{
+    rt_photon_map *map = decode(data, size);
+    if (!map)
+        return 0;
+    check_values(map);
+    check_bytes(map, data, size);
+    check_merge(map, data, size);
+    check_export(map);
+    rt_photon_map_destroy(map);
+    return 1;
+}
+
+/* ---- Seeds --------------------------------------------------------------------------------- */
+
+static void add_photons(rt_photon_map *map, int kind, uint32_t seed, uint64_t first, int count)
+{
+    rt_path_range range = {first, 10, (uint64_t)count, seed};
+    FUZZ_EXPECT(rt_photon_list_reserve(map->lists + kind, (size_t)count, NULL) == RT_OK);
+    for (int i = 0; i < count; i++) {
+        rt_photon *p = map->lists[kind].photons + map->lists[kind].count++;
+        *p = (rt_photon){{(float)i, 2, 3}, (uint32_t)first + (uint32_t)i,
+                         {0, 1, 0},        kind ? 0x301 : 0x200,
+                         {1, 0.5f, 0},     1,
+                         {0, 0, -1},       1};
+    }
+    FUZZ_EXPECT(rt_path_ranges_add(map->ranges + kind, &range, NULL) == RT_OK);
+    map->lists[kind].emitted += range.count;
+}
+
+static void add(fuzz_inputs *seeds, size_t lights, int is_split, int ranges)
+{
+    rt_photon_map *map = calloc(1, sizeof *map);
+    rt_bytes bytes = {0};
+    FUZZ_EXPECT(map != NULL);
+    map->settings = (rt_photon_settings){7, 5, 1, 1, (uint32_t)is_split};
+    map->ledger.rows = calloc(lights ? lights : 1, sizeof *map->ledger.rows);
+    map->ledger.count = lights;
+    for (size_t i = 0; map->ledger.rows && i < lights; i++)
+        map->ledger.rows[i] = (rt_ledger_row){i ? RT_NONE : 2, -20, 4, {1, 2, 3}, 0.5, {{9}}};
+    for (int kind = 0; kind <= is_split; kind++)
+        for (int i = 0; i < ranges; i++)
+            add_photons(map, kind, 1 + (uint32_t)i / 2, 20 * (uint64_t)i, 3 - kind);
+    map->ledger.paths = map->lists[0].emitted;
+    FUZZ_EXPECT(rt_photon_map_encode(&bytes, map, NULL) == RT_OK);
+    fuzz_add(seeds, bytes.data, bytes.size);
+    rt_bytes_free(&bytes);
+    rt_photon_map_destroy(map);
+}
+
+static void seed(fuzz_inputs *seeds)
+{
+    add(seeds, 0, 0, 0);
+    add(seeds, 1, 0, 1);
+    add(seeds, 2, 1, 3);
+}
+
+/* ---- Mutation ------------------------------------------------------------------------------ */
+
+/* Places of numbers of 8 bytes in the header, and of a kind of photons after its start. */
+enum {
+    at_size = 16,
+    at_lights = 56,
+    at_paths = 64,
+    at_kinds = 80,
+    of_kind = 40,
+    kind_paths = 0,
+    kind_photons = 16,
+    kind_ranges = 24,
+    table_count = 5
+};
+
+/* The tables: lights, two of ranges, two of photons. */
+static const size_t row_sizes[table_count] = {RT_MAP_LIGHT, RT_MAP_RANGE, RT_MAP_RANGE,
+                                              RT_MAP_PHOTON, RT_MAP_PHOTON};
+static const size_t count_places[table_count] = {
+    at_lights, at_kinds + kind_ranges, at_kinds + of_kind + kind_ranges, at_kinds + kind_photons,
+    at_kinds + of_kind + kind_photons};
+
+/* Where each table starts; 0 when the counts do not fit the size. */
+static int find_tables(const uint8_t *data, size_t size, size_t starts[table_count + 1])
+{
+    size_t at = RT_MAP_HEADER;
+    if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
+        return 0;
+    for (int i = 0; i < table_count; i++) {
+        uint64_t count = fuzz_get(data + count_places[i], 8);
+        starts[i] = at;
+        if (count > (size - RT_MAP_CHECKSUM - at) / row_sizes[i])
+            return 0;
+        at += (size_t)count * row_sizes[i];
+    }
+    starts[table_count] = at;
+    return at == size - RT_MAP_CHECKSUM;
+}
+
+/* Adds a copy of a row, or takes one away. */
+static size_t change_rows(uint8_t *data, size_t size, size_t room, fuzz_random *random)
+{
+    size_t starts[table_count + 1];
+    uint8_t row[RT_MAP_LIGHT];
+    if (!find_tables(data, size, starts))
+        return size;
+    uint32_t i = fuzz_random_below(random, table_count);
+    uint64_t count = fuzz_get(data + count_places[i], 8);
+    int adds = count == 0 || fuzz_random_below(random, 2);
+    size_t at = starts[i];
+    if (count)
+        at += row_sizes[i] * fuzz_random_below(random, (uint32_t)count);
+    memset(row, 0, sizeof row);
+    if (count)
+        memcpy(row, data + at, row_sizes[i]);
+    size_t changed =
+        fuzz_splice(data, size, room, at, adds ? 0 : row_sizes[i], row, adds ? row_sizes[i] : 0);
+    if (changed != size)
+        fuzz_set(data + count_places[i], adds ? count + 1 : count - 1, 8);
+    return changed;
+}
+
+/* Makes ranges, photons and paths of each kind add up. */
+static void add_up(uint8_t *data, size_t size)
+{
+    size_t starts[table_count + 1];
+    if (!find_tables(data, size, starts))
+        return;
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
+        uint8_t *counts = data + at_kinds + of_kind * kind;
+        uint64_t ranges = fuzz_get(counts + kind_ranges, 8), paths = 0;
+        uint64_t photons = fuzz_get(counts + kind_photons, 8);
+        for (uint64_t i = 0; i < ranges; i++) {
+            uint8_t *range = data + starts[1 + kind] + RT_MAP_RANGE * i;
+            uint64_t here = fuzz_get(range + 16, 8);
+            paths += fuzz_get(range + 8, 8);
+            if (here > photons || i + 1 == ranges)
+                fuzz_set(range + 16, here = photons, 8);
+            photons -= here;
+        }
+        fuzz_set(counts + kind_paths, paths, 8);
+    }
+    memcpy(data + at_paths, data + at_kinds + kind_paths, 8);
+}
+
+/* The magic, the size and the checksum. */
+static void seal(uint8_t *data, size_t size)
+{
+    if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
+        return;
+    memcpy(data, rt_map_magic, sizeof rt_map_magic);
+    fuzz_set(data + 8, RT_MAP_VERSION, 4);
+    fuzz_set(data + 12, RT_MAP_HEADER, 4);
+    fuzz_set(data + at_size, size, 8);
+    fuzz_set(data + size - RT_MAP_CHECKSUM, rt_crc32(data, size - RT_MAP_CHECKSUM), 4);
+}
+
+/* Changes bytes of one row, or of the header, in place. */
+static void change_bytes(uint8_t *data, size_t size, fuzz_random *random)
+{
+    size_t starts[table_count + 1], at = 24, length = RT_MAP_HEADER - 24;
+    uint8_t row[RT_MAP_LIGHT];
+    uint32_t i = fuzz_random_below(random, table_count + 1);
+    if (!find_tables(data, size, starts))
+        return;
+    if (i < table_count && starts[i + 1] > starts[i]) {
+        uint32_t rows = (uint32_t)((starts[i + 1] - starts[i]) / row_sizes[i]);
+        length = row_sizes[i];
+        at = starts[i] + length * fuzz_random_below(random, rows);
+    }
+    memcpy(row, data + at, length);
+    size_t changed = fuzz_mutate_bytes(row, length, length);
+    memcpy(data + at, row, changed);
+}
+
+static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t seed)
+{
+    fuzz_random random = fuzz_random_begin(seed);
+    switch (fuzz_random_below(&random, 8)) {
+    case 0:
+        size = fuzz_mutate_bytes(data, size, room);
+        break;
+    case 1:
+    case 2:
+        size = change_rows(data, size, room, &random);
+        break;
+    case 3:
+        size = change_rows(data, size, room, &random);
+        change_bytes(data, size, &random);
+        break;
+    default:
+        change_bytes(data, size, &random);
+        break;
+    }
+    if (fuzz_random_below(&random, 4))
+        add_up(data, size);
+    if (fuzz_random_below(&random, 16))
+        seal(data, size);
+    return size;
+}
+
+const fuzz_target fuzz_target_map = {
+    .name = "map",
+    .sources = "lib/photon/map_read* lib/photon/map_write* lib/photon/map_merge* "
+               "lib/photon/map_ply* lib/photon/photon_map* lib/photon/photon_list* "
+               "lib/photon/ledger*",
+    .run = run,
+    .seed = seed,
+    .mutate = mutate,
+    .size_max = 4096,
+    .tries = 20000,
+};

@@ -1,0 +1,27 @@
+/* targets.h - all targets; each stands in target_NAME.c. */
+#ifndef RT_TESTS_FUZZ_TARGETS_H
+#define RT_TESTS_FUZZ_TARGETS_H
+
+#include "fuzz/fuzz.h"
+
+#define FUZZ_TARGETS(X)                                                                            \
+    X(scene)                                                                                       \
+    X(ply)                                                                                         \
+    X(obj)                                                                                         \
+    X(off)                                                                                         \
+    X(stl)                                                                                         \
+    X(png)                                                                                         \
+    X(ppm)                                                                                         \
+    X(pfm)                                                                                         \
+    X(exr)                                                                                         \
+    X(map)                                                                                         \
+    X(command)
+
+#define FUZZ_DECLARE(name) extern const fuzz_target fuzz_target_##name;
+FUZZ_TARGETS(FUZZ_DECLARE)
+
+/* All of them, NULL behind the last; that of a name, or NULL. */
+extern const fuzz_target *const fuzz_targets[];
+const fuzz_target *fuzz_find(const char *name);
+
+#endif
