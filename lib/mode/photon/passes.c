@@ -62,8 +62,8 @@ static rt_status open_queries(rt_photon_render *r, uint32_t sample, double squar
     return status;
 }
 
-static rt_status render_pass(rt_photon_render *r, uint32_t pass, double squared_factor,
-                             rt_stage_progress *progress, rt_error *error)
+static rt_status render_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
+                             rt_error *error)
 {
     rt_film_stats *stats = &r->job->film->stats;
     double from = progress->from, to = progress->to, t0 = rt_clock();
@@ -75,7 +75,7 @@ static rt_status render_pass(rt_photon_render *r, uint32_t pass, double squared_
     double t1 = rt_clock();
     rt_stage_part(progress, from + 0.4 * (to - from), to);
     if (status == RT_OK)
-        status = open_queries(r, first, squared_factor, progress, error);
+        status = open_queries(r, first, r->squared_factor, progress, error);
     if (status == RT_OK)
         status = rt_photon_render_sample(r, first, progress, error);
     rt_queries_close(&r->queries);
@@ -114,22 +114,23 @@ static double part_done(const rt_photon_render *r, uint32_t passes)
 rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->job->options;
-    double squared_factor = 1, longest = 0;
+    rt_film_stats *stats = &r->job->film->stats;
+    double longest = 0;
     int enough = 0;
     rt_stage_progress progress;
 
     rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_RENDER);
-    for (uint32_t pass = 0; pass < o->passes && status == RT_OK && !enough; pass++) {
+    for (uint32_t pass = stats->passes; pass < o->passes && status == RT_OK && !enough; pass++) {
         double began = rt_clock(), from = part_done(r, pass), to = 1.0 / o->passes;
         if (o->time > 0 && longest / o->time > to)
             to = longest / o->time;
-        squared_factor = shrunk(squared_factor, pass, o->alpha);
+        r->squared_factor = shrunk(r->squared_factor, pass, o->alpha);
         rt_stage_part(&progress, from, from + to < 1 ? from + to : 1);
-        status = render_pass(r, pass, squared_factor, &progress, error);
+        status = render_pass(r, pass, &progress, error);
         if (status == RT_OK)
             status = end_pass(r, pass, &progress, &enough, error);
         if (status == RT_OK)
-            r->job->film->stats.passes = pass + 1;
+            stats->passes = pass + 1;
         if (rt_photon_render_elapsed(r) >= 1)
             break;
         longest = rt_clock() - began > longest ? rt_clock() - began : longest;

@@ -26,6 +26,7 @@ typedef struct rt_photon_render {
     rt_gather_options options[RT_QUERIES];
     rt_queries queries;
     double first_radius[RT_QUERIES]; /* of the passes, the largest; 0 while unknown */
+    double squared_factor;           /* by which the pass has shrunk the square of that radius */
     /* squared, of each pixel, float; NULL where one holds for all */
     cl_mem first_radii[RT_QUERIES];
     double began;   /* rt_clock() at the start of emission, for options->time */

@@ -12,6 +12,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "mode/modes.h"
+#include "mode/photon/passes.h"
+#include "setting/options.h"
 #include "studies/study.h"
 
 enum { side = 32, counts = 6, fewest = 8, renders = 4 };
@@ -28,6 +31,68 @@ static rt_render_options pass_options(const study *s, uint32_t passes)
     return options;
 }
 
+/* ---- A render whose film is seen on the way ----------------------------------------- */
+
+typedef struct progression {
+    rt_render_options options;
+    rt_first_hit_layers layers; /* none */
+    rt_render_job job;
+    rt_photon_render render;
+} progression;
+
+static void progression_begin(progression *p, const study *s, const rt_render_options *options)
+{
+    rt_stage_progress progress;
+    rt_error error;
+    memset(p, 0, sizeof *p);
+    p->options = *options;
+    rt_options_complete(&p->options);
+    p->job.renderer = s->renderer;
+    p->job.options = &p->options;
+    p->job.layers = &p->layers;
+    expect_ok(rt_renderer_aim(s->renderer, &p->options, &error), &error);
+    expect_ok(rt_film_create(&p->job.film, &p->options, &error), &error);
+    expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_COMPILE), &error);
+    expect_ok(rt_mode_photon.prepare(&p->job, &p->render, &progress, &error), &error);
+    expect_ok(rt_photon_render_begin(&p->render, &error), &error);
+}
+
+/* The film after so many passes in all, those of the calls before included. */
+static const rt_film *progression_after(progression *p, uint32_t passes)
+{
+    rt_error error;
+    p->options.passes = passes;
+    expect_ok(rt_photon_render_passes(&p->render, &error), &error);
+    expect_ok(rt_eye_paths_read(&p->render.eye_paths, &error), &error);
+    rt_film_resolve(p->job.film);
+    return p->job.film;
+}
+
+static void progression_end(progression *p)
+{
+    rt_mode_photon.release(&p->render);
+    rt_film_destroy(p->job.film);
+}
+
+static void the_film_on_the_way_is_that_of_so_many_passes(void **state)
+{
+    progression p;
+    study s;
+    (void)state;
+    study_open(&s, "test_progressive", "scenes/box_area.rts", side);
+    rt_render_options options = pass_options(&s, 5);
+    rt_film *whole = study_render(&s, &options, NULL);
+    progression_begin(&p, &s, &options);
+    progression_after(&p, 2);
+    const rt_film *seen = progression_after(&p, options.passes);
+    assert_memory_equal(rt_film_rgb(seen), rt_film_rgb(whole), sizeof(float) * 3 * side * side);
+    rt_film_destroy(whole);
+    progression_end(&p);
+    study_close(&s);
+}
+
+/* ---- Convergence ------------------------------------------------------------------- */
+
 static rt_film *reference_of(const study *s, uint32_t spp, uint32_t seed)
 {
     rt_render_options options = s->options;
@@ -37,23 +102,28 @@ static rt_film *reference_of(const study *s, uint32_t spp, uint32_t seed)
     return study_render(s, &options, NULL);
 }
 
-/* Two references of `spp` samples each; their noise adds nothing to the error on average. */
+/*
+ * Two references of `spp` samples each; their noise adds nothing to the error on average. The films
+ * of fewer passes are those that the longest render of a seed comes by.
+ */
 static void follow(const char *scene, uint32_t spp, double close)
 {
-    double passes[counts], errors[counts], last_mean = 0;
+    double passes[counts], errors[counts] = {0}, last_mean = 0;
     study s;
     study_open(&s, "test_progressive", scene, side);
     rt_film *a = reference_of(&s, spp, 1000), *b = reference_of(&s, spp, 1001);
-    for (int i = 0; i < counts; i++) {
-        rt_render_options options = pass_options(&s, (uint32_t)fewest << i);
-        passes[i] = options.passes;
-        errors[i] = last_mean = 0;
-        for (int k = 0; k < renders; k++, options.seed++) {
-            rt_film *film = study_render(&s, &options, NULL);
+    rt_render_options options = pass_options(&s, fewest);
+    for (int k = 0; k < renders; k++, options.seed++) {
+        const rt_film *film = NULL;
+        progression p;
+        progression_begin(&p, &s, &options);
+        for (int i = 0; i < counts; i++) {
+            passes[i] = fewest << i;
+            film = progression_after(&p, (uint32_t)fewest << i);
             errors[i] += study_mse_of_two(film, a, b) / renders;
-            last_mean += 2 * study_mean(film) / (study_mean(a) + study_mean(b)) / renders;
-            rt_film_destroy(film);
         }
+        last_mean += 2 * study_mean(film) / (study_mean(a) + study_mean(b)) / renders;
+        progression_end(&p);
     }
     double slope = study_slope(passes, errors, counts);
     print_message("%s: slope %.3f, error %.5f to %.5f, mean %.4f of path tracing\n", scene, slope,
@@ -76,6 +146,8 @@ static void the_error_falls_as_theory_says(void **state)
      */
     follow("scenes/box_caustic.rts", 1024, 0.2);
 }
+
+/* ---- Options ----------------------------------------------------------------------- */
 
 static void one_pass_of_one_sample_is_an_ordinary_render(void **state)
 {
@@ -162,6 +234,7 @@ static void options_that_do_not_go_together_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_film_on_the_way_is_that_of_so_many_passes),
         statistical_test(the_error_falls_as_theory_says),
         statistical_test(one_pass_of_one_sample_is_an_ordinary_render),
         cmocka_unit_test(passes_end_when_time_is_up),
