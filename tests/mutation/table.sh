@@ -13,12 +13,15 @@ mutation_lines() {
         END { print line }' "$table"
 }
 
-# mutation_field NAME FIELD: what the mutation has there.
-mutation_field() {
-    mutation_lines | awk -v name="$1" -v field="$2" '
+# mutation_fields NAME: the lines of the mutation.
+mutation_fields() {
+    mutation_lines | awk -v name="$1" '
         $1 == "mutation" { here = $2 == name }
-        here && $1 == field { sub(/^[a-z]+ */, ""); print }'
+        here'
 }
+
+# mutation_field NAME FIELD: what the mutation has there.
+mutation_field() { mutation_fields "$1" | sed -n "s/^$2  *//p"; }
 
 # Tests that all survivors meet.
 mutation_rest() { mutation_lines | sed -n 's/^rest  *//p'; }

@@ -18,26 +18,39 @@ verdict() {
     fi
 }
 
+# Read once, as there are many mutations.
+listed=" $(tr -s '[:space:]' ' ' <"$root/Makefile") "
+
 # fault NAME: what is wrong with a mutation.
 fault() {
+    file='' old='' new='' tests='' seen=' '
+    while read -r field text; do
+        case $field in file | old | new | tests) eval "$field=\$text" ;; esac
+        [ -z "$text" ] || seen="$seen$field "
+    done <<END
+$(mutation_fields "$1")
+END
     for field in breaks file old new tests; do
-        [ "$(mutation_field "$1" "$field" | grep -c .)" -eq 1 ] || echo "not one line '$field';"
+        case $seen in
+            *" $field "*" $field "*) echo "not one line '$field';" ;;
+            *" $field "*) ;;
+            *) echo "not one line '$field';" ;;
+        esac
     done
-    file=$root/$(mutation_field "$1" file)
-    [ -f "$file" ] || { echo 'no such file;' && return; }
-    old=$(mutation_field "$1" old) new=$(mutation_field "$1" new)
-    plant "$old" "$new" <"$file" 2>&1 >/dev/null
-    planted=$(plant "$old" "$new" <"$file" 2>/dev/null)
-    [ "$planted" != "$(cat "$file")" ] || echo 'nothing changes;'
-    # shellcheck disable=SC2046 # a list of tests
-    missing_tests $(mutation_field "$1" tests)
+    [ -f "$root/$file" ] || { echo 'no such file;' && return; }
+    if planted=$(plant "$old" "$new" <"$root/$file" 2>&1); then
+        [ "$planted" != "$(cat "$root/$file")" ] || echo 'nothing changes;'
+    else
+        echo "$planted"
+    fi
+    # shellcheck disable=SC2086 # a list of tests
+    missing_tests $tests
 }
 
 # missing_tests TEST...: those that the Makefile does not list.
 missing_tests() {
     for test in "$@"; do
-        grep -qE "(^|[[:space:]])tests/$test\\.c([[:space:]]|\$)" "$root/Makefile" ||
-            echo "no test $test;"
+        case $listed in *" tests/$test.c "*) ;; *) echo "no test $test;" ;; esac
     done
 }
 
