@@ -173,6 +173,7 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_mode.c tests/lib/film/test_noise.c \
 	tests/lib/mode/test_photon_bias.c tests/tools/test_progress.c tests/tools/test_rtc.c \
 	tests/lib/mode/test_touching_pictures.c \
+	tests/faults/test_faults.c tests/faults/test_icd.c \
 	tests/tools/test_determinism.c tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
@@ -236,10 +237,10 @@ LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) \
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench build-fuzz check check-corpus check-fuzz check-memory check-mutation \
-	check-peers check-quick check-reference check-samples check-sanitize clean demo deps \
-	deps-fuzz deps-lint format fuzz help install lint lint-quick need-deps proof run-all \
-	run-quick study uninstall
+.PHONY: all bench build-fuzz check check-corpus check-faults check-fuzz check-memory \
+	check-mutation check-peers check-quick check-reference check-samples check-sanitize clean \
+	demo deps deps-fuzz deps-lint format fuzz help install lint lint-quick need-deps proof \
+	run-all run-quick study uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -299,6 +300,12 @@ $(B)/test_kernels.o: $(B)/test_kernels.c
 $(B)/libtests.a: $(TEST_SUPPORT)
 	rm -f $@
 	$(AR) rcs $@ $^
+
+# Each call that fails in turn is wrapped by the linker.
+$(B)/tests/faults/test_faults: $(B)/tests/faults/test_faults.o $(B)/tests/faults/fault.o \
+		$(B)/libtests.a $(B)/librt.a tests/faults/calls.inc.h tests/faults/wrap.sh
+	$(CC) $(CFLAGS) $(LDFLAGS) $$(sh tests/faults/wrap.sh) -o $@ $(filter %.o %.a,$^) \
+	    $(TEST_LIBS) $(ALL_LIBS)
 
 $(B)/tests/%: $(B)/tests/%.o $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
@@ -414,6 +421,16 @@ deps-fuzz:
 check-memory: all
 	RTC=$(B)/rtc tests/run.sh tests/memory/oclgrind.sh
 
+# A platform with a fault.
+$(B)/tests/faults/icd.so: tests/faults/icd.c
+	@mkdir -p $(@D)
+	$(CC) -std=c99 $(WARNINGS) -fPIC -shared -O1 -o $@ $< -ldl
+$(B)/tests/faults/test_icd: | $(B)/tests/faults/icd.so
+
+# Small renders in which each call for memory, to files, threads and OpenCL fails in turn.
+check-faults: $(B)/tests/faults/test_faults
+	RT_TEST_LONG=1 RT_TEST_TIMEOUT=3600 tests/run.sh $<
+
 # Mutation testing: errors planted one at a time in a copy of the sources, which the tests must see;
 # see tests/mutation/run.sh.
 check-mutation: deps
@@ -519,6 +536,7 @@ help:
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'
+	@echo 'make check-faults    small renders in which each call to the system fails in turn'
 	@echo 'make check-mutation  mutation testing: plants errors that the tests must see'
 	@echo 'make check-fuzz      20 s of fuzzing, guided by coverage, of each reader of files'
 	@echo 'make fuzz            HOURS ($(HOURS)) of CPU time of it for each, or for TARGET'

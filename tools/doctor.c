@@ -106,6 +106,13 @@ static rt_status check_build(doctor_visit *visit, char *said, rt_error *error)
     return status;
 }
 
+/* What does not run does not compute wrongly. */
+static rt_status fail_to_run(doctor_visit *visit, rt_status status)
+{
+    visit->remedy = "--verbose shows the compiler's log; another --device may do";
+    return status;
+}
+
 static rt_status check_trace(doctor_visit *visit, char *said, rt_error *error)
 {
     /* From the eye straight ahead, the unit sphere around (0, 1, 0) is three metres away. */
@@ -113,7 +120,7 @@ static rt_status check_trace(doctor_visit *visit, char *said, rt_error *error)
     rt_hit hit;
     rt_status status = rt_trace(visit->renderer, RT_TRACE_CLOSEST, &ray, 1, &hit, error);
     if (status != RT_OK)
-        return status;
+        return fail_to_run(visit, status);
     snprintf(said, SAID, "a ray hits the sphere at %.4f m", hit.t);
     if (hit.shape == 1 && fabsf(hit.t - 3.0f) < 1e-4f)
         return RT_OK;
@@ -137,10 +144,8 @@ static rt_status check_mode(doctor_visit *visit, char *said, rt_mode mode, const
     rt_film_destroy(visit->film);
     visit->film = NULL;
     rt_status status = rt_render(&visit->film, visit->renderer, &options, error);
-    if (status != RT_OK) {
-        visit->remedy = "--verbose shows the compiler's log; another --device may do";
-        return status;
-    }
+    if (status != RT_OK)
+        return fail_to_run(visit, status);
     const float *rgb = rt_film_rgb(visit->film);
     float middle = rgb[3 * (8 * 16 + 8)], corner = rgb[3 * (15 * 16 + 15)];
     rt_film_stats stats;

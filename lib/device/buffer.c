@@ -185,3 +185,8 @@ rt_status rt_device_finish(rt_device *device, rt_error *error)
     }
     return status;
 }
+
+void rt_device_settle(rt_device *device)
+{
+    clFinish(device->queue); /* where that fails, the device is lost and reads nothing any more */
+}

@@ -74,26 +74,40 @@ static rt_status list_devices(device_list *list, rt_error *error)
     return status;
 }
 
-static void describe(rt_device_info *info, cl_platform_id platform, cl_device_id id)
+/* Fills *info; where the driver does not answer, its name says so. Returns what it answered. */
+static cl_int describe(rt_device_info *info, cl_platform_id platform, cl_device_id id)
 {
     cl_ulong memory = 0, largest = 0;
     cl_device_type type = 0;
     cl_uint units = 0;
 
     memset(info, 0, sizeof *info);
-    clGetDeviceInfo(id, CL_DEVICE_NAME, sizeof info->name - 1, info->name, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_VERSION, sizeof info->version - 1, info->version, NULL);
-    clGetDeviceInfo(id, CL_DRIVER_VERSION, sizeof info->driver - 1, info->driver, NULL);
-    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof info->platform - 1, info->platform, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof largest, &largest, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    const struct {
+        cl_device_info what;
+        size_t size;
+        void *out;
+    } questions[] = {
+        {CL_DEVICE_NAME, sizeof info->name - 1, info->name},
+        {CL_DEVICE_VERSION, sizeof info->version - 1, info->version},
+        {CL_DRIVER_VERSION, sizeof info->driver - 1, info->driver},
+        {CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory},
+        {CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof largest, &largest},
+        {CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units},
+        {CL_DEVICE_TYPE, sizeof type, &type},
+    };
+    cl_int code = clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof info->platform - 1,
+                                    info->platform, NULL);
+    for (size_t i = 0; i < sizeof questions / sizeof *questions && code == CL_SUCCESS; i++)
+        code = clGetDeviceInfo(id, questions[i].what, questions[i].size, questions[i].out, NULL);
+    if (code != CL_SUCCESS)
+        snprintf(info->name, sizeof info->name, "a device that does not answer: %s (%d)",
+                 rt_cl_error_name(code), (int)code);
     info->memory = memory;
     info->largest_buffer = largest;
     info->compute_units = units;
     info->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
     snprintf(info->kernel_cache, sizeof info->kernel_cache, "%.255s", rt_kernel_cache_store());
+    return code;
 }
 
 rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error)
@@ -140,13 +154,13 @@ static rt_status select_device(rt_device *device, const char *select, rt_error *
     unsigned long number = select && *select ? strtoul(select, &end, 10) : 0;
     int by_number = !select || !*select || (*end == '\0' && select[0] >= '0' && select[0] <= '9');
     for (cl_uint i = 0; i < list.count; i++) {
-        describe(&device->info, list.platform[i], list.id[i]);
+        cl_int code = describe(&device->info, list.platform[i], list.id[i]);
         if (by_number
                 ? i == number
                 : contains(device->info.name, select) || contains(device->info.platform, select)) {
             device->platform = list.platform[i];
             device->id = list.id[i];
-            return RT_OK;
+            return rt_cl_check(code, "asking the device what it is", error);
         }
     }
     return rt_fail_field(error, RT_ERROR_DEVICE, "device",
@@ -171,15 +185,19 @@ static rt_status limit_units(rt_device *device, uint32_t units, rt_error *error)
     if (status != RT_OK)
         return status;
     device->id = part;
-    describe(&device->info, device->platform, part);
-    return RT_OK;
+    return rt_cl_check(describe(&device->info, device->platform, part),
+                       "asking the device what it is", error);
 }
 
 static rt_status choose_work_group(rt_device *device, uint32_t asked, rt_error *error)
 {
     uint32_t usual = device->info.is_cpu ? default_work_group_cpu : default_work_group_gpu;
     size_t largest = 1;
-    clGetDeviceInfo(device->id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof largest, &largest, NULL);
+    rt_status status = rt_cl_check(
+        clGetDeviceInfo(device->id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof largest, &largest, NULL),
+        "asking the device for its largest work-group", error);
+    if (status != RT_OK)
+        return status;
     if (asked > largest)
         return rt_fail_field(error, RT_ERROR_USAGE, "work_group",
                              "a work-group of %u work-items is more than the device's %zu", asked,

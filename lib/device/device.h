@@ -106,4 +106,10 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
 /* Waits for what was enqueued; stores the kernels that it made the driver compile. */
 rt_status rt_device_finish(rt_device *device, rt_error *error);
 
+/*
+ * Waits for what was enqueued, also after a failure: before host memory is freed on which the
+ * device works in place.
+ */
+void rt_device_settle(rt_device *device);
+
 #endif

@@ -49,13 +49,18 @@ static rt_status report_build(rt_device *device, cl_program program, const char 
  * kernels take quotients and roots to be correctly rounded, which OpenCL 1.2 promises on demand
  * alone, where a device can do it.
  */
-static void build_options(char *options, size_t size, const rt_device *device)
+static rt_status build_options(char *options, size_t size, const rt_device *device, rt_error *error)
 {
     cl_device_fp_config can = 0;
-    clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof can, &can, NULL);
+    rt_status status =
+        rt_cl_check(clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof can, &can, NULL),
+                    "asking the device how it rounds", error);
+    if (status != RT_OK)
+        return status;
     snprintf(options, size, "-cl-std=CL1.2 -D RT_WIDTH=%u%s", device->width,
              can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt"
                                                        : "");
+    return RT_OK;
 }
 
 static uint64_t hash(uint64_t h, const void *data, size_t size)
@@ -103,12 +108,13 @@ static rt_status build(rt_device *device, cl_program *out, const rt_kernel_sourc
     cl_int code;
     char options[128];
     const char *text = (const char *)source->text;
-    cl_program program =
-        clCreateProgramWithSource(device->context, 1, &text, &source->length, &code);
-    rt_status status = rt_cl_check(code, "creating an OpenCL program", error);
+    rt_status status = build_options(options, sizeof options, device, error);
     if (status != RT_OK)
         return status;
-    build_options(options, sizeof options, device);
+    cl_program program =
+        clCreateProgramWithSource(device->context, 1, &text, &source->length, &code);
+    if ((status = rt_cl_check(code, "creating an OpenCL program", error)) != RT_OK)
+        return status;
     code = build_cached(device, program, source, options);
     if (code != CL_SUCCESS) {
         status = report_build(device, program, source->name, code, hooks, error);

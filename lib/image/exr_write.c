@@ -12,15 +12,22 @@
 typedef struct sink {
     rt_exr_message message; /* first, as rt_exr_on_error expects */
     rt_bytes bytes;
+    int lacks_memory;
 } sink;
 
+/*
+ * OpenEXRCore holds its lock meanwhile. `fail` would come to rt_exr_on_error, which asks for the
+ * user data, and with that for the lock: so what failed is noted here.
+ */
 static int64_t on_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size,
                         uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
     sink *s = user;
+    (void)context;
+    (void)fail;
     if (size <= SIZE_MAX && rt_bytes_put(&s->bytes, offset, buffer, (size_t)size, NULL) == RT_OK)
         return (int64_t)size;
-    fail(context, EXR_ERR_OUT_OF_MEMORY, "out of memory");
+    s->lacks_memory = 1;
     return -1;
 }
 
@@ -122,7 +129,7 @@ static exr_result_t write_pixels(exr_context_t context, const rt_image *image)
 
 rt_status rt_exr_encode(rt_bytes *out, const rt_image *image, rt_error *error)
 {
-    sink s = {{{0}}, {0}};
+    sink s = {{{0}}, {0}, 0};
     exr_context_t context = NULL;
     exr_context_initializer_t start = EXR_DEFAULT_CONTEXT_INITIALIZER;
     start.error_handler_fn = rt_exr_on_error;
@@ -145,6 +152,8 @@ rt_status rt_exr_encode(rt_bytes *out, const rt_image *image, rt_error *error)
         return RT_OK;
     }
     rt_bytes_free(&s.bytes);
+    if (s.lacks_memory)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for an EXR file");
     return rt_fail(error, code == EXR_ERR_OUT_OF_MEMORY ? RT_ERROR_MEMORY : RT_ERROR_OUTPUT,
                    "cannot encode EXR: %s", rt_exr_reason(&s.message, code));
 }

@@ -9,7 +9,7 @@
 #include "render/prepare.h"
 
 /* Bounds of a batch: the memory of its slots, and its length, so that progress moves. */
-enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 15 };
+enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 15, LEAST_BATCH = 64 };
 
 /* Arguments of the kernel: rt_params, the scene, and then buffers. */
 enum { EMIT_ARGUMENTS = 5 };
@@ -95,7 +95,24 @@ void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
                                        : "middle of the other shapes");
 }
 
-/* Makes memory for batches of at most `count` paths, unless there is enough. */
+static rt_status create_batch(rt_emitter *e, size_t slots, size_t paths, rt_error *error)
+{
+    rt_status status =
+        rt_buffer_create(e->device, &e->photons, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                         paths * slots * sizeof(rt_photon), NULL, "photon slots", error);
+    if (status == RT_OK)
+        status = rt_buffer_create(
+            e->device, &e->accounts, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+            paths * sizeof(rt_path_account), NULL, "the accounts of photon paths", error);
+    if (status != RT_OK)
+        release_batch(e);
+    return status;
+}
+
+/*
+ * Makes memory for batches of at most `count` paths, unless there is enough; for shorter batches
+ * where the device has no more.
+ */
 static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_error *error)
 {
     size_t most = SLOT_BYTES_A_BATCH / (slots * sizeof(rt_photon));
@@ -105,13 +122,11 @@ static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_e
     if (e->slots == slots && e->paths >= paths)
         return RT_OK;
     release_batch(e);
-    rt_status status =
-        rt_buffer_create(e->device, &e->photons, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                         paths * slots * sizeof(rt_photon), NULL, "photon slots", error);
-    if (status == RT_OK)
-        status = rt_buffer_create(
-            e->device, &e->accounts, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-            paths * sizeof(rt_path_account), NULL, "the accounts of photon paths", error);
+    rt_status status = create_batch(e, slots, paths, error);
+    while (status == RT_ERROR_MEMORY && paths > LEAST_BATCH) {
+        paths /= 2;
+        status = create_batch(e, slots, paths, error);
+    }
     if (status == RT_OK) {
         e->slots = slots;
         e->paths = paths;

@@ -67,7 +67,7 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
     g->search = options->search;
     g->capacity = RT_GATHER_POINTS_MAX;
     if (g->search == RT_SEARCH_TREE) {
-        status = rt_tree_gather_prepare(&g->tree, device, list, &estimate, g->capacity, error);
+        status = rt_tree_gather_prepare(&g->tree, device, list, &estimate, &g->capacity, error);
     } else {
         status = rt_neighbour_gather_prepare(&g->neighbours, device, list, &estimate, max_radius,
                                              options->skip_empty, g->capacity, error);
@@ -84,6 +84,7 @@ void rt_gatherer_destroy(rt_gatherer *g)
 {
     if (!g)
         return;
+    rt_device_settle(g->device);
     rt_neighbour_gather_release(&g->neighbours);
     rt_tree_gather_release(&g->tree);
     free(g);

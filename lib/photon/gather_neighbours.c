@@ -8,8 +8,11 @@
 
 #include "base/error.h"
 
-/* Bound of a batch: the entries of its neighbour lists. */
-enum { ENTRIES_A_BATCH = 1 << 22 };
+/*
+ * Bounds of a batch: the entries of its neighbour lists, and its length where there is little
+ * memory.
+ */
+enum { ENTRIES_A_BATCH = 1 << 22, LEAST_BATCH = 64 };
 
 static rt_status create_buffers(rt_neighbour_gather *g, rt_device *device,
                                 const rt_photon_list *list, rt_error *error)
@@ -35,6 +38,20 @@ static rt_status create_buffers(rt_neighbour_gather *g, rt_device *device,
     return status;
 }
 
+static void release_buffers(rt_neighbour_gather *g)
+{
+    rt_buffer_release(g->photons);
+    rt_buffer_release(g->discs);
+    rt_buffer_release(g->lists);
+    g->photons = g->discs = g->lists = NULL;
+    free(g->host_points);
+    free(g->host_discs);
+    free(g->host_lists);
+    g->host_points = NULL;
+    g->host_discs = NULL;
+    g->host_lists = NULL;
+}
+
 rt_status rt_neighbour_gather_prepare(rt_neighbour_gather *g, rt_device *device,
                                       const rt_photon_list *list, const rt_density_params *estimate,
                                       float max_radius, int skip_empty, size_t capacity,
@@ -50,18 +67,19 @@ rt_status rt_neighbour_gather_prepare(rt_neighbour_gather *g, rt_device *device,
     g->capacity = most < 1 ? 1 : most < capacity ? most : capacity;
     g->estimate = *estimate;
     g->estimate.stride = (rt_u32)stride;
-    return create_buffers(g, device, list, error);
+    status = create_buffers(g, device, list, error);
+    while (status == RT_ERROR_MEMORY && g->capacity > LEAST_BATCH) {
+        release_buffers(g);
+        g->capacity /= 2;
+        status = create_buffers(g, device, list, error);
+    }
+    return status;
 }
 
 void rt_neighbour_gather_release(rt_neighbour_gather *g)
 {
     rt_neighbour_search_destroy(g->search);
-    rt_buffer_release(g->photons);
-    rt_buffer_release(g->discs);
-    rt_buffer_release(g->lists);
-    free(g->host_points);
-    free(g->host_discs);
-    free(g->host_lists);
+    release_buffers(g);
     memset(g, 0, sizeof *g);
 }
 

@@ -7,10 +7,10 @@
 #include "photon/neighbour_search.h"
 
 /*
- * Scratch memory of all work-items together, in floats, and points that one takes on a CPU, where
- * few run at once.
+ * Scratch memory of all work-items together, in floats; points that one takes on a CPU, where few
+ * run at once; and the shortest batch, where there is little memory.
  */
-enum { SCRATCH_MAX = 1 << 24, POINTS_AN_ITEM_CPU = 16 };
+enum { SCRATCH_MAX = 1 << 24, POINTS_AN_ITEM_CPU = 16, LEAST_BATCH = 64 };
 
 /*
  * Room for the distances of one search: twice k, so that the selection of the k smallest is rare,
@@ -44,12 +44,21 @@ static rt_status create_buffers(rt_tree_gather *g, rt_device *device, size_t cap
     return status;
 }
 
+static void release_buffers(rt_tree_gather *g)
+{
+    rt_buffer_release(g->nodes);
+    rt_buffer_release(g->blocks);
+    rt_buffer_release(g->scratch);
+    rt_buffer_release(g->discs);
+    g->nodes = g->blocks = g->scratch = g->discs = NULL;
+}
+
 rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_photon_list *list,
-                                 const rt_density_params *estimate, size_t capacity,
+                                 const rt_density_params *estimate, size_t *capacity,
                                  rt_error *error)
 {
     size_t stride = distances(estimate->k),
-           least = (capacity * stride + SCRATCH_MAX - 1) / SCRATCH_MAX;
+           least = (*capacity * stride + SCRATCH_MAX - 1) / SCRATCH_MAX;
     size_t usual = device->info.is_cpu ? POINTS_AN_ITEM_CPU : 1;
     memset(g, 0, sizeof *g);
     g->estimate = *estimate;
@@ -59,7 +68,12 @@ rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_
 
     rt_status status = rt_photon_tree_build(&g->tree, list, device->threads, error);
     if (status == RT_OK)
-        status = create_buffers(g, device, capacity, error);
+        status = create_buffers(g, device, *capacity, error);
+    while (status == RT_ERROR_MEMORY && g->tree.nodes && *capacity > LEAST_BATCH) {
+        release_buffers(g);
+        *capacity /= 2;
+        status = create_buffers(g, device, *capacity, error);
+    }
     if (status == RT_OK && !device->info.is_cpu) {
         rt_photon_tree shape = g->tree.shape;
         rt_photon_tree_free(&g->tree);
@@ -70,10 +84,7 @@ rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_
 
 void rt_tree_gather_release(rt_tree_gather *g)
 {
-    rt_buffer_release(g->nodes);
-    rt_buffer_release(g->blocks);
-    rt_buffer_release(g->scratch);
-    rt_buffer_release(g->discs);
+    release_buffers(g);
     rt_photon_tree_free(&g->tree);
     memset(g, 0, sizeof *g);
 }

@@ -15,11 +15,12 @@ typedef struct rt_tree_gather {
 } rt_tree_gather;
 
 /*
- * Builds and uploads the tree of a list, for gathers of up to `capacity` points; estimate: density,
- * cone_k, k, squared_limit and scale. rt_tree_gather_release undoes it, also after a failure.
+ * Builds and uploads the tree of a list, for gathers of up to *capacity points, fewer where there
+ * is not enough memory; estimate: density, cone_k, k, squared_limit and scale.
+ * rt_tree_gather_release undoes it, also after a failure.
  */
 rt_status rt_tree_gather_prepare(rt_tree_gather *out, rt_device *device, const rt_photon_list *list,
-                                 const rt_density_params *estimate, size_t capacity,
+                                 const rt_density_params *estimate, size_t *capacity,
                                  rt_error *error);
 void rt_tree_gather_release(rt_tree_gather *gather);
 

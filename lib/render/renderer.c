@@ -71,6 +71,7 @@ void rt_renderer_destroy(rt_renderer *renderer)
 {
     if (!renderer)
         return;
+    rt_device_settle(renderer->device);
     rt_buffer_release(renderer->scene);
     rt_scene_image_free(&renderer->image);
     free(renderer);

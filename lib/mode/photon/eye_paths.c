@@ -8,6 +8,9 @@
 #include "base/error.h"
 #include "render/prepare.h"
 
+/* The shortest batch, where there is little memory. */
+enum { LEAST_BATCH = 64 };
+
 /* ---- Kernels and memory ----------------------------------------------------- */
 
 rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *renderer,
@@ -75,6 +78,32 @@ static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
     return status;
 }
 
+static rt_status create_memory(rt_eye_paths *paths, rt_error *error)
+{
+    paths->discs = malloc(2 * paths->capacity * sizeof *paths->discs);
+    if (!paths->discs)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points",
+                       paths->capacity);
+    paths->more_discs = paths->discs + paths->capacity;
+    return create_buffers(paths, error);
+}
+
+static void release_memory(rt_eye_paths *paths)
+{
+    rt_buffer_release(paths->points);
+    rt_buffer_release(paths->earlier);
+    rt_buffer_release(paths->pixels);
+    paths->points = paths->earlier = paths->pixels = NULL;
+    free(paths->discs);
+    free(paths->layers);
+    free(paths->host_points);
+    paths->discs = paths->more_discs = NULL;
+    paths->layers = NULL;
+    paths->host_points = NULL;
+    rt_photon_bias_release(&paths->bias);
+}
+
+/* With shorter batches where there is not enough memory. */
 rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
                               const rt_eye_kernels *kernels, rt_error *error)
 {
@@ -87,24 +116,18 @@ rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
     paths->capacity = RT_GATHER_POINTS_MAX / (1 + paths->rows);
     if (pixels < paths->capacity)
         paths->capacity = pixels;
-
-    paths->discs = malloc(2 * paths->capacity * sizeof *paths->discs);
-    if (!paths->discs)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points",
-                       paths->capacity);
-    paths->more_discs = paths->discs + paths->capacity;
-    return create_buffers(paths, error);
+    rt_status status = create_memory(paths, error);
+    while (status == RT_ERROR_MEMORY && paths->capacity > LEAST_BATCH) {
+        release_memory(paths);
+        paths->capacity /= 2;
+        status = create_memory(paths, error);
+    }
+    return status;
 }
 
 void rt_eye_paths_release(rt_eye_paths *paths)
 {
-    rt_buffer_release(paths->points);
-    rt_buffer_release(paths->earlier);
-    rt_buffer_release(paths->pixels);
-    free(paths->discs);
-    free(paths->layers);
-    free(paths->host_points);
-    rt_photon_bias_release(&paths->bias);
+    release_memory(paths);
     memset(paths, 0, sizeof *paths);
 }
 

@@ -1,0 +1,160 @@
+/* fault.c - wraps calls, by the linker's --wrap, and makes them fail. */
+#define _XOPEN_SOURCE 700
+
+#include "faults/fault.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+/* Driver threads do not come here, but threads of the library do. */
+static long count, target, live;
+static int is_armed, lasts;
+static const char *fired;
+
+void fault_arm(long n, int for_good)
+{
+    target = n;
+    lasts = for_good;
+    fired = NULL;
+    __atomic_store_n(&count, 0, __ATOMIC_SEQ_CST);
+    __atomic_store_n(&is_armed, 1, __ATOMIC_SEQ_CST);
+}
+
+long fault_disarm(void)
+{
+    __atomic_store_n(&is_armed, 0, __ATOMIC_SEQ_CST);
+    return __atomic_load_n(&count, __ATOMIC_SEQ_CST);
+}
+
+const char *fault_fired(void)
+{
+    return fired;
+}
+
+long fault_live(void)
+{
+    return __atomic_load_n(&live, __ATOMIC_SEQ_CST);
+}
+
+static int fires(const char *name)
+{
+    if (!__atomic_load_n(&is_armed, __ATOMIC_SEQ_CST))
+        return 0;
+    long n = __atomic_add_fetch(&count, 1, __ATOMIC_SEQ_CST);
+    if (target == 0 || (lasts ? n < target : n != target))
+        return 0;
+    if (n == target)
+        fired = name;
+    return 1;
+}
+
+/* ---- What failures return -------------------------------------------------------------------- */
+
+static int failed(int code)
+{
+    errno = code;
+    return -1;
+}
+
+static void *no_memory(void)
+{
+    errno = ENOMEM;
+    return NULL;
+}
+
+/* ---- The wrappers ---------------------------------------------------------------------------- */
+
+#define FAULT(type, name, parameters, arguments, failure)                                          \
+    type __real_##name parameters;                                                                 \
+    type __wrap_##name parameters;                                                                 \
+    type __wrap_##name parameters                                                                  \
+    {                                                                                              \
+        return fires(#name) ? (failure) : __real_##name arguments;                                 \
+    }
+#include "faults/calls.inc.h"
+#undef FAULT
+
+int __real_open(const char *path, int how, ...);
+int __wrap_open(const char *path, int how, ...);
+int __wrap_open(const char *path, int how, ...)
+{
+    va_list more;
+    va_start(more, how);
+    mode_t mode = how & O_CREAT ? va_arg(more, mode_t) : 0;
+    va_end(more);
+    return fires("open") ? failed(EMFILE) : __real_open(path, how, mode);
+}
+
+/* ---- Memory ---------------------------------------------------------------------------------- */
+
+static void *counted(void *block)
+{
+    if (block)
+        __atomic_add_fetch(&live, 1, __ATOMIC_SEQ_CST);
+    return block;
+}
+
+void *__real_malloc(size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_malloc(size_t size)
+{
+    return fires("malloc") ? no_memory() : counted(__real_malloc(size));
+}
+
+void *__real_calloc(size_t n, size_t size);
+void *__wrap_calloc(size_t n, size_t size);
+void *__wrap_calloc(size_t n, size_t size)
+{
+    return fires("calloc") ? no_memory() : counted(__real_calloc(n, size));
+}
+
+void *__real_realloc(void *old, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+void *__wrap_realloc(void *old, size_t size)
+{
+    if (fires("realloc"))
+        return no_memory();
+    return old ? __real_realloc(old, size) : counted(__real_realloc(old, size));
+}
+
+int __real_posix_memalign(void **out, size_t alignment, size_t size);
+int __wrap_posix_memalign(void **out, size_t alignment, size_t size);
+int __wrap_posix_memalign(void **out, size_t alignment, size_t size)
+{
+    if (fires("posix_memalign"))
+        return ENOMEM;
+    int code = __real_posix_memalign(out, alignment, size);
+    if (code == 0)
+        counted(*out);
+    return code;
+}
+
+char *__real_realpath(const char *path, char *out);
+char *__wrap_realpath(const char *path, char *out);
+char *__wrap_realpath(const char *path, char *out)
+{
+    if (fires("realpath"))
+        return no_memory();
+    char *found = __real_realpath(path, out);
+    return out ? found : counted(found);
+}
+
+void __real_free(void *block);
+void __wrap_free(void *block);
+void __wrap_free(void *block)
+{
+    if (block)
+        __atomic_sub_fetch(&live, 1, __ATOMIC_SEQ_CST);
+    __real_free(block);
+}

@@ -1,0 +1,23 @@
+/*
+ * fault.h - failure injection: the calls in calls.inc.h, made from the objects of this program, can be
+ * told to fail. Those that libraries and drivers make among themselves go on as ever.
+ */
+#ifndef RT_TESTS_FAULT_H
+#define RT_TESTS_FAULT_H
+
+/*
+ * Counts calls from now on. The n-th fails, from 1; 0: none does. Where `for_good`, so do all after
+ * it.
+ */
+void fault_arm(long n, int for_good);
+
+/* Ends that. Returns how many calls there were. */
+long fault_disarm(void);
+
+/* The name of the first call that failed since fault_arm, or NULL. */
+const char *fault_fired(void);
+
+/* Blocks of memory that were allocated by such calls and not freed. */
+long fault_live(void);
+
+#endif
