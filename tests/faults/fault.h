@@ -1,6 +1,6 @@
 /*
- * fault.h - failure injection: the calls in calls.inc.h, made from the objects of this program, can be
- * told to fail. Those that libraries and drivers make among themselves go on as ever.
+ * fault.h - failure injection: the calls in calls.inc.h, made from the objects of this program, can
+ * be told to fail. Those that libraries and drivers make among themselves go on as ever.
  */
 #ifndef RT_TESTS_FAULT_H
 #define RT_TESTS_FAULT_H

@@ -49,6 +49,15 @@ static const job jobs[] = {
            "k 20  gather device  photon_layers true }\n"},
     {"final gather", WORLD "film { width 8  height 8 }\nrender { mode photon  photons 2000  k 20  "
                            "final_gather 1  spp 1 }\n"},
+    {"files", "texture a { file \"a.png\" }\ntexture b { file \"a.exr\" }\n"
+              "texture c { file \"a.pfm\" }\ntexture d { file \"a.ppm\" }\n"
+              "material a { kd_texture a }\nmaterial b { kd_texture b }\n"
+              "material c { kd_texture c }\nmaterial d { kd_texture d }\n"
+              "camera { eye 0 1.5 -5  look_at 0 0.8 0  fov 45 }\n"
+              "light environment { file \"a.exr\" }\n"
+              "model { file \"a.ply\"  material a }\nmodel { file \"a.off\"  material b }\n"
+              "model { file \"a.stl\"  material c }\nmodel { file \"a.obj\"  material d }\n"
+              "film { width 8  height 8 }\nrender { mode albedo  spp 1 }\n"},
     {"passes",
      WORLD "film { width 8  height 8 }\nrender { mode photon  photons 1000  passes 3 }\n"},
 };
@@ -232,7 +241,7 @@ static void each_call_of_a_render(void **state)
         tally sum = {0, 0, 0};
         if (getenv("RT_FAULT_JOB") && !strstr(jobs[i].name, getenv("RT_FAULT_JOB")))
             continue;
-        inject_all(&jobs[i], test_device(), step(29), &sum);
+        inject_all(&jobs[i], test_device(), step(61), &sum);
         print_message("%s: %ld calls failed: %ld errors, %ld right pictures\n", jobs[i].name,
                       sum.calls, sum.errors, sum.survived);
         assert_true(sum.errors > 0);
