@@ -125,3 +125,13 @@ rt_status rt_gatherer_add(rt_gatherer *g, cl_mem points, size_t first, size_t co
     }
     return status == RT_OK ? rt_device_finish(device, error) : status;
 }
+
+rt_status rt_gatherer_add_again(rt_gatherer *g, cl_mem points, size_t first, size_t count,
+                                rt_error *error)
+{
+    if (g->search == RT_SEARCH_TREE)
+        return rt_gatherer_add(g, points, first, count, NULL, error);
+    rt_status status =
+        rt_neighbour_gather_sum(&g->neighbours, g->device, g->kernel, points, first, count, error);
+    return status == RT_OK ? rt_device_finish(g->device, error) : status;
+}

@@ -76,4 +76,11 @@ size_t rt_gatherer_capacity(const rt_gatherer *gatherer);
 rt_status rt_gatherer_add(rt_gatherer *gatherer, cl_mem points, size_t first, size_t count,
                           rt_gather_disc *discs, rt_error *error);
 
+/*
+ * The same for copies of the points of the last call, around which the same photons are found:
+ * neighbour lists are not made again.
+ */
+rt_status rt_gatherer_add_again(rt_gatherer *gatherer, cl_mem points, size_t first, size_t count,
+                                rt_error *error);
+
 #endif

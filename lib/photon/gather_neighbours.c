@@ -102,9 +102,8 @@ static rt_status find(rt_neighbour_gather *g, rt_device *device, cl_mem points, 
     return status;
 }
 
-rt_status rt_neighbour_gather_launch(rt_neighbour_gather *g, rt_device *device, cl_kernel kernel,
-                                     cl_mem points, size_t first, size_t count,
-                                     rt_gather_disc *discs, rt_error *error)
+rt_status rt_neighbour_gather_sum(const rt_neighbour_gather *g, rt_device *device, cl_kernel kernel,
+                                  cl_mem points, size_t first, size_t count, rt_error *error)
 {
     rt_params params;
     memset(&params, 0, sizeof params);
@@ -113,11 +112,17 @@ rt_status rt_neighbour_gather_launch(rt_neighbour_gather *g, rt_device *device, 
 
     rt_arg args[] = {RT_ARG(params),   RT_ARG(g->estimate), RT_ARG(points),
                      RT_ARG(g->discs), RT_ARG(g->lists),    RT_ARG(g->photons)};
+    rt_status status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
+    return status == RT_OK ? rt_launch(device, kernel, count, error) : status;
+}
+
+rt_status rt_neighbour_gather_launch(rt_neighbour_gather *g, rt_device *device, cl_kernel kernel,
+                                     cl_mem points, size_t first, size_t count,
+                                     rt_gather_disc *discs, rt_error *error)
+{
     rt_status status = find(g, device, points, first, count, error);
     if (status == RT_OK)
-        status = rt_kernel_args(kernel, args, sizeof args / sizeof *args, error);
-    if (status == RT_OK)
-        status = rt_launch(device, kernel, count, error);
+        status = rt_neighbour_gather_sum(g, device, kernel, points, first, count, error);
     if (status == RT_OK && discs)
         memcpy(discs, g->host_discs, count * sizeof *discs);
     return status;

@@ -38,4 +38,9 @@ rt_status rt_neighbour_gather_launch(rt_neighbour_gather *gather, rt_device *dev
                                      cl_kernel kernel, cl_mem points, size_t first, size_t count,
                                      rt_gather_disc *discs, rt_error *error);
 
+/* Enqueues the kernel alone, for copies of the points of the last launch: what was found stays. */
+rt_status rt_neighbour_gather_sum(const rt_neighbour_gather *gather, rt_device *device,
+                                  cl_kernel kernel, cl_mem points, size_t first, size_t count,
+                                  rt_error *error);
+
 #endif

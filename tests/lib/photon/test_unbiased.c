@@ -119,33 +119,54 @@ static void release(prepared *p)
     rt_kernel_release(p->kernel);
 }
 
-/* Gathers at the points, and expects discs that the map holds whole. */
-static void gather(const prepared *p, rt_gather_point *points)
+/* Adds to copies of the points `first` and those after it by each of the density kernels. */
+static void gather_batch(const prepared *p, const uint32_t *densities, int count,
+                         const cl_mem *copies, size_t first, rt_gather_disc *discs)
 {
-    const size_t bytes = (size_t)p->points * sizeof *points, all = (size_t)p->points,
-                 batch = rt_gatherer_capacity(p->gatherer);
-    rt_gather_disc *discs = calloc(all, sizeof *discs);
-    cl_mem buffer = test_buffer(bytes, points);
+    const size_t batch = rt_gatherer_capacity(p->gatherer), left = (size_t)p->points - first,
+                 size = left < batch ? left : batch;
     rt_error error;
-    assert_non_null(discs);
-    for (size_t first = 0; first < all; first += batch)
-        expect_ok(rt_gatherer_add(p->gatherer, buffer, first,
-                                  all - first < batch ? all - first : batch, discs + first, &error),
+    for (int i = 0; i < count; i++) {
+        rt_gatherer_set_density(p->gatherer, densities[i], cone_k);
+        expect_ok(i == 0
+                      ? rt_gatherer_add(p->gatherer, copies[i], first, size, discs + first, &error)
+                      : rt_gatherer_add_again(p->gatherer, copies[i], first, size, &error),
                   &error);
+    }
+}
+
+/*
+ * Gathers at points by each of the density kernels, and expects discs that the map holds whole.
+ * Sets results[i] to the points of kernel i, to be freed.
+ */
+static void gather(const prepared *p, int at_edge, const uint32_t *densities, int count,
+                   rt_gather_point **results)
+{
+    const size_t bytes = (size_t)p->points * sizeof **results, all = (size_t)p->points;
+    rt_gather_disc *discs = calloc(all, sizeof *discs);
+    cl_mem copies[kernels];
+    assert_non_null(discs);
+    for (int i = 0; i < count; i++) {
+        results[i] = make_points(p->points, at_edge);
+        copies[i] = test_buffer(bytes, results[i]);
+    }
+    for (size_t first = 0; first < all; first += rt_gatherer_capacity(p->gatherer))
+        gather_batch(p, densities, count, copies, first, discs);
     for (size_t i = 0; i < all; i++)
         assert_true(discs[i].squared_radius < p->map->margin * p->map->margin);
-    test_read(buffer, bytes, points);
-    rt_buffer_release(buffer);
+    for (int i = 0; i < count; i++) {
+        test_read(copies[i], bytes, results[i]);
+        rt_buffer_release(copies[i]);
+    }
     free(discs);
 }
 
 /* The mean of the fields' estimated densities, and its standard error. */
-static void estimate(const prepared *p, int at_edge, double *mean, double *error_of_mean)
+static void estimate(const prepared *p, const rt_gather_point *points, double *mean,
+                     double *error_of_mean)
 {
-    rt_gather_point *points = make_points(p->points, at_edge);
     const int each = p->points / fields;
     double sum = 0, squares = 0;
-    gather(p, points);
     for (int field = 0; field < fields; field++) {
         double one = 0;
         for (int i = field * each; i < (field + 1) * each; i++)
@@ -155,7 +176,6 @@ static void estimate(const prepared *p, int at_edge, double *mean, double *error
     }
     *mean = sum / fields;
     *error_of_mean = sqrt((squares / fields - *mean * *mean) / (fields - 1));
-    free(points);
 }
 
 /*
@@ -166,12 +186,16 @@ static void check(const field_map *map, int points, uint32_t k, float max_radius
                   double exact)
 {
     const rt_gather_options options = {k, max_radius, 0, cone_k, RT_AREA_DISC, on_device, 0};
+    static const uint32_t densities[kernels] = {0, 1, 2, 3, 4};
+    const int count = on_device ? kernels : 2;
+    rt_gather_point *results[kernels];
     prepared p;
     prepare(&p, map, &options, points);
-    for (uint32_t density = 0; density < (on_device ? kernels : 2u); density++) {
+    gather(&p, 0, densities, count, results);
+    for (int density = 0; density < count; density++) {
         double mean, sigma;
-        rt_gatherer_set_density(p.gatherer, density, cone_k);
-        estimate(&p, 0, &mean, &sigma);
+        estimate(&p, results[density], &mean, &sigma);
+        free(results[density]);
         print_message("%s, k %u, radius %g, %s: %.3f of %.0f, %+.2f standard errors of %.4f %%\n",
                       on_device ? "device" : "FLANN", (unsigned)k, max_radius,
                       kernel_names[density], mean, exact, (mean - exact) / sigma,
@@ -239,10 +263,14 @@ static double share(const field_map *map, rt_area area, uint32_t k, int at_edge,
                     const char *what)
 {
     const rt_gather_options options = {k, 0, RT_DENSITY_BOX, cone_k, area, RT_SEARCH_NEIGHBOURS, 0};
+    const uint32_t box = RT_DENSITY_BOX;
+    rt_gather_point *points;
     double mean, sigma;
     prepared p;
     prepare(&p, map, &options, points_of_small_discs);
-    estimate(&p, at_edge, &mean, &sigma);
+    gather(&p, at_edge, &box, 1, &points);
+    estimate(&p, points, &mean, &sigma);
+    free(points);
     release(&p);
     print_message("%s: %.4f of the exact value, sigma %.4f\n", what, mean / n, sigma / n);
     return mean / n;
