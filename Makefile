@@ -173,7 +173,7 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_mode.c tests/lib/film/test_noise.c \
 	tests/lib/mode/test_photon_bias.c tests/tools/test_progress.c tests/tools/test_rtc.c \
 	tests/lib/mode/test_touching_pictures.c \
-	tests/faults/test_faults.c tests/faults/test_icd.c \
+	tests/faults/test_faults.c tests/faults/test_icd.c tests/threads/test_threads.c \
 	tests/tools/test_determinism.c tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
@@ -184,6 +184,9 @@ TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_specular.c
 TESTS_FULL  += $(TESTS_PROOF)
+# Under the thread sanitizer too.
+TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
+	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c tests/lib/photon/test_map_parts.c
 TESTS_SHELL := \
 	tests/kernels/test_width1.sh \
 	tests/install/test_install.sh \
@@ -238,9 +241,9 @@ TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench build-fuzz check check-corpus check-faults check-fuzz check-memory \
-	check-mutation check-peers check-quick check-reference check-samples check-sanitize clean \
-	demo deps deps-fuzz deps-lint format fuzz help install lint lint-quick need-deps proof \
-	run-all run-quick study uninstall
+	check-mutation check-peers check-quick check-reference check-samples check-sanitize \
+	check-threads clean demo deps deps-fuzz deps-lint format fuzz help install lint lint-quick \
+	need-deps proof run-all run-quick run-threads study uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -416,6 +419,16 @@ build-fuzz: deps deps-fuzz
 deps-fuzz:
 	@FUZZ_CC='$(FUZZ_CC)' tools/deps.sh --fuzz
 
+# Many threads on the whole API, under the thread sanitizer. What OpenCL's driver does among its own
+# threads is left out.
+SANITIZE_THREADS := -O1 -g -fsanitize=thread
+check-threads: deps
+	+TSAN_OPTIONS=suppressions=tests/threads/driver.supp \
+	 $(MAKE) --no-print-directory $(MAKE_JOBS) B=build/threads CFLAGS="$(SANITIZE_THREADS)" \
+	    run-threads
+run-threads: $(call TEST_BIN,$(TESTS_THREADS))
+	RT_TEST_LONG=1 RT_TEST_TIMEOUT=3600 tests/run.sh $(call TEST_BIN,$(TESTS_THREADS))
+
 # Small renders on Oclgrind, which sees reads and writes outside of buffers, races, and wrong calls
 # of OpenCL.
 check-memory: all
@@ -535,6 +548,7 @@ help:
 	@echo 'make check-peers     six scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
+	@echo 'make check-threads   many threads on the library, under the thread sanitizer'
 	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'
 	@echo 'make check-faults    small renders in which each call to the system fails in turn'
 	@echo 'make check-mutation  mutation testing: plants errors that the tests must see'
