@@ -294,6 +294,12 @@ static double gap(const double a[3], const double b[3])
     return fmax(fabs(a[0] - b[0]), fmax(fabs(a[1] - b[1]), fabs(a[2] - b[2])));
 }
 
+/* Without ends, `longer` changes nothing. */
+static int has_ends(const reference_shape *shape)
+{
+    return shape->kind != RT_SHAPE_ELLIPSOID && shape->kind != RT_SHAPE_TORUS;
+}
+
 static verdict judge(const reference_shape *shape, const rt_ray *ray)
 {
     double o[3], d[3];
@@ -304,7 +310,7 @@ static verdict judge(const reference_shape *shape, const rt_ray *ray)
         v.is_sure = 0; /* in the disc's plane */
     if (is_hit)
         reference_normal(shape, v.hit.normal, v.normal);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < (has_ends(shape) ? 4 : 2) && v.is_sure; i++) {
         const reference_hit other =
             reference_nearest(shape, i & 1 ? band : -band, i & 2 ? band : -band, ray);
         if ((other.t < INFINITY) != is_hit)

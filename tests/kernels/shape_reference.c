@@ -217,6 +217,21 @@ static real root_between(const real *c, const real *slope, int degree, real lo, 
     return x;
 }
 
+/* The same, for a polynomial of the second degree: its turn is known, and so are its roots. */
+static int quadratic_roots(const real *c, real lo, real hi, real *roots)
+{
+    const real half = -0.5L * c[1] / c[2], square = half * half - c[0] / c[2];
+    int count = 0;
+    if (!(square > 0))
+        return 0;
+    const real first = half - sqrtl(square), second = half + sqrtl(square);
+    if (first > lo && first < hi)
+        roots[count++] = first;
+    if (second > lo && second < hi)
+        roots[count++] = second;
+    return count;
+}
+
 /*
  * The roots in [lo, hi] at which the polynomial changes its sign, in rising order; returns their
  * number.
@@ -224,12 +239,13 @@ static real root_between(const real *c, const real *slope, int degree, real lo, 
 static int real_roots(const real *c, int degree, real lo, real hi, real *roots)
 {
     real slope[4], turns[6];
-    int turn_count = 0, count = 0;
+    int count = 0;
+    if (degree == 2)
+        return quadratic_roots(c, lo, hi, roots);
     for (int i = 1; i <= degree; i++)
         slope[i - 1] = i * c[i];
     turns[0] = lo;
-    if (degree > 1)
-        turn_count = real_roots(slope, degree - 1, lo, hi, turns + 1);
+    const int turn_count = real_roots(slope, degree - 1, lo, hi, turns + 1);
     turns[turn_count + 1] = hi;
     for (int i = 0; i <= turn_count; i++)
         if ((value(c, degree, turns[i]) < 0) != (value(c, degree, turns[i + 1]) < 0))
