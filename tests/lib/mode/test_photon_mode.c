@@ -101,6 +101,16 @@ static void both_gathers_make_the_same_picture(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Emits the photons of a render, for more than one of them. */
+static rt_photon_map *emit(rt_renderer *renderer, const rt_render_options *options)
+{
+    const rt_emit_options all = {.render = options};
+    rt_photon_map *map = NULL;
+    rt_error error;
+    expect_ok(rt_photon_map_emit(&map, renderer, &all, &error), &error);
+    return map;
+}
+
 /*
  * A floor under a glass sphere and a point light: eye paths can never find the light through the
  * glass.
@@ -135,6 +145,8 @@ static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
     options.radius = 0.1f;
     options.photons = 1000000;
     options.spp = 64;
+    rt_photon_map *map = emit(renderer, &options);
+    options.photon_map = map;
     rt_film *film = room_render(renderer, &options);
     double plain = mean_of(film);
     rt_film_destroy(film);
@@ -146,6 +158,7 @@ static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
     for (int i = 0; i < 4; i++) {
         options.direct = i % 2 ? RT_DIRECT_PHOTONS : RT_DIRECT_NEE;
         options.caustic_photons = i / 2 ? options.photons : 0;
+        options.photon_map = i == 0 ? map : NULL;
         options.final_gather = 1;
         film = room_render(renderer, &options);
         print_message("way %d: %.4f of no final gather; path tracing, without caustics, %.4f\n", i,
@@ -154,6 +167,7 @@ static void a_final_gather_keeps_the_caustics_of_point_lights(void **state)
         rt_film_destroy(film);
     }
     assert_true(without / plain < 1 - 3 * tolerance);
+    rt_photon_map_destroy(map);
     rt_renderer_destroy(renderer);
 }
 
@@ -200,6 +214,7 @@ static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
         float eye[3], fov;
     } views[] = {{"from outside", {0, 0, -3}, 4}, {"from inside the glass", {0, 0, -0.5f}, 30}};
     rt_render_options options = room_options();
+    rt_photon_map *map = NULL;
     (void)state;
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
         rt_renderer *renderer = make_ball_in_glass(views[i].eye, views[i].fov);
@@ -210,6 +225,9 @@ static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
         rt_film *path = room_render(renderer, &options);
         options.mode = RT_MODE_PHOTON;
         options.spp = 16;
+        if (!map)
+            map = emit(renderer, &options);
+        options.photon_map = map;
         rt_film *photon = room_render(renderer, &options);
         double ratio = mean_of(photon) / mean_of(path);
         print_message("%s: %.4f of path tracing\n", views[i].name, ratio);
@@ -218,6 +236,7 @@ static void inside_glass_and_through_it_photons_agree_with_paths(void **state)
         rt_film_destroy(photon);
         rt_renderer_destroy(renderer);
     }
+    rt_photon_map_destroy(map);
 }
 
 /* A dark wall behind clear glass that reflects nothing. */
