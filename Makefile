@@ -5,7 +5,7 @@ SOVERSION := 0
 
 CC      ?= cc
 CXX     ?= c++
-CFLAGS  ?= -O2 -g
+CFLAGS  ?= -O2 -g1
 PREFIX  ?= /usr/local
 LIBDIR  ?= $(PREFIX)/lib
 B       := build
