@@ -96,6 +96,7 @@ turn() {
     mkdir "$work/seeds"
     "$inputs" seeds "$1" "$work/seeds"
     words "$1" >"$work/words"
+    printf '"\\x%s"\n' 00 ff >>"$work/words" # libFuzzer refuses an empty dictionary
     RT_FUZZ_SECONDS=$2 libfuzzer "$1" -dict="$work/words" -max_len="$(size_of "$1")" \
         -use_value_profile=1 -print_final_stats=1 -verbosity=1 \
         -artifact_prefix="$top/build/fuzz/findings/$1-" "$corpus/$1" "$work/seeds" \
