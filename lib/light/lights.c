@@ -1,6 +1,7 @@
 /* lights.c - fills the table of lights, and sets their probabilities in proportion to power. */
 #include "light/lights.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -53,6 +54,12 @@ static double light_power(const rt_scene *scene, const rt_scene_light *light, do
     return 0;
 }
 
+/* As the table has it: more than a float holds counts as the most, as pmf is power over power. */
+static float table_power(double power)
+{
+    return (float)fmin(power, FLT_MAX);
+}
+
 static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_scene_light *from,
                        double radius)
 {
@@ -65,7 +72,7 @@ static void fill_light(rt_light_data *light, const rt_scene *scene, const rt_sce
     light->c[0] = from->inner;
     light->c[1] = from->outer;
     memcpy(light->emission, from->emission, sizeof light->emission);
-    light->power = (float)light_power(scene, from, radius);
+    light->power = table_power(light_power(scene, from, radius));
 }
 
 static void fill_geometry(rt_light_data *light, const rt_scene *scene, const rt_scene_shape *shape,
@@ -100,7 +107,7 @@ static void fill_area(rt_light_data *light, const rt_scene *scene, const rt_scen
     memcpy(light->emission, radiance, sizeof light->emission);
     for (int c = 0; c < 3; c++)
         shown[c] = radiance[c] * (texture ? scene->textures[texture - 1].mean[c] : 1);
-    light->power = (float)(pi * mean(shown) * area * (two_sided ? 2 : 1));
+    light->power = table_power(pi * mean(shown) * area * (two_sided ? 2 : 1));
 }
 
 /* Makes the probabilities of choice from the powers. */

@@ -135,8 +135,10 @@ static int has_light(const rt_surface *s)
 
 int rt_scene_has_own_light(const rt_scene *scene, const rt_scene_shape *shape)
 {
+    if (shape->emission == RT_NONE)
+        return 0;
     const rt_scene_emission *e = scene->emissions + shape->emission;
-    return shape->emission != RT_NONE && (!rt_is_black(e->radiance) || !rt_is_black(e->power));
+    return !rt_is_black(e->radiance) || !rt_is_black(e->power);
 }
 
 uint32_t rt_scene_emission_texture(const rt_scene *scene, const rt_scene_shape *shape)

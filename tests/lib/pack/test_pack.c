@@ -274,6 +274,25 @@ static void lambert_and_flat_shapes_are_marked_and_lights_by_area(void **state)
     rt_scene_destroy(scene);
 }
 
+/* An emitter of 1e59 W, which no float holds, beside a weak one: the chances add up to 1. */
+static void a_power_beyond_floats_has_a_probability(void **state)
+{
+    static const float huge[3] = {9e14f, 9e14f, 9e14f};
+    const rt_surface surfaces[2] = {{.radiance = {1e28f, 1e28f, 1e28f}}, {.power = {1, 1, 1}}};
+    rt_scene *scene = new_scene();
+    rt_error error;
+    (void)state;
+    expect_ok(rt_scene_add_ellipsoid(scene, NULL, origin, huge, &surfaces[0], &error), &error);
+    expect_ok(rt_scene_add_sphere(scene, NULL, origin, 1, &surfaces[1], &error), &error);
+    rt_scene_image image = pack(scene);
+    const rt_light_data *lights = table(&image, header(&image)->lights);
+    assert_true(isfinite(image.light_power));
+    assert_float_equal(lights[0].pmf + lights[1].pmf, 1, 1e-6);
+    assert_true(lights[0].pmf > 0.5f && lights[1].pmf >= 0 && lights[1].cdf == 1);
+    rt_scene_image_free(&image);
+    rt_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -282,6 +301,7 @@ int main(void)
         cmocka_unit_test(single_and_emissive_meshes_are_baked),
         cmocka_unit_test(materials_and_textures_reach_their_tables),
         cmocka_unit_test(lambert_and_flat_shapes_are_marked_and_lights_by_area),
+        cmocka_unit_test(a_power_beyond_floats_has_a_probability),
     };
     return cmocka_run_group_tests_name("lib/pack/pack", tests, NULL, NULL);
 }
