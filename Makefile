@@ -219,6 +219,7 @@ TEST_SUPPORT_SRC := \
 # What the programs of fuzzing share.
 FUZZ_SRC := \
 	tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c tests/fuzz/mesh.c \
+	tests/fuzz/no_interrupt.c tests/fuzz/scene_text.c \
 	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_map.c \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
 	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \
@@ -314,7 +315,8 @@ $(B)/tests/%: $(B)/tests/%.o $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
 
 # The targets of fuzzing, and the command line of rtc, which is one of them.
-FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) $(filter-out tools/rtc.c,$(TOOL_SRC)))
+FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) \
+            $(filter-out tools/interrupt.c tools/rtc.c,$(TOOL_SRC)))
 $(B)/tests/fuzz/test_fuzz $(B)/tests/fuzz/make_inputs: \
 $(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
@@ -398,9 +400,11 @@ HOURS       ?= 1
 FUZZ_CC     ?= clang-14
 FUZZ_CXX    ?= clang++-14
 FUZZ_CORPUS ?= build/fuzz/corpus
-FUZZ_FLAGS  := -O1 -g -Wno-unused-function -DITERATIONS_MAX=20000.0 -fsanitize=fuzzer-no-link
+FUZZ_FLAGS  := -O1 -g -Wno-unused-function -DITERATIONS_MAX=20000.0 -fsanitize=fuzzer-no-link \
+               -fsanitize-coverage-ignorelist=tests/fuzz/uninstrumented.txt
 FUZZ_CHECKS := -fno-omit-frame-pointer -fsanitize=address,undefined,float-cast-overflow \
                -fno-sanitize-recover=all
+FUZZ_COUNTS := -fprofile-instr-generate -fcoverage-mapping
 FUZZ_RUN     = FUZZ_CORPUS='$(FUZZ_CORPUS)' tests/fuzz/fuzz.sh
 FUZZ_MAKE    = $(MAKE) --no-print-directory $(MAKE_JOBS) CC='$(FUZZ_CC)' CXX='$(FUZZ_CXX)'
 
@@ -414,7 +418,7 @@ check-fuzz: build-fuzz
 build-fuzz: deps deps-fuzz
 	+$(MAKE) --no-print-directory $(MAKE_JOBS) build/tests/fuzz/make_inputs
 	+$(FUZZ_MAKE) B=build/fuzz CFLAGS='$(FUZZ_FLAGS) $(FUZZ_CHECKS)' build/fuzz/fuzz
-	+$(FUZZ_MAKE) B=build/fuzz/edges CFLAGS='$(FUZZ_FLAGS)' build/fuzz/edges/fuzz
+	+$(FUZZ_MAKE) B=build/fuzz/edges CFLAGS='$(FUZZ_FLAGS) $(FUZZ_COUNTS)' build/fuzz/edges/fuzz
 
 deps-fuzz:
 	@FUZZ_CC='$(FUZZ_CC)' tools/deps.sh --fuzz

@@ -4,12 +4,13 @@
 #
 #   tests/fuzz/fuzz.sh --seconds S [TARGET...]   S seconds of CPU time for each target
 #   tests/fuzz/fuzz.sh --hours H [TARGET...]     H hours for each, in turns of ten minutes
-#   tests/fuzz/fuzz.sh --unreached TARGET        what its corpus does not reach in its own files
+#   tests/fuzz/fuzz.sh --unreached TARGET        the functions of its own files that its corpus does
+#                                                not call, and the branches that it does not take
 #   tests/fuzz/fuzz.sh --totals                  sums over all runs, from the log
 #
 # `make fuzz` and `make check-fuzz` build what it needs and call it. Inputs that reached something
 # new are kept in FUZZ_CORPUS/TARGET and begin the next run. For each turn a line is printed and
-# added to FUZZ_LOG (fuzz.log beside the corpus): target, CPU seconds, executions, executions a
+# added to FUZZ_LOG (fuzz.log beside the corpus): target, CPU seconds, executions, executions a CPU
 # second, edges reached of those in the target's own files, inputs in the corpus, findings. An input
 # that breaks a promise is left in build/fuzz/findings; the status is then 1.
 set -u
@@ -65,22 +66,48 @@ libfuzzer() {
     return $status
 }
 
-# coverage TARGET: writes $work/coverage, a line for each function of its own files and each edge
-# that no input of the corpus reaches.
-coverage() {
-    fuzz=$edges libfuzzer "$1" -runs=0 -print_coverage=1 "$corpus/$1" >"$work/all" 2>&1
-    sources_of "$1" | tr ' ' '\n' | sed '/^$/d; s/\./\\./g; s/\*/.*/; s|^|/|; s|$|:|' |
-        sed 's|\.\*:|[^/]*:|' >"$work/patterns"
-    grep -E '^(UN)?COVERED_(FUNC|PC)|^ *UNCOVERED_PC' "$work/all" |
-        grep -E -f "$work/patterns" >"$work/coverage"
+# replay TARGET: runs the inputs of its corpus, and leaves what they reach in $work/reached, a line
+# for each function, and $work/profile.
+replay() {
+    fuzz=$edges LLVM_PROFILE_FILE=$work/profile libfuzzer "$1" -runs=0 -print_coverage=1 \
+        "$corpus/$1" >"$work/reached" 2>&1
 }
 
-# count_edges: of $work/coverage, "REACHED ALL".
+# count_edges TARGET: "REACHED ALL" of the edges in its own files, after replay.
 count_edges() {
-    awk '$1 ~ /_FUNC:$/ {
-        for (i = 2; i < NF; i++)
-            if ($i == "edges:") { split($(i + 1), part, "/"); reached += part[1]; all += part[2] }
-    } END { print reached + 0, all + 0 }' "$work/coverage"
+    # shellcheck disable=SC2046 # patterns of files without spaces
+    awk -v files="$(printf '%s ' $(sources_of "$1"))" -v top="$top/" '
+        BEGIN { count = split(files, list, " "); for (i = 1; i <= count; i++) own[list[i]] }
+        $1 ~ /COVERED_FUNC:$/ && index($NF, top) == 1 {
+            file = substr($NF, length(top) + 1)
+            sub(/:[0-9]*$/, "", file)
+            for (i = 2; file in own && i < NF; i++)
+                if ($i == "edges:") {
+                    split($(i + 1), part, "/")
+                    reached += part[1]
+                    all += part[2]
+                }
+        }
+        END { print reached + 0, all + 0 }' "$work/reached"
+}
+
+# unreached TARGET: functions that are not called, and branches that are not taken, after replay.
+unreached() {
+    llvm=$(dirname "$(readlink -f "$symbolizer")")
+    "$llvm/llvm-profdata" merge -o "$work/merged" "$work/profile" || exit 2
+    # shellcheck disable=SC2046 # patterns of files without spaces
+    "$llvm/llvm-cov" export -format=lcov -instr-profile="$work/merged" "$edges" \
+        $(sources_of "$1") >"$work/lcov" || exit 2
+    awk -F '[:,]' -v top="$top/" '
+        $1 == "SF" { file = $2; sub(top, "", file) }
+        # A function of a header is there once for each file that includes it.
+        $1 == "FNDA" { calls[file ": " $NF] += $2 }
+        $1 == "BRDA" { taken[file ":" $2 ": branch " ($4 % 2 ? "false" : "true") \
+            " of condition " int($4 / 2) + 1 " is not taken"] += $5 }
+        END {
+            for (f in calls) if (!calls[f]) print f " is not called"
+            for (b in taken) if (!taken[b]) print b
+        }' "$work/lcov" | sort -t : -k 1,1 -k 2,2n -k 3
 }
 
 # stat_of NAME: a number of libFuzzer's summary; 0 where it has none.
@@ -98,7 +125,7 @@ turn() {
     words "$1" >"$work/words"
     printf '"\\x%s"\n' 00 ff >>"$work/words" # libFuzzer refuses an empty dictionary
     RT_FUZZ_SECONDS=$2 libfuzzer "$1" -dict="$work/words" -max_len="$(size_of "$1")" \
-        -use_value_profile=1 -print_final_stats=1 -verbosity=1 \
+        -print_final_stats=1 -verbosity=1 \
         -artifact_prefix="$top/build/fuzz/findings/$1-" "$corpus/$1" "$work/seeds" \
         >"$work/log" 2>&1
     ended=$?
@@ -107,11 +134,13 @@ turn() {
         found=1
         grep -v '^#' "$work/log" | tail -n 60 >&2
     fi
-    coverage "$1"
+    replay "$1"
     # shellcheck disable=SC2046 # two numbers
-    set -- "$1" $(count_edges)
-    line=$(printf '%s %s %s %s %s %s %s %s' "$1" "$(stat_of cpu_seconds)" \
-        "$(stat_of number_of_executed_units)" "$(stat_of average_exec_per_sec)" "$2" "$3" \
+    set -- "$1" $(count_edges "$1")
+    used=$(stat_of cpu_seconds)
+    done=$(stat_of number_of_executed_units)
+    line=$(printf '%s %s %s %s %s %s %s %s' "$1" "$used" "$done" \
+        "$(echo "$used $done" | awk '{ print ($1 > 0 ? int($2 / $1) : 0) }')" "$2" "$3" \
         "$(find "$corpus/$1" -type f | wc -l)" "$found")
     printf '%s %s\n' "$(date -u +%Y-%m-%dT%H:%M:%SZ)" "$line" >>"$log"
     report "$line"
@@ -176,9 +205,9 @@ amount=${2:-}
 shift 2
 case $what in
 --unreached)
-    coverage "$amount"
-    count_edges | awk '{ printf "%d of %d edges are reached\n", $1, $2 }'
-    grep UNCOVERED "$work/coverage"
+    replay "$amount"
+    count_edges "$amount" | awk '{ printf "%d of %d edges are reached\n", $1, $2 }'
+    unreached "$amount"
     ;;
 --seconds) run_all "$amount" "$@" ;;
 --hours) run_all "$(awk -v h="$amount" 'BEGIN { printf "%d", 3600 * h }')" "$@" ;;

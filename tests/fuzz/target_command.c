@@ -98,13 +98,19 @@ static void begin(void)
     fuzz_write_seed(&fuzz_target_map, 2, "n.rtp");
 }
 
-/* Takes away what the command has written. */
+/* Takes away what the command has written, which may have been a file of begin. */
 static void clean(const command_line *line)
 {
-    for (size_t i = 0; i < line->output_count; i++)
+    static const char *const made[] = {"s.rts", "w.rts", "a.exr", "b.exr",
+                                       "c.png", "m.rtp", "n.rtp"};
+    int is_lost = 0;
+    for (size_t i = 0; i < line->output_count; i++) {
         if (!strchr(line->outputs[i], '/'))
             unlink(line->outputs[i]);
-    if (line->output_count)
+        for (size_t j = 0; j < sizeof made / sizeof *made; j++)
+            is_lost |= strcmp(line->outputs[i], made[j]) == 0;
+    }
+    if (is_lost)
         begin();
     if (line->command == COMMAND_MESH && line->operand_count) {
         char name[512];

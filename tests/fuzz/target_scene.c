@@ -1,10 +1,15 @@
 /* target_scene.c - scene texts, with the files that they name. */
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "dsl/function.h"
-#include "dsl/schema.h"
+#include "fuzz/scene_text.h"
 #include "fuzz/targets.h"
+#include "pack/pack.h"
+
+enum { SHAPES_MAX = 500 }; /* of a scene that is packed */
 
 /* What is said of one text. */
 typedef struct heard {
@@ -35,6 +40,40 @@ static void on_file(void *user, const char *path)
     FUZZ_EXPECT(path[0] != '\0');
 }
 
+static void check_lights(const rt_scene_image *image)
+{
+    const rt_scene_header *header = image->data;
+    const rt_light_data *lights =
+        (const void *)((const char *)image->data + (size_t)header->lights * RT_SCENE_ROW);
+    FUZZ_EXPECT(image->light_power >= 0 && isfinite(image->light_power));
+    for (rt_u32 i = 0; i < header->light_count; i++) {
+        fuzz_expect_finite(&lights[i].power, 1);
+        FUZZ_EXPECT(lights[i].pmf >= 0 && lights[i].pmf <= 1);
+        FUZZ_EXPECT(lights[i].cdf >= 0 && lights[i].cdf <= 1);
+    }
+}
+
+/* What a render makes of a scene before a device sees it: the hierarchy, and tables of numbers. */
+static void check_scene(const rt_scene *scene)
+{
+    rt_stage_progress progress;
+    rt_scene_image image = {0};
+    rt_scene_info info;
+    rt_error error;
+    rt_scene_get_info(scene, &info);
+    if (info.shapes > SHAPES_MAX || info.triangles > SHAPES_MAX)
+        return;
+    FUZZ_EXPECT(rt_stage_begin(&progress, NULL, RT_STAGE_BUILD) == RT_OK);
+    rt_status status = rt_scene_pack(&image, scene, RT_ACCEL_BVH, 1, &progress, &error);
+    if (status == RT_OK) {
+        check_lights(&image);
+        rt_scene_image_free(&image);
+    } else {
+        FUZZ_EXPECT(error.status == status);
+        fuzz_expect_line(error.message);
+    }
+}
+
 static int run(const uint8_t *data, size_t size)
 {
     heard h = {0, 1, memchr(data, 0, size) != NULL};
@@ -58,54 +97,149 @@ static int run(const uint8_t *data, size_t size)
     free(text);
     int is_good = fuzz_expect_answer(status, &error, scene);
     FUZZ_EXPECT(is_good == (h.errors == 0));
-    if (is_good)
+    if (is_good) {
+        check_scene(scene);
         rt_scene_destroy(scene);
+    }
     return is_good;
 }
 
 /* ---- Seeds --------------------------------------------------------------------------------- */
 
+#define NAMES "include \"names.rts\"\n"
+#define STAGE                                                                                      \
+    NAMES "camera { eye 0 1 -6  look_at 0 0 0 }\n"                                                 \
+          "light point { position 2 4 -3  intensity 20 }\n"
+
+/* Statements, and what is found in a scene: media around the camera and lights, contacts, views. */
+static const char *const texts[] = {
+    "# a\nlet a = (1 + 2) * sin(30) / max(2, 3) - pi\nlet v = (2 * [1 a -2])\n" STAGE
+    "render { mode photon  k all  radius 1  kernel cone  spp 2 }\n"
+    "repeat i from 0 to 3 {\n  let x = (i * 2)\n  repeat j from 1 to 2 {\n"
+    "    sphere { centre x j a  radius 0.5  material g }\n  }\n}\n",
+    STAGE "sphere { centre 0 0 0  radius 1  material g }\n"
+          "box { centre 1 0 0  size 1 1 1  material g }\n"
+          "cylinder { a 0 1 0  b 0 2 0  radius 0.5  caps true  material g }\n"
+          "disc { centre 5 0 0  normal 0 1 0  radius 1  material g }\n",
+    STAGE "sphere { centre 0 1 -6  radius 1  material g }\n"
+          "ellipsoid { centre 2 4 -3  radii 1 2 1  material m  rotate 0 0 1 30 }\n"
+          "torus { centre 0 0 0  axis 0 1 0  major_radius 2  minor_radius 1  material g }\n"
+          "cone { base 0 0 0  apex 0 3 0  radius 1  caps true  material g }\n",
+    STAGE "material inner { kt 1  ior 1.3  priority 2 }\n"
+          "box { centre 0 0 0  size 2 2 2  material g }\n"
+          "sphere { centre 0 0 0  radius 0.5  material inner  power 5 }\n"
+          "instance thing { material g  scale -1 1 1 }\n"
+          "quad { corner -1 -1 1  edge1 2 0 0  edge2 0 2 0  material g }\n",
+    NAMES "camera { eye 0 0 0  look_at 0 0 1 }\nsphere { centre 0 0 -5  radius 1  material m }\n"
+          "light directional { direction 0 -1 0  irradiance 1 }\nlight environment { }\n",
+    "include \"loop.rts\"\ninclude \"none.rts\"\nlet s = unknown\n} { ( ] \377 \"open\n",
+};
+
 static void seed(fuzz_inputs *seeds)
 {
-    fuzz_add_text(seeds, "camera { eye 0 1 -4  look_at 0 1 0  fov 40 }\nfilm { width 8 height 6 }\n"
-                         "material white { kd 0.7 }\nplane { point 0 0 0 normal 0 1 0 material "
-                         "white }\nlight point { position 2 4 -3  intensity 20 }\n");
-    fuzz_add_text(seeds, "# a\nlet a = (1 + 2) * sin(30) / max(2, 3) - pi\nlet v = [1, a, -2]\n"
-                         "render { mode photon k all kernel cone spp 2 }\n"
-                         "material glass { kt 1 ior 1.5 fresnel dielectric absorption .1 0 0 "
-                         "priority 2 }\nrepeat i from 0 to 3 {\n  let x = i * 2\n"
-                         "  sphere { centre x 0 v[1] radius 0.5 material glass }\n}\n"
-                         "light spot { position 0 3 0 target v intensity 1 2 3 inner 10 outer 20 "
-                         "}\n");
-    fuzz_add_text(seeds, "include \"a.rts\"\ntexture t { kind image file \"t.png\" wrap mirror "
-                         "scale 2 3 }\nmaterial m { kd_texture t bump_texture t bump_scale .1 }\n"
-                         "mesh thing { file \"m.ply\" shading smooth material m }\n"
-                         "instance thing { translate 1 2 3 rotate 0 1 0 90 scale 2 }\n"
-                         "instance thing { matrix 1 0 0 0 0 1 0 0 0 0 1 0 }\n");
-    fuzz_add_text(seeds, "texture c { kind checker a 1 0 0 b 0 0 1 }\ntexture g { kind gradient a "
-                         "0 b 1 wrap clamp }\nmaterial e { kd .5 emission 3 two_sided true }\n"
-                         "quad { corner 0 0 0 edge1 1 0 0 edge2 0 1 0 material e texture c }\n"
-                         "disc { centre 0 0 0 normal 0 1 0 radius 1 inner_radius .5 material e }\n"
-                         "cone { base 0 0 0 apex 0 1 0 radius 1 apex_radius .2 caps true material "
-                         "e }\ntorus { centre 0 0 0 axis 0 1 0 major_radius 1 minor_radius .1 "
-                         "material e power 5 }\n");
-    fuzz_add_text(seeds, "light environment { file \"t.pfm\" radiance 2 rotation 30 }\n"
-                         "light directional { direction 0 -1 0 irradiance 3 }\n"
-                         "material m { kd 1 roughness .3 }\n"
-                         "box { centre 0 0 0 size 1 2 3 material m rotate 0 1 0 30 }\n"
-                         "cylinder { a 0 0 0 b 0 1 0 radius .5 material m }\n"
-                         "ellipsoid { centre 3 0 0 radii 1 2 3 material m }\n"
-                         "triangle { a 0 0 0 b 1 0 0 c 0 1 0 material m }\n"
-                         "mesh { file \"m.obj\" material m }\n");
-    fuzz_add_text(seeds, "include \"loop.rts\"\ninclude \"none.rts\"\n");
+    fuzz_random random = fuzz_random_begin(7);
+    const rt_block *block;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        fuzz_add_text(seeds, texts[i]);
+    for (size_t i = 0; (block = rt_block_at(i)) != NULL; i++)
+        for (int fields = FUZZ_FIELDS_NEEDED; fields <= FUZZ_FIELDS_ANY; fields++) {
+            rt_bytes text = {0};
+            fuzz_put_text(&text, block->id == RT_BLOCK_CAMERA ? NAMES : STAGE);
+            fuzz_scene_block(&text, block, (fuzz_fields)fields, &random);
+            fuzz_add(seeds, text.data, text.size);
+            rt_bytes_free(&text);
+        }
+    for (size_t i = 0; i < RT_FUNCTION_COUNT; i++) {
+        char text[128];
+        snprintf(text, sizeof text, NAMES "let x = %s(0.3%s)\nlet y = [x x x]\n",
+                 rt_functions[i].name, rt_functions[i].arguments > 1 ? ", n" : "");
+        fuzz_add_text(seeds, text);
+    }
 }
+
+/* ---- Mutation ------------------------------------------------------------------------------ */
+
+/* The start of the line of a random place. */
+static size_t choose_line(const uint8_t *data, size_t size, fuzz_random *random)
+{
+    size_t at = fuzz_random_below(random, (uint32_t)size + 1);
+    while (at > 0 && data[at - 1] != '\n')
+        at--;
+    return at;
+}
+
+/* Behind the end of the line. */
+static size_t line_end(const uint8_t *data, size_t size, size_t at)
+{
+    const uint8_t *end = memchr(data + at, '\n', size - at);
+    return end ? (size_t)(end - data) + 1 : size;
+}
+
+/* Puts another value in the place of a number or a word. */
+static size_t change_value(uint8_t *data, size_t size, size_t room, fuzz_random *random)
+{
+    rt_bytes value = {0};
+    size_t at = fuzz_random_below(random, (uint32_t)size + 1);
+    while (at > 0 && !strchr(" \n{(", data[at - 1]))
+        at--;
+    size_t end = at;
+    while (end < size && !strchr(" \n})", data[end]))
+        end++;
+    fuzz_scene_any_value(&value, random);
+    size = fuzz_splice(data, size, room, at, end - at, value.data, value.size);
+    rt_bytes_free(&value);
+    return size;
+}
+
+/* Adds a block, or puts one in the place of a line. */
+static size_t change_block(uint8_t *data, size_t size, size_t room, fuzz_random *random)
+{
+    rt_bytes block = {0};
+    size_t at = choose_line(data, size, random);
+    size_t gone = fuzz_random_below(random, 2) ? line_end(data, size, at) - at : 0;
+    fuzz_scene_any_block(&block, random);
+    size = fuzz_splice(data, size, room, at, gone, block.data, block.size);
+    rt_bytes_free(&block);
+    return size;
+}
+
+/* Puts a line into a repeat. */
+static size_t repeat_line(uint8_t *data, size_t size, size_t room, fuzz_random *random)
+{
+    static const char begin[] = "repeat i from 0 to 3 { ", end[] = " }\n";
+    size_t at = choose_line(data, size, random), stop = line_end(data, size, at);
+    if (size + sizeof begin + sizeof end > room)
+        return size;
+    size = fuzz_splice(data, size, room, stop, 0, end, sizeof end - 1);
+    return fuzz_splice(data, size, room, at, 0, begin, sizeof begin - 1);
+}
+
+static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t seed)
+{
+    fuzz_random random = fuzz_random_begin(seed);
+    switch (fuzz_random_below(&random, 8)) {
+    case 0:
+    case 1:
+        return change_block(data, size, room, &random);
+    case 2:
+    case 3:
+        return change_value(data, size, room, &random);
+    case 4:
+        return repeat_line(data, size, room, &random);
+    default:
+        return fuzz_mutate_bytes(data, size, room);
+    }
+}
+
+/* ---- The dictionary ------------------------------------------------------------------------ */
 
 /* What the parser knows beside its tables. */
 static const char *const statements[] = {
-    "let ",      "include ",     "repeat ",   "from ",     "to ",       "pi",        "all",
-    "\"a.rts\"", "\"loop.rts\"", "\"t.png\"", "\"t.ppm\"", "\"t.pfm\"", "\"t.exr\"", "\"m.ply\"",
-    "\"m.obj\"", "\"m.off\"",    "\"m.stl\"", "1e999",     "1e-999",    "1e15",      "1e28",
-    "0.5",       " { ",          " }\n",      " = ",       "[1, 2, 3]", "\n# ",      NULL};
+    "let ",      "include ",  "repeat ",       "from ",        "to ",       "pi",
+    "all",       "\"a.rts\"", "\"names.rts\"", "\"loop.rts\"", "\"t.png\"", "\"t.ppm\"",
+    "\"t.pfm\"", "\"t.exr\"", "\"m.ply\"",     "\"m.obj\"",    "\"m.off\"", "\"m.stl\"",
+    "1e999",     "1e-999",    "1e15",          "1e28",         "0.5",       " { ",
+    " }\n",      " = ",       "[1 2 3]",       "\n# ",         NULL};
 
 static void add_field(fuzz_inputs *words, const rt_field *field)
 {
@@ -138,6 +272,7 @@ static void begin(void)
     static const char part[] = "material a { kd 0.5 }\nlet n = 4\n",
                       loop[] = "include \"loop.rts\"";
     fuzz_write("a.rts", part, sizeof part - 1);
+    fuzz_write("names.rts", fuzz_scene_names, strlen(fuzz_scene_names));
     fuzz_write("loop.rts", loop, sizeof loop - 1);
     fuzz_write_seed(&fuzz_target_ply, 1, "m.ply");
     fuzz_write_seed(&fuzz_target_obj, 1, "m.obj");
@@ -156,6 +291,7 @@ const fuzz_target fuzz_target_scene = {
     .seed = seed,
     .words = words,
     .begin = begin,
+    .mutate = mutate,
     .size_max = 4096,
     .tries = 3000,
 };
