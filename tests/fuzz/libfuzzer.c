@@ -22,9 +22,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t room, unsigned seed);
 
 static const fuzz_target *target;
-static volatile sig_atomic_t seconds;     /* of CPU time since the input began */
-static volatile sig_atomic_t seconds_all; /* of CPU time since the program began */
-static long seconds_limit;                /* of seconds_all; 0: none */
+static volatile sig_atomic_t seconds;       /* of CPU time since the input began */
+static volatile sig_atomic_t seconds_all;   /* of CPU time since the program began */
+static volatile sig_atomic_t seconds_limit; /* of seconds_all; 0: none */
 
 size_t fuzz_mutate_bytes(uint8_t *data, size_t size, size_t room)
 {
@@ -38,6 +38,13 @@ static void on_second(int signal)
     seconds_all++;
     if (++seconds > seconds_max)
         fuzz_fail(__FILE__, __LINE__, "an input is answered within 10 s of CPU time");
+}
+
+/* Ends the run behind the input that is being read. */
+static void on_hangup(int signal)
+{
+    (void)signal;
+    seconds_limit = 1;
 }
 
 static void print_time(void)
@@ -57,7 +64,8 @@ static void make_absolute(int argc, char **argv)
 int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
     const struct itimerval second = {{1, 0}, {1, 0}};
-    const struct sigaction action = {.sa_handler = on_second, .sa_flags = SA_RESTART};
+    const struct sigaction action = {.sa_handler = on_second, .sa_flags = SA_RESTART},
+                           hangup = {.sa_handler = on_hangup, .sa_flags = SA_RESTART};
     const char *name = getenv("RT_FUZZ"), *limit = getenv("RT_FUZZ_SECONDS");
     seconds_limit = limit ? atol(limit) : 0;
     target = name ? fuzz_find(name) : NULL;
@@ -74,6 +82,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
         target->begin();
     atexit(print_time);
     sigaction(SIGPROF, &action, NULL);
+    sigaction(SIGHUP, &hangup, NULL);
     setitimer(ITIMER_PROF, &second, NULL);
     return 0;
 }
