@@ -56,7 +56,7 @@ static void print_time(void)
 static void make_absolute(int argc, char **argv)
 {
     char path[PATH_MAX];
-    for (int i = 0; i < argc; i++)
+    for (int i = 1; i < argc; i++)
         if (argv[i][0] != '-' && realpath(argv[i], path))
             argv[i] = strdup(path);
 }
