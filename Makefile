@@ -18,12 +18,19 @@ PKG_LIBS   := $(shell pkg-config --libs OpenCL libpng 2>/dev/null) -lOpenEXRCore
               -lOpenMeshCore -lstdc++
 
 WARNINGS := -Wall -Wextra -pedantic
+# Hardened, unless someone gives CFLAGS or LDFLAGS; and the same bytes in any folder.
+ifeq ($(origin CFLAGS),file)
+HARDEN   := -fstack-protector-strong -fstack-clash-protection -D_FORTIFY_SOURCE=2
+endif
+LDFLAGS  ?= -Wl,-z,relro -Wl,-z,now
+SAME     := -ffile-prefix-map=$(CURDIR)=.
 WERROR   ?= $(if $(CI),-Werror)
 ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread \
-             -D_POSIX_C_SOURCE=200809L -Ilib -Ikernels -I. -Itests $(PKG_CFLAGS) $(CFLAGS)
+             -D_POSIX_C_SOURCE=200809L -Ilib -Ikernels -I. -Itests $(PKG_CFLAGS) $(HARDEN) \
+             $(SAME) $(CFLAGS)
 # For the one C++ file, which calls OpenMesh.
 CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden \
-             -fPIC -pthread -Ilib $(PKG_CFLAGS) $(CFLAGS)
+             -fPIC -pthread -Ilib $(PKG_CFLAGS) $(HARDEN) $(SAME) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 
 # ---- Sources ----------------------------------------------------------------
@@ -101,7 +108,7 @@ TOOL_SRC := \
 	tools/number.c tools/options.c tools/outputs.c tools/photons.c tools/photons_emit.c \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/recorded.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
-	tools/stats.c
+	tools/stats.c tools/untrusted.c
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
@@ -178,7 +185,8 @@ TESTS_FULL  := \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
-	tests/tools/test_usage.c tests/tools/test_compare.c tests/tools/test_mesh.c \
+	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
+	tests/tools/test_mesh.c \
 	tests/tools/test_scenes.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
@@ -242,9 +250,9 @@ TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench build-fuzz check check-corpus check-faults check-fuzz check-memory \
-	check-mutation check-peers check-quick check-reference check-samples check-sanitize \
-	check-threads clean demo deps deps-fuzz deps-lint format fuzz help install lint lint-quick \
-	need-deps proof run-all run-quick run-threads study uninstall
+	check-mutation check-peers check-quick check-reference check-reproducible check-samples \
+	check-sanitize check-threads clean demo deps deps-fuzz deps-lint format fuzz help install \
+	lint lint-quick need-deps proof run-all run-quick run-threads study uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -438,6 +446,11 @@ run-threads: $(call TEST_BIN,$(TESTS_THREADS))
 check-memory: all
 	RTC=$(B)/rtc tests/run.sh tests/memory/oclgrind.sh
 
+# Parts of rtc that a test calls itself.
+$(B)/tests/tools/test_untrusted: $(B)/tests/tools/test_untrusted.o \
+		$(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ)) $(B)/libtests.a $(B)/librt.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
+
 # A platform with a fault.
 $(B)/tests/faults/icd.so: tests/faults/icd.c
 	@mkdir -p $(@D)
@@ -447,6 +460,10 @@ $(B)/tests/faults/test_icd: | $(B)/tests/faults/icd.so
 # Small renders in which each call for memory, to files, threads and OpenCL fails in turn.
 check-faults: $(B)/tests/faults/test_faults
 	RT_TEST_LONG=1 RT_TEST_TIMEOUT=3600 tests/run.sh $<
+
+# Two builds of the last commit, in two folders: the same bytes.
+check-reproducible: deps
+	tests/install/reproducible.sh
 
 # Mutation testing: errors planted one at a time in a copy of the sources, which the tests must see;
 # see tests/mutation/run.sh.
@@ -550,6 +567,7 @@ help:
 	@echo 'make check-sanitize  the quick tests under the address and UB sanitizers'
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
 	@echo 'make check-peers     six scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make check-threads   many threads on the library, under the thread sanitizer'

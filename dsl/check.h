@@ -12,7 +12,8 @@ typedef struct rt_checker {
     rt_reports *reports;
     const rt_operations *operations;
     const rt_scope *scope;
-    char **path; /* receives the path of the block's file, to be freed */
+    char **path;      /* receives the path of the block's file, to be freed */
+    const char *root; /* files lie in this folder; NULL: anywhere */
 } rt_checker;
 
 /*

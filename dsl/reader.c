@@ -201,7 +201,8 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
 {
     const rt_block *block = statement->block;
     char *path = NULL;
-    rt_checker checker = {&reader->reports, operations, &reader->scope, &path};
+    rt_checker checker = {&reader->reports, operations, &reader->scope, &path,
+                          reader->options->root};
     rt_block_fields fields;
     rt_build_name as = {NULL, 0, 0};
     reader->blocks++;
@@ -265,6 +266,13 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
         return;
     }
     char *path = rt_source_resolve(statement->path.source, name);
+    if (path && !rt_source_is_within(reader->options->root, path)) {
+        char quote[RT_QUOTE_SIZE];
+        rt_report_error(&reader->reports, statement->path,
+                        "'%s' lies outside of the scene's folder", rt_text_quote(quote, name));
+        free(path);
+        return;
+    }
     rt_source *source =
         path ? rt_sources_add(&reader->sources, path, statement->path.source) : NULL;
     free(path);

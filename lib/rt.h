@@ -74,8 +74,8 @@
  * load a mesh silence OpenMesh's error stream meanwhile; an OpenCL driver compiles in one folder
  * for the whole process, see rt_device_open. Different objects may be used from different threads
  * at once; one object from one thread at a time, but any number may read and render a scene that
- * none changes. The library does not print, exit, install signal handlers or, but for the first opening
- * of a device, change the environment.
+ * none changes. The library does not print, exit or install signal handlers; it changes the
+ * environment only in the first opening of a device.
  *
  * Coordinates lie within 1e15 metres, and the components of a colour, of whatever unit, between 0
  * and 1e28; values outside are refused.

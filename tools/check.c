@@ -6,6 +6,7 @@
 #include "message.h"
 #include "rt.h"
 #include "status.h"
+#include "untrusted.h"
 #include "scene_file.h"
 
 static const char *plural(uint64_t count)
@@ -52,7 +53,7 @@ static int check(const char *path, const command_line *arguments)
     progress_display progress =
         progress_begin_on_terminal(!is_quiet && !arguments->options[OPTION_JSON].given);
     int status = scene_file_load(&scene, path, is_quiet ? SCENE_TO_CHECK_QUIETLY : SCENE_TO_CHECK,
-                                 &findings, NULL, &progress);
+                                 &findings, NULL, &progress, arguments);
     if (status == STATUS_DONE)
         rt_scene_get_info(scene, &info);
     if (arguments->options[OPTION_JSON].given)
@@ -63,6 +64,19 @@ static int check(const char *path, const command_line *arguments)
     return status;
 }
 
+/* With --untrusted, gives up the rights to do anything but reading the scene. */
+static int confine(const command_line *arguments)
+{
+    if (!arguments->options[OPTION_UNTRUSTED].given)
+        return STATUS_DONE;
+    if (arguments->operand_count > 1) {
+        message_error("--untrusted checks one scene at a time");
+        return STATUS_USAGE;
+    }
+    const untrusted_needs needs = {.scene = arguments->operands[0]};
+    return untrusted_confine(&needs);
+}
+
 int command_check(const command_line *arguments)
 {
     if (arguments->operand_count == 0) {
@@ -71,7 +85,9 @@ int command_check(const command_line *arguments)
     }
     if (arguments->options[OPTION_JSON].given)
         message_as_json();
-    int status = STATUS_DONE;
+    int status = confine(arguments);
+    if (status != STATUS_DONE)
+        return status;
     for (size_t i = 0; i < arguments->operand_count; i++) {
         int now = check(arguments->operands[i], arguments);
         status = status == STATUS_DONE ? now : status;

@@ -14,7 +14,7 @@
 
 #include "status.h"
 
-static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
 
 /* What the thread that waits and the others share. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

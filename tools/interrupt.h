@@ -1,6 +1,7 @@
 /*
  * interrupt.h - what Ctrl-C, SIGTERM and SIGHUP (a lost connection) do: at once while nothing is
- * lost by it; later the first asks, the second kills. SIGQUIT kills always.
+ * lost by it; later the first asks, the second kills. SIGQUIT kills always. SIGXCPU, when CPU time
+ * is up, is as SIGTERM.
  */
 #ifndef RTC_INTERRUPT_H
 #define RTC_INTERRUPT_H

@@ -101,6 +101,10 @@ const option option_table[OPTION_COUNT] = {
                         NULL,
                         "most blocks whose mean is off by more than tolerance and noise allow"},
 
+    [OPTION_UNTRUSTED] =
+        {"untrusted", NULL, KIND_FLAG, GROUP_DEVICE, RENDER | CHECK | PHOTONS, 0, 0, NULL, 0, NULL,
+         "for a scene by a stranger: read files in its folder only, give up the rights to do other "
+         "than to write the outputs, and limit CPU time and memory (Linux)"},
     [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 0, 0,
                        NULL, 0, "0",
                        "a number of `rtc devices`, or part of a device's or platform's name"},

@@ -10,6 +10,7 @@
 #include "session.h"
 #include "light_shares.h"
 #include "status.h"
+#include "untrusted.h"
 
 /* Everything that one emission holds. */
 typedef struct emit_job {
@@ -75,7 +76,7 @@ static int load(emit_job *job)
     rt_error error;
     int status = scene_file_load(&job->scene, job->scene_path,
                                  job->session.quiet ? SCENE_QUIETLY : SCENE_TO_EMIT, NULL,
-                                 &job->inputs, &job->session.progress);
+                                 &job->inputs, &job->session.progress, job->session.arguments);
     if (status == STATUS_DONE)
         status = inputs_check(&job->inputs, job->map_path);
     if (status != STATUS_DONE)
@@ -130,6 +131,14 @@ static int save(const emit_job *job)
                : photons_print_info(job->map_path, job->map);
 }
 
+/* With --untrusted, gives up the rights that the emission does not need. */
+static int confine(const emit_job *job)
+{
+    const untrusted_needs needs = {job->scene_path, NULL, &job->map_path, 1, 1};
+    return session_value(&job->session, OPTION_UNTRUSTED)->given ? untrusted_confine(&needs)
+                                                                 : STATUS_DONE;
+}
+
 int photons_emit(const command_line *arguments)
 {
     emit_job job = {0};
@@ -139,6 +148,8 @@ int photons_emit(const command_line *arguments)
         !job.session.quiet)
         message_warning("--json has no effect without --stats");
     int status = read_options(&job, arguments);
+    if (status == STATUS_DONE)
+        status = confine(&job);
     if (status == STATUS_DONE)
         status = load(&job);
     if (status == STATUS_DONE)

@@ -17,6 +17,7 @@
 #include "scene_file.h"
 #include "session.h"
 #include "stats.h"
+#include "untrusted.h"
 
 /* Everything that one render holds. */
 typedef struct render_job {
@@ -79,7 +80,7 @@ static int load(render_job *job)
     rt_error error;
     int status = scene_file_load(&job->scene, job->scene_path,
                                  job->session.quiet ? SCENE_QUIETLY : SCENE_TO_RENDER, NULL,
-                                 &job->inputs, &job->session.progress);
+                                 &job->inputs, &job->session.progress, job->session.arguments);
     if (status != STATUS_DONE)
         return status;
     status = set_options(job);
@@ -212,11 +213,33 @@ static int write_images(const render_job *job, int status)
     return status;
 }
 
+/* With --untrusted, gives up the rights that the render does not need. */
+static int confine(const render_job *job)
+{
+    size_t count = job->outputs.count;
+    if (!value(job, OPTION_UNTRUSTED)->given)
+        return STATUS_DONE;
+    const char **paths = malloc((count + 1) * sizeof *paths);
+    if (!paths) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    for (size_t i = 0; i < count; i++)
+        paths[i] = job->outputs.paths[i];
+    const untrusted_needs needs = {job->scene_path, value(job, OPTION_PHOTON_MAP)->text, paths,
+                                   count, 1};
+    int status = untrusted_confine(&needs);
+    free(paths);
+    return status;
+}
+
 static int run(render_job *job)
 {
     int status = light_shares_read(&job->shares, &job->share_count, job->session.arguments);
     if (status == STATUS_DONE)
         status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path);
+    if (status == STATUS_DONE)
+        status = confine(job);
     if (status == STATUS_DONE)
         status = load(job);
     if (status == STATUS_DONE)

@@ -103,13 +103,34 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     return STATUS_DONE;
 }
 
-int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
-                    scene_findings *findings, input_list *inputs, progress_display *progress)
+char *scene_file_folder(const char *path)
 {
+    const char *slash = strcmp(path, "-") == 0 ? NULL : strrchr(path, '/');
+    size_t length = slash ? (size_t)(slash - path) + 1 : 0;
+    char *folder = malloc(length + 2);
+    if (!folder) {
+        message_error("out of memory");
+        return NULL;
+    }
+    memcpy(folder, path, length);
+    strcpy(folder + length, ".");
+    return folder;
+}
+
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
+                    scene_findings *findings, input_list *inputs, progress_display *progress,
+                    const command_line *arguments)
+{
+    char *root = NULL;
+    if (arguments->options[OPTION_UNTRUSTED].given && !(root = scene_file_folder(path)))
+        return STATUS_DEVICE;
     scene_reading reading = {{0, 0}, purpose, inputs, progress};
     const rt_hooks hooks = {.progress = on_progress, .user = &reading};
-    rt_load_options options = {
-        .diagnostic = on_diagnostic, .user = &reading, .file = on_file, .hooks = &hooks};
+    rt_load_options options = {.diagnostic = on_diagnostic,
+                               .user = &reading,
+                               .file = on_file,
+                               .hooks = &hooks,
+                               .root = root};
     options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_CHECK_QUIETLY ||
                     purpose == SCENE_TO_RENDER;
     rt_error error;
@@ -119,6 +140,7 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
         status = parse_stdin(out, &options, &result, &error);
     else
         result = rt_scene_load(out, path, &options, &error);
+    free(root);
     progress_clear(progress);
     if (findings)
         *findings = reading.findings;

@@ -3,6 +3,7 @@
 #define RTC_SCENE_FILE_H
 
 #include "inputs.h"
+#include "options.h"
 #include "progress.h"
 #include "rt.h"
 
@@ -27,9 +28,13 @@ const char *scene_file_name(const char *path);
  * Reads the scene at path, "-" for stdin, and prints every error and what else its purpose asks
  * for. Returns an exit status; the caller owns *out, written only on STATUS_DONE. findings may be
  * NULL; inputs receives the files that were read, and may be NULL. progress shows how far it has
- * come.
+ * come. With --untrusted among the arguments the scene may name files in its own folder only.
  */
 int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
-                    scene_findings *findings, input_list *inputs, progress_display *progress);
+                    scene_findings *findings, input_list *inputs, progress_display *progress,
+                    const command_line *arguments);
+
+/* The folder that a scene is in, the current one for "-", in a string to be freed; or NULL. */
+char *scene_file_folder(const char *path);
 
 #endif

@@ -27,7 +27,7 @@ typedef struct slot {
 } slot;
 
 static pthread_mutex_t driver = PTHREAD_MUTEX_INITIALIZER;
-static int is_open, is_kept;
+static int is_made, is_open, is_kept;
 static char *given; /* POCL_CACHE_DIR as the user has it, or NULL */
 static char work[RT_PATH_MAX], store[RT_PATH_MAX];
 static slot slots[SLOTS];
@@ -107,16 +107,41 @@ static void find_store(void)
     }
 }
 
+static rt_status make_folders(rt_error *error)
+{
+    if (is_made)
+        return RT_OK;
+    find_store();
+    rt_status status = rt_work_folder_make(work, is_kept ? store : "", error);
+    is_made = status == RT_OK;
+    if (is_made && is_kept)
+        rt_stored_clean(store);
+    if (!is_made)
+        note_count = 0;
+    return status;
+}
+
+rt_status rt_device_folders(char *work_folder, char *kept, size_t size, rt_error *error)
+{
+    rt_driver_lock();
+    rt_status status = make_folders(error);
+    if (status == RT_OK && (strlen(work) >= size || strlen(store) >= size))
+        status = rt_fail(error, RT_ERROR_DEVICE, "the folder of compiled kernels has a long path");
+    if (status == RT_OK) {
+        strcpy(work_folder, work);
+        strcpy(kept, is_kept ? store : "");
+    }
+    rt_driver_unlock();
+    return status;
+}
+
 rt_status rt_kernel_cache_open(rt_error *error)
 {
     if (is_open)
         return RT_OK;
-    find_store();
-    rt_status status = rt_work_folder_make(work, is_kept ? store : "", error);
-    if (status != RT_OK) {
-        note_count = 0;
+    rt_status status = make_folders(error);
+    if (status != RT_OK)
         return status;
-    }
     const char *own = getenv(variable);
     given = own ? malloc(strlen(own) + 1) : NULL;
     if (given)
@@ -124,8 +149,6 @@ rt_status rt_kernel_cache_open(rt_error *error)
     if (own && !given)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the folder of compiled kernels");
     setenv(variable, work, 1);
-    if (is_kept)
-        rt_stored_clean(store);
     return RT_OK;
 }
 

@@ -51,6 +51,14 @@ typedef struct rt_device_options {
  * the cache that its driver has chosen.
  */
 RT_API rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error);
+/*
+ * Makes the folders that the first opening of a device would make, and tells where they are: that
+ * in which drivers compile, and that in which kernels are kept (empty: nowhere). For programs that
+ * give up the right to write elsewhere before they open a device. Strings of `size` bytes, 4096
+ * suffice.
+ */
+RT_API rt_status rt_device_folders(char *work, char *kept, size_t size, rt_error *error);
+
 RT_API void rt_device_close(rt_device *device);
 RT_API void rt_device_get_info(const rt_device *device, rt_device_info *out);
 

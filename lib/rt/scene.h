@@ -68,6 +68,11 @@ typedef struct rt_load_options {
      * none. Log and warnings have no use here
      */
     const rt_hooks *hooks;
+    /*
+     * a folder: the text may name files in there only, after links are followed; NULL: any files.
+     * The text's own file is not asked about. No barrier against who changes the folder meanwhile
+     */
+    const char *root;
 } rt_load_options;
 
 /*

@@ -1,0 +1,34 @@
+/*
+ * untrusted.h - --untrusted: what a process may still do while it reads a scene that a stranger
+ * wrote. By Landlock and seccomp, so on Linux alone.
+ */
+#ifndef RTC_UNTRUSTED_H
+#define RTC_UNTRUSTED_H
+
+#include <stddef.h>
+
+/* Limits of an untrusted run. */
+enum {
+    UNTRUSTED_CPU_SECONDS =
+        600,                  /* of each core; then it stops as by SIGTERM, and 30 s later dies */
+    UNTRUSTED_FILE_MIB = 4096 /* the longest file that it writes */
+};
+
+/* What a run is going to touch. */
+typedef struct untrusted_needs {
+    const char *scene; /* a file, "-" for stdin; the folder that it is in is read */
+    const char *also;  /* another file that is read, or NULL */
+    const char *const *outputs;
+    size_t output_count;
+    int device; /* whether a device will be opened, so that its driver compiles */
+} untrusted_needs;
+
+/*
+ * From here on this process, and threads that it begins, can read what it needs and what programs
+ * need of the system, write into the folders of the outputs, make no connection, trace no process
+ * and gain no rights; and CPU time and the length of files are limited. It cannot be undone.
+ * Returns an exit status, with a message where the system cannot do that.
+ */
+int untrusted_confine(const untrusted_needs *needs);
+
+#endif
