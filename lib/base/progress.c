@@ -92,31 +92,56 @@ static void *run_job(void *argument)
     return NULL;
 }
 
-rt_status rt_stage_run(rt_stage_progress *progress, rt_status (*work)(void *data), void *data)
+/* A condition that waits by rt_clock, which nobody sets back. Returns 0, or an error. */
+static int begin_condition(pthread_cond_t *condition)
 {
-    job j = {work, data, RT_OK, 0, PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER};
-    pthread_t thread;
+    pthread_condattr_t how;
+    int code = pthread_condattr_init(&how);
+    if (code)
+        return code;
+    code = pthread_condattr_setclock(&how, CLOCK_MONOTONIC);
+    if (!code)
+        code = pthread_cond_init(condition, &how);
+    pthread_condattr_destroy(&how);
+    return code;
+}
 
-    if (!progress->hooks || !progress->hooks->progress ||
-        pthread_create(&thread, NULL, run_job, &j))
-        return work(data);
-    pthread_mutex_lock(&j.lock);
-    while (!j.done) {
+/* Waits for the end of the job, and reports four times a second. */
+static void wait_for(job *j, rt_stage_progress *progress)
+{
+    pthread_mutex_lock(&j->lock);
+    while (!j->done) {
         struct timespec until;
-        clock_gettime(CLOCK_REALTIME, &until);
+        clock_gettime(CLOCK_MONOTONIC, &until);
         until.tv_nsec += 250000000;
         if (until.tv_nsec >= 1000000000) {
             until.tv_sec++;
             until.tv_nsec -= 1000000000;
         }
-        if (pthread_cond_timedwait(&j.ended, &j.lock, &until) == ETIMEDOUT && !j.done) {
-            pthread_mutex_unlock(&j.lock);
+        if (pthread_cond_timedwait(&j->ended, &j->lock, &until) == ETIMEDOUT && !j->done) {
+            pthread_mutex_unlock(&j->lock);
             report(progress, progress->from, rt_clock());
-            pthread_mutex_lock(&j.lock);
+            pthread_mutex_lock(&j->lock);
         }
     }
-    pthread_mutex_unlock(&j.lock);
-    pthread_join(thread, NULL);
+    pthread_mutex_unlock(&j->lock);
+}
+
+rt_status rt_stage_run(rt_stage_progress *progress, rt_status (*work)(void *data), void *data)
+{
+    job j = {.work = work, .data = data, .lock = PTHREAD_MUTEX_INITIALIZER};
+    pthread_t thread;
+
+    if (!progress->hooks || !progress->hooks->progress || begin_condition(&j.ended) != 0)
+        return work(data);
+    int is_begun = pthread_create(&thread, NULL, run_job, &j) == 0;
+    if (is_begun) {
+        wait_for(&j, progress);
+        pthread_join(thread, NULL);
+    }
+    pthread_cond_destroy(&j.ended);
+    if (!is_begun)
+        return work(data);
     if (j.status != RT_OK)
         return j.status;
     return progress->cancelled ? RT_CANCELLED : RT_OK;

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <sys/types.h>
+#include <time.h>
 #include <unistd.h>
 
 #define CL_TARGET_OPENCL_VERSION 120
@@ -157,4 +158,34 @@ void __wrap_free(void *block)
     if (block)
         __atomic_sub_fetch(&live, 1, __ATOMIC_SEQ_CST);
     __real_free(block);
+}
+
+/* ---- Time ------------------------------------------------------------------------------------ */
+
+static long shift; /* seconds by which the clocks are ahead */
+
+void fault_shift_clocks(long seconds)
+{
+    __atomic_store_n(&shift, seconds, __ATOMIC_SEQ_CST);
+}
+
+int __real_clock_gettime(clockid_t clock, struct timespec *out);
+int __wrap_clock_gettime(clockid_t clock, struct timespec *out);
+int __wrap_clock_gettime(clockid_t clock, struct timespec *out)
+{
+    int code = __real_clock_gettime(clock, out);
+    out->tv_sec += __atomic_load_n(&shift, __ATOMIC_SEQ_CST);
+    return code;
+}
+
+int __real_pthread_cond_timedwait(pthread_cond_t *condition, pthread_mutex_t *mutex,
+                                  const struct timespec *until);
+int __wrap_pthread_cond_timedwait(pthread_cond_t *condition, pthread_mutex_t *mutex,
+                                  const struct timespec *until);
+int __wrap_pthread_cond_timedwait(pthread_cond_t *condition, pthread_mutex_t *mutex,
+                                  const struct timespec *until)
+{
+    struct timespec real = *until;
+    real.tv_sec -= __atomic_load_n(&shift, __ATOMIC_SEQ_CST);
+    return __real_pthread_cond_timedwait(condition, mutex, &real);
 }

@@ -20,4 +20,7 @@ const char *fault_fired(void);
 /* Blocks of memory that were allocated by such calls and not freed. */
 long fault_live(void);
 
+/* From now on the clocks that are read are so many seconds ahead, or behind. */
+void fault_shift_clocks(long seconds);
+
 #endif
