@@ -19,7 +19,8 @@
 enum { CURVE_BITS = 12 }; /* an axis */
 enum { INDEX_BITS = 28 }; /* beside a key in an item */
 enum { DIGIT_BITS = 12, DIGITS = 3 * CURVE_BITS / DIGIT_BITS, BINS = 1 << DIGIT_BITS };
-enum { SHARES = 16 }; /* of the points, each one job */
+/* of the points, each one job: so many, or as few as are worth their bins */
+enum { SHARES = 16, SHARE_POINTS = BINS };
 /* points that show where most are: all but one in so many at either end */
 enum { SAMPLE = 2048, FAR_OUT = 20 };
 
@@ -88,18 +89,19 @@ static uint64_t hilbert_key(const curve *c, const uint32_t cell[3])
 typedef struct sorting {
     const char *positions; /* float[3] each, `stride` bytes apart */
     size_t stride, count;
+    uint32_t shares;
     uint64_t *from, *to;
     int shift; /* of the digit */
     float low[SHARES][3], high[SHARES][3];
     double middle[3], reach; /* where most photons are: so far from there, along each axis */
     double origin[3], scale; /* of compressed positions, to cells of the curve */
     curve curve;
-    size_t (*bins)[BINS]; /* [SHARES], counts, then where each share's items of a bin go */
+    size_t (*bins)[BINS]; /* [shares], counts, then where each share's items of a bin go */
 } sorting;
 
 static size_t share_begin(const sorting *s, uint32_t share)
 {
-    return s->count * share / SHARES;
+    return s->count * share / s->shares;
 }
 
 static const float *position(const sorting *s, size_t i)
@@ -159,7 +161,7 @@ static void set_cells(sorting *s)
     double largest = 0;
     for (int axis = 0; axis < 3; axis++) {
         float low = HUGE_VALF, high = -HUGE_VALF;
-        for (int i = 0; i < SHARES; i++) {
+        for (uint32_t i = 0; i < s->shares; i++) {
             low = s->low[i][axis] < low ? s->low[i][axis] : low;
             high = s->high[i][axis] > high ? s->high[i][axis] : high;
         }
@@ -200,7 +202,7 @@ static void place_bins(sorting *s)
 {
     size_t place = 0;
     for (size_t bin = 0; bin < BINS; bin++)
-        for (size_t share = 0; share < SHARES; share++) {
+        for (uint32_t share = 0; share < s->shares; share++) {
             size_t count = s->bins[share][bin];
             s->bins[share][bin] = place;
             place += count;
@@ -223,23 +225,24 @@ rt_status rt_point_order(uint64_t *items, uint64_t *spare, const float *first, s
     s.positions = (const char *)first;
     s.stride = stride;
     s.count = count;
+    s.shares = count < SHARES * SHARE_POINTS ? 1 + (uint32_t)(count / SHARE_POINTS) : SHARES;
     /* An odd number of passes ends in the other array than it began with. */
     s.from = DIGITS % 2 ? spare : items;
     s.to = DIGITS % 2 ? items : spare;
-    s.bins = malloc(SHARES * sizeof *s.bins);
+    s.bins = malloc(s.shares * sizeof *s.bins);
     if (!s.bins)
         return rt_fail(error, RT_ERROR_MEMORY, "no memory to sort %zu points", count);
     make_curve(&s.curve);
 
-    rt_parallel(threads, SHARES, bound_share, &s);
+    rt_parallel(threads, s.shares, bound_share, &s);
     find_most(&s);
     set_cells(&s);
-    rt_parallel(threads, SHARES, key_share, &s);
+    rt_parallel(threads, s.shares, key_share, &s);
     for (int pass = 0; pass < DIGITS; pass++) {
         s.shift = INDEX_BITS + pass * DIGIT_BITS;
-        rt_parallel(threads, SHARES, count_share, &s);
+        rt_parallel(threads, s.shares, count_share, &s);
         place_bins(&s);
-        rt_parallel(threads, SHARES, move_share, &s);
+        rt_parallel(threads, s.shares, move_share, &s);
         uint64_t *swap = s.from;
         s.from = s.to;
         s.to = swap;
