@@ -13,7 +13,7 @@
 #include "device/kernel_source.h"
 #include "rt.h"
 
-enum { RT_PROGRAMS_MAX = 32 };
+enum { RT_PROGRAMS_MAX = 32, RT_KERNELS_MAX = 16 };
 
 struct rt_device {
     cl_platform_id platform;
@@ -28,9 +28,11 @@ struct rt_device {
     struct {
         const rt_kernel_source *source;
         cl_program program;
-    } programs[RT_PROGRAMS_MAX]; /* built so far */
+        uint64_t kernels[RT_KERNELS_MAX]; /* hashes of the names made so far; 0 ends them */
+    } programs[RT_PROGRAMS_MAX];          /* built so far */
     int program_count;
-    int has_new_kernels; /* made since rt_device_finish: the driver may have compiled them */
+    /* made for the first time since rt_device_finish: the driver may have compiled them */
+    int has_new_kernels;
 };
 
 /* The name of an OpenCL error code; static storage. */

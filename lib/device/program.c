@@ -63,6 +63,8 @@ static rt_status build_options(char *options, size_t size, const rt_device *devi
     return RT_OK;
 }
 
+static const uint64_t hash_basis = 0xcbf29ce484222325u;
+
 static uint64_t hash(uint64_t h, const void *data, size_t size)
 {
     const unsigned char *at = data;
@@ -83,7 +85,7 @@ static uint64_t hash_text(uint64_t h, const char *text)
 static uint64_t cache_key(const rt_device *device, const rt_kernel_source *source,
                           const char *options)
 {
-    uint64_t h = hash(0xcbf29ce484222325u, source->text, source->length);
+    uint64_t h = hash(hash_basis, source->text, source->length);
     h = hash_text(hash_text(h, source->name), options);
     h = hash_text(hash_text(h, device->info.platform), device->info.name);
     return hash_text(hash_text(h, device->info.version), device->info.driver);
@@ -125,46 +127,64 @@ static rt_status build(rt_device *device, cl_program *out, const rt_kernel_sourc
     return RT_OK;
 }
 
-/* Finds a program among those already built, or builds it. */
-static rt_status find_program(rt_device *device, cl_program *out, const rt_kernel_source *source,
+/* Finds the number of a program among those already built, or builds it. */
+static rt_status find_program(rt_device *device, int *out, const rt_kernel_source *source,
                               const rt_hooks *hooks, rt_error *error)
 {
+    cl_program built = NULL;
     for (int i = 0; i < device->program_count; i++)
         if (device->programs[i].source == source) {
-            *out = device->programs[i].program;
+            *out = i;
             return RT_OK;
         }
     if (device->program_count == RT_PROGRAMS_MAX)
         return rt_fail(error, RT_ERROR_DEVICE, "more than %d OpenCL programs on one device",
                        RT_PROGRAMS_MAX);
     double began = rt_clock();
-    rt_status status = build(device, out, source, hooks, error);
+    rt_status status = build(device, &built, source, hooks, error);
     if (status != RT_OK)
         return status;
     rt_log(hooks, "program %s built in %.3f s", source->name, rt_clock() - began);
     device->programs[device->program_count].source = source;
-    device->programs[device->program_count++].program = *out;
+    device->programs[device->program_count].program = built;
+    *out = device->program_count++;
     return RT_OK;
+}
+
+/* Notes that a kernel is made; whether it is the first of its name, or there is no more room. */
+static int is_first(rt_device *device, int program, const char *kernel)
+{
+    const uint64_t name = hash_text(hash_basis, kernel);
+    uint64_t *made = device->programs[program].kernels;
+    for (int i = 0; i < RT_KERNELS_MAX; i++) {
+        if (made[i] == name)
+            return 0;
+        if (made[i] == 0) {
+            made[i] = name;
+            break;
+        }
+    }
+    return 1;
 }
 
 rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kernel_source *sources,
                                 const char *program, const char *kernel, const rt_hooks *hooks,
                                 rt_error *error)
 {
-    cl_program built = NULL;
+    int number = 0;
     cl_int code;
 
     while (sources->name && strcmp(sources->name, program) != 0)
         sources++;
     if (!sources->name)
         return rt_fail(error, RT_ERROR_DEVICE, "there is no kernel program '%s'", program);
-    rt_status status = find_program(device, &built, sources, hooks, error);
+    rt_status status = find_program(device, &number, sources, hooks, error);
     if (status != RT_OK)
         return status;
-    cl_kernel made = clCreateKernel(built, kernel, &code);
+    cl_kernel made = clCreateKernel(device->programs[number].program, kernel, &code);
     if ((status = rt_cl_check(code, kernel, error)) == RT_OK)
         *out = made;
-    device->has_new_kernels = 1;
+    device->has_new_kernels |= is_first(device, number, kernel);
     rt_kernel_cache_tell(hooks);
     return status;
 }
