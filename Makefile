@@ -39,7 +39,7 @@ LIB_SRC := \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
 	lib/base/bytes.c lib/base/claim.c lib/base/crc32.c lib/base/error.c lib/base/file.c \
-	lib/base/half.c \
+	lib/base/half.c lib/base/memory.c \
 	lib/base/parallel.c lib/base/progress.c lib/base/version.c \
 	lib/device/buffer.c lib/device/device.c lib/device/kernel_cache.c \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \
@@ -94,12 +94,11 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc
 
 DSL_SRC := \
-	dsl/blocks.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c dsl/lexer.c \
-	dsl/load.c dsl/names.c dsl/no_effect.c dsl/origin.c dsl/parse_block.c dsl/parse_entry.c \
-	dsl/parse_expression.c dsl/parse_statement.c dsl/parser.c dsl/progress.c dsl/reader.c \
-	dsl/report.c \
-	dsl/schema.c dsl/scope.c dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c \
-	dsl/transform.c
+	dsl/blocks.c dsl/budget.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c \
+	dsl/lexer.c dsl/load.c dsl/names.c dsl/no_effect.c dsl/origin.c dsl/parse_block.c \
+	dsl/parse_entry.c dsl/parse_expression.c dsl/parse_statement.c dsl/parser.c \
+	dsl/progress.c dsl/reader.c dsl/report.c dsl/schema.c dsl/scope.c dsl/shapes.c \
+	dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
 	tools/check.c tools/command_line.c tools/compare.c tools/compare_print.c tools/devices.c \
@@ -137,7 +136,7 @@ TESTS_QUICK := \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
-	tests/lib/base/test_file.c tests/lib/base/test_half.c \
+	tests/lib/base/test_file.c tests/lib/base/test_half.c tests/lib/base/test_memory.c \
 	tests/lib/device/test_kernel_cache.c \
 	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
 	tests/lib/image/test_display.c \
@@ -160,6 +159,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/render/test_lights.c \
+	tests/lib/render/test_memory_limit.c \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \

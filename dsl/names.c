@@ -39,6 +39,11 @@ size_t rt_names_find(const rt_names *names, rt_text text)
 static int grow(rt_names *names)
 {
     size_t capacity = names->capacity ? 2 * names->capacity : 32;
+    size_t slots_more = 2 * capacity - names->slot_count;
+    uint64_t bytes = (uint64_t)(capacity - names->capacity) * sizeof *names->items +
+                     (uint64_t)slots_more * sizeof *names->slots;
+    if (!rt_budget_take(names->budget, bytes, "the table of names"))
+        return 0;
     rt_name *items = realloc(names->items, capacity * sizeof *items);
     if (!items)
         return 0;

@@ -30,6 +30,7 @@ typedef struct rt_names {
     size_t count, capacity;
     size_t *slots; /* open addressing: position in items plus 1, or 0 */
     size_t slot_count;
+    rt_budget *budget; /* that they count in; NULL: none */
 } rt_names;
 
 /* The position of a name in items, or RT_NAME_NONE. */

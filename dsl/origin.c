@@ -4,11 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int add_origin(rt_origin_list *list, const rt_place *place)
+static int add_origin(rt_origin_list *list, const rt_place *place, rt_budget *budget)
 {
     if (list->count == list->capacity) {
-        size_t capacity = list->capacity ? 2 * list->capacity : 64;
-        rt_origin *items = realloc(list->items, capacity * sizeof *items);
+        size_t capacity = list->capacity ? list->capacity + list->capacity / 2 : 64;
+        uint64_t bytes = (uint64_t)(capacity - list->capacity) * sizeof *list->items;
+        rt_origin *items = rt_budget_take(budget, bytes, "the list of places in the text")
+                               ? realloc(list->items, capacity * sizeof *items)
+                               : NULL;
         if (!items)
             return 0;
         list->items = items;
@@ -61,11 +64,11 @@ int rt_origins_add(rt_origins *origins, const rt_block *block, rt_place place)
     if (block->id == RT_BLOCK_CAMERA)
         origins->camera = place;
     if (strcmp(block->word, "light") == 0)
-        return add_origin(&origins->lights, &place);
+        return add_origin(&origins->lights, &place, origins->budget);
     /* A shape is what has a material. */
     for (size_t i = 0; (field = rt_block_field(block, i)) != NULL; i++)
         if (field->type == RT_FIELD_MATERIAL)
-            return add_origin(&origins->shapes, &place);
+            return add_origin(&origins->shapes, &place, origins->budget);
     return 1;
 }
 

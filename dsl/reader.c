@@ -22,7 +22,13 @@ rt_status rt_reader_begin(rt_reader *reader, const rt_load_options *options, rt_
 {
     memset(reader, 0, sizeof *reader);
     reader->options = options;
+    reader->budget.memory = options->memory;
+    reader->sources.budget = reader->origins.budget = &reader->budget;
+    reader->scope.constants.budget = reader->scope.materials.budget = &reader->budget;
+    reader->scope.textures.budget = reader->scope.meshes.budget = &reader->budget;
     rt_status status = rt_scene_create(&reader->scene, error);
+    if (status == RT_OK)
+        rt_scene_set_memory(reader->scene, options->memory);
     if (status == RT_OK && !rt_reading_begin(&reader->progress, options->hooks))
         cancel(reader);
     return status;
@@ -35,6 +41,7 @@ void rt_reader_free(rt_reader *reader)
     rt_scope_free(&reader->scope);
     rt_reports_free(&reader->reports);
     rt_sources_free(&reader->sources);
+    rt_budget_free(&reader->budget);
 }
 
 void rt_reader_tell_file(const rt_reader *reader, const char *path)
@@ -465,13 +472,16 @@ void rt_reader_read(rt_reader *reader, const rt_source *source)
 rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
 {
     static const rt_scope_counts all = {0, 0, 0, 0};
-    const int is_good = reader->fatal.status == RT_OK && reader->reports.errors == 0;
+    const int is_good = reader->fatal.status == RT_OK && reader->reports.errors == 0 &&
+                        !reader->reports.out_of_memory;
     if (is_good)
         rt_scope_warn(&reader->scope, &all, &reader->reports);
     if (is_good && reader->options->check)
         rt_origins_report(&reader->origins, &reader->sources, reader->scene, &reader->reports);
     if (reader->fatal.status == RT_OK && !rt_reading_end(&reader->progress))
         cancel(reader);
+    if (reader->fatal.status == RT_OK)
+        reader->fatal = reader->budget.error;
     if (reader->fatal.status != RT_OK) {
         if (error)
             *error = reader->fatal;

@@ -13,7 +13,8 @@
 #include "dsl/scope.h"
 
 typedef struct rt_reader {
-    rt_scene *scene; /* owned until taken */
+    rt_scene *scene;  /* owned until taken */
+    rt_budget budget; /* of all below; failures of its are failures of the reading */
     rt_sources sources;
     rt_reports reports;
     rt_scope scope;

@@ -8,6 +8,7 @@
 
 static rt_report *add_report(rt_reports *reports, rt_place place)
 {
+    reports->is_left_out = 0;
     if (reports->count == reports->capacity) {
         size_t capacity = reports->capacity ? 2 * reports->capacity : 16;
         rt_report *items = realloc(reports->items, capacity * sizeof *items);
@@ -39,9 +40,15 @@ void rt_report_error(rt_reports *reports, rt_place place, const char *format, ..
 
 void rt_report_warning(rt_reports *reports, rt_place place, const char *format, ...)
 {
+    if (reports->warnings == RT_REPORTS_MAX) {
+        reports->left_out++;
+        reports->is_left_out = 1;
+        return;
+    }
     rt_report *report = add_report(reports, place);
     if (!report)
         return;
+    reports->warnings++;
     report->severity = RT_SEVERITY_WARNING;
     va_list args;
     va_start(args, format);
@@ -61,7 +68,7 @@ void rt_report_finding(rt_reports *reports, rt_place place, const rt_finding *fi
 
 void rt_report_hint(rt_reports *reports, const char *format, ...)
 {
-    if (reports->out_of_memory || reports->count == 0)
+    if (reports->out_of_memory || reports->count == 0 || reports->is_left_out)
         return;
     rt_report *report = &reports->items[reports->count - 1];
     va_list args;
@@ -163,6 +170,11 @@ rt_status rt_reports_finish(rt_reports *reports, const rt_load_options *options,
     if (reports->errors >= RT_REPORTS_MAX)
         rt_report_error(reports, reports->items[reports->count - 1].place,
                         "too many errors: reading stopped here");
+    if (reports->left_out > 0) {
+        reports->warnings = 0;
+        rt_report_warning(reports, reports->items[reports->count - 1].place,
+                          "too many warnings: %zu more are left out", reports->left_out);
+    }
     if (reports->out_of_memory) {
         if (error) {
             memset(error, 0, sizeof *error);

@@ -4,7 +4,7 @@
 
 #include "dsl/names.h"
 
-#define RT_REPORTS_MAX 1000 /* errors; reading stops there */
+#define RT_REPORTS_MAX 1000 /* errors, reading stops there; and warnings, others are left out */
 
 #if defined(__GNUC__)
 #define RT_REPORT_PRINTF(string, first) __attribute__((format(printf, string, first)))
@@ -27,7 +27,9 @@ typedef struct rt_report {
 typedef struct rt_reports {
     rt_report *items;
     size_t count, capacity;
-    size_t errors;
+    size_t errors, warnings;
+    size_t left_out;   /* warnings beyond RT_REPORTS_MAX */
+    int is_left_out;   /* the latest was */
     int out_of_memory; /* reading stops */
 } rt_reports;
 

@@ -11,6 +11,8 @@
 
 #define READ_CHUNK ((size_t)64 << 10)
 
+static const char what[] = "the text of the scene";
+
 char *rt_text_copy(rt_text text)
 {
     char *copy = malloc(text.length + 1);
@@ -50,7 +52,8 @@ rt_status rt_source_copy(rt_sources *sources, rt_source *source, const char *tex
         *cause = "it is larger than 1 GiB";
         return RT_ERROR_INPUT;
     }
-    char *copy = rt_text_copy((rt_text){text, size});
+    char *copy =
+        rt_budget_take(sources->budget, size, what) ? rt_text_copy((rt_text){text, size}) : NULL;
     if (!copy) {
         *cause = "memory is exhausted";
         return RT_ERROR_MEMORY;
@@ -80,14 +83,17 @@ static rt_status fail_errno(char *cause, size_t cause_size, int code)
  * Reads to the end of the file, or to what shows that it is no text; at most `limit` bytes, growing
  * the text as it comes beyond the `expected` ones.
  */
-static rt_status read_all(rt_source *source, FILE *file, size_t expected, size_t limit, char *cause,
-                          size_t cause_size)
+static rt_status read_all(rt_source *source, FILE *file, size_t expected, size_t limit,
+                          rt_budget *budget, char *cause, size_t cause_size)
 {
     size_t capacity = 0;
     for (;;) {
         if (capacity - source->size < READ_CHUNK + 1) {
+            const size_t before = capacity;
             capacity = capacity ? 2 * capacity : expected + 2 * READ_CHUNK;
-            char *grown = realloc(source->text, capacity);
+            char *grown = rt_budget_take(budget, capacity - before, what)
+                              ? realloc(source->text, capacity)
+                              : NULL;
             if (!grown)
                 return fail(cause, cause_size, RT_ERROR_MEMORY, "memory is exhausted");
             source->text = grown;
@@ -152,7 +158,8 @@ rt_status rt_source_read(rt_sources *sources, rt_source *source, char *cause, si
     }
     size_t limit = RT_SOURCE_BYTES_MAX - sources->bytes,
            expected = S_ISREG(info.st_mode) ? (size_t)info.st_size : 0;
-    status = read_all(source, file, expected < limit ? expected : limit, limit, cause, cause_size);
+    status = read_all(source, file, expected < limit ? expected : limit, limit, sources->budget,
+                      cause, cause_size);
     source->before = sources->bytes;
     if (status == RT_OK)
         sources->bytes += source->size;

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "rt.h"
+#include "dsl/budget.h"
 
 #define RT_SOURCE_BYTES_MAX ((size_t)1 << 30) /* of all texts of a scene together, 1 GiB */
 #define RT_SOURCE_COUNT_MAX 10000             /* texts of a scene */
@@ -29,6 +29,7 @@ typedef struct rt_source {
 typedef struct rt_sources {
     rt_source *latest;
     size_t count, bytes;
+    rt_budget *budget; /* that they count in; NULL: none */
 } rt_sources;
 
 /* A part of a text that a message can point at. Line 0: the text as a whole. */

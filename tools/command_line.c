@@ -148,6 +148,14 @@ static int read_number(option_value *value, const option *option, const char *te
     return STATUS_USAGE;
 }
 
+static int read_size(option_value *value, const option *option, const char *text)
+{
+    if (number_size(&value->count, text) == 0)
+        return STATUS_DONE;
+    message_error("--%s takes a number of bytes, as in 800M or 4G; not '%s'", option->name, text);
+    return STATUS_USAGE;
+}
+
 /* Reads text, NULL for none, as the value of an option of the table. */
 static int read_option_value(command_line *out, const option *option, const char *text)
 {
@@ -160,6 +168,9 @@ static int read_option_value(command_line *out, const option *option, const char
     case KIND_WHOLE:
     case KIND_REAL:
         status = read_number(value, option, text);
+        break;
+    case KIND_SIZE:
+        status = read_size(value, option, text);
         break;
     case KIND_FLAG:
     case KIND_TEXT:

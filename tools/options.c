@@ -29,7 +29,7 @@ const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_MESH] = "The mesh",
     [GROUP_COMPARE] = "The comparison",
     [GROUP_LIMIT] = "Limits (the exit status is 1 when one is not kept)",
-    [GROUP_DEVICE] = "Device",
+    [GROUP_DEVICE] = "Device and memory",
     [GROUP_TALK] = "Messages",
 };
 
@@ -114,6 +114,11 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR,
                            1, UINT32_MAX, NULL, 0, "chosen for the device",
                            "work-items per work-group"},
+    [OPTION_MEMORY] =
+        {"memory", "LIMIT", KIND_SIZE, GROUP_DEVICE, RENDER | CHECK | PHOTONS, 1, 0x1p60, NULL, 0,
+         "no limit",
+         "take no more memory than this for the scene, its hierarchy, photon maps and the film, "
+         "device buffers among them; in bytes, or with K, M, G or T, powers of 1024, as in 4G"},
 
     [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS, 0, 0,
                          progress_styles, 0, "auto",

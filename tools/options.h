@@ -51,6 +51,7 @@ typedef enum option_id {
     OPTION_DEVICE,
     OPTION_THREADS,
     OPTION_WORK_GROUP,
+    OPTION_MEMORY,
     OPTION_PROGRESS,
     OPTION_STATS,
     OPTION_VERBOSE,
@@ -64,6 +65,7 @@ typedef enum option_kind {
     KIND_FLAG,
     KIND_WHOLE,  /* a whole number, 1e6 allowed */
     KIND_REAL,   /* a finite number */
+    KIND_SIZE,   /* bytes, from 1; 4G is 4 * 2^30 */
     KIND_CHOICE, /* one of a list of words */
     KIND_TEXT    /* any text that is not empty */
 } option_kind;
@@ -86,8 +88,8 @@ typedef struct option {
     const char *value; /* the value's name in the help; NULL for a flag */
     option_kind kind;
     option_group group;
-    unsigned commands;    /* bit 1 << command_id for each that takes it */
-    double min, max;      /* KIND_WHOLE, KIND_REAL; the library checks what is narrower */
+    unsigned commands; /* bit 1 << command_id for each that takes it */
+    double min, max;   /* KIND_WHOLE, KIND_REAL, KIND_SIZE; the library checks what is narrower */
     const rt_word *words; /* KIND_CHOICE */
     int decides_pixels;   /* part of the command line recorded in an image */
     const char *fallback; /* the default, in words; NULL when there is none */
@@ -107,7 +109,7 @@ typedef enum progress_style {
 /* The value of an option; the member that its kind names is valid when given. */
 typedef struct option_value {
     int given;
-    uint64_t count;
+    uint64_t count; /* of KIND_WHOLE and KIND_SIZE */
     double real;
     int choice;
     const char *text; /* as written */
@@ -122,6 +124,7 @@ typedef struct command_line {
     size_t output_count;
     const char **operands;
     size_t operand_count;
+    rt_memory *memory; /* by --memory, or NULL; owned */
 } command_line;
 
 #endif

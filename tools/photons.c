@@ -14,10 +14,12 @@
 #include "settings.h"
 #include "status.h"
 
-int photons_load(rt_photon_map **out, const char *path)
+int photons_load(rt_photon_map **out, const char *path, const command_line *arguments)
 {
     rt_error error;
-    return rt_photon_map_load(out, path, &error) == RT_OK ? STATUS_DONE : session_fail(&error);
+    return rt_photon_map_load_in(out, path, arguments->memory, &error) == RT_OK
+               ? STATUS_DONE
+               : session_fail(&error);
 }
 
 int photons_output(const char **out, const command_line *arguments, const char *what,
@@ -89,7 +91,7 @@ static int info(const command_line *arguments)
     int status = STATUS_DONE;
     for (size_t i = 1; i < arguments->operand_count; i++) {
         rt_photon_map *map = NULL;
-        int now = photons_load(&map, arguments->operands[i]);
+        int now = photons_load(&map, arguments->operands[i], arguments);
         if (now == STATUS_DONE)
             now = arguments->options[OPTION_JSON].given
                       ? photons_print_info_json(arguments->operands[i], map)
@@ -121,7 +123,7 @@ static int merge(const command_line *arguments)
         return STATUS_DEVICE;
     }
     for (size_t i = 0; i < count && status == STATUS_DONE; i++)
-        status = photons_load(maps + i, arguments->operands[1 + i]);
+        status = photons_load(maps + i, arguments->operands[1 + i], arguments);
     if (status == STATUS_DONE &&
         (rt_photon_map_merge(&whole, (const rt_photon_map *const *)maps, count, &error) != RT_OK ||
          rt_photon_map_save(whole, path, &error) != RT_OK))
@@ -141,9 +143,9 @@ static int diff(const command_line *arguments)
     int differ = 0;
     if (arguments->operand_count != 3)
         return fail_operands("diff MAP MAP");
-    int status = photons_load(&a, arguments->operands[1]);
+    int status = photons_load(&a, arguments->operands[1], arguments);
     if (status == STATUS_DONE)
-        status = photons_load(&b, arguments->operands[2]);
+        status = photons_load(&b, arguments->operands[2], arguments);
     if (status == STATUS_DONE)
         status = arguments->options[OPTION_JSON].given
                      ? photons_print_difference_json(arguments->operands + 1, a, b, &differ)
@@ -164,7 +166,7 @@ static int export(const command_line *arguments)
     if (status == STATUS_DONE)
         status = check_inputs(arguments, path);
     if (status == STATUS_DONE)
-        status = photons_load(&map, arguments->operands[1]);
+        status = photons_load(&map, arguments->operands[1], arguments);
     if (status == STATUS_DONE && rt_photon_map_export(map, path, &error) != RT_OK)
         status = session_fail(&error);
     if (status == STATUS_DONE)
@@ -211,8 +213,8 @@ const photons_form *photons_find_form(const command_line *arguments)
 
 int photons_form_takes(const photons_form *form, option_id id)
 {
-    return id == OPTION_QUIET || id == OPTION_HELP || (id == OPTION_OUT && form->writes) ||
-           (id == OPTION_JSON && !form->writes);
+    return id == OPTION_QUIET || id == OPTION_HELP || id == OPTION_MEMORY ||
+           (id == OPTION_OUT && form->writes) || (id == OPTION_JSON && !form->writes);
 }
 
 /* Emission has many options, the other forms few. */

@@ -23,7 +23,7 @@ int photons_form_takes(const photons_form *form, option_id id);
 int photons_emit(const command_line *arguments);
 
 /* Loads the map at path; says why when that fails. The caller owns *out. */
-int photons_load(rt_photon_map **out, const char *path);
+int photons_load(rt_photon_map **out, const char *path, const command_line *arguments);
 
 /* The one file of --out, which has this extension. */
 int photons_output(const char **out, const command_line *arguments, const char *what,

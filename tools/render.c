@@ -51,7 +51,8 @@ static int load_photon_map(render_job *job)
     const char *path = value(job, OPTION_PHOTON_MAP)->text;
     if (!value(job, OPTION_PHOTON_MAP)->given)
         return STATUS_DONE;
-    if (rt_photon_map_load(&job->photon_map, path, &error) != RT_OK)
+    if (rt_photon_map_load_in(&job->photon_map, path, job->session.arguments->memory, &error) !=
+        RT_OK)
         return session_fail(&error);
     inputs_add(&job->inputs, path);
     rt_photon_map_get_info(job->photon_map, &info);

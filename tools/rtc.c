@@ -29,6 +29,16 @@ static int run(const command_line *arguments)
     return commands[arguments->command](arguments);
 }
 
+/* Makes the count of what --memory limits. */
+static int limit_memory(command_line *arguments)
+{
+    const option_value *limit = &arguments->options[OPTION_MEMORY];
+    rt_error error;
+    return !limit->given || rt_memory_create(&arguments->memory, limit->count, &error) == RT_OK
+               ? STATUS_DONE
+               : message_failure(&error);
+}
+
 int main(int argc, char **argv)
 {
     /* A closed pipe is an error of the write, not the end of a render. */
@@ -39,7 +49,10 @@ int main(int argc, char **argv)
     command_line arguments;
     int status = arguments_parse(&arguments, argc, argv);
     if (status == STATUS_DONE)
+        status = limit_memory(&arguments);
+    if (status == STATUS_DONE)
         status = run(&arguments);
+    rt_memory_destroy(arguments.memory);
     arguments_free(&arguments);
     int written = message_finish_stdout();
     /* That things differ, which is status 1 too, is no result while what differs is lost. */

@@ -98,7 +98,12 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     char *text = read_stdin(&status);
     if (!text)
         return status;
-    *result = rt_scene_parse(out, text, scene_file_name("-"), options, error);
+    const size_t size = strlen(text);
+    *result = rt_memory_take(options->memory, size, "the text of the scene", error);
+    if (*result == RT_OK) {
+        *result = rt_scene_parse(out, text, scene_file_name("-"), options, error);
+        rt_memory_give(options->memory, size);
+    }
     free(text);
     return STATUS_DONE;
 }
@@ -130,7 +135,8 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
                                .user = &reading,
                                .file = on_file,
                                .hooks = &hooks,
-                               .root = root};
+                               .root = root,
+                               .memory = arguments->memory};
     options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_CHECK_QUIETLY ||
                     purpose == SCENE_TO_RENDER;
     rt_error error;

@@ -28,7 +28,8 @@ const char *scene_file_name(const char *path);
  * Reads the scene at path, "-" for stdin, and prints every error and what else its purpose asks
  * for. Returns an exit status; the caller owns *out, written only on STATUS_DONE. findings may be
  * NULL; inputs receives the files that were read, and may be NULL. progress shows how far it has
- * come. With --untrusted among the arguments the scene may name files in its own folder only.
+ * come. The scene counts in the memory of the arguments; with --untrusted among them it may name
+ * files in its own folder only.
  */
 int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
                     scene_findings *findings, input_list *inputs, progress_display *progress,

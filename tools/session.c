@@ -131,6 +131,7 @@ int session_open_device(const session *s, rt_device **out)
     options.select = session_value(s, OPTION_DEVICE)->text;
     options.threads = (uint32_t)session_value(s, OPTION_THREADS)->count;
     options.work_group = (uint32_t)session_value(s, OPTION_WORK_GROUP)->count;
+    options.memory = s->arguments->memory;
     interrupt_defer();
     if (rt_device_open(out, &options, &error) != RT_OK)
         return session_fail(&error);

@@ -8,7 +8,7 @@
 #include "accel/refs.h"
 #include "accel/tree.h"
 #include "accel/wide.h"
-#include "base/error.h"
+#include "base/memory.h"
 
 struct rt_bvh {
     rt_bvh_input input;
@@ -18,12 +18,6 @@ struct rt_bvh {
     rt_tree tree;
     rt_wide_plan plan;
 };
-
-static rt_status no_memory(rt_error *error, uint32_t count)
-{
-    return rt_fail(error, RT_ERROR_MEMORY, "not enough memory for a hierarchy of %lu primitives",
-                   (unsigned long)count);
-}
 
 /*
  * Builds by cost; should the tree be so unbalanced that a traversal's stack would not hold it,
@@ -36,12 +30,12 @@ static rt_status build_tree(rt_bvh *bvh, rt_ref *refs, rt_stage_progress *progre
 {
     static const rt_split_rule rules[] = {RT_SPLIT_RULE_SAH, RT_SPLIT_RULE_MEDIAN};
     for (int i = 0; i < 2; i++) {
-        rt_status status =
-            rt_tree_build(&bvh->tree, refs, bvh->count, rules[i], bvh->threads, progress, error);
+        rt_status status = rt_tree_build(&bvh->tree, refs, bvh->count, rules[i], bvh->threads,
+                                         bvh->input.memory, progress, error);
+        if (status == RT_OK)
+            status = rt_wide_plan_make(&bvh->plan, &bvh->tree, refs, bvh->input.memory, error);
         if (status != RT_OK)
             return status;
-        if (!rt_wide_plan_make(&bvh->plan, &bvh->tree, refs))
-            return no_memory(error, bvh->count);
         if (bvh->plan.stack <= RT_BVH_STACK)
             return RT_OK;
         rt_wide_plan_free(&bvh->plan);
@@ -59,19 +53,29 @@ static rt_origin *keep_origins(rt_ref *refs, uint32_t count)
         const rt_origin origin = {refs[i].index, refs[i].source};
         memcpy(bytes + i * sizeof origin, &origin, sizeof origin);
     }
-    void *shrunk = realloc(refs, count * sizeof(rt_origin));
+    void *shrunk = rt_memory_resize(NULL, refs, count, sizeof(rt_origin), RT_BVH_NAME, NULL);
     return shrunk ? shrunk : (void *)refs;
+}
+
+/* Bytes that the build takes at least: a leaf holds one analytic entry or fills a block. */
+static double bytes_at_least(const rt_bvh *bvh)
+{
+    const double analytic = bvh->input.analytic_count, others = bvh->count - analytic;
+    return bvh->count * (double)sizeof(rt_ref) +
+           2 * (analytic + others / RT_BVH_WIDTH) * (double)sizeof(rt_tree_node);
 }
 
 static rt_status build(rt_bvh *bvh, rt_stage_progress *progress, rt_error *error)
 {
-    rt_ref *refs = malloc(bvh->count * sizeof *refs);
+    if (rt_memory_foresee(bvh->input.memory, bytes_at_least(bvh), RT_BVH_NAME, error) != RT_OK)
+        return RT_ERROR_MEMORY;
+    rt_ref *refs = rt_memory_alloc(bvh->input.memory, bvh->count, sizeof *refs, RT_BVH_NAME, error);
     if (refs == NULL)
-        return no_memory(error, bvh->count);
+        return RT_ERROR_MEMORY;
     rt_refs_fill(refs, &bvh->input, bvh->threads);
     const rt_status status = build_tree(bvh, refs, progress, error);
     if (status != RT_OK) {
-        free(refs);
+        rt_memory_free(refs);
         return status;
     }
     bvh->origins = keep_origins(refs, bvh->count);
@@ -88,7 +92,7 @@ rt_status rt_bvh_build(rt_bvh **out, const rt_bvh_input *input, uint32_t threads
                        (unsigned long long)count, (unsigned long)RT_CHILD_INDEX);
     rt_bvh *bvh = calloc(1, sizeof *bvh);
     if (bvh == NULL)
-        return no_memory(error, (uint32_t)count);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for " RT_BVH_NAME);
     bvh->input = *input;
     bvh->threads = threads;
     bvh->count = (uint32_t)count;
@@ -131,6 +135,6 @@ void rt_bvh_destroy(rt_bvh *bvh)
         return;
     rt_wide_plan_free(&bvh->plan);
     rt_tree_destroy(&bvh->tree);
-    free(bvh->origins);
+    rt_memory_free(bvh->origins);
     free(bvh);
 }

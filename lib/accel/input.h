@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include "rt.h"
+
 /* Triangles that share vertices. Triangle i is primitive first_prim + i of the scene. */
 typedef struct rt_bvh_mesh {
     const float *positions;  /* [vertex][3], metres, finite */
@@ -35,6 +37,7 @@ typedef struct rt_bvh_input {
     uint32_t quad_count;
     const rt_bvh_analytic *analytic;
     uint32_t analytic_count;
+    rt_memory *memory; /* that the hierarchy counts in; NULL: none */
 } rt_bvh_input;
 
 #endif

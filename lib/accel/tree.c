@@ -7,13 +7,12 @@
 
 #include <assert.h>
 #include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "accel/collapse.h"
 #include "accel/partition.h"
 #include "accel/split.h"
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 
 /* Below this depth of the binary tree sets are halved, which bounds the recursion. */
@@ -44,12 +43,14 @@ typedef struct builder {
     subtree *subtrees; /* in the order of their references */
     uint32_t *order;   /* their indices, the longest first */
     uint32_t subtree_count, subtree_room;
+    rt_memory *memory;
     rt_stage_progress *progress;
     pthread_t caller;     /* the only thread that reports progress */
     pthread_mutex_t lock; /* of the following */
     /* references split, once for each level of the top and once for the subtrees */
     uint64_t done, work;
     rt_status status;
+    rt_error error; /* of RT_ERROR_MEMORY */
 } builder;
 
 static rt_status get_status(builder *b)
@@ -60,12 +61,25 @@ static rt_status get_status(builder *b)
     return status;
 }
 
-static void set_status(builder *b, rt_status status)
+static void set_status(builder *b, rt_status status, const rt_error *error)
 {
     pthread_mutex_lock(&b->lock);
-    if (b->status == RT_OK)
+    if (b->status == RT_OK) {
         b->status = status;
+        if (error)
+            b->error = *error;
+    }
     pthread_mutex_unlock(&b->lock);
+}
+
+/* Memory for the builder; failure is noted. */
+static void *allocate(builder *b, size_t count, size_t size)
+{
+    rt_error error;
+    void *block = rt_memory_alloc(b->memory, count, size, RT_BVH_NAME, &error);
+    if (!block)
+        set_status(b, RT_ERROR_MEMORY, &error);
+    return block;
 }
 
 /* Counts references as done; the caller's thread passes it on. */
@@ -78,14 +92,15 @@ static void advance(builder *b, uint32_t count)
     if (b->progress && pthread_equal(b->caller, pthread_self())) {
         const rt_status status = rt_stage_update(b->progress, fraction < 1.0 ? fraction : 1.0);
         if (status != RT_OK)
-            set_status(b, status);
+            set_status(b, status, NULL);
     }
 }
 
-static rt_tree_node *new_pair(rt_tree_arena *arena)
+/* Two nodes; NULL is a failure, which is noted. */
+static rt_tree_node *new_pair(builder *b, rt_tree_arena *arena)
 {
     if (arena->blocks == NULL || arena->used == ARENA_PAIRS) {
-        rt_tree_block *block = malloc(sizeof *block);
+        rt_tree_block *block = allocate(b, 1, sizeof *block);
         if (block == NULL)
             return NULL;
         block->next = arena->blocks;
@@ -99,7 +114,7 @@ static void free_arena(rt_tree_arena *arena)
 {
     while (arena->blocks) {
         rt_tree_block *next = arena->blocks->next;
-        free(arena->blocks);
+        rt_memory_free(arena->blocks);
         arena->blocks = next;
     }
 }
@@ -131,11 +146,9 @@ static rt_set open_node(builder *b, rt_tree_node *node, uint32_t threads)
 static int divide(builder *b, rt_tree_node *node, const rt_set *set, int depth,
                   rt_tree_arena *arena, uint32_t threads, uint32_t *scratch)
 {
-    rt_tree_node *pair = new_pair(arena);
-    if (pair == NULL) {
-        set_status(b, RT_ERROR_MEMORY);
+    rt_tree_node *pair = new_pair(b, arena);
+    if (pair == NULL)
         return 0;
-    }
     const int sah = b->rule == RT_SPLIT_RULE_SAH && depth < SAH_DEPTH;
     const uint32_t left = sah ? rt_split_sah(set, threads, scratch) : rt_split_median(set);
     assert(left > 0 && left < node->count);
@@ -180,9 +193,11 @@ static void add_subtree(builder *b, rt_tree_node *node, int depth)
 {
     if (b->subtree_count == b->subtree_room) {
         const uint32_t room = b->subtree_room ? 2 * b->subtree_room : 64;
-        subtree *grown = realloc(b->subtrees, room * sizeof *grown);
+        rt_error error;
+        subtree *grown =
+            rt_memory_resize(b->memory, b->subtrees, room, sizeof *grown, RT_BVH_NAME, &error);
         if (grown == NULL) {
-            set_status(b, RT_ERROR_MEMORY);
+            set_status(b, RT_ERROR_MEMORY, &error);
             return;
         }
         b->subtrees = grown;
@@ -221,8 +236,10 @@ static rt_collapse_cost close_top(const builder *b, rt_tree_node *node, uint32_t
 /* The longest subtree first, so that no thread is left alone with one at the end. */
 static rt_status order_subtrees(builder *b)
 {
-    b->arenas = calloc(b->subtree_count, sizeof *b->arenas);
-    b->order = malloc(b->subtree_count * sizeof *b->order);
+    b->arenas = allocate(b, b->subtree_count, sizeof *b->arenas);
+    b->order = allocate(b, b->subtree_count, sizeof *b->order);
+    if (b->arenas)
+        memset(b->arenas, 0, b->subtree_count * sizeof *b->arenas);
     if (b->arenas == NULL || b->order == NULL)
         return RT_ERROR_MEMORY;
     for (uint32_t i = 0; i < b->subtree_count; i++) {
@@ -249,7 +266,7 @@ static uint64_t estimate_work(uint32_t count)
 
 static rt_status build(builder *b, rt_tree *tree)
 {
-    b->scratch = malloc((b->count / RT_PARTITION_CHUNK + 1) * sizeof *b->scratch);
+    b->scratch = allocate(b, b->count / RT_PARTITION_CHUNK + 1, sizeof *b->scratch);
     if (b->scratch == NULL)
         return RT_ERROR_MEMORY;
     tree->root.first = 0;
@@ -269,9 +286,11 @@ static rt_status build(builder *b, rt_tree *tree)
 }
 
 rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rule rule,
-                        uint32_t threads, rt_stage_progress *progress, rt_error *error)
+                        uint32_t threads, rt_memory *memory, rt_stage_progress *progress,
+                        rt_error *error)
 {
     builder b = {0};
+    b.memory = memory;
     b.refs = refs;
     b.count = count;
     b.rule = rule;
@@ -283,9 +302,9 @@ rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rul
     memset(out, 0, sizeof *out);
     const rt_status status = build(&b, out);
     pthread_mutex_destroy(&b.lock);
-    free(b.scratch);
-    free(b.subtrees);
-    free(b.order);
+    rt_memory_free(b.scratch);
+    rt_memory_free(b.subtrees);
+    rt_memory_free(b.order);
     out->top = b.top;
     out->arenas = b.arenas;
     out->arena_count = b.arenas ? b.subtree_count : 0;
@@ -294,9 +313,7 @@ rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rul
     rt_tree_destroy(out);
     return status == RT_CANCELLED
                ? rt_fail(error, RT_CANCELLED, "cancelled while the hierarchy was built")
-               : rt_fail(error, RT_ERROR_MEMORY,
-                         "not enough memory to build a hierarchy of %lu primitives",
-                         (unsigned long)count);
+               : rt_fail(error, status, "%s", b.error.message);
 }
 
 void rt_tree_destroy(rt_tree *tree)
@@ -304,7 +321,7 @@ void rt_tree_destroy(rt_tree *tree)
     free_arena(&tree->top);
     for (uint32_t i = 0; i < tree->arena_count; i++)
         free_arena(&tree->arenas[i]);
-    free(tree->arenas);
+    rt_memory_free(tree->arenas);
     tree->arenas = NULL;
     tree->arena_count = 0;
 }

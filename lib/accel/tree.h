@@ -9,6 +9,9 @@
 #include "base/progress.h"
 #include "rt.h"
 
+/* What needs the memory, as messages say it. */
+#define RT_BVH_NAME "the bounding volume hierarchy"
+
 typedef enum rt_split_rule {
     RT_SPLIT_RULE_SAH,   /* best cost; no bound on depth */
     RT_SPLIT_RULE_MEDIAN /* depth at most log2 of the number of references */
@@ -28,10 +31,12 @@ typedef struct rt_tree {
 } rt_tree;
 
 /*
- * Reorders refs and builds a tree over them; count > 0. Fails with RT_ERROR_MEMORY or RT_CANCELLED.
+ * Reorders refs and builds a tree over them, which counts in `memory`; count > 0. Fails with
+ * RT_ERROR_MEMORY or RT_CANCELLED.
  */
 rt_status rt_tree_build(rt_tree *out, rt_ref *refs, uint32_t count, rt_split_rule rule,
-                        uint32_t threads, rt_stage_progress *progress, rt_error *error);
+                        uint32_t threads, rt_memory *memory, rt_stage_progress *progress,
+                        rt_error *error);
 void rt_tree_destroy(rt_tree *tree);
 
 #endif

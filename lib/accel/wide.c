@@ -2,10 +2,10 @@
 #include "accel/wide.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "accel/collapse.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 
 /* A part holds at most so many references. */
@@ -17,11 +17,12 @@ static int starts_part(const rt_tree_node *node)
 }
 
 static int add_part(rt_wide_plan *plan, const rt_tree_node *node, rt_wide_cursor begin,
-                    rt_wide_cursor end)
+                    rt_wide_cursor end, rt_error *error)
 {
     if (plan->part_count == plan->part_room) {
         const uint32_t room = plan->part_room ? 2 * plan->part_room : 64;
-        rt_wide_part *grown = realloc(plan->parts, room * sizeof *grown);
+        rt_wide_part *grown =
+            rt_memory_resize(plan->memory, plan->parts, room, sizeof *grown, RT_BVH_NAME, error);
         if (grown == NULL)
             return 0;
         plan->parts = grown;
@@ -37,7 +38,7 @@ static int add_part(rt_wide_plan *plan, const rt_tree_node *node, rt_wide_cursor
  * k - 1 wait. 0: no memory.
  */
 static uint32_t number(rt_wide_plan *plan, const rt_ref *refs, const rt_tree_node *node,
-                       int in_part)
+                       int in_part, rt_error *error)
 {
     const rt_tree_node *children[RT_BVH_WIDTH];
     const int k = rt_collapse_children(node, children);
@@ -54,26 +55,28 @@ static uint32_t number(rt_wide_plan *plan, const rt_ref *refs, const rt_tree_nod
                 plan->counts.block++;
             continue;
         }
-        const uint32_t below = number(plan, refs, children[i], in_part || part);
+        const uint32_t below = number(plan, refs, children[i], in_part || part, error);
         if (below == 0)
             return 0;
         deepest = below > deepest ? below : deepest;
     }
-    if (part && !add_part(plan, node, begin, plan->counts))
+    if (part && !add_part(plan, node, begin, plan->counts, error))
         return 0;
     return (uint32_t)k - 1 + deepest;
 }
 
-int rt_wide_plan_make(rt_wide_plan *plan, const rt_tree *tree, const rt_ref *refs)
+rt_status rt_wide_plan_make(rt_wide_plan *plan, const rt_tree *tree, const rt_ref *refs,
+                            rt_memory *memory, rt_error *error)
 {
     memset(plan, 0, sizeof *plan);
-    plan->stack = number(plan, refs, &tree->root, 0);
-    return plan->stack > 0;
+    plan->memory = memory;
+    plan->stack = number(plan, refs, &tree->root, 0, error);
+    return plan->stack > 0 ? RT_OK : RT_ERROR_MEMORY;
 }
 
 void rt_wide_plan_free(rt_wide_plan *plan)
 {
-    free(plan->parts);
+    rt_memory_free(plan->parts);
     plan->parts = NULL;
     plan->part_count = 0;
 }

@@ -27,6 +27,7 @@ typedef struct rt_wide_plan {
     uint32_t stack; /* most entries that a traversal can have on its stack */
     rt_wide_part *parts;
     uint32_t part_count, part_room;
+    rt_memory *memory;
 } rt_wide_plan;
 
 /* Where a primitive comes from: what is left of its reference once the tree stands. */
@@ -45,10 +46,11 @@ typedef struct rt_wide_output {
 } rt_wide_output;
 
 /*
- * Numbers nodes and leaves depth first. Returns 0 when there is no memory; plan is to be freed
- * either way.
+ * Numbers nodes and leaves depth first; the plan counts in `memory` and is to be freed whatever is
+ * returned. Fails with RT_ERROR_MEMORY.
  */
-int rt_wide_plan_make(rt_wide_plan *plan, const rt_tree *tree, const rt_ref *refs);
+rt_status rt_wide_plan_make(rt_wide_plan *plan, const rt_tree *tree, const rt_ref *refs,
+                            rt_memory *memory, rt_error *error);
 void rt_wide_plan_free(rt_wide_plan *plan);
 
 /* Writes what was planned. */

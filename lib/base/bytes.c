@@ -10,11 +10,17 @@ static rt_status reserve(rt_bytes *bytes, size_t capacity, rt_error *error)
         return RT_OK;
     /* Grow by at least a half, so that appending stays linear in time. */
     size_t grown = bytes->capacity + bytes->capacity / 2;
-    if (grown < capacity)
+    if (grown < capacity || rt_memory_foresee(bytes->memory, (double)(grown - bytes->capacity),
+                                              "a file", NULL) != RT_OK)
         grown = capacity;
+    rt_status status = rt_memory_retake(bytes->memory, bytes->capacity, grown, "a file", error);
+    if (status != RT_OK)
+        return status;
     uint8_t *data = realloc(bytes->data, grown);
-    if (!data)
+    if (!data) {
+        rt_memory_give(bytes->memory, grown - bytes->capacity);
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %zu bytes for a file", grown);
+    }
     bytes->data = data;
     bytes->capacity = grown;
     return RT_OK;
@@ -43,5 +49,6 @@ rt_status rt_bytes_put(rt_bytes *bytes, uint64_t offset, const void *source, siz
 void rt_bytes_free(rt_bytes *bytes)
 {
     free(bytes->data);
+    rt_memory_give(bytes->memory, bytes->capacity);
     memset(bytes, 0, sizeof *bytes);
 }

@@ -5,12 +5,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 /* All zero is the empty array. */
 typedef struct rt_bytes {
     uint8_t *data;
     size_t size, capacity;
+    rt_memory *memory; /* that the capacity counts in; NULL: none */
 } rt_bytes;
 
 /*
@@ -20,7 +21,7 @@ typedef struct rt_bytes {
 rt_status rt_bytes_put(rt_bytes *bytes, uint64_t offset, const void *source, size_t count,
                        rt_error *error);
 
-/* Frees the content; the array is empty afterwards. */
+/* Frees the content; the array is all zero afterwards. */
 void rt_bytes_free(rt_bytes *bytes);
 
 #endif

@@ -64,7 +64,7 @@ rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
-    rt_bytes bytes = {0};
+    rt_bytes bytes = {.memory = out->memory};
     rt_status status = read_all(&bytes, fd, path, limit, error);
     if (status != RT_OK)
         goto out;
@@ -110,7 +110,7 @@ rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return fail_errno(error, RT_ERROR_INPUT, "read", path, errno);
-    rt_bytes bytes = {0};
+    rt_bytes bytes = {.memory = out->memory};
     rt_status status = read_up_to(&bytes, fd, path, header, error);
     if (status != RT_OK)
         goto out;
@@ -254,6 +254,6 @@ rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *err
 
 rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error)
 {
-    rt_bytes bytes = {(uint8_t *)data, size, size}; /* only read */
+    rt_bytes bytes = {(uint8_t *)data, size, size, NULL}; /* only read */
     return rt_file_replace(path, &bytes, error);
 }

@@ -6,7 +6,8 @@
 
 /*
  * Reads a whole file. Fails with RT_ERROR_INPUT, naming path and cause, when it cannot be read
- * or holds more than limit bytes. The caller frees *out; it is written only on success.
+ * or holds more than limit bytes. The caller frees *out; it is empty before, counts in out->memory
+ * and is written only on success.
  */
 rt_status rt_file_read(rt_bytes *out, const char *path, size_t limit, rt_error *error);
 

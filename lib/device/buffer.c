@@ -1,7 +1,7 @@
 /* buffer.c - creates and copies buffers, sets kernel arguments, and launches kernels. */
 #include <stdio.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "device/device.h"
 #include "device/kernel_cache.h"
 
@@ -54,6 +54,12 @@ rt_status rt_cl_check(cl_int code, const char *what, rt_error *error)
                    rt_cl_error_name(code), (int)code);
 }
 
+/* Whether a buffer takes memory of its own. */
+static int has_memory(cl_mem_flags flags)
+{
+    return !(flags & CL_MEM_USE_HOST_PTR);
+}
+
 rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
                            void *host, const char *what, rt_error *error)
 {
@@ -63,13 +69,18 @@ rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, s
         return rt_fail(error, RT_ERROR_MEMORY,
                        "%s takes %zu bytes, more than the %llu of a buffer on %s", what, bytes,
                        (unsigned long long)device->info.largest_buffer, device->info.name);
-    if (host && !(flags & CL_MEM_USE_HOST_PTR))
+    const size_t size = bytes ? bytes : 1, counted = has_memory(flags) ? size : 0;
+    rt_status status = rt_memory_take(device->memory, counted, what, error);
+    if (status != RT_OK)
+        return status;
+    if (host && has_memory(flags))
         flags |= CL_MEM_COPY_HOST_PTR;
-    cl_mem buffer =
-        clCreateBuffer(device->context, flags, bytes ? bytes : 1, bytes ? host : NULL, &code);
-    rt_status status = rt_cl_check(code, what, error);
+    cl_mem buffer = clCreateBuffer(device->context, flags, size, bytes ? host : NULL, &code);
+    status = rt_cl_check(code, what, error);
     if (status == RT_OK)
         *out = buffer;
+    else
+        rt_memory_give(device->memory, counted);
     return status;
 }
 
@@ -130,10 +141,18 @@ rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, 
         "returning memory to the device", error);
 }
 
-void rt_buffer_release(cl_mem buffer)
+void rt_buffer_release(rt_device *device, cl_mem buffer)
 {
-    if (buffer)
-        clReleaseMemObject(buffer);
+    cl_mem_flags flags = 0;
+    size_t size = 0;
+    if (!buffer)
+        return;
+    if (device->memory &&
+        clGetMemObjectInfo(buffer, CL_MEM_FLAGS, sizeof flags, &flags, NULL) == CL_SUCCESS &&
+        clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof size, &size, NULL) == CL_SUCCESS &&
+        has_memory(flags))
+        rt_memory_give(device->memory, size);
+    clReleaseMemObject(buffer);
 }
 
 void rt_kernel_release(cl_kernel kernel)

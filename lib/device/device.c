@@ -227,6 +227,7 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     rt_device *device = calloc(1, sizeof *device);
     if (!device)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a device");
+    device->memory = options->memory;
     rt_driver_lock();
     if ((status = select_device(device, options->select, error)) != RT_OK)
         goto out;

@@ -16,6 +16,7 @@
 enum { RT_PROGRAMS_MAX = 32, RT_KERNELS_MAX = 16 };
 
 struct rt_device {
+    rt_memory *memory; /* that what is made on it counts in; NULL: none */
     cl_platform_id platform;
     cl_device_id id;
     cl_context context;
@@ -58,8 +59,8 @@ rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kern
 
 /*
  * A buffer of `bytes` (at least one is allocated). host, if not NULL, is copied in, or used in
- * place when flags has CL_MEM_USE_HOST_PTR. `what` names the content in messages. The caller
- * releases *out.
+ * place when flags has CL_MEM_USE_HOST_PTR, else it counts in the device's memory. `what` names the
+ * buffer in messages, as in "the film". The caller releases *out.
  */
 rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
                            void *host, const char *what, rt_error *error);
@@ -83,8 +84,8 @@ rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const vo
 /* Ends that; NULL is allowed. */
 rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, rt_error *error);
 
-/* Releases; NULL is allowed. */
-void rt_buffer_release(cl_mem buffer);
+/* Releases a buffer of the device, or a kernel; NULL is allowed. */
+void rt_buffer_release(rt_device *device, cl_mem buffer);
 void rt_kernel_release(cl_kernel kernel);
 
 /* One argument of a kernel. */

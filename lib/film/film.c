@@ -5,29 +5,61 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
+#include "setting/options.h"
 
-rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error)
+/*
+ * Bytes of the layers that these options ask for, and of an .exr file while it is made: its values,
+ * and twice as much for their encoding.
+ */
+static uint64_t bytes_reserved(const rt_render_options *o)
 {
+    const uint64_t pixels = (uint64_t)o->width * o->height;
+    uint64_t channels = 0, sums = 0;
+    const int groups[] = {
+        [RT_LAYERS_FIRST_HIT] = o->aov || !rt_mode_shows_light(o->mode),
+        [RT_LAYERS_ERROR] = o->variance || o->target_error > 0,
+        [RT_LAYERS_PHOTON] = o->photon_layers,
+    };
+    for (int i = 0; i < RT_FILM_LAYER_COUNT; i++)
+        channels += groups[rt_layer_infos[i].group] ? rt_layer_infos[i].channels : 0;
+    if (groups[RT_LAYERS_FIRST_HIT])
+        sums = RT_LAYER_COUNT * sizeof(rt_film_pixel);
+    return pixels * (sums + sizeof(float) * (channels + 3 * (3 + channels)));
+}
+
+rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_memory *memory,
+                         rt_error *error)
+{
+    static const char what[] = "the film";
     size_t count = (size_t)options->width * options->height;
     rt_film *film = calloc(1, sizeof *film);
-
-    if (film) {
-        film->options = *options;
-        film->options.hooks = NULL;
-        film->options.photon_map = NULL;
-        film->options.light_shares = NULL;
-        film->options.light_share_count = 0;
-        film->pixels = calloc(count, sizeof *film->pixels);
-        film->rgb = calloc(count, 3 * sizeof *film->rgb);
-    }
-    if (!film || !film->pixels || !film->rgb) {
+    if (!film)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film");
+    film->memory = memory;
+    film->options = *options;
+    film->options.hooks = NULL;
+    film->options.photon_map = NULL;
+    film->options.light_shares = NULL;
+    film->options.light_share_count = 0;
+    const uint64_t reserved = bytes_reserved(options);
+    const double all = (double)count * (sizeof *film->pixels + 3 * sizeof *film->rgb);
+    rt_status status = rt_memory_foresee(memory, (double)reserved + all, what, error);
+    if (status == RT_OK)
+        status = rt_memory_take(memory, reserved, what, error);
+    if (status != RT_OK)
+        goto out;
+    film->reserved = reserved;
+    film->pixels = rt_memory_zeroed(memory, count, sizeof *film->pixels, what, error);
+    if (film->pixels)
+        film->rgb = rt_memory_zeroed(memory, count, 3 * sizeof *film->rgb, what, error);
+    status = film->rgb ? RT_OK : RT_ERROR_MEMORY;
+out:
+    if (status == RT_OK)
+        *out = film;
+    else
         rt_film_destroy(film);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film of %u x %u pixels",
-                       options->width, options->height);
-    }
-    *out = film;
-    return RT_OK;
+    return status;
 }
 
 void rt_film_destroy(rt_film *film)
@@ -35,10 +67,11 @@ void rt_film_destroy(rt_film *film)
     if (!film)
         return;
     rt_ledger_free(&film->ledger);
-    free(film->pixels);
-    free(film->rgb);
+    rt_memory_free(film->pixels);
+    rt_memory_free(film->rgb);
     free(film->layer_sums);
     rt_film_layers_free(&film->layers);
+    rt_memory_give(film->memory, film->reserved);
     free(film);
 }
 

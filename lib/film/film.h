@@ -8,6 +8,8 @@
 #include "types.h"
 
 struct rt_film {
+    rt_memory *memory;         /* that it counts in; NULL: none */
+    uint64_t reserved;         /* bytes that count for its layers, and for writing it to a file */
     rt_render_options options; /* as rendered, defaults filled in */
     rt_film_stats stats;
     rt_ledger ledger;      /* of all photon paths */
@@ -18,8 +20,13 @@ struct rt_film {
     rt_film_layers layers; /* each [height][width][channels] */
 };
 
-/* A black film for complete options; the caller owns *out. */
-rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_error *error);
+/*
+ * A black film for complete options, which counts in `memory` with all layers that they ask for and
+ * with what writing it to a file takes: neither must fail at the end of a render. The caller owns
+ * *out.
+ */
+rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_memory *memory,
+                         rt_error *error);
 
 /* width * height */
 size_t rt_film_pixels(const rt_film *film);

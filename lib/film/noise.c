@@ -2,10 +2,9 @@
 #include "film/noise.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "film/student_t.h"
 
 /* Length of the replicates at the first test that can end a render. */
@@ -37,15 +36,16 @@ int rt_noise_wanted(const rt_render_options *options)
 
 /* ---- Sums ------------------------------------------------------------------- */
 
-rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_error *error)
+rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_memory *memory, rt_error *error)
 {
-    rt_noise *noise = calloc(1, sizeof *noise + pixels * sizeof *noise->pixels);
+    static const char what[] = "the variance of the film";
+    rt_noise *noise =
+        rt_memory_zeroed(memory, 1, sizeof *noise + pixels * sizeof *noise->pixels, what, error);
     if (noise)
-        noise->fresh = malloc(pixels_a_read * sizeof *noise->fresh);
+        noise->fresh = rt_memory_alloc(memory, pixels_a_read, sizeof *noise->fresh, what, error);
     if (!noise || !noise->fresh) {
         rt_noise_destroy(noise);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the variance of %zu pixels",
-                       pixels);
+        return RT_ERROR_MEMORY;
     }
     noise->count = pixels;
     noise->next_test = 1;
@@ -56,8 +56,8 @@ rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_error *error)
 void rt_noise_destroy(rt_noise *noise)
 {
     if (noise)
-        free(noise->fresh);
-    free(noise);
+        rt_memory_free(noise->fresh);
+    rt_memory_free(noise);
 }
 
 rt_status rt_noise_read(rt_noise *noise, const rt_sample_range *range, rt_device *device,

@@ -56,8 +56,8 @@ typedef struct rt_noise rt_noise;
 /* Whether the options ask for an estimate of the error. */
 int rt_noise_wanted(const rt_render_options *options);
 
-/* For a film of so many pixels; the caller owns *out. */
-rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_error *error);
+/* For a film of so many pixels, which counts in `memory`; the caller owns *out. */
+rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_memory *memory, rt_error *error);
 void rt_noise_destroy(rt_noise *noise);
 
 /* Reads the film's sums from the device; what was added since the last time is this range. */

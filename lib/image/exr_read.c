@@ -77,7 +77,7 @@ static rt_status check_header(reader *r, const rt_bytes *file, exr_storage_t *st
     return RT_OK;
 }
 
-static rt_status create_image(reader *r, rt_error *error)
+static rt_status create_image(reader *r, const rt_bytes *file, rt_error *error)
 {
     uint32_t count = (uint32_t)r->channels->num_channels;
     const char **names = malloc(count * sizeof *names);
@@ -86,9 +86,9 @@ static rt_status create_image(reader *r, rt_error *error)
     for (uint32_t i = 0; i < count; i++)
         names[i] = r->channels->entries[i].name.str;
     rt_error why;
-    rt_status status =
-        rt_image_create(&r->image, (uint32_t)(r->window.max.x - r->window.min.x + 1),
-                        (uint32_t)(r->window.max.y - r->window.min.y + 1), names, count, &why);
+    rt_status status = rt_image_create_in(
+        &r->image, file->memory, (uint32_t)(r->window.max.x - r->window.min.x + 1),
+        (uint32_t)(r->window.max.y - r->window.min.y + 1), names, count, &why);
     free(names);
     /* What is a wrong argument to that call is a wrong file here. */
     if (status == RT_ERROR_USAGE)
@@ -183,20 +183,37 @@ static exr_result_t read_tiles(reader *r, exr_decode_pipeline_t *pipeline)
     return code;
 }
 
+/* What a chunk takes unpacked, at four bytes a value; packed it is no longer. */
+static uint64_t chunk_bytes(const reader *r, exr_storage_t storage)
+{
+    int32_t width = (int32_t)r->image->width, lines = 0;
+    exr_result_t code = storage == EXR_STORAGE_TILED
+                            ? exr_get_tile_sizes(r->context, 0, 0, 0, &width, &lines)
+                            : exr_get_scanlines_per_chunk(r->context, 0, &lines);
+    if (code != EXR_ERR_SUCCESS || width < 1 || lines < 1)
+        return 0; /* refused soon */
+    return (uint64_t)width * (uint64_t)lines * r->image->channel_count * sizeof(float);
+}
+
 static rt_status read_image(reader *r, const source *s, rt_error *error)
 {
     exr_storage_t storage;
     rt_status status = check_header(r, s->file, &storage, error);
     if (status == RT_OK)
-        status = create_image(r, error);
+        status = create_image(r, s->file, error);
     if (status == RT_OK)
         status = read_attributes(r, error);
+    if (status != RT_OK)
+        return status;
+    const uint64_t buffers = 2 * chunk_bytes(r, storage);
+    status = rt_memory_take(s->file->memory, buffers, "the decoding of an image", error);
     if (status != RT_OK)
         return status;
     exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_result_t code =
         storage == EXR_STORAGE_TILED ? read_tiles(r, &pipeline) : read_scanlines(r, &pipeline);
     exr_decoding_destroy(r->context, &pipeline);
+    rt_memory_give(s->file->memory, buffers);
     if (code == EXR_ERR_SUCCESS)
         return RT_OK;
     return fail_input(r, rt_exr_reason(&s->message, code), error);

@@ -1,6 +1,7 @@
 /* image.c - creates images, and finds their channels and attributes. */
 #include "image/image.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,24 +38,30 @@ static rt_status check_names(const char *const *names, uint32_t count, rt_error 
 rt_status rt_image_create(rt_image **out, uint32_t width, uint32_t height, const char *const *names,
                           uint32_t channel_count, rt_error *error)
 {
+    return rt_image_create_in(out, NULL, width, height, names, channel_count, error);
+}
+
+rt_status rt_image_create_in(rt_image **out, rt_memory *memory, uint32_t width, uint32_t height,
+                             const char *const *names, uint32_t channel_count, rt_error *error)
+{
+    char what[96];
     rt_status status = check_size(width, height, channel_count, error);
     if (status == RT_OK)
         status = check_names(names, channel_count, error);
     if (status != RT_OK)
         return status;
 
-    uint64_t values = (uint64_t)width * height * channel_count;
-    rt_image *image = calloc(1, sizeof *image);
+    snprintf(what, sizeof what, "an image of %ux%u pixels and %u channels", width, height,
+             channel_count);
+    rt_image *image = rt_memory_zeroed(NULL, 1, sizeof *image, what, error);
     if (image) {
-        image->names = calloc(channel_count, sizeof *image->names);
-        image->data =
-            values <= SIZE_MAX / sizeof(float) ? calloc((size_t)values, sizeof(float)) : NULL;
+        image->names = rt_memory_zeroed(NULL, channel_count, sizeof *image->names, what, error);
+        image->data = rt_memory_zeroed(memory, (size_t)width * height,
+                                       channel_count * sizeof(float), what, error);
     }
     if (!image || !image->names || !image->data) {
         rt_image_destroy(image);
-        return rt_fail(error, RT_ERROR_MEMORY,
-                       "out of memory: an image of %ux%u pixels and %u channels", width, height,
-                       channel_count);
+        return RT_ERROR_MEMORY;
     }
     image->width = width;
     image->height = height;
@@ -77,9 +84,9 @@ void rt_image_destroy(rt_image *image)
     for (size_t i = 0; i < image->attribute_count; i++)
         free(image->attributes[i].value);
     free(image->attributes);
-    free(image->names);
-    free(image->data);
-    free(image);
+    rt_memory_free(image->names);
+    rt_memory_free(image->data);
+    rt_memory_free(image);
 }
 
 uint32_t rt_image_channel(const rt_image *image, const char *name)

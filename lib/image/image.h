@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 #define RT_IMAGE_SIDE_MAX 65536u
 #define RT_IMAGE_CHANNELS_MAX 256u
@@ -48,6 +48,10 @@ struct rt_image {
  */
 rt_status rt_image_create(rt_image **out, uint32_t width, uint32_t height, const char *const *names,
                           uint32_t channel_count, rt_error *error);
+
+/* The same, with values that count in `memory`. */
+rt_status rt_image_create_in(rt_image **out, rt_memory *memory, uint32_t width, uint32_t height,
+                             const char *const *names, uint32_t channel_count, rt_error *error);
 
 /*
  * Whether a file of so many bytes is too short for so many values, whatever its compression; asked

@@ -91,7 +91,12 @@ static decoder *decoder_of(const rt_bytes *file)
 
 rt_status rt_image_read(rt_image **out, const char *path, rt_error *error)
 {
-    rt_bytes bytes = {0};
+    return rt_image_read_in(out, path, NULL, error);
+}
+
+rt_status rt_image_read_in(rt_image **out, const char *path, rt_memory *memory, rt_error *error)
+{
+    rt_bytes bytes = {.memory = memory};
     rt_status status = rt_file_read(&bytes, path, FILE_SIZE_LIMIT, error);
     decoder *decode = status == RT_OK ? decoder_of(&bytes) : NULL;
     if (decode)

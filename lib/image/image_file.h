@@ -16,4 +16,7 @@ typedef enum rt_image_format {
  */
 rt_status rt_image_format_of(rt_image_format *out, const char *path, rt_error *error);
 
+/* rt_image_read, with an image that counts in `memory`, as does its file while it is read. */
+rt_status rt_image_read_in(rt_image **out, const char *path, rt_memory *memory, rt_error *error);
+
 #endif

@@ -152,8 +152,9 @@ rt_status rt_pfm_decode(rt_image **out, const rt_bytes *file, const char *name, 
                        (unsigned long long)found, (unsigned long long)expected);
 
     rt_image *image = NULL;
-    rt_status status = rt_image_create(&image, h.width, h.height, h.channel_count == 3 ? rgb : grey,
-                                       h.channel_count, error);
+    rt_status status =
+        rt_image_create_in(&image, file->memory, h.width, h.height,
+                           h.channel_count == 3 ? rgb : grey, h.channel_count, error);
     if (status != RT_OK)
         return status;
     const uint8_t *source = file->data + h.size;

@@ -69,8 +69,8 @@ static void create_image(png_structp png, png_infop info, reader *r)
         png_error(png, "it is too short for the size that it states");
     if (rt_image_is_bomb(values, r->file->size))
         png_error(png, "it is too large for its length: more than 64 values a byte");
-    if (rt_image_create(&r->image, width, height, is_colour ? rgb : grey, is_colour ? 3 : 1,
-                        &r->error) != RT_OK)
+    if (rt_image_create_in(&r->image, r->file->memory, width, height, is_colour ? rgb : grey,
+                           is_colour ? 3 : 1, &r->error) != RT_OK)
         leave(png, r);
 }
 
@@ -124,11 +124,10 @@ static void read_rows(png_structp png, png_infop info, reader *r, int passes)
 {
     uint32_t height = r->image->height;
     size_t row_size = png_get_rowbytes(png, info);
-    r->rows = calloc(passes > 1 ? height : 1, row_size);
-    if (!r->rows) {
-        rt_fail(&r->error, RT_ERROR_MEMORY, "out of memory: rows of %zu bytes", row_size);
+    r->rows = rt_memory_zeroed(r->file->memory, passes > 1 ? height : 1, row_size,
+                               "the rows of an image", &r->error);
+    if (!r->rows)
         leave(png, r);
-    }
     for (int pass = 1; pass <= passes; pass++)
         for (uint32_t y = 0; y < height; y++) {
             uint8_t *row = r->rows + (passes > 1 ? y * row_size : 0);
@@ -172,7 +171,7 @@ rt_status rt_png_decode(rt_image **out, const rt_bytes *file, const char *name, 
     else if (!decode(png, info, &r))
         status = rt_fail(error, r.error.status, "%s", r.error.message);
     png_destroy_read_struct(&png, &info, NULL);
-    free(r.rows);
+    rt_memory_free(r.rows);
     if (status == RT_OK) {
         r.image->is_srgb = 1;
         *out = r.image;

@@ -147,8 +147,8 @@ rt_status rt_ppm_decode(rt_image **out, const rt_bytes *file, const char *name, 
     if (status == RT_OK)
         status = check_size(&r, values, error);
     if (status == RT_OK)
-        status = rt_image_create(&image, r.width, r.height, r.channel_count == 3 ? rgb : grey,
-                                 r.channel_count, error);
+        status = rt_image_create_in(&image, file->memory, r.width, r.height,
+                                    r.channel_count == 3 ? rgb : grey, r.channel_count, error);
     if (status == RT_OK)
         status = read_codes(&r, image, values, error);
     if (status != RT_OK) {

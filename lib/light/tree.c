@@ -9,9 +9,8 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "light/lights.h"
 
 /*
@@ -265,7 +264,7 @@ static size_t list_centres(tree_builder *p, light_centre *centres, size_t count)
 
 rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene,
                              const rt_scene_header *header, const rt_light_data *lights,
-                             const rt_u32 *prim_shape, rt_error *error)
+                             const rt_u32 *prim_shape, rt_memory *memory, rt_error *error)
 {
     tree_builder p = {.nodes = nodes,
                       .scene = scene,
@@ -278,9 +277,10 @@ rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene,
         p.total_power += lights[i].power;
     if (!(p.total_power > 0))
         return RT_OK;
-    light_centre *centres = malloc(count * sizeof *centres);
+    light_centre *centres =
+        rt_memory_alloc(memory, count, sizeof *centres, "the tree of lights", error);
     if (!centres)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the tree of %zu lights", count);
+        return RT_ERROR_MEMORY;
     size_t nearby = list_centres(&p, centres, count);
     if (nearby == 0 || nearby == count) {
         build_node(&p, 1, centres, count);
@@ -289,6 +289,6 @@ rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene,
         build_node(&p, 2, centres, nearby);
         build_node(&p, 3, centres + nearby, count - nearby);
     }
-    free(centres);
+    rt_memory_free(centres);
     return RT_OK;
 }

@@ -13,6 +13,6 @@ size_t rt_light_tree_leaves(const rt_scene *scene);
  */
 rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene,
                              const rt_scene_header *header, const rt_light_data *lights,
-                             const rt_u32 *prim_shape, rt_error *error);
+                             const rt_u32 *prim_shape, rt_memory *memory, rt_error *error);
 
 #endif

@@ -4,15 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/*
- * Makes room for `count` elements of `size` bytes, zeroed; at least one byte, so that NULL means
- * failure.
- */
-static void *zeroed(uint64_t count, size_t size)
-{
-    return count <= SIZE_MAX / size ? calloc(count ? (size_t)count : 1, size) : NULL;
-}
-
 rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source, uint64_t count,
                                 int normals, int uv, int colours)
 {
@@ -23,11 +14,11 @@ rt_status rt_canonical_vertices(rt_canonical *mesh, const rt_mesh_source *source
     mesh->has_normals = normals;
     mesh->has_uv = uv;
     mesh->row = 3u + (normals ? 3u : 0u) + (uv ? 2u : 0u);
-    mesh->vertices = zeroed(count, mesh->row * sizeof *mesh->vertices);
-    mesh->colours = colours ? zeroed(count, 3 * sizeof *mesh->colours) : NULL;
-    return mesh->vertices && (!colours || mesh->colours)
-               ? RT_OK
-               : rt_mesh_fail_memory(source, count, "vertices");
+    rt_status status =
+        rt_mesh_zeroed(source, (void **)&mesh->vertices, count, mesh->row * sizeof *mesh->vertices);
+    if (status == RT_OK && colours)
+        status = rt_mesh_zeroed(source, (void **)&mesh->colours, count, 3 * sizeof *mesh->colours);
+    return status;
 }
 
 float *rt_canonical_position(const rt_canonical *mesh, uint32_t vertex)
@@ -52,14 +43,10 @@ rt_status rt_canonical_reserve(rt_canonical *mesh, const rt_mesh_source *source,
     if (triangles > RT_CANONICAL_MAX)
         return rt_mesh_fail(source, 0, "%llu triangles are more than the %d that a mesh can have",
                             (unsigned long long)triangles, RT_CANONICAL_MAX);
-    uint8_t *faces = triangles <= SIZE_MAX / RT_CANONICAL_FACE
-                         ? realloc(mesh->faces, (size_t)triangles * RT_CANONICAL_FACE)
-                         : NULL;
-    if (!faces)
-        return rt_mesh_fail_memory(source, triangles, "triangles");
-    mesh->faces = faces;
-    mesh->triangle_room = (uint32_t)triangles;
-    return RT_OK;
+    rt_status status = rt_mesh_resize(source, (void **)&mesh->faces, triangles, RT_CANONICAL_FACE);
+    if (status == RT_OK)
+        mesh->triangle_room = (uint32_t)triangles;
+    return status;
 }
 
 /*
@@ -110,9 +97,9 @@ rt_status rt_canonical_polygon(rt_canonical *mesh, const rt_mesh_source *source,
 
 void rt_canonical_free(rt_canonical *mesh)
 {
-    free(mesh->vertices);
-    free(mesh->faces);
-    free(mesh->colours);
+    rt_memory_free(mesh->vertices);
+    rt_memory_free(mesh->faces);
+    rt_memory_free(mesh->colours);
     free(mesh->texture);
     memset(mesh, 0, sizeof *mesh);
 }

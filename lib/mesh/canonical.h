@@ -29,6 +29,8 @@ typedef struct rt_canonical {
     float *colours;
     char *texture; /* or NULL */
 
+    rt_memory *memory; /* that the arrays count in; NULL: none */
+
     uint64_t file_vertices, file_faces, skipped_faces;
     uint64_t first_skipped; /* number of the first face left out, from 0 */
 } rt_canonical;

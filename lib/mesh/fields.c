@@ -12,13 +12,7 @@ static rt_status grow(void **data, size_t *room, size_t count, size_t more, size
 {
     if (more <= *room - count)
         return RT_OK;
-    size_t wanted = *room + *room / 2 + more;
-    void *grown = wanted <= SIZE_MAX / 2 / size ? realloc(*data, wanted * size) : NULL;
-    if (!grown)
-        return rt_mesh_fail_memory(source, wanted, "values");
-    *data = grown;
-    *room = wanted;
-    return RT_OK;
+    return rt_memory_grow(source->memory, data, room, count + more, size, "a mesh", source->error);
 }
 
 rt_status rt_floats_add(rt_floats *list, const rt_mesh_source *source, const float *values,
@@ -35,7 +29,7 @@ rt_status rt_floats_add(rt_floats *list, const rt_mesh_source *source, const flo
 
 void rt_floats_free(rt_floats *list)
 {
-    free(list->data);
+    rt_memory_free(list->data);
     memset(list, 0, sizeof *list);
 }
 
@@ -50,7 +44,7 @@ rt_status rt_indices_add(rt_indices *list, const rt_mesh_source *source, uint32_
 
 void rt_indices_free(rt_indices *list)
 {
-    free(list->data);
+    rt_memory_free(list->data);
     memset(list, 0, sizeof *list);
 }
 

@@ -40,13 +40,13 @@ static reader *find_reader(const rt_mesh_source *source)
 static rt_status read_canonical(rt_canonical *canonical, const char *path,
                                 rt_stage_progress *progress, rt_error *error)
 {
-    rt_bytes bytes = {0};
+    rt_bytes bytes = {.memory = canonical->memory};
     rt_status status = read_file(&bytes, path, error);
     if (status != RT_OK)
         return status;
     /* An empty file has no bytes to point at. */
     const uint8_t *data = bytes.data ? bytes.data : (const uint8_t *)"";
-    rt_mesh_source source = {path, data, bytes.size, progress, error};
+    rt_mesh_source source = {path, data, bytes.size, progress, error, canonical->memory};
     reader *read = find_reader(&source);
     status =
         read ? read(canonical, &source)
@@ -83,8 +83,14 @@ static rt_status finish(rt_mesh *mesh, const char *path, const rt_hooks *hooks, 
 
 rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, rt_error *error)
 {
+    return rt_mesh_load_in(out, path, NULL, hooks, error);
+}
+
+rt_status rt_mesh_load_in(rt_mesh **out, const char *path, rt_memory *memory, const rt_hooks *hooks,
+                          rt_error *error)
+{
     rt_stage_progress progress;
-    rt_canonical canonical = {0};
+    rt_canonical canonical = {.memory = memory};
     rt_mesh *mesh = NULL;
     rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_LOAD);
     if (status != RT_OK)

@@ -13,4 +13,8 @@
  */
 rt_status rt_mesh_load(rt_mesh **out, const char *path, const rt_hooks *hooks, rt_error *error);
 
+/* The same, with a mesh that counts in `memory`, as does its file while it is read. */
+rt_status rt_mesh_load_in(rt_mesh **out, const char *path, rt_memory *memory, const rt_hooks *hooks,
+                          rt_error *error);
+
 #endif

@@ -3,15 +3,17 @@
 
 #include <stdlib.h>
 
+#include "base/memory.h"
+
 void rt_mesh_destroy(rt_mesh *mesh)
 {
     if (!mesh)
         return;
-    free(mesh->positions);
-    free(mesh->normals);
-    free(mesh->uv);
-    free(mesh->colours);
-    free(mesh->indices);
+    rt_memory_free(mesh->positions);
+    rt_memory_free(mesh->normals);
+    rt_memory_free(mesh->uv);
+    rt_memory_free(mesh->colours);
+    rt_memory_free(mesh->indices);
     free(mesh->texture);
     free(mesh);
 }

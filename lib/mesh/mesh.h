@@ -4,7 +4,12 @@
 
 #include <stdint.h>
 
-/* Owns its arrays. Every number in them is finite and every index below vertex_count. */
+#include "rt.h"
+
+/*
+ * Owns its arrays, which rt_memory_free frees. Every number in them is finite and every index below
+ * vertex_count.
+ */
 typedef struct rt_mesh {
     uint32_t vertex_count, triangle_count; /* both may be 0: a file may hold points only */
     float *positions;                      /* [vertex_count][3] */
@@ -29,6 +34,8 @@ typedef struct rt_mesh {
     /* of fewer than three corners, thus without area; the log names the first */
     uint64_t skipped_faces;
     uint64_t zero_area; /* triangles without area; they are kept in indices */
+
+    rt_memory *memory; /* that the arrays count in; NULL: none */
 } rt_mesh;
 
 /* Frees the mesh with its arrays; NULL is none. */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 /*
  * Twice the area of a triangle times its normal, in double: float coordinates cannot overflow it.
@@ -48,10 +48,13 @@ static int normalise(const double v[3], float out[3])
     return 1;
 }
 
-/* The sum of the area vectors around each vertex; the caller frees it. */
-static double *sum_faces(const rt_mesh *mesh)
+static const char what[] = "the normals of a mesh";
+
+/* The sum of the area vectors around each vertex, freed by rt_memory_free; NULL is a failure. */
+static double *sum_faces(const rt_mesh *mesh, rt_error *error)
 {
-    double *sums = calloc(mesh->vertex_count ? mesh->vertex_count : 1, 3 * sizeof *sums);
+    double *sums =
+        rt_memory_zeroed(mesh->memory, mesh->vertex_count, 3 * sizeof *sums, what, error);
     for (uint32_t i = 0; sums && i < mesh->triangle_count; i++) {
         double n[3];
         area_vector(mesh, i, n);
@@ -79,30 +82,29 @@ rt_status rt_normals_repair(rt_mesh *mesh, uint64_t *replaced, rt_error *error)
         const double wide[3] = {n[0], n[1], n[2]};
         if (normalise(wide, mesh->normals + 3 * i))
             continue;
-        if (!sums && !(sums = sum_faces(mesh)))
-            return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the normals of %u vertices",
-                           mesh->vertex_count);
+        if (!sums && !(sums = sum_faces(mesh, error)))
+            return RT_ERROR_MEMORY;
         set_from(sums, i, mesh->normals);
         ++*replaced;
     }
-    free(sums);
+    rt_memory_free(sums);
     return RT_OK;
 }
 
 rt_status rt_mesh_smooth(rt_mesh *mesh, rt_error *error)
 {
-    double *sums = sum_faces(mesh);
-    float *normals = calloc(mesh->vertex_count ? mesh->vertex_count : 1, 3 * sizeof *normals);
-    if (!sums || !normals) {
-        free(sums);
-        free(normals);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the normals of %u vertices",
-                       mesh->vertex_count);
+    double *sums = sum_faces(mesh, error);
+    float *normals =
+        sums ? rt_memory_zeroed(mesh->memory, mesh->vertex_count, 3 * sizeof *normals, what, error)
+             : NULL;
+    if (!normals) {
+        rt_memory_free(sums);
+        return RT_ERROR_MEMORY;
     }
     for (size_t i = 0; i < mesh->vertex_count; i++)
         set_from(sums, i, normals);
-    free(sums);
-    free(mesh->normals);
+    rt_memory_free(sums);
+    rt_memory_free(mesh->normals);
     mesh->normals = normals;
     return RT_OK;
 }

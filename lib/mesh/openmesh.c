@@ -26,24 +26,28 @@ static size_t write_header(const rt_canonical *mesh, char header[HEADER_MAX])
     return (size_t)length;
 }
 
-/*
- * Room for `count` rows of `width` values of 4 bytes; at least one byte, so that NULL means
- * failure.
- */
-static void *allocate(uint32_t count, size_t width)
+/* Room for `count` rows of `width` values of 4 bytes. */
+static void *allocate(const rt_canonical *canonical, uint32_t count, size_t width, rt_error *error)
 {
-    return calloc(count ? count : 1, width * 4);
+    return rt_memory_zeroed(canonical->memory, count, width * 4, "a mesh", error);
 }
 
-static rt_mesh *create(const rt_canonical *canonical)
+static rt_mesh *create(const rt_canonical *canonical, rt_error *error)
 {
+    const uint32_t vertices = canonical->vertex_count;
     rt_mesh *mesh = calloc(1, sizeof *mesh);
-    if (!mesh)
+    if (!mesh) {
+        rt_fail(error, RT_ERROR_MEMORY, "out of memory for a mesh");
         return NULL;
-    mesh->positions = allocate(canonical->vertex_count, 3);
-    mesh->normals = canonical->has_normals ? allocate(canonical->vertex_count, 3) : NULL;
-    mesh->uv = canonical->has_uv ? allocate(canonical->vertex_count, 2) : NULL;
-    mesh->indices = allocate(canonical->triangle_count, 3);
+    }
+    mesh->memory = canonical->memory;
+    mesh->positions = allocate(canonical, vertices, 3, error);
+    if (mesh->positions && canonical->has_normals)
+        mesh->normals = allocate(canonical, vertices, 3, error);
+    if (mesh->positions && canonical->has_uv)
+        mesh->uv = allocate(canonical, vertices, 2, error);
+    if (mesh->positions)
+        mesh->indices = allocate(canonical, canonical->triangle_count, 3, error);
     if (mesh->positions && mesh->indices && (mesh->normals || !canonical->has_normals) &&
         (mesh->uv || !canonical->has_uv))
         return mesh;
@@ -109,11 +113,9 @@ static rt_status read_through(rt_mesh *mesh, const rt_canonical *canonical, cons
 rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const char *path,
                                  rt_stage_progress *progress, rt_error *error)
 {
-    rt_mesh *mesh = create(canonical);
+    rt_mesh *mesh = create(canonical, error);
     if (!mesh)
-        return rt_fail(error, RT_ERROR_MEMORY,
-                       "out of memory for a mesh of %u vertices and %u triangles",
-                       canonical->vertex_count, canonical->triangle_count);
+        return RT_ERROR_MEMORY;
     rt_status status = read_through(mesh, canonical, path, progress, error);
     if (status != RT_OK) {
         rt_mesh_destroy(mesh);

@@ -66,8 +66,8 @@ static rt_status split_vertices(rt_ply_faces *faces, const rt_mesh_source *sourc
         rt_canonical_free(&split);
         return status;
     }
-    free(mesh->vertices);
-    free(mesh->colours);
+    rt_memory_free(mesh->vertices);
+    rt_memory_free(mesh->colours);
     mesh->vertices = split.vertices;
     mesh->colours = split.colours;
     mesh->vertex_count = split.vertex_count;
@@ -92,7 +92,7 @@ static rt_status keep_texture(rt_canonical *mesh, const rt_ply_header *header,
         return RT_OK;
     mesh->texture = malloc(header->texture.length + 1);
     if (!mesh->texture)
-        return rt_mesh_fail_memory(source, header->texture.length, "bytes");
+        return rt_fail(source->error, RT_ERROR_MEMORY, "out of memory for the name of a texture");
     memcpy(mesh->texture, header->texture.at, header->texture.length);
     mesh->texture[header->texture.length] = '\0';
     return RT_OK;

@@ -22,12 +22,10 @@ static rt_status grow(void **array, size_t *room, uint64_t count, size_t size,
 {
     if (count <= *room)
         return RT_OK;
-    void *grown = count <= SIZE_MAX / size ? realloc(*array, (size_t)count * size) : NULL;
-    if (!grown)
-        return rt_mesh_fail_memory(source, count, "values of a list");
-    *array = grown;
-    *room = (size_t)count;
-    return RT_OK;
+    rt_status status = rt_mesh_resize(source, array, count, size);
+    if (status == RT_OK)
+        *room = (size_t)count;
+    return status;
 }
 
 /* Reads a list of vertices; in a strip, -1 stands for UINT32_MAX. */
@@ -177,6 +175,6 @@ rt_status rt_ply_faces_read(rt_ply_faces *f, rt_ply_reader *reader, int strips)
 void rt_ply_faces_free(rt_ply_faces *f)
 {
     rt_unique_free(&f->corners);
-    free(f->list);
-    free(f->uv);
+    rt_memory_free(f->list);
+    rt_memory_free(f->uv);
 }

@@ -124,11 +124,8 @@ static rt_status grow_properties(const parser *p, rt_ply_element *element)
                             RT_PLY_PROPERTIES);
     if (count & (count - 1))
         return RT_OK;
-    rt_ply_property *grown = realloc(element->properties, (count ? 2 * count : 1) * sizeof *grown);
-    if (!grown)
-        return rt_mesh_fail_memory(p->source, 2 * count, "properties");
-    element->properties = grown;
-    return RT_OK;
+    return rt_mesh_resize(p->source, (void **)&element->properties, count ? 2 * count : 1,
+                          sizeof *element->properties);
 }
 
 static rt_status read_property(parser *p)
@@ -245,7 +242,7 @@ rt_status rt_ply_header_read(rt_ply_header *out, const rt_mesh_source *source)
 void rt_ply_header_free(rt_ply_header *header)
 {
     for (size_t i = 0; i < header->element_count; i++)
-        free(header->elements[i].properties);
+        rt_memory_free(header->elements[i].properties);
     header->element_count = 0;
 }
 

@@ -18,10 +18,27 @@ rt_status rt_mesh_fail(const rt_mesh_source *source, size_t line, const char *fo
     return RT_ERROR_INPUT;
 }
 
-rt_status rt_mesh_fail_memory(const rt_mesh_source *source, uint64_t count, const char *what)
+static const char what[] = "a mesh";
+
+/* As many as a size_t holds: more do not fit anyway. */
+static size_t clamp(uint64_t count)
 {
-    return rt_fail(source->error, RT_ERROR_MEMORY, "out of memory for %llu %s",
-                   (unsigned long long)count, what);
+    return count < SIZE_MAX ? (size_t)count : SIZE_MAX;
+}
+
+rt_status rt_mesh_resize(const rt_mesh_source *source, void **array, uint64_t count, size_t size)
+{
+    void *block = rt_memory_resize(source->memory, *array, clamp(count), size, what, source->error);
+    if (!block)
+        return RT_ERROR_MEMORY;
+    *array = block;
+    return RT_OK;
+}
+
+rt_status rt_mesh_zeroed(const rt_mesh_source *source, void **array, uint64_t count, size_t size)
+{
+    *array = rt_memory_zeroed(source->memory, clamp(count), size, what, source->error);
+    return *array ? RT_OK : RT_ERROR_MEMORY;
 }
 
 void rt_mesh_log(const rt_mesh_source *source, const char *format, ...)

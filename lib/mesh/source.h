@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/progress.h"
 
 typedef struct rt_mesh_source {
@@ -13,7 +13,8 @@ typedef struct rt_mesh_source {
     const uint8_t *data; /* the whole file */
     size_t size;
     rt_stage_progress *progress;
-    rt_error *error; /* may be NULL */
+    rt_error *error;   /* may be NULL */
+    rt_memory *memory; /* that the mesh counts in; NULL: none */
 } rt_mesh_source;
 
 /*
@@ -23,8 +24,14 @@ typedef struct rt_mesh_source {
 rt_status rt_mesh_fail(const rt_mesh_source *source, size_t line, const char *format, ...)
     RT_PRINTF(3, 4);
 
-/* Fails with RT_ERROR_MEMORY, naming what did not fit. */
-rt_status rt_mesh_fail_memory(const rt_mesh_source *source, uint64_t count, const char *what);
+/*
+ * Changes the size of an array, NULL at first, of the mesh or of its reader, as rt_memory_resize.
+ * Freed by rt_memory_free.
+ */
+rt_status rt_mesh_resize(const rt_mesh_source *source, void **array, uint64_t count, size_t size);
+
+/* A new array, all zero; the same otherwise. */
+rt_status rt_mesh_zeroed(const rt_mesh_source *source, void **array, uint64_t count, size_t size);
 
 /* Tells the log something about the file. */
 void rt_mesh_log(const rt_mesh_source *source, const char *format, ...) RT_PRINTF(2, 3);

@@ -33,14 +33,15 @@ static uint32_t *find(const rt_unique *set, const uint32_t key[3])
 static rt_status grow(rt_unique *set, const rt_mesh_source *source)
 {
     uint32_t room = set->room ? 2 * set->room : 1024;
-    uint32_t(*keys)[3] = room <= COUNT_MAX ? realloc(set->keys, room * sizeof *keys) : NULL;
-    if (!keys)
-        return rt_mesh_fail_memory(source, room, "vertices");
-    set->keys = keys;
-    uint32_t *slots = calloc(2 * (size_t)room, sizeof *slots);
-    if (!slots)
-        return rt_mesh_fail_memory(source, room, "vertices");
-    free(set->slots);
+    void *slots = NULL;
+    if (room > COUNT_MAX)
+        return rt_mesh_fail(source, 0, "more than %u vertices that differ", COUNT_MAX);
+    rt_status status = rt_mesh_resize(source, (void **)&set->keys, room, sizeof *set->keys);
+    if (status == RT_OK)
+        status = rt_mesh_zeroed(source, &slots, 2 * (uint64_t)room, sizeof *set->slots);
+    if (status != RT_OK)
+        return status;
+    rt_memory_free(set->slots);
     set->slots = slots;
     set->slot_count = 2 * room;
     set->room = room;
@@ -66,7 +67,7 @@ rt_status rt_unique_add(rt_unique *set, const rt_mesh_source *source, const uint
 
 void rt_unique_free(rt_unique *set)
 {
-    free(set->keys);
-    free(set->slots);
+    rt_memory_free(set->keys);
+    rt_memory_free(set->slots);
     memset(set, 0, sizeof *set);
 }

@@ -155,6 +155,7 @@ rt_status rt_pixel_samples_prepare(rt_pixel_samples *out, const rt_render_job *j
     rt_params none;
 
     memset(&none, 0, sizeof none);
+    out->device = device;
     out->pixels_an_item = pixels_an_item;
     rt_status status = rt_buffer_create(device, &out->pixels, CL_MEM_READ_WRITE, bytes,
                                         job->film->pixels, "the film", error);
@@ -189,5 +190,5 @@ void rt_pixel_samples_release(void *state)
 {
     rt_pixel_samples *samples = state;
     rt_kernel_release(samples->kernel);
-    rt_buffer_release(samples->pixels);
+    rt_buffer_release(samples->device, samples->pixels);
 }

@@ -9,6 +9,7 @@
 
 /* State of such a mode; all zero: there is no kernel, only the layers are summed. */
 typedef struct rt_pixel_samples {
+    rt_device *device;
     cl_kernel kernel;
     uint32_t pixels_an_item; /* pixels that a work-item of it takes */
     cl_mem pixels;           /* rt_film_pixel, the film on the device */

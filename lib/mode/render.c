@@ -110,9 +110,10 @@ static rt_status open(rt_render_job *job, rt_error *error)
     const rt_render_options *o = job->options;
     rt_status status = rt_renderer_aim(job->renderer, o, error);
     if (status == RT_OK)
-        status = rt_film_create(&job->film, o, error);
+        status = rt_film_create(&job->film, o, job->renderer->device->memory, error);
     if (status == RT_OK && rt_noise_wanted(o))
-        status = rt_noise_create(&job->noise, rt_film_pixels(job->film), error);
+        status = rt_noise_create(&job->noise, rt_film_pixels(job->film),
+                                 job->renderer->device->memory, error);
     return status;
 }
 

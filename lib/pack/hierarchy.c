@@ -1,22 +1,23 @@
 /* hierarchy.c - lists the primitives of a scene and builds its trees. */
 #include "pack/hierarchy.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "scene/shape_class.h"
+
+static const char what[] = "the input of the bounding volume hierarchy";
 
 /* ---- Input of the tree of all shapes ---------------------------------------- */
 
 /* The mesh's vertices where the shape places them. */
-static rt_status place_vertices(float **out, const rt_scene *scene, const rt_scene_shape *shape,
-                                rt_error *error)
+static rt_status place_vertices(float **out, rt_memory *memory, const rt_scene *scene,
+                                const rt_scene_shape *shape, rt_error *error)
 {
     size_t count = scene->meshes[shape->mesh].vertex_count;
-    float *positions = malloc(count * 3 * sizeof *positions);
+    float *positions = rt_memory_alloc(memory, count, 3 * sizeof *positions, what, error);
     if (!positions)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu vertices", count);
+        return RT_ERROR_MEMORY;
     for (size_t i = 0; i < count; i++)
         rt_scene_vertex(scene, shape, i, positions + 3 * i);
     *out = positions;
@@ -29,9 +30,12 @@ static rt_status list_mesh(rt_hierarchy *h, rt_bvh_mesh *out, const rt_scene *sc
     const rt_scene_shape *shape = scene->shapes + index;
     const rt_scene_mesh *mesh = scene->meshes + shape->mesh;
     rt_status status = RT_OK;
-    if (shape->has_transform)
-        status = place_vertices(h->positions + index, scene, shape, error);
-    out->positions = shape->has_transform ? h->positions[index] : mesh->positions;
+    out->positions = mesh->positions;
+    if (shape->has_transform) {
+        status = place_vertices(h->positions + h->placed_count, h->memory, scene, shape, error);
+        if (status == RT_OK)
+            out->positions = h->positions[h->placed_count++];
+    }
     out->indices = mesh->indices;
     out->triangle_count = (uint32_t)mesh->triangle_count;
     out->first_prim = first_prim;
@@ -54,19 +58,36 @@ static void list_leaf(rt_bvh_analytic *entry, const rt_scene_shape *shape, rt_u3
     entry->shape = index;
 }
 
+/* Counts shapes as they are stored; instances as leaves. */
+static void count_stored(size_t stored[RT_STORED_INFINITE + 1], const rt_scene *scene)
+{
+    memset(stored, 0, (RT_STORED_INFINITE + 1) * sizeof *stored);
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        stored[rt_scene_is_instance(scene, shape) ? RT_STORED_ANALYTIC
+                                                  : rt_shape_class_of(shape->kind)->storage]++;
+    }
+}
+
 /* Lists all finite shapes. */
 static rt_status list_shapes(rt_hierarchy *h, rt_bvh_input *input, const rt_scene *scene,
                              const rt_u32 *first_prim, rt_error *error)
 {
-    size_t shapes = scene->shape_count;
+    size_t shapes = scene->shape_count, stored[RT_STORED_INFINITE + 1];
     rt_status status = RT_OK;
-    h->shape_count = shapes;
-    h->meshes = malloc((shapes + 1) * sizeof *h->meshes);
-    h->quads = malloc((shapes + 1) * sizeof *h->quads);
-    h->analytic = malloc((shapes + 1) * sizeof *h->analytic);
-    h->positions = calloc(shapes + 1, sizeof *h->positions);
-    if (!h->meshes || !h->quads || !h->analytic || !h->positions)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu shapes", shapes);
+    count_stored(stored, scene);
+    h->meshes = rt_memory_alloc(h->memory, stored[RT_STORED_MESH], sizeof *h->meshes, what, error);
+    if (h->meshes)
+        h->quads =
+            rt_memory_alloc(h->memory, stored[RT_STORED_QUAD], sizeof *h->quads, what, error);
+    if (h->quads)
+        h->analytic = rt_memory_alloc(h->memory, stored[RT_STORED_ANALYTIC], sizeof *h->analytic,
+                                      what, error);
+    if (h->analytic)
+        h->positions =
+            rt_memory_zeroed(h->memory, stored[RT_STORED_MESH], sizeof *h->positions, what, error);
+    if (!h->positions)
+        return RT_ERROR_MEMORY;
     for (size_t i = 0; i < shapes && status == RT_OK; i++) {
         const rt_scene_shape *shape = scene->shapes + i;
         switch (rt_shape_class_of(shape->kind)->storage) {
@@ -104,7 +125,7 @@ static rt_status build_mesh(rt_hierarchy *h, rt_mesh_tree *tree, const rt_scene_
     tree->input.positions = mesh->positions;
     tree->input.indices = mesh->indices;
     tree->input.triangle_count = (uint32_t)mesh->triangle_count;
-    rt_bvh_input input = {.meshes = &tree->input, .mesh_count = 1};
+    rt_bvh_input input = {.meshes = &tree->input, .mesh_count = 1, .memory = h->memory};
     rt_status status = rt_bvh_build(&tree->bvh, &input, threads, progress, error);
     if (status != RT_OK)
         return status;
@@ -126,9 +147,10 @@ rt_status rt_hierarchy_build(rt_hierarchy *h, const rt_scene *scene, const rt_u3
 {
     rt_bvh_input input;
     memset(&input, 0, sizeof input);
-    h->trees = calloc(scene->mesh_count + 1, sizeof *h->trees);
+    input.memory = h->memory;
+    h->trees = rt_memory_zeroed(h->memory, scene->mesh_count, sizeof *h->trees, what, error);
     if (!h->trees)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu meshes", scene->mesh_count);
+        return RT_ERROR_MEMORY;
     h->mesh_count = scene->mesh_count;
     rt_status status = list_shapes(h, &input, scene, first_prim, error);
     if (status == RT_OK)
@@ -161,12 +183,12 @@ void rt_hierarchy_free(rt_hierarchy *h)
     rt_bvh_destroy(h->top);
     for (size_t i = 0; i < h->mesh_count; i++)
         rt_bvh_destroy(h->trees[i].bvh);
-    for (size_t i = 0; i < h->shape_count && h->positions; i++)
-        free(h->positions[i]);
-    free(h->positions);
-    free(h->trees);
-    free(h->meshes);
-    free(h->quads);
-    free(h->analytic);
+    for (size_t i = 0; i < h->placed_count; i++)
+        rt_memory_free(h->positions[i]);
+    rt_memory_free(h->positions);
+    rt_memory_free(h->trees);
+    rt_memory_free(h->meshes);
+    rt_memory_free(h->quads);
+    rt_memory_free(h->analytic);
     memset(h, 0, sizeof *h);
 }

@@ -17,12 +17,13 @@ typedef struct rt_mesh_tree {
 
 /* All zero is empty. */
 typedef struct rt_hierarchy {
+    rt_memory *memory;   /* that it counts in; NULL: none */
     rt_bvh_mesh *meshes; /* of the tree of all shapes: its input */
     rt_bvh_quad *quads;
     rt_bvh_analytic *analytic;
-    /* [shape_count]: of meshes placed by a transform, in world space; else NULL */
+    /* [placed_count]: of meshes placed by a transform, in world space */
     float **positions;
-    size_t shape_count;
+    size_t placed_count;
     rt_bvh *top;
     rt_bvh_counts top_counts;
     rt_mesh_tree *trees; /* [mesh_count] */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "light/lights.h"
 #include "light/tree.h"
 #include "pack/packing.h"
@@ -104,8 +104,12 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu rows of %u bytes",
                        rows, RT_SCENE_ROW);
     p->bytes = rows * RT_SCENE_ROW;
+    rt_status status = rt_memory_take(p->memory, p->bytes, "the scene", error);
+    if (status != RT_OK)
+        return status;
     if (posix_memalign(&p->data, buffer_alignment, p->bytes)) {
         p->data = NULL;
+        rt_memory_give(p->memory, p->bytes);
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes", p->bytes);
     }
     memset(p->data, 0, p->bytes);
@@ -124,7 +128,7 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
     memcpy(p->data, &p->header, sizeof p->header);
     return rt_light_tree_fill(rt_packing_table(p, p->header.light_nodes), p->scene, &p->header,
                               rt_packing_table(p, p->header.lights),
-                              rt_packing_table(p, p->header.prim_shape), error);
+                              rt_packing_table(p, p->header.prim_shape), p->memory, error);
 }
 
 rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel,
@@ -133,6 +137,7 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
     double light_power = 0;
     rt_packing p;
     memset(&p, 0, sizeof p);
+    p.memory = p.hierarchy.memory = out->memory;
     p.scene = scene;
     p.header.accel = accel;
     rt_status status = rt_pack_number(&p, error);
@@ -147,21 +152,24 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
     status = fill(&p, &light_power, error);
     if (status != RT_OK)
         goto out;
-    *out = (rt_scene_image){p.data, p.bytes, light_power};
+    *out = (rt_scene_image){p.data, p.bytes, light_power, p.memory};
     p.data = NULL;
 out:
+    if (p.data)
+        rt_memory_give(p.memory, p.bytes);
     free(p.data);
     rt_hierarchy_free(&p.hierarchy);
-    free(p.first_prim);
-    free(p.first_light);
-    free(p.shapes);
-    free(p.meshes);
+    rt_memory_free(p.first_prim);
+    rt_memory_free(p.first_light);
+    rt_memory_free(p.shapes);
+    rt_memory_free(p.meshes);
     return status;
 }
 
 void rt_scene_image_free(rt_scene_image *image)
 {
     free(image->data);
+    rt_memory_give(image->memory, image->bytes);
     image->data = NULL;
     image->bytes = 0;
 }

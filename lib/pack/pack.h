@@ -12,11 +12,12 @@ typedef struct rt_scene_image {
     void *data; /* aligned to 4096 bytes */
     size_t bytes;
     double light_power; /* of all lights, W */
+    rt_memory *memory;  /* that the buffer counts in, and what its packing takes; NULL: none */
 } rt_scene_image;
 
 /*
  * Builds the bounding volume hierarchy with so many threads and packs the scene. The camera is left
- * zero: it depends on the film. Free with rt_scene_image_free.
+ * zero: it depends on the film. *out is empty before. Free with rt_scene_image_free.
  */
 rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel,
                         uint32_t threads, rt_stage_progress *progress, rt_error *error);

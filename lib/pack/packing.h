@@ -21,6 +21,7 @@ typedef struct rt_shape_place {
 } rt_shape_place;
 
 typedef struct rt_packing {
+    rt_memory *memory;
     const rt_scene *scene;
     rt_u32 *first_prim, *first_light; /* [shape_count] */
     rt_shape_place *shapes;           /* [shape_count] */

@@ -1,8 +1,7 @@
 /* shapes.c - shapes, their primitives, transforms and vertex data. */
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/vec.h"
 #include "bsdf/lobes.h"
 #include "light/lights.h"
@@ -62,12 +61,16 @@ static void number_vertices(rt_packing *p, size_t index)
 static rt_status allocate(rt_packing *p, rt_error *error)
 {
     size_t shapes = p->scene->shape_count, meshes = p->scene->mesh_count;
-    p->first_prim = malloc((shapes + 1) * sizeof *p->first_prim);
-    p->first_light = malloc((shapes + 1) * sizeof *p->first_light);
-    p->shapes = malloc((shapes + 1) * sizeof *p->shapes);
-    p->meshes = malloc((meshes + 1) * sizeof *p->meshes);
-    if (!p->first_prim || !p->first_light || !p->shapes || !p->meshes)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu shapes", shapes);
+    static const char what[] = "the packing of the scene";
+    p->first_prim = rt_memory_alloc(p->memory, shapes, sizeof *p->first_prim, what, error);
+    if (p->first_prim)
+        p->first_light = rt_memory_alloc(p->memory, shapes, sizeof *p->first_light, what, error);
+    if (p->first_light)
+        p->shapes = rt_memory_alloc(p->memory, shapes, sizeof *p->shapes, what, error);
+    if (p->shapes)
+        p->meshes = rt_memory_alloc(p->memory, meshes, sizeof *p->meshes, what, error);
+    if (!p->meshes)
+        return RT_ERROR_MEMORY;
     memset(p->shapes, 0xff, shapes * sizeof *p->shapes); /* RT_NONE */
     memset(p->meshes, 0xff, meshes * sizeof *p->meshes);
     return RT_OK;

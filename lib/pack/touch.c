@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "pack/packing.h"
 #include "scene/inside.h"
 #include "scene/shape_class.h"
@@ -221,9 +221,10 @@ rt_status rt_pack_touch(rt_packing *p, rt_error *error)
 {
     const rt_scene *scene = p->scene;
     size_t finite = 0, planes = 0, transparent = 0, shapes = scene->shape_count;
-    extent *extents = malloc((shapes + 1) * sizeof *extents);
+    extent *extents =
+        rt_memory_alloc(p->memory, shapes, sizeof *extents, "the packing of the scene", error);
     if (!extents)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu shapes", shapes);
+        return RT_ERROR_MEMORY;
     for (size_t i = 0; i < shapes; i++) {
         extent next = extent_of(scene, (rt_u32)i);
         int is_plane = rt_shape_class_of(scene->shapes[i].kind)->storage == RT_STORED_INFINITE;
@@ -240,6 +241,6 @@ rt_status rt_pack_touch(rt_packing *p, rt_error *error)
                 touch_planes(p, extents + i, extents + k);
         }
     }
-    free(extents);
+    rt_memory_free(extents);
     return RT_OK;
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "photon/forecast.h"
 #include "render/prepare.h"
 
@@ -52,7 +52,7 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
     if (status == RT_OK)
         status = rt_buffer_create(
             device, &e->shares, CL_MEM_READ_ONLY, e->lights.light_count * sizeof *e->lights.shares,
-            e->lights.light_count ? e->lights.shares : NULL, "the lights' shares", error);
+            e->lights.light_count ? e->lights.shares : NULL, "the table of light shares", error);
     if (status == RT_OK)
         *out = e;
     else
@@ -62,8 +62,8 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
 
 static void release_batch(rt_emitter *e)
 {
-    rt_buffer_release(e->photons);
-    rt_buffer_release(e->accounts);
+    rt_buffer_release(e->device, e->photons);
+    rt_buffer_release(e->device, e->accounts);
     e->photons = e->accounts = NULL;
     e->slots = 0;
 }
@@ -73,7 +73,7 @@ void rt_emitter_destroy(rt_emitter *e)
     if (!e)
         return;
     release_batch(e);
-    rt_buffer_release(e->shares);
+    rt_buffer_release(e->device, e->shares);
     rt_light_sources_free(&e->lights);
     free(e);
 }
@@ -97,13 +97,13 @@ void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
 
 static rt_status create_batch(rt_emitter *e, size_t slots, size_t paths, rt_error *error)
 {
-    rt_status status =
-        rt_buffer_create(e->device, &e->photons, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                         paths * slots * sizeof(rt_photon), NULL, "photon slots", error);
+    rt_status status = rt_buffer_create(
+        e->device, &e->photons, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+        paths * slots * sizeof(rt_photon), NULL, "the buffer of photon slots", error);
     if (status == RT_OK)
         status = rt_buffer_create(
             e->device, &e->accounts, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-            paths * sizeof(rt_path_account), NULL, "the accounts of photon paths", error);
+            paths * sizeof(rt_path_account), NULL, "the buffer of path accounts", error);
     if (status != RT_OK)
         release_batch(e);
     return status;
@@ -177,6 +177,21 @@ static rt_params make_params(const rt_emitter *e, const rt_photon_settings *sett
     return p;
 }
 
+/*
+ * Whether a list that has got so many photons by `done` of `count` paths will stay within the limit
+ * of memory.
+ */
+static rt_status foresee(const rt_photon_list *list, size_t photons, uint64_t done, uint64_t count,
+                         rt_error *error)
+{
+    double more = (double)photons / (double)done * (double)(count - done);
+    double room = (double)(list->capacity - list->count);
+    return done < RT_FORECAST_PATHS || more <= room
+               ? RT_OK
+               : rt_memory_foresee(list->memory, (more - room) * sizeof(rt_photon),
+                                   "the photon map", error);
+}
+
 /* Runs the batches of a range one after the other. */
 static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, rt_params *p,
                               uint64_t first, uint64_t count, rt_stage_progress *progress,
@@ -198,6 +213,8 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
             status = rt_launch(e->device, e->kernel, p->item_count, error);
         if (status == RT_OK)
             status = take_batch(e, map, kind, p->item_count, error);
+        if (status == RT_OK)
+            status = foresee(list, list->count - before, done + p->item_count, count, error);
         if (status == RT_OK)
             status = rt_photon_forecast(others, list->count - before, done + p->item_count, count,
                                         e->memory, error);

@@ -9,10 +9,9 @@
  */
 #include "photon/fingerprint.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "shape/shapes.h"
 #include "types.h"
 
@@ -60,23 +59,24 @@ static uint64_t hash_lane(const rt_tri_block *block, int lane)
 
 /* Blocks that hold primitives from 0 to prim_count - 1, in the order of these. */
 static rt_status hash_triangles(uint64_t *h, const rt_tri_block *blocks, rt_u32 block_count,
-                                rt_u32 prim_count, rt_error *error)
+                                rt_u32 prim_count, rt_memory *memory, rt_error *error)
 {
-    uint64_t *prims = calloc(prim_count + (size_t)1, sizeof *prims);
+    uint64_t *prims =
+        rt_memory_zeroed(memory, prim_count, sizeof *prims, "the fingerprint of the scene", error);
     if (!prims)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the fingerprint of a scene");
+        return RT_ERROR_MEMORY;
     for (rt_u32 b = 0; b < block_count; b++)
         for (int lane = 0; lane < RT_BVH_WIDTH; lane++)
             if (blocks[b].prim[lane] != RT_NONE)
                 prims[blocks[b].prim[lane] & RT_BLOCK_PRIM] = hash_lane(blocks + b, lane);
     *h = hash(*h, prims, prim_count * sizeof *prims);
-    free(prims);
+    rt_memory_free(prims);
     return RT_OK;
 }
 
 /* The triangles of a mesh that instances share. */
 static rt_status hash_mesh(uint64_t *h, const rt_tri_block *blocks, rt_u32 block_count,
-                           rt_error *error)
+                           rt_memory *memory, rt_error *error)
 {
     rt_u32 prim_count = 0;
     for (rt_u32 b = 0; b < block_count; b++)
@@ -84,14 +84,15 @@ static rt_status hash_mesh(uint64_t *h, const rt_tri_block *blocks, rt_u32 block
             if (blocks[b].prim[lane] != RT_NONE &&
                 (blocks[b].prim[lane] & RT_BLOCK_PRIM) >= prim_count)
                 prim_count = (blocks[b].prim[lane] & RT_BLOCK_PRIM) + 1;
-    return hash_triangles(h, blocks, block_count, prim_count, error);
+    return hash_triangles(h, blocks, block_count, prim_count, memory, error);
 }
 
 /*
  * The shapes, but for their places in the hierarchy. A mesh is hashed where its first instance is;
  * the others name the blocks of it, counted from the first of any mesh.
  */
-static rt_status hash_shapes(uint64_t *h, const rt_scene_header *scene, rt_error *error)
+static rt_status hash_shapes(uint64_t *h, const rt_scene_header *scene, rt_memory *memory,
+                             rt_error *error)
 {
     const rt_shape *shapes = table(scene, scene->shapes);
     const rt_tri_block *blocks = table(scene, scene->blocks);
@@ -102,7 +103,7 @@ static rt_status hash_shapes(uint64_t *h, const rt_scene_header *scene, rt_error
         rt_shape shape = shapes[i];
         if (shape.kind == RT_SHAPE_INSTANCE) {
             if (shape.first_block >= end) {
-                status = hash_mesh(h, blocks + shape.first_block, shape.block_count, error);
+                status = hash_mesh(h, blocks + shape.first_block, shape.block_count, memory, error);
                 end = shape.first_block + shape.block_count;
             }
             shape.first_block -= scene->block_count;
@@ -122,10 +123,11 @@ static uint64_t hash_environment(uint64_t h, const rt_scene_header *scene)
     return hash_table(h, scene, e->texels, e->width, e->height * 4 * sizeof(float));
 }
 
-static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_error *error)
+static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_memory *memory,
+                            rt_error *error)
 {
     uint64_t h = basis;
-    rt_status status = hash_shapes(&h, scene, error);
+    rt_status status = hash_shapes(&h, scene, memory, error);
     h = hash_table(h, scene, scene->transforms, scene->transform_count, sizeof(rt_transform_data));
     h = hash_table(h, scene, scene->materials, scene->material_count, sizeof(rt_material_data));
     h = hash_table(h, scene, scene->lights, scene->light_count, sizeof(rt_light_data));
@@ -138,7 +140,7 @@ static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_erro
     h = hash_environment(h, scene);
     if (status == RT_OK)
         status = hash_triangles(&h, table(scene, scene->blocks), scene->block_count,
-                                scene->prim_count, error);
+                                scene->prim_count, memory, error);
     if (status == RT_OK)
         *out = h;
     return status;
@@ -150,7 +152,7 @@ rt_status rt_scene_fingerprint(uint64_t *out, rt_device *device, cl_mem scene, r
     rt_status status = rt_buffer_map(device, scene, 0, &mapped, "the scene", error);
     if (status != RT_OK)
         return status;
-    status = hash_scene(out, mapped, error);
+    status = hash_scene(out, mapped, device->memory, error);
     rt_status unmapped = rt_buffer_unmap(device, scene, mapped, status == RT_OK ? error : NULL);
     return status == RT_OK ? unmapped : status;
 }

@@ -21,14 +21,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 enum { LEAF_SIZE = 16 }; /* points a leaf: the fastest for k = 50 to 500 of 10^5 to 10^6 points */
 
 /* Upper bound of what FLANN allocates a point: its copy, its order, a pointer, and tree nodes. */
 enum { BYTES_PER_POINT = 3 * sizeof(float) + sizeof(int) + sizeof(void *) + 2 * 48 };
 
+static const char what[] = "the search tree of the photon map";
+
 struct rt_flann_index {
+    rt_memory *memory;
+    uint64_t taken;   /* bytes of it, for FLANN */
     float *positions; /* FLANN keeps pointers into it */
     size_t count;
     flann_index_t tree; /* NULL for an empty set */
@@ -101,20 +105,24 @@ static rt_status build(rt_flann_index *index, rt_error *error)
 }
 
 rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count,
-                                rt_error *error)
+                                rt_memory *memory, rt_error *error)
 {
     if (count > INT_MAX)
         return rt_fail(error, RT_ERROR_MEMORY,
                        "%zu photons are more than the %d a search tree can hold", count, INT_MAX);
-    rt_flann_index *index = calloc(1, sizeof *index);
-    float *copy = malloc((count ? count : 1) * 3 * sizeof *copy);
-    rt_status status = RT_OK;
-
-    if (!index || !copy) {
-        free(index);
-        free(copy);
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the positions of %zu photons", count);
+    rt_flann_index *index = rt_memory_zeroed(NULL, 1, sizeof *index, what, error);
+    float *copy = index ? rt_memory_alloc(memory, count, 3 * sizeof *copy, what, error) : NULL;
+    rt_status status = copy ? RT_OK : RT_ERROR_MEMORY;
+    const uint64_t wanted = (uint64_t)count * BYTES_PER_POINT;
+    if (status == RT_OK)
+        status = rt_memory_take(memory, wanted, what, error);
+    if (status != RT_OK) {
+        rt_memory_free(index);
+        rt_memory_free(copy);
+        return status;
     }
+    index->memory = memory;
+    index->taken = wanted;
     index->positions = copy;
     index->count = count;
     if (count > 0) {
@@ -139,8 +147,9 @@ void rt_flann_index_destroy(rt_flann_index *index)
         flann_free_index_float(index->tree, &p);
         leave();
     }
-    free(index->positions);
-    free(index);
+    rt_memory_give(index->memory, index->taken);
+    rt_memory_free(index->positions);
+    rt_memory_free(index);
 }
 
 rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries,

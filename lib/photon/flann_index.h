@@ -15,12 +15,12 @@
 typedef struct rt_flann_index rt_flann_index;
 
 /*
- * Builds the tree over positions [count][3], finite, which are copied. An empty set is
- * allowed. Fails with RT_ERROR_MEMORY, also when count is beyond FLANN's int. The caller
- * owns *out.
+ * Builds the tree over positions [count][3], finite, which are copied; it counts in `memory`. An
+ * empty set is allowed. Fails with RT_ERROR_MEMORY, also when count is beyond FLANN's int. The
+ * caller owns *out.
  */
 rt_status rt_flann_index_create(rt_flann_index **out, const float *positions, size_t count,
-                                rt_error *error);
+                                rt_memory *memory, rt_error *error);
 void rt_flann_index_destroy(rt_flann_index *index);
 
 /*

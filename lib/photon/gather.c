@@ -85,8 +85,8 @@ void rt_gatherer_destroy(rt_gatherer *g)
     if (!g)
         return;
     rt_device_settle(g->device);
-    rt_neighbour_gather_release(&g->neighbours);
-    rt_tree_gather_release(&g->tree);
+    rt_neighbour_gather_release(&g->neighbours, g->device);
+    rt_tree_gather_release(&g->tree, g->device);
     free(g);
 }
 

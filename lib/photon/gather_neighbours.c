@@ -3,10 +3,9 @@
  */
 #include "photon/gather_neighbours.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 /*
  * Bounds of a batch: the entries of its neighbour lists, and its length where there is little
@@ -17,36 +16,41 @@ enum { ENTRIES_A_BATCH = 1 << 22, LEAST_BATCH = 64 };
 static rt_status create_buffers(rt_neighbour_gather *g, rt_device *device,
                                 const rt_photon_list *list, rt_error *error)
 {
+    static const char what[] = "a batch of gather points";
     size_t list_bytes = g->capacity * g->estimate.stride * sizeof *g->host_lists;
     cl_mem_flags in_place = device->info.is_cpu && list->count > 0 ? CL_MEM_USE_HOST_PTR : 0;
     rt_status status;
 
-    g->host_points = malloc(g->capacity * sizeof *g->host_points);
-    g->host_discs = malloc(g->capacity * sizeof *g->host_discs);
-    g->host_lists = malloc(list_bytes ? list_bytes : 1);
-    if (!g->host_points || !g->host_discs || !g->host_lists)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points", g->capacity);
+    rt_memory *memory = device->memory;
+    g->host_points = rt_memory_alloc(memory, g->capacity, sizeof *g->host_points, what, error);
+    if (g->host_points)
+        g->host_discs = rt_memory_alloc(memory, g->capacity, sizeof *g->host_discs, what, error);
+    if (g->host_discs)
+        g->host_lists = rt_memory_alloc(memory, list_bytes, 1, what, error);
+    if (!g->host_lists)
+        return RT_ERROR_MEMORY;
     status = rt_buffer_create(device, &g->photons, CL_MEM_READ_ONLY | in_place,
                               list->count * sizeof *list->photons, list->photons, "the photon map",
                               error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &g->discs, CL_MEM_READ_ONLY,
-                                  g->capacity * sizeof *g->host_discs, NULL, "gather discs", error);
+                                  g->capacity * sizeof *g->host_discs, NULL,
+                                  "the buffer of gather discs", error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &g->lists, CL_MEM_READ_ONLY, list_bytes, NULL,
-                                  "neighbour lists", error);
+                                  "the buffer of neighbour lists", error);
     return status;
 }
 
-static void release_buffers(rt_neighbour_gather *g)
+static void release_buffers(rt_neighbour_gather *g, rt_device *device)
 {
-    rt_buffer_release(g->photons);
-    rt_buffer_release(g->discs);
-    rt_buffer_release(g->lists);
+    rt_buffer_release(device, g->photons);
+    rt_buffer_release(device, g->discs);
+    rt_buffer_release(device, g->lists);
     g->photons = g->discs = g->lists = NULL;
-    free(g->host_points);
-    free(g->host_discs);
-    free(g->host_lists);
+    rt_memory_free(g->host_points);
+    rt_memory_free(g->host_discs);
+    rt_memory_free(g->host_lists);
     g->host_points = NULL;
     g->host_discs = NULL;
     g->host_lists = NULL;
@@ -58,8 +62,9 @@ rt_status rt_neighbour_gather_prepare(rt_neighbour_gather *g, rt_device *device,
                                       rt_error *error)
 {
     memset(g, 0, sizeof *g);
-    rt_status status = rt_neighbour_search_create(&g->search, list, estimate->k, max_radius,
-                                                  skip_empty, device->threads, error);
+    rt_status status =
+        rt_neighbour_search_create(&g->search, list, estimate->k, max_radius, skip_empty,
+                                   device->threads, device->memory, error);
     if (status != RT_OK)
         return status;
     size_t stride = rt_neighbour_search_stride(g->search);
@@ -69,17 +74,17 @@ rt_status rt_neighbour_gather_prepare(rt_neighbour_gather *g, rt_device *device,
     g->estimate.stride = (rt_u32)stride;
     status = create_buffers(g, device, list, error);
     while (status == RT_ERROR_MEMORY && g->capacity > LEAST_BATCH) {
-        release_buffers(g);
+        release_buffers(g, device);
         g->capacity /= 2;
         status = create_buffers(g, device, list, error);
     }
     return status;
 }
 
-void rt_neighbour_gather_release(rt_neighbour_gather *g)
+void rt_neighbour_gather_release(rt_neighbour_gather *g, rt_device *device)
 {
     rt_neighbour_search_destroy(g->search);
-    release_buffers(g);
+    release_buffers(g, device);
     memset(g, 0, sizeof *g);
 }
 

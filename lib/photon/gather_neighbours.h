@@ -28,7 +28,7 @@ rt_status rt_neighbour_gather_prepare(rt_neighbour_gather *out, rt_device *devic
                                       const rt_photon_list *list, const rt_density_params *estimate,
                                       float max_radius, int skip_empty, size_t capacity,
                                       rt_error *error);
-void rt_neighbour_gather_release(rt_neighbour_gather *gather);
+void rt_neighbour_gather_release(rt_neighbour_gather *gather, rt_device *device);
 
 /*
  * Finds the photons of points first .. first + count - 1 and enqueues the kernel gather_neighbours,

@@ -33,23 +33,24 @@ static rt_status create_buffers(rt_tree_gather *g, rt_device *device, size_t cap
                                         nodes ? g->tree.nodes : NULL, "the photon tree", error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &g->blocks, blocks ? flags : CL_MEM_READ_ONLY, blocks,
-                                  blocks ? g->tree.blocks : NULL, "the photons of the tree", error);
+                                  blocks ? g->tree.blocks : NULL, "the photon tree", error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &g->scratch, CL_MEM_READ_WRITE,
                                   items * g->estimate.stride * sizeof(float), NULL,
-                                  "distances of photons", error);
+                                  "the buffer of distances", error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &g->discs, CL_MEM_READ_WRITE,
-                                  capacity * sizeof(rt_gather_disc), NULL, "gather discs", error);
+                                  capacity * sizeof(rt_gather_disc), NULL,
+                                  "the buffer of gather discs", error);
     return status;
 }
 
-static void release_buffers(rt_tree_gather *g)
+static void release_buffers(rt_tree_gather *g, rt_device *device)
 {
-    rt_buffer_release(g->nodes);
-    rt_buffer_release(g->blocks);
-    rt_buffer_release(g->scratch);
-    rt_buffer_release(g->discs);
+    rt_buffer_release(device, g->nodes);
+    rt_buffer_release(device, g->blocks);
+    rt_buffer_release(device, g->scratch);
+    rt_buffer_release(device, g->discs);
     g->nodes = g->blocks = g->scratch = g->discs = NULL;
 }
 
@@ -66,11 +67,11 @@ rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_
     g->estimate.max_candidates = RT_CANDIDATES_MAX * estimate->k;
     g->estimate.points_an_item = (rt_u32)(least > usual ? least : usual);
 
-    rt_status status = rt_photon_tree_build(&g->tree, list, device->threads, error);
+    rt_status status = rt_photon_tree_build(&g->tree, list, device->threads, device->memory, error);
     if (status == RT_OK)
         status = create_buffers(g, device, *capacity, error);
     while (status == RT_ERROR_MEMORY && g->tree.nodes && *capacity > LEAST_BATCH) {
-        release_buffers(g);
+        release_buffers(g, device);
         *capacity /= 2;
         status = create_buffers(g, device, *capacity, error);
     }
@@ -82,9 +83,9 @@ rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_
     return status;
 }
 
-void rt_tree_gather_release(rt_tree_gather *g)
+void rt_tree_gather_release(rt_tree_gather *g, rt_device *device)
 {
-    release_buffers(g);
+    release_buffers(g, device);
     rt_photon_tree_free(&g->tree);
     memset(g, 0, sizeof *g);
 }

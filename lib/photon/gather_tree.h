@@ -22,7 +22,7 @@ typedef struct rt_tree_gather {
 rt_status rt_tree_gather_prepare(rt_tree_gather *out, rt_device *device, const rt_photon_list *list,
                                  const rt_density_params *estimate, size_t *capacity,
                                  rt_error *error);
-void rt_tree_gather_release(rt_tree_gather *gather);
+void rt_tree_gather_release(rt_tree_gather *gather, rt_device *device);
 
 /*
  * Enqueues the kernel gather_tree, or one of the same arguments, for points first .. first + count

@@ -5,10 +5,9 @@
  * points of weight pi.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "photon/gather.h"
 #include "photon/map_warnings.h"
 #include "photon/photon_map.h"
@@ -60,14 +59,16 @@ static rt_status prepare(irradiance *a, const rt_photon_map *map, size_t count, 
             status = make_gatherer(a, map, (rt_photon_kind)kind, error);
     if (status == RT_OK)
         status = rt_buffer_create(a->device, &a->points, CL_MEM_READ_WRITE,
-                                  a->capacity * sizeof *a->host, NULL, "gather points", error);
+                                  a->capacity * sizeof *a->host, NULL,
+                                  "the buffer of gather points", error);
     if (status != RT_OK)
         return status;
-    a->host = calloc(a->capacity, sizeof *a->host);
-    a->order = malloc(2 * a->capacity * sizeof *a->order);
-    return a->host && a->order ? RT_OK
-                               : rt_fail(error, RT_ERROR_MEMORY,
-                                         "out of memory for %zu gather points", a->capacity);
+    static const char what[] = "a batch of gather points";
+    a->host = rt_memory_zeroed(a->device->memory, a->capacity, sizeof *a->host, what, error);
+    if (a->host)
+        a->order =
+            rt_memory_alloc(a->device->memory, a->capacity, 2 * sizeof *a->order, what, error);
+    return a->order ? RT_OK : RT_ERROR_MEMORY;
 }
 
 /*
@@ -164,9 +165,9 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
     }
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         rt_gatherer_destroy(a.gatherers[kind]);
-    rt_buffer_release(a.points);
+    rt_buffer_release(a.device, a.points);
     rt_kernel_release(a.kernel);
-    free(a.host);
-    free(a.order);
+    rt_memory_free(a.host);
+    rt_memory_free(a.order);
     return status;
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 
 /*
@@ -23,14 +23,15 @@ static int32_t unit_exponent(const rt_light_source *source)
     return exponent - UNIT_BITS;
 }
 
+static const char what[] = "the energy ledger";
+
 rt_status rt_ledger_create(rt_ledger *out, const rt_light_sources *lights, rt_error *error)
 {
     rt_ledger l = {.count = lights->count};
 
-    l.rows = calloc(l.count ? l.count : 1, sizeof *l.rows);
+    l.rows = rt_memory_zeroed(lights->memory, l.count, sizeof *l.rows, what, error);
     if (!l.rows)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the energy ledger of %zu lights",
-                       l.count);
+        return RT_ERROR_MEMORY;
     for (size_t i = 0; i < l.count; i++) {
         const rt_light_source *source = lights->sources + i;
         l.rows[i].shape = source->shape;
@@ -44,7 +45,7 @@ rt_status rt_ledger_create(rt_ledger *out, const rt_light_sources *lights, rt_er
 
 void rt_ledger_free(rt_ledger *ledger)
 {
-    free(ledger->rows);
+    rt_memory_free(ledger->rows);
     memset(ledger, 0, sizeof *ledger);
 }
 
@@ -127,10 +128,13 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights,
     size_t jobs = threads ? threads : 1;
     booking b = {lights, accounts, count,         (count + jobs - 1) / jobs,
                  NULL,   NULL,     ledger->count, NULL};
-    b.per_unit = malloc((ledger->count + 1) * sizeof *b.per_unit);
-    b.rows = calloc(jobs * ledger->count + 1, sizeof *b.rows);
-    b.rejected = calloc(jobs, sizeof *b.rejected);
-    int failed = !b.per_unit || !b.rows || !b.rejected;
+    rt_memory *memory = lights->memory;
+    b.per_unit = rt_memory_alloc(memory, ledger->count, sizeof *b.per_unit, what, error);
+    if (b.per_unit)
+        b.rows = rt_memory_zeroed(memory, jobs * ledger->count, sizeof *b.rows, what, error);
+    if (b.rows)
+        b.rejected = rt_memory_zeroed(memory, jobs, sizeof *b.rejected, what, error);
+    int failed = !b.rejected;
     if (!failed) {
         for (size_t i = 0; i < ledger->count; i++)
             b.per_unit[i] = ldexp(1, -ledger->rows[i].exponent);
@@ -142,12 +146,10 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights,
         }
         ledger->paths += count;
     }
-    free(b.per_unit);
-    free(b.rows);
-    free(b.rejected);
-    return failed ? rt_fail(error, RT_ERROR_MEMORY,
-                            "out of memory for the accounts of %zu photon paths", count)
-                  : RT_OK;
+    rt_memory_free(b.per_unit);
+    rt_memory_free(b.rows);
+    rt_memory_free(b.rejected);
+    return failed ? RT_ERROR_MEMORY : RT_OK;
 }
 
 int rt_ledger_matches(const rt_ledger *a, const rt_ledger *b)
@@ -164,10 +166,9 @@ int rt_ledger_matches(const rt_ledger *a, const rt_ledger *b)
 
 static rt_status copy(rt_ledger *out, const rt_ledger *from, rt_error *error)
 {
-    rt_ledger_row *rows = malloc((from->count ? from->count : 1) * sizeof *rows);
+    rt_ledger_row *rows = rt_memory_alloc(NULL, from->count, sizeof *rows, what, error);
     if (!rows)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the energy ledger of %zu lights",
-                       from->count);
+        return RT_ERROR_MEMORY;
     memcpy(rows, from->rows, from->count * sizeof *rows);
     *out = *from;
     out->rows = rows;

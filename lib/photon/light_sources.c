@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 static const void *table(const rt_scene_header *scene, rt_u32 offset)
 {
@@ -107,17 +107,20 @@ static double reach(const rt_scene_header *scene)
 static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const float *shares,
                       size_t share_count, rt_error *error)
 {
+    static const char what[] = "the list of lights";
     size_t count = scene->light_count ? scene->light_count : 1;
     const rt_light_data *lights = table(scene, scene->lights);
 
     s->light_count = scene->light_count;
     s->reach = reach(scene);
     s->planes_alone = !(scene->radius > 0);
-    s->sources = calloc(count, sizeof *s->sources);
-    s->of_light = calloc(count, sizeof *s->of_light);
-    s->shares = calloc(count, sizeof *s->shares);
-    if (!s->sources || !s->of_light || !s->shares)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu lights", count);
+    s->sources = rt_memory_zeroed(s->memory, count, sizeof *s->sources, what, error);
+    if (s->sources)
+        s->of_light = rt_memory_zeroed(s->memory, count, sizeof *s->of_light, what, error);
+    if (s->of_light)
+        s->shares = rt_memory_zeroed(s->memory, count, sizeof *s->shares, what, error);
+    if (!s->shares)
+        return RT_ERROR_MEMORY;
     group_lights(s, scene);
     rt_status status = shares ? check_shares(s, shares, share_count, error) : RT_OK;
     if (status == RT_OK && shares)
@@ -130,7 +133,7 @@ static rt_status fill(rt_light_sources *s, const rt_scene_header *scene, const f
 rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem scene,
                                 const float *shares, size_t share_count, rt_error *error)
 {
-    rt_light_sources s = {0};
+    rt_light_sources s = {.memory = device->memory};
     const void *mapped = NULL;
 
     rt_status status = rt_buffer_map(device, scene, 0, &mapped, "the scene", error);
@@ -149,8 +152,8 @@ rt_status rt_light_sources_read(rt_light_sources *out, rt_device *device, cl_mem
 
 void rt_light_sources_free(rt_light_sources *s)
 {
-    free(s->sources);
-    free(s->of_light);
-    free(s->shares);
+    rt_memory_free(s->sources);
+    rt_memory_free(s->of_light);
+    rt_memory_free(s->shares);
     memset(s, 0, sizeof *s);
 }

@@ -19,6 +19,7 @@ typedef struct rt_light_source {
 } rt_light_source;
 
 typedef struct rt_light_sources {
+    rt_memory *memory;        /* that they count in, and the ledgers of their paths; NULL: none */
     rt_light_source *sources; /* [count], in the order of the table of lights */
     size_t count;
     rt_u32 *of_light;       /* [light_count], the source of each entry */

@@ -92,6 +92,7 @@ rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
     e.map = calloc(1, sizeof *e.map);
     if (!e.map)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");
+    rt_photon_map_set_memory(e.map, renderer->device->memory);
     status = compile(&e, error);
     if (status == RT_OK)
         status = emit(&e, error);

@@ -67,6 +67,10 @@ rt_status rt_photon_map_encode(rt_bytes *out, const rt_photon_map *map, rt_error
 rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size,
                                const char *name, rt_error *error);
 
+/* The same, with a map that counts in `memory`. */
+rt_status rt_photon_map_decode_in(rt_photon_map **out, const uint8_t *data, size_t size,
+                                  const char *name, rt_memory *memory, rt_error *error);
+
 /* What the start of a file says of the size of the whole; fails as decoding does. */
 rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size,
                                   const char *name, rt_error *error);

@@ -144,6 +144,7 @@ rt_status rt_photon_map_merge(rt_photon_map **out, const rt_photon_map *const *m
     if (!map)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");
     map->settings = maps[0]->settings;
+    rt_photon_map_set_memory(map, maps[0]->lists[RT_PHOTONS_GLOBAL].memory);
     for (size_t i = 1; i < count && status == RT_OK; i++)
         status = check_pair(maps[0], maps[i], error);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)

@@ -1,9 +1,8 @@
 /* map_ply.c - exports a photon map as a point cloud for MeshLab or Blender. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/file.h"
 #include "image/srgb.h"
 #include "photon/photon_map.h"
@@ -109,17 +108,18 @@ rt_status rt_photon_map_export(const rt_photon_map *map, const char *path, rt_er
     size_t count = map->lists[RT_PHOTONS_GLOBAL].count + map->lists[RT_PHOTONS_CAUSTIC].count;
     size_t start = (size_t)snprintf(text, sizeof text, header, (unsigned long long)count);
     size_t size = start + count * POINT_BYTES;
-    uint8_t *data = malloc(size);
+    uint8_t *data = rt_memory_alloc(map->lists[RT_PHOTONS_GLOBAL].memory, size, 1,
+                                    "the file of the photons", error);
     double brightest = find_brightest(map);
 
     if (!data)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %zu bytes for a file", size);
+        return RT_ERROR_MEMORY;
     memcpy(data, text, start);
     uint8_t *at = data + start;
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         put_list(&at, map, kind, brightest);
-    rt_bytes bytes = {data, size, size};
+    rt_bytes bytes = {data, size, size, NULL};
     rt_status status = rt_file_replace(path, &bytes, error);
-    free(data);
+    rt_memory_free(data);
     return status;
 }

@@ -193,13 +193,13 @@ static rt_status read_light(reader *r, rt_ledger_row *row)
     return sound ? RT_OK : fail_content(r, "a light in its ledger is out of range");
 }
 
-static rt_status read_lights(reader *r, rt_ledger *ledger, size_t count)
+static rt_status read_lights(reader *r, rt_ledger *ledger, size_t count, rt_memory *memory)
 {
     uint64_t paths = 0;
-    ledger->rows = calloc(count ? count : 1, sizeof *ledger->rows);
+    ledger->rows =
+        rt_memory_zeroed(memory, count, sizeof *ledger->rows, "the energy ledger", r->error);
     if (!ledger->rows)
-        return rt_fail(r->error, RT_ERROR_MEMORY, "out of memory for a ledger of %zu lights",
-                       count);
+        return RT_ERROR_MEMORY;
     ledger->count = count;
     for (size_t i = 0; i < count; i++) {
         rt_status status = read_light(r, ledger->rows + i);
@@ -291,6 +291,12 @@ static rt_status read_photons(reader *r, rt_photon_list *list, const rt_path_ran
 rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size,
                                const char *name, rt_error *error)
 {
+    return rt_photon_map_decode_in(out, data, size, name, NULL, error);
+}
+
+rt_status rt_photon_map_decode_in(rt_photon_map **out, const uint8_t *data, size_t size,
+                                  const char *name, rt_memory *memory, rt_error *error)
+{
     reader r = {data, name, error};
     counts n = {0};
     rt_status status = check_frame(data, size, name, error);
@@ -299,11 +305,12 @@ rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t 
     rt_photon_map *map = calloc(1, sizeof *map);
     if (!map)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");
+    rt_photon_map_set_memory(map, memory);
     status = read_header(&r, map, &n);
     if (status == RT_OK)
         status = check_counts(&r, &n, size);
     if (status == RT_OK)
-        status = read_lights(&r, &map->ledger, (size_t)n.lights);
+        status = read_lights(&r, &map->ledger, (size_t)n.lights, memory);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
         status = read_ranges(&r, map, kind, (size_t)n.ranges[kind], n.photons[kind]);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
@@ -321,11 +328,17 @@ rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t 
 
 rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *error)
 {
-    rt_bytes bytes = {0};
+    return rt_photon_map_load_in(out, path, NULL, error);
+}
+
+rt_status rt_photon_map_load_in(rt_photon_map **out, const char *path, rt_memory *memory,
+                                rt_error *error)
+{
+    rt_bytes bytes = {.memory = memory};
     rt_status status =
         rt_file_read_sized(&bytes, path, RT_MAP_HEADER, rt_photon_map_file_size, error);
     if (status == RT_OK)
-        status = rt_photon_map_decode(out, bytes.data, bytes.size, path, error);
+        status = rt_photon_map_decode_in(out, bytes.data, bytes.size, path, memory, error);
     rt_bytes_free(&bytes);
     return rt_at_file(status, path, error);
 }

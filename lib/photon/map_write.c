@@ -111,12 +111,17 @@ static size_t file_size_of(const rt_photon_map *map)
 
 rt_status rt_photon_map_encode(rt_bytes *out, const rt_photon_map *map, rt_error *error)
 {
+    rt_memory *memory = map->lists[RT_PHOTONS_GLOBAL].memory;
     size_t size = file_size_of(map);
+    rt_status status = rt_memory_take(memory, size, "the file of the photon map", error);
+    if (status != RT_OK)
+        return status;
     uint8_t *data = malloc(size);
     writer w = {data};
-
-    if (!data)
+    if (!data) {
+        rt_memory_give(memory, size);
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %zu bytes for a file", size);
+    }
     put_header(&w, map, size);
     for (size_t i = 0; i < map->ledger.count; i++)
         put_light(&w, map->ledger.rows + i);
@@ -127,7 +132,7 @@ rt_status rt_photon_map_encode(rt_bytes *out, const rt_photon_map *map, rt_error
         for (size_t i = 0; i < map->lists[kind].count; i++)
             put_photon(&w, map->lists[kind].photons + i);
     put32(&w, rt_crc32(data, size - RT_MAP_CHECKSUM));
-    *out = (rt_bytes){data, size, size};
+    *out = (rt_bytes){data, size, size, memory};
     return RT_OK;
 }
 

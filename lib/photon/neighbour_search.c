@@ -3,10 +3,9 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "photon/flann_index.h"
 #include "photon/photon_boxes.h"
@@ -15,7 +14,10 @@
 /* Neighbours that a thread finds at a time, 16 bytes each: few enough to stay in its cache. */
 enum { NEIGHBOURS_A_JOB = 1 << 16 };
 
+static const char what[] = "the search of the photon map";
+
 struct rt_neighbour_search {
+    rt_memory *memory;
     rt_flann_index *index;
     float (*normals)[3];    /* of the photons */
     rt_photon_boxes *boxes; /* NULL: empty discs are searched for as others are */
@@ -26,9 +28,10 @@ struct rt_neighbour_search {
 };
 
 /* Positions alone, as the tree takes them, or normals alone, close together in memory. */
-static float (*copy_vectors(const rt_photon_list *map, size_t member))[3]
+static float (*copy_vectors(const rt_photon_list *map, size_t member, rt_memory *memory,
+                            rt_error *error))[3]
 {
-    float(*vectors)[3] = malloc((map->count ? map->count : 1) * sizeof *vectors);
+    float(*vectors)[3] = rt_memory_alloc(memory, map->count, sizeof *vectors, what, error);
     if (vectors)
         for (size_t i = 0; i < map->count; i++)
             memcpy(vectors[i], (const char *)(map->photons + i) + member, sizeof *vectors);
@@ -48,30 +51,28 @@ static size_t max_candidates(const rt_neighbour_search *search)
 
 rt_status rt_neighbour_search_create(rt_neighbour_search **out, const rt_photon_list *map,
                                      uint32_t k, float max_radius, int skip_empty, uint32_t threads,
-                                     rt_error *error)
+                                     rt_memory *memory, rt_error *error)
 {
-    rt_neighbour_search *search = calloc(1, sizeof *search);
-    float(*positions)[3] = copy_vectors(map, offsetof(rt_photon, position));
-    rt_status status = RT_OK;
-
-    if (!search || !positions) {
-        free(search);
-        free(positions);
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to search %zu photons", map->count);
-    }
+    rt_neighbour_search *search = rt_memory_zeroed(NULL, 1, sizeof *search, what, error);
+    if (!search)
+        return RT_ERROR_MEMORY;
+    float(*positions)[3] = copy_vectors(map, offsetof(rt_photon, position), memory, error);
+    rt_status status = positions ? RT_OK : RT_ERROR_MEMORY;
+    search->memory = memory;
     search->count = map->count;
-    search->normals = copy_vectors(map, offsetof(rt_photon, normal));
+    if (status == RT_OK)
+        search->normals = copy_vectors(map, offsetof(rt_photon, normal), memory, error);
     search->k = k;
     search->squared_limit = max_radius * max_radius;
     search->threads = threads;
     if (!search->normals)
-        status = rt_fail(error, RT_ERROR_MEMORY, "no memory to search %zu photons", map->count);
+        status = RT_ERROR_MEMORY;
     if (status == RT_OK)
-        status = rt_flann_index_create(&search->index, positions[0], map->count, error);
+        status = rt_flann_index_create(&search->index, positions[0], map->count, memory, error);
     if (status == RT_OK && skip_empty && map->count > 0 && map->count <= RT_POINT_ORDER_INDEX)
-        status =
-            rt_photon_boxes_create(&search->boxes, map, max_candidates(search), threads, error);
-    free(positions);
+        status = rt_photon_boxes_create(&search->boxes, map, max_candidates(search), threads,
+                                        memory, error);
+    rt_memory_free(positions);
     if (status == RT_OK)
         *out = search;
     else
@@ -85,8 +86,8 @@ void rt_neighbour_search_destroy(rt_neighbour_search *search)
         return;
     rt_flann_index_destroy(search->index);
     rt_photon_boxes_destroy(search->boxes);
-    free(search->normals);
-    free(search);
+    rt_memory_free(search->normals);
+    rt_memory_free(search);
 }
 
 size_t rt_neighbour_search_stride(const rt_neighbour_search *search)
@@ -173,9 +174,10 @@ static void rank_share(void *user, uint32_t index)
     const rt_u32 *queries = l->queries + index * l->points_a_job;
     size_t count = smaller(l->points_a_job, l->count - index * l->points_a_job);
     size_t row = l->candidates;
-    float(*positions)[3] = malloc(count * sizeof *positions);
-    int *found = malloc(count * row * sizeof *found);
-    float *squared = malloc(count * row * sizeof *squared);
+    rt_memory *memory = search->memory;
+    float(*positions)[3] = rt_memory_alloc(memory, count, sizeof *positions, what, NULL);
+    int *found = rt_memory_alloc(memory, count * row, sizeof *found, what, NULL);
+    float *squared = rt_memory_alloc(memory, count * row, sizeof *squared, what, NULL);
 
     l->failed[index] = !positions || !found || !squared;
     for (size_t i = 0; i < count && !l->failed[index]; i++)
@@ -190,9 +192,21 @@ static void rank_share(void *user, uint32_t index)
                   disc))
             disc->squared_radius = -1;
     }
-    free(positions);
-    free(found);
-    free(squared);
+    rt_memory_free(positions);
+    rt_memory_free(found);
+    rt_memory_free(squared);
+}
+
+/* Says what so many threads need at a time: more than the limit, or more than there is. */
+static rt_status fail_ranking(const ranking *l, size_t threads, rt_error *error)
+{
+    double each = sizeof(float[3]) + (double)l->candidates * (sizeof(int) + sizeof(float));
+    rt_status status = rt_memory_foresee(l->search->memory,
+                                         each * (double)(threads * l->points_a_job), what, error);
+    return status == RT_OK ? rt_fail(error, RT_ERROR_MEMORY,
+                                     "no memory for the %zu nearest photons of %zu points",
+                                     l->candidates, l->count)
+                           : status;
 }
 
 /*
@@ -210,17 +224,15 @@ static rt_status rank_all(const rt_neighbour_search *search, const rt_gather_poi
     if (candidates < NEIGHBOURS_A_JOB)
         l.points_a_job = NEIGHBOURS_A_JOB / candidates;
     size_t jobs = (*count + l.points_a_job - 1) / l.points_a_job;
-    l.failed = calloc(jobs, 1);
-    if (l.failed)
-        rt_parallel(search->threads, (uint32_t)jobs, rank_share, &l);
-    for (size_t i = 0; i < jobs && l.failed; i++)
+    l.failed = rt_memory_zeroed(search->memory, jobs, 1, what, error);
+    if (!l.failed)
+        return RT_ERROR_MEMORY;
+    rt_parallel(search->threads, (uint32_t)jobs, rank_share, &l);
+    for (size_t i = 0; i < jobs; i++)
         failed |= l.failed[i];
-    if (!l.failed || failed) {
-        free(l.failed);
-        return rt_fail(error, RT_ERROR_MEMORY,
-                       "no memory for the %zu nearest photons of %zu points", candidates, *count);
-    }
-    free(l.failed);
+    rt_memory_free(l.failed);
+    if (failed)
+        return fail_ranking(&l, smaller(jobs, search->threads), error);
     for (size_t i = 0; i < *count; i++)
         if (discs[queries[i]].squared_radius < 0)
             queries[left++] = queries[i];
@@ -233,18 +245,19 @@ static rt_status rank_all(const rt_neighbour_search *search, const rt_gather_poi
  * the tree.
  */
 static rt_status find_queries(rt_u32 *queries, size_t *count, const rt_gather_point *points,
-                              size_t point_count, uint32_t threads, rt_error *error)
+                              size_t point_count, const rt_neighbour_search *search,
+                              rt_error *error)
 {
-    float(*positions)[3] = malloc((point_count ? point_count : 1) * sizeof *positions);
-    uint64_t *items = malloc((point_count ? point_count : 1) * 2 * sizeof *items);
+    rt_memory *memory = search->memory;
+    float(*positions)[3] = rt_memory_alloc(memory, point_count, sizeof *positions, what, error);
+    uint64_t *items =
+        positions ? rt_memory_alloc(memory, point_count, 2 * sizeof *items, what, error) : NULL;
     rt_status status = RT_OK;
     size_t n = 0;
 
-    if (!positions || !items) {
-        free(positions);
-        free(items);
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to find photons at %zu points",
-                       point_count);
+    if (!items) {
+        rt_memory_free(positions);
+        return RT_ERROR_MEMORY;
     }
     for (size_t i = 0; i < point_count; i++)
         if (is_query(points + i)) {
@@ -252,15 +265,15 @@ static rt_status find_queries(rt_u32 *queries, size_t *count, const rt_gather_po
             queries[n++] = (rt_u32)i;
         }
     if (n > 0)
-        status =
-            rt_point_order(items, items + n, positions[0], sizeof *positions, n, threads, error);
+        status = rt_point_order(items, items + n, positions[0], sizeof *positions, n,
+                                search->threads, error);
     /* Reuse the key array to permute the queries into curve order. */
     for (size_t i = 0; i < n && status == RT_OK; i++)
         items[i] = queries[items[i] & RT_POINT_ORDER_INDEX];
     for (size_t i = 0; i < n && status == RT_OK; i++)
         queries[i] = (rt_u32)items[i];
-    free(positions);
-    free(items);
+    rt_memory_free(positions);
+    rt_memory_free(items);
     *count = n;
     return status;
 }
@@ -305,9 +318,10 @@ static rt_status drop_empty(const rt_neighbour_search *search, const rt_gather_p
     size_t left = 0;
     if (!search->boxes || *count == 0)
         return RT_OK;
-    emptiness e = {search, points, queries, *count, every, discs, calloc(*count, 1)};
+    emptiness e = {search, points, queries, *count, every, discs, NULL};
+    e.empty = rt_memory_zeroed(search->memory, *count, 1, what, error);
     if (!e.empty)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to find photons at %zu points", *count);
+        return RT_ERROR_MEMORY;
     rt_parallel(search->threads, (uint32_t)((*count + POINTS_A_TEST - 1) / POINTS_A_TEST),
                 test_share, &e);
     for (size_t i = 0; i < *count; i++) {
@@ -316,7 +330,7 @@ static rt_status drop_empty(const rt_neighbour_search *search, const rt_gather_p
         else
             queries[left++] = queries[i];
     }
-    free(e.empty);
+    rt_memory_free(e.empty);
     *count = left;
     return RT_OK;
 }
@@ -325,14 +339,14 @@ rt_status rt_neighbour_search_find(const rt_neighbour_search *search, const rt_g
                                    size_t count, rt_u32 *lists, rt_gather_disc *discs,
                                    rt_error *error)
 {
-    rt_u32 *queries = malloc((count ? count : 1) * sizeof *queries);
+    rt_u32 *queries = rt_memory_alloc(search->memory, count, sizeof *queries, what, error);
     size_t left = 0;
 
     if (!queries)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to find photons at %zu points", count);
+        return RT_ERROR_MEMORY;
     for (size_t i = 0; i < count; i++)
         discs[i] = (rt_gather_disc){.pixel = points[i].pixel};
-    rt_status status = find_queries(queries, &left, points, count, search->threads, error);
+    rt_status status = find_queries(queries, &left, points, count, search, error);
     for (size_t i = 0; i < left && status == RT_OK; i++)
         discs[queries[i]].is_query = 1;
     if (search->count == 0)
@@ -349,6 +363,6 @@ rt_status rt_neighbour_search_find(const rt_neighbour_search *search, const rt_g
     }
     for (size_t i = 0; i < count && search->boxes; i++)
         discs[i].squared_radius = discs[i].count > 0 ? discs[i].squared_radius : 0;
-    free(queries);
+    rt_memory_free(queries);
     return status;
 }

@@ -33,11 +33,12 @@ enum { RT_CANDIDATES_MAX = 16 };
 /*
  * Builds the search tree of a map, which is not referred to afterwards. k >= 1 photons a point;
  * max_radius in metres, infinite for no limit; threads on the host. skip_empty: a disc without
- * photons has radius 0, and most of them are told without a search. The caller owns *out.
+ * photons has radius 0, and most of them are told without a search. The search counts in `memory`.
+ * The caller owns *out.
  */
 rt_status rt_neighbour_search_create(rt_neighbour_search **out, const rt_photon_list *map,
                                      uint32_t k, float max_radius, int skip_empty, uint32_t threads,
-                                     rt_error *error);
+                                     rt_memory *memory, rt_error *error);
 void rt_neighbour_search_destroy(rt_neighbour_search *search);
 
 /* Entries of a row of neighbour lists: the most photons that can count at a point. */

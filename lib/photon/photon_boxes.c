@@ -2,10 +2,9 @@
 #include "photon/photon_boxes.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "photon/point_order.h"
 #include "types.h"
 
@@ -72,29 +71,31 @@ static void fill(rt_photon_boxes *b, const rt_photon_list *map, const uint64_t *
 }
 
 rt_status rt_photon_boxes_create(rt_photon_boxes **out, const rt_photon_list *map, size_t reach,
-                                 uint32_t threads, rt_error *error)
+                                 uint32_t threads, rt_memory *memory, rt_error *error)
 {
-    rt_photon_boxes *b = calloc(1, sizeof *b);
-    uint64_t *order = malloc((map->count ? map->count : 1) * 2 * sizeof *order);
+    static const char what[] = "the search of the photon map";
+    rt_photon_boxes *b = rt_memory_zeroed(NULL, 1, sizeof *b, what, error);
+    uint64_t *order =
+        b ? rt_memory_alloc(memory, map->count, 2 * sizeof *order, what, error) : NULL;
     rt_status status = RT_OK;
 
-    if (b) {
+    if (order) {
         b->reach = reach;
         b->width = (reach + BOX_PHOTONS - 1) / BOX_PHOTONS;
         b->box_count = (map->count + BOX_PHOTONS - 1) / BOX_PHOTONS;
         b->group_count = (b->box_count + b->width - 1) / b->width;
-        b->boxes = malloc((b->box_count + 1) * sizeof *b->boxes);
-        b->groups = malloc((b->group_count + 1) * sizeof *b->groups);
+        b->boxes = rt_memory_alloc(memory, b->box_count, sizeof *b->boxes, what, error);
+        if (b->boxes)
+            b->groups = rt_memory_alloc(memory, b->group_count, sizeof *b->groups, what, error);
     }
-    if (!b || !order || !b->boxes || !b->groups)
-        status =
-            rt_fail(error, RT_ERROR_MEMORY, "no memory for the boxes of %zu photons", map->count);
+    if (!order || !b->groups)
+        status = RT_ERROR_MEMORY;
     if (status == RT_OK && map->count > 0)
         status = rt_point_order(order, order + map->count, map->photons[0].position,
                                 sizeof *map->photons, map->count, threads, error);
     if (status == RT_OK)
         fill(b, map, order);
-    free(order);
+    rt_memory_free(order);
     if (status == RT_OK)
         *out = b;
     else
@@ -106,9 +107,9 @@ void rt_photon_boxes_destroy(rt_photon_boxes *boxes)
 {
     if (!boxes)
         return;
-    free(boxes->boxes);
-    free(boxes->groups);
-    free(boxes);
+    rt_memory_free(boxes->boxes);
+    rt_memory_free(boxes->groups);
+    rt_memory_free(boxes);
 }
 
 /* ---- Bounds ------------------------------------------------------------------ */

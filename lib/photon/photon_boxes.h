@@ -13,9 +13,12 @@
 
 typedef struct rt_photon_boxes rt_photon_boxes;
 
-/* reach >= 1: the nearest photons of any kind that matter. The caller owns *out. */
+/*
+ * reach >= 1: the nearest photons of any kind that matter. The boxes count in `memory`. The caller
+ * owns *out.
+ */
 rt_status rt_photon_boxes_create(rt_photon_boxes **out, const rt_photon_list *map, size_t reach,
-                                 uint32_t threads, rt_error *error);
+                                 uint32_t threads, rt_memory *memory, rt_error *error);
 void rt_photon_boxes_destroy(rt_photon_boxes *boxes);
 
 /*

@@ -4,8 +4,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/parallel.h"
+
+static const char what[] = "the photon map";
+
+/* Bytes from the capacity of a list to another. */
+static double bytes_between(const rt_photon_list *list, size_t capacity)
+{
+    return (double)(capacity - list->capacity) * sizeof *list->photons;
+}
 
 rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *error)
 {
@@ -15,11 +23,19 @@ rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *er
     size_t needed = list->count + more, capacity = list->capacity + list->capacity / 2;
     if (needed <= list->capacity)
         return RT_OK;
-    if (capacity < needed)
+    if (capacity < needed ||
+        rt_memory_foresee(list->memory, bytes_between(list, capacity), what, NULL) != RT_OK)
         capacity = needed;
+    const uint64_t bytes = (uint64_t)(capacity - list->capacity) * sizeof *list->photons;
+    const uint64_t before = list->capacity * sizeof *list->photons;
+    rt_status status = rt_memory_retake(list->memory, before, before + bytes, what, error);
+    if (status != RT_OK)
+        return status;
     rt_photon *photons = realloc(list->photons, capacity * sizeof *photons);
-    if (!photons)
+    if (!photons) {
+        rt_memory_give(list->memory, bytes);
         return rt_fail(error, RT_ERROR_MEMORY, "no memory for a map of %zu photons", needed);
+    }
     list->photons = photons;
     list->capacity = capacity;
     return RT_OK;
@@ -116,5 +132,6 @@ void rt_photon_list_reset(rt_photon_list *list)
 void rt_photon_list_clear(rt_photon_list *list)
 {
     free(list->photons);
-    *list = (rt_photon_list){0};
+    rt_memory_give(list->memory, list->capacity * sizeof *list->photons);
+    *list = (rt_photon_list){.memory = list->memory};
 }

@@ -16,6 +16,7 @@ typedef struct rt_photon_list {
     size_t count, capacity;
     uint64_t emitted;  /* photon paths */
     uint64_t rejected; /* photons left out because they were not finite or too far out */
+    rt_memory *memory; /* that the capacity counts in; NULL: none */
 } rt_photon_list;
 
 /* Makes room for so many photons more. */
@@ -38,7 +39,7 @@ int rt_is_unit(const float v[3]);
 /* Empties the list but keeps its memory. */
 void rt_photon_list_reset(rt_photon_list *list);
 
-/* Frees what the list holds and empties it. */
+/* Frees what the list holds and empties it; what it counts in stays. */
 void rt_photon_list_clear(rt_photon_list *list);
 
 #endif

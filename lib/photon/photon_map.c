@@ -44,6 +44,12 @@ void rt_photon_map_reset(rt_photon_map *map)
     rt_ledger_reset(&map->ledger);
 }
 
+void rt_photon_map_set_memory(rt_photon_map *map, rt_memory *memory)
+{
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        map->lists[kind].memory = memory;
+}
+
 void rt_photon_map_free(rt_photon_map *map)
 {
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {

@@ -51,6 +51,9 @@ rt_status rt_path_ranges_add(rt_path_ranges *ranges, const rt_path_range *range,
 /* Takes out all photons, paths and accounts but keeps the memory and the settings. */
 void rt_photon_map_reset(rt_photon_map *map);
 
+/* What the photons of an empty map count in. */
+void rt_photon_map_set_memory(rt_photon_map *map, rt_memory *memory);
+
 /* Frees what a map holds; it is all zero afterwards. */
 void rt_photon_map_free(rt_photon_map *map);
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "photon/point_order.h"
 
@@ -110,30 +110,36 @@ static void build_level(rt_photon_tree_data *tree, rt_u32 level)
 
 /* ---- The whole ------------------------------------------------------------ */
 
+static const char what[] = "the tree of the photon map";
+
 static rt_status allocate(rt_photon_tree_data *tree, size_t photons, rt_error *error)
 {
     tree->node_count = lay_out(&tree->shape, photons);
     size_t node_bytes = (tree->node_count * sizeof *tree->nodes + 63) / 64 * 64;
     size_t bytes = node_bytes + tree->shape.block_count * sizeof *tree->blocks;
-    if (posix_memalign(&tree->memory, 64, bytes ? bytes : 64) != 0) {
-        tree->memory = NULL;
+    rt_status status = rt_memory_take(tree->memory, bytes, what, error);
+    if (status != RT_OK)
+        return status;
+    tree->bytes = bytes;
+    if (posix_memalign(&tree->block, 64, bytes ? bytes : 64) != 0) {
+        tree->block = NULL;
         return rt_fail(error, RT_ERROR_MEMORY, "no memory for the tree of %zu photons", photons);
     }
-    tree->nodes = tree->memory;
-    tree->blocks = (rt_photon_block *)((char *)tree->memory + node_bytes);
+    tree->nodes = tree->block;
+    tree->blocks = (rt_photon_block *)((char *)tree->block + node_bytes);
     return RT_OK;
 }
 
 rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list,
-                               uint32_t threads, rt_error *error)
+                               uint32_t threads, rt_memory *memory, rt_error *error)
 {
-    rt_photon_tree_data tree = {0};
+    rt_photon_tree_data tree = {.memory = memory};
     if (list->count > RT_PHOTON_TREE_MAX)
         return rt_fail(error, RT_ERROR_MEMORY, "%zu photons are more than the %d a tree can hold",
                        list->count, RT_PHOTON_TREE_MAX);
-    uint64_t *items = malloc((list->count ? list->count : 1) * 2 * sizeof *items);
+    uint64_t *items = rt_memory_alloc(memory, list->count, 2 * sizeof *items, what, error);
     if (!items)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to sort %zu photons", list->count);
+        return RT_ERROR_MEMORY;
 
     rt_status status = allocate(&tree, list->count, error);
     if (status == RT_OK && list->count > 0)
@@ -146,7 +152,7 @@ rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *l
         for (rt_u32 level = 1; level < tree.shape.levels; level++)
             build_level(&tree, level);
     }
-    free(items);
+    rt_memory_free(items);
     if (status == RT_OK)
         *out = tree;
     else
@@ -156,6 +162,7 @@ rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *l
 
 void rt_photon_tree_free(rt_photon_tree_data *tree)
 {
-    free(tree->memory);
+    free(tree->block);
+    rt_memory_give(tree->memory, tree->bytes);
     *tree = (rt_photon_tree_data){0};
 }

@@ -17,15 +17,20 @@ typedef struct rt_photon_tree_data {
     size_t node_count;
     rt_photon_node *nodes;   /* [node_count], on a 64-byte boundary, as are the blocks */
     rt_photon_block *blocks; /* [shape.block_count] */
-    void *memory;            /* that holds both */
+    void *block;             /* of host memory, that holds both */
+    size_t bytes;            /* of it */
+    rt_memory *memory;       /* that it counts in; NULL: none */
 } rt_photon_tree_data;
 
 /* The most photons of a tree. */
 enum { RT_PHOTON_TREE_MAX = 1 << 28 };
 
-/* Builds the tree of a list, which is not referred to afterwards, on `threads` threads. */
+/*
+ * Builds the tree of a list, which is not referred to afterwards, on `threads` threads. It counts
+ * in `memory`.
+ */
 rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *list,
-                               uint32_t threads, rt_error *error);
+                               uint32_t threads, rt_memory *memory, rt_error *error);
 
 /* Frees what the tree holds and empties it. */
 void rt_photon_tree_free(rt_photon_tree_data *tree);

@@ -48,6 +48,7 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
     if (!renderer)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a renderer");
     renderer->device = device;
+    renderer->image.memory = device->memory;
     note_scene(renderer, scene);
 
     rt_status status = rt_stage_begin(&progress, options->hooks, RT_STAGE_BUILD);
@@ -72,7 +73,7 @@ void rt_renderer_destroy(rt_renderer *renderer)
     if (!renderer)
         return;
     rt_device_settle(renderer->device);
-    rt_buffer_release(renderer->scene);
+    rt_buffer_release(renderer->device, renderer->scene);
     rt_scene_image_free(&renderer->image);
     free(renderer);
 }

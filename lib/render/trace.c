@@ -46,10 +46,10 @@ static rt_status trace_batch(rt_renderer *renderer, cl_kernel kernel, const rt_r
     rt_u32 number = (rt_u32)count;
 
     rt_status status = rt_buffer_create(device, &in, CL_MEM_READ_ONLY, count * sizeof *rays,
-                                        (void *)rays, "rays", error);
+                                        (void *)rays, "the buffer of rays", error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &out, CL_MEM_WRITE_ONLY, count * sizeof *hits, NULL,
-                                  "hits", error);
+                                  "the buffer of hits", error);
     if (status == RT_OK) {
         rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(number), RT_ARG(out)};
         status = rt_kernel_args(kernel, args, 4, error);
@@ -58,8 +58,8 @@ static rt_status trace_batch(rt_renderer *renderer, cl_kernel kernel, const rt_r
         status = rt_launch(device, kernel, count, error);
     if (status == RT_OK)
         status = rt_buffer_read(device, out, 0, count * sizeof *hits, hits, error);
-    rt_buffer_release(in);
-    rt_buffer_release(out);
+    rt_buffer_release(device, in);
+    rt_buffer_release(device, out);
     return status;
 }
 

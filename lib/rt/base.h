@@ -31,7 +31,7 @@ typedef enum rt_status {
     RT_ERROR_USAGE,  /* an argument or an option is out of its range */
     RT_ERROR_DEVICE, /* no OpenCL platform or device, a kernel does not build, a launch fails */
     RT_ERROR_OUTPUT, /* a file could not be written */
-    RT_ERROR_MEMORY, /* host or device memory is exhausted */
+    RT_ERROR_MEMORY, /* host or device memory is exhausted, or a limit on it reached */
     RT_CANCELLED     /* a progress callback asked to stop */
 } rt_status;
 
@@ -43,6 +43,37 @@ typedef struct rt_error {
     char file[512];    /* the file that is wrong, or could not be read or written; or empty */
     char message[512]; /* one line, without newline, naming the offending value */
 } rt_error;
+
+/* ---- Memory ---------------------------------------------------------------------------------- */
+
+/*
+ * A limit on the memory that scenes, renderers, photon maps and films take together, buffers of the
+ * device among them. It is given to rt_load_options, rt_scene_set_memory and rt_photon_map_load_in,
+ * and to rt_device_options, with which all that is made on the device counts. A call that would
+ * exceed it fails with RT_ERROR_MEMORY before it allocates, and the message says what needed how
+ * much. All that grows with a scene, a map or a picture counts; programs, drivers, compiled kernels
+ * and what takes a few kilobytes do not. A film counts with the memory that writing it to files
+ * takes. Threads may share it; it must outlive what was given it.
+ */
+typedef struct rt_memory rt_memory;
+
+typedef struct rt_memory_info {
+    uint64_t limit;      /* bytes; 0: none */
+    uint64_t used, most; /* bytes now, and the most at any time */
+} rt_memory_info;
+
+/* limit: bytes, 0 for none. The caller owns *out. */
+RT_API rt_status rt_memory_create(rt_memory **out, uint64_t limit, rt_error *error);
+RT_API void rt_memory_destroy(rt_memory *memory);
+RT_API void rt_memory_get_info(const rt_memory *memory, rt_memory_info *out);
+
+/*
+ * Counts memory of the caller's own, and gives it back; `what` needs it, as in "the window", in the
+ * message of a failure with RT_ERROR_MEMORY. NULL counts nowhere.
+ */
+RT_API rt_status rt_memory_take(rt_memory *memory, uint64_t bytes, const char *what,
+                                rt_error *error);
+RT_API void rt_memory_give(rt_memory *memory, uint64_t bytes);
 
 /* ---- Progress and log ------------------------------------------------------------------------ */
 

@@ -36,7 +36,8 @@ typedef struct rt_device_options {
     const char *select;
     uint32_t threads;    /* host threads, and compute units used of a CPU device; 0: all */
     uint32_t work_group; /* work-items per work-group; 0: chosen for the device */
-    uint32_t width; /* paths that a work-item follows at a time: 1 or 8; 0: 8 on a CPU, else 1 */
+    uint32_t width;    /* paths that a work-item follows at a time: 1 or 8; 0: 8 on a CPU, else 1 */
+    rt_memory *memory; /* what is made on the device counts in it; NULL: nowhere */
 } rt_device_options;
 
 /*

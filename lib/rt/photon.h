@@ -131,6 +131,10 @@ RT_API rt_status rt_photon_map_merge(rt_photon_map **out, const rt_photon_map *c
 RT_API rt_status rt_photon_map_save(const rt_photon_map *map, const char *path, rt_error *error);
 RT_API rt_status rt_photon_map_load(rt_photon_map **out, const char *path, rt_error *error);
 
+/* The same with a map that counts in `memory`, as does its file while it is read. */
+RT_API rt_status rt_photon_map_load_in(rt_photon_map **out, const char *path, rt_memory *memory,
+                                       rt_error *error);
+
 /*
  * Writes the photons as the points of a binary PLY file: position, normal, flux in W, direction of
  * travel, segments of the path, whether caustic, and an 8-bit colour (the flux by the brightest,

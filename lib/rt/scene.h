@@ -73,6 +73,7 @@ typedef struct rt_load_options {
      * The text's own file is not asked about. No barrier against who changes the folder meanwhile
      */
     const char *root;
+    rt_memory *memory; /* the text counts in it while it is read, and the scene; NULL: nowhere */
 } rt_load_options;
 
 /*
@@ -94,6 +95,9 @@ RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *na
 /* An empty scene, to be filled by the calls below. The caller owns *out. */
 RT_API rt_status rt_scene_create(rt_scene **out, rt_error *error);
 RT_API void rt_scene_destroy(rt_scene *scene);
+
+/* What is added to the scene from here on counts in `memory`; NULL: nowhere. */
+RT_API void rt_scene_set_memory(rt_scene *scene, rt_memory *memory);
 
 /*
  * An affine map as the upper three rows of its matrix, for column vectors: world = m (x, y, z, 1).

@@ -3,9 +3,8 @@
 #define RT_LIB_SCENE_CHECK_H
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "base/vec.h"
 #include "types.h"
 
@@ -48,19 +47,12 @@ static inline rt_status rt_check_colour(const float c[3], const char *who, const
     return RT_OK;
 }
 
-/* Makes room for one more element of `size` bytes after `count`. */
-static inline rt_status rt_grow(void **array, size_t *room, size_t count, size_t size,
-                                rt_error *error)
+/* Makes room for one more element of `size` bytes after `count` in a list of the scene. */
+static inline rt_status rt_grow(rt_memory *memory, void **array, size_t *room, size_t count,
+                                size_t size, const char *what, rt_error *error)
 {
-    if (count < *room)
-        return RT_OK;
-    size_t more = *room ? 2 * *room : 16;
-    void *grown = more <= SIZE_MAX / size ? realloc(*array, more * size) : NULL;
-    if (!grown)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu scene elements", more);
-    *array = grown;
-    *room = more;
-    return RT_OK;
+    return count < *room ? RT_OK
+                         : rt_memory_grow(memory, array, room, count + 1, size, what, error);
 }
 
 #endif

@@ -78,7 +78,7 @@ double rt_environment_tabulate(float *conditional, float *marginal, const float 
 
 /* Copies the image's colours, decoded. */
 static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, const char *path,
-                             rt_error *error)
+                             rt_memory *memory, rt_error *error)
 {
     uint32_t channels[3];
     size_t count = (size_t)image->width * image->height;
@@ -89,10 +89,10 @@ static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, c
                            "environment: %.350s has neither the channels R, G and B nor Y", path);
         channels[0] = channels[1] = channels[2] = grey;
     }
-    out->texels = calloc(count, 4 * sizeof *out->texels);
+    out->texels =
+        rt_memory_zeroed(memory, count, 4 * sizeof *out->texels, "the environment", error);
     if (!out->texels)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for an environment of %zu pixels",
-                       count);
+        return RT_ERROR_MEMORY;
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) {
             float value = image->data[i * image->channel_count + channels[c]];
@@ -107,16 +107,17 @@ static rt_status copy_texels(rt_scene_environment *out, const rt_image *image, c
     return RT_OK;
 }
 
-static rt_status read_environment(rt_scene_environment *out, const char *path, rt_error *error)
+static rt_status read_environment(rt_scene_environment *out, const char *path, rt_memory *memory,
+                                  rt_error *error)
 {
     rt_image *image = NULL;
     rt_status status = rt_file_check_regular(path, error);
     if (status != RT_OK)
         goto out;
-    status = rt_image_read(&image, path, error);
+    status = rt_image_read_in(&image, path, memory, error);
     if (status != RT_OK)
         goto out;
-    status = copy_texels(out, image, path, error);
+    status = copy_texels(out, image, path, memory, error);
     if (status != RT_OK)
         goto out;
     rt_environment_mean(out->mean, out->texels, out->width, out->height);
@@ -142,7 +143,7 @@ rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *enviro
                              "environment: rotation is %g degrees", environment->rotation);
     memcpy(l.emission, environment->radiance, sizeof l.emission);
     if (environment->path) {
-        status = read_environment(&made, environment->path, error);
+        status = read_environment(&made, environment->path, scene->memory, error);
         if (rt_is_black(l.emission))
             l.emission[0] = l.emission[1] = l.emission[2] = 1;
     }
@@ -153,6 +154,6 @@ rt_status rt_scene_set_environment(rt_scene *scene, const rt_environment *enviro
     if (status == RT_OK)
         scene->environment = made;
     else
-        free(made.texels);
+        rt_memory_free(made.texels);
     return status;
 }

@@ -12,8 +12,8 @@ static const float edge_min = 1e-5f;
 
 rt_status rt_scene_take_light(rt_scene *scene, const rt_scene_light *light, rt_error *error)
 {
-    rt_status status = rt_grow((void **)&scene->lights, &scene->light_room, scene->light_count,
-                               sizeof *light, error);
+    rt_status status = rt_grow(scene->memory, (void **)&scene->lights, &scene->light_room,
+                               scene->light_count, sizeof *light, "the list of lights", error);
     if (status == RT_OK)
         scene->lights[scene->light_count++] = *light;
     return status;

@@ -144,8 +144,8 @@ rt_status rt_scene_add_material(rt_scene *scene, uint32_t *out, const char *name
         (status = rt_material_check_albedo(scene, &m, 0, who, NULL, error)) != RT_OK ||
         (status = check_surface(&m, who, error)) != RT_OK)
         return status;
-    status = rt_grow((void **)&scene->materials, &scene->material_room, scene->material_count,
-                     sizeof m, error);
+    status = rt_grow(scene->memory, (void **)&scene->materials, &scene->material_room,
+                     scene->material_count, sizeof m, "the list of materials", error);
     if (status != RT_OK)
         return status;
     if (out)

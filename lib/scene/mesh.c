@@ -12,11 +12,11 @@ enum { triangles_max = 0x3fffffff };
 
 void rt_scene_mesh_free(rt_scene_mesh *mesh)
 {
-    free(mesh->positions);
-    free(mesh->normals);
-    free(mesh->uv);
-    free(mesh->colours);
-    free(mesh->indices);
+    rt_memory_free(mesh->positions);
+    rt_memory_free(mesh->normals);
+    rt_memory_free(mesh->uv);
+    rt_memory_free(mesh->colours);
+    rt_memory_free(mesh->indices);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -43,8 +43,8 @@ void rt_scene_mesh_measure(rt_scene_mesh *mesh)
 rt_status rt_scene_take_mesh(rt_scene *scene, uint32_t *out, const rt_scene_mesh *mesh,
                              rt_error *error)
 {
-    rt_status status =
-        rt_grow((void **)&scene->meshes, &scene->mesh_room, scene->mesh_count, sizeof *mesh, error);
+    rt_status status = rt_grow(scene->memory, (void **)&scene->meshes, &scene->mesh_room,
+                               scene->mesh_count, sizeof *mesh, "the list of meshes", error);
     if (status != RT_OK)
         return status;
     scene->meshes[scene->mesh_count] = *mesh;
@@ -85,14 +85,17 @@ static rt_status check_data(const rt_mesh_data *mesh, rt_error *error)
     return check_vertices(mesh, error);
 }
 
-/* Copies count * size bytes, or nothing; clears *good when there is no memory. */
-static void *copy(const void *from, size_t count, size_t size, int *good)
+/* Copies count * size bytes, or nothing where there is nothing to copy, or *status is a failure. */
+static void *copy(const rt_scene *scene, const void *from, size_t count, size_t size,
+                  rt_status *status, rt_error *error)
 {
-    void *to = from && count <= SIZE_MAX / size ? malloc(count * size) : NULL;
+    void *to = from && *status == RT_OK
+                   ? rt_memory_alloc(scene->memory, count, size, "a mesh", error)
+                   : NULL;
     if (to)
         memcpy(to, from, count * size);
     else if (from)
-        *good = 0;
+        *status = RT_ERROR_MEMORY;
     return to;
 }
 
@@ -114,24 +117,22 @@ rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh_data *
                             rt_error *error)
 {
     rt_scene_mesh made;
-    int good = 1;
+    const size_t vertices = mesh->vertex_count;
     rt_status status = check_data(mesh, error);
     if (status != RT_OK)
         return status;
 
     memset(&made, 0, sizeof made);
-    made.vertex_count = mesh->vertex_count;
+    made.vertex_count = vertices;
     made.triangle_count = mesh->triangle_count;
-    made.positions = copy(mesh->positions, mesh->vertex_count, 3 * sizeof(float), &good);
-    made.normals = copy(mesh->normals, mesh->vertex_count, 3 * sizeof(float), &good);
-    made.uv = copy(mesh->uv, mesh->vertex_count, 2 * sizeof(float), &good);
-    made.colours = copy(mesh->colours, mesh->vertex_count, 3 * sizeof(float), &good);
-    made.indices = copy(mesh->indices, mesh->triangle_count, 3 * sizeof(uint32_t), &good);
-    if (!good) {
-        status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for %zu triangles",
-                         mesh->triangle_count);
+    made.positions = copy(scene, mesh->positions, vertices, 3 * sizeof(float), &status, error);
+    made.normals = copy(scene, mesh->normals, vertices, 3 * sizeof(float), &status, error);
+    made.uv = copy(scene, mesh->uv, vertices, 2 * sizeof(float), &status, error);
+    made.colours = copy(scene, mesh->colours, vertices, 3 * sizeof(float), &status, error);
+    made.indices =
+        copy(scene, mesh->indices, mesh->triangle_count, 3 * sizeof(uint32_t), &status, error);
+    if (status != RT_OK)
         goto out;
-    }
     rt_scene_mesh_measure(&made);
     status = check_area(&made, error);
     if (status != RT_OK)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "mesh/load.h"
 #include "mesh/normals.h"
 #include "scene/check.h"
@@ -61,7 +61,7 @@ static rt_status shade(rt_mesh *mesh, rt_shading shading, rt_error *error)
     case RT_SHADING_FILE:
         return RT_OK;
     case RT_SHADING_FLAT:
-        free(mesh->normals);
+        rt_memory_free(mesh->normals);
         mesh->normals = NULL;
         return RT_OK;
     case RT_SHADING_SMOOTH:
@@ -92,7 +92,7 @@ rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, r
     if ((unsigned)shading > RT_SHADING_SMOOTH)
         return rt_fail_field(error, RT_ERROR_INPUT, "shading", "mesh: there is no shading %d",
                              (int)shading);
-    rt_status status = rt_mesh_load(&mesh, path, NULL, error);
+    rt_status status = rt_mesh_load_in(&mesh, path, scene->memory, NULL, error);
     if (status != RT_OK)
         goto out;
     status = shade(mesh, shading, error);

@@ -17,6 +17,13 @@ rt_status rt_scene_create(rt_scene **out, rt_error *error)
     return RT_OK;
 }
 
+void rt_scene_set_memory(rt_scene *scene, rt_memory *memory)
+{
+    scene->memory = memory;
+    if (scene->texels.capacity == 0)
+        scene->texels.memory = memory;
+}
+
 void rt_scene_destroy(rt_scene *scene)
 {
     if (!scene)
@@ -24,14 +31,14 @@ void rt_scene_destroy(rt_scene *scene)
     for (size_t i = 0; i < scene->mesh_count; i++)
         rt_scene_mesh_free(scene->meshes + i);
     rt_bytes_free(&scene->texels);
-    free(scene->environment.texels);
-    free(scene->textures);
-    free(scene->materials);
-    free(scene->meshes);
-    free(scene->shapes);
-    free(scene->emissions);
-    free(scene->placements);
-    free(scene->lights);
+    rt_memory_free(scene->environment.texels);
+    rt_memory_free(scene->textures);
+    rt_memory_free(scene->materials);
+    rt_memory_free(scene->meshes);
+    rt_memory_free(scene->shapes);
+    rt_memory_free(scene->emissions);
+    rt_memory_free(scene->placements);
+    rt_memory_free(scene->lights);
     free(scene);
 }
 

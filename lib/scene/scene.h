@@ -86,6 +86,7 @@ typedef struct rt_scene_environment {
 } rt_scene_environment;
 
 struct rt_scene {
+    rt_memory *memory; /* that what is added counts in; NULL: none */
     rt_scene_texture *textures;
     size_t texture_count, texture_room;
     rt_bytes texels;        /* of all image textures */

@@ -261,14 +261,16 @@ rt_status rt_scene_add_shape(rt_scene *scene, uint32_t *out, const rt_new_shape 
         return status;
     const int emits = has_light(s) || !rt_is_black(scene->materials[s->material].emission);
     const int is_placed = shape.has_transform || has_many_parameters(&shape);
-    status = rt_grow((void **)&scene->shapes, &scene->shape_room, scene->shape_count, sizeof shape,
-                     error);
+    status = rt_grow(scene->memory, (void **)&scene->shapes, &scene->shape_room, scene->shape_count,
+                     sizeof shape, "the list of shapes", error);
     if (status == RT_OK && emits)
-        status = rt_grow((void **)&scene->emissions, &scene->emission_room, scene->emission_count,
-                         sizeof *scene->emissions, error);
+        status = rt_grow(scene->memory, (void **)&scene->emissions, &scene->emission_room,
+                         scene->emission_count, sizeof *scene->emissions,
+                         "the list of emissive shapes", error);
     if (status == RT_OK && is_placed)
-        status = rt_grow((void **)&scene->placements, &scene->placement_room,
-                         scene->placement_count, sizeof *scene->placements, error);
+        status = rt_grow(scene->memory, (void **)&scene->placements, &scene->placement_room,
+                         scene->placement_count, sizeof *scene->placements,
+                         "the list of placements", error);
     if (status != RT_OK)
         return status;
     shape.material = s->material;

@@ -48,7 +48,7 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
         return rt_fail_field(error, RT_ERROR_INPUT, "path", "texture: an image needs a file");
     rt_status status = rt_file_check_regular(from->path, error);
     if (status == RT_OK)
-        status = rt_image_read(&image, from->path, error);
+        status = rt_image_read_in(&image, from->path, scene->memory, error);
     if (status == RT_OK)
         status =
             rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->path, error);
@@ -129,8 +129,8 @@ rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture 
     if ((unsigned)texture->wrap > RT_WRAP_CLAMP)
         return rt_fail_field(error, RT_ERROR_INPUT, "wrap", "texture: there is no wrap mode %d",
                              (int)texture->wrap);
-    rt_status status = rt_grow((void **)&scene->textures, &scene->texture_room,
-                               scene->texture_count, sizeof made, error);
+    rt_status status = rt_grow(scene->memory, (void **)&scene->textures, &scene->texture_room,
+                               scene->texture_count, sizeof made, "the list of textures", error);
     if (status == RT_OK)
         status = texture->kind == RT_TEXTURE_IMAGE ? read_image(scene, &made, texture, error)
                                                    : make_pattern(&made, texture, error);

@@ -134,15 +134,20 @@ static void open_device(device_side *d, const problem *p)
     d->in_order = allocate(p->queries, sizeof *d->in_order);
     d->order = allocate(2 * p->queries, sizeof *d->order);
     double began = rt_clock();
-    must(rt_tree_gather_prepare(&d->gather, d->device, &p->map, &estimate, p->queries, &error),
+    size_t capacity = p->queries;
+    must(rt_tree_gather_prepare(&d->gather, d->device, &p->map, &estimate, &capacity, &error),
          &error);
+    if (capacity < p->queries) {
+        fprintf(stderr, "no memory to gather at %zu points\n", p->queries);
+        exit(1);
+    }
     printf("the device's tree takes %.3f s to build\n", rt_clock() - began);
 }
 
 static void close_device(device_side *d)
 {
-    rt_tree_gather_release(&d->gather);
-    rt_buffer_release(d->points);
+    rt_tree_gather_release(&d->gather, d->device);
+    rt_buffer_release(d->device, d->points);
     rt_kernel_release(d->kernel);
     free(d->in_order);
     free(d->order);
@@ -192,7 +197,7 @@ static void compete(problem *p)
     parameters.leaf_max_size = 10;
     flann_index_t tree =
         flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
-    must(rt_neighbour_search_create(&search, &p->map, p->k, HUGE_VALF, 0, p->threads, &error),
+    must(rt_neighbour_search_create(&search, &p->map, p->k, HUGE_VALF, 0, p->threads, NULL, &error),
          &error);
 
     open_device(&d, p);

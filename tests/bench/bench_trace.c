@@ -166,7 +166,7 @@ static void bounce(rt_ray *rays, const rt_hit *hits)
 static double our_build(const contest *c)
 {
     const rt_bvh_mesh part = {c->mesh.positions, c->mesh.indices, c->mesh.triangles, 0};
-    const rt_bvh_input input = {&part, 1, NULL, 0, NULL, 0};
+    const rt_bvh_input input = {&part, 1, NULL, 0, NULL, 0, NULL};
     rt_bvh *bvh = NULL;
     rt_bvh_counts counts;
     rt_error error;
@@ -278,8 +278,8 @@ static void open_contest(contest *c, uint32_t around)
 static void close_contest(contest *c)
 {
     embree_peer_destroy(c->peer);
-    rt_buffer_release(c->rays_there);
-    rt_buffer_release(c->hits_there);
+    rt_buffer_release(c->device, c->rays_there);
+    rt_buffer_release(c->device, c->hits_there);
     rt_kernel_release(c->kernel);
     rt_renderer_destroy(c->renderer);
     rt_device_close(c->device);

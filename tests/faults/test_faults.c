@@ -163,7 +163,7 @@ static void files_spoil(void)
 /* Each file is whole, old or new; and new where the job succeeded. */
 static void files_check(const files right, int is_done, const char *what, long n)
 {
-    static const rt_bytes old = {(uint8_t *)"old", 3, 3};
+    static const rt_bytes old = {(uint8_t *)"old", 3, 3, NULL};
     files now;
     files_read(now);
     for (size_t i = 0; i < file_count; i++) {

@@ -33,7 +33,7 @@ rt_image *fuzz_image_decode(fuzz_decoder *decode, const uint8_t *data, size_t si
 {
     rt_image *image = fuzz_untouched;
     rt_error error;
-    const rt_bytes file = {(uint8_t *)data, size, size};
+    const rt_bytes file = {(uint8_t *)data, size, size, NULL};
     rt_status status = decode(&image, &file, "fuzz", &error);
     return fuzz_expect_answer(status, &error, image) ? image : NULL;
 }

@@ -43,9 +43,9 @@ void draw_scatter(const rt_material_data *material, const situation *at, uint32_
                      RT_ARG(s),    RT_ARG(transport), RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(scene);
-    rt_buffer_release(s);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), scene);
+    rt_buffer_release(test_device(), s);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -60,9 +60,9 @@ void draw_events(const rt_material_data *material, const situation *at, uint32_t
                      RT_ARG(scene), RT_ARG(s),     RT_ARG(made)};
     test_run(kernel, args, 6, (count + each - 1) / each);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(scene);
-    rt_buffer_release(s);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), scene);
+    rt_buffer_release(test_device(), s);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -75,10 +75,10 @@ void evaluate_scatter(const rt_material_data *material, const situation *at, con
     rt_arg args[] = {RT_ARG(count), RT_ARG(scene), RT_ARG(s), RT_ARG(w), RT_ARG(made)};
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(scene);
-    rt_buffer_release(s);
-    rt_buffer_release(w);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), scene);
+    rt_buffer_release(test_device(), s);
+    rt_buffer_release(test_device(), w);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -93,9 +93,9 @@ void measure_albedo(const rt_material_data *material, const situation *at, uint3
                      RT_ARG(s),    RT_ARG(samples), RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(scene);
-    rt_buffer_release(s);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), scene);
+    rt_buffer_release(test_device(), s);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -110,9 +110,9 @@ void draw_lobe(const rt_material_data *material, const situation *at, uint32_t l
                      RT_ARG(s),    RT_ARG(lobe),  RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(scene);
-    rt_buffer_release(s);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), scene);
+    rt_buffer_release(test_device(), s);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -126,9 +126,9 @@ void evaluate_lobe(const rt_material_data *material, const situation *at, const 
                      RT_ARG(w),     RT_ARG(lobe),  RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(scene);
-    rt_buffer_release(s);
-    rt_buffer_release(w);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), scene);
+    rt_buffer_release(test_device(), s);
+    rt_buffer_release(test_device(), w);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }

@@ -37,7 +37,7 @@ static void draw_told(rt_renderer *renderer, uint32_t seed, const float from[3],
                      RT_ARG(point),           RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -61,8 +61,8 @@ void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, e
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *out, out);
     rt_light_sources_free(&lights);
-    rt_buffer_release(shares);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), shares);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -84,6 +84,6 @@ void light_chances(rt_renderer *renderer, const float from[3], size_t count, flo
     rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(point), RT_ARG(made)};
     test_run(kernel, args, 3, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }

@@ -121,9 +121,9 @@ float *rays_leave(rt_scene *scene, const rt_ray *rays, float (*away)[4], uint32_
     test_run(kernel, args, 5, count);
     test_read(out, count * sizeof *next, next);
     rt_kernel_release(kernel);
-    rt_buffer_release(in);
-    rt_buffer_release(to);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), to);
+    rt_buffer_release(test_device(), out);
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);
     return next;

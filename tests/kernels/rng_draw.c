@@ -32,7 +32,7 @@ void rng_draw_pairs(rt_sampler kind, uint32_t seed, int along, uint32_t set, uin
                      RT_ARG(set),    RT_ARG(count), RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(made);
-    rt_buffer_release(scene);
+    rt_buffer_release(test_device(), made);
+    rt_buffer_release(test_device(), scene);
     rt_kernel_release(kernel);
 }

@@ -69,8 +69,8 @@ static void fresnel_agrees_with_the_closed_form(void **state)
         if (in[i][0] < critical - 1e-6)
             assert_true(out[i][0] == 1 && out[i][1] == 0);
     }
-    rt_buffer_release(given);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), given);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 

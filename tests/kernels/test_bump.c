@@ -131,9 +131,9 @@ static void expect_tangents(rt_scene *scene)
     seen[scene->shapes[0].kind] = 1;
     if (rt_scene_is_instance(scene, scene->shapes))
         seen[RT_SHAPE_INSTANCE] = 1;
-    rt_buffer_release(in);
-    rt_buffer_release(out);
-    rt_buffer_release(tilted);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), out);
+    rt_buffer_release(test_device(), tilted);
     rt_kernel_release(kernel);
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);

@@ -53,9 +53,9 @@ static void make_rays_of(rt_camera_data camera)
     rt_arg args[] = {RT_ARG(scene), RT_ARG(count), RT_ARG(given), RT_ARG(out)};
     test_run(kernel, args, 4, n);
     test_read(out, sizeof rays, rays);
-    rt_buffer_release(scene);
-    rt_buffer_release(given);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), scene);
+    rt_buffer_release(test_device(), given);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 

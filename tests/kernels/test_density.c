@@ -23,8 +23,8 @@ static void evaluate(uint32_t density, float cone_k, float r2, const float *d2, 
                      RT_ARG(r2),    RT_ARG(in),      RT_ARG(out)};
     test_run(kernel, args, 6, count);
     test_read(out, count * sizeof *values, values);
-    rt_buffer_release(in);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 

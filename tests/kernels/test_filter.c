@@ -20,7 +20,7 @@ static void draw(uint32_t filter, float radius, uint32_t seed)
     rt_arg args[] = {RT_ARG(filter), RT_ARG(radius), RT_ARG(seed), RT_ARG(count), RT_ARG(out)};
     test_run(kernel, args, 5, n);
     test_read(out, sizeof samples, samples);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 

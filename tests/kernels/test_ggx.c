@@ -49,8 +49,8 @@ static void sample(const rt_material_data *material, boundary b, double cosine)
     rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(m), RT_ARG(b), RT_ARG(wo), RT_ARG(out)};
     test_run(kernel, args, 6, n);
     test_read(out, sizeof results, results);
-    rt_buffer_release(m);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), m);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 
@@ -66,9 +66,9 @@ static void evaluate(const char *name, const rt_material_data *material, boundar
     rt_arg args[] = {RT_ARG(count), RT_ARG(m), RT_ARG(b), RT_ARG(wo), RT_ARG(in), RT_ARG(made)};
     test_run(kernel, args, 6, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(m);
-    rt_buffer_release(in);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), m);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -286,8 +286,8 @@ static void reflect(const float eta[4], const float k[4], const float *cosines, 
     rt_arg args[] = {RT_ARG(count), RT_ARG(index), RT_ARG(loss), RT_ARG(in), RT_ARG(made)};
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(in);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 

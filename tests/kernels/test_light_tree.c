@@ -95,7 +95,7 @@ static void expect_chances(rt_scene *scene, size_t lights, const float from[3])
     free(chances);
     free(chosen);
     free(times);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
     rt_renderer_destroy(renderer);
 }

@@ -29,9 +29,9 @@ static void cross(const uint32_t (*steps)[2], uint32_t count, float (*out)[4])
     rt_arg args[] = {RT_ARG(s), RT_ARG(count), RT_ARG(in), RT_ARG(made)};
     test_run(kernel, args, 4, 1);
     test_read(made, count * sizeof *out, out);
-    rt_buffer_release(s);
-    rt_buffer_release(in);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), s);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 
@@ -110,9 +110,9 @@ static void absorption_follows_beer_and_lambert(void **state)
         for (int c = 0; c < 3; c++)
             assert_float_equal(out[i][c],
                                absorption[c] > 0 ? exp(-absorption[c] * distances[i]) : 1, 1e-6);
-    rt_buffer_release(s);
-    rt_buffer_release(in);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), s);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 

@@ -344,7 +344,7 @@ static void launch_in_parts(rt_renderer *renderer, uint32_t launches, size_t gro
         expect_ok(rt_device_finish(test_device(), &error), &error);
     }
     test_read(buffer, bytes, film);
-    rt_buffer_release(buffer);
+    rt_buffer_release(test_device(), buffer);
     rt_kernel_release(kernel);
 }
 
@@ -395,7 +395,7 @@ static void every_pixel_has_one_item(void **state)
             assert_true(out[k] < params.item_count);
             assert_false(seen[out[k]]++);
         }
-        rt_buffer_release(buffer);
+        rt_buffer_release(test_device(), buffer);
         rt_kernel_release(kernel);
     }
 }
@@ -414,8 +414,8 @@ static void samples_that_are_not_finite_are_counted_and_left_out(void **state)
     test_read(film, sizeof pixel, &pixel);
     assert_true(pixel.count == 3 && pixel.rejected == 3 && pixel.weight == 3);
     assert_true(pixel.sum[0] == 7 && pixel.sum[1] == 3 && pixel.lost[0] == 0);
-    rt_buffer_release(samples);
-    rt_buffer_release(film);
+    rt_buffer_release(test_device(), samples);
+    rt_buffer_release(test_device(), film);
     rt_kernel_release(kernel);
 }
 
@@ -450,8 +450,8 @@ static void samples_that_gather_nowhere_are_rejected(void **state)
         assert_int_equal(pixels[i].count, i == 0 ? 1 : 0);
         assert_int_equal(pixels[i].rejected, i == 0 ? 0 : 1);
     }
-    rt_buffer_release(gathered);
-    rt_buffer_release(film);
+    rt_buffer_release(test_device(), gathered);
+    rt_buffer_release(test_device(), film);
     rt_kernel_release(kernel);
 }
 

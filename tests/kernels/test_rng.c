@@ -24,8 +24,8 @@ static void draw(rt_sampler kind, uint32_t seed, uint32_t stream, uint32_t set, 
                      RT_ARG(set),    RT_ARG(count), RT_ARG(buffer)};
     test_run(kernel, args, 6, count);
     test_read(buffer, count * sizeof *out, out);
-    rt_buffer_release(buffer);
-    rt_buffer_release(scene);
+    rt_buffer_release(test_device(), buffer);
+    rt_buffer_release(test_device(), scene);
     rt_kernel_release(kernel);
 }
 

@@ -25,7 +25,7 @@ static void draw(const char *name, uint32_t seed, const rt_arg *extra, cl_uint e
     args[used++] = (rt_arg)RT_ARG(out);
     test_run(kernel, args, used, n);
     test_read(out, sizeof samples, samples);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 
@@ -137,8 +137,8 @@ static void elementary_functions_are_precise(void **state)
         assert_float_equal(samples[i][1], cos(in[i][1]), 3e-7);
         assert_float_equal(samples[i][2], atan2(in[i][1], in[i][0]), 2e-7);
     }
-    rt_buffer_release(given);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), given);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 

@@ -211,10 +211,10 @@ static points *choose(const reference_shape *shape, uint64_t seed)
     test_read(normals, sizeof out->normals, out->normals);
     test_read(parameters, sizeof out->parameters, out->parameters);
     rt_kernel_release(kernel);
-    rt_buffer_release(in);
-    rt_buffer_release(positions);
-    rt_buffer_release(normals);
-    rt_buffer_release(parameters);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), positions);
+    rt_buffer_release(test_device(), normals);
+    rt_buffer_release(test_device(), parameters);
     rt_renderer_destroy(renderer);
     rt_scene_destroy(scene);
     return out;

@@ -65,10 +65,10 @@ static void evaluate(const char *name, const rt_texture_data *texture, const rt_
     rt_arg args[] = {RT_ARG(count), RT_ARG(t), RT_ARG(image), RT_ARG(in), RT_ARG(result)};
     test_run(kernel, args, 5, count);
     test_read(result, count * floats * sizeof *out, out);
-    rt_buffer_release(result);
-    rt_buffer_release(image);
-    rt_buffer_release(in);
-    rt_buffer_release(t);
+    rt_buffer_release(test_device(), result);
+    rt_buffer_release(test_device(), image);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), t);
     rt_kernel_release(kernel);
 }
 

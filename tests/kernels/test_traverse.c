@@ -434,8 +434,8 @@ static void launch(rt_renderer *renderer, const char *name, const rt_ray *rays, 
     const rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(in), RT_ARG(count), RT_ARG(out)};
     test_run(kernel, args, 4, count);
     test_read(out, count * sizeof *hits, hits);
-    rt_buffer_release(in);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), in);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 

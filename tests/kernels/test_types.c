@@ -30,7 +30,7 @@ static void structs_have_the_same_layout_on_host_and_device(void **state)
         if (device[i] != expected[i].value)
             fail_msg("%s: %u on the host, %u on the device", expected[i].name, expected[i].value,
                      device[i]);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 

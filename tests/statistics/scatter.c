@@ -55,7 +55,7 @@ static void draw_normals(const void *setup, uint32_t seed, uint32_t count)
     rt_arg args[] = {RT_ARG(seed), RT_ARG(count), RT_ARG(f->alpha), RT_ARG(from), RT_ARG(made)};
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *rows, rows);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 

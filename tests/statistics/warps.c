@@ -21,7 +21,7 @@ static void draw_rows(const char *program, const char *name, uint32_t seed, uint
     args[used++] = (rt_arg)RT_ARG(out);
     test_run(kernel, args, used, count);
     test_read(out, count * sizeof *rows, rows);
-    rt_buffer_release(out);
+    rt_buffer_release(test_device(), out);
     rt_kernel_release(kernel);
 }
 
@@ -218,7 +218,7 @@ static void draw_filter(const void *setup, uint32_t seed, uint32_t count)
     rt_arg args[] = {RT_ARG(filter), RT_ARG(own_radius), RT_ARG(seed), RT_ARG(count), RT_ARG(made)};
     test_run(kernel, args, 5, count);
     test_read(made, count * sizeof *rows, rows);
-    rt_buffer_release(made);
+    rt_buffer_release(test_device(), made);
     rt_kernel_release(kernel);
 }
 

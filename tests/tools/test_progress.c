@@ -185,8 +185,8 @@ static void plain_progress_names_the_stages(void **state)
     scratch_write("a.rts", small_scene);
     run run = run_rtc("a.rts --spp 1 --mode photon --photons 1000 --out a.pfm");
     expect_status(&run, 0);
-    static const char *const stages[] = {"build   100 %", "compile 100 %", "emit    100 %",
-                                         "gather  100 %"};
+    static const char *const stages[] = {"load    100 %", "build   100 %", "compile 100 %",
+                                         "emit    100 %", "gather  100 %"};
     for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++)
         expect_err(&run, stages[i]);
     expect_no_err(&run, "\r");
@@ -273,6 +273,30 @@ static void no_progress_when_none_is_asked(void **state)
     expect_status(&run, 0);
     expect_no_err(&run, "%");
     expect_err(&run, "wrote a.pfm");
+    run_free(&run);
+}
+
+/* Of the reading of the scene; elsewhere nothing is said of it. */
+static void check_shows_progress_on_a_terminal_alone(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc_terminal("TERM=xterm rtc check a.rts");
+    expect_status(&run, 0);
+    expect_out(&run, "load    100 %");
+    expect_out(&run, "\r\033[Ka.rts: ok");
+    run_free(&run);
+    static const char *const silent[] = {"TERM=xterm rtc check a.rts --quiet",
+                                         "TERM=xterm rtc check a.rts --json",
+                                         "TERM=dumb rtc check a.rts"};
+    for (size_t i = 0; i < sizeof silent / sizeof *silent; i++) {
+        run = run_rtc_terminal("%s", silent[i]);
+        expect_status(&run, 0);
+        assert_null(strstr(run.out, "load"));
+        run_free(&run);
+    }
+    run = run_rtc("check a.rts");
+    assert_string_equal(run.err, "");
     run_free(&run);
 }
 
@@ -504,6 +528,7 @@ int main(void)
         TEST(json_progress_is_one_object_a_line),
         TEST(all_that_is_said_beside_json_progress_is_json),
         TEST(no_progress_when_none_is_asked),
+        TEST(check_shows_progress_on_a_terminal_alone),
         TEST(terminal_gets_a_redrawn_line_and_colours),
         TEST(closed_stderr_does_not_end_a_render),
         TEST(interrupted_path_render_writes_its_samples),

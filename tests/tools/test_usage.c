@@ -57,6 +57,11 @@ static const struct {
      "--alpha takes a number between 0 and 1, both excluded; not '1'"},
     {"a.rts --mode photon --passes 2 --alpha 0.9999999999",
      "--alpha: alpha is 1; it must be between 0 and 1, both excluded"},
+    {"a.rts --memory 4x", "--memory takes a number of bytes, as in 800M or 4G; not '4x'"},
+    {"a.rts --memory 0", "not '0'"},
+    {"check a.rts --memory -1G", "not '-1G'"},
+    {"check a.rts --memory 1e30T", "not '1e30T'"},
+    {"photons info a.rtp --memory G", "not 'G'"},
     {"a.rts --exposure ++1", "--exposure takes a number"},
     {"a.rts --exposure 1000", "--exposure takes a number"},
     {"a.rts --mode paht", "did you mean path?"},
@@ -583,6 +588,35 @@ static void unknown_device_is_status_3(void **state)
     run_free(&run);
 }
 
+/* In every command that takes it; the largest of several forms of one size is enough. */
+static void memory_is_limited_with_status_3(void **state)
+{
+    static const char *const commands[] = {"check a.rts", "a.rts --spp 1 --out a.pfm",
+                                           "photons a.rts --photons 1000 --out a.rtp",
+                                           "photons info b.rtp", "a.rts --photon-map b.rtp"},
+                             *const enough[] = {"400M", "400mb", "0.4GiB", "4e8"};
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("photons a.rts --photons 1000 --out b.rtp");
+    expect_status(&run, 0);
+    run_free(&run);
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        run = run_rtc("%s --memory 100", commands[i]);
+        expect_status(&run, 3);
+        expect_err(&run, " needs ");
+        expect_err(&run, ", more than the limit of 100 bytes");
+        run_free(&run);
+    }
+    for (size_t i = 0; i < sizeof enough / sizeof *enough; i++) {
+        run = run_rtc("%s --memory %s", commands[i], enough[i]);
+        expect_status(&run, 0);
+        run_free(&run);
+    }
+    run = run_rtc_input(scene, strlen(scene), "check - --memory 100");
+    expect_status(&run, 3);
+    run_free(&run);
+}
+
 static void full_stdout_is_status_4(void **state)
 {
     (void)state;
@@ -625,6 +659,7 @@ int main(void)
         TEST(each_setting_is_an_option),
         TEST(check_needs_no_device),
         TEST(unknown_device_is_status_3),
+        TEST(memory_is_limited_with_status_3),
         TEST(full_stdout_is_status_4),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;

@@ -17,6 +17,7 @@ rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *ren
     memset(&none, 0, sizeof none);
 
     out->renderer = renderer;
+    out->device = renderer->device;
     film->layer_sums = calloc(count, sizeof *film->layer_sums);
     if (!film->layer_sums)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels",
@@ -25,7 +26,7 @@ rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *ren
     if (status == RT_OK)
         status = rt_buffer_create(renderer->device, &out->sums, CL_MEM_READ_WRITE,
                                   count * sizeof *film->layer_sums, film->layer_sums,
-                                  "the layers of the film", error);
+                                  "the buffer of the film's layers", error);
     rt_arg args[] = {RT_ARG(none), RT_ARG(renderer->scene), RT_ARG(out->sums)};
     if (status == RT_OK)
         status = rt_kernel_prepare(renderer->device, &out->kernel, "first_hit", "first_hit", args,
@@ -36,7 +37,7 @@ rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *ren
 void rt_first_hit_layers_release(rt_first_hit_layers *layers)
 {
     rt_kernel_release(layers->kernel);
-    rt_buffer_release(layers->sums);
+    rt_buffer_release(layers->device, layers->sums);
     memset(layers, 0, sizeof *layers);
 }
 

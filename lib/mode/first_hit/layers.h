@@ -12,6 +12,7 @@
 /* The layers of a render under way; all zero: none. */
 typedef struct rt_first_hit_layers {
     rt_renderer *renderer;
+    rt_device *device;
     cl_kernel kernel;
     cl_mem sums; /* rt_film_pixel [RT_LAYER_COUNT][height][width] */
 } rt_first_hit_layers;

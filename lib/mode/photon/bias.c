@@ -2,10 +2,9 @@
 #include "mode/photon/bias.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 /* The smallest k: the hull needs four photons and the k-th to estimate any density. */
 enum { k_min = 2, k_min_hull = 5 };
@@ -26,23 +25,25 @@ int rt_photon_bias_finer(rt_gather_options *out, double *factor, const rt_gather
 rt_status rt_photon_bias_create(rt_photon_bias *b, rt_device *device, size_t capacity, size_t rows,
                                 rt_error *error)
 {
+    static const char what[] = "the estimate of the bias";
     b->device = device;
     b->capacity = capacity;
     b->rows = rows;
-    b->host = malloc(capacity * sizeof *b->host);
-    b->sums = malloc(capacity * sizeof *b->sums);
-    if (!b->host || !b->sums)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the bias at %zu points", capacity);
+    b->host = rt_memory_alloc(device->memory, capacity, sizeof *b->host, what, error);
+    if (b->host)
+        b->sums = rt_memory_alloc(device->memory, capacity, sizeof *b->sums, what, error);
+    if (!b->sums)
+        return RT_ERROR_MEMORY;
     return rt_buffer_create(device, &b->copies, CL_MEM_READ_WRITE,
                             (1 + rows) * capacity * sizeof *b->host, NULL,
-                            "copies of gather points", error);
+                            "the copy of the gather points", error);
 }
 
 void rt_photon_bias_release(rt_photon_bias *b)
 {
-    rt_buffer_release(b->copies);
-    free(b->host);
-    free(b->sums);
+    rt_buffer_release(b->device, b->copies);
+    rt_memory_free(b->host);
+    rt_memory_free(b->sums);
     memset(b, 0, sizeof *b);
 }
 

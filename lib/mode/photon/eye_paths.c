@@ -2,10 +2,9 @@
 #include "mode/photon/eye_paths.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 #include "render/prepare.h"
 
 /* The shortest batch, where there is little memory. */
@@ -44,18 +43,22 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels)
     memset(kernels, 0, sizeof *kernels);
 }
 
+static const char what[] = "a batch of eye paths";
+
 static rt_status create_layers(rt_eye_paths *paths, rt_error *error)
 {
     if (!paths->job->options->photon_layers)
         return RT_OK;
-    paths->host_points = malloc((1 + paths->rows) * paths->capacity * sizeof *paths->host_points);
+    rt_device *device = paths->job->renderer->device;
+    paths->host_points = rt_memory_alloc(device->memory, (1 + paths->rows) * paths->capacity,
+                                         sizeof *paths->host_points, what, error);
     if (!paths->host_points)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the layers of %zu points",
-                       paths->capacity);
-    rt_status status = rt_photon_bias_create(&paths->bias, paths->job->renderer->device,
-                                             paths->capacity, paths->rows, error);
+        return RT_ERROR_MEMORY;
+    rt_status status =
+        rt_photon_bias_create(&paths->bias, device, paths->capacity, paths->rows, error);
     return status == RT_OK
-               ? rt_photon_layers_create(&paths->layers, rt_film_pixels(paths->job->film), error)
+               ? rt_photon_layers_create(&paths->layers, rt_film_pixels(paths->job->film),
+                                         device->memory, error)
                : status;
 }
 
@@ -65,10 +68,10 @@ static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
     rt_film *film = paths->job->film;
     size_t bytes = paths->capacity * sizeof(rt_gather_point);
     rt_status status = rt_buffer_create(device, &paths->points, CL_MEM_READ_WRITE, bytes, NULL,
-                                        "gather points", error);
+                                        "the buffer of gather points", error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &paths->earlier, CL_MEM_READ_WRITE, paths->rows * bytes,
-                                  NULL, "gather points of caustics", error);
+                                  NULL, "the buffer of caustic gather points", error);
     if (status == RT_OK)
         status = create_layers(paths, error);
     if (status == RT_OK)
@@ -80,23 +83,23 @@ static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
 
 static rt_status create_memory(rt_eye_paths *paths, rt_error *error)
 {
-    paths->discs = malloc(2 * paths->capacity * sizeof *paths->discs);
+    paths->discs = rt_memory_alloc(paths->device->memory, paths->capacity, 2 * sizeof *paths->discs,
+                                   what, error);
     if (!paths->discs)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory to gather at %zu points",
-                       paths->capacity);
+        return RT_ERROR_MEMORY;
     paths->more_discs = paths->discs + paths->capacity;
     return create_buffers(paths, error);
 }
 
 static void release_memory(rt_eye_paths *paths)
 {
-    rt_buffer_release(paths->points);
-    rt_buffer_release(paths->earlier);
-    rt_buffer_release(paths->pixels);
+    rt_buffer_release(paths->device, paths->points);
+    rt_buffer_release(paths->device, paths->earlier);
+    rt_buffer_release(paths->device, paths->pixels);
     paths->points = paths->earlier = paths->pixels = NULL;
-    free(paths->discs);
-    free(paths->layers);
-    free(paths->host_points);
+    rt_memory_free(paths->discs);
+    rt_memory_free(paths->layers);
+    rt_memory_free(paths->host_points);
     paths->discs = paths->more_discs = NULL;
     paths->layers = NULL;
     paths->host_points = NULL;
@@ -111,6 +114,7 @@ rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
     size_t pixels = rt_film_pixels(job->film);
     memset(paths, 0, sizeof *paths);
     paths->job = job;
+    paths->device = job->renderer->device;
     paths->kernels = *kernels;
     paths->rows = o->final_gather < o->max_depth ? o->final_gather : o->max_depth;
     paths->capacity = RT_GATHER_POINTS_MAX / (1 + paths->rows);

@@ -19,6 +19,7 @@ typedef struct rt_eye_kernels {
 /* Eye paths under way, a batch at a time. */
 typedef struct rt_eye_paths {
     const rt_render_job *job;
+    rt_device *device;
     rt_eye_kernels kernels;
     uint32_t replicate; /* of the samples to come */
     rt_u32 rows;        /* earlier gather points of a path: diffuse bounces of the final gather */

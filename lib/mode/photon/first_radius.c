@@ -2,9 +2,8 @@
 #include "mode/photon/first_radius.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 /*
  * Whether the query points lie on the surface seen in the pixel, so that its samples are close
@@ -67,10 +66,10 @@ rt_status rt_photon_render_choose_radius(rt_photon_render *r, rt_query query, ui
     const rt_render_options *o = r->job->options;
     rt_gather_options nearest = r->options[query];
     size_t pixels = rt_film_pixels(r->job->film);
-    float *squared = calloc(2 * pixels, sizeof *squared);
+    float *squared = rt_memory_zeroed(r->job->renderer->device->memory, pixels, 2 * sizeof *squared,
+                                      "the list of gather radii", error);
     if (!squared)
-        return rt_fail(error, RT_ERROR_MEMORY, "no memory for the gather radii of %zu pixels",
-                       pixels);
+        return RT_ERROR_MEMORY;
     float *limits = squared + pixels;
 
     /* Find the nearest photons of each pixel. */
@@ -89,9 +88,9 @@ rt_status rt_photon_render_choose_radius(rt_photon_render *r, rt_query query, ui
         limit_radii(limits, squared, o->width, o->height, mean);
         status =
             rt_buffer_create(r->job->renderer->device, r->first_radii + query, CL_MEM_READ_ONLY,
-                             pixels * sizeof *limits, limits, "the gather radii of pixels", error);
+                             pixels * sizeof *limits, limits, "the buffer of gather radii", error);
     }
-    free(squared);
+    rt_memory_free(squared);
     if (status == RT_OK && mean > 0) {
         r->first_radius[query] = mean;
         rt_log(o->hooks, "first radius of the %s photons: %s%g m",

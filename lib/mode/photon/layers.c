@@ -2,19 +2,19 @@
 #include "mode/photon/layers.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "base/memory.h"
 
 static const double pi = 3.14159265358979323846;
 
-rt_status rt_photon_layers_create(rt_photon_layer_sum **out, size_t pixels, rt_error *error)
+rt_status rt_photon_layers_create(rt_photon_layer_sum **out, size_t pixels, rt_memory *memory,
+                                  rt_error *error)
 {
-    rt_photon_layer_sum *sums = calloc(pixels, sizeof *sums);
+    rt_photon_layer_sum *sums =
+        rt_memory_zeroed(memory, pixels, sizeof *sums, "the list of sums of photon layers", error);
     if (!sums)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the photon layers of %zu pixels",
-                       pixels);
+        return RT_ERROR_MEMORY;
     *out = sums;
     return RT_OK;
 }

@@ -12,8 +12,9 @@ typedef struct rt_photon_layer_sum {
     double samples, value, square, bias;
 } rt_photon_layer_sum;
 
-/* Sums for a film of so many pixels; the caller frees *out with free. */
-rt_status rt_photon_layers_create(rt_photon_layer_sum **out, size_t pixels, rt_error *error);
+/* Sums for a film of so many pixels, which count in `memory`; rt_memory_free frees *out. */
+rt_status rt_photon_layers_create(rt_photon_layer_sum **out, size_t pixels, rt_memory *memory,
+                                  rt_error *error);
 
 /*
  * Adds a batch of gather points, with their radiance and what was found there; earlier

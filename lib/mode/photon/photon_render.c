@@ -27,6 +27,8 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
     const rt_render_options *o = r->job->options;
     const rt_renderer *renderer = r->job->renderer;
     r->map.settings = rt_photon_settings_of(o);
+    rt_photon_map_set_memory(&r->map, renderer->device->memory);
+    r->caustics.memory = renderer->device->memory;
     set_gather_options(r);
     rt_status status = rt_eye_paths_create(&r->eye_paths, r->job, &r->eye_kernels, error);
     if (status == RT_OK && !o->photon_map)
@@ -39,8 +41,8 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
 void rt_photon_render_free(rt_photon_render *r)
 {
     rt_queries_close(&r->queries);
-    for (int i = 0; i < RT_QUERIES; i++)
-        rt_buffer_release(r->first_radii[i]);
+    for (int i = 0; i < RT_QUERIES && r->job; i++)
+        rt_buffer_release(r->job->renderer->device, r->first_radii[i]);
     rt_eye_paths_release(&r->eye_paths);
     rt_emitter_destroy(r->emitter);
     rt_photon_list_clear(&r->caustics);

@@ -181,7 +181,7 @@ static void expect_sound_mesh(uint32_t count, place_triangle *place)
             indices[3 * i + c] = 3 * i + c;
     }
     const rt_bvh_mesh mesh = {positions, indices, count, 0};
-    const rt_bvh_input input = {&mesh, 1, NULL, 0, NULL, 0};
+    const rt_bvh_input input = {&mesh, 1, NULL, 0, NULL, 0, NULL};
     expect_sound(&input, count);
     free(positions);
     free(indices);
@@ -292,9 +292,9 @@ static void kinds_mix(void **state)
     memcpy(entry[1].hi, entry[0].hi, sizeof entry[0].hi);
     const rt_bvh_mesh meshes[2] = {{positions[0], indices[0], 200, 0},
                                    {positions[0], indices[200], 300, 200}};
-    const rt_bvh_input input = {meshes, 2, quad, quads, entry, entries};
+    const rt_bvh_input input = {meshes, 2, quad, quads, entry, entries, NULL};
     expect_sound(&input, triangles + quads);
-    const rt_bvh_input only_entries = {NULL, 0, NULL, 0, entry, 2};
+    const rt_bvh_input only_entries = {NULL, 0, NULL, 0, entry, 2, NULL};
     expect_sound(&only_entries, 0);
 }
 
@@ -317,7 +317,7 @@ static void progress_cancels(void **state)
         for (uint32_t c = 0; c < 3; c++)
             indices[i][c] = i + c;
     const rt_bvh_mesh mesh = {positions[0], indices[0], 199998, 0};
-    const rt_bvh_input input = {&mesh, 1, NULL, 0, NULL, 0};
+    const rt_bvh_input input = {&mesh, 1, NULL, 0, NULL, 0, NULL};
     int calls = 0;
     const rt_hooks hooks = {.progress = cancel_at_once, .user = &calls};
     rt_stage_progress progress;

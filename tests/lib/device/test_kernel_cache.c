@@ -69,7 +69,7 @@ static int answer(void)
         is_right = values[i] == 3 * i + 1;
     if (!is_right)
         on_warning(NULL, error.message);
-    rt_buffer_release(out);
+    rt_buffer_release(device, out);
     rt_kernel_release(kernel);
     rt_device_close(device);
     return is_right ? 0 : error.status == RT_ERROR_DEVICE ? 3 : 1;

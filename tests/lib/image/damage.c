@@ -11,7 +11,7 @@
 /* Decodes a copy of exactly size bytes, so that a memory checker sees a read past its end. */
 static rt_status decode_copy(const rt_bytes *file, size_t size, decoder *decode)
 {
-    rt_bytes copy = {malloc(size ? size : 1), size, size};
+    rt_bytes copy = {malloc(size ? size : 1), size, size, NULL};
     rt_image *image = NULL;
     rt_error error = {0};
     assert_non_null(copy.data);

@@ -282,7 +282,8 @@ static void an_index_outside_the_palette_is_refused(void **state)
 static void other_files_and_other_chunks_are_refused(void **state)
 {
     form f = form_of(5, 4, 4);
-    rt_bytes file = make_file(&f), empty = {0}, text = {(uint8_t *)"not a picture at all", 20, 20};
+    rt_bytes file = make_file(&f), empty = {0},
+             text = {(uint8_t *)"not a picture at all", 20, 20, NULL};
     (void)state;
     check_refused(&empty, "cut short");
     check_refused(&text, "PNG");

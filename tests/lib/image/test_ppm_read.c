@@ -12,7 +12,7 @@
 /* Decodes an exact copy, so that a memory checker sees a read past its end. */
 static rt_status decode(rt_image **out, const char *characters, size_t size, rt_error *error)
 {
-    rt_bytes bytes = {malloc(size ? size : 1), size, size};
+    rt_bytes bytes = {malloc(size ? size : 1), size, size, NULL};
     assert_non_null(bytes.data);
     memcpy(bytes.data, characters, size);
     rt_status status = rt_ppm_decode(out, &bytes, "text", error);
@@ -156,8 +156,8 @@ static void damage_never_crashes(void **state)
 {
     static char binary[] = "P6\n#c\n2 2\n255\nabcdefghijkl",
                 plain[] = "P3\n#c\n2 1\n999\n1 22 333#\n 44 5 6";
-    const rt_bytes files[] = {{(uint8_t *)binary, sizeof binary - 1, 0},
-                              {(uint8_t *)plain, sizeof plain - 1, 0}};
+    const rt_bytes files[] = {{(uint8_t *)binary, sizeof binary - 1, 0, NULL},
+                              {(uint8_t *)plain, sizeof plain - 1, 0, NULL}};
     (void)state;
     for (int i = 0; i < 2; i++) {
         damage_truncate(&files[i], rt_ppm_decode);

@@ -51,7 +51,7 @@ static void progression_begin(progression *p, const study *s, const rt_render_op
     p->job.options = &p->options;
     p->job.layers = &p->layers;
     expect_ok(rt_renderer_aim(s->renderer, &p->options, &error), &error);
-    expect_ok(rt_film_create(&p->job.film, &p->options, &error), &error);
+    expect_ok(rt_film_create(&p->job.film, &p->options, NULL, &error), &error);
     expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_COMPILE), &error);
     expect_ok(rt_mode_photon.prepare(&p->job, &p->render, &progress, &error), &error);
     expect_ok(rt_photon_render_begin(&p->render, &error), &error);

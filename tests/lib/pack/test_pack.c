@@ -15,7 +15,7 @@ static const rt_u32 vertex_data = RT_SHAPE_SMOOTH | RT_SHAPE_UV | RT_SHAPE_COLOU
 
 static rt_scene_image pack(const rt_scene *scene)
 {
-    rt_scene_image image;
+    rt_scene_image image = {0};
     rt_stage_progress progress;
     rt_error error;
     expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_BUILD), &error);

@@ -83,7 +83,7 @@ static void compare_with_brute_force(size_t count, size_t k, layout how)
             place(asked[i], how, i, &stream);
         else
             memcpy(asked[i], positions + 3 * (i % count), sizeof asked[i]);
-    expect_ok(rt_flann_index_create(&index, positions, count, &error), &error);
+    expect_ok(rt_flann_index_create(&index, positions, count, NULL, &error), &error);
     expect_ok(rt_flann_index_nearest(index, asked[0], queries, k, indices, squared, &error),
               &error);
     for (size_t i = 0; i < queries; i++)
@@ -119,7 +119,7 @@ static void an_empty_set_is_an_index(void **state)
     rt_flann_index *index = NULL;
     rt_error error;
     (void)state;
-    expect_ok(rt_flann_index_create(&index, NULL, 0, &error), &error);
+    expect_ok(rt_flann_index_create(&index, NULL, 0, NULL, &error), &error);
     assert_non_null(index);
     rt_flann_index_destroy(index);
     rt_flann_index_destroy(NULL);
@@ -152,7 +152,7 @@ static void results_do_not_depend_on_threads(void **state)
     (void)state;
     for (size_t i = 0; i < many; i++)
         place(positions[i], i % 2 ? SCATTERED : DUPLICATED, i, &stream);
-    expect_ok(rt_flann_index_create(&index, positions[0], many, &error), &error);
+    expect_ok(rt_flann_index_create(&index, positions[0], many, NULL, &error), &error);
     alone.index = together.index = index;
     alone.positions = together.positions = positions[0];
     rt_parallel(1, jobs, ask_share, &alone);

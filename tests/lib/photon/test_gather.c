@@ -16,8 +16,8 @@ enum { photon_count = 2000, point_count = 300, emitted = 4 };
 
 static rt_photon_list make_map(void)
 {
-    rt_photon_list map = {calloc(photon_count, sizeof *map.photons), photon_count, photon_count,
-                          emitted, 0};
+    rt_photon_list map = {
+        calloc(photon_count, sizeof *map.photons), photon_count, photon_count, emitted, 0, NULL};
     points_stream stream = {5};
     assert_non_null(map.photons);
     for (size_t i = 0; i < map.count; i++) {
@@ -92,7 +92,7 @@ static void gather(const rt_photon_list *map, rt_gather_options options, size_t 
         expect_ok(rt_gatherer_add(gatherer, buffer, before, point_count, discs, &error), &error);
     test_read(buffer, bytes, points);
     rt_gatherer_destroy(gatherer);
-    rt_buffer_release(buffer);
+    rt_buffer_release(test_device(), buffer);
     rt_kernel_release(kernel);
 }
 

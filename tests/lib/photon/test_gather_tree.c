@@ -24,7 +24,8 @@ enum { ENTRIES = 1 << 20 };
 
 static rt_photon_list make_list(size_t count)
 {
-    rt_photon_list list = {calloc(count ? count : 1, sizeof(rt_photon)), count, count, count, 0};
+    rt_photon_list list = {
+        calloc(count ? count : 1, sizeof(rt_photon)), count, count, count, 0, NULL};
     points_stream stream = {17};
     assert_non_null(list.photons);
     for (size_t i = 0; i < count; i++) {
@@ -122,9 +123,9 @@ static void ask_device(answers *a, rt_tree_gather *g, const uint64_t *order, cl_
     test_run(kernel, args, sizeof args / sizeof *args, part);
     test_read(g->discs, part * sizeof *a->discs, a->discs);
     test_read(lists, part * a->stride * sizeof *a->lists, a->lists);
-    rt_buffer_release(on);
-    rt_buffer_release(lists);
-    rt_buffer_release(scratch);
+    rt_buffer_release(test_device(), on);
+    rt_buffer_release(test_device(), lists);
+    rt_buffer_release(test_device(), scratch);
     for (size_t i = 0; i < part; i++) {
         assert_true(a->discs[i].count <= a->stride);
         /* what the sum counts is what is listed */
@@ -240,7 +241,7 @@ static void compete(const problem *p, size_t brute)
               &error);
     if (p->k)
         expect_ok(rt_neighbour_search_create(&search, &p->list, p->k, limit, 0,
-                                             test_device()->threads, &error),
+                                             test_device()->threads, NULL, &error),
                   &error);
     for (size_t first = 0; first < p->queries; first += part) {
         size_t count = p->queries - first < part ? p->queries - first : part;
@@ -265,7 +266,7 @@ static void compete(const problem *p, size_t brute)
                   (unsigned)p->k, p->limit, p->queries - ties, ties);
     assert_true(ties <= p->queries / 1000 + 1);
     rt_neighbour_search_destroy(search);
-    rt_tree_gather_release(&on);
+    rt_tree_gather_release(&on, test_device());
     free_answers(&theirs);
     free_answers(&ours);
     free(order);

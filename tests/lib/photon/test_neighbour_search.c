@@ -39,11 +39,11 @@ static rt_gather_point point_at(float x, float z)
 static rt_gather_disc ask(rt_photon *photons, size_t count, uint32_t k, float max_radius,
                           rt_gather_point point, rt_u32 *list)
 {
-    rt_photon_list map = {photons, count, count, count, 0};
+    rt_photon_list map = {photons, count, count, count, 0, NULL};
     rt_neighbour_search *search = NULL;
     rt_gather_disc disc;
     rt_error error;
-    expect_ok(rt_neighbour_search_create(&search, &map, k, max_radius, 0, 2, &error), &error);
+    expect_ok(rt_neighbour_search_create(&search, &map, k, max_radius, 0, 2, NULL, &error), &error);
     expect_ok(rt_neighbour_search_find(search, &point, 1, list, &disc, &error), &error);
     rt_neighbour_search_destroy(search);
     return disc;
@@ -146,14 +146,14 @@ static void points_without_weight_or_place_are_not_asked(void **state)
     rt_photon photons[20];
     rt_gather_point points[3] = {point_at(0, 0), point_at(0, 0), point_at(NAN, 0)};
     rt_gather_disc discs[3];
-    rt_photon_list map = {photons, 20, 20, 20, 0};
+    rt_photon_list map = {photons, 20, 20, 20, 0, NULL};
     rt_neighbour_search *search = NULL;
     rt_u32 lists[3 * 5];
     rt_error error;
     (void)state;
     fill_row(photons, 20);
     points[0].weight[1] = 0;
-    expect_ok(rt_neighbour_search_create(&search, &map, 5, INFINITY, 0, 1, &error), &error);
+    expect_ok(rt_neighbour_search_create(&search, &map, 5, INFINITY, 0, 1, NULL, &error), &error);
     expect_ok(rt_neighbour_search_find(search, points, 3, lists, discs, &error), &error);
     rt_neighbour_search_destroy(search);
     assert_int_equal(discs[0].is_query, 0);
@@ -172,7 +172,7 @@ static void many_points_at_once_find_what_one_finds(void **state)
     static rt_gather_disc discs[asked];
     static rt_u32 lists[asked * k], list[k];
     points_stream stream = {3};
-    rt_photon_list map = {photons, count, count, count, 0};
+    rt_photon_list map = {photons, count, count, count, 0, NULL};
     rt_neighbour_search *search = NULL;
     rt_error error;
     (void)state;
@@ -182,7 +182,7 @@ static void many_points_at_once_find_what_one_finds(void **state)
     }
     for (size_t i = 0; i < asked; i++)
         points[i] = point_at(points_uniform(&stream), points_uniform(&stream));
-    expect_ok(rt_neighbour_search_create(&search, &map, k, 0.06f, 0, 2, &error), &error);
+    expect_ok(rt_neighbour_search_create(&search, &map, k, 0.06f, 0, 2, NULL, &error), &error);
     expect_ok(rt_neighbour_search_find(search, points, asked, lists, discs, &error), &error);
     rt_neighbour_search_destroy(search);
     for (size_t i = 0; i < asked; i += 97) {
@@ -206,7 +206,7 @@ static void skipping_empty_discs_changes_no_other(void **state)
     static rt_u32 lists[2][asked * k];
     const float *const normals[] = {up, down, sideways};
     points_stream stream = {5};
-    rt_photon_list map = {photons, count, count, count, 0};
+    rt_photon_list map = {photons, count, count, count, 0, NULL};
     rt_error error;
     size_t empty = 0;
     (void)state;
@@ -223,7 +223,8 @@ static void skipping_empty_discs_changes_no_other(void **state)
     for (float limit = 0.2f; limit < 3; limit = limit < 1 ? 1.5f : HUGE_VALF) {
         for (int skip = 0; skip < 2; skip++) {
             rt_neighbour_search *search = NULL;
-            expect_ok(rt_neighbour_search_create(&search, &map, k, limit, skip, 2, &error), &error);
+            expect_ok(rt_neighbour_search_create(&search, &map, k, limit, skip, 2, NULL, &error),
+                      &error);
             expect_ok(
                 rt_neighbour_search_find(search, points, asked, lists[skip], discs[skip], &error),
                 &error);
@@ -247,7 +248,7 @@ static void an_empty_disc_is_known_without_a_search(void **state)
     enum { spot = 1024, wall = 1024, reach = 320 };
     static rt_photon photons[spot + wall];
     points_stream stream = {7};
-    rt_photon_list map = {photons, spot + wall, spot + wall, spot + wall, 0};
+    rt_photon_list map = {photons, spot + wall, spot + wall, spot + wall, 0, NULL};
     const float near_spot[3] = {0.2f, 0.1f, 0}, at_wall[3] = {8.9f, 9, 9};
     rt_photon_boxes *boxes = NULL;
     rt_error error;
@@ -257,7 +258,7 @@ static void an_empty_disc_is_known_without_a_search(void **state)
         photons[i] = i < spot ? photon_at(0.1f * x, 0, 0.1f * z, up)
                               : photon_at(9, 9 - 0.1f * x, 9 - 0.1f * z, sideways);
     }
-    expect_ok(rt_photon_boxes_create(&boxes, &map, reach, 2, &error), &error);
+    expect_ok(rt_photon_boxes_create(&boxes, &map, reach, 2, NULL, &error), &error);
     assert_true(rt_photon_boxes_none(boxes, near_spot, sideways, HUGE_VALF));
     assert_true(rt_photon_boxes_none(boxes, near_spot, down, HUGE_VALF));
     assert_false(rt_photon_boxes_none(boxes, near_spot, up, HUGE_VALF));
@@ -276,8 +277,9 @@ static void without_photons_every_disc_is_empty(void **state)
     for (int skip_empty = 0; skip_empty < 2; skip_empty++) {
         rt_neighbour_search *search = NULL;
         rt_gather_disc disc;
-        expect_ok(rt_neighbour_search_create(&search, &map, 5, HUGE_VALF, skip_empty, 2, &error),
-                  &error);
+        expect_ok(
+            rt_neighbour_search_create(&search, &map, 5, HUGE_VALF, skip_empty, 2, NULL, &error),
+            &error);
         expect_ok(rt_neighbour_search_find(search, &point, 1, NULL, &disc, &error), &error);
         assert_int_equal(disc.is_query, 1);
         assert_int_equal(disc.count, 0);

@@ -156,7 +156,7 @@ static void gather(const prepared *p, int at_edge, const uint32_t *densities, in
         assert_true(discs[i].squared_radius < p->map->margin * p->map->margin);
     for (int i = 0; i < count; i++) {
         test_read(copies[i], bytes, results[i]);
-        rt_buffer_release(copies[i]);
+        rt_buffer_release(test_device(), copies[i]);
     }
     free(discs);
 }

@@ -1,0 +1,259 @@
+/* memory.c - counts memory against a limit; blocks know what they count in. */
+#include "base/memory.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct rt_memory {
+    pthread_mutex_t lock; /* of the following */
+    rt_memory_info info;
+    int is_abandoned; /* destroyed by its owner, and still in use */
+};
+
+/* Stands before each block, so that the block is aligned as malloc aligns. */
+typedef union header {
+    struct {
+        rt_memory *memory; /* NULL: it counts nowhere */
+        size_t bytes;
+    } of;
+    long double alignment;
+} header;
+
+/* ---- The count --------------------------------------------------------------- */
+
+rt_status rt_memory_create(rt_memory **out, uint64_t limit, rt_error *error)
+{
+    rt_memory *memory = calloc(1, sizeof *memory);
+    if (!memory || pthread_mutex_init(&memory->lock, NULL) != 0) {
+        free(memory);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a count of memory");
+    }
+    memory->info.limit = limit;
+    *out = memory;
+    return RT_OK;
+}
+
+static void release(rt_memory *memory)
+{
+    pthread_mutex_destroy(&memory->lock);
+    free(memory);
+}
+
+void rt_memory_destroy(rt_memory *memory)
+{
+    if (!memory)
+        return;
+    pthread_mutex_lock(&memory->lock);
+    const int is_in_use = memory->info.used > 0;
+    memory->is_abandoned = 1;
+    pthread_mutex_unlock(&memory->lock);
+    if (!is_in_use)
+        release(memory);
+}
+
+void rt_memory_get_info(const rt_memory *memory, rt_memory_info *out)
+{
+    pthread_mutex_t *lock = (pthread_mutex_t *)&memory->lock;
+    pthread_mutex_lock(lock);
+    *out = memory->info;
+    pthread_mutex_unlock(lock);
+}
+
+/* "3.2 GiB", "512 bytes": a size in the unit that suits it. Returns out. */
+static const char *write_size(char out[32], double bytes)
+{
+    static const char *const units[] = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+    size_t unit = 0;
+    while (bytes >= 1023.5 && unit + 1 < sizeof units / sizeof *units) {
+        bytes /= 1024;
+        unit++;
+    }
+    snprintf(out, 32, "%.3g %s", bytes, bytes == 1 && unit == 0 ? "byte" : units[unit]);
+    return out;
+}
+
+static rt_status fail_limit(const rt_memory_info *info, double bytes, const char *what,
+                            rt_error *error)
+{
+    char needed[32], limit[32], used[32];
+    write_size(needed, bytes);
+    write_size(limit, (double)info->limit);
+    if (info->used == 0)
+        return rt_fail(error, RT_ERROR_MEMORY, "%s needs %s, more than the limit of %s", what,
+                       needed, limit);
+    return rt_fail(error, RT_ERROR_MEMORY, "%s needs %s, more than the limit of %s with %s in use",
+                   what, needed, limit, write_size(used, (double)info->used));
+}
+
+static rt_status fail_exhausted(double bytes, const char *what, rt_error *error)
+{
+    char needed[32];
+    return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %s needs %s", what,
+                   write_size(needed, bytes));
+}
+
+/* Whether so much more is within the limit; *info is how things stand. */
+static int has_room(rt_memory *memory, double bytes, rt_memory_info *info)
+{
+    *info = memory->info;
+    return info->limit == 0 || (double)info->used + bytes <= (double)info->limit;
+}
+
+rt_status rt_memory_take(rt_memory *memory, uint64_t bytes, const char *what, rt_error *error)
+{
+    return rt_memory_retake(memory, 0, bytes, what, error);
+}
+
+rt_status rt_memory_retake(rt_memory *memory, uint64_t before, uint64_t after, const char *what,
+                           rt_error *error)
+{
+    rt_memory_info info;
+    if (!memory)
+        return RT_OK;
+    if (after < before) {
+        rt_memory_give(memory, before - after);
+        return RT_OK;
+    }
+    const uint64_t more = after - before;
+    pthread_mutex_lock(&memory->lock);
+    const int has = has_room(memory, (double)more, &info);
+    if (has) {
+        memory->info.used += more;
+        if (memory->info.most < memory->info.used)
+            memory->info.most = memory->info.used;
+    }
+    pthread_mutex_unlock(&memory->lock);
+    info.used -= before < info.used ? before : info.used;
+    return has ? RT_OK : fail_limit(&info, (double)after, what, error);
+}
+
+rt_status rt_memory_foresee(rt_memory *memory, double bytes, const char *what, rt_error *error)
+{
+    rt_memory_info info;
+    if (!memory)
+        return RT_OK;
+    pthread_mutex_lock(&memory->lock);
+    const int has = has_room(memory, bytes, &info);
+    pthread_mutex_unlock(&memory->lock);
+    return has ? RT_OK : fail_limit(&info, bytes, what, error);
+}
+
+void rt_memory_give(rt_memory *memory, uint64_t bytes)
+{
+    if (!memory)
+        return;
+    pthread_mutex_lock(&memory->lock);
+    memory->info.used -= bytes;
+    const int is_last = memory->is_abandoned && memory->info.used == 0;
+    pthread_mutex_unlock(&memory->lock);
+    if (is_last)
+        release(memory);
+}
+
+/* ---- Blocks ------------------------------------------------------------------ */
+
+/* The bytes of a block with its header; 0 when there cannot be so many. */
+static size_t bytes_of(size_t count, size_t size)
+{
+    static const size_t most = SIZE_MAX / 2 - sizeof(header);
+    if (size > 0 && count > most / size)
+        return 0;
+    const size_t bytes = count * size;
+    return sizeof(header) + (bytes > 0 ? bytes : 1);
+}
+
+static void *allocate(rt_memory *memory, size_t count, size_t size, int is_zero, const char *what,
+                      rt_error *error)
+{
+    const size_t bytes = bytes_of(count, size);
+    const double wanted = (double)count * (double)size;
+    if (rt_memory_foresee(memory, wanted, what, error) != RT_OK)
+        return NULL;
+    if (bytes == 0) {
+        fail_exhausted(wanted, what, error);
+        return NULL;
+    }
+    if (rt_memory_take(memory, bytes, what, error) != RT_OK)
+        return NULL;
+    header *block = is_zero ? calloc(1, bytes) : malloc(bytes);
+    if (!block) {
+        rt_memory_give(memory, bytes);
+        fail_exhausted(wanted, what, error);
+        return NULL;
+    }
+    block->of.memory = memory;
+    block->of.bytes = bytes;
+    return block + 1;
+}
+
+void *rt_memory_alloc(rt_memory *memory, size_t count, size_t size, const char *what,
+                      rt_error *error)
+{
+    return allocate(memory, count, size, 0, what, error);
+}
+
+void *rt_memory_zeroed(rt_memory *memory, size_t count, size_t size, const char *what,
+                       rt_error *error)
+{
+    return allocate(memory, count, size, 1, what, error);
+}
+
+void rt_memory_free(void *block)
+{
+    if (!block)
+        return;
+    header *head = (header *)block - 1;
+    rt_memory *memory = head->of.memory;
+    const size_t bytes = head->of.bytes;
+    free(head);
+    rt_memory_give(memory, bytes);
+}
+
+void *rt_memory_resize(rt_memory *memory, void *block, size_t count, size_t size, const char *what,
+                       rt_error *error)
+{
+    if (!block)
+        return allocate(memory, count, size, 0, what, error);
+    header *head = (header *)block - 1;
+    const size_t bytes = bytes_of(count, size), before = head->of.bytes;
+    const double wanted = (double)count * (double)size;
+    memory = head->of.memory;
+    if (bytes == 0) {
+        fail_exhausted(wanted, what, error);
+        return NULL;
+    }
+    if (bytes > before && rt_memory_retake(memory, before, bytes, what, error) != RT_OK)
+        return NULL;
+    head = realloc(head, bytes);
+    if (!head) {
+        if (bytes > before)
+            rt_memory_give(memory, bytes - before);
+        fail_exhausted(wanted, what, error);
+        return NULL;
+    }
+    if (bytes < before)
+        rt_memory_give(memory, before - bytes);
+    head->of.bytes = bytes;
+    return head + 1;
+}
+
+rt_status rt_memory_grow(rt_memory *memory, void **array, size_t *room, size_t needed, size_t size,
+                         const char *what, rt_error *error)
+{
+    if (needed <= *room)
+        return RT_OK;
+    size_t more = *room / 2 > 16 ? *room / 2 : 16;
+    for (;; more /= 8) {
+        const size_t roomy = *room + more > needed ? *room + more : needed;
+        void *grown = rt_memory_resize(memory, *array, roomy, size, what, error);
+        if (grown) {
+            *array = grown;
+            *room = roomy;
+            return RT_OK;
+        }
+        if (roomy == needed)
+            return RT_ERROR_MEMORY;
+    }
+}

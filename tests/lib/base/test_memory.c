@@ -1,0 +1,183 @@
+/* test_memory.c - counting memory against a limit. */
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "support.h"
+
+static rt_memory *new_memory(uint64_t limit)
+{
+    rt_memory *memory = NULL;
+    rt_error error;
+    expect_ok(rt_memory_create(&memory, limit, &error), &error);
+    return memory;
+}
+
+static uint64_t used(const rt_memory *memory)
+{
+    rt_memory_info info;
+    rt_memory_get_info(memory, &info);
+    return info.used;
+}
+
+static void expect_refused(rt_status status, const rt_error *error, const char *message)
+{
+    assert_int_equal(status, RT_ERROR_MEMORY);
+    assert_int_equal(error->status, RT_ERROR_MEMORY);
+    assert_string_equal(error->message, message);
+}
+
+/* The message tells what needs how much, the limit, and what is in use beside it. */
+static void what_exceeds_the_limit_is_refused_and_told(void **state)
+{
+    rt_memory *memory = new_memory(UINT64_C(2) << 30);
+    rt_memory_info info;
+    rt_error error;
+    (void)state;
+    expect_refused(rt_memory_take(memory, UINT64_C(1) << 41, "the moon", &error), &error,
+                   "the moon needs 2 TiB, more than the limit of 2 GiB");
+    expect_ok(rt_memory_take(memory, 429496730, "the scene", &error), &error);
+    expect_refused(rt_memory_take(memory, UINT64_C(3435973837), "the photon map", &error), &error,
+                   "the photon map needs 3.2 GiB, more than the limit of 2 GiB with 410 MiB in "
+                   "use");
+    assert_int_equal(rt_memory_foresee(memory, 1e300, "the film", NULL), RT_ERROR_MEMORY);
+    expect_ok(rt_memory_foresee(memory, 1, "the film", &error), &error);
+    expect_ok(rt_memory_take(memory, (UINT64_C(2) << 30) - 429496730, "the rest", &error), &error);
+    expect_refused(rt_memory_take(memory, 1, "a byte", &error), &error,
+                   "a byte needs 1 byte, more than the limit of 2 GiB with 2 GiB in use");
+    rt_memory_give(memory, 429496730);
+    rt_memory_get_info(memory, &info);
+    assert_true(info.used == (UINT64_C(2) << 30) - 429496730 && info.most == UINT64_C(2) << 30 &&
+                info.limit == UINT64_C(2) << 30);
+    rt_memory_give(memory, info.used);
+    rt_memory_destroy(memory);
+}
+
+static void without_a_limit_all_is_counted_and_nothing_refused(void **state)
+{
+    rt_memory *memory = new_memory(0);
+    rt_error error;
+    (void)state;
+    expect_ok(rt_memory_take(memory, UINT64_C(1) << 60, "much", &error), &error);
+    assert_true(used(memory) == UINT64_C(1) << 60);
+    rt_memory_give(memory, UINT64_C(1) << 60);
+    rt_memory_destroy(memory);
+    expect_ok(rt_memory_take(NULL, UINT64_MAX, "nowhere", &error), &error);
+    rt_memory_give(NULL, UINT64_MAX);
+    rt_memory_destroy(NULL);
+}
+
+static void blocks_count_until_they_are_freed(void **state)
+{
+    rt_memory *memory = new_memory(10000);
+    rt_error error;
+    (void)state;
+    unsigned char *zero = rt_memory_zeroed(memory, 1000, 2, "zeros", &error);
+    unsigned char *block = rt_memory_alloc(memory, 100, 10, "a block", &error);
+    assert_true(zero && block && used(memory) >= 3000 && used(memory) < 3200);
+    for (int i = 0; i < 2000; i++)
+        assert_int_equal(zero[i], 0);
+    memset(block, 7, 1000);
+    assert_null(rt_memory_resize(memory, block, 9000, 1, "a block", &error));
+    expect_refused(error.status, &error,
+                   "a block needs 8.8 KiB, more than the limit of 9.77 KiB with 1.97 KiB in use");
+    block = rt_memory_resize(memory, block, 5000, 1, "a block", &error);
+    assert_true(block && block[999] == 7 && used(memory) >= 7000);
+    block = rt_memory_resize(memory, block, 1, 1, "a block", &error);
+    assert_true(block && block[0] == 7 && used(memory) < 2200);
+    rt_memory_free(block);
+    rt_memory_free(zero);
+    rt_memory_free(NULL);
+    assert_int_equal(used(memory), 0);
+    rt_memory_destroy(memory);
+}
+
+/* Nothing of a request that no size_t holds is taken. */
+static void requests_beyond_all_memory_are_refused(void **state)
+{
+    rt_memory *memory = new_memory(0);
+    rt_error error;
+    (void)state;
+    assert_null(rt_memory_alloc(memory, SIZE_MAX, SIZE_MAX, "too much", &error));
+    assert_int_equal(error.status, RT_ERROR_MEMORY);
+    assert_null(rt_memory_alloc(memory, SIZE_MAX / 2, 1, "too much", &error));
+    assert_int_equal(error.status, RT_ERROR_MEMORY);
+    assert_null(rt_memory_alloc(NULL, SIZE_MAX / 2, 1, "too much", &error));
+    assert_non_null(strstr(error.message, "out of memory: too much needs"));
+    assert_int_equal(used(memory), 0);
+    rt_memory_destroy(memory);
+}
+
+/* By half as much again where there is room for it; near the limit by less, up to the last byte. */
+static void an_array_grows_up_to_the_limit(void **state)
+{
+    rt_memory *memory = new_memory(100000);
+    rt_error error;
+    uint32_t *array = NULL;
+    size_t room = 0, count = 0, steps = 0, before = 0;
+    (void)state;
+    while (rt_memory_grow(memory, (void **)&array, &room, count + 1, sizeof *array, "it", &error) ==
+           RT_OK) {
+        array[count] = (uint32_t)count;
+        count++;
+        steps += room != before;
+        before = room;
+    }
+    assert_true(4 * count > 99900 && 4 * count <= 100000 && steps < 200);
+    assert_non_null(strstr(error.message, "it needs 97.7 KiB, more than the limit of 97.7 KiB"));
+    for (size_t i = 0; i < count; i++)
+        assert_int_equal(array[i], i);
+    rt_memory_free(array);
+    assert_int_equal(used(memory), 0);
+    rt_memory_destroy(memory);
+}
+
+/* What is given back last frees it, should a driver be late. */
+static void it_may_be_destroyed_before_all_is_given_back(void **state)
+{
+    rt_memory *memory = new_memory(1000);
+    rt_error error;
+    (void)state;
+    void *block = rt_memory_alloc(memory, 10, 10, "a block", &error);
+    expect_ok(rt_memory_take(memory, 5, "a bit", &error), &error);
+    rt_memory_destroy(memory);
+    rt_memory_free(block);
+    rt_memory_give(memory, 5);
+}
+
+static void take_and_give(void *user, uint32_t index)
+{
+    rt_memory *memory = user;
+    rt_error error;
+    for (uint32_t i = 0; i < 2000; i++) {
+        void *block = rt_memory_alloc(memory, index + 1, 8, "a block", &error);
+        rt_memory_free(block);
+    }
+}
+
+static void threads_share_it(void **state)
+{
+    rt_memory *memory = new_memory(300);
+    rt_memory_info info;
+    (void)state;
+    rt_parallel(8, 64, take_and_give, memory);
+    rt_memory_get_info(memory, &info);
+    assert_true(info.used == 0 && info.most > 0 && info.most <= 300);
+    rt_memory_destroy(memory);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_exceeds_the_limit_is_refused_and_told),
+        cmocka_unit_test(without_a_limit_all_is_counted_and_nothing_refused),
+        cmocka_unit_test(blocks_count_until_they_are_freed),
+        cmocka_unit_test(requests_beyond_all_memory_are_refused),
+        cmocka_unit_test(an_array_grows_up_to_the_limit),
+        cmocka_unit_test(it_may_be_destroyed_before_all_is_given_back),
+        cmocka_unit_test(threads_share_it),
+    };
+    return cmocka_run_group_tests_name("lib/base/memory", tests, NULL, NULL);
+}
