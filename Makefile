@@ -180,7 +180,8 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_mode.c tests/lib/film/test_noise.c \
 	tests/lib/mode/test_photon_bias.c tests/tools/test_progress.c tests/tools/test_rtc.c \
 	tests/lib/mode/test_touching_pictures.c \
-	tests/faults/test_faults.c tests/faults/test_icd.c tests/faults/test_life.c tests/threads/test_threads.c \
+	tests/faults/test_faults.c tests/faults/test_icd.c tests/faults/test_life.c \
+	tests/threads/test_threads.c \
 	tests/tools/test_determinism.c tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
