@@ -191,7 +191,8 @@ TESTS_FULL  := \
 	tests/tools/test_scenes.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
-	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_specular.c
+	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_extremes.c \
+	tests/proof/test_specular.c
 TESTS_FULL  += $(TESTS_PROOF)
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
