@@ -8,6 +8,7 @@
 #include "message.h"
 #include "rt.h"
 #include "status.h"
+#include "untrusted.h"
 
 static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,
@@ -29,12 +30,16 @@ static int run(const command_line *arguments)
     return commands[arguments->command](arguments);
 }
 
-/* Makes the count of what --memory limits. */
+/* Makes the count of what --memory limits; what strangers send has a limit in any case. */
 static int limit_memory(command_line *arguments)
 {
     const option_value *limit = &arguments->options[OPTION_MEMORY];
+    uint64_t bytes = limit->given ? limit->count
+                     : arguments->options[OPTION_UNTRUSTED].given
+                         ? (uint64_t)UNTRUSTED_MEMORY_MIB << 20
+                         : 0;
     rt_error error;
-    return !limit->given || rt_memory_create(&arguments->memory, limit->count, &error) == RT_OK
+    return bytes == 0 || rt_memory_create(&arguments->memory, bytes, &error) == RT_OK
                ? STATUS_DONE
                : message_failure(&error);
 }

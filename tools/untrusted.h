@@ -10,8 +10,9 @@
 /* Limits of an untrusted run. */
 enum {
     UNTRUSTED_CPU_SECONDS =
-        600,                  /* of each core; then it stops as by SIGTERM, and 30 s later dies */
-    UNTRUSTED_FILE_MIB = 4096 /* the longest file that it writes */
+        600,                    /* of each core; then it stops as by SIGTERM, and 30 s later dies */
+    UNTRUSTED_FILE_MIB = 4096,  /* the longest file that it writes */
+    UNTRUSTED_MEMORY_MIB = 4096 /* for the scene and its render, where --memory says no other */
 };
 
 /* What a run is going to touch. */

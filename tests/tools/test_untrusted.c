@@ -181,6 +181,28 @@ static void a_scene_that_repeats_without_end_is_refused(void **state)
     run_free(&run);
 }
 
+/* Millions of shapes in a few lines, and a film of many GiB. */
+static void a_scene_that_fills_memory_is_refused(void **state)
+{
+    (void)state;
+    need_landlock();
+    scratch_write("in/a.rts", "material m { kd 1 }\n"
+                              "repeat i from 1 to 2000000 {\n"
+                              "sphere { centre i 0 0  radius 1  material m } }\n");
+    run run = run_rtc("check in/a.rts --untrusted --memory 100M");
+    expect_status(&run, STATUS_DEVICE);
+    expect_err(&run, "100 MiB");
+    run_free(&run);
+    scratch_write("in/a.rts",
+                  "camera { eye 0 0 -1  look_at 0 0 0  fov 40 }\n"
+                  "film { width 16384  height 16384 }\n"
+                  "material m { kd 1 }\nsphere { centre 0 0 0  radius 1  material m }\n");
+    run = run_rtc("in/a.rts --untrusted --spp 1 --aov --out out/a.exr");
+    expect_status(&run, STATUS_DEVICE);
+    expect_err(&run, "4 GiB");
+    run_free(&run);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, enter, leave)
@@ -189,6 +211,7 @@ int main(void)
         TEST(files_in_the_folder_are_read),
         TEST(rights_are_gone),
         TEST(a_scene_that_repeats_without_end_is_refused),
+        TEST(a_scene_that_fills_memory_is_refused),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
 }
