@@ -53,3 +53,10 @@ int rt_is_missing(const void *pointer, const char *name, rt_error *error)
         rt_fail_field(error, RT_ERROR_USAGE, name, "%s is NULL", name);
     return pointer == NULL;
 }
+
+const char *rt_cause(char out[RT_CAUSE_SIZE], int code)
+{
+    if (strerror_r(code, out, RT_CAUSE_SIZE) != 0)
+        snprintf(out, RT_CAUSE_SIZE, "error %d", code);
+    return out;
+}

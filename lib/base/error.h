@@ -23,6 +23,10 @@ rt_status rt_fail_field(rt_error *error, rt_status status, const char *field, co
  */
 rt_status rt_at_file(rt_status status, const char *path, rt_error *error);
 
+/* What an errno means, as strerror says it. Returns out. */
+enum { RT_CAUSE_SIZE = 128 };
+const char *rt_cause(char out[RT_CAUSE_SIZE], int code);
+
 /*
  * Whether a pointer that a call cannot do without is NULL; then *error says so as RT_ERROR_USAGE.
  */

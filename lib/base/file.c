@@ -20,11 +20,10 @@
 static rt_status fail_errno(rt_error *error, rt_status status, const char *verb, const char *path,
                             int code)
 {
-    char cause[128];
-    if (strerror_r(code, cause, sizeof cause) != 0)
-        snprintf(cause, sizeof cause, "error %d", code);
-    return rt_at_file(rt_fail(error, status, "cannot %s %.350s: %s", verb, path, cause), path,
-                      error);
+    char cause[RT_CAUSE_SIZE];
+    return rt_at_file(
+        rt_fail(error, status, "cannot %s %.350s: %s", verb, path, rt_cause(cause, code)), path,
+        error);
 }
 
 /* Reads on until there are `most` bytes, or to the end of the file. */

@@ -95,10 +95,12 @@ static void find_store(void)
     else if (home && home[0] == '/')
         length = snprintf(store, sizeof store, "%s/.cache/librt", home);
     is_kept = length > 0 && length < RT_PATH_MAX;
+    char cause[RT_CAUSE_SIZE];
     int code = is_kept ? rt_folder_make(store) : 0;
     if (code) {
         is_kept = 0;
-        snprintf(note(), NOTE, "compiled kernels are not kept: %.380s: %s", store, strerror(code));
+        snprintf(note(), NOTE, "compiled kernels are not kept: %.380s: %s", store,
+                 rt_cause(cause, code));
     } else if (is_kept) {
         make_absolute(store);
     } else if (!is_kept) {

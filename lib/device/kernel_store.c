@@ -232,11 +232,12 @@ static rt_status unpack(char folder[RT_STORED_FOLDER_MAX], size_t *files, unpack
     for (uint32_t i = 0; i < count; i++) {
         if (!take_path(&u, inner, sizeof inner) || !take_block(&u, &content, &size))
             return fail_damaged(path, error);
+        char cause[RT_CAUSE_SIZE];
         int code = unpack_file(root, inner, content, size);
         if (code)
             return rt_fail(error, RT_ERROR_INPUT,
                            "compiled kernels cannot be unpacked into %.300s: %s", work,
-                           strerror(code));
+                           rt_cause(cause, code));
     }
     *files = count;
     return u.left == 0 ? RT_OK : fail_damaged(path, error);

@@ -164,11 +164,10 @@ rt_status rt_work_folder_make(char path[RT_PATH_MAX], const char *first, rt_erro
             remove_own();
             code = ENOMEM;
         }
-        char cause[64] = "";
-        strerror_r(code, cause, sizeof cause);
+        char cause[RT_CAUSE_SIZE];
         snprintf(tried + used, sizeof tried - used, "%s%.100s (%s)", used ? ", " : "", places[i],
                  code == EPERM || code == EACCES ? "no permission to write or to load code"
-                                                 : cause);
+                                                 : rt_cause(cause, code));
     }
     return rt_fail_field(error, RT_ERROR_DEVICE, "cache",
                          "no folder to compile kernels in; tried %s; TMPDIR may name another",

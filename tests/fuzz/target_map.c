@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/crc32.h"
+#include "base/memory.h"
 #include "fuzz/targets.h"
 #include "mesh/load.h"
 #include "photon/map_file.h"
@@ -112,7 +113,8 @@ static void add(fuzz_inputs *seeds, size_t lights, int is_split, int ranges)
     rt_bytes bytes = {0};
     FUZZ_EXPECT(map != NULL);
     map->settings = (rt_photon_settings){7, 5, 1, 1, (uint32_t)is_split};
-    map->ledger.rows = calloc(lights ? lights : 1, sizeof *map->ledger.rows);
+    map->ledger.rows =
+        rt_memory_zeroed(NULL, lights, sizeof *map->ledger.rows, "the energy ledger", NULL);
     map->ledger.count = lights;
     for (size_t i = 0; map->ledger.rows && i < lights; i++)
         map->ledger.rows[i] = (rt_ledger_row){i ? RT_NONE : 2, -20, 4, {1, 2, 3}, 0.5, {{9}}};
