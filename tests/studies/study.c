@@ -16,13 +16,24 @@ static void must(const study *s, rt_status status, const rt_error *error)
     exit(1);
 }
 
+static rt_device *device;
+
+static void close_device(void)
+{
+    rt_device_close(device);
+}
+
 void study_open(study *s, const char *name, const char *scene, uint32_t side)
 {
     rt_error error;
     memset(s, 0, sizeof *s);
     s->name = name;
     must(s, rt_scene_load(&s->scene, scene, NULL, &error), &error);
-    must(s, rt_device_open(&s->device, NULL, &error), &error);
+    if (!device) {
+        must(s, rt_device_open(&device, NULL, &error), &error);
+        atexit(close_device);
+    }
+    s->device = device;
     must(s, rt_renderer_create(&s->renderer, s->scene, s->device, NULL, &error), &error);
     rt_scene_get_options(s->scene, &s->options);
     s->options.width = s->options.height = side;
@@ -31,7 +42,6 @@ void study_open(study *s, const char *name, const char *scene, uint32_t side)
 void study_close(study *s)
 {
     rt_renderer_destroy(s->renderer);
-    rt_device_close(s->device);
     rt_scene_destroy(s->scene);
 }
 

@@ -10,7 +10,7 @@
 typedef struct study {
     const char *name; /* of the program, for messages */
     rt_scene *scene;
-    rt_device *device;
+    rt_device *device; /* one for all of a program, so that kernels are built once */
     rt_renderer *renderer;
     rt_render_options options; /* the scene's own, with the size of the study's film */
 } study;
