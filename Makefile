@@ -264,9 +264,11 @@ $(B)/%.o: %.c | need-deps
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 
-# Tests are compiled more often than they run: quickly, unless someone gives CFLAGS.
+# Tests are compiled more often than they run: quickly, unless someone gives CFLAGS. They are not
+# installed, and so not hardened.
 ifeq ($(origin CFLAGS),file)
 $(B)/tests/%.o: CFLAGS := -O1 -g1
+$(B)/tests/%.o: HARDEN :=
 # A million rays in extended precision.
 $(B)/tests/kernels/shape_reference.o: CFLAGS := -O2 -g1
 endif
