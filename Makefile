@@ -174,26 +174,23 @@ TESTS_QUICK := \
 	tests/lib/texture/test_texture.c \
 	tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c
-TESTS_FULL  := \
-	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
-	tests/lib/photon/test_unbiased.c tests/render/test_samples.c \
-	tests/lib/mode/test_photon_mode.c tests/lib/film/test_noise.c \
-	tests/lib/mode/test_photon_bias.c tests/tools/test_progress.c tests/tools/test_rtc.c \
-	tests/lib/mode/test_touching_pictures.c \
-	tests/faults/test_faults.c tests/faults/test_icd.c tests/faults/test_life.c \
-	tests/threads/test_threads.c \
-	tests/tools/test_determinism.c tests/kernels/test_shapes_many.c \
-	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
-	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
-	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
-	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
-	tests/tools/test_mesh.c \
-	tests/tools/test_scenes.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_extremes.c \
 	tests/proof/test_specular.c
-TESTS_FULL  += $(TESTS_PROOF)
+TESTS_FULL  := \
+	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
+	tests/lib/mode/test_photon_mode.c tests/lib/photon/test_unbiased.c \
+	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
+	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
+	tests/tools/test_rtc.c $(TESTS_PROOF) tests/threads/test_threads.c \
+	tests/faults/test_faults.c tests/faults/test_icd.c tests/faults/test_life.c \
+	tests/lib/mode/test_photon_bias.c tests/kernels/test_shapes_many.c \
+	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
+	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
+	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
+	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
+	tests/tools/test_mesh.c tests/tools/test_scenes.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
 	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c tests/lib/photon/test_map_parts.c
