@@ -69,13 +69,12 @@
  * Option structs: set what you need, leave the rest zero; zero always means the default
  * that the member's comment states. Passing NULL for an option struct means all defaults.
  *
- * The library has no global state, but libraries that it uses do: calls that search photons set
- * FLANN's type of distance, under a lock and until they are done, and turn its log off; calls that
- * load a mesh silence OpenMesh's error stream meanwhile; an OpenCL driver compiles in one folder
- * for the whole process, see rt_device_open. Different objects may be used from different threads
- * at once; one object from one thread at a time, but any number may read and render a scene that
- * none changes. The library does not print, exit or install signal handlers; it changes the
- * environment only in the first opening of a device.
+ * The library has no global state, but libraries that it uses do: calls that load a mesh silence
+ * OpenMesh's error stream meanwhile; an OpenCL driver compiles in one folder for the whole process,
+ * see rt_device_open. Different objects may be used from different threads at once; one object from
+ * one thread at a time, but any number may read and render a scene that none changes. The library
+ * does not print, exit or install signal handlers; it changes the environment only in the first
+ * opening of a device.
  *
  * Coordinates lie within 1e15 metres, and the components of a colour, of whatever unit, between 0
  * and 1e28; values outside are refused.

@@ -91,10 +91,10 @@ int main(void) { return png_access_version_number() == 0; }
 END
 }
 
-# flann.pc pulls in what only its C++ headers need, so the library is linked by name.
-probe_flann() { compiles c '' -lflann <<'END'
-#include <flann/flann.h>
-int main(void) { flann_log_verbosity(0); return 0; }
+# flann.pc pulls in what only other headers need.
+probe_flann() { compiles cc '' '' <<'END'
+#include <flann/algorithms/kdtree_single_index.h>
+int main() { return flann::SearchParams().cores != 1; }
 END
 }
 

@@ -251,6 +251,7 @@ void read(rt_openmesh_sink &sink, const rt_openmesh_file &file)
     PieceBuffer buffer(file);
     std::istream stream(&buffer);
     stream.imbue(std::locale::classic());
+    stream.exceptions(std::ios::badbit); /* or it would keep exceptions to itself */
     RawImporter importer(sink);
     IO::Options options =
         IO::Options::Binary | IO::Options::VertexNormal | IO::Options::VertexTexCoord;

@@ -1,4 +1,4 @@
-/* openmesh_shim.h - calls OpenMesh, which is C++; no other C++ is in the library. */
+/* openmesh_shim.h - calls OpenMesh, which is C++. */
 #ifndef RT_LIB_MESH_OPENMESH_SHIM_H
 #define RT_LIB_MESH_OPENMESH_SHIM_H
 

@@ -1,9 +1,7 @@
 /*
  * flann_index.h - exact nearest neighbours among points, by FLANN's kd-tree.
  *
- * The one place that calls FLANN, whose distance type and log level are global to the process: the
- * type is set while any call from here is under way and then restored; the log is turned off by
- * each call and stays off. All functions may be called from many threads at once.
+ * All functions may be called from many threads at once.
  */
 #ifndef RT_LIB_PHOTON_FLANN_INDEX_H
 #define RT_LIB_PHOTON_FLANN_INDEX_H
@@ -26,8 +24,8 @@ void rt_flann_index_destroy(rt_flann_index *index);
 /*
  * The k nearest points of each query, nearest first: indices and squared distances, both
  * [query_count][k]. queries: [query_count][3], finite. k must be between 1 and the number of
- * points. An index beside an infinite distance means nothing: the distance overflowed. Takes 8
- * bytes of memory for each result while it works, on the calling thread alone.
+ * points. An index beside an infinite distance means nothing: the distance overflowed. Works on the
+ * calling thread alone, with 24 bytes of memory for each of k.
  */
 rt_status rt_flann_index_nearest(const rt_flann_index *index, const float *queries,
                                  size_t query_count, size_t k, int *indices, float *squared,

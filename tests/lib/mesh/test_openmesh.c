@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "faults/failing_new.h"
 #include "lib/image/scratch.h"
 #include "lib/mesh/sample.h"
 #include "mesh/openmesh_shim.h"
@@ -195,6 +196,28 @@ static void threads_do_not_disturb_each_other(void **state)
         assert_int_equal(data[i], rounds);
 }
 
+static void each_failure_of_memory_is_an_error(void **state)
+{
+    arrays a;
+    char why[64];
+    (void)state;
+    rt_openmesh_sink sink = sink_of(&a, 3, 1);
+    assert_int_equal(read_triangle(&sink, RICH, 24, why), RT_OPENMESH_OK); /* something is kept */
+    const long before = failing_new_blocks();
+    unsigned failing = 0, is_over = 0;
+    while (!is_over) {
+        sink = sink_of(&a, 3, 1);
+        failing_new_at(++failing);
+        rt_openmesh_result result = read_triangle(&sink, RICH, 24, why);
+        is_over = !failing_new_failed();
+        failing_new_at(0);
+        assert_int_equal(result, is_over ? RT_OPENMESH_OK : RT_OPENMESH_MEMORY);
+        assert_true(failing_new_blocks() <= before);
+    }
+    assert_int_equal(failing_new_blocks(), before);
+    assert_true(failing > 5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -204,6 +227,7 @@ int main(void)
         cmocka_unit_test(reading_can_be_stopped),
         cmocka_unit_test(faces_of_a_non_manifold_mesh_are_kept),
         cmocka_unit_test(threads_do_not_disturb_each_other),
+        cmocka_unit_test(each_failure_of_memory_is_an_error),
     };
     return cmocka_run_group_tests_name("mesh/openmesh", tests, scratch_enter, scratch_leave);
 }

@@ -1,12 +1,12 @@
 /* test_flann_index.c - FLANN behind the library's conventions finds what brute force finds. */
 #include "support.h"
 
-#include <flann/flann.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
+#include "faults/failing_new.h"
 #include "lib/photon/points.h"
 #include "photon/flann_index.h"
 
@@ -163,13 +163,65 @@ static void results_do_not_depend_on_threads(void **state)
     rt_flann_index_destroy(index);
 }
 
-static void the_process_keeps_its_distance_type(void **state)
+/* Builds an index and asks it, with the call of operator new of that number failing. */
+static rt_status build_and_ask(const float *positions, size_t k, unsigned failing, rt_error *error)
 {
+    int indices[queries * 300];
+    float squared[queries * 300];
+    rt_flann_index *index = NULL;
+    failing_new_at(failing);
+    rt_status status = rt_flann_index_create(&index, positions, many, NULL, error);
+    if (status == RT_OK)
+        status = rt_flann_index_nearest(index, positions, queries, k, indices, squared, error);
+    rt_flann_index_destroy(index);
+    return status;
+}
+
+/* For lists of both kinds: up to 250 and more. */
+static void each_failure_of_memory_is_an_error(void **state)
+{
+    static const size_t ks[] = {60, 300};
+    static float positions[many][3];
+    points_stream stream = {11};
+    rt_error error;
     (void)state;
-    flann_set_distance_type(FLANN_DIST_MANHATTAN, 3);
-    compare_with_brute_force(1000, 10, SCATTERED);
-    assert_int_equal(flann_get_distance_type(), FLANN_DIST_MANHATTAN);
-    flann_set_distance_type(FLANN_DIST_EUCLIDEAN, 3);
+    for (size_t i = 0; i < many; i++)
+        place(positions[i], SCATTERED, i, &stream);
+    for (size_t n = 0; n < sizeof ks / sizeof *ks; n++) {
+        const long before = failing_new_blocks();
+        unsigned failing = 0, is_over = 0;
+        while (!is_over) {
+            const rt_status status = build_and_ask(positions[0], ks[n], ++failing, &error);
+            is_over = !failing_new_failed();
+            assert_int_equal(status, is_over ? RT_OK : RT_ERROR_MEMORY);
+            assert_true(is_over || strstr(error.message, "out of memory"));
+            assert_int_equal(failing_new_blocks(), before);
+        }
+        failing_new_at(0);
+        assert_true(failing > 20);
+    }
+}
+
+static void what_it_takes_is_counted(void **state)
+{
+    static float positions[many][3];
+    points_stream stream = {13};
+    rt_flann_index *index = NULL;
+    rt_memory *memory = NULL;
+    rt_memory_info info;
+    rt_error error;
+    (void)state;
+    for (size_t i = 0; i < many; i++)
+        place(positions[i], SCATTERED, i, &stream);
+    expect_ok(rt_memory_create(&memory, 1 << 24, &error), &error);
+    expect_ok(rt_flann_index_create(&index, positions[0], many, memory, &error), &error);
+    rt_memory_get_info(memory, &info);
+    /* two copies of a point, its number and its pointer; and a node for each some points */
+    assert_in_range(info.used, many * (2 * 12 + 12), many * (2 * 12 + 12 + 48));
+    rt_flann_index_destroy(index);
+    rt_memory_get_info(memory, &info);
+    assert_int_equal(info.used, 0);
+    rt_memory_destroy(memory);
 }
 
 int main(void)
@@ -179,7 +231,8 @@ int main(void)
         cmocka_unit_test(all_points_can_be_asked_for),
         cmocka_unit_test(an_empty_set_is_an_index),
         cmocka_unit_test(results_do_not_depend_on_threads),
-        cmocka_unit_test(the_process_keeps_its_distance_type),
+        cmocka_unit_test(each_failure_of_memory_is_an_error),
+        cmocka_unit_test(what_it_takes_is_counted),
     };
     return cmocka_run_group_tests_name("lib/photon/flann_index", tests, NULL, NULL);
 }
