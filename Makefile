@@ -246,8 +246,9 @@ TEST_KERNEL_SRC  := \
 
 # ---- Build ------------------------------------------------------------------
 
-LIB_OBJ  := $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) \
-            $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) $(B)/kernels.o
+# The C++ file first, which takes the longest.
+LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
+            $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(B)/kernels.o
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
