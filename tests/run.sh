@@ -80,6 +80,9 @@ if [ "${1:-}" = -j ]; then
 fi
 RT_TEST_TIMEOUT=${RT_TEST_TIMEOUT:-$((600 * jobs))}
 export RT_TEST_TIMEOUT
+# Tests render many small pictures. What one frees glibc would return to the system, for the next to
+# ask for it again page by page.
+export MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=1000000000
 work=$(mktemp -d "${TMPDIR:-/tmp}/librt-tests.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
