@@ -96,6 +96,22 @@ rt_status rt_setting_set(rt_render_options *options, const rt_setting *setting, 
     return RT_OK;
 }
 
+/*
+ * The shortest text that reads back as the value: more digits of a float could be less than the
+ * least number of its range.
+ */
+static void write_real(char *out, size_t size, const rt_field *field, double value)
+{
+    const int is_single = field->size == sizeof(float);
+    double again;
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(out, size, "%.*g", digits, value);
+        if (rt_number_read(&again, out, strlen(out)) == RT_NUMBER_OK &&
+            (is_single ? (float)again == (float)value : again == value))
+            return;
+    }
+}
+
 const char *rt_setting_get(char *out, size_t size, const rt_setting *setting,
                            const rt_render_options *options)
 {
@@ -106,8 +122,10 @@ const char *rt_setting_get(char *out, size_t size, const rt_setting *setting,
             snprintf(out, size, "%s", word->name);
             return out;
         }
-    snprintf(out, size, "%.*g",
-             field->size == sizeof(float) && field->type == RT_FIELD_NUMBER ? 9 : 17, value);
+    if (field->type == RT_FIELD_NUMBER)
+        write_real(out, size, field, value);
+    else
+        snprintf(out, size, "%.17g", value);
     return out;
 }
 
