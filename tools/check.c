@@ -84,7 +84,7 @@ int command_check(const command_line *arguments)
         return STATUS_USAGE;
     }
     if (arguments->options[OPTION_JSON].given)
-        message_as_json();
+        message_as_json(1);
     int status = confine(arguments);
     if (status != STATUS_DONE)
         return status;

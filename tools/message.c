@@ -62,12 +62,13 @@ static void put_safe(const char *text, size_t length)
 
 static int as_json;
 
-void message_as_json(void)
+void message_as_json(int is_json)
 {
     /* A line goes out whole, so that a signal that speaks up does not cut one in two. */
     static char line[1 << 16];
-    setvbuf(stderr, line, _IOLBF, sizeof line);
-    as_json = 1;
+    if (is_json)
+        setvbuf(stderr, line, _IOLBF, sizeof line);
+    as_json = is_json;
 }
 
 static void put_json(const char *name, const char *text)

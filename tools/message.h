@@ -13,11 +13,11 @@
 #endif
 
 /*
- * From now on every line on stderr is a JSON object: {"severity": "error", "message": ...}, with
- * "warning", "hint" and "note" likewise, and "file", "line" and "column" before the message where a
- * scene is at fault.
+ * From now on every line on stderr is a JSON object, or no longer: {"severity": "error", "message":
+ * ...}, with "warning", "hint" and "note" likewise, and "file", "line" and "column" before the
+ * message where a scene is at fault.
  */
-void message_as_json(void);
+void message_as_json(int is_json);
 
 /*
  * "rtc: error: ...", "rtc: warning: ...", "  hint: ..." and, without a prefix, a note; each one

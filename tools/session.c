@@ -45,7 +45,7 @@ void session_begin(session *s, const command_line *arguments)
     s->hooks.warning = s->quiet ? NULL : on_warning;
     s->hooks.user = s;
     if (s->progress.style == PROGRESS_JSON)
-        message_as_json();
+        message_as_json(1);
     interrupt_catch(s->progress.style == PROGRESS_JSON, s->quiet);
 }
 
