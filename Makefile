@@ -228,8 +228,9 @@ TEST_SUPPORT_SRC := \
 	tests/tools/expect.c tests/tools/spawn.c
 # What the programs of fuzzing share.
 FUZZ_SRC := \
-	tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c tests/fuzz/mesh.c \
-	tests/fuzz/no_interrupt.c tests/fuzz/scene_text.c \
+	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \
+	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/no_interrupt.c tests/fuzz/ply_file.c \
+	tests/fuzz/scene_text.c \
 	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_map.c \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
 	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \
@@ -338,12 +339,13 @@ $(B)/tests/bench/bench_gather: TEST_LIBS += -lflann
 # The targets of fuzzing, and the command line of rtc, which is one of them.
 FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) \
             $(filter-out tools/interrupt.c tools/rtc.c,$(TOOL_SRC)))
+FUZZ_LINK := -Wl,--wrap=rt_device_open
 $(B)/tests/fuzz/test_fuzz $(B)/tests/fuzz/make_inputs: \
 $(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
-	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
+	$(CC) $(CFLAGS) $(LDFLAGS) $(FUZZ_LINK) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
 
 $(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/librt.a
-	$(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
+	$(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) $(FUZZ_LINK) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
 
 # Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build. One
 # test more than cores runs at a time, as a test often waits for its device.

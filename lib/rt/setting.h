@@ -67,7 +67,7 @@ RT_API const rt_setting *rt_setting_find(const char *name);
 RT_API rt_status rt_setting_set(rt_render_options *options, const rt_setting *setting,
                                 const char *text, rt_error *error);
 
-/* Its value as a text that rt_setting_set takes, but for a 0 that means the default. Returns out. */
+/* Its value as a text that rt_setting_set takes, but for the 0 of a default. Returns out. */
 RT_API const char *rt_setting_get(char *out, size_t size, const rt_setting *setting,
                                   const rt_render_options *options);
 

@@ -66,11 +66,19 @@ libfuzzer() {
     return $status
 }
 
-# replay TARGET: runs the inputs of its corpus, and leaves what they reach in $work/reached, a line
-# for each function, and $work/profile.
+# make_seeds TARGET: into $work/seeds.
+make_seeds() {
+    mkdir -p "$corpus/$1"
+    rm -rf "$work/seeds"
+    mkdir "$work/seeds"
+    "$inputs" seeds "$1" "$work/seeds"
+}
+
+# replay TARGET: runs its seeds and the inputs of its corpus, and leaves what they reach in
+# $work/reached, a line for each function, and $work/profile.
 replay() {
     fuzz=$edges LLVM_PROFILE_FILE=$work/profile libfuzzer "$1" -runs=0 -print_coverage=1 \
-        "$corpus/$1" >"$work/reached" 2>&1
+        "$corpus/$1" "$work/seeds" >"$work/reached" 2>&1
 }
 
 # count_edges TARGET: "REACHED ALL" of the edges in its own files, after replay.
@@ -102,11 +110,15 @@ unreached() {
         $1 == "SF" { file = $2; sub(top, "", file) }
         # A function of a header is there once for each file that includes it.
         $1 == "FNDA" { calls[file ": " $NF] += $2 }
-        $1 == "BRDA" { taken[file ":" $2 ": branch " ($4 % 2 ? "false" : "true") \
-            " of condition " int($4 / 2) + 1 " is not taken"] += $5 }
+        $1 == "BRDA" { taken[file ":" $2, int($4 / 2) + 1, $4 % 2 ? "false" : "true"] += $5 }
         END {
             for (f in calls) if (!calls[f]) print f " is not called"
-            for (b in taken) if (!taken[b]) print b
+            for (b in taken) {
+                split(b, at, SUBSEP)
+                other = at[3] == "true" ? "false" : "true"
+                if (!taken[b] && taken[at[1], at[2], other])
+                    print at[1] ": condition " at[2] " is never " at[3]
+            }
         }' "$work/lcov" | sort -t : -k 1,1 -k 2,2n -k 3
 }
 
@@ -118,10 +130,7 @@ stat_of() {
 
 # turn TARGET SECONDS: one run, until it has used so much CPU time.
 turn() {
-    mkdir -p "$corpus/$1"
-    rm -rf "$work/seeds"
-    mkdir "$work/seeds"
-    "$inputs" seeds "$1" "$work/seeds"
+    make_seeds "$1"
     words "$1" >"$work/words"
     printf '"\\x%s"\n' 00 ff >>"$work/words" # libFuzzer refuses an empty dictionary
     RT_FUZZ_SECONDS=$2 libfuzzer "$1" -dict="$work/words" -max_len="$(size_of "$1")" \
@@ -205,6 +214,7 @@ amount=${2:-}
 shift 2
 case $what in
 --unreached)
+    make_seeds "$amount"
     replay "$amount"
     count_edges "$amount" | awk '{ printf "%d of %d edges are reached\n", $1, $2 }'
     unreached "$amount"

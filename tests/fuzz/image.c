@@ -56,6 +56,18 @@ static void check_file(const rt_image *image, const uint8_t *data, size_t size)
     rt_image_destroy(again);
 }
 
+/* As a file it is refused too, by its name, unless it is one of another format. */
+static void check_refused(const uint8_t *data, size_t size)
+{
+    rt_image *image = fuzz_untouched;
+    rt_error error;
+    fuzz_write("image", data, size);
+    if (fuzz_expect_answer(rt_image_read(&image, "image", &error), &error, image))
+        rt_image_destroy(image);
+    else
+        FUZZ_EXPECT(strcmp(error.file, "image") == 0);
+}
+
 /* Code or bit pattern of the picture's channel c at pixel i. */
 static float value_of(const rt_image *image, size_t i, uint32_t c)
 {
@@ -89,8 +101,10 @@ static void check_round_trip(const rt_image *image, fuzz_decoder *decode, fuzz_e
 int fuzz_image_run(fuzz_decoder *decode, fuzz_encoder *encode, const uint8_t *data, size_t size)
 {
     rt_image *image = fuzz_image_decode(decode, data, size);
-    if (!image)
+    if (!image) {
+        check_refused(data, size);
         return 0;
+    }
     check_image(image);
     if (value_count(image) <= CHECKED_MAX) {
         check_file(image, data, size);

@@ -8,6 +8,8 @@
 const char fuzz_scene_names[] = "let n = 2\n"
                                 "material m { kd 0.5 }\n"
                                 "material g { kt 1  ior 1.5  fresnel dielectric }\n"
+                                "material h { kt 0.9  ior 1.3  fresnel dielectric }\n"
+                                "material c { ks 1  fresnel conductor  eta 1  k 3 }\n"
                                 "material e { emission 3 }\n"
                                 "texture t { file \"t.png\" }\n"
                                 "mesh thing { file \"m.ply\" }\n";
@@ -102,7 +104,8 @@ static void put_file(const writer *w, rt_block_id block)
 /* One of these names, or any where values are wild. */
 static void put_value(const writer *w, const rt_field *field, rt_block_id block)
 {
-    static const char *const materials[] = {"m", "g", "e", "x1"}, *const textures[] = {"t"};
+    static const char *const materials[] = {"m", "g", "h", "c", "e", "x1"}, *const textures[] = {
+                                                                                "t"};
     static const char *const axes[] = {"0 1 0 ", "1 1 0 ", "0 0 1 "};
     switch (field->type) {
     case RT_FIELD_NUMBER:
@@ -126,7 +129,7 @@ static void put_value(const writer *w, const rt_field *field, rt_block_id block)
         put_word(w, rt_field_words(field));
         break;
     case RT_FIELD_MATERIAL:
-        put_choice(w, materials, w->is_wild ? 4 : 2);
+        put_choice(w, materials, w->is_wild ? 6 : 4);
         break;
     case RT_FIELD_TEXTURE:
         put_choice(w, textures, 1);
@@ -155,8 +158,10 @@ static void put_value(const writer *w, const rt_field *field, rt_block_id block)
 /* Whether a block gets a field; `grouped` counts those that exclude each other. */
 static int has_field(const writer *w, const rt_field *field, fuzz_fields fields, int *grouped)
 {
-    if (fields == FUZZ_FIELDS_ANY)
-        return field->need == RT_NEED_OPTIONAL ? below(w, 4) == 0 : below(w, 16) != 0;
+    if (fields == FUZZ_FIELDS_ANY && field->need == RT_NEED_OPTIONAL)
+        return below(w, 4) == 0;
+    if (w->is_wild)
+        return below(w, 16) != 0;
     switch (field->need) {
     case RT_NEED_REQUIRED:
         return 1;
@@ -174,7 +179,8 @@ static int has_field(const writer *w, const rt_field *field, fuzz_fields fields,
 
 void fuzz_scene_block(rt_bytes *out, const rt_block *block, fuzz_fields fields, fuzz_random *random)
 {
-    const writer w = {out, random, fields == FUZZ_FIELDS_ANY};
+    const int is_wild = fields == FUZZ_FIELDS_ANY && fuzz_random_below(random, 2);
+    const writer w = {out, random, is_wild};
     const rt_field *field;
     char title[RT_BLOCK_TITLE_SIZE], name[16];
     int grouped = 0;

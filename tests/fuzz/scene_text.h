@@ -9,7 +9,7 @@
 typedef enum fuzz_fields {
     FUZZ_FIELDS_NEEDED, /* only those that it must have, with values that it takes */
     FUZZ_FIELDS_ALL,    /* those that may stand together, likewise */
-    FUZZ_FIELDS_ANY /* a random choice, with values at and beyond the ends of their ranges too */
+    FUZZ_FIELDS_ANY     /* a random choice, half of the time with values that may be wrong */
 } fuzz_fields;
 
 /*

@@ -8,14 +8,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/error.h"
+#include "fuzz/arguments.h"
+#include "fuzz/json.h"
 #include "fuzz/targets.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/help.h"
-#include "tools/light_shares.h"
 #include "tools/message.h"
-#include "tools/photons.h"
-#include "tools/settings.h"
 #include "tools/status.h"
 
 enum { arguments_max = 64, triangles_max = 1000 };
@@ -27,28 +27,7 @@ static int is_given(const command_line *line, option_id id)
     return line->options[id].given;
 }
 
-/* What a render does with its options before it opens the device. */
-static int set_options(const command_line *line)
-{
-    rt_render_options options = {0};
-    rt_scene *scene = NULL;
-    rt_error error;
-    float *shares = NULL;
-    size_t count = 0;
-    int status = light_shares_read(&shares, &count, line);
-    FUZZ_EXPECT(rt_scene_load(&scene, "s.rts", NULL, &error) == RT_OK);
-    rt_scene_get_options(scene, &options);
-    settings_apply(line, &options, NULL);
-    options.light_shares = shares;
-    options.light_share_count = count;
-    if (status == STATUS_DONE && rt_scene_set_options(scene, &options, &error) != RT_OK)
-        status = message_failure(&error);
-    rt_scene_destroy(scene);
-    free(shares);
-    return status;
-}
-
-/* Whether a command keeps to small files of the current directory. */
+/* Whether a command keeps to small files of the current directory, and asks for no device. */
 static int is_harmless(const command_line *line)
 {
     for (size_t i = 0; i < line->operand_count; i++)
@@ -57,30 +36,52 @@ static int is_harmless(const command_line *line)
     for (size_t i = 0; i < line->output_count; i++)
         if (strchr(line->outputs[i], '/'))
             return 0;
-    return line->command != COMMAND_MESH ||
-           (is_given(line, OPTION_TRIANGLES) &&
-            line->options[OPTION_TRIANGLES].count <= triangles_max);
+    if (is_given(line, OPTION_PHOTON_MAP) && strchr(line->options[OPTION_PHOTON_MAP].text, '/'))
+        return 0;
+    if (line->command == COMMAND_MESH)
+        return is_given(line, OPTION_TRIANGLES) &&
+               line->options[OPTION_TRIANGLES].count <= triangles_max;
+    return line->command != COMMAND_DEVICES && line->command != COMMAND_DOCTOR;
+}
+
+/* Stands in for rt_device_open: a render ends where it would begin. */
+rt_status __wrap_rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error);
+rt_status __wrap_rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error)
+{
+    (void)out;
+    (void)options;
+    return rt_fail(error, RT_ERROR_DEVICE, "there is no device where commands are fuzzed");
 }
 
 static int run_command(const command_line *line)
 {
+    static int (*const commands[COMMAND_COUNT])(const command_line *) = {
+        [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,
+        [COMMAND_MESH] = command_mesh,       [COMMAND_PHOTONS] = command_photons,
+        [COMMAND_COMPARE] = command_compare,
+    };
+    message_as_json(0);
     if (is_given(line, OPTION_HELP)) {
         help_print(line);
         return STATUS_DONE;
     }
-    if (line->command == COMMAND_RENDER ||
-        (line->command == COMMAND_PHOTONS && !photons_find_form(line)))
-        return set_options(line);
-    if (!is_harmless(line))
-        return STATUS_DONE;
-    return line->command == COMMAND_CHECK     ? command_check(line)
-           : line->command == COMMAND_MESH    ? command_mesh(line)
-           : line->command == COMMAND_PHOTONS ? command_photons(line)
-           : line->command == COMMAND_COMPARE ? command_compare(line)
-                                              : STATUS_DONE;
+    return is_harmless(line) ? commands[line->command](line) : STATUS_DONE;
 }
 
 /* ---- The files of the current directory ---------------------------------------------------- */
+
+/* Many errors, and a long line of letters of two bytes. */
+static void write_errors(void)
+{
+    rt_bytes text = {0};
+    for (int i = 0; i < 40; i++)
+        fuzz_put_text(&text, "sphere { radius 1 }\n");
+    fuzz_put_text(&text, "camera { eye ");
+    for (int i = 0; i < 80; i++)
+        fuzz_put_text(&text, "\"\303\244\" ");
+    fuzz_write("e.rts", text.data, text.size);
+    rt_bytes_free(&text);
+}
 
 static void begin(void)
 {
@@ -88,27 +89,32 @@ static void begin(void)
                                 "sphere { centre 0 1 0 radius 1 material m }\n"
                                 "light point { position 2 4 -3 intensity 20 }\n"
                                 "light point { position 2 4 3 power 1 }\n",
-                      wrong[] = "material m { kd 2 }\nsphere { radius }\n";
+                      wrong[] = "material m { kd 2 }\n\tsphere { radius }\nlet \303\244 = \033\n",
+                      photons[] = "render { mode photon  passes 3 }\nmaterial m { kd 0.7 }\n"
+                                  "plane { point 0 0 0  normal 0 1 0  material m }\n";
     fuzz_write("s.rts", scene, sizeof scene - 1);
     fuzz_write("w.rts", wrong, sizeof wrong - 1);
-    fuzz_write_seed(&fuzz_target_exr, 0, "a.exr");
-    fuzz_write_seed(&fuzz_target_exr, 2, "b.exr");
+    fuzz_write("p.rts", photons, sizeof photons - 1);
+    fuzz_write_seed(&fuzz_target_exr, 1, "a.exr");
+    fuzz_write_seed(&fuzz_target_exr, 3, "b.exr");
     fuzz_write_seed(&fuzz_target_png, 10, "c.png");
     fuzz_write_seed(&fuzz_target_map, 1, "m.rtp");
     fuzz_write_seed(&fuzz_target_map, 2, "n.rtp");
+    fuzz_write_seed(&fuzz_target_map, 3, "k.rtp");
+    fuzz_write_seed(&fuzz_target_map, 0, "z.rtp");
+    fuzz_write_seed(&fuzz_target_exr, FUZZ_EXR_LAYERS, "l.exr");
+    write_errors();
 }
 
 /* Takes away what the command has written, which may have been a file of begin. */
 static void clean(const command_line *line)
 {
-    static const char *const made[] = {"s.rts", "w.rts", "a.exr", "b.exr",
-                                       "c.png", "m.rtp", "n.rtp"};
     int is_lost = 0;
     for (size_t i = 0; i < line->output_count; i++) {
         if (!strchr(line->outputs[i], '/'))
             unlink(line->outputs[i]);
-        for (size_t j = 0; j < sizeof made / sizeof *made; j++)
-            is_lost |= strcmp(line->outputs[i], made[j]) == 0;
+        for (size_t j = 0; fuzz_command_files[j]; j++)
+            is_lost |= strcmp(line->outputs[i], fuzz_command_files[j]) == 0;
     }
     if (is_lost)
         begin();
@@ -129,8 +135,19 @@ static void check_messages(const char *said, size_t size, int status)
         FUZZ_EXPECT(((unsigned char)said[i] >= 0x20 && said[i] != 0x7f) || said[i] == '\n' ||
                     said[i] == '\t');
     FUZZ_EXPECT(status == STATUS_DONE || status == STATUS_INPUT || status == STATUS_USAGE ||
-                status == STATUS_OUTPUT);
+                status == STATUS_OUTPUT || status == STATUS_DEVICE);
     FUZZ_EXPECT(status == STATUS_DONE || status == STATUS_INPUT || strstr(said, "error"));
+}
+
+/* With --json results are JSON, and so are the messages of a check and with --progress json. */
+static void check_json(const command_line *line, int is_good, const char *out, const char *messages)
+{
+    int has_json = is_good && is_given(line, OPTION_JSON) && !is_given(line, OPTION_HELP);
+    int is_run = line->command != COMMAND_DEVICES && line->command != COMMAND_DOCTOR;
+    if (has_json && is_run)
+        FUZZ_EXPECT(fuzz_is_json_lines(out));
+    if (has_json && line->command == COMMAND_CHECK && line->operand_count)
+        FUZZ_EXPECT(fuzz_is_json_lines(messages));
 }
 
 /* Writes of a stream: its text, which has a closing zero. */
@@ -166,12 +183,13 @@ static int run_line(int argc, char **argv)
         status = run_command(&line);
         clean(&line);
     }
-    arguments_free(&line);
     fclose(stdout);
     fclose(stderr);
     stdout = real[0];
     stderr = real[1];
     check_messages((const char *)said[1].data, said[1].size, status);
+    check_json(&line, is_good, (const char *)said[0].data, (const char *)said[1].data);
+    arguments_free(&line);
     rt_bytes_free(&said[0]);
     rt_bytes_free(&said[1]);
     return is_good;
@@ -199,65 +217,88 @@ static int run(const uint8_t *data, size_t size)
 
 /* ---- Seeds --------------------------------------------------------------------------------- */
 
+static const char *const lines[] = {
+    "s.rts\n--spp\n16\n--mode=photon\n--k\n50\n--no-roulette",
+    "p.rts\n--light-shares\n1,2\n--photons\n1e6\n--out\na.png\n--aov",
+    "p.rts\n--photon-map\nm.rtp\n--verbose",
+    "photons\np.rts\n--part\n1/4\n--out\no.rtp\n--seed\n3",
+    "check\ns.rts\nw.rts\np.rts\n--json",
+    "check\nw.rts",
+    "check\np.rts\n--quiet",
+    "compare\na.exr\nb.exr\n--max-rmse\n0.1\n--min-ssim\n1\n--blocks\n--out\no.png",
+    "compare\nc.png\nc.png\n--json\n--blocks\n--block\n2\n--max-bias\n0\n--max-off\n0",
+    "compare\na.exr\na.exr\nb.exr\n--layer\nalbedo\n--tolerance\n.1",
+    "compare\nl.exr\nl.exr\n--json\n--max-mse\n0.1",
+    "compare\nl.exr\nl.exr\n--max-rmse\n0.1\n--max-flip\n0\n--layer\nalbedo",
+    "photons\ndiff\nz.rtp\nm.rtp\n--json",
+    "photons\ninfo\nz.rtp\n--json",
+    "check\ne.rts",
+    "s.rts\n--progress\njson\n--variance\n--out\no.png\n--exposure\n1\n--max_depth\n3",
+    "photons\ninfo\nm.rtp\nn.rtp",
+    "photons\ninfo\nn.rtp\nm.rtp\n--json",
+    "photons\ndiff\nk.rtp\nn.rtp",
+    "photons\ndiff\nm.rtp\nn.rtp\n--json",
+    "photons\ndiff\nn.rtp\nn.rtp\n--json",
+    "photons\nmerge\nk.rtp\nn.rtp\n--out\no.rtp",
+    "photons\nexport\nn.rtp\n--out\no.ply",
+    "mesh\nsphere\n--triangles\n100\n--out\no.ply",
+    "mesh\ntorus\n--triangles\n30",
+    "mesh\nknot\n--triangles\n1",
+    "mesh\nterrain\n--triangles\n200",
+    "help\nphotons\ninfo",
+    "help\ncompare",
+    "chekc\ns.rts\n--spp",
+};
+
 static void seed(fuzz_inputs *seeds)
 {
-    fuzz_add_text(seeds, "s.rts\n--spp\n16\n--mode=photon\n--k\n50\n--no-roulette");
-    fuzz_add_text(seeds, "s.rts\n--light-shares\n1,2\n--photons\n1e6\n--out\na.png\n--aov");
-    fuzz_add_text(seeds, "check\ns.rts\nw.rts\n--json");
-    fuzz_add_text(seeds, "compare\na.exr\nb.exr\n--max-rmse\n0.1\n--blocks\n--out\nd.png");
-    fuzz_add_text(seeds, "compare\nc.png\nc.png\n--json\n--block\n2\n--tolerance\n.1");
-    fuzz_add_text(seeds, "photons\ninfo\nm.rtp\nn.rtp");
-    fuzz_add_text(seeds, "photons\ndiff\nm.rtp\nn.rtp\n--json");
-    fuzz_add_text(seeds, "photons\nmerge\nm.rtp\n--out\no.rtp");
-    fuzz_add_text(seeds, "photons\nexport\nn.rtp\n--out\no.ply");
-    fuzz_add_text(seeds, "mesh\nsphere\n--triangles\n100\n--out\no.ply");
-    fuzz_add_text(seeds, "help\nphotons\ninfo");
+    fuzz_random random = fuzz_random_begin(5);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        fuzz_add_text(seeds, lines[i]);
+    for (size_t i = 0; i < fuzz_option_count(); i++)
+        for (int command = COMMAND_RENDER; command < COMMAND_COUNT; command++) {
+            rt_bytes line = {0};
+            fuzz_put_text(&line, command_name((command_id)command));
+            fuzz_put_text(&line, command == COMMAND_RENDER ? "s.rts\n" : "\ns.rts\n");
+            fuzz_option(&line, i, &random);
+            fuzz_add(seeds, line.data, line.size);
+            rt_bytes_free(&line);
+        }
 }
 
-static void add_option(fuzz_inputs *words, const char *before, const char *name)
-{
-    char text[SETTING_NAME_SIZE + 8];
-    snprintf(text, sizeof text, "%s%s", before, name);
-    fuzz_add_text(words, text);
-}
+/* ---- Mutation ------------------------------------------------------------------------------ */
 
-static void words(fuzz_inputs *out)
+/* Adds an argument, puts one in the place of another, or takes one away. */
+static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t seed)
 {
-    static const char *const others[] = {
-        "help",   "render", "info",  "merge", "diff",  "export", "s.rts", "w.rts", "a.exr",
-        "b.exr",  "c.png",  "m.rtp", "n.rtp", "o.ply", "o.rtp",  "o.png", "1e6",   "-1",
-        "sphere", "torus",  "knot",  "--",    "\n",    "all",    "0.5",   NULL};
-    char name[SETTING_NAME_SIZE];
-    size_t count;
-    const rt_setting *settings = rt_settings(&count);
-    for (size_t i = 0; others[i]; i++)
-        fuzz_add_text(out, others[i]);
-    for (int i = COMMAND_RENDER + 1; i < COMMAND_COUNT; i++)
-        fuzz_add_text(out, command_name((command_id)i));
-    for (int i = 0; i < OPTION_COUNT; i++) {
-        add_option(out, "\n--", option_table[i].name);
-        for (const rt_word *word = option_table[i].words; word && word->name; word++)
-            fuzz_add_text(out, word->name);
-    }
-    for (size_t i = 0; i < count; i++) {
-        const rt_word *word = rt_field_words(&settings[i].field);
-        add_option(out, settings_is_switch(&settings[i]) ? "\n--no-" : "\n--",
-                   settings_name(name, &settings[i]));
-        for (; word && word->name; word++)
-            fuzz_add_text(out, word->name);
-    }
+    fuzz_random random = fuzz_random_begin(seed);
+    uint32_t choice = fuzz_random_below(&random, 8);
+    rt_bytes argument = {0};
+    if (choice < 3)
+        return fuzz_mutate_bytes(data, size, room);
+    size_t at = fuzz_random_below(&random, (uint32_t)size + 1);
+    while (at > 0 && data[at - 1] != '\n')
+        at--;
+    const uint8_t *end = memchr(data + at, '\n', size - at);
+    size_t length = end ? (size_t)(end - data) + 1 - at : size - at;
+    if (choice < 7)
+        fuzz_any_argument(&argument, &random);
+    size = fuzz_splice(data, size, room, at, choice < 5 ? 0 : length, argument.data, argument.size);
+    rt_bytes_free(&argument);
+    return size;
 }
 
 const fuzz_target fuzz_target_command = {
     .name = "command",
-    .sources = "tools/command_line.c tools/options.c tools/settings.c tools/number.c "
-               "tools/message.c tools/help.c tools/check.c tools/compare* tools/photons.c "
-               "tools/photons_info.c tools/photons_json.c tools/mesh* tools/light_shares.c "
-               "tools/inputs.c tools/json.c tools/scene_file.c",
+    .sources = "tools/check.c tools/command_line.c tools/compare* tools/help.c tools/inputs.c "
+               "tools/json.c tools/light_shares.c tools/mesh* tools/message.c tools/no_effect.c "
+               "tools/number.c tools/options.c tools/outputs.c tools/photons* tools/render.c "
+               "tools/scene_file.c tools/session.c tools/settings.c",
     .run = run,
     .seed = seed,
-    .words = words,
+    .words = fuzz_argument_words,
     .begin = begin,
+    .mutate = mutate,
     .size_max = 512,
-    .tries = 3000,
+    .tries = 15000,
 };

@@ -1,4 +1,5 @@
 /* target_exr.c - OpenEXR files. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,11 +55,43 @@ static void check_layers(const uint8_t *data, size_t size)
     rt_image_destroy(image);
 }
 
+/* The values of each layer, and of none; then the file of the picture itself in each format. */
+static void check_rgb(const uint8_t *data, size_t size)
+{
+    static const char *const files[] = {"out.exr", "out.png", "out.ppm", "out.pfm", "out.xyz"};
+    rt_image *image = fuzz_image_decode(rt_exr_decode, data, size);
+    size_t pixels = (size_t)image->width * image->height;
+    float *rgb = pixels < 65536 ? malloc(3 * pixels * sizeof *rgb) : NULL;
+    rt_error error;
+    for (uint32_t i = 0; rgb && i < image->channel_count && i < 16; i++) {
+        char layer[RT_IMAGE_NAME_SIZE];
+        strcpy(layer, image->names[i]);
+        char *dot = strrchr(layer, '.');
+        if (dot)
+            *dot = '\0';
+        rt_status status = rt_image_get_rgb(rgb, image, i ? layer : "unknown.layer", &error);
+        FUZZ_EXPECT(status == RT_OK || status == RT_ERROR_INPUT);
+        FUZZ_EXPECT(i == 0 || (status == RT_OK) == rt_image_has_layer(image, layer));
+    }
+    for (size_t i = 0; rgb && i < sizeof files / sizeof *files; i++) {
+        rt_image *again = NULL;
+        if (rt_image_write(image, files[i], NULL, &error) != RT_OK)
+            fuzz_expect_line(error.message);
+        else
+            FUZZ_EXPECT(rt_image_read(&again, files[i], &error) == RT_OK);
+        rt_image_destroy(again);
+    }
+    free(rgb);
+    rt_image_destroy(image);
+}
+
 static int run(const uint8_t *data, size_t size)
 {
     if (!fuzz_image_run(rt_exr_decode, NULL, data, size))
         return 0;
     check_layers(data, size);
+    if (size % 8 == 0)
+        check_rgb(data, size);
     return 1;
 }
 
@@ -79,7 +112,7 @@ static void add_layers(fuzz_inputs *seeds)
     rt_bytes file = {0};
     FUZZ_EXPECT(rt_image_create(&image, 3, 2, names, 6, NULL) == RT_OK);
     for (size_t i = 0; i < 36; i++)
-        image->data[i] = (float)i;
+        image->data[i] = i == 12 ? NAN : i == 18 ? INFINITY : (float)i;
     FUZZ_EXPECT(rt_image_set_attribute(image, "mode", "photon", NULL) == RT_OK);
     FUZZ_EXPECT(rt_image_set_attribute(image, "a name of more than thirty-one bytes", "", NULL) ==
                 RT_OK);
@@ -92,6 +125,7 @@ static void add_layers(fuzz_inputs *seeds)
 static void seed(fuzz_inputs *seeds)
 {
     static const exr_pixel_type_t types[] = {EXR_PIXEL_HALF, EXR_PIXEL_FLOAT, EXR_PIXEL_UINT};
+    add_layers(seeds);
     for (int i = 0; i <= EXR_COMPRESSION_B44A; i++) {
         exr_sample lines = {
             EXR_STORAGE_SCANLINE, types[i % 3], (exr_compression_t)i, -2, 3, 5, 4, 0, 0};
@@ -106,7 +140,6 @@ static void seed(fuzz_inputs *seeds)
         EXR_STORAGE_SCANLINE, EXR_PIXEL_HALF, EXR_COMPRESSION_NONE, 0, 0, 4, 4, 0, 2};
     add_sample(seeds, &deep);
     add_sample(seeds, &coarse);
-    add_layers(seeds);
 }
 
 /* ---- Mutation ------------------------------------------------------------------------------ */
@@ -222,5 +255,5 @@ const fuzz_target fuzz_target_exr = {
     .begin = begin,
     .mutate = mutate,
     .size_max = 4096,
-    .tries = 4000,
+    .tries = 15000,
 };

@@ -24,5 +24,5 @@ const fuzz_target fuzz_target_obj = {
     .run = run,
     .seed = seed,
     .size_max = 4096,
-    .tries = 4000,
+    .tries = 20000,
 };

@@ -3,11 +3,13 @@
 #include <string.h>
 
 #include "fuzz/mesh.h"
+#include "fuzz/ply_file.h"
 #include "fuzz/targets.h"
 
 static int run(const uint8_t *data, size_t size)
 {
-    return fuzz_mesh_run("a.ply", data, size, 0);
+    /* The content tells the format, whatever the name; what is no PLY has none. */
+    return fuzz_mesh_run(size % 4 ? "a.ply" : "a", data, size, 0);
 }
 
 /* ---- Seeds --------------------------------------------------------------------------------- */
@@ -61,6 +63,13 @@ static void seed(fuzz_inputs *seeds)
                          "3 0 1 2 6 0 0 1 0 1 1\n4 0 1 2 3 0\n6 0 1 2 -1 3 2\n");
     fuzz_add_text(seeds,
                   "ply\nformat ascii 1.0\n" CORNERS "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n");
+    fuzz_random random = fuzz_random_begin(11);
+    for (int i = 0; i < 60; i++) {
+        rt_bytes file = {0};
+        fuzz_ply_file(&file, &random);
+        fuzz_add(seeds, file.data, file.size);
+        rt_bytes_free(&file);
+    }
     for (int is_big = 0; is_big < 2; is_big++) {
         rt_bytes binary = {0};
         put_binary(&binary, is_big);
@@ -146,6 +155,14 @@ static size_t repair(uint8_t *data, size_t size, size_t room, fuzz_random *rando
 static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t seed)
 {
     fuzz_random random = fuzz_random_begin(seed);
+    rt_bytes file = {0};
+    if (fuzz_random_below(&random, 8) == 0)
+        fuzz_ply_file(&file, &random);
+    if (file.size && file.size <= room) {
+        size = file.size;
+        memcpy(data, file.data, size);
+    }
+    rt_bytes_free(&file);
     size = fuzz_mutate_bytes(data, size, room);
     return fuzz_random_below(&random, 4) ? repair(data, size, room, &random) : size;
 }
@@ -158,5 +175,5 @@ const fuzz_target fuzz_target_ply = {
     .seed = seed,
     .mutate = mutate,
     .size_max = 4096,
-    .tries = 4000,
+    .tries = 20000,
 };

@@ -181,5 +181,5 @@ const fuzz_target fuzz_target_png = {
     .seed = seed,
     .mutate = mutate,
     .size_max = 4096,
-    .tries = 8000,
+    .tries = 20000,
 };

@@ -74,6 +74,24 @@ static void check_scene(const rt_scene *scene)
     }
 }
 
+/* Every setting as a text is what sets it, but for a 0 that means the default. */
+static void check_settings(const rt_scene *scene)
+{
+    rt_render_options options, again = {0};
+    char text[64];
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    rt_scene_get_options(scene, &options);
+    for (size_t i = 0; i < count; i++) {
+        rt_setting_get(text, sizeof text, &settings[i], &options);
+        rt_status status = rt_setting_set(&again, &settings[i], text, NULL);
+        FUZZ_EXPECT(status == RT_OK || strcmp(text, "0") == 0);
+        FUZZ_EXPECT(rt_setting_value(&settings[i], &again) ==
+                    rt_setting_value(&settings[i], &options));
+        rt_setting_missing(&settings[i], &options);
+    }
+}
+
 static int run(const uint8_t *data, size_t size)
 {
     heard h = {0, 1, memchr(data, 0, size) != NULL};
@@ -98,6 +116,7 @@ static int run(const uint8_t *data, size_t size)
     int is_good = fuzz_expect_answer(status, &error, scene);
     FUZZ_EXPECT(is_good == (h.errors == 0));
     if (is_good) {
+        check_settings(scene);
         check_scene(scene);
         rt_scene_destroy(scene);
     }
@@ -118,18 +137,24 @@ static const char *const texts[] = {
     "repeat i from 0 to 3 {\n  let x = (i * 2)\n  repeat j from 1 to 2 {\n"
     "    sphere { centre x j a  radius 0.5  material g }\n  }\n}\n",
     STAGE "sphere { centre 0 0 0  radius 1  material g }\n"
-          "box { centre 1 0 0  size 1 1 1  material g }\n"
-          "cylinder { a 0 1 0  b 0 2 0  radius 0.5  caps true  material g }\n"
-          "disc { centre 5 0 0  normal 0 1 0  radius 1  material g }\n",
-    STAGE "sphere { centre 0 1 -6  radius 1  material g }\n"
+          "box { centre 1 0 0  size 1 1 1  material h }\n"
+          "cylinder { a 0 1 0  b 0 2 0  radius 0.5  caps true  material h }\n"
+          "ellipsoid { centre 0 -2 0  radii 1 1 1  material h }\n"
+          "cone { base -1 0 0  apex -1 1 0  radius 1  caps true  material h }\n"
+          "box { centre -3 0 0  size 1 1 1  material g }\n"
+          "box { centre -4 0 0  size 1 1 1  material h }\n"
+          "model { file \"m.ply\"  material h }\n",
+    STAGE "sphere { centre 0 1 -6  radius 1  material m }\n"
           "ellipsoid { centre 2 4 -3  radii 1 2 1  material m  rotate 0 0 1 30 }\n"
-          "torus { centre 0 0 0  axis 0 1 0  major_radius 2  minor_radius 1  material g }\n"
-          "cone { base 0 0 0  apex 0 3 0  radius 1  caps true  material g }\n",
+          "torus { centre 2 4 -3  axis 0 1 0  major_radius 2  minor_radius 1  material m }\n"
+          "cone { base 2 3 -3  apex 2 6 -3  radius 1  caps true  material m }\n"
+          "sphere { centre 2 3 -3  radius 0.1  material m  power 3 }\n",
     STAGE "material inner { kt 1  ior 1.3  priority 2 }\n"
           "box { centre 0 0 0  size 2 2 2  material g }\n"
           "sphere { centre 0 0 0  radius 0.5  material inner  power 5 }\n"
           "instance thing { material g  scale -1 1 1 }\n"
-          "quad { corner -1 -1 1  edge1 2 0 0  edge2 0 2 0  material g }\n",
+          "quad { corner -1 -1 1  edge1 2 0 0  edge2 0 2 0  material h }\n"
+          "plane { point 0 -1 0  normal 0 1 0  material h }\n",
     NAMES "camera { eye 0 0 0  look_at 0 0 1 }\nsphere { centre 0 0 -5  radius 1  material m }\n"
           "light directional { direction 0 -1 0  irradiance 1 }\nlight environment { }\n",
     "include \"loop.rts\"\ninclude \"none.rts\"\nlet s = unknown\n} { ( ] \377 \"open\n",
@@ -281,17 +306,17 @@ static void begin(void)
     fuzz_write_seed(&fuzz_target_png, 10, "t.png");
     fuzz_write_seed(&fuzz_target_ppm, 0, "t.ppm");
     fuzz_write_seed(&fuzz_target_pfm, 0, "t.pfm");
-    fuzz_write_seed(&fuzz_target_exr, 0, "t.exr");
+    fuzz_write_seed(&fuzz_target_exr, 1, "t.exr");
 }
 
 const fuzz_target fuzz_target_scene = {
     .name = "scene",
-    .sources = "dsl/* lib/scene/* lib/setting/* lib/shape/* lib/texture/*",
+    .sources = "dsl/*.c lib/scene/*.c lib/setting/*.c lib/shape/*.c lib/texture/*.c",
     .run = run,
     .seed = seed,
     .words = words,
     .begin = begin,
     .mutate = mutate,
     .size_max = 4096,
-    .tries = 3000,
+    .tries = 6000,
 };

@@ -50,5 +50,5 @@ const fuzz_target fuzz_target_stl = {
     .seed = seed,
     .mutate = mutate,
     .size_max = 4096,
-    .tries = 4000,
+    .tries = 20000,
 };

@@ -20,6 +20,9 @@
 #define FUZZ_DECLARE(name) extern const fuzz_target fuzz_target_##name;
 FUZZ_TARGETS(FUZZ_DECLARE)
 
+/* The seed of an EXR file with layers, of a render in photon mode. */
+#define FUZZ_EXR_LAYERS 0
+
 /* All of them, NULL behind the last; that of a name, or NULL. */
 extern const fuzz_target *const fuzz_targets[];
 const fuzz_target *fuzz_find(const char *name);
