@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "dsl/suggest.h"
@@ -231,6 +232,8 @@ static int check_file(const rt_checker *checker, const rt_entry *entry, unsigned
         char quote[RT_QUOTE_SIZE];
         rt_report_error(checker->reports, entry->word, "'%s' lies outside of the scene's folder",
                         rt_text_quote(quote, name));
+        free(*checker->path);
+        *checker->path = NULL;
         return 0;
     }
     memcpy(member, checker->path, sizeof *checker->path);
