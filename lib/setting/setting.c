@@ -66,12 +66,20 @@ static void store(rt_render_options *options, const rt_field *field, double numb
     }
 }
 
+/* Reads a number; what is too small for a float only is right where the member is a double. */
+static int read_real(double *out, const rt_field *field, const char *text)
+{
+    const rt_number_result result = rt_number_read(out, text, strlen(text));
+    return result == RT_NUMBER_OK ||
+           (result == RT_NUMBER_TOO_SMALL && field->size == sizeof(double));
+}
+
 /* Whether text is a number that the field takes. */
 static int read_number(double *out, const rt_field *field, const char *text)
 {
     double number;
     if (field->type == RT_FIELD_CHOICE || field->type == RT_FIELD_BOOLEAN ||
-        rt_number_read(&number, text, strlen(text)) != RT_NUMBER_OK)
+        !read_real(&number, field, text))
         return 0;
     if (field->type != RT_FIELD_NUMBER &&
         (number < 0 || number > LARGEST_EXACT || floor(number) != number))
@@ -106,7 +114,7 @@ static void write_real(char *out, size_t size, const rt_field *field, double val
     double again;
     for (int digits = 1; digits <= 17; digits++) {
         snprintf(out, size, "%.*g", digits, value);
-        if (rt_number_read(&again, out, strlen(out)) == RT_NUMBER_OK &&
+        if (read_real(&again, field, out) &&
             (is_single ? (float)again == (float)value : again == value))
             return;
     }

@@ -77,6 +77,7 @@ static void values_come_back_from_their_text(void **state)
         {"target_error", "1e-3", "0.001"},
         {"target_error", "0.1000000001", "0.1000000001"},
         {"roulette_threshold", "1e-6", "1e-06"},
+        {"time", "1e-45", "1e-45"},
         {"roulette_threshold", "0.3", "0.3"},
     };
     (void)state;
