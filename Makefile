@@ -229,7 +229,7 @@ TEST_SUPPORT_SRC := \
 # What the programs of fuzzing share.
 FUZZ_SRC := \
 	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \
-	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/no_interrupt.c tests/fuzz/ply_file.c \
+	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/in_process.c tests/fuzz/ply_file.c \
 	tests/fuzz/scene_text.c \
 	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_map.c \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
@@ -338,7 +338,7 @@ $(B)/tests/bench/bench_gather: TEST_LIBS += -lflann
 
 # The targets of fuzzing, and the command line of rtc, which is one of them.
 FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) \
-            $(filter-out tools/interrupt.c tools/rtc.c,$(TOOL_SRC)))
+            $(filter-out tools/interrupt.c tools/rtc.c tools/untrusted.c,$(TOOL_SRC)))
 FUZZ_LINK := -Wl,--wrap=rt_device_open
 $(B)/tests/fuzz/test_fuzz $(B)/tests/fuzz/make_inputs: \
 $(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a

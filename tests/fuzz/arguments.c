@@ -18,8 +18,9 @@ static const char *const others[] = {
     "1,2",  "0,1",    "all",   "none.x", "albedo", "--",      "-h",     "\303\244\033[1m",
     "\"\\", NULL};
 
-static const char *const numbers[] = {"0",   "1",   "2",   "16",   "-1",   "0.5", "1e6",
-                                      "1e9", "nan", "inf", "1e99", "0x10", "",    "4294967296"};
+static const char *const numbers[] = {"0",    "1",    "2",  "16",        "-1",  "0.5",
+                                      "1e6",  "1e9",  "4G", "100k",      "nan", "inf",
+                                      "1e99", "0x10", "",   "4294967296"};
 
 static size_t count_words(const char *const *words)
 {
@@ -78,6 +79,7 @@ static const char *value_of(const option *option, fuzz_random *random)
         return any_word(option->words, random);
     case KIND_WHOLE:
     case KIND_REAL:
+    case KIND_SIZE:
         return any_number(random);
     case KIND_TEXT:
         break;

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/crc32.h"
-#include "base/memory.h"
 #include "fuzz/targets.h"
 #include "mesh/load.h"
 #include "photon/map_file.h"
@@ -136,53 +135,7 @@ static int run(const uint8_t *data, size_t size)
     return 1;
 }
 
-/* ---- Seeds --------------------------------------------------------------------------------- */
-
-static void add_photons(rt_photon_map *map, int kind, uint32_t seed, uint64_t first, int count)
-{
-    rt_path_range range = {first, 10, (uint64_t)count, seed};
-    FUZZ_EXPECT(rt_photon_list_reserve(map->lists + kind, (size_t)count, NULL) == RT_OK);
-    for (int i = 0; i < count; i++) {
-        rt_photon *p = map->lists[kind].photons + map->lists[kind].count++;
-        *p = (rt_photon){{(float)i, 2, 3}, (uint32_t)first + (uint32_t)i,
-                         {0, 1, 0},        kind ? 0x301 : 0x200,
-                         {1, 0.5f, 0},     1,
-                         {0, 0, -1},       1};
-    }
-    FUZZ_EXPECT(rt_path_ranges_add(map->ranges + kind, &range, NULL) == RT_OK);
-    map->lists[kind].emitted += range.count;
-}
-
-static void add(fuzz_inputs *seeds, size_t lights, int is_split, int ranges, uint32_t path_seed)
-{
-    rt_photon_map *map = calloc(1, sizeof *map);
-    rt_bytes bytes = {0};
-    FUZZ_EXPECT(map != NULL);
-    map->settings = (rt_photon_settings){7, 5, 1, 1, (uint32_t)is_split};
-    map->ledger.rows =
-        rt_memory_zeroed(NULL, lights, sizeof *map->ledger.rows, "the energy ledger", NULL);
-    map->ledger.count = lights;
-    for (size_t i = 0; map->ledger.rows && i < lights; i++)
-        map->ledger.rows[i] = (rt_ledger_row){i ? RT_NONE : 2, -20, 4, {1, 2, 3}, 0.5, {{9}}};
-    for (int kind = 0; kind <= is_split; kind++)
-        for (int i = 0; i < ranges; i++)
-            add_photons(map, kind, path_seed + (uint32_t)i / 2, 20 * (uint64_t)i, 3 - kind);
-    map->ledger.paths = map->lists[0].emitted;
-    FUZZ_EXPECT(rt_photon_map_encode(&bytes, map, NULL) == RT_OK);
-    fuzz_add(seeds, bytes.data, bytes.size);
-    rt_bytes_free(&bytes);
-    rt_photon_map_destroy(map);
-}
-
-static void seed(fuzz_inputs *seeds)
-{
-    add(seeds, 0, 0, 0, 1);
-    add(seeds, 1, 0, 1, 1);
-    add(seeds, 2, 1, 3, 1);
-    add(seeds, 2, 1, 2, 2);
-}
-
-/* ---- Mutation ------------------------------------------------------------------------------ */
+/* ---- The file ------------------------------------------------------------------------------- */
 
 /* Places of numbers of 8 bytes in the header, and of a kind of photons after its start. */
 enum {
@@ -196,6 +149,112 @@ enum {
     kind_ranges = 24,
     table_count = 5
 };
+
+/* The magic, the size and the checksum. */
+static void seal(uint8_t *data, size_t size)
+{
+    if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
+        return;
+    memcpy(data, rt_map_magic, sizeof rt_map_magic);
+    fuzz_set(data + 8, RT_MAP_VERSION, 4);
+    fuzz_set(data + 12, RT_MAP_HEADER, 4);
+    fuzz_set(data + at_size, size, 8);
+    fuzz_set(data + size - RT_MAP_CHECKSUM, rt_crc32(data, size - RT_MAP_CHECKSUM), 4);
+}
+
+/* ---- Seeds --------------------------------------------------------------------------------- */
+
+enum { photons_a_range = 3, paths_a_range = 10 };
+
+static void put_counts(rt_bytes *out, int is_there, unsigned ranges)
+{
+    fuzz_put_number(out, is_there ? paths_a_range * ranges : 0, 8, 0);
+    fuzz_put_number(out, is_there ? 4 : 0, 8, 0);
+    fuzz_put_number(out, is_there ? photons_a_range * ranges : 0, 8, 0);
+    fuzz_put_number(out, is_there ? ranges : 0, 8, 0);
+    fuzz_put_number(out, 0, 8, 0);
+}
+
+static void put_light(rt_bytes *out, uint32_t shape)
+{
+    fuzz_put_number(out, shape, 4, 0);
+    fuzz_put_number(out, (uint32_t)-20, 4, 0);
+    fuzz_put_number(out, 4, 8, 0);
+    for (int i = 0; i < 4; i++)
+        fuzz_put_number(out, UINT64_C(0x3fe0000000000000), 8, 0); /* power and share: 0.5 */
+    for (unsigned i = 0; i < 15; i++)
+        fuzz_put_number(out, 9 * i, 8, 0);
+}
+
+static void put_range(rt_bytes *out, unsigned i, uint32_t path_seed)
+{
+    fuzz_put_number(out, 20 * i, 8, 0);
+    fuzz_put_number(out, paths_a_range, 8, 0);
+    fuzz_put_number(out, photons_a_range, 8, 0);
+    fuzz_put_number(out, path_seed + i / 2, 4, 0);
+    fuzz_put_number(out, 0, 4, 0);
+}
+
+static void put_photon(rt_bytes *out, unsigned path, int is_caustic)
+{
+    static const float position[3] = {1, 2, 3}, wi[3] = {0, 1, 0}, flux[3] = {1, 0.5f, 0};
+    static const float normal[3] = {0, 0, -1};
+    for (int c = 0; c < 3; c++)
+        fuzz_put_float(out, position[c], 0);
+    fuzz_put_number(out, path, 4, 0);
+    for (int c = 0; c < 3; c++)
+        fuzz_put_float(out, wi[c], 0);
+    fuzz_put_number(out, is_caustic ? 0x301 : 0x200, 4, 0);
+    for (int c = 0; c < 3; c++)
+        fuzz_put_float(out, flux[c], 0);
+    fuzz_put_float(out, 1, 0);
+    for (int c = 0; c < 3; c++)
+        fuzz_put_float(out, normal[c], 0);
+    fuzz_put_number(out, 1, 4, 0);
+}
+
+/* A map of so many lights and, of each kind, ranges; the caustic ones apart or not there. */
+static void add(fuzz_inputs *seeds, unsigned lights, int is_split, unsigned ranges,
+                uint32_t path_seed)
+{
+    static const uint32_t settings[3] = {5, 1, 1}; /* greatest depth, sampler, direct light */
+    rt_bytes file = {0};
+    fuzz_put(&file, rt_map_magic, sizeof rt_map_magic);
+    fuzz_put_number(&file, 0, 8, 0); /* seal fills in these and the next, the size */
+    fuzz_put_number(&file, 0, 8, 0);
+    fuzz_put_number(&file, 7, 8, 0);
+    for (int i = 0; i < 3; i++)
+        fuzz_put_number(&file, settings[i], 4, 0);
+    fuzz_put_number(&file, (uint32_t)is_split, 4, 0);
+    fuzz_put_number(&file, 0, 8, 0);
+    fuzz_put_number(&file, lights, 8, 0);
+    fuzz_put_number(&file, paths_a_range * ranges, 8, 0);
+    fuzz_put_number(&file, 1, 8, 0);
+    for (int kind = 0; kind < 2; kind++)
+        put_counts(&file, kind <= is_split, ranges);
+    for (unsigned i = 0; i < lights; i++)
+        put_light(&file, i ? RT_NONE : 2);
+    for (int kind = 0; kind <= is_split; kind++)
+        for (unsigned i = 0; i < ranges; i++)
+            put_range(&file, i, path_seed);
+    for (int kind = 0; kind <= is_split; kind++)
+        for (unsigned i = 0; i < photons_a_range * ranges; i++)
+            put_photon(&file, 20 * (i / photons_a_range) + i % photons_a_range, kind);
+    fuzz_put_number(&file, 0, RT_MAP_CHECKSUM, 0);
+    seal(file.data, file.size);
+    fuzz_add(seeds, file.data, file.size);
+    rt_bytes_free(&file);
+}
+
+static void seed(fuzz_inputs *seeds)
+{
+    add(seeds, 0, 0, 0, 1);
+    add(seeds, 1, 0, 1, 1);
+    add(seeds, 2, 1, 3, 1);
+    add(seeds, 2, 1, 2, 2);
+}
+
+/* ---- Mutation ------------------------------------------------------------------------------ */
 
 /* The tables: lights, two of ranges, two of photons. */
 static const size_t row_sizes[table_count] = {RT_MAP_LIGHT, RT_MAP_RANGE, RT_MAP_RANGE,
@@ -265,18 +324,6 @@ static void add_up(uint8_t *data, size_t size)
         fuzz_set(counts + kind_paths, paths, 8);
     }
     memcpy(data + at_paths, data + at_kinds + kind_paths, 8);
-}
-
-/* The magic, the size and the checksum. */
-static void seal(uint8_t *data, size_t size)
-{
-    if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
-        return;
-    memcpy(data, rt_map_magic, sizeof rt_map_magic);
-    fuzz_set(data + 8, RT_MAP_VERSION, 4);
-    fuzz_set(data + 12, RT_MAP_HEADER, 4);
-    fuzz_set(data + at_size, size, 8);
-    fuzz_set(data + size - RT_MAP_CHECKSUM, rt_crc32(data, size - RT_MAP_CHECKSUM), 4);
 }
 
 /* Changes bytes of one row, or of the header, in place. */

@@ -1,9 +1,13 @@
 /* target_scene.c - scene texts, with the files that they name. */
+#define _XOPEN_SOURCE 700 /* realpath */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/crc32.h"
 #include "dsl/function.h"
 #include "fuzz/scene_text.h"
 #include "fuzz/targets.h"
@@ -14,7 +18,10 @@ enum { SHAPES_MAX = 500 }; /* of a scene that is packed */
 /* What is said of one text. */
 typedef struct heard {
     int errors, lines;
-    int has_nul; /* which ends a line that is shown */
+    int has_nul;  /* which ends a line that is shown */
+    int has_root; /* only files of the current directory may be named */
+    int reports,
+        cancels; /* reports of progress; at which of them the reading is cancelled, 0: none */
 } heard;
 
 static void on_diagnostic(void *user, const rt_diagnostic *d)
@@ -34,10 +41,23 @@ static void on_diagnostic(void *user, const rt_diagnostic *d)
     FUZZ_EXPECT(strcmp(d->file, "fuzz.rts") != 0 || d->line <= h->lines);
 }
 
+/* With a root, only files below it are read: here those of the current directory. */
 static void on_file(void *user, const char *path)
 {
-    (void)user;
+    const heard *h = user;
+    char here[PATH_MAX], there[PATH_MAX];
     FUZZ_EXPECT(path[0] != '\0');
+    if (!h->has_root || strcmp(path, "fuzz.rts") == 0 || !realpath(path, there))
+        return;
+    FUZZ_EXPECT(realpath(".", here) != NULL);
+    FUZZ_EXPECT(strncmp(there, here, strlen(here)) == 0 && there[strlen(here)] == '/');
+}
+
+static int on_progress(void *user, const rt_progress *progress)
+{
+    heard *h = user;
+    FUZZ_EXPECT(progress->fraction >= 0 && progress->fraction <= 1);
+    return h->cancels && h->reports++ == h->cancels - 1;
 }
 
 static void check_lights(const rt_scene_image *image)
@@ -92,34 +112,71 @@ static void check_settings(const rt_scene *scene)
     }
 }
 
+/* Reads the text, from a file or from memory; the sum of its bytes chooses under what terms. */
+static rt_status read_text(rt_scene **out, const char *text, size_t size, heard *h,
+                           rt_memory *memory, rt_error *error)
+{
+    const uint32_t sum = rt_crc32(text, size);
+    const rt_hooks hooks = {.progress = on_progress, .user = h};
+    const rt_load_options options = {.diagnostic = on_diagnostic,
+                                     .user = h,
+                                     .check = 1,
+                                     .file = on_file,
+                                     .hooks = &hooks,
+                                     .root = sum & 2 ? "." : NULL,
+                                     .memory = memory};
+    h->has_root = options.root != NULL;
+    h->cancels = sum & 0xf0 ? 0 : 1 + (int)(sum >> 8 & 3);
+    for (size_t i = 0; i < size; i++)
+        h->lines += text[i] == '\n';
+    h->has_nul = memchr(text, 0, size) != NULL;
+    if (sum & 1)
+        return rt_scene_parse(out, text, "fuzz.rts", &options, error);
+    fuzz_write("fuzz.rts", text, size);
+    return rt_scene_load(out, "fuzz.rts", &options, error);
+}
+
+/* Whether the text was read; where it was cancelled, or had too little memory, that is said. */
+static int check_answer(rt_status status, const rt_error *error, const rt_scene *scene,
+                        const heard *h, const rt_memory *memory)
+{
+    if (status == RT_CANCELLED || status == RT_ERROR_MEMORY) {
+        FUZZ_EXPECT(status == RT_CANCELLED ? h->reports == h->cancels : memory != NULL);
+        FUZZ_EXPECT(scene == fuzz_untouched && error->status == status);
+        fuzz_expect_line(error->message);
+        return 0;
+    }
+    int is_good = fuzz_expect_answer(status, error, scene);
+    FUZZ_EXPECT(is_good == (h->errors == 0));
+    return is_good;
+}
+
 static int run(const uint8_t *data, size_t size)
 {
-    heard h = {0, 1, memchr(data, 0, size) != NULL};
-    const rt_load_options options = {
-        .diagnostic = on_diagnostic, .user = &h, .check = 1, .file = on_file};
+    heard h = {.lines = 1};
     rt_scene *scene = fuzz_untouched;
+    rt_memory *memory = NULL;
+    rt_memory_info info;
     rt_error error;
     char *text = malloc(size + 1);
     FUZZ_EXPECT(text != NULL);
     memcpy(text, data, size);
     text[size] = '\0';
-    for (size_t i = 0; i < size; i++)
-        h.lines += text[i] == '\n';
-    rt_status status;
-    if (size % 2) {
-        fuzz_write("fuzz.rts", text, size);
-        status = rt_scene_load(&scene, "fuzz.rts", &options, &error);
-    } else {
-        status = rt_scene_parse(&scene, text, "fuzz.rts", &options, &error);
-    }
+    if (size % 4 == 0)
+        FUZZ_EXPECT(rt_memory_create(&memory, 1024 + 64 * (uint64_t)size, &error) == RT_OK);
+    rt_status status = read_text(&scene, text, size, &h, memory, &error);
     free(text);
-    int is_good = fuzz_expect_answer(status, &error, scene);
-    FUZZ_EXPECT(is_good == (h.errors == 0));
+    int is_good = check_answer(status, &error, scene, &h, memory);
     if (is_good) {
         check_settings(scene);
         check_scene(scene);
         rt_scene_destroy(scene);
     }
+    if (memory) {
+        rt_memory_get_info(memory, &info);
+        FUZZ_EXPECT(info.used == 0 && info.most <= info.limit);
+    }
+    rt_memory_destroy(memory);
     return is_good;
 }
 
@@ -129,6 +186,10 @@ static int run(const uint8_t *data, size_t size)
 #define STAGE                                                                                      \
     NAMES "camera { eye 0 1 -6  look_at 0 0 0 }\n"                                                 \
           "light point { position 2 4 -3  intensity 20 }\n"
+
+#define OUTSIDE                                                                                    \
+    "include \"link.rts\"\ninclude \"../names.rts\"\ninclude \"/etc/passwd\"\n"                    \
+    "include \"./a.rts\"\nmesh m { file \"link.rts\" }\ntexture l { file \"/dev/zero\" }\n"
 
 /* Statements, and what is found in a scene: media around the camera and lights, contacts, views. */
 static const char *const texts[] = {
@@ -157,6 +218,7 @@ static const char *const texts[] = {
           "plane { point 0 -1 0  normal 0 1 0  material h }\n",
     NAMES "camera { eye 0 0 0  look_at 0 0 1 }\nsphere { centre 0 0 -5  radius 1  material m }\n"
           "light directional { direction 0 -1 0  irradiance 1 }\nlight environment { }\n",
+    OUTSIDE,
     "include \"loop.rts\"\ninclude \"none.rts\"\nlet s = unknown\n} { ( ] \377 \"open\n",
 };
 
@@ -260,11 +322,12 @@ static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t seed)
 
 /* What the parser knows beside its tables. */
 static const char *const statements[] = {
-    "let ",      "include ",  "repeat ",       "from ",        "to ",       "pi",
-    "all",       "\"a.rts\"", "\"names.rts\"", "\"loop.rts\"", "\"t.png\"", "\"t.ppm\"",
-    "\"t.pfm\"", "\"t.exr\"", "\"m.ply\"",     "\"m.obj\"",    "\"m.off\"", "\"m.stl\"",
-    "1e999",     "1e-999",    "1e15",          "1e28",         "0.5",       " { ",
-    " }\n",      " = ",       "[1 2 3]",       "\n# ",         NULL};
+    "let ",         "include ",  "repeat ",      "from ",     "to ",       "pi",
+    "all",          "\"a.rts\"", "\"link.rts\"", "\"../",     "\"/",       "\"names.rts\"",
+    "\"loop.rts\"", "\"t.png\"", "\"t.ppm\"",    "\"t.pfm\"", "\"t.exr\"", "\"m.ply\"",
+    "\"m.obj\"",    "\"m.off\"", "\"m.stl\"",    "1e999",     "1e-999",    "1e15",
+    "1e28",         "0.5",       " { ",          " }\n",      " = ",       "[1 2 3]",
+    "\n# ",         NULL};
 
 static void add_field(fuzz_inputs *words, const rt_field *field)
 {
@@ -296,6 +359,8 @@ static void begin(void)
 {
     static const char part[] = "material a { kd 0.5 }\nlet n = 4\n",
                       loop[] = "include \"loop.rts\"";
+    if (symlink("/etc/passwd", "link.rts") != 0)
+        FUZZ_EXPECT(access("link.rts", F_OK) == 0);
     fuzz_write("a.rts", part, sizeof part - 1);
     fuzz_write("names.rts", fuzz_scene_names, strlen(fuzz_scene_names));
     fuzz_write("loop.rts", loop, sizeof loop - 1);
