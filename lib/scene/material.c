@@ -1,5 +1,6 @@
 /* material.c - adding materials to a scene: defaults, ranges, and energy conservation. */
 #include <stdio.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "bsdf/lobes.h"
@@ -57,6 +58,30 @@ static const char *largest_field(const rt_material *m, double kd, double ks)
     return m->kt_texture ? "kt_texture" : "kt";
 }
 
+/* Adds the file of a texture to a list, if it has one that fits. */
+static void name_image(char *list, size_t size, const rt_scene *scene, uint32_t texture)
+{
+    const size_t used = strlen(list);
+    const char *path = texture ? scene->textures[texture - 1].path : NULL;
+    if (path)
+        snprintf(list + used, size - used, "%s%.80s", used > 0 ? ", " : "", path);
+}
+
+/* What messages say of the textures behind a colour; out: "" where there are none. */
+static void describe_textures(char *out, size_t size, const rt_scene *scene, const rt_material *m,
+                              uint32_t shape_texture)
+{
+    const uint32_t textures[] = {m->kd_texture, shape_texture, m->ks_texture, m->kt_texture};
+    char images[300] = "";
+    int is_any = 0;
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+        is_any |= textures[i] != 0;
+        name_image(images, sizeof images, scene, textures[i]);
+    }
+    snprintf(out, size, "%s%s%s%s", is_any ? " where the textures are brightest" : "",
+             *images ? " (" : "", images, *images ? ")" : "");
+}
+
 rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m,
                                    uint32_t shape_texture, const char *who, const char *field,
                                    rt_error *error)
@@ -67,13 +92,13 @@ rt_status rt_material_check_albedo(const rt_scene *scene, const rt_material *m,
                ks = largest(scene, m->ks[c], m->ks_texture, c);
         double kt = largest(scene, m->kt[c], m->kt_texture, c);
         double sum = largest(scene, (float)kd, shape_texture, c) + ks + kt;
-        if (sum > 1 + rounding)
+        if (sum > 1 + rounding) {
+            char textures[350];
+            describe_textures(textures, sizeof textures, scene, m, shape_texture);
             return rt_fail_field(error, RT_ERROR_INPUT, field ? field : largest_field(m, kd, ks),
                                  "%s: kd + ks + kt is %g in %s%s; it must not exceed 1", who, sum,
-                                 channel[c],
-                                 m->kd_texture || m->ks_texture || m->kt_texture || shape_texture
-                                     ? " where the textures are brightest"
-                                     : "");
+                                 channel[c], textures);
+        }
     }
     return RT_OK;
 }

@@ -30,6 +30,8 @@ void rt_scene_destroy(rt_scene *scene)
         return;
     for (size_t i = 0; i < scene->mesh_count; i++)
         rt_scene_mesh_free(scene->meshes + i);
+    for (size_t i = 0; i < scene->texture_count; i++)
+        free(scene->textures[i].path);
     rt_bytes_free(&scene->texels);
     rt_memory_free(scene->environment.texels);
     rt_memory_free(scene->textures);

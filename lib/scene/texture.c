@@ -1,5 +1,6 @@
 /* texture.c - adding textures to a scene. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -40,6 +41,12 @@ static void survey(rt_scene_texture *texture, const rt_image *image, int is_line
     }
 }
 
+static char *copy_of(const char *text)
+{
+    char *copy = malloc(strlen(text) + 1);
+    return copy ? strcpy(copy, text) : NULL;
+}
+
 static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt_texture *from,
                             rt_error *error)
 {
@@ -54,7 +61,9 @@ static rt_status read_image(rt_scene *scene, rt_scene_texture *texture, const rt
             rt_texture_pack(&texture->data, &scene->texels, image, from->linear, from->path, error);
     if (status == RT_OK)
         survey(texture, image, from->linear);
-    else if (error)
+    if (status == RT_OK && !(texture->path = copy_of(from->path)))
+        status = rt_fail(error, RT_ERROR_MEMORY, "out of memory");
+    if (status != RT_OK && error)
         snprintf(error->field, sizeof error->field, "path");
     rt_image_destroy(image);
     return rt_at_file(status, from->path, error);
@@ -77,11 +86,11 @@ rt_status rt_texture_check_colours(const rt_scene *scene, uint32_t handle, const
         return status;
     const rt_scene_texture *texture = scene->textures + handle - 1;
     if (texture->least < 0)
-        return rt_fail_field(error, RT_ERROR_INPUT, field,
-                             "%s: %s has the value %g at pixel (%u, %u) from the top left; only "
-                             "heights may be negative",
-                             who, field, texture->least, texture->least_at[0],
-                             texture->least_at[1]);
+        return rt_fail_field(
+            error, RT_ERROR_INPUT, field,
+            "%s: %s, %.200s, has the value %g at pixel (%u, %u) from the top left; "
+            "only heights may be negative",
+            who, field, texture->path, texture->least, texture->least_at[0], texture->least_at[1]);
     return RT_OK;
 }
 
@@ -136,8 +145,10 @@ rt_status rt_scene_add_texture(rt_scene *scene, uint32_t *out, const rt_texture 
                                                    : make_pattern(&made, texture, error);
     if (status == RT_OK)
         status = place(&made.data, texture, error);
-    if (status != RT_OK)
+    if (status != RT_OK) {
+        free(made.path);
         return status;
+    }
     scene->textures[scene->texture_count++] = made;
     if (out)
         *out = (uint32_t)scene->texture_count;

@@ -91,6 +91,41 @@ static void textures_count_in_the_balance_of_energy(void **state)
     rt_scene_destroy(scene);
 }
 
+/* What is too bright is named by the files that it is in. */
+static void bright_images_are_named(void **state)
+{
+    static const float values[6] = {0.5f, 0.5f, 0.5f, 0.5f, 3, 0.5f};
+    rt_scene *scene = new_scene();
+    rt_image *image = NULL;
+    rt_texture texture = {.path = "bright.pfm"}, pattern = {.kind = RT_TEXTURE_CHECKER};
+    rt_material white = {.kd = {1, 1, 1}};
+    uint32_t bright, checker, material;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_image_from_rgb(&image, values, 2, 1, &error), &error);
+    expect_ok(rt_image_write(image, texture.path, NULL, &error), &error);
+    rt_image_destroy(image);
+    expect_ok(rt_scene_add_texture(scene, &bright, &texture, &error), &error);
+    expect_ok(rt_scene_add_texture(scene, &checker, &pattern, &error), &error);
+    const rt_material cases[] = {{.kd_texture = bright, .ks_texture = checker},
+                                 {.ks_texture = bright, .kt_texture = bright}};
+    const char *const messages[] = {
+        "kd + ks + kt is 3 in green where the textures are brightest (bright.pfm); it must",
+        "kd + ks + kt is 6 in green where the textures are brightest (bright.pfm, bright.pfm);"};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        expect_refused(rt_scene_add_material(scene, NULL, "m", &cases[i], &error), &error,
+                       i == 0 ? "kd_texture" : "ks_texture");
+        assert_non_null(strstr(error.message, messages[i]));
+    }
+    expect_ok(rt_scene_add_material(scene, &material, NULL, &white, &error), &error);
+    const rt_surface surface = {.material = material, .texture = bright};
+    const float centre[3] = {0};
+    expect_refused(rt_scene_add_sphere(scene, NULL, centre, 1, &surface, &error), &error,
+                   "texture");
+    assert_non_null(strstr(error.message, "(bright.pfm)"));
+    rt_scene_destroy(scene);
+}
+
 /* Light cannot be negative; a height can. */
 static void negative_texels_are_refused_as_colours(void **state)
 {
@@ -119,8 +154,8 @@ static void negative_texels_are_refused_as_colours(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         expect_refused(rt_scene_add_material(scene, NULL, "m", &cases[i].material, &error), &error,
                        cases[i].field);
-        assert_non_null(
-            strstr(error.message, "has the value -0.5 at pixel (1, 1) from the top left"));
+        assert_non_null(strstr(
+            error.message, "heights.pfm, has the value -0.5 at pixel (1, 1) from the top left"));
     }
     surface.texture = emitter.texture = heights;
     expect_refused(rt_scene_add_sphere(scene, NULL, origin, 1, &surface, &error), &error,
@@ -452,6 +487,7 @@ int main(void)
         cmocka_unit_test(materials_that_gain_energy_are_refused),
         cmocka_unit_test(materials_out_of_range_are_refused),
         cmocka_unit_test(textures_count_in_the_balance_of_energy),
+        cmocka_unit_test_setup_teardown(bright_images_are_named, scratch_enter, scratch_leave),
         cmocka_unit_test_setup_teardown(negative_texels_are_refused_as_colours, scratch_enter,
                                         scratch_leave),
         cmocka_unit_test(missing_files_are_refused),
