@@ -82,7 +82,7 @@ LIB_SRC := \
 	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
 	lib/render/enclosing_media.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
-	lib/scene/find_solids.c lib/scene/findings.c \
+	lib/scene/find_nests.c lib/scene/find_solids.c lib/scene/findings.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
 	lib/scene/mesh_file.c lib/scene/overlap.c lib/scene/scene.c lib/scene/shape.c \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \

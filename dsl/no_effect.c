@@ -25,6 +25,13 @@ static int is_specular(const rt_block_fields *fields)
     return !is_black(m->ks) || !is_black(m->kt) || m->ks_texture || m->kt_texture;
 }
 
+static int is_transparent(const rt_block_fields *fields)
+{
+    const rt_material *m = &fields->material;
+    return !is_black(m->kt) || m->kt_texture ||
+           (m->fresnel == RT_FRESNEL_DIELECTRIC && (!is_black(m->ks) || m->ks_texture));
+}
+
 int rt_block_has_kd(const rt_block_fields *fields)
 {
     return !is_black(fields->material.kd) || fields->material.kd_texture != 0;
@@ -94,6 +101,7 @@ static const struct {
     {RT_BLOCK_MATERIAL, "roughness", has_colour, "'kd', 'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "ior", is_specular, "'ks' or 'kt'"},
     {RT_BLOCK_MATERIAL, "absorption", is_specular, "'ks' or 'kt'"},
+    {RT_BLOCK_MATERIAL, "priority", is_transparent, "'kt', or 'ks' and 'fresnel dielectric'"},
     {RT_BLOCK_MATERIAL, "bump_scale", has_bumps, "'bump_texture'"},
     {RT_BLOCK_CAMERA, "width", is_orthographic, "'projection orthographic'"},
     {RT_BLOCK_CAMERA, "fov", is_perspective, "'projection perspective'"},

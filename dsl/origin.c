@@ -1,6 +1,7 @@
 /* origin.c - remembers places by object, and reports findings there. */
 #include "dsl/origin.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,15 +81,27 @@ typedef struct reporting {
     rt_place last; /* of a light or open shape that was reported, line 0 before the first */
 } reporting;
 
+/* Whether it is about a shape that the text can be pointed at for it. */
+static int is_of_shape(const rt_finding *finding)
+{
+    return finding->kind == RT_FINDING_OPEN_GLASS || finding->other != RT_NONE ||
+           finding->solid_count > 0;
+}
+
+static rt_place place_of_shape(const reporting *r, uint32_t shape)
+{
+    return place_at(r->sources, &r->origins->shapes.items[shape]);
+}
+
 static rt_place place_of(const reporting *r, const rt_finding *finding)
 {
     const rt_origins *origins = r->origins;
     if (finding->light != RT_NONE)
         return place_at(r->sources, &origins->lights.items[finding->light]);
     if (finding->emitter != RT_NONE)
-        return place_at(r->sources, &origins->shapes.items[finding->emitter]);
-    if (finding->kind == RT_FINDING_OPEN_GLASS || finding->other != RT_NONE)
-        return place_at(r->sources, &origins->shapes.items[finding->shape]);
+        return place_of_shape(r, finding->emitter);
+    if (is_of_shape(finding))
+        return place_of_shape(r, finding->shape);
     if (finding->kind == RT_FINDING_NOTHING_IN_VIEW ||
         finding->kind == RT_FINDING_CAMERA_IN_OPAQUE ||
         finding->kind == RT_FINDING_CAMERA_IN_MEDIUM)
@@ -96,32 +109,57 @@ static rt_place place_of(const reporting *r, const rt_finding *finding)
     return (rt_place){origins->text, 0, 0, 0, 0, 0};
 }
 
+/* Where the solids are, one after the other; those of a repeat are at one place. */
+static void hint_solids(const reporting *r, const rt_finding *finding)
+{
+    char places[256] = "";
+    rt_place before = {NULL, 0, 0, 0, 0, 0};
+    for (uint32_t i = 0; i < finding->solid_count; i++) {
+        const rt_place place = place_of_shape(r, finding->solids[i]);
+        const size_t used = strlen(places);
+        if (finding->solids[i] == finding->shape ||
+            (place.source == before.source && place.offset == before.offset))
+            continue;
+        snprintf(places + used, sizeof places - used, "%s%s:%d", used > 0 ? ", " : "",
+                 place.source->path, place.line);
+        before = place;
+    }
+    rt_report_hint(r->reports, "the others are at %s", places);
+}
+
+static void hint(const reporting *r, const rt_finding *finding)
+{
+    if (finding->kind == RT_FINDING_OPEN_GLASS) {
+        rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
+                                   "sheet without refraction");
+    } else if (finding->solid_count > 0) {
+        hint_solids(r, finding);
+    } else if (finding->other != RT_NONE) {
+        const rt_place other = place_of_shape(r, finding->other);
+        rt_report_hint(r->reports, "the other is at %s:%d; give the material of %s",
+                       other.source->path, other.line,
+                       finding->kind == RT_FINDING_HIDDEN ? "this one a priority as high"
+                                                          : "one of them a higher priority");
+    } else if (finding->shape != RT_NONE) {
+        const rt_place solid = place_of_shape(r, finding->shape);
+        rt_text word = rt_place_text(&solid);
+        rt_report_hint(r->reports, "the %.*s is at %s:%d", (int)word.length, word.at,
+                       solid.source->path, solid.line);
+    }
+}
+
 static void report(void *user, const rt_finding *finding)
 {
     reporting *r = user;
     rt_place place = place_of(r, finding);
     /* The iterations of a repeat are at one place: say once what is wrong there. */
-    if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || finding->kind == RT_FINDING_OPEN_GLASS ||
-        finding->other != RT_NONE) {
+    if (finding->kind == RT_FINDING_LIGHT_IN_OPAQUE || is_of_shape(finding)) {
         if (place.source == r->last.source && place.offset == r->last.offset)
             return;
         r->last = place;
     }
     rt_report_finding(r->reports, place, finding);
-    if (finding->kind == RT_FINDING_OPEN_GLASS) {
-        rt_report_hint(r->reports, "glass is a closed shape, such as a sphere; with ior 1 it is a "
-                                   "sheet without refraction");
-    } else if (finding->other != RT_NONE) {
-        const rt_place other = place_at(r->sources, &r->origins->shapes.items[finding->other]);
-        rt_report_hint(r->reports,
-                       "the other is at %s:%d; give the material of one of them a higher priority",
-                       other.source->path, other.line);
-    } else if (finding->shape != RT_NONE) {
-        const rt_place solid = place_at(r->sources, &r->origins->shapes.items[finding->shape]);
-        rt_text word = rt_place_text(&solid);
-        rt_report_hint(r->reports, "the %.*s is at %s:%d", (int)word.length, word.at,
-                       solid.source->path, solid.line);
-    }
+    hint(r, finding);
 }
 
 void rt_origins_report(const rt_origins *origins, const rt_sources *sources, const rt_scene *scene,

@@ -30,7 +30,11 @@ typedef enum rt_finding_kind {
     /* parts of two transparent solids overlap, of materials of the same priority */
     RT_FINDING_OVERLAP,
     /* two transparent solids of the same priority touch, and their surfaces differ */
-    RT_FINDING_CONTACT
+    RT_FINDING_CONTACT,
+    /* more transparent solids lie around a point than a path can keep in mind */
+    RT_FINDING_TOO_MANY_SOLIDS,
+    /* a transparent solid lies wholly in one of higher priority: it has no effect */
+    RT_FINDING_HIDDEN
 } rt_finding_kind;
 
 typedef enum rt_severity {
@@ -413,22 +417,27 @@ typedef struct rt_finding {
     rt_finding_kind kind;
     rt_severity severity;
     uint32_t shape;   /* the solid or open shape that it is about, or RT_NONE */
-    uint32_t other;   /* the solid that it meets, or RT_NONE */
+    uint32_t other;   /* the solid that it meets or is hidden in, or RT_NONE */
     uint32_t emitter; /* the area light inside it, or RT_NONE, or ... */
     /* ... the delta light, counted from 0 in the order in which they were added */
     uint32_t light;
     const char *message; /* one line */
+    /* of RT_FINDING_TOO_MANY_SOLIDS: those around the point, in order; else none */
+    const uint32_t *solids;
+    uint32_t solid_count;
 } rt_finding;
 
 /*
  * Reports to a callback what makes the picture of a complete scene, with its own options, black or
- * empty, glass that encloses nothing, and transparent solids that overlap or touch where their
- * priorities do not settle what is there; returns the number of warnings. There are no false
- * alarms: solids are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed
- * meshes; what is inside of them is decided in double precision, and a light only counts as shut in
- * when all of it is. Light shut out by a room of several shapes is not detected, nor an overlap
- * or a contact so small that 512 points and lines miss it. Only the first 256 lights, open shapes
- * of glass and transparent solids are checked.
+ * empty, glass that encloses nothing, transparent solids that overlap or touch where their
+ * priorities do not settle what is there, more than four of them around one point, and those that
+ * lie in one of higher priority; returns the number of warnings. There are no false alarms: solids
+ * are spheres, ellipsoids, boxes, tori, cylinders and cones with caps, and closed meshes; what is
+ * inside of them is decided in double precision, and a light only counts as shut in when all of it
+ * is. Light shut out by a room of several shapes is not detected, nor an overlap or a contact so
+ * small that 512 points and lines miss it; what sticks out of a solid as little is not seen either.
+ * Only the first 256 lights and open shapes of glass, and the 256 largest transparent solids are
+ * checked.
  */
 RT_API size_t rt_scene_check(const rt_scene *scene,
                              void (*found)(void *user, const rt_finding *finding), void *user);

@@ -1,9 +1,16 @@
-/* find_solids.c - transparent solids that meet where their priorities settle nothing. */
+/*
+ * find_solids.c - transparent solids that meet where their priorities settle nothing, or lie in one
+ * of higher priority.
+ */
+#include <math.h>
+
 #include "scene/check.h"
 #include "scene/inside.h"
 #include "scene/inspection.h"
 #include "scene/overlap.h"
 #include "scene/shape_class.h"
+
+/* ---- Meetings -------------------------------------------------------------- */
 
 static int same_colour(const float a[3], const float b[3])
 {
@@ -48,18 +55,89 @@ static void find_meeting(rt_inspection *in, uint32_t first, uint32_t second, siz
         rt_inspection_name(b), rt_inspection_name(a), p[0], p[1], p[2]);
 }
 
-void rt_find_meetings(rt_inspection *in)
+/* ---- Hidden ---------------------------------------------------------------- */
+
+/* Reports a solid that has no effect, once. */
+static void find_hiding(rt_inspection *in, uint32_t inner, const rt_solids *solids, size_t *work)
 {
     const rt_scene *scene = in->scene;
-    size_t work = 20000000; /* evaluations, about a second */
-    uint32_t solids[RT_CHECKED_MAX], count = 0;
-    for (size_t i = 0; i < scene->shape_count && count < RT_CHECKED_MAX; i++) {
-        const rt_scene_shape *shape = scene->shapes + i;
-        if (rt_shape_class_of(shape->kind)->contains &&
-            rt_material_is_transparent(scene->materials + shape->material))
-            solids[count++] = (uint32_t)i;
+    const rt_scene_shape *a = scene->shapes + inner;
+    if (a->emission != RT_NONE)
+        return;
+    for (uint32_t i = 0; i < solids->count; i++) {
+        const rt_scene_shape *b = scene->shapes + solids->shape[i];
+        if (scene->materials[a->material].priority >= scene->materials[b->material].priority ||
+            !rt_shape_is_within(scene, a, b, work))
+            continue;
+        rt_finding finding = rt_finding_of(RT_FINDING_HIDDEN);
+        finding.shape = inner;
+        finding.other = solids->shape[i];
+        rt_inspection_report(in, finding,
+                             "this %s lies wholly in a %s of higher priority: it has no effect",
+                             rt_inspection_name(a), rt_inspection_name(b));
+        return;
     }
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t k = i + 1; k < count; k++)
-            find_meeting(in, solids[i], solids[k], &work);
+}
+
+/* ---- Which solids ---------------------------------------------------------- */
+
+enum { SIZES = 512 }; /* powers of two */
+
+static int is_solid(const rt_scene *scene, const rt_scene_shape *shape)
+{
+    return rt_material_is_transparent(scene->materials + shape->material) &&
+           rt_shape_class_of(shape->kind)->contains;
+}
+
+static int size_of(const rt_scene_shape *shape)
+{
+    double square = 0;
+    for (int i = 0; i < 3; i++) {
+        const double edge = (double)shape->hi[i] - shape->lo[i];
+        square += edge * edge;
+    }
+    return square > 0 ? ilogb(square) / 2 + SIZES / 2 : 0;
+}
+
+/* The largest transparent solids: what holds others is among them. */
+static void choose_solids(rt_solids *out, const rt_scene *scene)
+{
+    size_t counts[SIZES] = {0}, room = RT_CHECKED_MAX;
+    int all = SIZES; /* from that size on all of them */
+    out->count = 0;
+    for (size_t i = 0; i < scene->shape_count; i++)
+        if (is_solid(scene, scene->shapes + i))
+            counts[size_of(scene->shapes + i)]++;
+    while (all > 0 && counts[all - 1] <= room)
+        room -= counts[--all];
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        const rt_scene_shape *shape = scene->shapes + i;
+        if (!is_solid(scene, shape) || size_of(shape) < all - (room > 0))
+            continue;
+        room -= size_of(shape) < all;
+        out->shape[out->count++] = (uint32_t)i;
+    }
+}
+
+static int has_transparent_material(const rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->material_count; i++)
+        if (rt_material_is_transparent(scene->materials + i))
+            return 1;
+    return 0;
+}
+
+void rt_find_solids(rt_inspection *in)
+{
+    size_t work = 20000000, more = 10000000; /* evaluations, about a second and half of one */
+    rt_solids solids;
+    if (!has_transparent_material(in->scene))
+        return;
+    choose_solids(&solids, in->scene);
+    rt_find_nests(in, &solids);
+    for (uint32_t i = 0; i < solids.count; i++)
+        for (uint32_t k = i + 1; k < solids.count; k++)
+            find_meeting(in, solids.shape[i], solids.shape[k], &work);
+    for (uint32_t i = 0; i < solids.count; i++)
+        find_hiding(in, solids.shape[i], &solids, &more);
 }

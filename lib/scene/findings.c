@@ -34,7 +34,7 @@ rt_finding rt_finding_of(rt_finding_kind kind)
 {
     rt_severity severity =
         kind == RT_FINDING_CAMERA_IN_MEDIUM ? RT_SEVERITY_NOTE : RT_SEVERITY_WARNING;
-    return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, RT_NONE, NULL};
+    return (rt_finding){kind, severity, RT_NONE, RT_NONE, RT_NONE, RT_NONE, NULL, NULL, 0};
 }
 
 /* ---- What is missing ------------------------------------------------------- */
@@ -251,7 +251,7 @@ size_t rt_scene_check(const rt_scene *scene, void (*found)(void *user, const rt_
     rt_inspection in = {scene, found, user, 0};
     find_missing(&in);
     find_open_glass(&in);
-    rt_find_meetings(&in);
+    rt_find_solids(&in);
     if (scene->has_camera) {
         find_empty_view(&in);
         find_camera_inside(&in);

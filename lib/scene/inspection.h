@@ -11,6 +11,9 @@
  */
 enum { RT_CHECKED_MAX = 256 };
 
+/* Solids around one point that a path keeps in mind; see kernels/material/medium.h. */
+enum { RT_NESTED_MAX = 4 };
+
 /* The state of one check. */
 typedef struct rt_inspection {
     const rt_scene *scene;
@@ -29,8 +32,18 @@ void rt_inspection_report(rt_inspection *in, rt_finding finding, const char *for
 /* What messages call a shape. */
 const char *rt_inspection_name(const rt_scene_shape *shape);
 
-/* Lights inside opaque solids (find_lights.c); solids that meet (find_solids.c). */
+/* Solids that are checked, in the order of the scene. */
+typedef struct rt_solids {
+    uint32_t shape[RT_CHECKED_MAX];
+    uint32_t count;
+} rt_solids;
+
+/*
+ * Lights inside opaque solids (find_lights.c); transparent solids that meet or hide each other
+ * (find_solids.c); too many of them around a point (find_nests.c).
+ */
 void rt_find_lights_inside(rt_inspection *in);
-void rt_find_meetings(rt_inspection *in);
+void rt_find_solids(rt_inspection *in);
+void rt_find_nests(rt_inspection *in, const rt_solids *solids);
 
 #endif

@@ -430,6 +430,9 @@ static const struct {
      "'roughness' has no effect without 'kd', 'ks' or 'kt'"},
     {"material m { ior 1.2 }", 14, "'ior' has no effect without 'ks' or 'kt'"},
     {"material m { absorption 1 }", 14, "'absorption' has no effect without 'ks' or 'kt'"},
+    {"material m { kd 0.5 priority 2 }", 21,
+     "'priority' has no effect without 'kt', or 'ks' and 'fresnel dielectric'"},
+    {"material m { ks 0.5 priority 2 }", 21, "'priority' has no effect without 'kt', or 'ks' and"},
     {"material m { bump_scale 1 }", 14, "'bump_scale' has no effect without 'bump_texture'"},
     {"camera { eye 0 0 0 look_at 0 0 1 width 2 }", 34,
      "'width' has no effect without 'projection orthographic'"},
@@ -546,6 +549,37 @@ static void what_a_check_finds_stands_at_its_place(void **state)
     collected_free(&c);
 }
 
+static void solids_are_found_at_their_places(void **state)
+{
+    static collected c;
+    (void)state;
+    check_text(&c,
+               "material m { kt 1 }\nlight point { position 0 3 0 power 1 }\ncamera { eye 0 0 "
+               "-9 look_at 0 0 0 }\n"
+               "sphere { centre 0 0 0 radius 2 material m }\n"
+               "repeat i from 1 to 3 { sphere { centre 0 0 0 radius (1 + i / 10) material m } }\n"
+               "box { centre 0 0 0 size 1 1 1 material m }\n");
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].finding == RT_FINDING_TOO_MANY_SOLIDS && c.items[0].line == 6);
+    assert_non_null(
+        strstr(c.items[0].message, "this box and 4 more transparent solids lie around"));
+    assert_string_equal(c.items[0].hint, "the others are at text:4, text:5");
+    collected_free(&c);
+
+    check_text(&c,
+               "material m { kt 1 priority 1 }\nmaterial n { kt 1 }\nlight point { position 0 3 0 "
+               "power 1 }\ncamera { eye 0 0 -9 look_at 0 0 0 }\n"
+               "sphere { centre 0 0 0 radius 2 material m }\n"
+               "box { centre 0 0 0 size 1 1 1 material n }\n");
+    assert_int_equal(c.count, 1);
+    assert_true(c.items[0].finding == RT_FINDING_HIDDEN && c.items[0].line == 6);
+    assert_string_equal(c.items[0].message,
+                        "this box lies wholly in a sphere of higher priority: it has no effect");
+    assert_string_equal(c.items[0].hint, "the other is at text:5; give the material of this one a "
+                                         "priority as high");
+    collected_free(&c);
+}
+
 static void reading_stops_after_a_thousand_errors(void **state)
 {
     static collected c;
@@ -607,6 +641,7 @@ int main(void)
         cmocka_unit_test(fields_without_effect_are_warned_of),
         cmocka_unit_test(a_default_is_not_warned_of),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
+        cmocka_unit_test(solids_are_found_at_their_places),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),
         cmocka_unit_test(deep_and_long_texts_are_refused),
     };

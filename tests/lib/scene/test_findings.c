@@ -197,7 +197,7 @@ static void keep(void *user, const rt_finding *finding)
 /* What is told of a scene; nothing, or one finding. */
 static told findings_of(const char *text)
 {
-    told t = {0, {RT_FINDING_NONE, RT_SEVERITY_ERROR, 0, 0, 0, 0, NULL}, ""};
+    told t = {0, {RT_FINDING_NONE, RT_SEVERITY_ERROR, 0, 0, 0, 0, NULL, NULL, 0}, ""};
     rt_scene *scene = NULL;
     rt_error error;
     expect_ok(rt_scene_parse(&scene, text, NULL, NULL, &error), &error);
@@ -429,10 +429,83 @@ static void solids_whose_priorities_settle_nothing_are_reported(void **state)
     assert_true(t.last.shape == 1 && t.last.other == 0 && t.last.emitter == RT_NONE);
 }
 
+#define BALL_OF(radius, m) "sphere { centre 0 0.5 0 radius " radius " material " m " }"
+#define NEST                                                                                       \
+    "material air { kt 1 priority 1 }"                                                             \
+    "material ice { kt 1 ior 1.31 fresnel dielectric priority 2 }"                                 \
+    "material bubble { kt 1 ior 1 priority 3 }" SOLIDS
+
+static void too_many_solids_around_a_point_are_reported(void **state)
+{
+    static const scene_case cases[] = {
+        {NEST BALL_OF("0.5", "glass") BALL_OF("0.4", "air") BALL_OF("0.3", "filling")
+             BALL_OF("0.2", "ice"),
+         RT_FINDING_NONE},
+        {NEST BALL_OF("0.5", "glass") BALL_OF("0.4", "air") BALL_OF("0.3", "filling")
+             BALL_OF("0.2", "ice") BALL_OF("0.1", "bubble"),
+         RT_FINDING_TOO_MANY_SOLIDS},
+        /* whatever is first, and of one material too */
+        {NEST BALL_OF("0.1", "bubble") BALL_OF("0.3", "filling") BALL_OF("0.2", "ice")
+             BALL_OF("0.5", "glass") BALL_OF("0.4", "air"),
+         RT_FINDING_TOO_MANY_SOLIDS},
+        {NEST CUBE("0", "glass") CUBE("0.1", "glass") CUBE("0.2", "glass") CUBE("0.3", "glass")
+             CUBE("0.4", "glass"),
+         RT_FINDING_TOO_MANY_SOLIDS},
+        /* five of which no more than two share a point; and one of them opaque */
+        {NEST CUBE("0", "glass") CUBE("1.5", "glass") CUBE("3", "glass") CUBE("4.5", "glass")
+             CUBE("6", "glass"),
+         RT_FINDING_NONE},
+        {NEST "material white { kd 0.5 }" BALL_OF("0.5", "glass") BALL_OF("0.4", "air")
+             BALL_OF("0.3", "filling") BALL_OF("0.2", "ice") BALL_OF("0.1", "white"),
+         RT_FINDING_NONE},
+    };
+    (void)state;
+    EXPECT(cases);
+    told t = findings_of(cases[1].text);
+    assert_true(t.last.shape == 4 && t.last.other == RT_NONE);
+    /* Bubbles by the hundred do not hide the large ones that they are in. */
+    t = findings_of(NEST "repeat i from 1 to 300 { sphere { centre (i / 1000) 0.5 0 radius 0.0002 "
+                         "material bubble } }" BALL_OF("2", "glass") BALL_OF("1.8", "air")
+                             BALL_OF("1.6", "filling") BALL_OF("1.4", "ice"));
+    assert_true(t.count == 1 && t.last.kind == RT_FINDING_TOO_MANY_SOLIDS && t.last.shape == 303);
+}
+
+static void solids_without_effect_are_reported(void **state)
+{
+    static const scene_case cases[] = {
+        {SOLIDS BALL_OF("0.5", "filling") BALL_OF("0.3", "glass"), RT_FINDING_HIDDEN},
+        {SOLIDS BALL_OF("0.3", "glass") BALL_OF("0.5", "filling"), RT_FINDING_HIDDEN},
+        {SOLIDS BALL_OF(
+             "0.5",
+             "filling") "torus { centre 0 0.5 0 axis 1 1 0 major_radius 0.2 minor_radius 0.1 "
+                        "material glass }",
+         RT_FINDING_HIDDEN},
+        /* of equal or higher priority, or not all of it inside */
+        {SOLIDS BALL_OF("0.5", "water") BALL_OF("0.3", "glass"), RT_FINDING_NONE},
+        {SOLIDS BALL_OF("0.5", "glass") BALL_OF("0.3", "filling"), RT_FINDING_NONE},
+        {SOLIDS BALL_OF("0.5", "filling") "sphere { centre 0.2 0.5 0 radius 0.32 material glass }",
+         RT_FINDING_NONE},
+        {SOLIDS BALL_OF("0.5", "filling") "box { centre 0 0.5 0 size 0.6 0.6 0.6 material glass }",
+         RT_FINDING_NONE},
+        /* opaque, or a lamp */
+        {SOLIDS "material white { kd 0.5 }" BALL_OF("0.5", "filling") BALL_OF("0.3", "white"),
+         RT_FINDING_NONE},
+        {SOLIDS BALL_OF("0.5", "filling") "sphere { centre 0 0.5 0 radius 0.3 radiance 1 "
+                                          "material glass }",
+         RT_FINDING_NONE},
+    };
+    (void)state;
+    EXPECT(cases);
+    told t = findings_of(cases[0].text);
+    assert_true(t.last.shape == 1 && t.last.other == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solids_whose_priorities_settle_nothing_are_reported),
+        cmocka_unit_test(too_many_solids_around_a_point_are_reported),
+        cmocka_unit_test(solids_without_effect_are_reported),
         cmocka_unit_test(points_in_solids_are_those_of_their_equations),
         cmocka_unit_test(only_closed_shapes_have_an_inside),
         cmocka_unit_test(what_is_missing_is_reported),
