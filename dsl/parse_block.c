@@ -29,6 +29,45 @@ static void hint_fields(rt_parser *parser, const rt_block *block)
     rt_report_hint(parser->reports, "the fields of %s are:%s", rt_block_title(title, block), list);
 }
 
+static int is_shape(const rt_block *block)
+{
+    return rt_schema_field(block, (rt_text){"material", strlen("material")}) != NULL;
+}
+
+static int is_of_picture(const rt_block *block)
+{
+    return block->id == RT_BLOCK_CAMERA || block->id == RT_BLOCK_FILM ||
+           block->id == RT_BLOCK_RENDER;
+}
+
+/* Whether a field that one block lacks may be meant where another has it. */
+static int may_be_meant(const rt_block *block, const rt_block *other)
+{
+    return is_shape(block) ? other->id == RT_BLOCK_MATERIAL
+                           : is_of_picture(block) && is_of_picture(other);
+}
+
+/* Says which other block has a field of that name; returns whether one has. */
+static int hint_elsewhere(rt_parser *parser, const rt_block *block, rt_text name)
+{
+    char title[RT_BLOCK_TITLE_SIZE], quote[RT_QUOTE_SIZE];
+    const rt_block *other;
+    for (size_t i = 0; (other = rt_block_at(i)) != NULL; i++) {
+        if (!may_be_meant(block, other) || !rt_schema_field(other, name))
+            continue;
+        rt_text_quote(quote, name);
+        if (is_shape(block))
+            rt_report_hint(parser->reports,
+                           "'%s' is a field of material: write it in that of the %s", quote,
+                           rt_block_title(title, block));
+        else
+            rt_report_hint(parser->reports, "'%s' is a field of %s", quote,
+                           rt_block_title(title, other));
+        return 1;
+    }
+    return 0;
+}
+
 static void begin_entry(rt_entry *entry, const rt_field *field)
 {
     memset(entry, 0, offsetof(rt_entry, values));
@@ -44,11 +83,17 @@ static void report_unknown_field(rt_parser *parser, rt_statement *statement, rt_
     rt_suggestion_offer_fields(&suggestion, block);
     rt_report_error(parser->reports, place, "unknown field '%s' in %s", rt_text_quote(quote, text),
                     rt_block_title(title, block));
-    if (!suggestion.best.at || rt_text_is_unit(text)) {
-        if (rt_text_is_unit(text))
-            rt_report_hint(parser->reports, RT_UNIT_HINT);
-        else
-            hint_fields(parser, block);
+    if (rt_text_is_unit(text)) {
+        rt_report_hint(parser->reports, RT_UNIT_HINT);
+        statement->is_incomplete = 1;
+        return;
+    }
+    /* A name in full is less likely to be mistyped, but for a synonym. */
+    const int is_sure = suggestion.best.at && suggestion.search.distance == 0;
+    if (!is_sure && hint_elsewhere(parser, block, text))
+        return;
+    if (!suggestion.best.at) {
+        hint_fields(parser, block);
         statement->is_incomplete = 1;
         return;
     }
@@ -164,6 +209,15 @@ static void parse_body(rt_parser *parser, rt_statement *statement)
     }
 }
 
+/* Whether a kind of light is a shape, or what other programs call those that emit. */
+static int is_area_light(rt_text word, rt_text kind)
+{
+    const rt_block *block = rt_schema_find(kind, NULL);
+    return rt_text_equal(word, "light") &&
+           (rt_text_equal(kind, "area") || rt_text_equal(kind, "mesh") ||
+            rt_text_equal(kind, "rect") || (block && is_shape(block)));
+}
+
 /*
  * The words before a block's '{'. Returns 0 when the block cannot be told; that is then reported.
  */
@@ -192,7 +246,10 @@ static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
     rt_text_quote(quote, word);
     rt_report_error(parser->reports, token->kind == RT_TOKEN_WORD ? token->place : statement->place,
                     "expected a kind of %s, found %s", quote, rt_parser_found(found, token));
-    if (suggestion.best.at)
+    if (is_area_light(word, kind))
+        rt_report_hint(parser->reports, "a light with an area is a shape that emits, as in: quad { "
+                                        "...  radiance 10 }");
+    else if (suggestion.best.at)
         rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
     else
         rt_report_hint(parser->reports, "the kinds are:%s; as in: %s%.*s { ... }", kinds, quote,

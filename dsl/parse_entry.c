@@ -259,17 +259,39 @@ static int is_known_word(const rt_parser *parser, const rt_field *field, rt_text
     return rt_word_find(rt_field_words(field), word.at, word.length) != NULL;
 }
 
+/* Whether the next token is a word like one that the field takes, and no constant. */
+static int is_near_word(rt_parser *parser, const rt_field *field)
+{
+    const rt_token *token = rt_parser_peek(parser, 0);
+    rt_text word = rt_place_text(&token->place);
+    rt_nearest search;
+    if (token->kind != RT_TOKEN_WORD || is_constant(parser, token))
+        return 0;
+    rt_nearest_begin(&search, word.at, word.length);
+    rt_nearest_offer_words(&search, rt_field_words(field));
+    return search.best != NULL;
+}
+
+/* Whether the next token is the value, and no field: a word, or a field that is given no value. */
+static int is_word_meant(rt_parser *parser, const rt_context *context)
+{
+    const rt_token *token = rt_parser_peek(parser, 0), *next = rt_parser_peek(parser, 1);
+    if (token->kind != RT_TOKEN_WORD)
+        return 0;
+    if (is_known_word(parser, context->entry->field, rt_place_text(&token->place)))
+        return 1;
+    return !token->first_on_line && (!is_field(context->block, token) ||
+                                     ((next->kind == '}' || is_field(context->block, next)) &&
+                                      is_near_word(parser, context->entry->field)));
+}
+
 static void parse_word(rt_parser *parser, rt_context *context)
 {
     phrase taken;
     rt_entry *entry = context->entry;
     char found[RT_FOUND_SIZE];
     skip_separators(parser, context);
-    const rt_token *token = rt_parser_peek(parser, 0);
-    int is_known = token->kind == RT_TOKEN_WORD &&
-                   is_known_word(parser, entry->field, rt_place_text(&token->place));
-    if (is_known || (token->kind == RT_TOKEN_WORD && !is_field(context->block, token) &&
-                     !token->first_on_line)) {
+    if (is_word_meant(parser, context)) {
         int is_joined = 0, is_broken = 0;
         if (entry->field->type == RT_FIELD_CHOICE)
             entry->word = rt_parser_take_hyphenated(parser, &is_joined);
@@ -282,6 +304,7 @@ static void parse_word(rt_parser *parser, rt_context *context)
         return;
     }
     /* The mistake is where the value is missing, or the wrong value itself. */
+    const rt_token *token = rt_parser_peek(parser, 0);
     int is_missing = token->kind == RT_TOKEN_WORD || token->kind == '}';
     if (!entry->is_broken &&
         token->kind != RT_TOKEN_END) /* else the block is reported as not closed */
@@ -290,19 +313,6 @@ static void parse_word(rt_parser *parser, rt_context *context)
                         rt_parser_found(found, token));
     entry->is_broken = 1;
     rt_parser_skip_value(parser, context->block);
-}
-
-/* Whether the next token is a word like one that the field takes, and no constant. */
-static int is_near_word(rt_parser *parser, const rt_field *field)
-{
-    const rt_token *token = rt_parser_peek(parser, 0);
-    rt_text word = rt_place_text(&token->place);
-    rt_nearest search;
-    if (token->kind != RT_TOKEN_WORD || is_constant(parser, token))
-        return 0;
-    rt_nearest_begin(&search, word.at, word.length);
-    rt_nearest_offer_words(&search, rt_field_words(field));
-    return search.best != NULL;
 }
 
 /* A number, or the word `all` in its place, which may be mistyped. */

@@ -6,6 +6,7 @@
 
 #include "message.h"
 #include "number.h"
+#include "photons.h"
 #include "settings.h"
 #include "status.h"
 
@@ -279,6 +280,8 @@ int arguments_parse(command_line *out, int argc, char **argv)
         message_error("there is no command '%s' to help with; see `rtc --help`", argv[at]);
         if (command_nearest(argv[at]))
             message_hint("did you mean %s?", command_nearest(argv[at]));
+        else if (photons_nearest_form(argv[at]))
+            message_hint("did you mean `rtc photons %s --help`?", photons_nearest_form(argv[at]));
         return STATUS_USAGE;
     }
     if (out->command != COMMAND_RENDER)

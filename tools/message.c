@@ -207,6 +207,10 @@ static void put_json_diagnostic(const rt_diagnostic *diagnostic)
     put_json("file", diagnostic->file);
     fprintf(stderr, ",\"line\":%d,\"column\":%d,", diagnostic->line, diagnostic->column);
     put_json("message", diagnostic->message);
+    if (diagnostic->hint) {
+        fputc(',', stderr);
+        put_json("hint", diagnostic->hint);
+    }
     fputs("}\n", stderr);
 }
 
@@ -234,7 +238,7 @@ void message_diagnostic(const rt_diagnostic *diagnostic)
         put_json_diagnostic(diagnostic);
     else
         put_text_diagnostic(diagnostic);
-    if (diagnostic->hint)
+    if (diagnostic->hint && !as_json)
         message_hint("%s", diagnostic->hint);
 }
 

@@ -14,8 +14,8 @@
 
 /*
  * From now on every line on stderr is a JSON object, or no longer: {"severity": "error", "message":
- * ...}, with "warning", "hint" and "note" likewise, and "file", "line" and "column" before the
- * message where a scene is at fault.
+ * ...}, with "warning", "hint" and "note" likewise; where a scene is at fault with "file", "line"
+ * and "column" before the message, and its "hint", if it has one, behind.
  */
 void message_as_json(int is_json);
 

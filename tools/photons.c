@@ -241,18 +241,22 @@ static int check_options(const command_line *arguments, const photons_form *form
     return status;
 }
 
-/* What is not there as a scene may be a mistyped form. Returns whether there is a hint. */
-static int hint_form(const char *word)
+const char *photons_nearest_form(const char *word)
 {
     rt_nearest search;
-    if (access(word, F_OK) == 0)
-        return 0;
     rt_nearest_begin(&search, word, strlen(word));
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
         rt_nearest_offer(&search, forms[i].word, strlen(forms[i].word));
-    if (search.best)
-        message_hint("did you mean `rtc photons %s`?", search.best);
-    return search.best != NULL;
+    return search.best;
+}
+
+/* What is not there as a scene may be a mistyped form. Returns whether there is a hint. */
+static int hint_form(const char *word)
+{
+    const char *form = access(word, F_OK) != 0 ? photons_nearest_form(word) : NULL;
+    if (form)
+        message_hint("did you mean `rtc photons %s`?", form);
+    return form != NULL;
 }
 
 int command_photons(const command_line *arguments)

@@ -16,6 +16,9 @@ typedef struct photons_form {
 /* The form that a command line names, or NULL. */
 const photons_form *photons_find_form(const command_line *arguments);
 
+/* The word of the form that a word is like, or NULL. */
+const char *photons_nearest_form(const char *word);
+
 /* Whether a form has this option. */
 int photons_form_takes(const photons_form *form, option_id id);
 

@@ -11,6 +11,7 @@
 #include "message.h"
 #include "no_effect.h"
 #include "outputs.h"
+#include "photons.h"
 #include "recorded.h"
 #include "rt.h"
 #include "status.h"
@@ -255,8 +256,12 @@ static int run(render_job *job)
 /* What is not there as a scene may be a mistyped subcommand. */
 static void hint_command(const char *word)
 {
-    const char *command = access(word, F_OK) != 0 ? command_nearest(word) : NULL;
-    if (command)
+    if (access(word, F_OK) == 0)
+        return;
+    const char *command = command_nearest(word), *form = photons_nearest_form(word);
+    if (form && (!command || strcmp(word, form) == 0))
+        message_hint("did you mean `rtc photons %s`?", form);
+    else if (command)
         message_hint("did you mean `rtc %s`?", command);
 }
 
