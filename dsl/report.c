@@ -6,6 +6,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A message is one line, whatever is quoted in it: a file's name may have a carriage return. */
+static void write_line(char *out, size_t size, const char *format, va_list args)
+{
+    vsnprintf(out, size, format, args);
+    for (char *c = out; *c; c++)
+        if (*c == '\r' || *c == '\n')
+            *c = ' ';
+}
+
+static void put_line(char *out, size_t size, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    write_line(out, size, format, args);
+    va_end(args);
+}
+
 static rt_report *add_report(rt_reports *reports, rt_place place)
 {
     reports->is_left_out = 0;
@@ -34,7 +51,7 @@ void rt_report_error(rt_reports *reports, rt_place place, const char *format, ..
     reports->errors++;
     va_list args;
     va_start(args, format);
-    vsnprintf(report->message, sizeof report->message, format, args);
+    write_line(report->message, sizeof report->message, format, args);
     va_end(args);
 }
 
@@ -52,7 +69,7 @@ void rt_report_warning(rt_reports *reports, rt_place place, const char *format, 
     report->severity = RT_SEVERITY_WARNING;
     va_list args;
     va_start(args, format);
-    vsnprintf(report->message, sizeof report->message, format, args);
+    write_line(report->message, sizeof report->message, format, args);
     va_end(args);
 }
 
@@ -73,7 +90,7 @@ void rt_report_hint(rt_reports *reports, const char *format, ...)
     rt_report *report = &reports->items[reports->count - 1];
     va_list args;
     va_start(args, format);
-    vsnprintf(report->hint, sizeof report->hint, format, args);
+    write_line(report->hint, sizeof report->hint, format, args);
     va_end(args);
 }
 
@@ -107,7 +124,7 @@ static void hint_at_later_definition(rt_report *report)
     if (found == RT_NAME_NONE)
         return;
     const rt_place *place = &report->table->items[found].place;
-    snprintf(report->hint, sizeof report->hint,
+    put_line(report->hint, sizeof report->hint,
              "it is defined further down, at %s:%d; define it before its use", place->source->path,
              place->line);
 }

@@ -1,9 +1,16 @@
 /* error.c - fills the error that a failing call leaves to its caller. */
 #include "base/error.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+void rt_write_line(char *out, size_t size, const char *format, va_list args)
+{
+    vsnprintf(out, size, format, args);
+    for (char *c = out; *c; c++)
+        if (*c == '\n' || *c == '\r')
+            *c = ' ';
+}
 
 static void fill(rt_error *error, rt_status status, const char *field, const char *format,
                  va_list args)
@@ -12,11 +19,7 @@ static void fill(rt_error *error, rt_status status, const char *field, const cha
     error->status = status;
     if (field)
         snprintf(error->field, sizeof error->field, "%s", field);
-    vsnprintf(error->message, sizeof error->message, format, args);
-    /* A message is one line, whatever was quoted in it. */
-    for (char *c = error->message; *c; c++)
-        if (*c == '\n' || *c == '\r')
-            *c = ' ';
+    rt_write_line(error->message, sizeof error->message, format, args);
 }
 
 rt_status rt_fail(rt_error *error, rt_status status, const char *format, ...)

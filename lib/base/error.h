@@ -2,6 +2,8 @@
 #ifndef RT_LIB_BASE_ERROR_H
 #define RT_LIB_BASE_ERROR_H
 
+#include <stdarg.h>
+
 #include "rt.h"
 
 #if defined(__GNUC__)
@@ -9,6 +11,9 @@
 #else
 #define RT_PRINTF(string, first)
 #endif
+
+/* Writes a message, which is one line whatever is quoted in it: of a name with a line end, too. */
+void rt_write_line(char *out, size_t size, const char *format, va_list args);
 
 /* Fills *error (may be NULL) with status and a one-line message; returns status. */
 rt_status rt_fail(rt_error *error, rt_status status, const char *format, ...) RT_PRINTF(3, 4);

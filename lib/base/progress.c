@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <time.h>
 
+#include "base/error.h"
+
 double rt_clock(void)
 {
     struct timespec now;
@@ -154,7 +156,7 @@ void rt_log(const rt_hooks *hooks, const char *format, ...)
     if (!hooks || !hooks->log)
         return;
     va_start(args, format);
-    vsnprintf(line, sizeof line, format, args);
+    rt_write_line(line, sizeof line, format, args);
     va_end(args);
     hooks->log(hooks->user, line);
 }
@@ -166,7 +168,7 @@ void rt_warn(const rt_hooks *hooks, const char *format, ...)
     if (!hooks || !hooks->warning)
         return;
     va_start(args, format);
-    vsnprintf(line, sizeof line, format, args);
+    rt_write_line(line, sizeof line, format, args);
     va_end(args);
     hooks->warning(hooks->user, line);
 }
