@@ -86,8 +86,9 @@ count_edges() {
     # shellcheck disable=SC2046 # patterns of files without spaces
     awk -v files="$(printf '%s ' $(sources_of "$1"))" -v top="$top/" '
         BEGIN { count = split(files, list, " "); for (i = 1; i <= count; i++) own[list[i]] }
-        $1 ~ /COVERED_FUNC:$/ && index($NF, top) == 1 {
-            file = substr($NF, length(top) + 1)
+        $1 ~ /COVERED_FUNC:$/ {
+            file = index($NF, top) == 1 ? substr($NF, length(top) + 1) : $NF
+            sub(/^\.\//, "", file)
             sub(/:[0-9]*$/, "", file)
             for (i = 2; file in own && i < NF; i++)
                 if ($i == "edges:") {
@@ -103,11 +104,13 @@ count_edges() {
 unreached() {
     llvm=$(dirname "$(readlink -f "$symbolizer")")
     "$llvm/llvm-profdata" merge -o "$work/merged" "$work/profile" || exit 2
+    "$llvm/llvm-cov" export -format=lcov -instr-profile="$work/merged" "$edges" >"$work/lcov" ||
+        exit 2
     # shellcheck disable=SC2046 # patterns of files without spaces
-    "$llvm/llvm-cov" export -format=lcov -instr-profile="$work/merged" "$edges" \
-        $(sources_of "$1") >"$work/lcov" || exit 2
-    awk -F '[:,]' -v top="$top/" '
-        $1 == "SF" { file = $2; sub(top, "", file) }
+    awk -F '[:,]' -v files="$(printf '%s ' $(sources_of "$1"))" -v top="$top/" '
+        BEGIN { count = split(files, list, " "); for (i = 1; i <= count; i++) own[list[i]] }
+        $1 == "SF" { file = $2; sub(top, "", file); sub(/^\.\//, "", file); is_own = file in own }
+        !is_own { next }
         # A function of a header is there once for each file that includes it.
         $1 == "FNDA" { calls[file ": " $NF] += $2 }
         $1 == "BRDA" { taken[file ":" $2, int($4 / 2) + 1, $4 % 2 ? "false" : "true"] += $5 }

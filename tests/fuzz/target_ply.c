@@ -51,6 +51,21 @@ static void put_binary(rt_bytes *out, int is_big)
         fuzz_put_number(out, i == 3 ? 0xffffffff : i % 4, 4, is_big);
 }
 
+/* More elements than a header may have. */
+static void add_elements(fuzz_inputs *seeds)
+{
+    rt_bytes file = {0};
+    char line[32];
+    fuzz_put_text(&file, "ply\nformat ascii 1.0\n");
+    for (int i = 0; i < 66; i++) {
+        snprintf(line, sizeof line, "element e%d 0\n", i);
+        fuzz_put_text(&file, line);
+    }
+    fuzz_put_text(&file, "end_header\n");
+    fuzz_add(seeds, file.data, file.size);
+    rt_bytes_free(&file);
+}
+
 static void seed(fuzz_inputs *seeds)
 {
     fuzz_add_text(seeds, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
@@ -63,6 +78,7 @@ static void seed(fuzz_inputs *seeds)
                          "3 0 1 2 6 0 0 1 0 1 1\n4 0 1 2 3 0\n6 0 1 2 -1 3 2\n");
     fuzz_add_text(seeds,
                   "ply\nformat ascii 1.0\n" CORNERS "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 1 1\n");
+    add_elements(seeds);
     fuzz_random random = fuzz_random_begin(11);
     for (int i = 0; i < 60; i++) {
         rt_bytes file = {0};

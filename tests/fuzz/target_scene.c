@@ -222,9 +222,35 @@ static const char *const texts[] = {
     "include \"loop.rts\"\ninclude \"none.rts\"\nlet s = unknown\n} { ( ] \377 \"open\n",
 };
 
+/* A text so often, and what follows. */
+static void add_often(fuzz_inputs *seeds, const char *text, int times, const char *last)
+{
+    rt_bytes all = {0};
+    for (int i = 0; i < times; i++)
+        fuzz_put_text(&all, text);
+    fuzz_put_text(&all, last);
+    fuzz_add(seeds, all.data, all.size);
+    rt_bytes_free(&all);
+}
+
+/* What is counted, and is too much: errors, repeats inside each other, iterations, parentheses. */
+static void add_limits(fuzz_inputs *seeds)
+{
+    add_often(seeds, "a\n", 1100, "");
+    add_often(seeds, "repeat i from 0 to 0 {\n", 33, "material m { }\n");
+    add_often(seeds, "repeat i from 1 to 200 {\n", 3, "material m { }\n}}}\n");
+    add_often(seeds, "(", 70, "1\n");
+    add_often(seeds, "film { } ", 40, "render { k 7 k 8 k all }\n");
+    fuzz_add_text(seeds,
+                  "repeat i from 0 to 1e9 { material m { } }\nrepeat j from [1 2 3] to 2 { }");
+    fuzz_add_text(seeds,
+                  "include \"c0.rts\"\ninclude \"loop2.rts\"\ninclude \"\"\ninclude \".\"\n");
+}
+
 static void seed(fuzz_inputs *seeds)
 {
     fuzz_random random = fuzz_random_begin(7);
+    add_limits(seeds);
     const rt_block *block;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         fuzz_add_text(seeds, texts[i]);
@@ -357,11 +383,20 @@ static void words(fuzz_inputs *out)
 
 static void begin(void)
 {
-    static const char part[] = "material a { kd 0.5 }\nlet n = 4\n",
-                      loop[] = "include \"loop.rts\"";
+    static const char part[] = "material a { kd 0.5 }\nlet b = 4\n",
+                      loop[] = "include \"loop.rts\"", around[] = "include \"loop3.rts\"",
+                      back[] = "include \"loop2.rts\"";
+    char name[16], next[32];
     if (symlink("/etc/passwd", "link.rts") != 0)
         FUZZ_EXPECT(access("link.rts", F_OK) == 0);
     fuzz_write("a.rts", part, sizeof part - 1);
+    fuzz_write("loop2.rts", around, sizeof around - 1);
+    fuzz_write("loop3.rts", back, sizeof back - 1);
+    for (int i = 0; i < 34; i++) {
+        snprintf(name, sizeof name, "c%d.rts", i);
+        snprintf(next, sizeof next, "include \"c%d.rts\"\n", i + 1);
+        fuzz_write(name, next, strlen(next));
+    }
     fuzz_write("names.rts", fuzz_scene_names, strlen(fuzz_scene_names));
     fuzz_write("loop.rts", loop, sizeof loop - 1);
     fuzz_write_seed(&fuzz_target_ply, 1, "m.ply");
