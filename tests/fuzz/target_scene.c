@@ -395,7 +395,7 @@ static void begin(void)
     static const char part[] = "material a { kd 0.5 }\nlet b = 4\n",
                       loop[] = "include \"loop.rts\"", around[] = "include \"loop3.rts\"",
                       back[] = "include \"loop2.rts\"";
-    char name[16], next[32];
+    char name[24], next[40];
     if (symlink("/etc/passwd", "link.rts") != 0)
         FUZZ_EXPECT(access("link.rts", F_OK) == 0);
     fuzz_write("a.rts", part, sizeof part - 1);
