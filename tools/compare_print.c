@@ -27,7 +27,9 @@ enum { SHOWN = 32 }; /* room for a number */
 /* A number, or that there is none. */
 static const char *show(char out[SHOWN], const char *format, double value)
 {
-    snprintf(out, SHOWN, isnan(value) ? "unknown" : format, value);
+    if (isnan(value))
+        return "unknown";
+    snprintf(out, SHOWN, format, value);
     return out;
 }
 
