@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -19,7 +20,7 @@
 #include "base/file.h"
 #include "device/work_folder.h"
 
-enum { STORED_MAX = 256 << 20, FILES_MAX = 4096, DEPTH_MAX = 8, KEPT_DAYS = 60 };
+enum { STORED_MAX = 256 << 20, DEPTH_MAX = 8, KEPT_DAYS = 60, LOCK_TRIES = 100 };
 
 static const char magic[8] = "RTKERN1\n";
 
@@ -80,70 +81,7 @@ size_t rt_stored_count(const char *work, const char *folder)
     return count;
 }
 
-/* ---- Writing --------------------------------------------------------------------------------- */
-
-typedef struct packing {
-    const char *root;
-    rt_bytes bytes;
-    uint32_t files;
-} packing;
-
-static rt_status put(rt_bytes *bytes, const void *data, size_t size, rt_error *error)
-{
-    return rt_bytes_put(bytes, bytes->size, data, size, error);
-}
-
-static rt_status put_text(rt_bytes *bytes, const void *data, size_t size, rt_error *error)
-{
-    uint32_t length = (uint32_t)size;
-    rt_status status = put(bytes, &length, sizeof length, error);
-    return status == RT_OK ? put(bytes, data, size, error) : status;
-}
-
-static rt_status pack_file(void *user, const char *path, rt_error *error)
-{
-    packing *p = user;
-    rt_bytes content = {0};
-    char full[RT_PATH_MAX];
-    if (snprintf(full, sizeof full, "%s/%s", p->root, path) >= RT_PATH_MAX)
-        return rt_fail(error, RT_ERROR_OUTPUT, "the path of a compiled kernel is too long");
-    rt_status status = rt_file_read(&content, full, STORED_MAX, error);
-    if (status == RT_OK)
-        status = put_text(&p->bytes, path, strlen(path), error);
-    if (status == RT_OK)
-        status = put_text(&p->bytes, content.data, content.size, error);
-    p->files++;
-    rt_bytes_free(&content);
-    return status;
-}
-
-rt_status rt_stored_write(const char *path, uint64_t key, const char *work, const char *folder,
-                          rt_error *error)
-{
-    char root[RT_PATH_MAX];
-    packing p = {.root = root};
-    rt_status status;
-    if (snprintf(root, sizeof root, "%s/%s", work, folder) >= RT_PATH_MAX)
-        return rt_fail(error, RT_ERROR_OUTPUT, "the path of a compiled kernel is too long");
-    if ((status = put(&p.bytes, magic, sizeof magic, error)) != RT_OK ||
-        (status = put(&p.bytes, &key, sizeof key, error)) != RT_OK ||
-        (status = put_text(&p.bytes, folder, strlen(folder), error)) != RT_OK)
-        goto out;
-    size_t count = p.bytes.size;
-    if ((status = put(&p.bytes, &p.files, sizeof p.files, error)) != RT_OK ||
-        (status = walk(root, "", 0, pack_file, &p, error)) != RT_OK)
-        goto out;
-    memcpy(p.bytes.data + count, &p.files, sizeof p.files);
-    uint32_t sum = rt_crc32(p.bytes.data, p.bytes.size);
-    status = put(&p.bytes, &sum, sizeof sum, error);
-    if (status == RT_OK)
-        status = rt_file_replace(path, &p.bytes, error);
-out:
-    rt_bytes_free(&p.bytes);
-    return status;
-}
-
-/* ---- Reading --------------------------------------------------------------------------------- */
+/* ---- A stored program ------------------------------------------------------------------------ */
 
 /* What is left to be read of a stored program. */
 typedef struct unpacking {
@@ -183,6 +121,170 @@ static int take_path(unpacking *u, char *out, size_t size)
     return strlen(out) == length && !strstr(out, "..");
 }
 
+/* Takes what comes before the files: which folder it is, and how many files. */
+static int take_header(unpacking *u, char folder[RT_STORED_FOLDER_MAX], uint32_t *count,
+                       uint64_t key)
+{
+    char start[sizeof magic];
+    uint64_t found;
+    return take(u, start, sizeof start) && memcmp(start, magic, sizeof magic) == 0 &&
+           take(u, &found, sizeof found) && found == key &&
+           take_path(u, folder, RT_STORED_FOLDER_MAX) && take(u, count, sizeof *count);
+}
+
+static rt_status fail_damaged(const char *path, rt_error *error)
+{
+    return rt_fail(error, RT_ERROR_INPUT, "the compiled kernels in %.350s are damaged", path);
+}
+
+/* Reads a stored program whose checksum is right, and leaves that out. */
+static rt_status read_checked(rt_bytes *bytes, const char *path, rt_error *error)
+{
+    uint32_t sum;
+    rt_status status = rt_file_read(bytes, path, STORED_MAX, error);
+    if (status != RT_OK)
+        return status;
+    if (bytes->size < sizeof sum)
+        return fail_damaged(path, error);
+    bytes->size -= sizeof sum;
+    memcpy(&sum, bytes->data + bytes->size, sizeof sum);
+    return rt_crc32(bytes->data, bytes->size) == sum ? RT_OK : fail_damaged(path, error);
+}
+
+/* ---- Writing --------------------------------------------------------------------------------- */
+
+typedef struct packing {
+    const char *root;
+    rt_bytes bytes;
+    size_t start; /* of the files in it */
+    uint32_t files;
+} packing;
+
+static rt_status put(rt_bytes *bytes, const void *data, size_t size, rt_error *error)
+{
+    return rt_bytes_put(bytes, bytes->size, data, size, error);
+}
+
+static rt_status put_text(rt_bytes *bytes, const void *data, size_t size, rt_error *error)
+{
+    uint32_t length = (uint32_t)size;
+    rt_status status = put(bytes, &length, sizeof length, error);
+    return status == RT_OK ? put(bytes, data, size, error) : status;
+}
+
+static rt_status put_file(packing *p, const char *path, const void *data, size_t size,
+                          rt_error *error)
+{
+    rt_status status = put_text(&p->bytes, path, strlen(path), error);
+    p->files++;
+    return status == RT_OK ? put_text(&p->bytes, data, size, error) : status;
+}
+
+static rt_status pack_file(void *user, const char *path, rt_error *error)
+{
+    packing *p = user;
+    rt_bytes content = {0};
+    char full[RT_PATH_MAX];
+    if (snprintf(full, sizeof full, "%s/%s", p->root, path) >= RT_PATH_MAX)
+        return rt_fail(error, RT_ERROR_OUTPUT, "the path of a compiled kernel is too long");
+    rt_status status = rt_file_read(&content, full, STORED_MAX, error);
+    if (status == RT_OK)
+        status = put_file(p, path, content.data, content.size, error);
+    rt_bytes_free(&content);
+    return status;
+}
+
+static int is_packed(const packing *p, const char *path)
+{
+    unpacking u = {p->bytes.data + p->start, p->bytes.size - p->start};
+    const size_t length = strlen(path);
+    const uint8_t *name, *content;
+    uint32_t name_size, size;
+    while (take_block(&u, &name, &name_size) && take_block(&u, &content, &size))
+        if (name_size == length && memcmp(name, path, length) == 0)
+            return 1;
+    return 0;
+}
+
+/*
+ * Adds the files that are stored already and not packed: what other processes compiled meanwhile,
+ * for work-groups of other sizes. What cannot be read is not missed.
+ */
+static rt_status pack_stored(packing *p, const char *path, uint64_t key, const char *folder,
+                             rt_error *error)
+{
+    rt_bytes bytes = {0};
+    char found[RT_STORED_FOLDER_MAX], inner[RT_PATH_MAX];
+    const uint8_t *content;
+    uint32_t count, size;
+    rt_status status = RT_OK;
+    if (access(path, F_OK) != 0 || read_checked(&bytes, path, NULL) != RT_OK)
+        goto out;
+    unpacking u = {bytes.data, bytes.size};
+    if (!take_header(&u, found, &count, key) || strcmp(found, folder) != 0)
+        goto out;
+    for (uint32_t i = 0; i < count && status == RT_OK; i++) {
+        if (!take_path(&u, inner, sizeof inner) || !take_block(&u, &content, &size))
+            break;
+        if (!is_packed(p, inner))
+            status = put_file(p, inner, content, size, error);
+    }
+out:
+    rt_bytes_free(&bytes);
+    return status;
+}
+
+/*
+ * Locks the folder that a path is in, from reading what is stored there until it is replaced; waits
+ * half a second at most. Without the lock one of two processes compiles again, no more. Returns a
+ * descriptor to be closed, or -1.
+ */
+static int lock_folder(const char *path)
+{
+    const struct timespec pause = {0, 5000000};
+    char folder[RT_PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 1,
+             slash ? path : ".");
+    int fd = open(folder, O_RDONLY | O_CLOEXEC);
+    for (int i = 0; fd >= 0 && i < LOCK_TRIES && flock(fd, LOCK_EX | LOCK_NB) != 0; i++)
+        nanosleep(&pause, NULL);
+    return fd;
+}
+
+rt_status rt_stored_write(const char *path, uint64_t key, const char *work, const char *folder,
+                          rt_error *error)
+{
+    char root[RT_PATH_MAX];
+    packing p = {.root = root};
+    rt_status status;
+    if (snprintf(root, sizeof root, "%s/%s", work, folder) >= RT_PATH_MAX)
+        return rt_fail(error, RT_ERROR_OUTPUT, "the path of a compiled kernel is too long");
+    int lock = lock_folder(path);
+    if ((status = put(&p.bytes, magic, sizeof magic, error)) != RT_OK ||
+        (status = put(&p.bytes, &key, sizeof key, error)) != RT_OK ||
+        (status = put_text(&p.bytes, folder, strlen(folder), error)) != RT_OK)
+        goto out;
+    size_t count = p.bytes.size;
+    p.start = count + sizeof p.files;
+    if ((status = put(&p.bytes, &p.files, sizeof p.files, error)) != RT_OK ||
+        (status = walk(root, "", 0, pack_file, &p, error)) != RT_OK ||
+        (status = pack_stored(&p, path, key, folder, error)) != RT_OK)
+        goto out;
+    memcpy(p.bytes.data + count, &p.files, sizeof p.files);
+    uint32_t sum = rt_crc32(p.bytes.data, p.bytes.size);
+    status = put(&p.bytes, &sum, sizeof sum, error);
+    if (status == RT_OK)
+        status = rt_file_replace(path, &p.bytes, error);
+out:
+    if (lock >= 0)
+        close(lock);
+    rt_bytes_free(&p.bytes);
+    return status;
+}
+
+/* ---- Reading --------------------------------------------------------------------------------- */
+
 /* Writes one file below root. Returns 0, or the errno. */
 static int unpack_file(const char *root, const char *path, const uint8_t *data, size_t size)
 {
@@ -212,21 +314,13 @@ static int unpack_file(const char *root, const char *path, const uint8_t *data, 
     return code;
 }
 
-static rt_status fail_damaged(const char *path, rt_error *error)
-{
-    return rt_fail(error, RT_ERROR_INPUT, "the compiled kernels in %.350s are damaged", path);
-}
-
 static rt_status unpack(char folder[RT_STORED_FOLDER_MAX], size_t *files, unpacking u,
                         const char *path, uint64_t key, const char *work, rt_error *error)
 {
-    char start[sizeof magic], root[RT_PATH_MAX], inner[RT_PATH_MAX];
+    char root[RT_PATH_MAX], inner[RT_PATH_MAX];
     const uint8_t *content;
-    uint64_t found;
     uint32_t size, count;
-    if (!take(&u, start, sizeof start) || memcmp(start, magic, sizeof magic) != 0 ||
-        !take(&u, &found, sizeof found) || found != key ||
-        !take_path(&u, folder, RT_STORED_FOLDER_MAX) || !take(&u, &count, sizeof count) ||
+    if (!take_header(&u, folder, &count, key) ||
         snprintf(root, sizeof root, "%s/%s", work, folder) >= RT_PATH_MAX)
         return fail_damaged(path, error);
     for (uint32_t i = 0; i < count; i++) {
@@ -262,30 +356,18 @@ rt_status rt_stored_read(char folder[RT_STORED_FOLDER_MAX], size_t *files, const
                          uint64_t key, const char *work, rt_error *error)
 {
     rt_bytes bytes = {0};
-    uint32_t sum;
     struct stat info;
     folder[0] = '\0';
     *files = 0;
     if (stat(path, &info) != 0 && (errno == ENOENT || errno == ENOTDIR))
         return RT_OK;
-    rt_status status = rt_file_read(&bytes, path, STORED_MAX, error);
-    if (status != RT_OK)
-        goto out;
-    if (bytes.size < sizeof sum) {
-        status = fail_damaged(path, error);
-        goto out;
-    }
-    bytes.size -= sizeof sum;
-    memcpy(&sum, bytes.data + bytes.size, sizeof sum);
-    if (rt_crc32(bytes.data, bytes.size) != sum)
-        status = fail_damaged(path, error);
-    else
+    rt_status status = read_checked(&bytes, path, error);
+    if (status == RT_OK)
         status = unpack(folder, files, (unpacking){bytes.data, bytes.size}, path, key, work, error);
     if (status == RT_OK)
         touch(path);
     else
         remove_unpacked(work, folder);
-out:
     rt_bytes_free(&bytes);
     return status;
 }

@@ -10,7 +10,7 @@
  *     and text of its path in the folder, u32 length and bytes of its content; u32 CRC-32 of all
  *     before
  *
- * A stored program is replaced as a whole, by renaming.
+ * A stored program is replaced as a whole, by renaming, and keeps what others stored of it.
  */
 #ifndef RT_LIB_DEVICE_KERNEL_STORE_H
 #define RT_LIB_DEVICE_KERNEL_STORE_H
@@ -34,7 +34,10 @@ rt_status rt_stored_read(char folder[RT_STORED_FOLDER_MAX], size_t *files, const
 /* Counts the files of a program's folder, those that a driver still writes aside. */
 size_t rt_stored_count(const char *work, const char *folder);
 
-/* Stores a program's folder. */
+/*
+ * Stores a program's folder, beside the files that are stored of it already and that are not in the
+ * folder.
+ */
 rt_status rt_stored_write(const char *path, uint64_t key, const char *work, const char *folder,
                           rt_error *error);
 

@@ -43,16 +43,20 @@ static void on_warning(void *user, const char *line)
     }
 }
 
+/* Of the runs that begin; a driver compiles for each by itself. */
+static uint32_t work_group;
+
 /* Opens a device, compiles the kernel and runs it. Returns the exit status of the run. */
 static int answer(void)
 {
     const rt_hooks hooks = {.warning = on_warning};
+    const rt_device_options options = {.work_group = work_group};
     rt_device *device = NULL;
     cl_kernel kernel = NULL;
     cl_mem out = NULL;
     rt_error error;
     uint32_t values[items] = {0};
-    int is_right = rt_device_open(&device, NULL, &error) == RT_OK &&
+    int is_right = rt_device_open(&device, &options, &error) == RT_OK &&
                    rt_device_kernel_from(device, &kernel, sources, "answer", "answer", &hooks,
                                          &error) == RT_OK &&
                    rt_buffer_create(device, &out, CL_MEM_READ_WRITE, sizeof values, NULL,
@@ -246,6 +250,42 @@ static void every_damaged_byte_is_seen(void **state)
     rt_bytes_free(&bytes);
 }
 
+/* Where another process has stored the program since, for a work-group of its own. */
+static void a_writer_keeps_what_others_stored(void **state)
+{
+    (void)state;
+    rt_error error;
+    char folder[RT_STORED_FOLDER_MAX];
+    size_t files;
+    assert_int_equal(mkdir("from", 0700) | mkdir("from/a", 0700) | mkdir("work", 0700), 0);
+    scratch_write("from/a/program.bc", "the program");
+    scratch_write("from/a/8.so", "for groups of 8");
+    expect_ok(rt_stored_write("stored", 42, "from", "a", &error), &error);
+    assert_int_equal(unlink("from/a/8.so"), 0);
+    scratch_write("from/a/program.bc", "the program once more");
+    scratch_write("from/a/16.so", "for groups of 16");
+    expect_ok(rt_stored_write("stored", 42, "from", "a", &error), &error);
+    expect_ok(rt_stored_read(folder, &files, "stored", 42, "work", &error), &error);
+    assert_int_equal(files, 3);
+    scratch_expect("work/a/program.bc", "the program once more");
+    scratch_expect("work/a/8.so", "for groups of 8");
+    scratch_expect("work/a/16.so", "for groups of 16");
+    rt_folder_remove("work/a");
+    /* Nothing of another program, nor of a folder by another name, nor of what is damaged. */
+    expect_ok(rt_stored_write("stored", 43, "from", "a", &error), &error);
+    expect_ok(rt_stored_read(folder, &files, "stored", 43, "work", &error), &error);
+    assert_int_equal(files, 2);
+    assert_int_equal(rename("from/a", "from/b"), 0);
+    assert_int_equal(unlink("from/b/16.so"), 0);
+    expect_ok(rt_stored_write("stored", 43, "from", "b", &error), &error);
+    expect_ok(rt_stored_read(folder, &files, "stored", 43, "work", &error), &error);
+    assert_int_equal(files, 1);
+    scratch_write("stored", "no program");
+    expect_ok(rt_stored_write("stored", 43, "from", "b", &error), &error);
+    expect_ok(rt_stored_read(folder, &files, "stored", 43, "work", &error), &error);
+    assert_int_equal(files, 1);
+}
+
 static void a_place_that_cannot_be_written_is_told(void **state)
 {
     (void)state;
@@ -287,22 +327,56 @@ static void no_room_anywhere_is_a_device_error(void **state)
     expect_warning("; TMPDIR may name another");
 }
 
+/* Many runs at once, all of which have the right answer. */
+static void run_crowd(int (*work)(void), uint32_t (*group)(int i))
+{
+    pid_t runs[crowd];
+    for (int i = 0; i < crowd; i++) {
+        work_group = group(i);
+        runs[i] = begin(work);
+    }
+    for (int i = 0; i < crowd; i++)
+        assert_int_equal(end(runs[i]), 0);
+    work_group = 0;
+}
+
+static uint32_t the_usual(int i)
+{
+    (void)i;
+    return 0;
+}
+
+static uint32_t one_of_two(int i)
+{
+    return i % 2 ? 4 : 8;
+}
+
 static void a_crowd_shares_a_cold_and_a_damaged_cache(void **state)
 {
     (void)state;
-    pid_t runs[crowd];
     for (int kind = -1; kind < 1; kind++) {
         if (kind >= 0)
             damage(kind);
-        for (int i = 0; i < crowd; i++)
-            runs[i] = begin(answer);
-        for (int i = 0; i < crowd; i++)
-            assert_int_equal(end(runs[i]), 0);
+        run_crowd(answer, the_usual);
         stored();
     }
     unlink("warnings");
     assert_int_equal(run(), 0);
     expect_warning(NULL);
+}
+
+static void a_crowd_keeps_kernels_of_all_work_groups(void **state)
+{
+    (void)state;
+    run_crowd(answer, one_of_two);
+    ino_t first = stored_inode();
+    for (int i = 0; i < 2; i++) {
+        work_group = one_of_two(i);
+        assert_int_equal(run(), 0);
+        expect_warning(NULL);
+        assert_int_equal(stored_inode(), first);
+    }
+    work_group = 0;
 }
 
 static int answer_and_die(void)
@@ -371,9 +445,11 @@ int main(void)
         IN_SCRATCH(a_second_run_takes_what_the_first_compiled),
         IN_SCRATCH(a_damaged_program_is_dropped_and_compiled_again),
         IN_SCRATCH(every_damaged_byte_is_seen),
+        IN_SCRATCH(a_writer_keeps_what_others_stored),
         IN_SCRATCH(a_place_that_cannot_be_written_is_told),
         IN_SCRATCH(no_room_anywhere_is_a_device_error),
         IN_SCRATCH(a_crowd_shares_a_cold_and_a_damaged_cache),
+        IN_SCRATCH(a_crowd_keeps_kernels_of_all_work_groups),
         IN_SCRATCH(a_killed_run_leaves_nothing_behind_for_long),
         IN_SCRATCH(threads_may_open_the_first_device_at_once),
     };
