@@ -93,13 +93,19 @@ static void skip_invalid(rt_lexer *lexer)
     rt_report_hint(lexer->reports, "save the file as UTF-8");
 }
 
+/* At a line feed, or at the carriage return before it. */
+static int is_line_end(const rt_lexer *lexer)
+{
+    char c = byte_at(lexer, lexer->at);
+    return c == '\n' || (c == '\r' && byte_at(lexer, lexer->at + 1) == '\n');
+}
+
 /* Passes over text up to the end of the line or the closing character; its bytes must be UTF-8. */
 static void skip_free_text(rt_lexer *lexer, char closing)
 {
     const rt_source *source = lexer->source;
     while (lexer->at < source->size) {
-        char c = byte_at(lexer, lexer->at);
-        if (c == '\n' || (closing && c == closing))
+        if (is_line_end(lexer) || (closing && byte_at(lexer, lexer->at) == closing))
             return;
         size_t length = utf8_length(source->text + lexer->at, source->size - lexer->at);
         if (length)

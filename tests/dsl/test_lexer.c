@@ -126,6 +126,22 @@ static void a_broken_number_is_one_token(void **state)
     }
 }
 
+static void an_open_string_ends_before_the_end_of_its_line(void **state)
+{
+    static const char *const texts[] = {"\"a b", "\"a b\nc", "\"a b\r\nc"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        fixture f;
+        begin(&f, texts[i]);
+        rt_token token = next_token(&f);
+        assert_int_equal(token.kind, RT_TOKEN_STRING);
+        assert_true(token.is_broken);
+        assert_int_equal(token.place.length, strlen("\"a b"));
+        assert_int_equal(f.reports.errors, 1);
+        end(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -133,6 +149,7 @@ int main(void)
         cmocka_unit_test(the_end_repeats),
         cmocka_unit_test(only_well_formed_utf8_is_text),
         cmocka_unit_test(a_broken_number_is_one_token),
+        cmocka_unit_test(an_open_string_ends_before_the_end_of_its_line),
     };
     return cmocka_run_group_tests_name("lexer", tests, NULL, NULL);
 }
