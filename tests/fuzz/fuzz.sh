@@ -131,16 +131,24 @@ stat_of() {
     echo "${stat:-0}"
 }
 
+# cpu_seconds FILE: CPU seconds of all programs that have ended so far, however they ended.
+cpu_seconds() {
+    times >"$work/times" # not in a subshell, which has no children
+    awk -F '[ms ]+' 'NR == 2 { printf "%.1f\n", 60 * $1 + $2 + 60 * $3 + $4 }' "$work/times" >"$1"
+}
+
 # turn TARGET SECONDS: one run, until it has used so much CPU time.
 turn() {
     make_seeds "$1"
     words "$1" >"$work/words"
     printf '"\\x%s"\n' 00 ff >>"$work/words" # libFuzzer refuses an empty dictionary
+    cpu_seconds "$work/before"
     RT_FUZZ_SECONDS=$2 libfuzzer "$1" -dict="$work/words" -max_len="$(size_of "$1")" \
         -print_final_stats=1 -verbosity=1 \
         -artifact_prefix="$top/build/fuzz/findings/$1-" "$corpus/$1" "$work/seeds" \
         >"$work/log" 2>&1
     ended=$?
+    cpu_seconds "$work/after"
     found=0
     if [ $ended -ne 0 ]; then
         found=1
@@ -149,7 +157,7 @@ turn() {
     replay "$1"
     # shellcheck disable=SC2046 # two numbers
     set -- "$1" $(count_edges "$1")
-    used=$(stat_of cpu_seconds)
+    used=$(paste "$work/before" "$work/after" | awk '{ print $2 - $1 }')
     done=$(stat_of number_of_executed_units)
     line=$(printf '%s %s %s %s %s %s %s %s' "$1" "$used" "$done" \
         "$(echo "$used $done" | awk '{ print ($1 > 0 ? int($2 / $1) : 0) }')" "$2" "$3" \

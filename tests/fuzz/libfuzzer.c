@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
-#include <time.h>
 
 #include "fuzz/targets.h"
 
@@ -47,11 +46,6 @@ static void on_hangup(int signal)
     seconds_limit = 1;
 }
 
-static void print_time(void)
-{
-    fprintf(stderr, "stat::cpu_seconds: %.1f\n", (double)clock() / CLOCKS_PER_SEC);
-}
-
 /* The targets leave the directory, so files and folders are named from the root. */
 static void make_absolute(int argc, char **argv)
 {
@@ -80,7 +74,6 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     fuzz_enter_scratch();
     if (target->begin)
         target->begin();
-    atexit(print_time);
     sigaction(SIGPROF, &action, NULL);
     sigaction(SIGHUP, &hangup, NULL);
     setitimer(ITIMER_PROF, &second, NULL);
@@ -91,10 +84,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     seconds = 0;
     target->run(data, size);
-    if (seconds_limit && seconds_all >= seconds_limit) {
-        print_time();
+    if (seconds_limit && seconds_all >= seconds_limit)
         raise(SIGUSR1); /* libFuzzer sums up and ends */
-    }
     return 0;
 }
 
