@@ -218,7 +218,6 @@ static const char *const texts[] = {
           "plane { point 0 -1 0  normal 0 1 0  material h }\n",
     NAMES "camera { eye 0 0 0  look_at 0 0 1 }\nsphere { centre 0 0 -5  radius 1  material m }\n"
           "light directional { direction 0 -1 0  irradiance 1 }\nlight environment { }\n",
-    OUTSIDE,
     "let a = [1 2 3]\nlet b = (a / [1 1 0])\nlet c = (1e200 * [1e200 1 1])\nlet d = [1 a 2]\n"
     "let e = sin (1)\nlet f = max(1)\nlet g = sin(1, 2)\nlet h = infinity\nlet i = sign(0)\n"
     "let j = 1E+3\nlet k = 1 +\nlet l = ((1)\nlet m = [1 2\nlet n = mod(5 0)\nlet o = -(-2)\n"
@@ -229,6 +228,7 @@ static const char *const texts[] = {
     "# \303\251\340\240\200\355\237\277\360\220\200\200\364\217\277\277 \355\240\200\n"
     "# \340\200\200 \360\200\200\200 \364\220\200\200 \303\n\t@ $ 'x' \"a\n12abc 1.2.3 .5. 1e\n",
     "include \"loop.rts\"\ninclude \"none.rts\"\nlet s = unknown\n} { ( ] \377 \"open\n",
+    OUTSIDE,
 };
 
 /* A text so often, and what follows. */
