@@ -253,7 +253,7 @@ LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench build-fuzz check check-corpus check-faults check-fuzz check-memory \
+.PHONY: all bench build-fuzz check check-corpus check-crowd check-faults check-fuzz check-memory \
 	check-mutation check-peers check-quick check-reference check-reproducible check-samples \
 	check-sanitize check-threads clean demo deps deps-fuzz deps-lint format fuzz help install \
 	lint lint-quick need-deps proof run-all run-quick run-threads study uninstall
@@ -476,6 +476,11 @@ $(B)/tests/faults/test_icd: | $(B)/tests/faults/icd.so
 check-faults: $(B)/tests/faults/test_faults
 	RT_TEST_LONG=1 RT_TEST_TIMEOUT=3600 tests/run.sh $<
 
+# Eight processes at once on one cache of compiled kernels: cold, damaged, read-only, full.
+ROUNDS ?= 20
+check-crowd: all
+	RTC=$(B)/rtc tests/faults/crowd.sh $(ROUNDS)
+
 # Two builds of the last commit, in two folders: the same bytes.
 check-reproducible: deps
 	tests/install/reproducible.sh
@@ -588,6 +593,7 @@ help:
 	@echo 'make check-threads   many threads on the library, under the thread sanitizer'
 	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'
 	@echo 'make check-faults    small renders in which each call to the system fails in turn'
+	@echo 'make check-crowd     ROUNDS ($(ROUNDS)) of eight processes on one cache of kernels'
 	@echo 'make check-mutation  mutation testing: plants errors that the tests must see'
 	@echo 'make check-fuzz      20 s of fuzzing, guided by coverage, of each reader of files'
 	@echo 'make fuzz            HOURS ($(HOURS)) of CPU time of it for each, or for TARGET'
