@@ -187,7 +187,8 @@ TESTS_FULL  := \
 	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
 	tests/tools/test_rtc.c $(TESTS_PROOF) tests/threads/test_threads.c \
-	tests/faults/test_faults.c tests/faults/test_icd.c tests/faults/test_life.c \
+	tests/faults/test_faults.c tests/faults/test_commands.c tests/faults/test_icd.c \
+	tests/faults/test_life.c \
 	tests/lib/mode/test_photon_bias.c tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
@@ -320,11 +321,20 @@ $(B)/libtests.a: $(TEST_SUPPORT)
 	rm -f $@
 	$(AR) rcs $@ $^
 
-# Each call that fails in turn is wrapped by the linker.
-$(B)/tests/faults/test_faults $(B)/tests/faults/test_life: %: %.o $(B)/tests/faults/fault.o \
+# Each call that fails in turn is wrapped by the linker. One of the tests runs rtc as a whole, on a
+# device that stays open.
+FAULT_TESTS := $(addprefix $(B)/tests/faults/test_,commands faults life)
+FAULT_OBJ   := $(addprefix $(B)/tests/faults/,fault.o inject.o scene_files.o)
+$(FAULT_TESTS): %: %.o $(FAULT_OBJ) \
 		$(B)/libtests.a $(B)/librt.a tests/faults/calls.inc.h tests/faults/wrap.sh
-	$(CC) $(CFLAGS) $(LDFLAGS) $$(sh tests/faults/wrap.sh) -o $@ $(filter %.o %.a,$^) \
-	    $(TEST_LIBS) $(ALL_LIBS)
+	$(CC) $(CFLAGS) $(LDFLAGS) $$(sh tests/faults/wrap.sh) $(FAULT_LINK) -o $@ \
+	    $(filter %.o,$^) $(filter %.a,$^) $(TEST_LIBS) $(ALL_LIBS)
+$(B)/tests/faults/test_commands: $(B)/tests/faults/rtc.o $(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ))
+$(B)/tests/faults/test_commands: FAULT_LINK := -Wl,--wrap=interrupt_catch \
+	-Wl,--wrap=rt_device_open -Wl,--wrap=rt_device_close
+$(B)/tests/faults/rtc.o: tools/rtc.c | need-deps
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) -Dmain=rtc_main -MMD -MP -c -o $@ $<
 
 $(B)/tests/%: $(B)/tests/%.o $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
@@ -472,9 +482,10 @@ $(B)/tests/faults/icd.so: tests/faults/icd.c
 	$(CC) -std=c99 $(WARNINGS) -fPIC -shared -O1 -o $@ $< -ldl
 $(B)/tests/faults/test_icd: | $(B)/tests/faults/icd.so
 
-# Small renders in which each call for memory, to files, threads and OpenCL fails in turn.
-check-faults: $(B)/tests/faults/test_faults
-	RT_TEST_LONG=1 RT_TEST_TIMEOUT=3600 tests/run.sh $<
+# Small renders, and the commands of rtc, in which each call for memory, to files, threads and
+# OpenCL fails in turn.
+check-faults: $(B)/tests/faults/test_faults $(B)/tests/faults/test_commands
+	RT_TEST_LONG=1 RT_TEST_TIMEOUT=3600 tests/run.sh $^
 
 # Eight processes at once on one cache of compiled kernels: cold, damaged, read-only, full.
 ROUNDS ?= 20
@@ -592,7 +603,7 @@ help:
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make check-threads   many threads on the library, under the thread sanitizer'
 	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'
-	@echo 'make check-faults    small renders in which each call to the system fails in turn'
+	@echo 'make check-faults    renders and commands, each of whose system calls fails in turn'
 	@echo 'make check-crowd     ROUNDS ($(ROUNDS)) of eight processes on one cache of kernels'
 	@echo 'make check-mutation  mutation testing: plants errors that the tests must see'
 	@echo 'make check-fuzz      20 s of fuzzing, guided by coverage, of each reader of files'

@@ -31,6 +31,7 @@ typedef struct render_job {
     rt_photon_map *photon_map;
     float *shares; /* of the photon paths, one a light */
     size_t share_count;
+    char *command; /* as images record it */
     rt_scene *scene;
     rt_device *device;
     rt_renderer *renderer;
@@ -198,10 +199,8 @@ static int write_images(const render_job *job, int status)
                           ? (rt_tonemap)value(job, OPTION_TONEMAP)->choice
                           : RT_TONEMAP_NONE;
     options.scene = job->scene_path;
-    char *command = recorded_command(job->session.arguments, job->scene_path);
-    options.command = command;
+    options.command = job->command;
     int written = outputs_write(&job->outputs, job->film, &options);
-    free(command);
     if (written != STATUS_DONE)
         return written;
     if (!job->session.quiet)
@@ -235,11 +234,23 @@ static int confine(const render_job *job)
     return status;
 }
 
+/* Makes the command that the images record, now: a picture is not to be lost for it. */
+static int record_command(render_job *job)
+{
+    job->command = recorded_command(job->session.arguments, job->scene_path);
+    if (job->command)
+        return STATUS_DONE;
+    message_error("out of memory");
+    return STATUS_DEVICE;
+}
+
 static int run(render_job *job)
 {
     int status = light_shares_read(&job->shares, &job->share_count, job->session.arguments);
     if (status == STATUS_DONE)
         status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path);
+    if (status == STATUS_DONE)
+        status = record_command(job);
     if (status == STATUS_DONE)
         status = confine(job);
     if (status == STATUS_DONE)
@@ -295,6 +306,7 @@ int command_render(const command_line *arguments)
     rt_device_close(job.device);
     rt_scene_destroy(job.scene);
     free(job.shares);
+    free(job.command);
     inputs_free(&job.inputs);
     outputs_free(&job.outputs);
     return status;

@@ -4,7 +4,8 @@
  *     FAULT(type, name, (parameters), (arguments), value of a failure)
  *
  * From here the Makefile takes the names for the linker. What a failure returns may be an
- * expression that sets errno, or *code as OpenCL does; OpenCL's are those of a lost device.
+ * expression that sets errno, or *code as OpenCL does; OpenCL's are those of a lost device. A
+ * stream that failed says so to ferror().
  */
 /* Files. */
 FAULT(ssize_t, read, (int fd, void *to, size_t n), (fd, to, n), failed(EIO))
@@ -19,6 +20,20 @@ FAULT(int, stat, (const char *path, struct stat *out), (path, out), failed(EIO))
 FAULT(int, lstat, (const char *path, struct stat *out), (path, out), failed(EIO))
 FAULT(int, fstat, (int fd, struct stat *out), (fd, out), failed(EIO))
 FAULT(DIR *, opendir, (const char *path), (path), (failed(EMFILE), (DIR *)NULL))
+FAULT(int, flock, (int fd, int how), (fd, how), failed(ENOLCK))
+FAULT(void *, mmap, (void *at, size_t n, int rights, int how, int fd, off_t from),
+      (at, n, rights, how, fd, from), (failed(ENOMEM), MAP_FAILED))
+FAULT(int, mkstemp, (char *path), (path), failed(EMFILE))
+FAULT(char *, mkdtemp, (char *path), (path), (failed(ENOSPC), (char *)NULL))
+FAULT(FILE *, fopen, (const char *path, const char *how), (path, how),
+      (failed(EMFILE), (FILE *)NULL))
+FAULT(size_t, fread, (void *to, size_t size, size_t n, FILE *file), (to, size, n, file),
+      (failed_stream = file, failed(EIO), 0))
+FAULT(int, fflush, (FILE * file), (file), (failed_stream = file, failed(EIO)))
+FAULT(int, fclose, (FILE * file), (file), (__real_fclose(file), failed(EIO)))
+FAULT(int, setrlimit, (__rlimit_resource_t what, const struct rlimit *to), (what, to),
+      failed(EPERM))
+FAULT(int, atexit, (void (*function)(void)), (function), -1)
 FAULT(int, posix_fallocate, (int fd, off_t from, off_t n), (fd, from, n), ENOSPC)
 
 /* Threads. */
@@ -27,6 +42,9 @@ FAULT(int, pthread_create,
       (out, how, run, data), EAGAIN)
 FAULT(int, pthread_mutex_init, (pthread_mutex_t * out, const pthread_mutexattr_t *how), (out, how),
       ENOMEM)
+FAULT(int, pthread_cond_init, (pthread_cond_t * out, const pthread_condattr_t *how), (out, how),
+      ENOMEM)
+FAULT(int, pthread_condattr_init, (pthread_condattr_t * out), (out), ENOMEM)
 
 /* OpenCL. */
 FAULT(cl_int, clGetPlatformIDs, (cl_uint n, cl_platform_id *out, cl_uint *count), (n, out, count),

@@ -1,5 +1,5 @@
 /* fault.c - wraps calls, by the linker's --wrap, and makes them fail. */
-#define _XOPEN_SOURCE 700
+#define _GNU_SOURCE 1 /* __rlimit_resource_t */
 
 #include "faults/fault.h"
 
@@ -9,7 +9,11 @@
 #include <pthread.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <time.h>
@@ -22,12 +26,14 @@
 static long count, target, live;
 static int is_armed, lasts;
 static const char *fired;
+static FILE *failed_stream;
 
 void fault_arm(long n, int for_good)
 {
     target = n;
     lasts = for_good;
     fired = NULL;
+    failed_stream = NULL;
     __atomic_store_n(&count, 0, __ATOMIC_SEQ_CST);
     __atomic_store_n(&is_armed, 1, __ATOMIC_SEQ_CST);
 }
@@ -86,6 +92,13 @@ static void *no_memory(void)
 #include "faults/calls.inc.h"
 #undef FAULT
 
+int __real_ferror(FILE *file);
+int __wrap_ferror(FILE *file);
+int __wrap_ferror(FILE *file)
+{
+    return file == failed_stream || __real_ferror(file);
+}
+
 int __real_open(const char *path, int how, ...);
 int __wrap_open(const char *path, int how, ...);
 int __wrap_open(const char *path, int how, ...)
@@ -95,6 +108,35 @@ int __wrap_open(const char *path, int how, ...)
     mode_t mode = how & O_CREAT ? va_arg(more, mode_t) : 0;
     va_end(more);
     return fires("open") ? failed(EMFILE) : __real_open(path, how, mode);
+}
+
+/* With as many arguments as there may be. */
+int __real_prctl(int what, ...);
+int __wrap_prctl(int what, ...);
+int __wrap_prctl(int what, ...)
+{
+    unsigned long given[4];
+    va_list more;
+    va_start(more, what);
+    for (int i = 0; i < 4; i++)
+        given[i] = va_arg(more, unsigned long);
+    va_end(more);
+    return fires("prctl") ? failed(EPERM)
+                          : __real_prctl(what, given[0], given[1], given[2], given[3]);
+}
+
+long __real_syscall(long number, ...);
+long __wrap_syscall(long number, ...);
+long __wrap_syscall(long number, ...)
+{
+    long given[4];
+    va_list more;
+    va_start(more, number);
+    for (int i = 0; i < 4; i++)
+        given[i] = va_arg(more, long);
+    va_end(more);
+    return fires("syscall") ? failed(EPERM)
+                            : __real_syscall(number, given[0], given[1], given[2], given[3]);
 }
 
 /* ---- Memory ---------------------------------------------------------------------------------- */
