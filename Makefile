@@ -340,8 +340,8 @@ $(B)/tests/%: $(B)/tests/%.o $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
 
 # C++'s operator new, which fails in turn.
-$(B)/tests/lib/photon/test_flann_index $(B)/tests/lib/mesh/test_openmesh: \
-	$(B)/tests/faults/failing_new.o
+$(B)/tests/lib/photon/test_flann_index $(B)/tests/lib/photon/test_neighbour_search \
+$(B)/tests/lib/mesh/test_openmesh: $(B)/tests/faults/failing_new.o
 
 # Measured beside what FLANN's own library does.
 $(B)/tests/bench/bench_gather: TEST_LIBS += -lflann

@@ -80,6 +80,8 @@ static rt_status fail_limit(const rt_memory_info *info, double bytes, const char
     char needed[32], limit[32], used[32];
     write_size(needed, bytes);
     write_size(limit, (double)info->limit);
+    if (strcmp(needed, limit) == 0) /* rounded */
+        snprintf(needed, sizeof needed, "%.0f bytes", bytes);
     if (info->used == 0)
         return rt_fail(error, RT_ERROR_MEMORY, "%s needs %s, more than the limit of %s", what,
                        needed, limit);

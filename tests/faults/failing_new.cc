@@ -32,7 +32,10 @@ long failing_new_blocks(void)
 
 void *operator new(std::size_t size)
 {
-    if (left > 0 && --left == 0) {
+    unsigned now = left;
+    while (now > 0 && !left.compare_exchange_weak(now, now - 1))
+        ;
+    if (now == 1) {
         failed = true;
         throw std::bad_alloc();
     }

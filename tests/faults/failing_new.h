@@ -6,7 +6,10 @@
 extern "C" {
 #endif
 
-/* From now on the call of that number fails, counted from 1; 0: none does. Others do not. */
+/*
+ * From now on the call of that number fails, counted from 1 and over all threads; 0: none does.
+ * Others do not.
+ */
 void failing_new_at(unsigned call);
 
 /* Whether it has failed. */

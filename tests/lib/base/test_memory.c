@@ -38,6 +38,8 @@ static void what_exceeds_the_limit_is_refused_and_told(void **state)
     (void)state;
     expect_refused(rt_memory_take(memory, UINT64_C(1) << 41, "the moon", &error), &error,
                    "the moon needs 2 TiB, more than the limit of 2 GiB");
+    expect_refused(rt_memory_take(memory, (UINT64_C(2) << 30) + 5, "a moon", &error), &error,
+                   "a moon needs 2147483653 bytes, more than the limit of 2 GiB");
     expect_ok(rt_memory_take(memory, 429496730, "the scene", &error), &error);
     expect_refused(rt_memory_take(memory, UINT64_C(3435973837), "the photon map", &error), &error,
                    "the photon map needs 3.2 GiB, more than the limit of 2 GiB with 410 MiB in "
@@ -126,7 +128,7 @@ static void an_array_grows_up_to_the_limit(void **state)
         before = room;
     }
     assert_true(4 * count > 99900 && 4 * count <= 100000 && steps < 200);
-    assert_non_null(strstr(error.message, "it needs 97.7 KiB, more than the limit of 97.7 KiB"));
+    assert_non_null(strstr(error.message, " bytes, more than the limit of 97.7 KiB"));
     for (size_t i = 0; i < count; i++)
         assert_int_equal(array[i], i);
     rt_memory_free(array);

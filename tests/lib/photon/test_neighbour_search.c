@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "faults/failing_new.h"
 #include "lib/photon/points.h"
 #include "photon/neighbour_search.h"
 #include "photon/photon_boxes.h"
@@ -288,6 +289,48 @@ static void without_photons_every_disc_is_empty(void **state)
     }
 }
 
+enum { in_row = 2048, asked = 96, in_disc = 2000, several = 4 };
+
+/* Builds a search and asks it on several threads, with that call of operator new failing. */
+static rt_status search_row(const rt_photon_list *map, const rt_gather_point *points, rt_u32 *lists,
+                            rt_gather_disc *discs, unsigned failing, rt_error *error)
+{
+    rt_neighbour_search *search = NULL;
+    failing_new_at(failing);
+    rt_status status =
+        rt_neighbour_search_create(&search, map, in_disc, INFINITY, 0, several, NULL, error);
+    if (status == RT_OK)
+        status = rt_neighbour_search_find(search, points, asked, lists, discs, error);
+    rt_neighbour_search_destroy(search);
+    return status;
+}
+
+/* FLANN throws in whichever thread that is; the program does not end of it, nothing is lost. */
+static void each_failure_of_memory_in_any_thread_is_an_error(void **state)
+{
+    static rt_photon photons[in_row];
+    static rt_gather_point points[asked];
+    static rt_u32 lists[asked * in_disc];
+    static rt_gather_disc discs[asked];
+    const rt_photon_list map = {photons, in_row, in_row, in_row, 0, NULL};
+    const long before = failing_new_blocks();
+    unsigned failing = 0, is_over = 0;
+    rt_error error;
+    (void)state;
+    fill_row(photons, in_row);
+    for (size_t i = 0; i < asked; i++)
+        points[i] = point_at((float)i, 0);
+    while (!is_over) {
+        const rt_status status = search_row(&map, points, lists, discs, ++failing, &error);
+        is_over = !failing_new_failed();
+        assert_int_equal(status, is_over ? RT_OK : RT_ERROR_MEMORY);
+        assert_int_equal(error.status, is_over ? error.status : RT_ERROR_MEMORY);
+        assert_int_equal(failing_new_blocks(), before);
+    }
+    failing_new_at(0);
+    assert_true(failing > asked); /* FLANN makes a call for each */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -301,6 +344,7 @@ int main(void)
         cmocka_unit_test(many_points_at_once_find_what_one_finds),
         cmocka_unit_test(skipping_empty_discs_changes_no_other),
         cmocka_unit_test(an_empty_disc_is_known_without_a_search),
+        cmocka_unit_test(each_failure_of_memory_in_any_thread_is_an_error),
     };
     return cmocka_run_group_tests_name("lib/photon/neighbour_search", tests, NULL, NULL);
 }
