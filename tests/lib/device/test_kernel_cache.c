@@ -140,7 +140,7 @@ static const char *stored(void)
     return path;
 }
 
-/* Whether the first device is PoCL's; asked in a process of its own, as the cache belongs to one. */
+/* Whether the first device is PoCL's; asked in a process, as the cache belongs to one. */
 static int ask_platform(void)
 {
     rt_device_info *devices = NULL;
