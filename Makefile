@@ -41,8 +41,8 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
-	lib/base/bytes.c lib/base/claim.c lib/base/crc32.c lib/base/error.c lib/base/file.c \
-	lib/base/half.c lib/base/memory.c \
+	lib/base/bytes.c lib/base/claim.c lib/base/crc32.c lib/base/error.c \
+	lib/base/exact_sum.c lib/base/file.c lib/base/half.c lib/base/memory.c \
 	lib/base/parallel.c lib/base/progress.c lib/base/version.c \
 	lib/device/buffer.c lib/device/device.c lib/device/kernel_cache.c \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \
@@ -61,18 +61,19 @@ LIB_SRC := \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
 	lib/pack/touch.c \
-	lib/film/cut_off.c \
-	lib/film/film.c lib/film/layers.c lib/film/noise.c lib/film/replicates.c \
-	lib/film/student_t.c \
+	lib/film/coverage.c lib/film/cut_off.c lib/film/film.c lib/film/film_info.c \
+	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
+	lib/film/noise.c lib/film/photon_sums.c lib/film/student_t.c lib/film/units.c \
 	lib/film/write.c \
-	lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/render.c \
+	lib/mode/chunk.c lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/render.c \
+	lib/mode/work.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
 	lib/mode/path/path.c \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
 	lib/mode/photon/first_radius.c lib/mode/photon/layers.c lib/mode/photon/passes.c \
 	lib/mode/photon/photon.c lib/mode/photon/photon_render.c lib/mode/photon/queries.c \
 	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \
-	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c \
+	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c lib/photon/ledger_file.c \
 	lib/photon/gather_neighbours.c \
 	lib/photon/map_check.c lib/photon/map_emit.c lib/photon/map_merge.c lib/photon/map_ply.c \
 	lib/photon/map_read.c lib/photon/map_warnings.c lib/photon/map_write.c \
@@ -167,7 +168,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
 	tests/lib/film/test_cut_off.c \
-	tests/lib/film/test_replicates.c tests/lib/film/test_student_t.c \
+	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c \
 	tests/lib/scene/test_scene.c \
@@ -183,7 +184,8 @@ TESTS_PROOF := \
 	tests/proof/test_specular.c
 TESTS_FULL  := \
 	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
-	tests/lib/mode/test_photon_mode.c tests/lib/photon/test_unbiased.c \
+	tests/lib/mode/test_photon_mode.c tests/lib/mode/test_film_parts.c \
+	tests/lib/photon/test_unbiased.c \
 	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
 	tests/tools/test_rtc.c $(TESTS_PROOF) tests/threads/test_threads.c \

@@ -16,7 +16,8 @@ KERNEL direct(const rt_params params, global const rt_scene_header *header,
     const struct scene scene = scene_open(header);
     const uint2 at = pixel_of_item(&params, params.first_item + item);
     const uint index = at.y * params.width + at.x;
-    rt_film_pixel pixel = film[index];
+    global rt_film_pixel *const plane = film_plane(film, &params);
+    rt_film_pixel pixel = plane[index];
 
     for (uint i = 0; i < params.sample_count; i++) {
         const struct sampler sampler =
@@ -27,5 +28,5 @@ KERNEL direct(const rt_params params, global const rt_scene_header *header,
             follow_path(&scene, &params, &sampler, ray, FOLLOW_DIRECT, 0, &cut_off);
         film_add(&pixel, radiance, weight, cut_off);
     }
-    film[index] = pixel;
+    plane[index] = pixel;
 }

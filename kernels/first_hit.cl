@@ -46,6 +46,17 @@ static void layers_of(float3 *value, const struct scene *scene, const struct ray
     value[RT_LAYER_IDS] = (float3)((float)surface.shape, (float)shape->material, 1.0f);
 }
 
+/* Keeps the ids of a sample unless those of one with a lower number are there already. */
+static void keep_ids(rt_film_pixel *ids, float3 value, rt_i64 number)
+{
+    ids->count++;
+    if (value.z == 0.0f || (ids->high[2] != 0 && ids->high[2] <= number))
+        return;
+    ids->high[0] = (rt_i64)value.x;
+    ids->high[1] = (rt_i64)value.y;
+    ids->high[2] = 1 + number;
+}
+
 /* layers: RT_LAYER_COUNT films one after the other; see RT_LAYER_ALBEDO for what they sum. */
 KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
                  global rt_film_pixel *layers)
@@ -74,10 +85,12 @@ KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
         if (can_follow(&ray) && closest_hit(&scene, &ray, &hit))
             layers_of(value, &scene, &ray, &hit, weight);
         for (uint layer = 0; layer < RT_LAYER_COUNT; layer++) {
-            if (layer == RT_LAYER_IDS && sums[layer].sum[2] != 0.0f)
-                continue; /* ids have no mean: the first is kept */
+            if (layer == RT_LAYER_IDS)
+                continue;
             film_add(&sums[layer], value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f, 0.0f);
         }
+        keep_ids(&sums[RT_LAYER_IDS], value[RT_LAYER_IDS],
+                 (rt_i64)(params.first_sample + i) * RT_REPLICATES + params.replicate);
     }
     for (uint layer = 0; layer < RT_LAYER_COUNT; layer++)
         layers[layer * film_size + index] = sums[layer];

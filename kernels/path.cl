@@ -40,5 +40,5 @@ KERNEL path(const rt_params params, global const rt_scene_header *header,
         return;
     const struct scene scene = scene_open(header);
     sample_pixels(&scene, &params, item, min(item + params.pixels_an_item, params.item_count),
-                  film);
+                  film_plane(film, &params));
 }

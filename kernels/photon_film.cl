@@ -26,7 +26,8 @@ KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
     float3 radiance = radiance_of(points + item);
     for (uint i = 0u; i < params.final_gather; i++)
         radiance += radiance_of(caustics + i * stride + item);
-    rt_film_pixel pixel = film[index];
+    global rt_film_pixel *const plane = film_plane(film, &params);
+    rt_film_pixel pixel = plane[index];
     film_add(&pixel, radiance, points[item].film_weight, points[item].cut_off);
-    film[index] = pixel;
+    plane[index] = pixel;
 }

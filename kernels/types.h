@@ -2,10 +2,10 @@
  * types.h - every struct that host and device share, declared once.
  *
  * Both compilers read this file: the C99 compiler and the OpenCL C compiler.
- * Rules that keep the two layouts equal: members are 4-byte scalars or arrays
- * of them, every struct is a whole number of 16-byte rows, and RT_SIZE after
- * each struct fails the build of either side if its size drifts. A test
- * compares the offset of every member on the device with the host's.
+ * Rules that keep the two layouts equal: members are 4-byte scalars, 8-byte ones at multiples of
+ * 8, or arrays of them, every struct is a whole number of 16-byte rows, and RT_SIZE after each
+ * struct fails the build of either side if its size drifts. A test compares the offset of every
+ * member on the device with the host's.
  *
  * All lengths are metres, all radiometry is linear sRGB. "Index" counts
  * elements of the named table from 0; RT_NONE stands for "no such element".
@@ -16,11 +16,15 @@
 #ifdef __OPENCL_VERSION__
 typedef uint rt_u32;
 typedef int rt_i32;
+typedef long rt_i64;
+typedef ulong rt_u64;
 #else
 #include <stddef.h>
 #include <stdint.h>
 typedef uint32_t rt_u32;
 typedef int32_t rt_i32;
+typedef int64_t rt_i64;
+typedef uint64_t rt_u64;
 #endif
 
 #include "common.h"
@@ -382,23 +386,31 @@ typedef struct rt_params {
     float roulette_threshold; /* throughput below which it may */
     /* path tracing: pixels that a work-item takes, at least 1; the film is the same for all */
     rt_u32 pixels_an_item;
-    rt_u32 reserved[2];
+    rt_u32 plane; /* of the film, that the samples are added to */
+    rt_u32 reserved;
 } rt_params;
 RT_SIZE(rt_params, 80);
 
+#define RT_REPLICATES 8 /* sequences of samples, where the error is estimated: film/replicates.h */
+#define RT_FILM_REJECTED 12u             /* bit of rt_film_pixel.bins */
+#define RT_FILM_CUT_OFF (1.0f / 4096.0f) /* unit of rt_film_pixel.cut_off, which stops at its end */
+
 /*
- * A pixel of the film: compensated (Kahan) sum of weight times radiance, in order of the samples.
+ * A pixel of the film: the exact sum of weight times radiance, whatever the order of the samples;
+ * see camera/film_sum.h. All zero is a pixel without samples.
  */
 typedef struct rt_film_pixel {
-    float sum[3];
-    float weight;    /* sum of the samples' weights, which are 1 or -1: see filter.h */
-    float lost[3];   /* what rounding lost from sum */
-    rt_u32 count;    /* samples */
-    rt_u32 rejected; /* samples that were not finite, left out */
-    float cut_off;   /* sum of the throughputs that max_depth cut off */
-    rt_u32 reserved[2];
+    rt_i64 high[3], low[3]; /* of each channel, in units of two neighbouring bins */
+    /*
+     * the lower bin of channel c, in bits 4 c to 4 c + 3; above these, at RT_FILM_REJECTED, the
+     * number of samples that were not finite and are left out, as far as it fits
+     */
+    rt_u32 bins;
+    rt_i32 weight;  /* sum of the samples' weights, which are 1 or -1: see filter.h */
+    rt_u32 count;   /* samples */
+    rt_u32 cut_off; /* sum of the throughputs that max_depth cut off, in RT_FILM_CUT_OFF */
 } rt_film_pixel;
-RT_SIZE(rt_film_pixel, 48);
+RT_SIZE(rt_film_pixel, 64);
 
 /*
  * Layers beside the radiance. A sample that meets nothing adds 0 to all; w is the weight of the
@@ -410,7 +422,11 @@ RT_SIZE(rt_film_pixel, 48);
 #define RT_LAYER_DEPTH 2u    /* depth, 1 and w of samples that meet something */
 #define RT_LAYER_POSITION 3u /* position */
 #define RT_LAYER_UV 4u       /* texture coordinates */
-#define RT_LAYER_IDS 5u      /* shape, material and 1, of the first sample that meets something */
+/*
+ * no sums: `high` has shape, material and 1 + the number of the sample, of the lowest sample that
+ * meets something, samples of the same number by replicate; 0 where none does
+ */
+#define RT_LAYER_IDS 5u
 #define RT_LAYER_COUNT 6u
 
 /* ---- Photons ------------------------------------------------------------ */

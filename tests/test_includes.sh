@@ -9,7 +9,8 @@ bad=0
 
 # Headers of kernels/ that the host compiler reads too. For the device shapes.h and lobes.h go on to
 # the headers of the shapes and lobes.
-shared='kernels/common.h kernels/types.h kernels/bsdf/lobes.h kernels/shape/shapes.h'
+shared='kernels/common.h kernels/types.h kernels/bsdf/lobes.h kernels/camera/film_sum.h
+    kernels/shape/shapes.h'
 
 # check NAME FILE: the test passes when FILE, which lists offences, is empty.
 check() {

@@ -4,6 +4,7 @@
 #ifndef RT_KERNELS_CAMERA_FILM_H
 #define RT_KERNELS_CAMERA_FILM_H
 
+#include "camera/film_sum.h"
 #include "math/frame.h"
 #include "types.h"
 
@@ -27,28 +28,28 @@ static inline uint2 pixel_of_item(const rt_params *params, uint item)
 }
 
 /*
- * Adds a sample, of weight 1 or -1, and the throughput that max_depth cut off from it. Rounding
- * errors are compensated (Kahan, "Further remarks on reducing truncation errors", CACM 8(1), 1965),
- * and samples are added in their order, so the film does not depend on how they are divided into
- * launches. A sample that is not finite is left out and counted as rejected.
+ * Adds a sample, of weight 1 or -1, and the throughput that max_depth cut off from it. A sample
+ * that is not finite is left out and counted as rejected.
  */
 static inline void film_add(rt_film_pixel *pixel, float3 radiance, float weight, float cut_off)
 {
-#pragma OPENCL FP_CONTRACT OFF
-    const bool is_finite = all(isfinite(radiance));
-    pixel->rejected += is_finite ? 0u : 1u;
-    if (!is_finite)
+    if (!all(isfinite(radiance))) {
+        film_reject(pixel, 1u);
         return;
-    const float value[3] = {weight * radiance.x, weight * radiance.y, weight * radiance.z};
-    for (int i = 0; i < 3; i++) {
-        const float term = value[i] - pixel->lost[i];
-        const float sum = pixel->sum[i] + term;
-        pixel->lost[i] = (sum - pixel->sum[i]) - term;
-        pixel->sum[i] = sum;
     }
-    pixel->weight += weight;
-    pixel->cut_off += cut_off;
+    film_add_bits(pixel, 0, as_uint(weight * radiance.x));
+    film_add_bits(pixel, 1, as_uint(weight * radiance.y));
+    film_add_bits(pixel, 2, as_uint(weight * radiance.z));
+    pixel->weight += weight < 0.0f ? -1 : 1;
+    pixel->cut_off =
+        film_add_saturated(pixel->cut_off, convert_uint_sat_rte(cut_off / RT_FILM_CUT_OFF));
     pixel->count++;
+}
+
+/* The plane of the film that a launch adds to. */
+static inline global rt_film_pixel *film_plane(global rt_film_pixel *film, const rt_params *params)
+{
+    return film + (size_t)params->plane * params->width * params->height;
 }
 
 #endif

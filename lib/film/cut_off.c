@@ -30,9 +30,12 @@ static share share_of(const rt_film *film, uint32_t left, uint32_t top, uint32_t
     share sum = {0, 0};
     for (uint32_t y = top; y < height && y - top < side; y++)
         for (uint32_t x = left; x < width && x - left < side; x++) {
-            const rt_film_pixel *p = film->pixels + (size_t)y * width + x;
-            sum.cut_off += isfinite(p->cut_off) ? p->cut_off : 0;
-            sum.all += p->count;
+            for (uint32_t r = 0; r < film->units.replicates; r++) {
+                const rt_film_pixel *p =
+                    film->pixels + r * rt_film_pixels(film) + (size_t)y * width + x;
+                sum.cut_off += RT_FILM_CUT_OFF * (double)p->cut_off;
+                sum.all += p->count;
+            }
         }
     return sum;
 }

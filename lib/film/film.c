@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "camera/film_sum.h"
 #include "setting/options.h"
 
 /*
@@ -42,18 +43,31 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_mem
     film->options.photon_map = NULL;
     film->options.light_shares = NULL;
     film->options.light_share_count = 0;
+    film->options.resume = NULL;
+    film->options.checkpoint = NULL;
+    film->options.checkpoint_user = film->options.units_user = NULL;
+    film->options.next_units = NULL;
     const uint64_t reserved = bytes_reserved(options);
-    const double all = (double)count * (sizeof *film->pixels + 3 * sizeof *film->rgb);
+    film->units = rt_units_of(options, 0);
+    const double all =
+        (double)count * (film->units.replicates * sizeof *film->pixels + 3 * sizeof *film->rgb);
     rt_status status = rt_memory_foresee(memory, (double)reserved + all, what, error);
     if (status == RT_OK)
         status = rt_memory_take(memory, reserved, what, error);
     if (status != RT_OK)
         goto out;
     film->reserved = reserved;
-    film->pixels = rt_memory_zeroed(memory, count, sizeof *film->pixels, what, error);
+    film->pixels =
+        rt_memory_zeroed(memory, count * film->units.replicates, sizeof *film->pixels, what, error);
     if (film->pixels)
         film->rgb = rt_memory_zeroed(memory, count, 3 * sizeof *film->rgb, what, error);
-    status = film->rgb ? RT_OK : RT_ERROR_MEMORY;
+    if (film->rgb && options->mode == RT_MODE_PHOTON && options->photon_layers)
+        film->photon_sums = rt_memory_zeroed(memory, count, sizeof *film->photon_sums,
+                                             "the sums of photon layers", error);
+    status = film->rgb && (film->photon_sums || !options->photon_layers ||
+                           options->mode != RT_MODE_PHOTON)
+                 ? RT_OK
+                 : RT_ERROR_MEMORY;
 out:
     if (status == RT_OK)
         *out = film;
@@ -67,7 +81,10 @@ void rt_film_destroy(rt_film *film)
     if (!film)
         return;
     rt_ledger_free(&film->ledger);
+    rt_coverage_free(&film->done);
+    free(film->note);
     rt_memory_free(film->pixels);
+    rt_memory_free(film->photon_sums);
     rt_memory_free(film->rgb);
     free(film->layer_sums);
     rt_film_layers_free(&film->layers);
@@ -80,31 +97,63 @@ size_t rt_film_pixels(const rt_film *film)
     return (size_t)film->options.width * film->options.height;
 }
 
-double rt_film_sum(const rt_film_pixel *pixel, int channel)
+size_t rt_film_bytes(const rt_film *film)
 {
-    return (double)pixel->sum[channel] - pixel->lost[channel];
+    return rt_film_pixels(film) * film->units.replicates * sizeof *film->pixels;
 }
 
-double rt_film_divisor(const rt_film_pixel *pixel)
+void rt_film_join_pixels(rt_film_pixel *pixels, const rt_film_pixel *others, size_t count)
 {
-    double weight = pixel->weight, count = pixel->count;
+    for (size_t i = 0; i < count; i++)
+        film_join(pixels + i, others + i);
+}
+
+double rt_film_sum(const rt_film_pixel *pixel, int channel)
+{
+    const int unit = (int)(film_bin(pixel, channel) * RT_FILM_BIN_BITS) - 149;
+    return ldexp((double)pixel->high[channel], unit + (int)RT_FILM_BIN_BITS) +
+           ldexp((double)pixel->low[channel], unit);
+}
+
+double rt_film_divisor(double weight, double count)
+{
     return fabs(weight) >= 0.25 * count ? weight : count;
 }
 
-void rt_film_resolve(rt_film *film)
+uint32_t rt_film_count(const rt_film *film, size_t i)
 {
-    size_t count = rt_film_pixels(film);
-    uint32_t fewest = film->pixels[0].count;
+    uint32_t count = 0;
+    for (uint32_t r = 0; r < film->units.replicates; r++)
+        count += film->pixels[r * rt_film_pixels(film) + i].count;
+    return count;
+}
 
-    film->stats.rejected = 0;
-    for (size_t i = 0; i < count; i++) {
-        const rt_film_pixel *p = film->pixels + i;
+/* The means of pixel i, over all planes; returns how many of its samples were rejected. */
+static uint32_t resolve(rt_film *film, size_t i)
+{
+    double sum[3] = {0, 0, 0}, weight = 0, count = 0;
+    uint32_t rejected = 0;
+    for (uint32_t r = 0; r < film->units.replicates; r++) {
+        const rt_film_pixel *p = film->pixels + r * rt_film_pixels(film) + i;
         for (int c = 0; c < 3; c++)
-            film->rgb[3 * i + c] =
-                p->count > 0 ? (float)((p->sum[c] - p->lost[c]) / rt_film_divisor(p)) : 0;
-        if (p->count < fewest)
-            fewest = p->count;
-        film->stats.rejected += p->rejected;
+            sum[c] += rt_film_sum(p, c);
+        weight += p->weight;
+        count += p->count;
+        rejected += p->bins >> RT_FILM_REJECTED;
+    }
+    for (int c = 0; c < 3; c++)
+        film->rgb[3 * i + c] = count > 0 ? (float)(sum[c] / rt_film_divisor(weight, count)) : 0;
+    return rejected;
+}
+
+void rt_film_make_means(rt_film *film)
+{
+    uint32_t fewest = rt_film_count(film, 0);
+    film->stats.rejected = 0;
+    for (size_t i = 0; i < rt_film_pixels(film); i++) {
+        film->stats.rejected += resolve(film, i);
+        const uint32_t count = rt_film_count(film, i);
+        fewest = count < fewest ? count : fewest;
     }
     film->stats.spp = fewest;
 }

@@ -2,7 +2,10 @@
 #ifndef RT_LIB_FILM_FILM_H
 #define RT_LIB_FILM_FILM_H
 
+#include "film/coverage.h"
 #include "film/layers.h"
+#include "film/photon_sums.h"
+#include "film/units.h"
 #include "photon/ledger.h"
 #include "rt.h"
 #include "types.h"
@@ -12,12 +15,18 @@ struct rt_film {
     uint64_t reserved;         /* bytes that count for its layers, and for writing it to a file */
     rt_render_options options; /* as rendered, defaults filled in */
     rt_film_stats stats;
-    rt_ledger ledger;      /* of all photon paths */
-    rt_film_pixel *pixels; /* [height][width], the sums */
+    uint64_t scene;   /* fingerprint of the scene and the camera; 0: not taken */
+    char *note;       /* lines "NAME VALUE" of the program's own, or NULL: rt_film_set_note */
+    uint64_t light;   /* that of a photon map and of light shares, if given by the caller; or 0 */
+    rt_ledger ledger; /* of all photon paths */
+    rt_units units;   /* the work that the whole picture takes */
+    rt_coverage done; /* the units whose samples are in the sums */
+    rt_film_pixel *pixels; /* [units.replicates][height][width], the sums */
     float *rgb;            /* [height][width][3], the means */
     /* [RT_LAYER_COUNT][height][width], the sums of the kernel first_hit, or NULL */
     rt_film_pixel *layer_sums;
-    rt_film_layers layers; /* each [height][width][channels] */
+    rt_photon_sums *photon_sums; /* [height][width], or NULL */
+    rt_film_layers layers;       /* each [height][width][channels] */
 };
 
 /*
@@ -31,16 +40,25 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_mem
 /* width * height */
 size_t rt_film_pixels(const rt_film *film);
 
-/* The sum of a channel, with what rounding lost. */
+/* The bytes of the sums of all planes. */
+size_t rt_film_bytes(const rt_film *film);
+
+/* Adds the samples of so many pixels to others. */
+void rt_film_join_pixels(rt_film_pixel *pixels, const rt_film_pixel *others, size_t count);
+
+/* The sum of a channel. */
 double rt_film_sum(const rt_film_pixel *pixel, int channel);
 
 /*
- * What the sums of a pixel are divided by: the sum of weights. Where a few samples' signs nearly
- * cancel, which only Mitchell's filter has, their number. 0 without samples.
+ * What a sum is divided by: the sum of weights. Where a few samples' signs nearly cancel, which
+ * only Mitchell's filter has, the number of samples. 0 without samples.
  */
-double rt_film_divisor(const rt_film_pixel *pixel);
+double rt_film_divisor(double weight, double count);
+
+/* The samples of pixel i, in all planes. */
+uint32_t rt_film_count(const rt_film *film, size_t i);
 
 /* Makes the means from the sums, and the counts of samples and of rejected ones. */
-void rt_film_resolve(rt_film *film);
+void rt_film_make_means(rt_film *film);
 
 #endif

@@ -19,6 +19,7 @@ rt_status rt_film_layers_add(rt_film_layers *layers, rt_layer_group group, size_
     for (int i = 0; i < RT_FILM_LAYER_COUNT; i++) {
         if (rt_layer_infos[i].group != group)
             continue;
+        free(layers->data[i]);
         layers->data[i] = calloc(pixels, rt_layer_infos[i].channels * sizeof **layers->data);
         if (!layers->data[i])
             return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layer %s of %zu pixels",

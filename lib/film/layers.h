@@ -55,7 +55,10 @@ typedef struct rt_film_layers {
     float *data[RT_FILM_LAYER_COUNT];
 } rt_film_layers;
 
-/* Makes room for the layers of a group, all zero; rt_film_layers_free undoes it. */
+/*
+ * Makes room for the layers of a group, all zero, in place of those that are there;
+ * rt_film_layers_free undoes it.
+ */
 rt_status rt_film_layers_add(rt_film_layers *layers, rt_layer_group group, size_t pixels,
                              rt_error *error);
 void rt_film_layers_free(rt_film_layers *layers);

@@ -3,7 +3,7 @@
  *
  * The samples of one scrambled Sobol sequence depend on each other, so the variance among them says
  * nothing about the error of their mean. Where the error is to be estimated, the samples are
- * divided among R independent sequences (replicates.h; in photon mapping each has photons of its
+ * divided among R independent sequences (units.h; in photon mapping each has photons of its
  * own), and the variance among these estimates that of a pixel (Owen 1997: internal replication).
  *
  * A pixel is a quotient of sums, Q = sum of S_r over sum of W_r. S_r is the weighted radiance of
@@ -43,34 +43,29 @@
 #ifndef RT_LIB_FILM_NOISE_H
 #define RT_LIB_FILM_NOISE_H
 
-#include <stddef.h>
-
-#include "device/device.h"
 #include "film/film.h"
-#include "film/replicates.h"
 #include "rt.h"
 
-/* The sums of a film by replicate, and the errors estimated from them. */
-typedef struct rt_noise rt_noise;
+/* When the error is estimated, and what it was the last time. */
+typedef struct rt_noise {
+    uint32_t next_test;  /* when the replicates have this length */
+    double error, bound; /* at the last test, */
+    uint32_t tested_at;  /* when they had this length; 0 before */
+} rt_noise;
 
-/* Whether the options ask for an estimate of the error. */
-int rt_noise_wanted(const rt_render_options *options);
+/* For replicates that grow from this length on. */
+rt_noise rt_noise_begin(uint32_t length);
 
-/* For a film of so many pixels, which counts in `memory`; the caller owns *out. */
-rt_status rt_noise_create(rt_noise **out, size_t pixels, rt_memory *memory, rt_error *error);
-void rt_noise_destroy(rt_noise *noise);
-
-/* Reads the film's sums from the device; what was added since the last time is this range. */
-rt_status rt_noise_read(rt_noise *noise, const rt_sample_range *range, rt_device *device,
-                        cl_mem pixels, rt_film *film, rt_error *error);
+/* Whether the error is to be estimated at this length; see rt_noise_test. */
+int rt_noise_is_due(const rt_noise *noise, uint32_t length);
 
 /*
- * Estimates the error where it is due, all replicates having `length` samples or passes: at the
- * lengths that rt_replicate_grow gives, so seldom that the probability of a low estimate by chance
- * stays near that of a single test. Returns whether its bound is at most `target`, from a length of
- * 4 on and if target is above 0.
+ * Estimates the error from the planes of a film whose replicates all have `length` samples or
+ * passes, which rt_noise_is_due: at the lengths that rt_replicate_grow gives, so seldom that the
+ * probability of a low estimate by chance stays near that of a single test. Returns whether its
+ * bound is at most `target`, from a length of 4 on and if target is above 0.
  */
-int rt_noise_test(rt_noise *noise, uint32_t length, double target);
+int rt_noise_test(rt_noise *noise, const rt_film *film, uint32_t length, double target);
 
 /* The relative error at the last test; negative before. */
 double rt_noise_last(const rt_noise *noise);
@@ -82,9 +77,9 @@ double rt_noise_last(const rt_noise *noise);
 double rt_noise_progress(const rt_noise *noise, double length, double target);
 
 /*
- * Makes the film's layer `variance` and the figures of its stats; neither with fewer than two
- * replicates.
+ * Makes the film's layer `variance` and the figures of its stats; neither where fewer than two
+ * replicates have samples.
  */
-rt_status rt_noise_resolve(const rt_noise *noise, rt_film *film, rt_error *error);
+rt_status rt_noise_resolve(rt_film *film, rt_error *error);
 
 #endif

@@ -7,8 +7,8 @@
 
 #include "base/progress.h"
 #include "film/film.h"
-#include "film/noise.h"
 #include "mode/first_hit/layers.h"
+#include "mode/work.h"
 #include "render/renderer.h"
 
 /* A render under way, as rt_render hands it to a mode. */
@@ -16,7 +16,6 @@ typedef struct rt_render_job {
     rt_renderer *renderer;
     const rt_render_options *options; /* complete */
     rt_film *film;
-    rt_noise *noise;             /* or NULL where the error is not estimated */
     rt_first_hit_layers *layers; /* summed beside the picture; without a kernel: none */
 } rt_render_job;
 
@@ -34,7 +33,7 @@ typedef struct rt_mode_class {
 
     /*
      * Fills film->pixels, the layers and the film's stats, adding to job->layers the samples that
-     * the picture has. On RT_CANCELLED the film holds the samples so far.
+     * the picture has, and film->done. On RT_CANCELLED the film holds the samples so far.
      */
     rt_status (*run)(const rt_render_job *job, void *state, rt_error *error);
 

@@ -4,7 +4,11 @@
 
 #include "base/error.h"
 #include "film/cut_off.h"
+#include "film/join.h"
 #include "mode/modes.h"
+#include "mode/photon/layers.h"
+#include "photon/fingerprint.h"
+#include "photon/photon_map.h"
 #include "setting/options.h"
 
 /* ---- Options ---------------------------------------------------------------- */
@@ -20,6 +24,17 @@ static rt_status check_noise(const rt_render_options *o, rt_error *error)
                          rt_mode_name(o->mode));
 }
 
+/* Fails where a part is asked for that there cannot be. */
+static rt_status check_part(const rt_render_options *o, rt_error *error)
+{
+    if (o->parts > 0 && (o->part < 1 || o->part > o->parts))
+        return rt_fail_field(error, RT_ERROR_USAGE, "part", "part %u of %u", o->part, o->parts);
+    if (o->target_error > 0 && (o->parts > 1 || o->next_units))
+        return rt_fail_field(error, RT_ERROR_USAGE, "target_error",
+                             "the error of the picture cannot be tested in a part of it");
+    return RT_OK;
+}
+
 /* Checks options, and completes them where they are right. */
 static rt_status check_and_complete(rt_render_options *o, rt_error *error)
 {
@@ -29,6 +44,8 @@ static rt_status check_and_complete(rt_render_options *o, rt_error *error)
     rt_options_complete(o);
     const rt_mode_class *mode = rt_mode_class_of(o->mode);
     status = check_noise(o, error);
+    if (status == RT_OK)
+        status = check_part(o, error);
     return status == RT_OK && mode->check ? mode->check(o, error) : status;
 }
 
@@ -56,24 +73,30 @@ static rt_status prepare(const rt_mode_class *mode, const rt_render_job *job, vo
     return status == RT_OK ? rt_stage_end(&progress, &job->film->stats.compile_seconds) : status;
 }
 
-/* Makes the means, the layers and the estimate of the error from the sums. */
-static rt_status resolve(const rt_mode_class *mode, const rt_render_job *job, rt_error *error)
+rt_status rt_film_resolve(rt_film *film, const rt_hooks *hooks, rt_error *error)
 {
-    rt_film *film = job->film;
-    size_t pixels = rt_film_pixels(film);
-    rt_status status = rt_first_hit_layers_read(job->layers, film, error);
-    if (status != RT_OK)
-        return status;
+    if (rt_is_missing(film, "film", error))
+        return RT_ERROR_USAGE;
+    const rt_mode_class *mode = rt_mode_class_of(film->options.mode);
+    const size_t pixels = rt_film_pixels(film);
+    rt_status status = RT_OK;
     /* Where a layer is the picture, the film takes its sample counts too. */
     if (mode->show && film->layer_sums)
         memcpy(film->pixels, film->layer_sums, pixels * sizeof *film->pixels);
-    rt_film_resolve(film);
-    rt_film_check_cut_off(film, job->options->hooks);
+    rt_film_make_means(film);
+    rt_film_check_cut_off(film, hooks);
+    if (film->layer_sums)
+        status = rt_film_layers_add(&film->layers, RT_LAYERS_FIRST_HIT, pixels, error);
+    if (status != RT_OK)
+        return status;
     rt_first_hit_layers_resolve(film);
     for (size_t i = 0; i < pixels && mode->show; i++)
         if (film->pixels[i].count > 0)
             mode->show(film->rgb + 3 * i, film, i);
-    return job->noise ? rt_noise_resolve(job->noise, film, error) : RT_OK;
+    if (film->photon_sums)
+        status = rt_photon_layers_resolve(film, error);
+    return status == RT_OK && rt_noise_wanted(&film->options) ? rt_noise_resolve(film, error)
+                                                              : status;
 }
 
 /* Runs the mode. On RT_CANCELLED the film holds the samples so far. */
@@ -92,8 +115,10 @@ static rt_status run(rt_render_job *job, rt_error *error)
     status = prepare(mode, job, state, error);
     if (status == RT_OK)
         status = mode->run(job, state, error);
+    if ((status == RT_OK || status == RT_CANCELLED) && job->options->checkpoint)
+        job->options->checkpoint(job->options->checkpoint_user, job->film);
     if (status == RT_OK || status == RT_CANCELLED) {
-        rt_status resolved = resolve(mode, job, error);
+        rt_status resolved = rt_film_resolve(job->film, job->options->hooks, error);
         status = resolved == RT_OK ? status : resolved;
     }
     if (mode->release)
@@ -104,6 +129,35 @@ static rt_status run(rt_render_job *job, rt_error *error)
     return status;
 }
 
+/* Whether the film may be put together with others. */
+static int has_identity(const rt_render_options *o)
+{
+    return o->resume || o->checkpoint || o->next_units || o->parts > 0;
+}
+
+/* Notes what other films must have in common with this one. */
+static rt_status identify(rt_render_job *job, rt_error *error)
+{
+    const rt_render_options *o = job->options;
+    rt_film *film = job->film;
+    rt_renderer *renderer = job->renderer;
+    rt_status status =
+        rt_picture_fingerprint(&film->scene, renderer->device, renderer->scene, error);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && o->photon_map; kind++) {
+        const rt_path_ranges *ranges = o->photon_map->ranges + kind;
+        film->light = rt_fingerprint(film->light, &ranges->count, sizeof ranges->count);
+        for (size_t i = 0; i < ranges->count; i++) {
+            const rt_path_range *r = ranges->ranges + i;
+            const uint64_t words[] = {r->first, r->count, r->photons, r->seed};
+            film->light = rt_fingerprint(film->light, words, sizeof words);
+        }
+    }
+    if (o->light_shares)
+        film->light = rt_fingerprint(film->light, o->light_shares,
+                                     o->light_share_count * sizeof *o->light_shares);
+    return status;
+}
+
 /* Makes what the render needs besides its mode. */
 static rt_status open(rt_render_job *job, rt_error *error)
 {
@@ -111,10 +165,15 @@ static rt_status open(rt_render_job *job, rt_error *error)
     rt_status status = rt_renderer_aim(job->renderer, o, error);
     if (status == RT_OK)
         status = rt_film_create(&job->film, o, job->renderer->device->memory, error);
-    if (status == RT_OK && rt_noise_wanted(o))
-        status = rt_noise_create(&job->noise, rt_film_pixels(job->film),
-                                 job->renderer->device->memory, error);
-    return status;
+    if (status == RT_OK && has_identity(o))
+        status = identify(job, error);
+    return status == RT_OK && o->resume ? rt_film_continue(job->film, o->resume, error) : status;
+}
+
+/* Whether a cancelled render is worth something: a picture without holes, or units of a part. */
+static int has_samples(const rt_film *film)
+{
+    return film->stats.spp > 0 || (film->scene && film->done.count > 0);
 }
 
 rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options,
@@ -132,19 +191,18 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
         status = open(&job, error);
     if (status != RT_OK)
         goto out;
-    job.film->stats.build_seconds = renderer->build_seconds;
+    job.film->stats.build_seconds += renderer->build_seconds;
     job.film->stats.light_power = renderer->image.light_power;
     status = run(&job, error);
     if (status == RT_CANCELLED) {
         *out = NULL;
         status = rt_fail(error, RT_CANCELLED, "cancelled");
     }
-    if (status == RT_OK || (status == RT_CANCELLED && job.film->stats.spp > 0)) {
+    if (status == RT_OK || (status == RT_CANCELLED && has_samples(job.film))) {
         *out = job.film;
         job.film = NULL;
     }
 out:
-    rt_noise_destroy(job.noise);
     rt_film_destroy(job.film);
     return status;
 }

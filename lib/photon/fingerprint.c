@@ -146,13 +146,34 @@ static rt_status hash_scene(uint64_t *out, const rt_scene_header *scene, rt_memo
     return status;
 }
 
-rt_status rt_scene_fingerprint(uint64_t *out, rt_device *device, cl_mem scene, rt_error *error)
+/* Of the scene, and of its camera too if it is asked for. */
+static rt_status fingerprint(uint64_t *out, rt_device *device, cl_mem scene, int has_camera,
+                             rt_error *error)
 {
     const void *mapped = NULL;
     rt_status status = rt_buffer_map(device, scene, 0, &mapped, "the scene", error);
     if (status != RT_OK)
         return status;
     status = hash_scene(out, mapped, device->memory, error);
+    if (has_camera && status == RT_OK) {
+        const rt_scene_header *header = mapped;
+        *out = hash(*out, &header->camera, sizeof header->camera);
+    }
     rt_status unmapped = rt_buffer_unmap(device, scene, mapped, status == RT_OK ? error : NULL);
     return status == RT_OK ? unmapped : status;
+}
+
+rt_status rt_scene_fingerprint(uint64_t *out, rt_device *device, cl_mem scene, rt_error *error)
+{
+    return fingerprint(out, device, scene, 0, error);
+}
+
+rt_status rt_picture_fingerprint(uint64_t *out, rt_device *device, cl_mem scene, rt_error *error)
+{
+    return fingerprint(out, device, scene, 1, error);
+}
+
+uint64_t rt_fingerprint(uint64_t seed, const void *words, size_t bytes)
+{
+    return hash(seed ? seed : basis, words, bytes);
 }

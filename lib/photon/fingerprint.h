@@ -13,4 +13,10 @@
  */
 rt_status rt_scene_fingerprint(uint64_t *out, rt_device *device, cl_mem scene, rt_error *error);
 
+/* The same, of a scene that a camera takes a picture of. */
+rt_status rt_picture_fingerprint(uint64_t *out, rt_device *device, cl_mem scene, rt_error *error);
+
+/* A hash of numbers, which goes on from `seed`: 0, or that of the numbers before. */
+uint64_t rt_fingerprint(uint64_t seed, const void *words, size_t bytes);
+
 #endif

@@ -13,61 +13,16 @@
 #include "base/crc32.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "photon/ledger_file.h"
 #include "photon/map_file.h"
 #include "scene/check.h"
 
 /* A file being read; enough is known to be left for what is read next. */
 typedef struct reader {
-    const uint8_t *at;
+    rt_reader at;
     const char *name;
     rt_error *error;
 } reader;
-
-static uint32_t get32(reader *r)
-{
-    uint32_t value =
-        r->at[0] | (uint32_t)r->at[1] << 8 | (uint32_t)r->at[2] << 16 | (uint32_t)r->at[3] << 24;
-    r->at += 4;
-    return value;
-}
-
-static int32_t get_signed32(reader *r)
-{
-    uint32_t bits = get32(r);
-    int32_t value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static uint64_t get64(reader *r)
-{
-    uint64_t low = get32(r);
-    return low | (uint64_t)get32(r) << 32;
-}
-
-static int64_t get_signed64(reader *r)
-{
-    uint64_t bits = get64(r);
-    int64_t value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static double get_double(reader *r)
-{
-    uint64_t bits = get64(r);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static void get_floats(reader *r, float *out, int count)
-{
-    for (int i = 0; i < count; i++) {
-        uint32_t bits = get32(r);
-        memcpy(out + i, &bits, sizeof bits);
-    }
-}
 
 /* ---- The header ------------------------------------------------------------- */
 
@@ -81,18 +36,18 @@ rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t si
 {
     if (size < sizeof rt_map_magic || memcmp(start, rt_map_magic, sizeof rt_map_magic) != 0)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: this is no photon map", name);
-    reader r = {start + sizeof rt_map_magic, name, error};
+    reader r = {{start + sizeof rt_map_magic}, name, error};
     if (size < RT_MAP_HEADER)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short in its header",
                        name);
-    uint32_t version = get32(&r), header = get32(&r);
+    uint32_t version = rt_get32(&r.at), header = rt_get32(&r.at);
     if (version != RT_MAP_VERSION || header != RT_MAP_HEADER)
         return rt_fail(error, RT_ERROR_INPUT,
                        "%.350s: a photon map of version %u with a header of %u bytes; known is "
                        "version %d with %d: emit "
                        "it anew",
                        name, version, header, RT_MAP_VERSION, RT_MAP_HEADER);
-    *out = get64(&r);
+    *out = rt_get64(&r.at);
     return RT_OK;
 }
 
@@ -110,8 +65,8 @@ static rt_status check_frame(const uint8_t *data, size_t size, const char *name,
             size, (unsigned long long)told);
     if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short", name);
-    reader r = {data + size - RT_MAP_CHECKSUM, name, error};
-    if (get32(&r) != rt_crc32(data, size - RT_MAP_CHECKSUM))
+    reader r = {{data + size - RT_MAP_CHECKSUM}, name, error};
+    if (rt_get32(&r.at) != rt_crc32(data, size - RT_MAP_CHECKSUM))
         return rt_fail(error, RT_ERROR_INPUT,
                        "%.350s: the photon map is damaged: its checksum does not fit", name);
     return RT_OK;
@@ -125,22 +80,22 @@ static rt_status fail_content(const reader *r, const char *what)
 
 static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
 {
-    r->at += 24;
-    map->settings.scene = get64(r);
-    map->settings.max_depth = get32(r);
-    map->settings.sampler = get32(r);
-    map->settings.direct = get32(r);
-    map->settings.split = get32(r);
-    int zero = get64(r) == 0;
-    n->lights = get64(r);
-    map->ledger.paths = get64(r);
-    map->ledger.rejected = get64(r);
+    r->at.at += 24;
+    map->settings.scene = rt_get64(&r->at);
+    map->settings.max_depth = rt_get32(&r->at);
+    map->settings.sampler = rt_get32(&r->at);
+    map->settings.direct = rt_get32(&r->at);
+    map->settings.split = rt_get32(&r->at);
+    int zero = rt_get64(&r->at) == 0;
+    n->lights = rt_get64(&r->at);
+    map->ledger.paths = rt_get64(&r->at);
+    map->ledger.rejected = rt_get64(&r->at);
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
-        map->lists[kind].emitted = get64(r);
-        map->lists[kind].rejected = get64(r);
-        n->photons[kind] = get64(r);
-        n->ranges[kind] = get64(r);
-        zero = get64(r) == 0 && zero;
+        map->lists[kind].emitted = rt_get64(&r->at);
+        map->lists[kind].rejected = rt_get64(&r->at);
+        n->photons[kind] = rt_get64(&r->at);
+        n->ranges[kind] = rt_get64(&r->at);
+        zero = rt_get64(&r->at) == 0 && zero;
     }
     if (map->settings.max_depth == 0 || map->settings.sampler > RT_SAMPLER_INDEPENDENT ||
         map->settings.direct > RT_DIRECT_PHOTONS || map->settings.split > 1)
@@ -175,24 +130,6 @@ static rt_status check_counts(const reader *r, const counts *n, size_t file_size
 
 /* ---- The tables --------------------------------------------------------------- */
 
-static rt_status read_light(reader *r, rt_ledger_row *row)
-{
-    row->shape = get32(r);
-    row->exponent = get_signed32(r);
-    row->paths = get64(r);
-    int sound = row->exponent >= -400 && row->exponent <= 400;
-    for (int c = 0; c < 3; c++) {
-        row->power[c] = get_double(r);
-        sound = sound && row->power[c] >= 0 && isfinite(row->power[c]);
-    }
-    row->share = get_double(r);
-    sound = sound && row->share >= 0 && row->share <= 1;
-    for (int column = 0; column < RT_LEDGER_COLUMNS; column++)
-        for (int c = 0; c < 3; c++)
-            row->sums[column][c] = get_signed64(r);
-    return sound ? RT_OK : fail_content(r, "a light in its ledger is out of range");
-}
-
 static rt_status read_lights(reader *r, rt_ledger *ledger, size_t count, rt_memory *memory)
 {
     uint64_t paths = 0;
@@ -202,9 +139,8 @@ static rt_status read_lights(reader *r, rt_ledger *ledger, size_t count, rt_memo
         return RT_ERROR_MEMORY;
     ledger->count = count;
     for (size_t i = 0; i < count; i++) {
-        rt_status status = read_light(r, ledger->rows + i);
-        if (status != RT_OK)
-            return status;
+        if (!rt_ledger_get(&r->at, ledger->rows + i))
+            return fail_content(r, "a light in its ledger is out of range");
         if (ledger->rows[i].paths > ledger->paths - paths)
             return fail_content(r, "its lights have more paths than it");
         paths += ledger->rows[i].paths;
@@ -222,12 +158,12 @@ static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t cou
 
     for (size_t i = 0; i < count; i++) {
         rt_path_range range;
-        range.first = get64(r);
-        range.count = get64(r);
-        range.photons = get64(r);
-        range.seed = get32(r);
+        range.first = rt_get64(&r->at);
+        range.count = rt_get64(&r->at);
+        range.photons = rt_get64(&r->at);
+        range.seed = rt_get32(&r->at);
         const rt_path_range *last = ranges->count ? ranges->ranges + ranges->count - 1 : NULL;
-        if (get32(r) != 0 || range.count == 0 || range.count > indices ||
+        if (rt_get32(&r->at) != 0 || range.count == 0 || range.count > indices ||
             range.first > indices - range.count || range.photons > photon_count - photons)
             return fail_content(r, "a range of its paths is out of range");
         if (last && (range.seed < last->seed ||
@@ -246,14 +182,14 @@ static rt_status read_ranges(reader *r, rt_photon_map *map, int kind, size_t cou
 
 static rt_status read_photon(reader *r, rt_photon *p)
 {
-    get_floats(r, p->position, 3);
-    p->path = get32(r);
-    get_floats(r, p->wi, 3);
-    p->flags = get32(r);
-    get_floats(r, p->flux, 3);
-    get_floats(r, &p->shading, 1);
-    get_floats(r, p->normal, 3);
-    p->shape = get32(r);
+    rt_get_floats(&r->at, p->position, 3);
+    p->path = rt_get32(&r->at);
+    rt_get_floats(&r->at, p->wi, 3);
+    p->flags = rt_get32(&r->at);
+    rt_get_floats(&r->at, p->flux, 3);
+    rt_get_floats(&r->at, &p->shading, 1);
+    rt_get_floats(&r->at, p->normal, 3);
+    p->shape = rt_get32(&r->at);
     if (!rt_photon_is_finite(p))
         return fail_content(r, "a photon is not finite");
     for (int c = 0; c < 3; c++)
@@ -297,7 +233,7 @@ rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t 
 rt_status rt_photon_map_decode_in(rt_photon_map **out, const uint8_t *data, size_t size,
                                   const char *name, rt_memory *memory, rt_error *error)
 {
-    reader r = {data, name, error};
+    reader r = {{data}, name, error};
     counts n = {0};
     rt_status status = check_frame(data, size, name, error);
     if (status != RT_OK)

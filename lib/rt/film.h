@@ -11,8 +11,6 @@ extern "C" {
 
 /* ---- Film ------------------------------------------------------------------------------------ */
 
-typedef struct rt_film rt_film;
-
 /*
  * Fails with RT_ERROR_USAGE, error->field naming the member, when an option is out of its range or
  * does not go with another, as rt_render does.
@@ -155,6 +153,96 @@ typedef struct rt_image_options {
  */
 RT_API rt_status rt_film_write(const rt_film *film, const char *path,
                                const rt_image_options *options, rt_error *error);
+
+/* ---- Films put together ---------------------------------------------------------------------- */
+
+/*
+ * A film keeps its sums exactly, as whole numbers, so that it can be saved and continued, and made
+ * in parts by any number of programs and machines: the result has the same bits as a render at
+ * once, on devices of the same kind. That is for films that rt_render made with a checkpoint, a
+ * part (1 of 1 is the whole picture), resume or next_units in its options; others fail with
+ * RT_ERROR_USAGE here.
+ */
+
+/*
+ * Writes the sums to a file, by convention NAME.rtpart, and reads them. The file appears whole or
+ * not at all. Saving fails with RT_ERROR_OUTPUT; loading with RT_ERROR_INPUT when the file cannot
+ * be read or is damaged, with the reason. A loaded film has no means or layers: rt_film_resolve
+ * makes them. It counts in `memory`, which may be NULL. The caller owns *out.
+ */
+RT_API rt_status rt_film_save(const rt_film *film, const char *path, rt_error *error);
+RT_API rt_status rt_film_load(rt_film **out, const char *path, rt_memory *memory, rt_error *error);
+
+/*
+ * The same bytes in memory of the caller: *size receives their number, and buffer [capacity] the
+ * bytes. Fails with RT_ERROR_USAGE when they do not fit; buffer NULL asks for the size alone.
+ */
+RT_API rt_status rt_film_encode(const rt_film *film, void *buffer, size_t capacity, size_t *size,
+                                rt_error *error);
+RT_API rt_status rt_film_decode(rt_film **out, const void *data, size_t size, rt_error *error);
+
+/*
+ * Adds the samples of another film of the same scene and settings; only `time` may differ. The
+ * order of additions does not matter. Fails with RT_ERROR_USAGE, saying what differs, and leaves
+ * `film` as it was, when they do not fit together or both hold the same part of the work.
+ */
+RT_API rt_status rt_film_add(rt_film *film, const rt_film *other, rt_error *error);
+
+/*
+ * Makes means, layers and statistics from the sums of a film that was loaded, decoded or added to.
+ * hooks: for warnings; may be NULL.
+ */
+RT_API rt_status rt_film_resolve(rt_film *film, const rt_hooks *hooks, rt_error *error);
+
+/* What a film holds of its picture. */
+typedef struct rt_film_info {
+    double done;          /* the fraction of all samples or passes, 0 to 1 */
+    uint64_t units;       /* of the whole picture; see rt_chunk_units */
+    uint64_t units_done;  /* of these */
+    uint32_t samples;     /* samples of a pixel, or passes, that the picture is to have */
+    uint32_t part, parts; /* of the work that it was to be; 0: all */
+    double seconds;       /* spent on it, on all machines together */
+    uint64_t scene;       /* fingerprint of the scene and its camera */
+} rt_film_info;
+RT_API void rt_film_get_info(const rt_film *film, rt_film_info *out);
+
+/* The options that a film was rendered with, complete; its pointers are NULL. */
+RT_API void rt_film_get_options(const rt_film *film, rt_render_options *out);
+
+/* How much of part 1 .. parts of the work a film has: 0 to 1. */
+RT_API double rt_film_part_done(const rt_film *film, uint32_t part, uint32_t parts);
+
+/*
+ * A text of the caller's own that is saved with the film: lines "NAME VALUE", each with its
+ * newline, of names that are no settings. rt_film_note returns it, "" without.
+ */
+RT_API rt_status rt_film_set_note(rt_film *film, const char *note, rt_error *error);
+RT_API const char *rt_film_note(const rt_film *film);
+
+/* ---- Chunks ---------------------------------------------------------------------------------- */
+
+/*
+ * For other schedulers: a picture is a fixed list of chunks, which options alone decide, and the
+ * sum of their films in any order. A chunk is a few samples of a few thousand pixels or, in
+ * progressive photon mapping, a pass; in photon mode without passes each program emits the whole
+ * map anew, or takes it from rt_render_options.photon_map.
+ */
+
+/* How many chunks there are; fails as rt_render_options_check does. */
+RT_API rt_status rt_chunk_count(uint64_t *out, const rt_render_options *options, rt_error *error);
+
+/* The units of `count` chunks from `chunk` on, as rt_render_options.next_units takes them. */
+RT_API rt_status rt_chunk_units(uint64_t *first, uint64_t *units, const rt_render_options *options,
+                                uint64_t chunk, uint64_t count, rt_error *error);
+
+/*
+ * Renders `count` chunks from `chunk` on into a film of their own; rt_film_encode puts it into
+ * memory, and rt_film_add to the picture. Many chunks at a time cost less than one by one. The
+ * caller owns *out.
+ */
+RT_API rt_status rt_chunk_render(rt_film **out, rt_renderer *renderer,
+                                 const rt_render_options *options, uint64_t chunk, uint64_t count,
+                                 rt_error *error);
 
 #ifdef __cplusplus
 }

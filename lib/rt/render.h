@@ -49,8 +49,9 @@ typedef enum rt_gather { RT_GATHER_AUTO = 0, RT_GATHER_FLANN, RT_GATHER_DEVICE }
 
 #define RT_K_ALL 0xffffffffu /* for k: all photons within `radius` */
 
-/* A map of photons; see below. */
+/* A map of photons, and a film; see below. */
 typedef struct rt_photon_map rt_photon_map;
+typedef struct rt_film rt_film;
 
 /*
  * The settings of a render, and what belongs to one call. A scene carries such options as its
@@ -142,6 +143,31 @@ typedef struct rt_render_options {
     size_t light_share_count;
     const rt_photon_map *photon_map; /* use these photons and emit none; NULL: emit */
     const rt_hooks *hooks;           /* NULL: none */
+    /*
+     * a film of the same scene and settings, to be continued: rt_render copies it and adds what it
+     * lacks. spp, passes, time and target_error may be others: more samples or passes than a film
+     * has continue it. NULL: begin anew
+     */
+    const rt_film *resume;
+    /*
+     * render part 1 .. parts of the work alone; rt_film_merge joins the parts. target_error is not
+     * for parts. parts 0: all
+     */
+    uint32_t part, parts;
+    /*
+     * called about every checkpoint_seconds, and at the end or after a cancel, with the film so
+     * far, which can be saved or encoded, but has no means yet; NULL: never
+     */
+    void (*checkpoint)(void *user, const rt_film *film);
+    void *checkpoint_user;
+    double checkpoint_seconds;
+    /*
+     * hands out work: sets first and count to a range of units, as rt_chunk_units has them, that no
+     * other film of the picture has, and returns 1, or 0 when there are none left. NULL: all units
+     * that the film lacks, or its part. target_error is not for it
+     */
+    int (*next_units)(void *user, uint64_t *first, uint64_t *count);
+    void *units_user;
 } rt_render_options;
 
 /*

@@ -4,6 +4,8 @@
  */
 #include "support.h"
 
+#include "film/film.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -412,8 +414,8 @@ static void samples_that_are_not_finite_are_counted_and_left_out(void **state)
     rt_arg args[] = {RT_ARG(samples), RT_ARG(count), RT_ARG(film)};
     test_run(kernel, args, 3, 1);
     test_read(film, sizeof pixel, &pixel);
-    assert_true(pixel.count == 3 && pixel.rejected == 3 && pixel.weight == 3);
-    assert_true(pixel.sum[0] == 7 && pixel.sum[1] == 3 && pixel.lost[0] == 0);
+    assert_true(pixel.count == 3 && pixel.bins >> RT_FILM_REJECTED == 3 && pixel.weight == 3);
+    assert_true(rt_film_sum(&pixel, 0) == 7 && rt_film_sum(&pixel, 1) == 3);
     rt_buffer_release(test_device(), samples);
     rt_buffer_release(test_device(), film);
     rt_kernel_release(kernel);
@@ -448,7 +450,7 @@ static void samples_that_gather_nowhere_are_rejected(void **state)
     test_read(film, sizeof pixels, pixels);
     for (uint32_t i = 0; i < COUNT; i++) {
         assert_int_equal(pixels[i].count, i == 0 ? 1 : 0);
-        assert_int_equal(pixels[i].rejected, i == 0 ? 0 : 1);
+        assert_int_equal(pixels[i].bins >> RT_FILM_REJECTED, i == 0 ? 0 : 1);
     }
     rt_buffer_release(test_device(), gathered);
     rt_buffer_release(test_device(), film);

@@ -18,15 +18,14 @@ rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *ren
 
     out->renderer = renderer;
     out->device = renderer->device;
-    film->layer_sums = calloc(count, sizeof *film->layer_sums);
+    if (!film->layer_sums)
+        film->layer_sums = calloc(count, sizeof *film->layer_sums);
     if (!film->layer_sums)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels",
                        pixels);
-    rt_status status = rt_film_layers_add(&film->layers, RT_LAYERS_FIRST_HIT, pixels, error);
-    if (status == RT_OK)
-        status = rt_buffer_create(renderer->device, &out->sums, CL_MEM_READ_WRITE,
-                                  count * sizeof *film->layer_sums, film->layer_sums,
-                                  "the buffer of the film's layers", error);
+    rt_status status = rt_buffer_create(renderer->device, &out->sums, CL_MEM_READ_WRITE,
+                                        count * sizeof *film->layer_sums, film->layer_sums,
+                                        "the buffer of the film's layers", error);
     rt_arg args[] = {RT_ARG(none), RT_ARG(renderer->scene), RT_ARG(out->sums)};
     if (status == RT_OK)
         status = rt_kernel_prepare(renderer->device, &out->kernel, "first_hit", "first_hit", args,
@@ -68,7 +67,7 @@ rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *f
 typedef enum rule {
     MEAN,         /* over the film's divisor: the sum of the filter's weights */
     MEAN_OF_HITS, /* over the number of samples that hit; 0 without any */
-    FIRST_ID      /* the sum itself, of one sample; -1 without any */
+    FIRST_ID      /* that of one sample; -1 without any */
 } rule;
 
 /* The sums that a layer is made from: channels from `channel` on of one of RT_LAYER_COUNT. */
@@ -93,14 +92,14 @@ static const source sources[] = {
 static double value_of(const source *source, const rt_film_pixel *sums, uint32_t channel,
                        double hits)
 {
-    double sum = rt_film_sum(sums, (int)(source->channel + channel));
+    const int of = (int)(source->channel + channel);
     switch (source->rule) {
     case MEAN:
-        return sum / rt_film_divisor(sums);
+        return rt_film_sum(sums, of) / rt_film_divisor(sums->weight, sums->count);
     case MEAN_OF_HITS:
-        return hits > 0 ? sum / hits : 0;
+        return hits > 0 ? rt_film_sum(sums, of) / hits : 0;
     case FIRST_ID:
-        return hits > 0 ? sum : -1;
+        return hits > 0 ? (double)sums->high[of] : -1;
     }
     return 0;
 }

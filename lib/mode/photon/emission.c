@@ -36,8 +36,6 @@ rt_status rt_photon_render_emit(rt_photon_render *r, uint32_t pass, rt_stage_pro
                                 rt_error *error)
 {
     const rt_render_options *o = r->job->options;
-    rt_film *film = r->job->film;
-    const rt_photon_list *lists = r->in_use->lists;
     rt_status status = RT_OK;
 
     if (r->in_use == &r->map) {
@@ -46,14 +44,19 @@ rt_status rt_photon_render_emit(rt_photon_render *r, uint32_t pass, rt_stage_pro
         if (status == RT_OK && r->map.settings.split)
             status = emit_kind(r, RT_PHOTONS_CAUSTIC, o->caustic_photons, pass, progress, error);
     }
+    if (status == RT_OK && o->final_gather > 0 && !r->in_use->settings.split)
+        status = copy_caustics(&r->caustics, r->in_use->lists + RT_PHOTONS_GLOBAL, error);
+    return status;
+}
+
+rt_status rt_photon_render_book(const rt_photon_render *r, rt_error *error)
+{
+    const rt_photon_list *lists = r->in_use->lists;
+    rt_film *film = r->job->film;
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++) {
         film->stats.photons_emitted += lists[kind].emitted;
         film->stats.photons_stored += lists[kind].count;
         film->stats.photons_rejected += lists[kind].rejected;
     }
-    if (status == RT_OK)
-        status = rt_ledger_add(&film->ledger, &r->in_use->ledger, error);
-    if (status == RT_OK && o->final_gather > 0 && !r->in_use->settings.split)
-        status = copy_caustics(&r->caustics, lists + RT_PHOTONS_GLOBAL, error);
-    return status;
+    return rt_ledger_add(&film->ledger, &r->in_use->ledger, error);
 }

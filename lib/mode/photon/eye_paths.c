@@ -54,18 +54,36 @@ static rt_status create_layers(rt_eye_paths *paths, rt_error *error)
                                          sizeof *paths->host_points, what, error);
     if (!paths->host_points)
         return RT_ERROR_MEMORY;
-    rt_status status =
-        rt_photon_bias_create(&paths->bias, device, paths->capacity, paths->rows, error);
-    return status == RT_OK
-               ? rt_photon_layers_create(&paths->layers, rt_film_pixels(paths->job->film),
-                                         device->memory, error)
-               : status;
+    paths->sums = paths->pass_sums ? paths->pass_sums : paths->job->film->photon_sums;
+    return rt_photon_bias_create(&paths->bias, device, paths->capacity, paths->rows, error);
+}
+
+/* In passes, each begins with an empty film of one plane; else the film goes on. */
+static rt_status create_film(rt_eye_paths *paths, rt_error *error)
+{
+    rt_film *film = paths->job->film;
+    const size_t pixels = rt_film_pixels(film);
+    rt_memory *memory = paths->device->memory;
+    static const char pass[] = "the film of a pass";
+    if (film->units.in_passes) {
+        paths->pass_pixels =
+            rt_memory_zeroed(memory, pixels, sizeof *paths->pass_pixels, pass, error);
+        if (!paths->pass_pixels)
+            return RT_ERROR_MEMORY;
+    }
+    if (film->units.in_passes && film->photon_sums) {
+        paths->pass_sums = rt_memory_zeroed(memory, pixels, sizeof *paths->pass_sums, pass, error);
+        if (!paths->pass_sums)
+            return RT_ERROR_MEMORY;
+    }
+    return rt_buffer_create(
+        paths->device, &paths->pixels, CL_MEM_READ_WRITE, pixels * sizeof *film->pixels,
+        film->units.in_passes ? paths->pass_pixels : film->pixels, "the film", error);
 }
 
 static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
 {
     rt_device *device = paths->job->renderer->device;
-    rt_film *film = paths->job->film;
     size_t bytes = paths->capacity * sizeof(rt_gather_point);
     rt_status status = rt_buffer_create(device, &paths->points, CL_MEM_READ_WRITE, bytes, NULL,
                                         "the buffer of gather points", error);
@@ -73,12 +91,8 @@ static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
         status = rt_buffer_create(device, &paths->earlier, CL_MEM_READ_WRITE, paths->rows * bytes,
                                   NULL, "the buffer of caustic gather points", error);
     if (status == RT_OK)
-        status = create_layers(paths, error);
-    if (status == RT_OK)
-        status = rt_buffer_create(device, &paths->pixels, CL_MEM_READ_WRITE,
-                                  rt_film_pixels(film) * sizeof *film->pixels, film->pixels,
-                                  "the film", error);
-    return status;
+        status = create_film(paths, error);
+    return status == RT_OK ? create_layers(paths, error) : status;
 }
 
 static rt_status create_memory(rt_eye_paths *paths, rt_error *error)
@@ -98,10 +112,12 @@ static void release_memory(rt_eye_paths *paths)
     rt_buffer_release(paths->device, paths->pixels);
     paths->points = paths->earlier = paths->pixels = NULL;
     rt_memory_free(paths->discs);
-    rt_memory_free(paths->layers);
+    rt_memory_free(paths->pass_sums);
+    rt_memory_free(paths->pass_pixels);
     rt_memory_free(paths->host_points);
     paths->discs = paths->more_discs = NULL;
-    paths->layers = NULL;
+    paths->sums = paths->pass_sums = NULL;
+    paths->pass_pixels = NULL;
     paths->host_points = NULL;
     rt_photon_bias_release(&paths->bias);
 }
@@ -181,7 +197,7 @@ static rt_status gather(rt_eye_paths *paths, const rt_queries *queries, rt_query
     cl_mem points = row == 0 ? paths->points : paths->earlier;
     size_t first = row == 0 ? 0 : (row - 1) * paths->capacity;
     rt_gather_disc *discs = query == RT_QUERY_GLOBAL ? paths->discs : paths->more_discs;
-    if (paths->layers)
+    if (paths->sums)
         return rt_photon_bias_add(&paths->bias, gatherer, queries->finer + query, points, first,
                                   row, count, discs, error);
     return rt_gatherer_add(gatherer, points, first, count, discs, error);
@@ -195,7 +211,7 @@ static rt_status gather_all(rt_eye_paths *paths, const rt_queries *queries, size
     int global = queries->gatherers[RT_QUERY_GLOBAL] != NULL;
     int caustic = queries->gatherers[RT_QUERY_CAUSTIC] != NULL;
     rt_status status = RT_OK;
-    if (paths->layers)
+    if (paths->sums)
         status = rt_photon_bias_begin(&paths->bias, paths->points, paths->earlier, count, error);
     if (status == RT_OK && global)
         status = gather(paths, queries, RT_QUERY_GLOBAL, 0, count, error);
@@ -220,7 +236,7 @@ static rt_status add_to_layers(rt_eye_paths *paths, const rt_queries *queries, s
     rt_device *device = paths->job->renderer->device;
     rt_gather_point *points = paths->host_points, *earlier = points + paths->capacity;
     size_t row = paths->capacity * sizeof *points;
-    if (!paths->layers)
+    if (!paths->sums)
         return RT_OK;
     if (!queries->gatherers[RT_QUERY_GLOBAL])
         memset(paths->discs, 0, count * sizeof *paths->discs);
@@ -229,7 +245,7 @@ static rt_status add_to_layers(rt_eye_paths *paths, const rt_queries *queries, s
     if (status == RT_OK)
         status = rt_buffer_read(device, paths->earlier, 0, paths->rows * row, earlier, error);
     if (status == RT_OK)
-        rt_photon_layers_add(paths->layers, points, paths->discs, paths->bias.sums, count, earlier,
+        rt_photon_layers_add(paths->sums, points, paths->discs, paths->bias.sums, count, earlier,
                              paths->rows, paths->capacity);
     return status;
 }
@@ -254,12 +270,12 @@ static rt_status add_to_film(rt_eye_paths *paths, const rt_params *params, rt_er
 typedef rt_status batch_work(rt_eye_paths *paths, const rt_queries *queries,
                              const rt_params *params, void *data, rt_error *error);
 
-/* Follows one eye path of every pixel, a batch at a time, and does the work on each batch. */
-static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, uint32_t sample,
-                            batch_work *work, void *data, rt_stage_progress *progress,
-                            rt_error *error)
+/* Follows one eye path of every item, a batch at a time, and does the work on each batch. */
+static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, rt_unit_range items,
+                            uint32_t sample, batch_work *work, void *data,
+                            rt_stage_progress *progress, rt_error *error)
 {
-    uint32_t pixels = (uint32_t)rt_film_pixels(paths->job->film);
+    const uint32_t count = (uint32_t)items.count;
     size_t batch = rt_queries_capacity(queries, paths->capacity);
     rt_params params = rt_params_make(paths->job->options);
     rt_status status = RT_OK;
@@ -267,14 +283,14 @@ static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, uint
     params.first_sample = sample;
     params.sample_count = 1;
     params.replicate = paths->replicate;
-    for (uint32_t done = 0; done < pixels && status == RT_OK; done += params.item_count) {
-        params.first_item = done;
-        params.item_count = pixels - done < batch ? pixels - done : (uint32_t)batch;
+    for (uint32_t done = 0; done < count && status == RT_OK; done += params.item_count) {
+        params.first_item = (uint32_t)items.first + done;
+        params.item_count = count - done < batch ? count - done : (uint32_t)batch;
         status = follow_paths(paths, &params, error);
         if (status == RT_OK)
             status = work(paths, queries, &params, data, error);
         if (status == RT_OK)
-            status = rt_stage_update(progress, (double)(done + params.item_count) / pixels);
+            status = rt_stage_update(progress, (double)(done + params.item_count) / count);
     }
     return status;
 }
@@ -289,15 +305,15 @@ static rt_status add_batch(rt_eye_paths *paths, const rt_queries *queries, const
         status = add_to_layers(paths, queries, params->item_count, error);
     if (status == RT_OK)
         status = add_to_film(paths, params, error);
-    if (status == RT_OK)
+    if (status == RT_OK && !paths->job->film->units.in_passes)
         status = rt_first_hit_layers_add(paths->job->layers, params, error);
     return status;
 }
 
-rt_status rt_eye_paths_sample(rt_eye_paths *paths, const rt_queries *queries, uint32_t sample,
-                              rt_stage_progress *progress, rt_error *error)
+rt_status rt_eye_paths_sample(rt_eye_paths *paths, const rt_queries *queries, rt_unit_range items,
+                              uint32_t sample, rt_stage_progress *progress, rt_error *error)
 {
-    return each_batch(paths, queries, sample, add_batch, NULL, progress, error);
+    return each_batch(paths, queries, items, sample, add_batch, NULL, progress, error);
 }
 
 /* Of rt_eye_paths_radii. */
@@ -325,15 +341,53 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
                              rt_error *error)
 {
     radii r = {query, squared};
-    return each_batch(paths, queries, sample, note_radii, &r, progress, error);
+    const rt_unit_range all = {0, rt_film_pixels(paths->job->film)};
+    return each_batch(paths, queries, all, sample, note_radii, &r, progress, error);
 }
 
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)
 {
     rt_film *film = paths->job->film;
     rt_status status =
-        rt_buffer_read(paths->job->renderer->device, paths->pixels, 0,
-                       rt_film_pixels(film) * sizeof *film->pixels, film->pixels, error);
-    return status == RT_OK && paths->layers ? rt_photon_layers_resolve(film, paths->layers, error)
-                                            : status;
+        rt_buffer_read(paths->device, paths->pixels, 0, rt_film_bytes(film), film->pixels, error);
+    return status == RT_OK ? rt_first_hit_layers_read(paths->job->layers, film, error) : status;
+}
+
+rt_status rt_eye_paths_begin_pass(rt_eye_paths *paths, rt_error *error)
+{
+    const size_t pixels = rt_film_pixels(paths->job->film);
+    const size_t bytes = pixels * sizeof *paths->pass_pixels;
+    memset(paths->pass_pixels, 0, bytes);
+    if (paths->pass_sums)
+        memset(paths->pass_sums, 0, pixels * sizeof *paths->pass_sums);
+    return rt_buffer_write(paths->device, paths->pixels, 0, bytes, paths->pass_pixels, error);
+}
+
+/* The layers of the first hit get the samples of a pass once it is whole. */
+static rt_status add_first_hits(const rt_eye_paths *paths, uint32_t first, rt_error *error)
+{
+    const rt_render_options *o = paths->job->options;
+    rt_params params = rt_params_make(o);
+    params.item_count = (uint32_t)rt_film_pixels(paths->job->film);
+    params.first_sample = first;
+    params.sample_count = o->spp;
+    params.replicate = paths->replicate;
+    rt_status status = rt_first_hit_layers_add(paths->job->layers, &params, error);
+    return status == RT_OK ? rt_device_finish(paths->device, error) : status;
+}
+
+rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t first,
+                                rt_error *error)
+{
+    rt_film *film = paths->job->film;
+    const size_t pixels = rt_film_pixels(film);
+    rt_status status =
+        rt_buffer_read(paths->device, paths->pixels, 0, pixels * sizeof *paths->pass_pixels,
+                       paths->pass_pixels, error);
+    if (status != RT_OK)
+        return status;
+    rt_film_join_pixels(film->pixels + plane * pixels, paths->pass_pixels, pixels);
+    if (paths->pass_sums)
+        rt_photon_sums_join(film->photon_sums, paths->pass_sums, pixels);
+    return add_first_hits(paths, first, error);
 }

@@ -26,10 +26,12 @@ typedef struct rt_eye_paths {
     size_t capacity;    /* paths a batch */
     cl_mem points;      /* rt_gather_point [capacity], the ends of paths */
     cl_mem earlier;     /* rt_gather_point [rows][capacity] */
-    cl_mem pixels;      /* rt_film_pixel, the film on the device */
+    cl_mem pixels;      /* rt_film_pixel, the film on the device; in passes, that of one pass */
     rt_gather_disc *discs;        /* [capacity], what the global query found */
     rt_gather_disc *more_discs;   /* [capacity], what the caustic or an earlier query found */
-    rt_photon_layer_sum *layers;  /* one a pixel, or NULL when there are none */
+    rt_photon_sums *sums;         /* the film's, or in passes those of one; NULL: no layers */
+    rt_photon_sums *pass_sums;    /* in passes: what sums is */
+    rt_film_pixel *pass_pixels;   /* in passes: to read the film of one */
     rt_gather_point *host_points; /* for the layers: [1 + rows][capacity] points */
     rt_photon_bias bias;          /* likewise */
 } rt_eye_paths;
@@ -46,11 +48,12 @@ rt_status rt_eye_paths_create(rt_eye_paths *out, const rt_render_job *job,
 void rt_eye_paths_release(rt_eye_paths *paths);
 
 /*
- * Gives each pixel the sample of this number. The gathers of the film's stats grow by the points
- * that queried a map. Reports fractions of the part of the stage that progress is set to.
+ * Gives each pixel of the items the sample of this number. The gathers of the film's stats grow by
+ * the points that queried a map. Reports fractions of the part of the stage that progress is set
+ * to.
  */
-rt_status rt_eye_paths_sample(rt_eye_paths *paths, const rt_queries *queries, uint32_t sample,
-                              rt_stage_progress *progress, rt_error *error);
+rt_status rt_eye_paths_sample(rt_eye_paths *paths, const rt_queries *queries, rt_unit_range items,
+                              uint32_t sample, rt_stage_progress *progress, rt_error *error);
 
 /*
  * The squared radius of each pixel, [height][width], m^2, that one sample finds by the gatherer of
@@ -61,7 +64,15 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
                              uint32_t sample, float *squared, rt_stage_progress *progress,
                              rt_error *error);
 
-/* Reads the film from the device, and makes its layers. */
+/* Reads the film from the device, and the layers of the first hit. Not in passes. */
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error);
+
+/*
+ * In passes: an empty film for the next one; and the samples of one, from `first` on, added to this
+ * plane of the film, so that it never holds a part of a pass.
+ */
+rt_status rt_eye_paths_begin_pass(rt_eye_paths *paths, rt_error *error);
+rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t first,
+                                rt_error *error);
 
 #endif

@@ -12,10 +12,22 @@
 #include "mode/photon/emission.h"
 #include "mode/photon/first_radius.h"
 
+/* Passes in which the first radius of a query is looked for; later ones find their own. */
+enum { tries = 16 };
+
 /* Radii shrink by the product of (i + alpha)/(i + 1) over the passes before, counted from 1. */
-static double shrunk(double squared_factor, uint32_t pass, double alpha)
+static double squared_factor(rt_photon_render *r, uint32_t pass)
 {
-    return pass == 0 ? 1 : squared_factor * (pass + alpha) / (pass + 1.0);
+    const double alpha = r->job->options->alpha;
+    if (pass < r->pass || r->pass == 0) {
+        r->pass = 0;
+        r->squared_factor = 1;
+    }
+    while (r->pass < pass) {
+        r->pass++;
+        r->squared_factor *= (r->pass + alpha) / (r->pass + 1.0);
+    }
+    return r->squared_factor;
 }
 
 /* Gives the gatherers of a query the pixels' own radii; the finer one takes half the area. */
@@ -42,98 +54,161 @@ static rt_status open_query(rt_photon_render *r, rt_query query, double squared_
     return status;
 }
 
+/* ---- First radii ------------------------------------------------------------- */
+
+/* The sequence and number of a pass's first sample. */
+static uint32_t aim_at_pass(rt_photon_render *r, uint32_t pass)
+{
+    r->eye_paths.replicate = pass % rt_photon_render_replicates(r);
+    return pass / rt_photon_render_replicates(r) * r->job->options->spp;
+}
+
+/* Whether a query has photons, but no radius yet. */
+static int lacks_radius(const rt_photon_render *r, rt_query query)
+{
+    const rt_photon_list *list = rt_photon_render_list(r, query);
+    return list && r->first_radius[query] == 0;
+}
+
+/* Chooses the radii that are unknown from the photons of this pass, as far as it has any. */
+static rt_status choose_radii(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
+                              rt_error *error)
+{
+    const uint32_t first = aim_at_pass(r, pass);
+    rt_status status = RT_OK;
+    for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++)
+        if (lacks_radius(r, query) && rt_photon_render_list(r, query)->count > 0)
+            status = rt_photon_render_choose_radius(r, query, first, progress, error);
+    return status;
+}
+
 /*
- * Makes the gatherers of a pass. A query is left out while its radius is unknown, because no point
- * makes it or there are no photons.
+ * First radii are those of the first pass that has photons where it gathers, whichever passes this
+ * render takes: the ones before this pass are tried first.
  */
-static rt_status open_queries(rt_photon_render *r, uint32_t sample, double squared_factor,
-                              rt_stage_progress *progress, rt_error *error)
+static rt_status choose_earlier_radii(rt_photon_render *r, uint32_t pass,
+                                      rt_stage_progress *progress, rt_error *error)
 {
     rt_status status = RT_OK;
-    for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++) {
-        const rt_photon_list *list = rt_photon_render_list(r, query);
-        if (!list || list->count == 0)
+    for (; r->passes_tried < pass && r->passes_tried < tries && status == RT_OK;
+         r->passes_tried++) {
+        int unknown = 0;
+        for (rt_query query = 0; query < RT_QUERIES; query++)
+            unknown |= lacks_radius(r, query);
+        if (!unknown)
             continue;
-        if (r->first_radius[query] == 0)
-            status = rt_photon_render_choose_radius(r, query, sample, progress, error);
-        if (status == RT_OK && r->first_radius[query] > 0)
-            status = open_query(r, query, squared_factor, error);
+        status = rt_photon_render_emit(r, r->passes_tried, progress, error);
+        if (status == RT_OK)
+            status = choose_radii(r, r->passes_tried, progress, error);
     }
     return status;
 }
 
+/* Forgets radii that were chosen for one pass alone. */
+static void forget_radii(rt_photon_render *r, const int *known)
+{
+    for (rt_query query = 0; query < RT_QUERIES; query++)
+        if (!known[query]) {
+            r->first_radius[query] = 0;
+            rt_buffer_release(r->job->renderer->device, r->first_radii[query]);
+            r->first_radii[query] = NULL;
+        }
+}
+
+/* ---- A pass ------------------------------------------------------------------ */
+
+/*
+ * Makes the gatherers of a pass. A query is left out while its radius is unknown, because no point
+ * makes it or there are no photons.
+ */
+static rt_status open_queries(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
+                              rt_error *error)
+{
+    const double factor = squared_factor(r, pass);
+    rt_status status = choose_radii(r, pass, progress, error);
+    for (rt_query query = 0; query < RT_QUERIES && status == RT_OK; query++) {
+        const rt_photon_list *list = rt_photon_render_list(r, query);
+        if (list && list->count > 0 && r->first_radius[query] > 0)
+            status = open_query(r, query, factor, error);
+    }
+    return status;
+}
+
+/* Emits the photons of a pass and gathers them, and adds its film to that of the render. */
 static rt_status render_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
                              rt_error *error)
 {
     rt_film_stats *stats = &r->job->film->stats;
+    const rt_film_stats before = *stats;
     double from = progress->from, to = progress->to, t0 = rt_clock();
-    uint32_t first = pass / rt_photon_render_replicates(r) * r->job->options->spp;
+    int known[RT_QUERIES];
 
-    r->eye_paths.replicate = pass % rt_photon_render_replicates(r);
     rt_stage_part(progress, from, from + 0.4 * (to - from));
-    rt_status status = rt_photon_render_emit(r, pass, progress, error);
+    rt_status status = choose_earlier_radii(r, pass, progress, error);
+    for (rt_query query = 0; query < RT_QUERIES; query++)
+        known[query] = r->first_radius[query] > 0 || pass < tries;
+    if (status == RT_OK)
+        status = rt_photon_render_emit(r, pass, progress, error);
     double t1 = rt_clock();
     rt_stage_part(progress, from + 0.4 * (to - from), to);
+    const uint32_t first = aim_at_pass(r, pass);
     if (status == RT_OK)
-        status = open_queries(r, first, r->squared_factor, progress, error);
+        status = rt_eye_paths_begin_pass(&r->eye_paths, error);
+    if (status == RT_OK)
+        status = open_queries(r, pass, progress, error);
     if (status == RT_OK)
         status = rt_photon_render_sample(r, first, progress, error);
     rt_queries_close(&r->queries);
+    forget_radii(r, known);
+    r->passes_tried = r->passes_tried == pass ? pass + 1 : r->passes_tried;
+    if (status == RT_OK)
+        status = rt_photon_render_book(r, error);
+    if (status == RT_OK)
+        status = rt_eye_paths_end_pass(
+            &r->eye_paths, r->job->film->units.replicates > 1 ? r->eye_paths.replicate : 0, first,
+            error);
+    if (status != RT_OK) /* a pass that is not whole is left out */
+        *stats = before;
     stats->emit_seconds += t1 - t0;
     stats->gather_seconds += rt_clock() - t1;
     return status;
 }
 
-/* At the end of a pass: estimates the error; *enough: the one asked for is reached. */
+/* Notes that a pass is done; tests the error and makes a checkpoint where these are due. */
 static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
-                          int *enough, rt_error *error)
+                          rt_error *error)
 {
-    const rt_render_job *job = r->job;
-    rt_sample_range samples = {.replicate = r->eye_paths.replicate, .count = job->options->spp};
-    if (!job->noise)
-        return RT_OK;
-    rt_status status = rt_noise_read(job->noise, &samples, job->renderer->device,
-                                     r->eye_paths.pixels, job->film, error);
-    if (status == RT_OK && samples.replicate == RT_REPLICATES - 1)
-        *enough = rt_noise_test(job->noise, pass / RT_REPLICATES + 1, job->options->target_error);
-    progress->error = rt_noise_last(job->noise);
+    rt_film *film = r->job->film;
+    rt_status status = rt_work_done(&r->work, (rt_unit_range){pass, 1}, error);
+    film->stats.passes++;
+    if (status == RT_OK && rt_work_test_is_due(&r->work))
+        rt_work_test(&r->work);
+    if (status == RT_OK && rt_work_save_is_due(&r->work)) {
+        status = rt_first_hit_layers_read(r->job->layers, film, error);
+        if (status == RT_OK)
+            rt_work_save(&r->work);
+    }
+    progress->error = rt_noise_last(&r->work.noise);
     return status;
-}
-
-/*
- * Where the progress of a pass begins: by passes, by time, or by the error, whichever is furthest.
- */
-static double part_done(const rt_photon_render *r, uint32_t passes)
-{
-    const rt_render_options *o = r->job->options;
-    double length = (double)passes / RT_REPLICATES;
-    double by_error = r->job->noise ? rt_noise_progress(r->job->noise, length, o->target_error) : 0;
-    return fmax((double)passes / o->passes, fmax(rt_photon_render_elapsed(r), by_error));
 }
 
 rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->job->options;
-    rt_film_stats *stats = &r->job->film->stats;
     double longest = 0;
-    int enough = 0;
     rt_stage_progress progress;
+    rt_unit_range run;
 
     rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_RENDER);
-    for (uint32_t pass = stats->passes; pass < o->passes && status == RT_OK && !enough; pass++) {
-        double began = rt_clock(), from = part_done(r, pass), to = 1.0 / o->passes;
-        if (o->time > 0 && longest / o->time > to)
-            to = longest / o->time;
-        r->squared_factor = shrunk(r->squared_factor, pass, o->alpha);
-        rt_stage_part(&progress, from, from + to < 1 ? from + to : 1);
+    while (status == RT_OK && rt_work_next(&r->work, &run)) {
+        const uint32_t pass = (uint32_t)run.first;
+        const double began = rt_clock(), from = rt_work_fraction(&r->work);
+        const double to = from + fmax(1 / r->work.all, o->time > 0 ? longest / o->time : 0);
+        rt_stage_part(&progress, from, fmin(to, 1));
         status = render_pass(r, pass, &progress, error);
         if (status == RT_OK)
-            status = end_pass(r, pass, &progress, &enough, error);
-        if (status == RT_OK)
-            stats->passes = pass + 1;
-        if (rt_photon_render_elapsed(r) >= 1)
-            break;
-        longest = rt_clock() - began > longest ? rt_clock() - began : longest;
+            status = end_pass(r, pass, &progress, error);
+        longest = fmax(longest, rt_clock() - began);
     }
     if (status == RT_OK || status == RT_CANCELLED) {
         rt_status end = rt_stage_end(&progress, NULL);

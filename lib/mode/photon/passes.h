@@ -8,8 +8,8 @@
 #include "mode/photon/photon_render.h"
 
 /*
- * Pass after pass, as one stage, until there are enough, or time is up, or the error small. Called
- * again with more passes in the options, goes on after the last.
+ * Pass after pass, as one stage, until there are enough, or time is up, or the error small. The
+ * film always holds whole passes.
  */
 rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error);
 

@@ -94,6 +94,47 @@ static rt_status open_queries(void *data)
     return status;
 }
 
+/* Makes a checkpoint where it is due. */
+static rt_status save(rt_photon_render *r, rt_error *error)
+{
+    if (!rt_work_save_is_due(&r->work))
+        return RT_OK;
+    rt_status status = rt_eye_paths_read(&r->eye_paths, error);
+    if (status == RT_OK)
+        rt_work_save(&r->work);
+    return status;
+}
+
+/* Samples the film, a batch of eye paths at a time. */
+static rt_status sample(rt_photon_render *r, rt_stage_progress *progress, rt_error *error)
+{
+    const rt_units *units = &r->job->film->units;
+    rt_status status = RT_OK;
+    rt_unit_range run;
+    while (status == RT_OK && rt_work_next(&r->work, &run)) {
+        const rt_sample_block block = rt_units_block(units, run.first);
+        const size_t batch = rt_queries_capacity(&r->queries, r->eye_paths.capacity);
+        if (run.count > batch) {
+            run.count = batch;
+            r->work.at = run.first + run.count;
+        }
+        const rt_unit_range items = {run.first % units->items, run.count};
+        const double from = rt_work_fraction(&r->work);
+        rt_stage_part(progress, from, from);
+        if (block.count > 0)
+            status = rt_eye_paths_sample(&r->eye_paths, &r->queries, items, block.first, progress,
+                                         error);
+        /* A cancel comes after the batch is in the film. */
+        if (status == RT_OK || status == RT_CANCELLED) {
+            rt_status noted = rt_work_done(&r->work, run, error);
+            status = noted == RT_OK ? status : noted;
+        }
+        if (status == RT_OK)
+            status = save(r, error);
+    }
+    return status;
+}
+
 /* Builds the search trees, then samples the film, as one stage. */
 static rt_status gather(rt_photon_render *r, rt_error *error)
 {
@@ -106,7 +147,7 @@ static rt_status gather(rt_photon_render *r, rt_error *error)
             *error = r->error;
         return status;
     }
-    status = rt_photon_render_sample(r, 0, &progress, error);
+    status = sample(r, &progress, error);
     if (status == RT_OK || status == RT_CANCELLED) {
         rt_status end = rt_stage_end(&progress, &r->job->film->stats.gather_seconds);
         status = status == RT_OK ? end : status;
@@ -124,6 +165,11 @@ static rt_status render_once(rt_photon_render *r, rt_error *error)
     rt_status status = rt_stage_begin(&progress, hooks, RT_STAGE_EMIT);
     if (status == RT_OK)
         status = rt_photon_render_emit(r, 0, &progress, error);
+    /* A film that is continued has the photons of the same map. */
+    rt_ledger_free(&r->job->film->ledger);
+    stats->photons_emitted = stats->photons_stored = stats->photons_rejected = 0;
+    if (status == RT_OK)
+        status = rt_photon_render_book(r, error);
     if (status != RT_OK)
         return status;
     rt_log(hooks, "%llu photons stored of %llu paths", (unsigned long long)stats->photons_stored,
@@ -155,7 +201,6 @@ static void warn(const rt_photon_render *r)
 
 static rt_status run(const rt_render_job *job, void *state, rt_error *error)
 {
-    (void)job;
     rt_photon_render *r = state;
     rt_status status = rt_photon_render_begin(r, error);
     if (status != RT_OK)
@@ -164,7 +209,8 @@ static rt_status run(const rt_render_job *job, void *state, rt_error *error)
     if (status == RT_OK)
         warn(r);
     if (status == RT_OK || status == RT_CANCELLED) {
-        rt_status read = rt_eye_paths_read(&r->eye_paths, error);
+        rt_status read = r->in_passes ? rt_first_hit_layers_read(job->layers, job->film, error)
+                                      : rt_eye_paths_read(&r->eye_paths, error);
         status = read == RT_OK ? status : read;
     }
     return status;

@@ -34,7 +34,7 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
     if (status == RT_OK && !o->photon_map)
         status = rt_emitter_create(&r->emitter, renderer->device, r->emit, renderer->scene,
                                    o->light_shares, o->light_share_count, error);
-    r->began = rt_clock();
+    r->work = rt_work_begin(r->job->film, o);
     return status;
 }
 
@@ -54,7 +54,7 @@ void rt_photon_render_free(rt_photon_render *r)
 
 uint32_t rt_photon_render_replicates(const rt_photon_render *r)
 {
-    return r->job->noise ? RT_REPLICATES : 1;
+    return r->job->film->units.replicates;
 }
 
 const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_query query)
@@ -95,28 +95,17 @@ rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_query query,
                               rt_photon_render_list(r, query), &fine, error);
 }
 
-double rt_photon_render_elapsed(const rt_photon_render *r)
-{
-    double time = r->job->options->time, part = time > 0 ? (rt_clock() - r->began) / time : 0;
-    return part < 1 ? part : 1;
-}
-
 rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_progress *progress,
                                   rt_error *error)
 {
-    double from = progress->from, span = progress->to - progress->from;
-    uint32_t spp = r->job->options->spp;
+    const double from = progress->from, span = progress->to - progress->from;
+    const rt_unit_range all = {0, rt_film_pixels(r->job->film)};
+    const uint32_t spp = r->job->options->spp;
     rt_status status = RT_OK;
 
     for (uint32_t i = 0; i < spp && status == RT_OK; i++) {
-        double by_samples = from + span * i / spp, by_time = rt_photon_render_elapsed(r);
-        if (!r->in_passes && by_time > by_samples)
-            rt_stage_part(progress, by_time, by_time);
-        else
-            rt_stage_part(progress, by_samples, from + span * (i + 1) / spp);
-        status = rt_eye_paths_sample(&r->eye_paths, &r->queries, first + i, progress, error);
-        if (rt_photon_render_elapsed(r) >= 1)
-            break;
+        rt_stage_part(progress, from + span * i / spp, from + span * (i + 1) / spp);
+        status = rt_eye_paths_sample(&r->eye_paths, &r->queries, all, first + i, progress, error);
     }
     return status;
 }

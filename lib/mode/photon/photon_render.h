@@ -26,10 +26,12 @@ typedef struct rt_photon_render {
     rt_gather_options options[RT_QUERIES];
     rt_queries queries;
     double first_radius[RT_QUERIES]; /* of the passes, the largest; 0 while unknown */
+    uint32_t passes_tried;           /* for first radii: passes 0 to this one, without it */
+    uint32_t pass;                   /* whose squared_factor this is: */
     double squared_factor;           /* by which the pass has shrunk the square of that radius */
     /* squared, of each pixel, float; NULL where one holds for all */
     cl_mem first_radii[RT_QUERIES];
-    double began;   /* rt_clock() at the start of emission, for options->time */
+    rt_work work;   /* begun when emission begins, for options->time */
     rt_error error; /* of the thread that builds search trees */
 } rt_photon_render;
 
@@ -53,11 +55,8 @@ rt_status rt_photon_render_open(rt_photon_render *r, rt_query query,
 rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_query query,
                                       const rt_gather_options *options, rt_error *error);
 
-/* Gives every pixel samples from `first` on, until there are enough or time is up. */
+/* In passes, gives every pixel the samples of one, from `first` on. */
 rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_progress *progress,
                                   rt_error *error);
-
-/* The fraction of options->time that is gone, 0 to 1; 0 without. */
-double rt_photon_render_elapsed(const rt_photon_render *r);
 
 #endif

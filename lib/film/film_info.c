@@ -1,0 +1,74 @@
+/* film_info.c - what a film holds of its picture, and the caller's note in it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "film/film.h"
+
+void rt_film_get_options(const rt_film *film, rt_render_options *out)
+{
+    *out = film->options;
+}
+
+/* Samples or passes in some units, in pixels. */
+static double samples_in(const rt_units *units, rt_unit_range range)
+{
+    return rt_units_samples_before(units, range.first + range.count) -
+           rt_units_samples_before(units, range.first);
+}
+
+void rt_film_get_info(const rt_film *film, rt_film_info *out)
+{
+    const rt_film_stats *s = &film->stats;
+    double done = film->units.base;
+    for (size_t i = 0; i < film->done.count; i++)
+        done += samples_in(&film->units, film->done.ranges[i]);
+    *out = (rt_film_info){
+        .done = done / film->units.samples,
+        .units = film->units.count,
+        .units_done = rt_coverage_units(&film->done),
+        .samples = film->units.samples,
+        .part = film->options.part,
+        .parts = film->options.parts,
+        .seconds = s->emit_seconds + s->gather_seconds + s->render_seconds,
+        .scene = film->scene,
+    };
+}
+
+double rt_film_part_done(const rt_film *film, uint32_t part, uint32_t parts)
+{
+    const rt_units *units = &film->units;
+    const uint64_t chunks = rt_units_chunks(units);
+    double all = 0, done = 0;
+    for (uint64_t chunk = part - 1; chunk < chunks; chunk += parts) {
+        const rt_unit_range range = rt_units_chunk(units, chunk);
+        const uint64_t end = range.first + range.count;
+        rt_unit_range gap = rt_coverage_gap(&film->done, range.first, end);
+        all += (double)range.count;
+        done += (double)range.count;
+        for (; gap.count > 0; gap = rt_coverage_gap(&film->done, gap.first + gap.count, end))
+            done -= (double)gap.count;
+    }
+    return all > 0 ? done / all : 1;
+}
+
+rt_status rt_film_set_note(rt_film *film, const char *note, rt_error *error)
+{
+    if (rt_is_missing(film, "film", error) || rt_is_missing(note, "note", error))
+        return RT_ERROR_USAGE;
+    const size_t size = strlen(note);
+    if (size > 0 && note[size - 1] != '\n')
+        return rt_fail(error, RT_ERROR_USAGE, "the note does not end in a newline");
+    char *copy = malloc(size + 1);
+    if (!copy)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the note of a film");
+    memcpy(copy, note, size + 1);
+    free(film->note);
+    film->note = copy;
+    return RT_OK;
+}
+
+const char *rt_film_note(const rt_film *film)
+{
+    return film->note ? film->note : "";
+}

@@ -1,0 +1,192 @@
+/* join.c - films of the same picture, compared and added. */
+#include "film/join.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "film/noise.h"
+
+/* ---- The same picture --------------------------------------------------------- */
+
+/* Settings that may differ between a film and the one that continues it. */
+static int may_differ(const char *name, int is_continued)
+{
+    static const char *const names[] = {"time", "spp", "passes", "target_error"};
+    const size_t count = is_continued ? sizeof names / sizeof *names : 1;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(name, names[i]) == 0)
+            return 1;
+    return 0;
+}
+
+/* Fails where two films have different settings. */
+static rt_status compare_settings(const rt_film *a, const rt_film *b, int is_continued,
+                                  rt_error *error)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    for (size_t i = 0; i < count; i++) {
+        const rt_setting *s = settings + i;
+        char x[64], y[64];
+        rt_setting_get(x, sizeof x, s, &a->options);
+        rt_setting_get(y, sizeof y, s, &b->options);
+        if (strcmp(x, y) != 0 && !may_differ(s->field.name, is_continued))
+            return rt_fail_field(error, RT_ERROR_USAGE, s->field.name,
+                                 "%s is %s here, and %s in the film that is there", s->field.name,
+                                 x, y);
+    }
+    return RT_OK;
+}
+
+/* Fails where two films are not of the same picture. */
+static rt_status compare(const rt_film *a, const rt_film *b, int is_continued, rt_error *error)
+{
+    if (a->scene != b->scene)
+        return rt_fail(error, RT_ERROR_USAGE,
+                       "the film is of another scene, or of this one before it was changed");
+    rt_status status = compare_settings(a, b, is_continued, error);
+    if (status != RT_OK)
+        return status;
+    if (a->light != b->light)
+        return rt_fail(error, RT_ERROR_USAGE,
+                       "the film was made with another photon map, or with other light shares");
+    if (a->units.replicates != b->units.replicates)
+        return rt_fail_field(error, RT_ERROR_USAGE, "variance",
+                             "the film has %u sequence%s of samples, for which variance or "
+                             "target_error must be %s",
+                             b->units.replicates, b->units.replicates == 1 ? "" : "s",
+                             b->units.replicates == 1 ? "off" : "on");
+    return RT_OK;
+}
+
+/* ---- Sums --------------------------------------------------------------------- */
+
+void rt_film_join_ids(rt_film_pixel *pixels, const rt_film_pixel *others, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        rt_film_pixel *ids = pixels + i;
+        const rt_film_pixel *other = others + i;
+        const uint32_t samples = ids->count + other->count;
+        if (other->high[2] != 0 && (ids->high[2] == 0 || other->high[2] < ids->high[2]))
+            *ids = *other;
+        ids->count = samples;
+    }
+}
+
+static rt_status add_layers(rt_film *film, const rt_film *from, rt_error *error)
+{
+    const size_t pixels = rt_film_pixels(film), ids = RT_LAYER_IDS * pixels;
+    if (!from->layer_sums)
+        return RT_OK;
+    if (!film->layer_sums)
+        film->layer_sums = calloc(RT_LAYER_COUNT * pixels, sizeof *film->layer_sums);
+    if (!film->layer_sums)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels",
+                       pixels);
+    rt_film_join_pixels(film->layer_sums, from->layer_sums, ids);
+    rt_film_join_ids(film->layer_sums + ids, from->layer_sums + ids, pixels);
+    return RT_OK;
+}
+
+/* Photons of passes add up; without passes all films have those of the same map. */
+static rt_status add_photons(rt_film *film, const rt_film *from, rt_error *error)
+{
+    rt_film_stats *stats = &film->stats;
+    if (!film->units.in_passes && film->ledger.count > 0)
+        return RT_OK;
+    stats->photons_emitted += from->stats.photons_emitted;
+    stats->photons_stored += from->stats.photons_stored;
+    stats->photons_rejected += from->stats.photons_rejected;
+    return from->ledger.count > 0 ? rt_ledger_add(&film->ledger, &from->ledger, error) : RT_OK;
+}
+
+static void add_stats(rt_film_stats *stats, const rt_film_stats *from)
+{
+    stats->passes += from->passes;
+    stats->gathers += from->gathers;
+    stats->gathers_at_ends += from->gathers_at_ends;
+    stats->gathers_empty += from->gathers_empty;
+    stats->light_power = from->light_power;
+    stats->build_seconds += from->build_seconds;
+    stats->compile_seconds += from->compile_seconds;
+    stats->emit_seconds += from->emit_seconds;
+    stats->gather_seconds += from->gather_seconds;
+    stats->render_seconds += from->render_seconds;
+}
+
+static rt_status add_sums(rt_film *film, const rt_film *from, rt_error *error)
+{
+    const size_t pixels = rt_film_pixels(film);
+    rt_status status = add_layers(film, from, error);
+    if (status == RT_OK)
+        status = add_photons(film, from, error);
+    if (status != RT_OK)
+        return status;
+    rt_film_join_pixels(film->pixels, from->pixels, pixels * film->units.replicates);
+    if (film->photon_sums && from->photon_sums)
+        rt_photon_sums_join(film->photon_sums, from->photon_sums, pixels);
+    add_stats(&film->stats, &from->stats);
+    return RT_OK;
+}
+
+/* ---- Continuing and adding ------------------------------------------------------ */
+
+/* The units that a film has left when it continues another. */
+static rt_status continue_units(rt_film *film, const rt_film *from, rt_error *error)
+{
+    const uint32_t has = from->units.samples, wants = film->units.samples;
+    const char *what = film->units.in_passes ? "passes" : "spp";
+    const uint64_t done = rt_coverage_units(&from->done);
+    if (film->units.in_passes && from->done.count > 0) {
+        const rt_unit_range last = from->done.ranges[from->done.count - 1];
+        if (last.first + last.count > film->units.count)
+            return rt_fail_field(error, RT_ERROR_USAGE, what, "the film has pass %llu already",
+                                 (unsigned long long)(last.first + last.count));
+    }
+    if (film->units.in_passes || wants == has) {
+        film->units = rt_units_of(&film->options, from->units.base);
+        return rt_coverage_join(&film->done, &from->done, error);
+    }
+    if (wants < has)
+        return rt_fail_field(error, RT_ERROR_USAGE, what, "the film is of %u samples a pixel", has);
+    if (done < from->units.count)
+        return rt_fail_field(error, RT_ERROR_USAGE, what,
+                             "a film of %u samples a pixel that is not finished cannot be raised "
+                             "to %u: finish it first",
+                             has, wants);
+    film->units = rt_units_of(&film->options, has);
+    return RT_OK;
+}
+
+rt_status rt_film_continue(rt_film *film, const rt_film *from, rt_error *error)
+{
+    rt_status status = compare(film, from, 1, error);
+    if (status == RT_OK && film->options.passes == 1 && from->options.passes > 1)
+        status = rt_fail_field(error, RT_ERROR_USAGE, "passes", "the film is one of passes");
+    if (status == RT_OK && film->units.in_passes && film->options.spp != from->options.spp)
+        status = rt_fail_field(error, RT_ERROR_USAGE, "spp",
+                               "the passes of the film have %u samples a pixel", from->options.spp);
+    if (status == RT_OK)
+        status = continue_units(film, from, error);
+    return status == RT_OK ? add_sums(film, from, error) : status;
+}
+
+rt_status rt_film_add(rt_film *film, const rt_film *from, rt_error *error)
+{
+    if (rt_is_missing(film, "film", error) || rt_is_missing(from, "other", error))
+        return RT_ERROR_USAGE;
+    if (!film->scene || !from->scene)
+        return rt_fail(error, RT_ERROR_USAGE, "a film was rendered without a part or checkpoint");
+    rt_status status = compare(film, from, 0, error);
+    if (status == RT_OK && (film->units.base > 0 || from->units.base > 0))
+        status = rt_fail(error, RT_ERROR_USAGE,
+                         "a film that raises the samples of a finished one cannot be joined");
+    if (status == RT_OK && film->ledger.count > 0 && from->ledger.count > 0 &&
+        !rt_ledger_matches(&film->ledger, &from->ledger))
+        status = rt_fail(error, RT_ERROR_USAGE, "the films are of other lights");
+    if (status == RT_OK)
+        status = rt_coverage_join(&film->done, &from->done, error);
+    return status == RT_OK ? add_sums(film, from, error) : status;
+}

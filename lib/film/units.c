@@ -1,0 +1,119 @@
+/* units.c - which samples a unit of work stands for. */
+#include "film/units.h"
+
+/* Blocks of the modes whose samples are cheap; those of gathering are one sample. */
+enum { longest_block = 32 };
+
+int rt_noise_wanted(const rt_render_options *options)
+{
+    return options->variance || options->target_error > 0;
+}
+
+uint32_t rt_replicate_grow(uint32_t length)
+{
+    int is_power_of_two = (length & (length - 1)) == 0;
+    if (length < 2)
+        return length + 1;
+    return is_power_of_two ? length + length / 2 : length / 3 * 4;
+}
+
+/* Where block `index` of a sequence begins, in samples; `longest` is a power of two. */
+static uint64_t block_begin(uint64_t index, uint32_t longest)
+{
+    uint64_t begin = 0;
+    for (; index > 0; index--) {
+        uint64_t next = rt_replicate_grow((uint32_t)begin);
+        if (next - begin >= longest)
+            return begin + index * longest;
+        begin = next;
+    }
+    return begin;
+}
+
+/* The samples of a replicate, when all have so many together. */
+static uint32_t share(uint32_t samples, uint32_t replicates, uint32_t replicate)
+{
+    return samples / replicates + (replicate < samples % replicates);
+}
+
+/* The blocks of a sequence of so many samples. */
+static uint64_t block_count(uint32_t samples, uint32_t longest)
+{
+    uint64_t blocks = 0;
+    for (uint32_t begin = 0; begin < samples; blocks++) {
+        const uint32_t next = rt_replicate_grow(begin);
+        if (next - begin >= longest)
+            return blocks + ((uint64_t)samples - begin + longest - 1) / longest;
+        begin = next;
+    }
+    return blocks;
+}
+
+rt_units rt_units_of(const rt_render_options *o, uint32_t base)
+{
+    int is_photon = o->mode == RT_MODE_PHOTON;
+    rt_units units = {
+        .in_passes = is_photon && o->passes > 1,
+        .replicates = rt_noise_wanted(o) ? RT_REPLICATES : 1,
+        .base = base,
+        .longest = is_photon ? 1 : longest_block,
+    };
+    units.samples = units.in_passes ? o->passes : o->spp;
+    units.items = units.in_passes ? 1 : o->width * o->height;
+    const uint64_t blocks =
+        units.replicates * block_count(share(units.samples, units.replicates, 0), units.longest);
+    units.count = units.in_passes ? o->passes : blocks * units.items;
+    return units;
+}
+
+rt_sample_block rt_units_block(const rt_units *units, uint64_t unit)
+{
+    uint64_t block = unit / units->items;
+    if (units->in_passes)
+        return (rt_sample_block){(uint32_t)(block % units->replicates),
+                                 (uint32_t)(block / units->replicates), 1};
+    const uint32_t r = (uint32_t)(block % units->replicates);
+    const uint64_t has = share(units->base, units->replicates, r),
+                   all = share(units->samples, units->replicates, r);
+    uint64_t begin = block_begin(block / units->replicates, units->longest),
+             end = block_begin(block / units->replicates + 1, units->longest);
+    begin = begin < has ? has : begin;
+    end = end > all ? all : end;
+    return (rt_sample_block){r, (uint32_t)begin, end > begin ? (uint32_t)(end - begin) : 0};
+}
+
+double rt_units_samples_before(const rt_units *units, uint64_t unit)
+{
+    if (units->in_passes)
+        return (double)unit;
+    uint64_t block = unit / units->items;
+    const rt_sample_block now = rt_units_block(units, unit);
+    double samples = (double)now.count * (double)(unit % units->items) / units->items;
+    for (uint32_t r = 0; r < units->replicates; r++) {
+        const uint64_t before = block / units->replicates + (r < now.replicate);
+        const uint64_t end = block_begin(before, units->longest);
+        const uint32_t all = share(units->samples, units->replicates, r);
+        samples += end < all ? (double)end : all;
+    }
+    return samples;
+}
+
+uint64_t rt_units_chunks(const rt_units *units)
+{
+    const uint64_t in_block = (units->items + RT_CHUNK_ITEMS - 1) / RT_CHUNK_ITEMS;
+    return units->count / units->items * in_block;
+}
+
+rt_unit_range rt_units_chunk(const rt_units *units, uint64_t chunk)
+{
+    const uint64_t in_block = (units->items + RT_CHUNK_ITEMS - 1) / RT_CHUNK_ITEMS;
+    const uint64_t item = chunk % in_block * RT_CHUNK_ITEMS, left = units->items - item;
+    return (rt_unit_range){chunk / in_block * units->items + item,
+                           left < RT_CHUNK_ITEMS ? left : RT_CHUNK_ITEMS};
+}
+
+uint64_t rt_units_chunk_of(const rt_units *units, uint64_t unit)
+{
+    const uint64_t in_block = (units->items + RT_CHUNK_ITEMS - 1) / RT_CHUNK_ITEMS;
+    return unit / units->items * in_block + unit % units->items / RT_CHUNK_ITEMS;
+}

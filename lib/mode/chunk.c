@@ -1,0 +1,74 @@
+/* chunk.c - parts of a picture for schedulers of others. */
+#include "base/error.h"
+#include "film/units.h"
+#include "setting/options.h"
+
+/* The units of a picture; fails where the options are wrong. */
+static rt_status units_of(rt_units *out, const rt_render_options *options, rt_error *error)
+{
+    rt_status status = rt_render_options_check(options, error);
+    if (status != RT_OK)
+        return status;
+    rt_render_options complete = *options;
+    rt_options_complete(&complete);
+    *out = rt_units_of(&complete, 0);
+    return RT_OK;
+}
+
+rt_status rt_chunk_count(uint64_t *out, const rt_render_options *options, rt_error *error)
+{
+    rt_units units;
+    rt_status status = units_of(&units, options, error);
+    if (status == RT_OK)
+        *out = rt_units_chunks(&units);
+    return status;
+}
+
+rt_status rt_chunk_units(uint64_t *first, uint64_t *count, const rt_render_options *options,
+                         uint64_t chunk, uint64_t chunks, rt_error *error)
+{
+    rt_units units;
+    rt_status status = units_of(&units, options, error);
+    if (status != RT_OK)
+        return status;
+    const uint64_t all = rt_units_chunks(&units);
+    if (chunk >= all || chunks == 0 || chunks > all - chunk)
+        return rt_fail(error, RT_ERROR_USAGE, "chunks %llu to %llu of %llu",
+                       (unsigned long long)chunk, (unsigned long long)(chunk + chunks - 1),
+                       (unsigned long long)all);
+    const rt_unit_range begin = rt_units_chunk(&units, chunk),
+                        last = rt_units_chunk(&units, chunk + chunks - 1);
+    *first = begin.first;
+    *count = last.first + last.count - begin.first;
+    return RT_OK;
+}
+
+/* One range, handed out once. */
+typedef struct once {
+    uint64_t first, count;
+} once;
+
+static int next(void *user, uint64_t *first, uint64_t *count)
+{
+    once *units = user;
+    const int there_are = units->count > 0;
+    *first = units->first;
+    *count = units->count;
+    units->count = 0;
+    return there_are;
+}
+
+rt_status rt_chunk_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options,
+                          uint64_t chunk, uint64_t count, rt_error *error)
+{
+    if (rt_is_missing(renderer, "renderer", error) || rt_is_missing(options, "options", error))
+        return RT_ERROR_USAGE;
+    rt_render_options o = *options;
+    once units;
+    rt_status status = rt_chunk_units(&units.first, &units.count, options, chunk, count, error);
+    if (status != RT_OK)
+        return status;
+    o.next_units = next;
+    o.units_user = &units;
+    return rt_render(out, renderer, &o, error);
+}

@@ -1,0 +1,167 @@
+/* work.c - goes through the units of a render. */
+#include "mode/work.h"
+
+#include <math.h>
+
+/* ---- What comes next --------------------------------------------------------- */
+
+/* Samples a pixel, or passes, of some units, each weighted by its part of the picture. */
+static double amount(const rt_units *units, rt_unit_range range)
+{
+    if (units->in_passes)
+        return (double)range.count;
+    double samples = 0;
+    for (uint64_t first = range.first, end = range.first + range.count; first < end;) {
+        const uint64_t block_end = (first / units->items + 1) * units->items,
+                       to = block_end < end ? block_end : end;
+        samples += (double)rt_units_block(units, first).count * (double)(to - first);
+        first = to;
+    }
+    return samples / units->items;
+}
+
+/* What the film has of its work. */
+static double amount_done(const rt_film *film)
+{
+    double done = film->units.base;
+    for (size_t i = 0; i < film->done.count; i++) {
+        const rt_unit_range r = film->done.ranges[i];
+        done += rt_units_samples_before(&film->units, r.first + r.count) -
+                rt_units_samples_before(&film->units, r.first);
+    }
+    return done;
+}
+
+/* The units that all replicates have in common, in samples of each. */
+static uint32_t length_done(const rt_film *film)
+{
+    const rt_units *units = &film->units;
+    if (film->done.count == 0 || film->done.ranges[0].first > 0)
+        return units->base / units->replicates;
+    const uint64_t blocks = film->done.ranges[0].count / units->items;
+    const uint64_t rounds = blocks / units->replicates;
+    if (rounds == 0)
+        return units->base / units->replicates;
+    const rt_sample_block last =
+        rt_units_block(units, (rounds * units->replicates - 1) * units->items);
+    return last.first + last.count;
+}
+
+rt_work rt_work_begin(rt_film *film, const rt_render_options *options)
+{
+    rt_work work = {.options = options, .film = film};
+    const double parts = options->parts > 1 ? options->parts : 1;
+    work.is_whole = options->parts <= 1 && !options->next_units;
+    work.end = work.is_whole || options->parts > 1 ? film->units.count : 0;
+    work.all = (options->mode == RT_MODE_PHOTON && options->passes > 1 ? options->passes
+                                                                       : film->units.samples) /
+               parts;
+    work.done = amount_done(film);
+    work.began = work.saved = rt_clock();
+    work.noise = rt_noise_begin(length_done(film));
+    return work;
+}
+
+/* The next units from work->at on that the film lacks; those of this part alone. */
+static rt_unit_range find(rt_work *work)
+{
+    const rt_units *units = &work->film->units;
+    const uint32_t parts = work->options->parts;
+    for (;;) {
+        rt_unit_range gap = rt_coverage_gap(&work->film->done, work->at, work->end);
+        if (gap.count == 0 || parts <= 1)
+            return gap;
+        const uint64_t chunk = rt_units_chunk_of(units, gap.first);
+        const rt_unit_range whole = rt_units_chunk(units, chunk);
+        const uint64_t end = whole.first + whole.count;
+        work->at = gap.first;
+        if (chunk % parts == work->options->part - 1) {
+            gap.count = gap.count < end - gap.first ? gap.count : end - gap.first;
+            return gap;
+        }
+        work->at = end;
+    }
+}
+
+int rt_work_next(rt_work *work, rt_unit_range *out)
+{
+    const rt_render_options *o = work->options;
+    const rt_units *units = &work->film->units;
+    if (work->enough || rt_work_is_out_of_time(work))
+        return 0;
+    rt_unit_range range = find(work), given = {0, 0};
+    while (range.count == 0 && o->next_units &&
+           o->next_units(o->units_user, &given.first, &given.count)) {
+        work->at = given.first;
+        work->end = given.first + given.count;
+        range = find(work);
+    }
+    if (range.count == 0)
+        return 0;
+    const uint64_t block_end = (range.first / units->items + 1) * units->items;
+    if (range.count > block_end - range.first)
+        range.count = block_end - range.first;
+    work->at = range.first + range.count;
+    *out = range;
+    return 1;
+}
+
+rt_status rt_work_done(rt_work *work, rt_unit_range units, rt_error *error)
+{
+    work->done += amount(&work->film->units, units);
+    return rt_coverage_add(&work->film->done, units, error);
+}
+
+/* ---- How far it is ----------------------------------------------------------- */
+
+int rt_work_is_out_of_time(const rt_work *work)
+{
+    const rt_film *film = work->film;
+    if (work->options->time <= 0 || rt_clock() - work->began < work->options->time)
+        return 0;
+    if (!work->is_whole || film->units.base > 0)
+        return 1;
+    return film->done.count > 0 && film->done.ranges[0].first == 0 &&
+           film->done.ranges[0].count >= film->units.items;
+}
+
+double rt_work_fraction(const rt_work *work)
+{
+    const rt_render_options *o = work->options;
+    const double by_samples = work->all > 0 ? fmin(work->done / work->all, 1) : 1;
+    const double by_time = o->time > 0 ? fmin((rt_clock() - work->began) / o->time, 1) : 0;
+    if (o->target_error == 0)
+        return fmax(by_samples, by_time);
+    /* Until the error is first tested nothing is known: samples may be without limit. */
+    const double by_error =
+        rt_noise_progress(&work->noise, work->done / RT_REPLICATES, o->target_error);
+    return fmax(by_time, by_error > 0 ? fmax(by_samples, by_error) : 0);
+}
+
+int rt_work_test_is_due(const rt_work *work)
+{
+    const rt_film *film = work->film;
+    if (film->units.replicates < 2 || !work->is_whole || film->done.count != 1 ||
+        film->done.ranges[0].first != 0 ||
+        film->done.ranges[0].count % ((uint64_t)film->units.items * film->units.replicates) != 0)
+        return 0;
+    return rt_noise_is_due(&work->noise, length_done(film));
+}
+
+void rt_work_test(rt_work *work)
+{
+    work->enough = rt_noise_test(&work->noise, work->film, length_done(work->film),
+                                 work->options->target_error);
+}
+
+int rt_work_save_is_due(const rt_work *work)
+{
+    return work->options->checkpoint &&
+           rt_clock() - work->saved >= work->options->checkpoint_seconds;
+}
+
+void rt_work_save(rt_work *work)
+{
+    work->options->checkpoint(work->options->checkpoint_user, work->film);
+    work->saved = rt_clock();
+}

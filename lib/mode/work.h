@@ -1,0 +1,51 @@
+/*
+ * work.h - which units of work come next in a render, what is done and how far it is: a whole
+ * picture, what a film to be continued lacks, one of several parts, or ranges that the caller hands
+ * out.
+ */
+#ifndef RT_LIB_MODE_WORK_H
+#define RT_LIB_MODE_WORK_H
+
+#include "base/progress.h"
+#include "film/film.h"
+#include "film/noise.h"
+
+typedef struct rt_work {
+    const rt_render_options *options;
+    rt_film *film;
+    uint64_t at, end; /* the next unit to look at, and the end of the range */
+    double done, all; /* samples or passes of this work, in pixels */
+    double began;     /* rt_clock() */
+    double saved;     /* rt_clock() at the last checkpoint */
+    int is_whole;     /* neither a part nor handed out: the error can be tested on the way */
+    int enough;       /* the error asked for is reached */
+    rt_noise noise;
+} rt_work;
+
+/* Begins with the units that the film lacks. */
+rt_work rt_work_begin(rt_film *film, const rt_render_options *options);
+
+/* The next units of one block; 0: there are none, or time is up, or the error small enough. */
+int rt_work_next(rt_work *work, rt_unit_range *out);
+
+/* Notes units whose samples the sums of the film, here or on the device, have. */
+rt_status rt_work_done(rt_work *work, rt_unit_range units, rt_error *error);
+
+/* Whether options->time is up and every pixel has a sample. */
+int rt_work_is_out_of_time(const rt_work *work);
+
+/* How much is done: by samples, by time, or by the error, whichever is furthest. */
+double rt_work_fraction(const rt_work *work);
+
+/*
+ * Whether the error is to be tested now, which needs the film's sums: rt_work_test. All units
+ * before the next one must be done for that.
+ */
+int rt_work_test_is_due(const rt_work *work);
+void rt_work_test(rt_work *work);
+
+/* Whether a checkpoint is due, which needs the film's sums: rt_work_save. */
+int rt_work_save_is_due(const rt_work *work);
+void rt_work_save(rt_work *work);
+
+#endif

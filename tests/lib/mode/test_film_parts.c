@@ -1,0 +1,342 @@
+/*
+ * test_film_parts.c - a picture in parts, chunks and sittings: its sums have the bits of a render
+ * at once, in every mode, in any order.
+ */
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "film/film.h"
+
+static const char room[] = "camera { eye 0 1 3.4  look_at 0 1 0  fov 50 }\n"
+                           "material white { kd 0.7 0.6 0.5 }\n"
+                           "material glass { kt 1 1 1  ior 1.5  fresnel dielectric }\n"
+                           "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 0 2  material white }\n"
+                           "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 2 0  material white }\n"
+                           "sphere { centre 0.2 0.5 0  radius 0.4  material glass }\n"
+                           "light point { position 0.1 1.8 0.3  intensity 3 2 1 }\n";
+
+enum { width = 70, height = 41, pixels = width * height };
+
+/* The renders: of each mode, with all that accumulates beside the picture. */
+typedef struct named_options {
+    const char *name;
+    rt_render_options options;
+} named_options;
+
+static const named_options renders[] = {
+    {"path", {.mode = RT_MODE_PATH, .spp = 11, .aov = 1}},
+    {"path with error", {.mode = RT_MODE_PATH, .spp = 37, .variance = 1}},
+    {"direct", {.mode = RT_MODE_DIRECT, .spp = 5, .filter = RT_FILTER_MITCHELL}},
+    {"normals", {.mode = RT_MODE_NORMALS, .spp = 6}},
+    {"photons", {.mode = RT_MODE_PHOTON, .spp = 3, .photons = 3000, .photon_layers = 1, .aov = 1}},
+    {"final gather",
+     {.mode = RT_MODE_PHOTON,
+      .spp = 2,
+      .photons = 3000,
+      .final_gather = 1,
+      .caustic_photons = 900}},
+    {"passes", {.mode = RT_MODE_PHOTON, .passes = 9, .photons = 900, .photon_layers = 1, .aov = 1}},
+    {"passes with error",
+     {.mode = RT_MODE_PHOTON, .passes = 19, .spp = 2, .photons = 500, .variance = 1}},
+    {"passes without photons to be found",
+     {.mode = RT_MODE_PHOTON, .passes = 20, .photons = 2, .caustic_photons = 1}},
+};
+enum { RENDERS = sizeof renders / sizeof *renders };
+
+static rt_renderer *renderer(void)
+{
+    static rt_renderer *made;
+    if (!made)
+        made = test_renderer(room);
+    return made;
+}
+
+static rt_render_options options_of(const named_options *render)
+{
+    rt_render_options o = render->options;
+    o.width = width;
+    o.height = height;
+    o.seed = 3;
+    o.part = o.parts = 1;
+    return o;
+}
+
+static rt_film *render(const rt_render_options *options)
+{
+    rt_film *film = NULL;
+    rt_error error;
+    expect_ok(rt_render(&film, renderer(), options, &error), &error);
+    return film;
+}
+
+/* Fails unless both films have the same sums, means, layers and photon counts. */
+static void expect_same(const rt_film *a, const rt_film *b, const char *name)
+{
+    const char *differs = NULL;
+    assert_int_equal(rt_film_bytes(a), rt_film_bytes(b));
+    if (memcmp(a->pixels, b->pixels, rt_film_bytes(a)) != 0)
+        differs = "sums";
+    else if (memcmp(a->rgb, b->rgb, 3 * pixels * sizeof *a->rgb) != 0)
+        differs = "means";
+    else if (!a->layer_sums != !b->layer_sums || !a->photon_sums != !b->photon_sums)
+        differs = "kinds of layers";
+    else if (a->layer_sums && memcmp(a->layer_sums, b->layer_sums,
+                                     RT_LAYER_COUNT * pixels * sizeof *a->layer_sums) != 0)
+        differs = "layers";
+    else if (a->photon_sums &&
+             memcmp(a->photon_sums, b->photon_sums, pixels * sizeof *a->photon_sums) != 0)
+        differs = "photon layers";
+    else if (a->stats.photons_emitted != b->stats.photons_emitted ||
+             a->stats.photons_stored != b->stats.photons_stored ||
+             a->stats.gathers != b->stats.gathers || a->stats.passes != b->stats.passes ||
+             a->stats.spp != b->stats.spp || a->stats.relative_error != b->stats.relative_error)
+        differs = "counts";
+    else if (a->ledger.count != b->ledger.count || a->ledger.paths != b->ledger.paths ||
+             (a->ledger.count > 0 && memcmp(a->ledger.rows, b->ledger.rows,
+                                            a->ledger.count * sizeof *a->ledger.rows) != 0))
+        differs = "ledger";
+    for (int i = 0; i < RT_FILM_LAYER_COUNT && !differs; i++) {
+        const float *x = a->layers.data[i], *y = b->layers.data[i];
+        if (!x != !y || (x && memcmp(x, y, rt_layer_infos[i].channels * pixels * sizeof *x) != 0))
+            differs = rt_layer_infos[i].name;
+    }
+    if (differs)
+        fail_msg("%s: %s differ", name, differs);
+}
+
+/* A film from the bytes of its file, so that each test goes through these. */
+static rt_film *through_bytes(rt_film *film)
+{
+    size_t size, again;
+    rt_film *back = NULL;
+    rt_error error;
+    expect_ok(rt_film_encode(film, NULL, 0, &size, &error), &error);
+    uint8_t *bytes = malloc(size);
+    assert_non_null(bytes);
+    expect_ok(rt_film_encode(film, bytes, size, &again, &error), &error);
+    assert_int_equal(size, again);
+    expect_ok(rt_film_decode(&back, bytes, size, &error), &error);
+    free(bytes);
+    rt_film_destroy(film);
+    return back;
+}
+
+/* In any order: part 2, 3, 1. */
+static void parts_have_the_bits_of_a_render_at_once(void **state)
+{
+    enum { PARTS = 3 };
+    (void)state;
+    for (size_t i = 0; i < RENDERS; i++) {
+        rt_render_options o = options_of(renders + i);
+        rt_film *whole = render(&o), *joined = NULL;
+        rt_error error;
+        o.parts = PARTS;
+        for (uint32_t p = 1; p <= PARTS; p++) {
+            o.part = p % PARTS + 1;
+            rt_film *part = through_bytes(render(&o));
+            assert_true(rt_film_part_done(part, o.part, PARTS) == 1);
+            if (!joined) {
+                joined = part;
+                continue;
+            }
+            expect_ok(rt_film_add(joined, part, &error), &error);
+            rt_film_info info;
+            rt_film_get_info(part, &info);
+            if (info.units_done > 0) {
+                assert_true(rt_film_part_done(part, o.part % PARTS + 1, PARTS) < 1);
+                assert_int_equal(rt_film_add(joined, part, &error), RT_ERROR_USAGE);
+            }
+            rt_film_destroy(part);
+        }
+        joined = through_bytes(joined);
+        expect_ok(rt_film_resolve(joined, NULL, &error), &error);
+        expect_same(whole, joined, renders[i].name);
+        rt_film_destroy(joined);
+        rt_film_destroy(whole);
+    }
+}
+
+/* Cancels at the report of this number. */
+static int cancel(void *user, const rt_progress *progress)
+{
+    int *left = user;
+    (void)progress;
+    return --*left < 0;
+}
+
+/* A checkpoint kept in memory. */
+static void keep(void *user, const rt_film *film)
+{
+    rt_film **kept = user;
+    size_t size;
+    rt_error error;
+    rt_film_info info;
+    rt_film_get_info(film, &info);
+    if (info.units_done == 0)
+        return;
+    rt_film_destroy(*kept);
+    *kept = NULL;
+    expect_ok(rt_film_encode(film, NULL, 0, &size, &error), &error);
+    uint8_t *bytes = malloc(size);
+    assert_non_null(bytes);
+    expect_ok(rt_film_encode(film, bytes, size, &size, &error), &error);
+    expect_ok(rt_film_decode(kept, bytes, size, &error), &error);
+    free(bytes);
+}
+
+/* Cancelled again and again, and continued from the last checkpoint. */
+static void sittings_have_the_bits_of_a_render_at_once(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < RENDERS; i++) {
+        rt_render_options o = options_of(renders + i);
+        rt_film *whole = render(&o), *film = NULL, *kept = NULL;
+        rt_hooks hooks = {.progress = cancel};
+        rt_error error;
+        rt_status status = RT_CANCELLED;
+        int sittings = 0;
+        o.parts = o.part = 0;
+        o.checkpoint = keep;
+        o.checkpoint_user = &kept;
+        o.hooks = &hooks;
+        for (int reports = 3; status == RT_CANCELLED; reports += 2, sittings++) {
+            int left = reports;
+            hooks.user = &left;
+            o.resume = kept;
+            rt_film *from = kept;
+            kept = NULL;
+            rt_film_destroy(film);
+            film = NULL;
+            o.resume = from;
+            status = rt_render(&film, renderer(), &o, &error);
+            if (!kept) {
+                kept = from;
+                from = NULL;
+            }
+            rt_film_destroy(from);
+        }
+        expect_ok(status, &error);
+        assert_true(sittings > 1);
+        expect_same(whole, film, renders[i].name);
+        rt_film_destroy(kept);
+        rt_film_destroy(film);
+        rt_film_destroy(whole);
+    }
+}
+
+static void more_samples_or_passes_continue_a_finished_film(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < RENDERS; i++) {
+        rt_render_options o = options_of(renders + i);
+        const int in_passes = o.passes > 1;
+        rt_film *less = through_bytes(render(&o));
+        rt_error error;
+        o.spp = in_passes ? o.spp : 2 * o.spp + 3;
+        o.passes = in_passes ? 2 * o.passes + 1 : 0;
+        rt_film *whole = render(&o);
+        o.resume = less;
+        rt_film *film = render(&o);
+        expect_same(whole, film, renders[i].name);
+        rt_film *none = NULL;
+        o.resume = film;
+        o.spp = in_passes ? o.spp : renders[i].options.spp - 1;
+        o.passes = in_passes ? 2 : 0;
+        assert_int_equal(rt_render(&none, renderer(), &o, &error), RT_ERROR_USAGE);
+        assert_string_equal(error.field, in_passes ? "passes" : "spp");
+        rt_film_destroy(less);
+        rt_film_destroy(film);
+        rt_film_destroy(whole);
+    }
+}
+
+/* In the order of a stranger: from both ends. */
+static void chunks_have_the_bits_of_a_render_at_once(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < RENDERS; i++) {
+        rt_render_options o = options_of(renders + i);
+        rt_film *whole = render(&o), *joined = NULL;
+        rt_error error;
+        uint64_t chunks;
+        expect_ok(rt_chunk_count(&chunks, &o, &error), &error);
+        for (uint64_t c = 0; c < chunks; c++) {
+            const uint64_t chunk = c % 2 ? chunks - 1 - c / 2 : c / 2;
+            rt_film *film = NULL;
+            expect_ok(rt_chunk_render(&film, renderer(), &o, chunk, 1, &error), &error);
+            if (joined) {
+                expect_ok(rt_film_add(joined, film, &error), &error);
+                rt_film_destroy(film);
+            } else {
+                joined = film;
+            }
+        }
+        expect_ok(rt_film_resolve(joined, NULL, &error), &error);
+        expect_same(whole, joined, renders[i].name);
+        rt_film_destroy(joined);
+        rt_film_destroy(whole);
+    }
+}
+
+static void what_does_not_fit_is_refused_by_name(void **state)
+{
+    static const char other_camera[] = "camera { eye 0 1 3  look_at 0 1 0 }\n";
+    static rt_render_options base = {.width = 8, .height = 8, .spp = 2, .part = 1, .parts = 2};
+    rt_renderer *other = test_renderer(other_camera);
+    rt_film *film = render(&base), *second = NULL;
+    rt_error error;
+    (void)state;
+
+    rt_render_options o = base;
+    o.part = 2;
+    o.max_depth = 7;
+    second = render(&o);
+    assert_int_equal(rt_film_add(film, second, &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "max_depth");
+    rt_film_destroy(second);
+
+    o = base;
+    o.part = 2;
+    expect_ok(rt_render(&second, other, &o, &error), &error);
+    assert_int_equal(rt_film_add(film, second, &error), RT_ERROR_USAGE);
+    assert_non_null(strstr(error.message, "another scene"));
+    rt_film_destroy(second);
+
+    o.parts = o.part = 0;
+    second = render(&o);
+    assert_int_equal(rt_film_add(film, second, &error), RT_ERROR_USAGE);
+    size_t size;
+    assert_int_equal(rt_film_encode(second, NULL, 0, &size, &error), RT_ERROR_USAGE);
+    rt_film_destroy(second);
+
+    o = base;
+    o.part = 3;
+    assert_int_equal(rt_render(&second, renderer(), &o, &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "part");
+    o.part = 1;
+    o.target_error = 0.1;
+    assert_int_equal(rt_render(&second, renderer(), &o, &error), RT_ERROR_USAGE);
+    rt_film_destroy(film);
+    rt_renderer_destroy(other);
+}
+
+static int release(void **state)
+{
+    (void)state;
+    rt_renderer_destroy(renderer());
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_have_the_bits_of_a_render_at_once),
+        cmocka_unit_test(sittings_have_the_bits_of_a_render_at_once),
+        cmocka_unit_test(more_samples_or_passes_continue_a_finished_film),
+        cmocka_unit_test(chunks_have_the_bits_of_a_render_at_once),
+        cmocka_unit_test(what_does_not_fit_is_refused_by_name),
+    };
+    return cmocka_run_group_tests(tests, NULL, release);
+}
