@@ -421,11 +421,12 @@ TESTS_CORPUS := tests/corpus/test_img.c tests/corpus/test_ply.c
 check-corpus: $(call TEST_BIN,$(TESTS_CORPUS))
 	tests/run.sh $(call TEST_BIN,$(TESTS_CORPUS))
 
-# The quick tests again, with the address and undefined-behaviour sanitizers.
+# The quick tests again, with the address and undefined-behaviour sanitizers. Drivers put signal
+# stacks of their own in place of the sanitizer's.
 SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined \
             -fno-omit-frame-pointer
 check-sanitize: deps
-	+LSAN_OPTIONS=suppressions=tests/leaks.supp \
+	+ASAN_OPTIONS=use_sigaltstack=0 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.supp \
 	 $(MAKE) --no-print-directory $(MAKE_JOBS) B=build/sanitize CFLAGS="$(SANITIZE)" run-quick
 
 # Fuzzing guided by coverage, with the sanitizers, by libFuzzer; see tests/fuzz/README.md. HOURS of
@@ -462,7 +463,7 @@ deps-fuzz:
 # threads is left out.
 SANITIZE_THREADS := -O1 -g -fsanitize=thread
 check-threads: deps
-	+TSAN_OPTIONS=suppressions=tests/threads/driver.supp \
+	+TSAN_OPTIONS=suppressions=$(CURDIR)/tests/threads/driver.supp \
 	 $(MAKE) --no-print-directory $(MAKE_JOBS) B=build/threads CFLAGS="$(SANITIZE_THREADS)" \
 	    run-threads
 run-threads: $(call TEST_BIN,$(TESTS_THREADS))

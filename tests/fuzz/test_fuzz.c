@@ -44,7 +44,8 @@ static int run(const fuzz_target *target, const uint8_t *data, size_t size)
 {
     uint8_t *copy = malloc(size ? size : 1);
     assert_non_null(copy);
-    memcpy(copy, data, size);
+    if (size)
+        memcpy(copy, data, size);
     current = copy;
     current_size = size;
     int is_good = target->run(copy, size);
