@@ -75,7 +75,8 @@ LIB_SRC := \
 	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \
 	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c lib/photon/ledger_file.c \
 	lib/photon/gather_neighbours.c \
-	lib/photon/map_check.c lib/photon/map_emit.c lib/photon/map_merge.c lib/photon/map_ply.c \
+	lib/photon/map_check.c lib/photon/map_continue.c lib/photon/map_emit.c \
+	lib/photon/map_merge.c lib/photon/map_ply.c \
 	lib/photon/map_read.c lib/photon/map_warnings.c lib/photon/map_write.c \
 	lib/photon/neighbour_search.c \
 	lib/photon/photon_boxes.c \
@@ -157,6 +158,7 @@ TESTS_QUICK := \
 	tests/lib/photon/test_fingerprint.c \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_ledger.c \
+	tests/lib/photon/test_map_checkpoint.c \
 	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c \
 	tests/lib/photon/test_photon_list.c \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_neighbour_search.c \

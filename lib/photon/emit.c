@@ -19,12 +19,14 @@ struct rt_emitter {
     cl_kernel kernel;
     cl_mem scene;
     rt_light_sources lights;
-    cl_mem shares;   /* rt_light_share, one a light of the kernels' table */
-    size_t slots;    /* photons a path can store; 0 before the first emission */
-    size_t paths;    /* a batch, at most */
-    cl_mem photons;  /* rt_photon [slots][paths] */
-    cl_mem accounts; /* rt_path_account [paths] */
-    uint64_t memory; /* bytes that the photons of a map must fit into; 0: any */
+    cl_mem shares;             /* rt_light_share, one a light of the kernels' table */
+    size_t slots;              /* photons a path can store; 0 before the first emission */
+    size_t paths;              /* a batch, at most */
+    cl_mem photons;            /* rt_photon [slots][paths] */
+    cl_mem accounts;           /* rt_path_account [paths] */
+    uint64_t memory;           /* bytes that the photons of a map must fit into; 0: any */
+    void (*after)(void *user); /* each batch; NULL: nothing */
+    void *after_user;
 };
 
 rt_status rt_emit_kernel_prepare(cl_kernel *out, rt_device *device, cl_mem scene,
@@ -81,6 +83,17 @@ void rt_emitter_destroy(rt_emitter *e)
 void rt_emitter_limit_memory(rt_emitter *e, uint64_t bytes)
 {
     e->memory = bytes;
+}
+
+rt_status rt_emitter_make_ledger(const rt_emitter *e, rt_ledger *out, rt_error *error)
+{
+    return rt_ledger_create(out, &e->lights, error);
+}
+
+void rt_emitter_after_batch(rt_emitter *e, void (*after)(void *user), void *user)
+{
+    e->after = after;
+    e->after_user = user;
 }
 
 void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
@@ -201,6 +214,23 @@ static rt_status foresee(const rt_photon_list *list, size_t photons, uint64_t do
                                    "the photon map", error);
 }
 
+/* Runs a batch, and takes its photons, accounts and range into the map. */
+static rt_status emit_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
+                            const rt_arg args[EMIT_ARGUMENTS], const rt_params *p, rt_error *error)
+{
+    const rt_photon_list *list = map->lists + kind;
+    const size_t before = list->count;
+    rt_status status = rt_kernel_args(e->kernel, args, EMIT_ARGUMENTS, error);
+    if (status == RT_OK)
+        status = rt_launch(e->device, e->kernel, p->item_count, error);
+    if (status == RT_OK)
+        status = take_batch(e, map, kind, p->item_count, error);
+    if (status != RT_OK)
+        return status;
+    const rt_path_range range = {p->first_item, p->item_count, list->count - before, p->seed};
+    return rt_path_ranges_add(map->ranges + kind, &range, error);
+}
+
 /* Runs the batches of a range one after the other. */
 static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, rt_params *p,
                               uint64_t first, uint64_t count, rt_stage_progress *progress,
@@ -217,16 +247,14 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
     for (uint64_t done = 0; done < count && status == RT_OK; done += p->item_count) {
         p->first_item = (rt_u32)(first + done);
         p->item_count = (rt_u32)(count - done < e->paths ? count - done : e->paths);
-        status = rt_kernel_args(e->kernel, args, EMIT_ARGUMENTS, error);
-        if (status == RT_OK)
-            status = rt_launch(e->device, e->kernel, p->item_count, error);
-        if (status == RT_OK)
-            status = take_batch(e, map, kind, p->item_count, error);
+        status = emit_batch(e, map, kind, args, p, error);
         if (status == RT_OK)
             status = foresee(list, list->count - before, done + p->item_count, count, error);
         if (status == RT_OK)
             status = rt_photon_forecast(others, list->count - before, done + p->item_count, count,
                                         e->memory, error);
+        if (status == RT_OK && e->after)
+            e->after(e->after_user);
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + p->item_count) / (double)count);
     }
@@ -240,7 +268,6 @@ rt_status rt_emitter_emit(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind
     static const uint64_t indices = (uint64_t)UINT32_MAX + 1;
     /* one photon a segment at most */
     size_t slots = map->settings.max_depth > 1 ? map->settings.max_depth - 1 : 1;
-    size_t before = map->lists[kind].count;
 
     if (count > indices || first > indices - count)
         return rt_fail_field(error, RT_ERROR_USAGE, "photons",
@@ -253,10 +280,6 @@ rt_status rt_emitter_emit(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind
     if (status == RT_OK && count > 0) {
         rt_params params = make_params(e, &map->settings, kind, seed);
         status = emit_batches(e, map, kind, &params, first, count, progress, error);
-    }
-    if (status == RT_OK) {
-        rt_path_range range = {first, count, map->lists[kind].count - before, seed};
-        status = rt_path_ranges_add(map->ranges + kind, &range, error);
     }
     return status;
 }

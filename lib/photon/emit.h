@@ -35,12 +35,21 @@ void rt_emitter_limit_memory(rt_emitter *emitter, uint64_t bytes);
  */
 void rt_emitter_warn_reach(const rt_emitter *emitter, const rt_hooks *hooks);
 
+/* An empty ledger of the scene's lights; free with rt_ledger_free. */
+rt_status rt_emitter_make_ledger(const rt_emitter *emitter, rt_ledger *out, rt_error *error);
+
+/*
+ * Called after each batch: the map then holds all paths so far, with their range as its last one.
+ */
+void rt_emitter_after_batch(rt_emitter *emitter, void (*after)(void *user), void *user);
+
 /*
  * Emits paths first .. first + count - 1 of a seed into one list of the map, behind what it holds,
  * in batches of bounded memory. The map's settings say how (`scene` apart); its ledger is made for
  * the lights when it has none. Path i of a seed is always the same path, whatever the batches; the
  * paths of the caustic list are others than those of the global one. Ranges must come in ascending
- * order. Fails with RT_ERROR_USAGE when an index is above 2^32 - 1, and with RT_ERROR_MEMORY as
+ * order, or be put in their place by rt_photon_map_settle. On RT_CANCELLED the map holds whole
+ * batches. Fails with RT_ERROR_USAGE when an index is above 2^32 - 1, and with RT_ERROR_MEMORY as
  * soon as it is clear that the photons will not fit into memory.
  */
 rt_status rt_emitter_emit(rt_emitter *emitter, rt_photon_map *map, rt_photon_kind kind,

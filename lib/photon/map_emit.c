@@ -1,9 +1,11 @@
 /* map_emit.c - rt_photon_map_emit: a photon map by itself, emitted from a renderer's scene. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "photon/emit.h"
 #include "photon/fingerprint.h"
+#include "photon/map_continue.h"
 #include "photon/map_warnings.h"
 #include "render/renderer.h"
 #include "setting/options.h"
@@ -16,6 +18,7 @@ typedef struct emission {
     cl_kernel kernel;
     rt_emitter *emitter;
     rt_photon_map *map;
+    double saved; /* rt_clock() at the last checkpoint */
 } emission;
 
 static rt_status compile(emission *e, rt_error *error)
@@ -28,7 +31,46 @@ static rt_status compile(emission *e, rt_error *error)
     return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }
 
-/* Emits this part of `paths` paths into one of the map's lists. */
+/* ---- Checkpoints ------------------------------------------------------------ */
+
+/* Hands out the map so far. */
+static void save(emission *e)
+{
+    for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
+        rt_photon_map_settle(e->map, (rt_photon_kind)kind);
+    e->how->checkpoint(e->how->checkpoint_user, e->map);
+    e->saved = rt_clock();
+}
+
+static void save_when_due(void *user)
+{
+    emission *e = user;
+    if (rt_clock() - e->saved >= e->how->checkpoint_seconds)
+        save(e);
+}
+
+/* The paths of a map. */
+static double count_paths(const rt_photon_map *map)
+{
+    return (double)map->lists[RT_PHOTONS_GLOBAL].emitted +
+           (double)map->lists[RT_PHOTONS_CAUSTIC].emitted;
+}
+
+/* ---- Emission --------------------------------------------------------------- */
+
+/* Says which paths, of those of a kind in this part, the next updates of progress are about. */
+static void set_part(const emission *e, rt_photon_kind kind, uint64_t from, uint64_t to,
+                     rt_stage_progress *progress)
+{
+    const double parts = e->how->parts ? e->how->parts : 1,
+                 global = (double)e->options.photons / parts,
+                 all = global + (double)e->options.caustic_photons / parts,
+                 before = kind == RT_PHOTONS_CAUSTIC ? global : 0;
+    rt_stage_part(progress, fmin((before + (double)from) / all, 1),
+                  fmin((before + (double)to) / all, 1));
+}
+
+/* Emits what this part of `paths` paths lacks into one of the map's lists. */
 static rt_status emit_part(emission *e, rt_photon_kind kind, uint64_t paths,
                            rt_stage_progress *progress, rt_error *error)
 {
@@ -36,23 +78,26 @@ static rt_status emit_part(emission *e, rt_photon_kind kind, uint64_t paths,
     /* part * paths / parts, without overflow. */
     uint64_t first = paths / parts * part + paths % parts * part / parts;
     uint64_t end = paths / parts * (part + 1) + paths % parts * (part + 1) / parts;
-    return rt_emitter_emit(e->emitter, e->map, kind, e->options.seed, first, end - first, progress,
-                           error);
+    rt_status status = RT_OK;
+    for (uint64_t at = first; status == RT_OK;) {
+        const rt_path_range gap = rt_path_ranges_gap(e->map->ranges + kind, at, end);
+        if (gap.count == 0)
+            break;
+        at = gap.first + gap.count;
+        set_part(e, kind, gap.first - first, at - first, progress);
+        status = rt_emitter_emit(e->emitter, e->map, kind, e->options.seed, gap.first, gap.count,
+                                 progress, error);
+        rt_photon_map_settle(e->map, kind);
+    }
+    return status;
 }
 
-static rt_status emit(emission *e, rt_error *error)
+/* Emits both kinds. On RT_CANCELLED the map holds the paths so far. */
+static rt_status emit_kinds(emission *e, rt_error *error)
 {
     const rt_render_options *o = &e->options;
     rt_stage_progress progress;
-
-    e->map->settings = rt_photon_settings_of(o);
-    rt_status status = rt_scene_fingerprint(&e->map->settings.scene, e->renderer->device,
-                                            e->renderer->scene, error);
-    if (status == RT_OK)
-        status = rt_emitter_create(&e->emitter, e->renderer->device, e->kernel, e->renderer->scene,
-                                   o->light_shares, o->light_share_count, error);
-    if (status == RT_OK)
-        status = rt_stage_begin(&progress, o->hooks, RT_STAGE_EMIT);
+    rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_EMIT);
     if (status == RT_OK)
         status = emit_part(e, RT_PHOTONS_GLOBAL, o->photons, &progress, error);
     if (status == RT_OK && o->caustic_photons > 0)
@@ -62,6 +107,38 @@ static rt_status emit(emission *e, rt_error *error)
     rt_emitter_warn_reach(e->emitter, o->hooks);
     rt_photon_map_warn_starved(e->map, &e->map->ledger, 0, o->k, o->caustic_k, o->hooks);
     return rt_stage_end(&progress, NULL);
+}
+
+/* Makes an empty map for the scene and the settings, or one with what there is already. */
+static rt_status begin(emission *e, rt_error *error)
+{
+    const rt_render_options *o = &e->options;
+    e->map->settings = rt_photon_settings_of(o);
+    rt_status status = rt_scene_fingerprint(&e->map->settings.scene, e->renderer->device,
+                                            e->renderer->scene, error);
+    if (status == RT_OK)
+        status = rt_emitter_create(&e->emitter, e->renderer->device, e->kernel, e->renderer->scene,
+                                   o->light_shares, o->light_share_count, error);
+    if (status == RT_OK)
+        status = rt_emitter_make_ledger(e->emitter, &e->map->ledger, error);
+    if (status == RT_OK && e->how->resume)
+        status = rt_photon_map_continue(e->map, e->how->resume, o, error);
+    return status;
+}
+
+static rt_status emit(emission *e, rt_error *error)
+{
+    rt_status status = begin(e, error);
+    if (status != RT_OK)
+        return status;
+    e->saved = rt_clock();
+    if (e->how->checkpoint)
+        rt_emitter_after_batch(e->emitter, save_when_due, e);
+    status = emit_kinds(e, error);
+    if (e->how->checkpoint &&
+        (status == RT_OK || (status == RT_CANCELLED && count_paths(e->map) > 0)))
+        save(e);
+    return status;
 }
 
 static rt_status check_parts(const rt_emit_options *how, rt_error *error)

@@ -12,12 +12,18 @@ rt_photon_settings rt_photon_settings_of(const rt_render_options *o)
     return (rt_photon_settings){0, o->max_depth, sampler, o->direct, o->caustic_photons > 0};
 }
 
+/* Whether the second range begins where the first ends. */
+static int touches(const rt_path_range *a, const rt_path_range *b)
+{
+    return a->seed == b->seed && a->first + a->count == b->first;
+}
+
 rt_status rt_path_ranges_add(rt_path_ranges *r, const rt_path_range *range, rt_error *error)
 {
     rt_path_range *last = r->count ? r->ranges + r->count - 1 : NULL;
     if (range->count == 0)
         return RT_OK;
-    if (last && last->seed == range->seed && last->first + last->count == range->first) {
+    if (last && touches(last, range)) {
         last->count += range->count;
         last->photons += range->photons;
         return RT_OK;
@@ -33,6 +39,58 @@ rt_status rt_path_ranges_add(rt_path_ranges *r, const rt_path_range *range, rt_e
     }
     r->ranges[r->count++] = *range;
     return RT_OK;
+}
+
+static void reverse(rt_photon *photons, size_t count)
+{
+    for (size_t i = 0; i < count / 2; i++) {
+        const rt_photon photon = photons[i];
+        photons[i] = photons[count - 1 - i];
+        photons[count - 1 - i] = photon;
+    }
+}
+
+/* Lets the last `last` of so many photons change places with those before, in place. */
+static void rotate(rt_photon *photons, size_t count, size_t last)
+{
+    reverse(photons, count - last);
+    reverse(photons + (count - last), last);
+    reverse(photons, count);
+}
+
+/* Joins each range with those that it touches. */
+static void join(rt_path_ranges *r)
+{
+    size_t kept = 0;
+    for (size_t i = 1; i < r->count; i++)
+        if (touches(r->ranges + kept, r->ranges + i)) {
+            r->ranges[kept].count += r->ranges[i].count;
+            r->ranges[kept].photons += r->ranges[i].photons;
+        } else {
+            r->ranges[++kept] = r->ranges[i];
+        }
+    r->count = kept + 1;
+}
+
+void rt_photon_map_settle(rt_photon_map *map, rt_photon_kind kind)
+{
+    rt_path_ranges *r = map->ranges + kind;
+    const rt_photon_list *list = map->lists + kind;
+    if (r->count < 2)
+        return;
+    const rt_path_range last = r->ranges[r->count - 1];
+    size_t place = r->count - 1, photons = (size_t)last.photons;
+    while (place > 0 &&
+           (last.seed < r->ranges[place - 1].seed ||
+            (last.seed == r->ranges[place - 1].seed && last.first < r->ranges[place - 1].first)))
+        photons += (size_t)r->ranges[--place].photons;
+    if (place == r->count - 1)
+        return;
+    if (photons > 0)
+        rotate(list->photons + (list->count - photons), photons, (size_t)last.photons);
+    memmove(r->ranges + place + 1, r->ranges + place, (r->count - 1 - place) * sizeof last);
+    r->ranges[place] = last;
+    join(r);
 }
 
 void rt_photon_map_reset(rt_photon_map *map)

@@ -30,7 +30,10 @@ typedef struct rt_photon_settings {
  */
 rt_photon_settings rt_photon_settings_of(const rt_render_options *options);
 
-/* Ranges in ascending order of seed and first; none overlaps or touches another. */
+/*
+ * Ranges in ascending order of seed and first; none overlaps or touches another. Only while photons
+ * are emitted may the last one be out of order: rt_photon_map_settle.
+ */
 typedef struct rt_path_ranges {
     rt_path_range *ranges; /* [count] */
     size_t count, capacity;
@@ -47,6 +50,12 @@ struct rt_photon_map {
 
 /* Adds a range behind the last one, joining the two where they touch. */
 rt_status rt_path_ranges_add(rt_path_ranges *ranges, const rt_path_range *range, rt_error *error);
+
+/*
+ * Moves the last range of a kind, with its photons, to its place in ascending order, and joins
+ * ranges that touch. The others are in order; none overlaps another.
+ */
+void rt_photon_map_settle(rt_photon_map *map, rt_photon_kind kind);
 
 /* Takes out all photons, paths and accounts but keeps the memory and the settings. */
 void rt_photon_map_reset(rt_photon_map *map);

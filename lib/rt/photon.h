@@ -32,6 +32,19 @@ typedef struct rt_emit_options {
     const rt_render_options *render;
     /* make part `part`, counted from 0, of a map in `parts` parts; parts 0 means 1 */
     uint32_t part, parts;
+    /*
+     * a map of the same scene, seed and settings, to be continued: rt_photon_map_emit copies it and
+     * adds the paths that it lacks. More photons or caustic_photons than it has paths continue it
+     * too. NULL: begin anew
+     */
+    const rt_photon_map *resume;
+    /*
+     * called about every checkpoint_seconds, and at the end or after a cancel, with the map so far:
+     * a map like any other, of fewer paths. NULL: never
+     */
+    void (*checkpoint)(void *user, const rt_photon_map *map);
+    void *checkpoint_user;
+    double checkpoint_seconds;
 } rt_emit_options;
 
 /*
@@ -40,9 +53,9 @@ typedef struct rt_emit_options {
  * noisy by more than 10 %), of a list that is empty or has fewer photons than the k of an estimate,
  * of photons that were rejected, and of planes under light from infinitely far, which is followed
  * to them only within the sphere around all finite shapes. Fails with RT_ERROR_USAGE when an option
- * is out of its range, with RT_ERROR_MEMORY as soon as the first paths show that the photons will
- * not fit into the machine's memory, as does rt_render, and with RT_CANCELLED when a progress
- * callback cancels. The caller owns *out.
+ * is out of its range, or `resume` is of another scene or other settings, with RT_ERROR_MEMORY as
+ * soon as the first paths show that the photons will not fit into the machine's memory, as does
+ * rt_render, and with RT_CANCELLED when a progress callback cancels. The caller owns *out.
  */
 RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
                                     const rt_emit_options *options, rt_error *error);
