@@ -106,10 +106,12 @@ DSL_SRC := \
 	dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
-	tools/check.c tools/command_line.c tools/compare.c tools/compare_print.c tools/devices.c \
-	tools/doctor.c tools/help.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
-	tools/light_shares.c tools/mesh.c tools/mesh_shape.c tools/message.c tools/no_effect.c \
-	tools/number.c tools/options.c tools/outputs.c tools/photons.c tools/photons_emit.c \
+	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \
+	tools/compare_print.c tools/devices.c tools/doctor.c tools/film_note.c tools/help.c \
+	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
+	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
+	tools/no_effect.c tools/number.c tools/options.c tools/outputs.c tools/part.c \
+	tools/photons.c tools/photons_emit.c \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/recorded.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
 	tools/stats.c tools/untrusted.c
@@ -198,7 +200,7 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
-	tests/tools/test_mesh.c tests/tools/test_scenes.c
+	tests/tools/test_film_files.c tests/tools/test_mesh.c tests/tools/test_scenes.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
 	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c tests/lib/photon/test_map_parts.c
@@ -258,8 +260,8 @@ LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench build-fuzz check check-corpus check-crowd check-faults check-fuzz check-memory \
-	check-mutation check-peers check-quick check-reference check-reproducible check-samples \
+.PHONY: all bench build-fuzz check check-corpus check-crowd check-faults check-fuzz \
+	check-kills check-memory check-mutation check-peers check-quick check-reference check-reproducible check-samples \
 	check-sanitize check-threads clean demo deps deps-fuzz deps-lint format fuzz help install \
 	lint lint-quick need-deps proof run-all run-quick run-threads study uninstall
 .DELETE_ON_ERROR:
@@ -497,6 +499,11 @@ ROUNDS ?= 20
 check-crowd: all
 	RTC=$(B)/rtc tests/faults/crowd.sh $(ROUNDS)
 
+# Renders that are killed again and again and gone on with: the bytes of a whole one.
+KILLS ?= 100
+check-kills: all
+	tests/tools/kills.sh $(KILLS)
+
 # Two builds of the last commit, in two folders: the same bytes.
 check-reproducible: deps
 	tests/install/reproducible.sh
@@ -610,6 +617,7 @@ help:
 	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'
 	@echo 'make check-faults    renders and commands, each of whose system calls fails in turn'
 	@echo 'make check-crowd     ROUNDS ($(ROUNDS)) of eight processes on one cache of kernels'
+	@echo 'make check-kills     KILLS ($(KILLS)) renders killed at random, and gone on with'
 	@echo 'make check-mutation  mutation testing: plants errors that the tests must see'
 	@echo 'make check-fuzz      20 s of fuzzing, guided by coverage, of each reader of files'
 	@echo 'make fuzz            HOURS ($(HOURS)) of CPU time of it for each, or for TARGET'

@@ -13,7 +13,7 @@
 static const char *const command_names[COMMAND_COUNT] = {
     [COMMAND_RENDER] = "",         [COMMAND_CHECK] = "check",   [COMMAND_MESH] = "mesh",
     [COMMAND_DEVICES] = "devices", [COMMAND_DOCTOR] = "doctor", [COMMAND_PHOTONS] = "photons",
-    [COMMAND_COMPARE] = "compare",
+    [COMMAND_COMPARE] = "compare", [COMMAND_MERGE] = "merge",   [COMMAND_INFO] = "info",
 };
 
 const char *command_name(command_id command)
@@ -256,6 +256,36 @@ static int read_argument(command_line *out, int argc, char **argv, int *at, int 
     return STATUS_USAGE;
 }
 
+/* Room for one more output. */
+static int reserve_output(command_line *out)
+{
+    const char **outputs = realloc(out->outputs, (out->output_count + 1) * sizeof *outputs);
+    if (!outputs) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    out->outputs = outputs;
+    return STATUS_DONE;
+}
+
+int arguments_give(command_line *out, const char *name, const char *text)
+{
+    const meaning meaning = find_meaning(name, strlen(name), out->command);
+    if ((!meaning.option && !meaning.setting) || !is_taken(&meaning, out->command))
+        return STATUS_DONE;
+    if (meaning.setting && settings_text(out, meaning.setting))
+        return STATUS_DONE;
+    if (meaning.option == &option_table[OPTION_OUT]) {
+        int status = reserve_output(out);
+        if (status != STATUS_DONE)
+            return status;
+    } else if (meaning.option && out->options[meaning.option - option_table].given) {
+        return STATUS_DONE;
+    }
+    return meaning.setting ? settings_read(out, meaning.setting, text)
+                           : read_option_value(out, meaning.option, text);
+}
+
 int arguments_parse(command_line *out, int argc, char **argv)
 {
     size_t settings;
@@ -301,6 +331,8 @@ int arguments_parse(command_line *out, int argc, char **argv)
 
 void arguments_free(command_line *arguments)
 {
+    rt_film_destroy(arguments->film);
+    free(arguments->note);
     free(arguments->settings);
     free(arguments->outputs);
     free(arguments->operands);

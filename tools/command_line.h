@@ -12,6 +12,12 @@
 int arguments_parse(command_line *out, int argc, char **argv);
 void arguments_free(command_line *arguments);
 
+/*
+ * Gives an option or setting by its name without dashes, where it is not given yet; outputs add up.
+ * What the command does not take is passed over. text must outlive *out. Returns an exit status.
+ */
+int arguments_give(command_line *out, const char *name, const char *text);
+
 /* The subcommand that a mistyped word probably meant, or NULL. */
 const char *command_nearest(const char *word);
 

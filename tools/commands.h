@@ -14,5 +14,7 @@ int command_devices(const command_line *arguments);
 int command_doctor(const command_line *arguments);
 int command_photons(const command_line *arguments);
 int command_compare(const command_line *arguments);
+int command_merge(const command_line *arguments);
+int command_info(const command_line *arguments);
 
 #endif

@@ -233,7 +233,11 @@ int command_compare(const command_line *arguments)
         message_error("which images? usage: rtc compare A... B [OPTION]...");
         return STATUS_USAGE;
     }
-    int status = outputs_plan(&outputs, arguments, NULL);
+    int status = outputs_plan(&outputs, arguments, NULL, 0, 0);
+    if (status == STATUS_DONE && outputs_films(&outputs) > 0) {
+        message_error("--out: a difference is an image, no film");
+        status = STATUS_USAGE;
+    }
     if (status == STATUS_DONE)
         status = check_inputs(arguments, &outputs);
     if (status == STATUS_DONE)

@@ -17,6 +17,8 @@ static const char *const usages[COMMAND_COUNT] = {
         "       rtc doctor [OPTION]...      check that everything works here\n"
         "       rtc photons ...             emit, merge, inspect and export photon maps\n"
         "       rtc compare A... B [OPTION]... measure how images differ from a reference\n"
+        "       rtc merge FILM... --out FILE   join the parts of a picture\n"
+        "       rtc info FILE...            what a film or a photon map holds\n"
         "       rtc help COMMAND            the options of one command\n"
         "       rtc --version               the version\n"
         "\n"
@@ -59,6 +61,19 @@ static const char *const usages[COMMAND_COUNT] = {
         "maps of different seeds, merge in any order into the map that would have been\n"
         "made at once, to the bit. `diff` exits with 0 for equal maps and 1 for others.\n"
         "A scene called like one of these words is written ./info.\n",
+    [COMMAND_MERGE] =
+        "usage: rtc merge FILM.rtpart... --out FILE [OPTION]...\n"
+        "\n"
+        "Joins films of the same picture: the parts that `rtc SCENE.rts --part I/N` made,\n"
+        "checkpoints, or what was merged before, in any order. The picture has the bits\n"
+        "of a render at once. FILE is an image, for which all parts must be there, or\n"
+        "another film, NAME.rtpart.\n",
+    [COMMAND_INFO] =
+        "usage: rtc info FILE... [OPTION]...\n"
+        "\n"
+        "Prints what films (.rtpart) hold on stdout: how much is done, the time spent and\n"
+        "to come, parts that are missing, and all settings; and what photon maps (.rtp)\n"
+        "hold, as `rtc photons info` does.\n",
     [COMMAND_COMPARE] =
         "usage: rtc compare A... B [OPTION]...\n"
         "\n"
@@ -138,6 +153,14 @@ static const struct {
     {OPTION_JSON, COMMAND_PHOTONS, "", "print --stats as one JSON object"},
     {OPTION_JSON, COMMAND_PHOTONS, "info", "print what each map holds as a JSON object on a line"},
     {OPTION_JSON, COMMAND_PHOTONS, "diff", "print how the maps differ as one JSON object"},
+    {OPTION_OUT, COMMAND_MERGE, NULL,
+     "where the picture goes: .exr .pfm (linear), .png .ppm (sRGB), or .rtpart, a film; may be "
+     "repeated"},
+    {OPTION_PART, COMMAND_PHOTONS, "",
+     "emit the I-th of N parts of the map, to be merged later; auto takes I and N from Slurm, MPI "
+     "or an indexed job"},
+    {OPTION_JSON, COMMAND_INFO, NULL, "print what each file holds as a JSON object on a line"},
+    {OPTION_QUIET, COMMAND_MERGE, NULL, "say nothing but errors"},
     {OPTION_QUIET, COMMAND_CHECK, NULL, "say nothing but errors"},
     {OPTION_QUIET, COMMAND_PHOTONS, "info", "say nothing but errors, and the results"},
     {OPTION_QUIET, COMMAND_PHOTONS, "diff", "say nothing but errors, and the results"},

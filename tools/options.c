@@ -9,6 +9,8 @@
 #define DOCTOR (1u << COMMAND_DOCTOR)
 #define PHOTONS (1u << COMMAND_PHOTONS)
 #define COMPARE (1u << COMMAND_COMPARE)
+#define MERGE (1u << COMMAND_MERGE)
+#define INFO (1u << COMMAND_INFO)
 #define ALL ((1u << COMMAND_COUNT) - 1u)
 
 static const rt_word accels[] = {RT_ACCELS(RT_WORD) RT_WORD_END};
@@ -25,6 +27,7 @@ static const rt_word progress_styles[] = {{"auto", PROGRESS_AUTO, ""},
 const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_RENDER] = "What to render (each overrides the scene's own setting)",
     [GROUP_PHOTON] = "Photon mode (each overrides the scene's own setting)",
+    [GROUP_KEEP] = "Interrupts and several machines",
     [GROUP_OUTPUT] = "Output",
     [GROUP_MESH] = "The mesh",
     [GROUP_COMPARE] = "The comparison",
@@ -39,21 +42,37 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_PHOTON_MAP] =
         {"photon-map", "FILE", KIND_TEXT, GROUP_PHOTON, RENDER, 0, 0, NULL, 1, NULL,
          "render with the photons of a map that `rtc photons` made of this scene, and emit none"},
-    [OPTION_PART] = {"part", "I/N", KIND_TEXT, GROUP_PHOTON, PHOTONS, 0, 0, NULL, 0, "1/1",
-                     "emit the I-th of N parts of the map, to be merged later"},
     [OPTION_LIGHT_SHARES] =
         {"light-shares", "A,B,...", KIND_TEXT, GROUP_PHOTON, RENDER | PHOTONS, 0, 0, NULL, 1,
          "in proportion to power",
          "relative shares of the photon paths, one per light, in the order of the ledger that "
          "--stats prints"},
 
-    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS | COMPARE, 0, 0, NULL,
-                    0, "NAME.png and NAME.exr in the current directory for NAME.rts",
-                    "where the image goes: .exr .pfm (linear), .png .ppm (sRGB); may be repeated"},
-    [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER, -126, 126, NULL, 1, "0",
-                         "brighten .png and .ppm by 2^EV"},
-    [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER, 0, 0, tonemaps, 1,
-                        "none", "tone curve of .png and .ppm"},
+    [OPTION_CHECKPOINT] =
+        {"checkpoint", "FILE", KIND_TEXT, GROUP_KEEP, RENDER, 0, 0, NULL, 0, NULL,
+         "keep the work so far in a file NAME.rtpart, which --resume goes on from; an older one "
+         "stays until the new one is whole"},
+    [OPTION_EVERY] = {"every", "SECONDS", KIND_REAL, GROUP_KEEP, RENDER, 0, 1e9, NULL, 0, "60",
+                      "time between checkpoints; more where writing one takes over 1 % of it"},
+    [OPTION_RESUME] =
+        {"resume", "FILE", KIND_TEXT, GROUP_KEEP, RENDER, 0, 0, NULL, 0, NULL,
+         "go on from a checkpoint or film, with its scene, options, outputs and checkpoint where "
+         "none are given; more --spp or --passes continue a finished render"},
+    [OPTION_PART] =
+        {"part", "I/N", KIND_TEXT, GROUP_KEEP, RENDER | PHOTONS, 0, 0, NULL, 0, "1/1",
+         "do the I-th of N parts of the work, into a film NAME.rtpart, to be merged later; auto "
+         "takes I and N from Slurm, MPI or an indexed job"},
+    [OPTION_INCOMPLETE] = {"incomplete", NULL, KIND_FLAG, GROUP_KEEP, MERGE, 0, 0, NULL, 0, NULL,
+                           "write images of a film although parts of it are missing"},
+
+    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS | COMPARE | MERGE, 0,
+                    0, NULL, 0, "NAME.png and NAME.exr in the current directory for NAME.rts",
+                    "where the image goes: .exr .pfm (linear), .png .ppm (sRGB), or .rtpart, the "
+                    "film itself, to be continued or merged; may be repeated"},
+    [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER | MERGE, -126, 126, NULL,
+                         1, "0", "brighten .png and .ppm by 2^EV"},
+    [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER | MERGE, 0, 0,
+                        tonemaps, 1, "none", "tone curve of .png and .ppm"},
 
     [OPTION_TRIANGLES] = {"triangles", "N", KIND_WHOLE, GROUP_MESH, MESH, 1, 1e9, NULL, 0, "2e4",
                           "about how many triangles"},
@@ -82,8 +101,9 @@ const option option_table[OPTION_COUNT] = {
          "print of every block the ratio, its standard error, and the difference as a part of what "
          "is allowed"},
     [OPTION_JSON] =
-        {"json", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | COMPARE | PHOTONS, 0, 0, NULL, 0,
-         NULL, "print the results as one JSON object; null stands for what is not a finite number"},
+        {"json", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | COMPARE | PHOTONS | INFO, 0, 0, NULL,
+         0, NULL,
+         "print the results as one JSON object; null stands for what is not a finite number"},
 
     [OPTION_MAX_MSE] = {"max-mse", "V", KIND_REAL, GROUP_LIMIT, COMPARE, 0, 1e15, NULL, 0, NULL,
                         "largest mean squared error"},
@@ -115,8 +135,8 @@ const option option_table[OPTION_COUNT] = {
                            1, UINT32_MAX, NULL, 0, "chosen for the device",
                            "work-items per work-group"},
     [OPTION_MEMORY] =
-        {"memory", "LIMIT", KIND_SIZE, GROUP_DEVICE, RENDER | CHECK | PHOTONS, 1, 0x1p60, NULL, 0,
-         "no limit",
+        {"memory", "LIMIT", KIND_SIZE, GROUP_DEVICE, RENDER | CHECK | PHOTONS | MERGE | INFO,
+         1, 0x1p60, NULL, 0, "no limit",
          "take no more memory than this for the scene, its hierarchy, photon maps and the film, "
          "device buffers among them; in bytes, or with K, M, G or T, powers of 1024, as in 4G"},
 
@@ -128,8 +148,9 @@ const option option_table[OPTION_COUNT] = {
                       "print what the render did and how long it took on stdout"},
     [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR, 0, 0,
                         NULL, 0, NULL, "log details to stderr"},
-    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | PHOTONS, 0, 0, NULL, 0,
-                      NULL, "say nothing but errors; progress only where --progress asks for it"},
+    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | PHOTONS | MERGE, 0, 0,
+                      NULL, 0, NULL,
+                      "say nothing but errors; progress only where --progress asks for it"},
     [OPTION_HELP] = {"help", NULL, KIND_FLAG, GROUP_TALK, ALL, 0, 0, NULL, 0, NULL,
                      "print this and stop"},
     [OPTION_VERSION] = {"version", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,

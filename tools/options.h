@@ -19,6 +19,8 @@ typedef enum command_id {
     COMMAND_DOCTOR,
     COMMAND_PHOTONS,
     COMMAND_COMPARE,
+    COMMAND_MERGE,
+    COMMAND_INFO,
     COMMAND_COUNT
 } command_id;
 
@@ -26,8 +28,12 @@ typedef enum command_id {
 typedef enum option_id {
     OPTION_ACCEL,
     OPTION_PHOTON_MAP,
-    OPTION_PART,
     OPTION_LIGHT_SHARES,
+    OPTION_CHECKPOINT,
+    OPTION_EVERY,
+    OPTION_RESUME,
+    OPTION_PART,
+    OPTION_INCOMPLETE,
     OPTION_OUT,
     OPTION_EXPOSURE,
     OPTION_TONEMAP,
@@ -74,6 +80,7 @@ typedef enum option_kind {
 typedef enum option_group {
     GROUP_RENDER,
     GROUP_PHOTON,
+    GROUP_KEEP,
     GROUP_OUTPUT,
     GROUP_MESH,
     GROUP_COMPARE,
@@ -125,6 +132,8 @@ typedef struct command_line {
     const char **operands;
     size_t operand_count;
     rt_memory *memory; /* by --memory, or NULL; owned */
+    rt_film *film;     /* of --resume, or NULL; owned */
+    char *note;        /* its text, which options point to; owned */
 } command_line;
 
 #endif

@@ -2,6 +2,7 @@
 #include "outputs.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -14,7 +15,7 @@
 static const struct {
     const char *name;
     int is_8bit, has_layers;
-} formats[] = {{".exr", 0, 1}, {".png", 1, 0}, {".ppm", 1, 0}, {".pfm", 0, 0}};
+} formats[] = {{".exr", 0, 1}, {".png", 1, 0}, {".ppm", 1, 0}, {".pfm", 0, 0}, {".rtpart", 0, 1}};
 
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
@@ -43,7 +44,9 @@ static int check_format(const char *path)
 {
     if (find_format(path) >= 0)
         return STATUS_DONE;
-    message_error("--out %s: the extension tells the format: .exr, .png, .ppm or .pfm", path);
+    message_error("--out %s: the extension tells the format: .exr, .png, .ppm, .pfm or "
+                  ".rtpart",
+                  path);
     rt_nearest search;
     rt_nearest_begin(&search, outputs_extension(path), strlen(outputs_extension(path)));
     for (int i = 0; i < FORMAT_COUNT; i++)
@@ -94,12 +97,17 @@ static int add(output_list *out, const char *path, size_t stem, const char *suff
     return STATUS_DONE;
 }
 
-static int add_defaults(output_list *out, const char *scene)
+static int add_defaults(output_list *out, const char *scene, uint32_t part, uint32_t parts)
 {
     const char *name = strcmp(scene, "-") == 0 ? "stdin" : file_part(scene);
+    char suffix[64];
     size_t stem = strlen(name);
     if (strcmp(outputs_extension(name), ".rts") == 0 && stem > 4)
         stem -= 4;
+    if (parts > 0) {
+        snprintf(suffix, sizeof suffix, ".%" PRIu32 "of%" PRIu32 ".rtpart", part, parts);
+        return add(out, name, stem, suffix);
+    }
     int status = add(out, name, stem, ".png");
     return status == STATUS_DONE ? add(out, name, stem, ".exr") : status;
 }
@@ -135,7 +143,8 @@ static int add_given(output_list *out, const command_line *arguments)
     return STATUS_DONE;
 }
 
-int outputs_plan(output_list *out, const command_line *arguments, const char *scene)
+int outputs_plan(output_list *out, const command_line *arguments, const char *scene, uint32_t part,
+                 uint32_t parts)
 {
     out->count = 0;
     out->paths = malloc((arguments->output_count + 2) * sizeof *out->paths);
@@ -143,8 +152,15 @@ int outputs_plan(output_list *out, const command_line *arguments, const char *sc
         message_error("out of memory");
         return STATUS_DEVICE;
     }
-    int status =
-        arguments->output_count || !scene ? add_given(out, arguments) : add_defaults(out, scene);
+    int status = arguments->output_count || !scene ? add_given(out, arguments)
+                                                   : add_defaults(out, scene, part, parts);
+    for (size_t i = 0; i < out->count && status == STATUS_DONE && parts > 0; i++)
+        if (!outputs_is_film(out->paths[i])) {
+            message_error("--out %s: a part of a picture goes to a film called NAME.rtpart",
+                          out->paths[i]);
+            message_hint("`rtc merge` makes images of all parts");
+            status = STATUS_USAGE;
+        }
     for (size_t i = 0; i < out->count && status == STATUS_DONE; i++)
         status = outputs_check_writable(out->paths[i]);
     return status;
@@ -153,6 +169,19 @@ int outputs_plan(output_list *out, const command_line *arguments, const char *sc
 void outputs_free(output_list *outputs)
 {
     free(outputs->paths);
+}
+
+int outputs_is_film(const char *path)
+{
+    return strcasecmp(outputs_extension(path), ".rtpart") == 0;
+}
+
+size_t outputs_films(const output_list *outputs)
+{
+    size_t films = 0;
+    for (size_t i = 0; i < outputs->count; i++)
+        films += (size_t)outputs_is_film(outputs->paths[i]);
+    return films;
 }
 
 int outputs_have_8bit(const output_list *outputs)
@@ -176,7 +205,10 @@ int outputs_write(const output_list *outputs, const rt_film *film, const rt_imag
     int status = STATUS_DONE;
     for (size_t i = 0; i < outputs->count; i++) {
         rt_error error;
-        if (rt_film_write(film, outputs->paths[i], options, &error) == RT_OK)
+        rt_status written = outputs_is_film(outputs->paths[i])
+                                ? rt_film_save(film, outputs->paths[i], &error)
+                                : rt_film_write(film, outputs->paths[i], options, &error);
+        if (written == RT_OK)
             continue;
         int now = message_failure(&error);
         status = status == STATUS_DONE ? now : status;

@@ -14,12 +14,14 @@ typedef struct output_list {
 } output_list;
 
 /*
- * The files of --out, or NAME.png and NAME.exr in the current directory for the scene NAME.rts;
- * none for NULL. Fails, before any time is spent on rendering, when an extension is unknown, a name
- * is given twice or a file cannot be written. Returns an exit status. Free *out with outputs_free
+ * The files of --out, or NAME.png and NAME.exr in the current directory for the scene NAME.rts,
+ * NAME.IofN.rtpart for one of its parts; none for NULL. parts 0: the whole picture. Fails, before
+ * any time is spent on rendering, when an extension is unknown, a name is given twice, a part is to
+ * become an image or a file cannot be written. Returns an exit status. Free *out with outputs_free
  * in either case.
  */
-int outputs_plan(output_list *out, const command_line *arguments, const char *scene);
+int outputs_plan(output_list *out, const command_line *arguments, const char *scene, uint32_t part,
+                 uint32_t parts);
 void outputs_free(output_list *outputs);
 
 /* The extension of a path with its dot, or ""; a name that is an extension alone has none. */
@@ -30,6 +32,10 @@ const char *outputs_extension(const char *path);
  * is not STATUS_DONE.
  */
 int outputs_check_writable(const char *path);
+
+/* Whether a file is a film, whose sums are kept; how many of them are. */
+int outputs_is_film(const char *path);
+size_t outputs_films(const output_list *outputs);
 
 /* Whether any of them has 8 bits a channel, so that exposure and tone curve matter. */
 int outputs_have_8bit(const output_list *outputs);

@@ -1,10 +1,8 @@
 /* photons_emit.c - `rtc photons SCENE`: emits the photons of a scene into a file. */
-#include <inttypes.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "message.h"
-#include "number.h"
+#include "part.h"
 #include "photons.h"
 #include "scene_file.h"
 #include "session.h"
@@ -27,39 +25,16 @@ typedef struct emit_job {
     input_list inputs;
 } emit_job;
 
-static int set_part(emit_job *job, uint64_t part, uint64_t parts)
-{
-    if (part < 1 || part > parts) {
-        message_error("--part %" PRIu64 "/%" PRIu64 ": there is no part %" PRIu64 " of %" PRIu64
-                      "; they are counted from 1",
-                      part, parts, part, parts);
-        return STATUS_USAGE;
-    }
-    job->options.part = (uint32_t)(part - 1);
-    job->options.parts = (uint32_t)parts;
-    return STATUS_DONE;
-}
-
-/* Reads "I/N", 1 <= I <= N. */
 static int read_part(emit_job *job)
 {
     const option_value *value = session_value(&job->session, OPTION_PART);
-    char first[32];
-    uint64_t part, parts;
-    if (!value->given)
-        return STATUS_DONE;
-    const char *slash = strchr(value->text, '/');
-    size_t length = slash ? (size_t)(slash - value->text) : sizeof first;
-    if (length < sizeof first) {
-        memcpy(first, value->text, length);
-        first[length] = '\0';
-        if (!number_count(&part, first) && !number_count(&parts, slash + 1) && parts >= 1 &&
-            parts <= UINT32_MAX)
-            return set_part(job, part, parts);
+    uint32_t part, parts;
+    int status = value->given ? part_read(&part, &parts, value->text) : STATUS_DONE;
+    if (value->given && status == STATUS_DONE) {
+        job->options.part = part - 1;
+        job->options.parts = parts;
     }
-    message_error("--part takes the number of a part and of all parts, as in 1/4; not '%s'",
-                  value->text);
-    return STATUS_USAGE;
+    return status;
 }
 
 static int read_options(emit_job *job, const command_line *arguments)

@@ -4,13 +4,16 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "checkpoint.h"
 #include "command_line.h"
 #include "commands.h"
+#include "film_note.h"
 #include "inputs.h"
 #include "light_shares.h"
 #include "message.h"
 #include "no_effect.h"
 #include "outputs.h"
+#include "part.h"
 #include "photons.h"
 #include "recorded.h"
 #include "rt.h"
@@ -26,6 +29,9 @@ typedef struct render_job {
     const char *scene_path;
     output_list outputs;
     input_list inputs;
+    checkpoint checkpoint;
+    uint32_t part, parts; /* of the work; 0: all */
+    char *note;
     rt_render_options own;     /* of the scene, and of the photon map */
     rt_render_options options; /* and of the command line */
     rt_photon_map *photon_map;
@@ -73,7 +79,12 @@ static int set_options(render_job *job)
     session_merge_options(&job->session, &job->options);
     job->options.light_shares = job->shares;
     job->options.light_share_count = job->share_count;
-    return status;
+    job->options.part = job->part;
+    job->options.parts = job->parts;
+    job->options.note = job->note;
+    return status == STATUS_DONE
+               ? checkpoint_plan(&job->checkpoint, &job->options, job->session.arguments)
+               : status;
 }
 
 /* ---- The steps ------------------------------------------------------------ */
@@ -131,16 +142,19 @@ static void join_outputs(char *out, size_t size, const output_list *outputs)
 
 static void say_what_was_written(const render_job *job, int interrupted)
 {
-    char names[1024], seconds[32];
+    char names[1024], seconds[32], part[64] = "";
     uint32_t width, height;
     rt_film_stats stats;
+    rt_film_info info;
     rt_film_get_stats(job->film, &stats);
+    rt_film_get_info(job->film, &info);
     rt_film_get_size(job->film, &width, &height);
     join_outputs(names, sizeof names, &job->outputs);
-    progress_format_time(seconds, sizeof seconds,
-                         stats.emit_seconds + stats.gather_seconds + stats.render_seconds);
-    message_note("%swrote %s: %u x %u, %u sample%s a pixel, rendered in %s",
-                 interrupted ? "interrupted; " : "", names, (unsigned)width, (unsigned)height,
+    if (job->parts > 1)
+        snprintf(part, sizeof part, "part %u of %u, ", (unsigned)job->part, (unsigned)job->parts);
+    progress_format_time(seconds, sizeof seconds, info.seconds);
+    message_note("%swrote %s: %s%u x %u, %u sample%s a pixel, rendered in %s",
+                 interrupted ? "interrupted; " : "", names, part, (unsigned)width, (unsigned)height,
                  (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
 }
 
@@ -179,7 +193,8 @@ static void say_how_good_it_is(const render_job *job)
 static void say_that_nothing_was_written(const rt_render_options *options)
 {
     message_note("interrupted before the first sample; nothing was written");
-    if (options->mode == RT_MODE_PHOTON && options->passes < 2 && !options->photon_map)
+    if (options->mode == RT_MODE_PHOTON && options->passes < 2 && !options->photon_map &&
+        !options->resume)
         message_hint("with --passes N each pass emits photons and adds to the picture, so that an "
                      "interrupt loses one pass; `rtc photons emit` keeps photons in a file");
 }
@@ -244,11 +259,33 @@ static int record_command(render_job *job)
     return STATUS_DEVICE;
 }
 
+/* Reads --part; a film that is kept whole is part 1 of 1. */
+static int plan(render_job *job)
+{
+    const option_value *part = value(job, OPTION_PART);
+    int status = part->given ? part_read(&job->part, &job->parts, part->text) : STATUS_DONE;
+    if (status == STATUS_DONE)
+        status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path, job->part,
+                              job->parts);
+    if (status != STATUS_DONE)
+        return status;
+    if (job->parts == 0 && outputs_films(&job->outputs) > 0)
+        job->part = job->parts = 1;
+    job->checkpoint.progress = &job->session.progress;
+    job->checkpoint.is_quiet = job->session.quiet;
+    job->note = film_note_make(job->session.arguments, job->scene_path);
+    if (!job->note) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    return STATUS_DONE;
+}
+
 static int run(render_job *job)
 {
     int status = light_shares_read(&job->shares, &job->share_count, job->session.arguments);
     if (status == STATUS_DONE)
-        status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path);
+        status = plan(job);
     if (status == STATUS_DONE)
         status = record_command(job);
     if (status == STATUS_DONE)
@@ -261,6 +298,10 @@ static int run(render_job *job)
         status = make_film(job);
     if (status == STATUS_DONE || status == STATUS_INTERRUPTED)
         status = write_images(job, status);
+    if (job->checkpoint.failed && (status == STATUS_DONE || status == STATUS_INTERRUPTED))
+        status = STATUS_OUTPUT;
+    else if (status == STATUS_INTERRUPTED && job->checkpoint.saved > 0 && !job->session.quiet)
+        message_note("`rtc --resume %s` goes on", job->checkpoint.path);
     return status;
 }
 
@@ -307,6 +348,7 @@ int command_render(const command_line *arguments)
     rt_scene_destroy(job.scene);
     free(job.shares);
     free(job.command);
+    free(job.note);
     inputs_free(&job.inputs);
     outputs_free(&job.outputs);
     return status;

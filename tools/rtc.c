@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <stdio.h>
 
+#include "checkpoint.h"
 #include "command_line.h"
 #include "commands.h"
 #include "help.h"
@@ -14,7 +15,8 @@ static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,
     [COMMAND_MESH] = command_mesh,       [COMMAND_DEVICES] = command_devices,
     [COMMAND_DOCTOR] = command_doctor,   [COMMAND_PHOTONS] = command_photons,
-    [COMMAND_COMPARE] = command_compare,
+    [COMMAND_COMPARE] = command_compare, [COMMAND_MERGE] = command_merge,
+    [COMMAND_INFO] = command_info,
 };
 
 static int run(const command_line *arguments)
@@ -55,10 +57,13 @@ int main(int argc, char **argv)
     int status = arguments_parse(&arguments, argc, argv);
     if (status == STATUS_DONE)
         status = limit_memory(&arguments);
+    if (status == STATUS_DONE && !arguments.options[OPTION_HELP].given)
+        status = checkpoint_resume(&arguments);
     if (status == STATUS_DONE)
         status = run(&arguments);
-    rt_memory_destroy(arguments.memory);
+    rt_memory *memory = arguments.memory;
     arguments_free(&arguments);
+    rt_memory_destroy(memory);
     int written = message_finish_stdout();
     /* That things differ, which is status 1 too, is no result while what differs is lost. */
     return status == STATUS_DONE || (status == STATUS_INPUT && written != STATUS_DONE) ? written

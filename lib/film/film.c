@@ -29,6 +29,13 @@ static uint64_t bytes_reserved(const rt_render_options *o)
     return pixels * (sums + sizeof(float) * (channels + 3 * (3 + channels)));
 }
 
+static char *copy_text(const char *text)
+{
+    const size_t size = strlen(text) + 1;
+    char *copy = malloc(size);
+    return copy ? memcpy(copy, text, size) : NULL;
+}
+
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_memory *memory,
                          rt_error *error)
 {
@@ -47,8 +54,14 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_mem
     film->options.checkpoint = NULL;
     film->options.checkpoint_user = film->options.units_user = NULL;
     film->options.next_units = NULL;
+    film->options.note = NULL;
     const uint64_t reserved = bytes_reserved(options);
     film->units = rt_units_of(options, 0);
+    film->note = options->note ? copy_text(options->note) : NULL;
+    if (options->note && !film->note) {
+        free(film);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film");
+    }
     const double all =
         (double)count * (film->units.replicates * sizeof *film->pixels + 3 * sizeof *film->rgb);
     rt_status status = rt_memory_foresee(memory, (double)reserved + all, what, error);

@@ -16,7 +16,7 @@ struct rt_film {
     rt_render_options options; /* as rendered, defaults filled in */
     rt_film_stats stats;
     uint64_t scene;   /* fingerprint of the scene and the camera; 0: not taken */
-    char *note;       /* lines "NAME VALUE" of the program's own, or NULL: rt_film_set_note */
+    char *note;       /* that of the options, or NULL */
     uint64_t light;   /* that of a photon map and of light shares, if given by the caller; or 0 */
     rt_ledger ledger; /* of all photon paths */
     rt_units units;   /* the work that the whole picture takes */

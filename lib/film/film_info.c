@@ -1,8 +1,4 @@
-/* film_info.c - what a film holds of its picture, and the caller's note in it. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/error.h"
+/* film_info.c - what a film holds of its picture. */
 #include "film/film.h"
 
 void rt_film_get_options(const rt_film *film, rt_render_options *out)
@@ -50,22 +46,6 @@ double rt_film_part_done(const rt_film *film, uint32_t part, uint32_t parts)
             done -= (double)gap.count;
     }
     return all > 0 ? done / all : 1;
-}
-
-rt_status rt_film_set_note(rt_film *film, const char *note, rt_error *error)
-{
-    if (rt_is_missing(film, "film", error) || rt_is_missing(note, "note", error))
-        return RT_ERROR_USAGE;
-    const size_t size = strlen(note);
-    if (size > 0 && note[size - 1] != '\n')
-        return rt_fail(error, RT_ERROR_USAGE, "the note does not end in a newline");
-    char *copy = malloc(size + 1);
-    if (!copy)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the note of a film");
-    memcpy(copy, note, size + 1);
-    free(film->note);
-    film->note = copy;
-    return RT_OK;
 }
 
 const char *rt_film_note(const rt_film *film)

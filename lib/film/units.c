@@ -91,9 +91,10 @@ double rt_units_samples_before(const rt_units *units, uint64_t unit)
     double samples = (double)now.count * (double)(unit % units->items) / units->items;
     for (uint32_t r = 0; r < units->replicates; r++) {
         const uint64_t before = block / units->replicates + (r < now.replicate);
+        const uint64_t has = share(units->base, units->replicates, r),
+                       all = share(units->samples, units->replicates, r);
         const uint64_t end = block_begin(before, units->longest);
-        const uint32_t all = share(units->samples, units->replicates, r);
-        samples += end < all ? (double)end : all;
+        samples += (double)((end > all ? all : end < has ? has : end) - has);
     }
     return samples;
 }

@@ -50,7 +50,7 @@ rt_units rt_units_of(const rt_render_options *options, uint32_t base);
 /* The block that a unit belongs to. */
 rt_sample_block rt_units_block(const rt_units *units, uint64_t unit);
 
-/* Samples of a pixel, of all replicates, in the units before this one. */
+/* Samples of a pixel in the units before this one, of all replicates, without those of `base`. */
 double rt_units_samples_before(const rt_units *units, uint64_t unit);
 
 /*

@@ -145,10 +145,12 @@ rt_status rt_pixel_samples_run(const rt_render_job *job, void *state, rt_error *
     if (status != RT_OK)
         return status;
     rt_work work = rt_work_begin(job->film, job->options);
+    rt_work_time(&work, &job->film->stats.render_seconds);
     status = sample_film(job, samples, &work, &progress, error);
     if (status == RT_OK || status == RT_CANCELLED) {
         rt_status read = read_sums(job, samples, error);
-        rt_status end = rt_stage_end(&progress, &job->film->stats.render_seconds);
+        rt_status end = rt_stage_end(&progress, NULL);
+        rt_work_end_time(&work);
         status = read != RT_OK ? read : status != RT_OK ? status : end;
     }
     return status;

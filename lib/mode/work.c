@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+/* A checkpoint takes at most one part in so many of the time between two. */
+static const double rarity = 100;
+
 /* ---- What comes next --------------------------------------------------------- */
 
 /* Samples a pixel, or passes, of some units, each weighted by its part of the picture. */
@@ -156,12 +159,28 @@ void rt_work_test(rt_work *work)
 
 int rt_work_save_is_due(const rt_work *work)
 {
-    return work->options->checkpoint &&
-           rt_clock() - work->saved >= work->options->checkpoint_seconds;
+    const rt_render_options *o = work->options;
+    return o->checkpoint &&
+           rt_clock() - work->saved >= fmax(o->checkpoint_seconds, rarity * work->saving);
+}
+
+void rt_work_time(rt_work *work, double *seconds)
+{
+    work->seconds = seconds;
+    work->before = *seconds - rt_clock();
+}
+
+void rt_work_end_time(rt_work *work)
+{
+    if (work->seconds)
+        *work->seconds = work->before + rt_clock();
 }
 
 void rt_work_save(rt_work *work)
 {
+    const double began = rt_clock();
+    rt_work_end_time(work);
     work->options->checkpoint(work->options->checkpoint_user, work->film);
     work->saved = rt_clock();
+    work->saving = work->saved - began;
 }

@@ -16,7 +16,10 @@ typedef struct rt_work {
     uint64_t at, end; /* the next unit to look at, and the end of the range */
     double done, all; /* samples or passes of this work, in pixels */
     double began;     /* rt_clock() */
-    double saved;     /* rt_clock() at the last checkpoint */
+    double saved;     /* rt_clock() after the last checkpoint */
+    double saving;    /* seconds that it took */
+    double *seconds;  /* of the film's stats, that the time since `began` belongs to, or NULL */
+    double before;    /* what they were, less rt_clock() */
     int is_whole;     /* neither a part nor handed out: the error can be tested on the way */
     int enough;       /* the error asked for is reached */
     rt_noise noise;
@@ -47,5 +50,9 @@ void rt_work_test(rt_work *work);
 /* Whether a checkpoint is due, which needs the film's sums: rt_work_save. */
 int rt_work_save_is_due(const rt_work *work);
 void rt_work_save(rt_work *work);
+
+/* Books the time since this work began on these seconds of the film's stats, from now on. */
+void rt_work_time(rt_work *work, double *seconds);
+void rt_work_end_time(rt_work *work);
 
 #endif

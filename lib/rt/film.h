@@ -212,11 +212,7 @@ RT_API void rt_film_get_options(const rt_film *film, rt_render_options *out);
 /* How much of part 1 .. parts of the work a film has: 0 to 1. */
 RT_API double rt_film_part_done(const rt_film *film, uint32_t part, uint32_t parts);
 
-/*
- * A text of the caller's own that is saved with the film: lines "NAME VALUE", each with its
- * newline, of names that are no settings. rt_film_note returns it, "" without.
- */
-RT_API rt_status rt_film_set_note(rt_film *film, const char *note, rt_error *error);
+/* The note of rt_render_options; "" without. */
 RT_API const char *rt_film_note(const rt_film *film);
 
 /* ---- Chunks ---------------------------------------------------------------------------------- */

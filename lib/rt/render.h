@@ -76,8 +76,8 @@ typedef struct rt_render_options {
     rt_estimator estimator;
     int aov; /* 1: also the layers of the first hit, see rt_film_layer */
     /*
-     * stop after so many seconds of rendering, but only between passes that give every pixel a
-     * sample: the first one is always finished
+     * stop after so many seconds of rendering, but not before every pixel has a sample, and in
+     * passes only between two; otherwise some pixels may have more samples than others
      */
     double time;
     /*
@@ -160,7 +160,12 @@ typedef struct rt_render_options {
      */
     void (*checkpoint)(void *user, const rt_film *film);
     void *checkpoint_user;
-    double checkpoint_seconds;
+    double checkpoint_seconds; /* and at least 100 times what the last one took */
+    /*
+     * the caller's own text, which is saved with the film: lines "NAME VALUE", each with its
+     * newline, of names that are no settings; NULL: none
+     */
+    const char *note;
     /*
      * hands out work: sets first and count to a range of units, as rt_chunk_units has them, that no
      * other film of the picture has, and returns 1, or 0 when there are none left. NULL: all units

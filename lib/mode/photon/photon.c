@@ -140,6 +140,7 @@ static rt_status gather(rt_photon_render *r, rt_error *error)
 {
     rt_stage_progress progress;
     rt_status status = rt_stage_begin(&progress, r->job->options->hooks, RT_STAGE_GATHER);
+    rt_work_time(&r->work, &r->job->film->stats.gather_seconds);
     if (status == RT_OK)
         status = rt_stage_run(&progress, open_queries, r);
     if (status != RT_OK) {
@@ -149,7 +150,8 @@ static rt_status gather(rt_photon_render *r, rt_error *error)
     }
     status = sample(r, &progress, error);
     if (status == RT_OK || status == RT_CANCELLED) {
-        rt_status end = rt_stage_end(&progress, &r->job->film->stats.gather_seconds);
+        rt_status end = rt_stage_end(&progress, NULL);
+        rt_work_end_time(&r->work);
         status = status == RT_OK ? end : status;
     }
     return status;
@@ -174,7 +176,9 @@ static rt_status render_once(rt_photon_render *r, rt_error *error)
         return status;
     rt_log(hooks, "%llu photons stored of %llu paths", (unsigned long long)stats->photons_stored,
            (unsigned long long)stats->photons_emitted);
-    status = rt_stage_end(&progress, &stats->emit_seconds);
+    double seconds;
+    status = rt_stage_end(&progress, &seconds);
+    stats->emit_seconds += seconds;
     return status == RT_OK ? gather(r, error) : status;
 }
 

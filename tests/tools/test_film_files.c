@@ -1,0 +1,187 @@
+/*
+ * test_film_files.c - checkpoints, parts and films of rtc: the image has the bytes of a render at
+ * once, and what cannot be is refused by name.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "small_scene.h"
+#include "spawn.h"
+#include "tools/status.h"
+
+static int enter(void **state)
+{
+    if (scratch_enter(state) != 0)
+        return -1;
+    scratch_write("s.rts", small_scene);
+    return 0;
+}
+
+/* Runs rtc and expects a status. */
+#define RTC(expected, ...)                                                                         \
+    do {                                                                                           \
+        run done_ = run_rtc(__VA_ARGS__);                                                          \
+        expect_status(&done_, expected);                                                           \
+        run_free(&done_);                                                                          \
+    } while (0)
+
+static const char *const modes[] = {"--mode path --spp 5 --aov", "--mode path --spp 19 --variance",
+                                    "--mode normals --spp 3",
+                                    "--mode photon --photons 2000 --k 20 --photon-layers --spp 2",
+                                    "--mode photon --photons 700 --passes 6"};
+
+static void parts_merge_to_the_bytes_of_one_render(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        RTC(STATUS_DONE, "s.rts %s --seed 4 --quiet --out whole.exr", modes[i]);
+        for (int part = 1; part <= 3; part++)
+            RTC(STATUS_DONE, "s.rts %s --seed 4 --quiet --part %d/3 --out p%d.rtpart", modes[i],
+                part, part);
+        RTC(STATUS_DONE, "merge p3.rtpart p1.rtpart --out two.rtpart --quiet");
+        RTC(STATUS_DONE, "merge p2.rtpart two.rtpart --out merged.exr --out merged.png --quiet");
+        expect_same_files("whole.exr", "merged.exr");
+    }
+}
+
+static void what_is_missing_double_or_foreign_is_named(void **state)
+{
+    (void)state;
+    RTC(STATUS_DONE, "s.rts --spp 4 --quiet --part 1/3");
+    RTC(STATUS_DONE, "JOB_COMPLETION_INDEX=1 JOB_COMPLETIONS=3 rtc s.rts --spp 4 --part auto "
+                     "--quiet");
+    expect_file("s.1of3.rtpart");
+    expect_file("s.2of3.rtpart");
+    run missing = run_rtc("merge s.1of3.rtpart s.2of3.rtpart --out x.exr");
+    expect_status(&missing, STATUS_INPUT);
+    expect_err(&missing, "missing, whole or in part: 3 of 3");
+    run_free(&missing);
+    expect_no_file("x.exr");
+    RTC(STATUS_DONE, "merge s.1of3.rtpart s.2of3.rtpart --incomplete --out x.exr");
+    run twice = run_rtc("merge s.1of3.rtpart s.1of3.rtpart --out x.exr");
+    expect_status(&twice, STATUS_INPUT);
+    expect_err(&twice, "s.1of3.rtpart does not fit s.1of3.rtpart: the same part of the picture");
+    run_free(&twice);
+    RTC(STATUS_DONE, "s.rts --spp 5 --quiet --part 2/3 --out five.rtpart");
+    run other = run_rtc("merge s.1of3.rtpart five.rtpart --out x.exr");
+    expect_status(&other, STATUS_INPUT);
+    expect_err(&other, "spp is 4 here, and 5");
+    run_free(&other);
+    run image = run_rtc("s.rts --part 1/3 --out x.png");
+    expect_status(&image, STATUS_USAGE);
+    expect_err(&image, "goes to a film called NAME.rtpart");
+    run_free(&image);
+    run none = run_rtc("s.rts --part 4/3");
+    expect_status(&none, STATUS_USAGE);
+    expect_err(&none, "there is no part 4 of 3");
+    run_free(&none);
+    run nowhere = run_rtc("s.rts --part auto");
+    expect_status(&nowhere, STATUS_USAGE);
+    expect_err(&nowhere, "no job of Slurm");
+    run_free(&nowhere);
+}
+
+/* The engines' own variables. */
+static void parts_are_those_of_the_job(void **state)
+{
+    static const struct {
+        const char *set, *file;
+    } jobs[] = {
+        {"SLURM_ARRAY_TASK_ID=7 SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_COUNT=4", "s.3of4.rtpart"},
+        {"SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=5 SLURM_PROCID=0 SLURM_NTASKS=1",
+         "s.2of5.rtpart"},
+        {"OMPI_COMM_WORLD_RANK=0 OMPI_COMM_WORLD_SIZE=6", "s.1of6.rtpart"},
+        {"PMI_RANK=6 PMI_SIZE=7", "s.7of7.rtpart"},
+        {"SLURM_PROCID=1 SLURM_NTASKS=8", "s.2of8.rtpart"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
+        RTC(STATUS_DONE, "%s rtc s.rts --mode normals --spp 1 --quiet --part auto", jobs[i].set);
+        expect_file(jobs[i].file);
+    }
+}
+
+static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        RTC(STATUS_DONE, "s.rts %s --quiet --out whole.exr", modes[i]);
+        /* The first part of a whole stands for a render that was stopped. */
+        RTC(STATUS_DONE, "s.rts %s --quiet --part 2/3 --out c.rtpart", modes[i]);
+        RTC(STATUS_DONE, "s.rts --resume c.rtpart --part 1/1 --quiet --out done.rtpart --out "
+                         "all.rtpart");
+        RTC(STATUS_DONE, "merge done.rtpart --out done.exr --quiet");
+        expect_same_files("whole.exr", "done.exr");
+        unlink("c.rtpart");
+    }
+    RTC(STATUS_DONE, "s.rts --spp 6 --quiet --out whole.exr");
+    RTC(STATUS_DONE, "s.rts --spp 4 --checkpoint c.rtpart --every 0 --quiet --out a.exr");
+    run over = run_rtc("s.rts --spp 4 --checkpoint c.rtpart --out a.exr");
+    expect_status(&over, STATUS_USAGE);
+    expect_err(&over, "the file is there already");
+    expect_err(&over, "rtc --resume c.rtpart");
+    run_free(&over);
+    unlink("a.exr");
+    RTC(STATUS_DONE, "--resume c.rtpart --spp 6 --quiet");
+    expect_same_files("whole.exr", "a.exr");
+    run info = run_rtc("info c.rtpart");
+    expect_status(&info, STATUS_DONE);
+    expect_out(&info, "done: 100 %");
+    expect_out(&info, "spp: 6");
+    run_free(&info);
+    run other = run_rtc("--resume c.rtpart --seed 9");
+    expect_status(&other, STATUS_USAGE);
+    expect_err(&other, "seed is 9 here, and 0");
+    run_free(&other);
+    run less = run_rtc("--resume c.rtpart --spp 3");
+    expect_status(&less, STATUS_USAGE);
+    run_free(&less);
+    scratch_write("s.rts", "camera { eye 0 0 -5  look_at 0 0 0 }\n");
+    run changed = run_rtc("--resume c.rtpart");
+    expect_status(&changed, STATUS_USAGE);
+    expect_err(&changed, "of this one before it was changed");
+    run_free(&changed);
+    scratch_write("s.rts", small_scene);
+}
+
+static void no_film_is_refused_with_its_name(void **state)
+{
+    (void)state;
+    scratch_write("text.rtpart", "no film at all, but a line of text that is long enough\n");
+    static const char *const commands[] = {"info text.rtpart", "merge text.rtpart --out x.exr",
+                                           "--resume text.rtpart"};
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        run none = run_rtc("%s", commands[i]);
+        expect_status(&none, STATUS_INPUT);
+        expect_err(&none, "text.rtpart: this is no film file");
+        run_free(&none);
+    }
+    run map = run_rtc("s.rts --checkpoint x.exr");
+    expect_status(&map, STATUS_USAGE);
+    expect_err(&map, "NAME.rtpart");
+    run_free(&map);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_merge_to_the_bytes_of_one_render),
+        cmocka_unit_test(what_is_missing_double_or_foreign_is_named),
+        cmocka_unit_test(parts_are_those_of_the_job),
+        cmocka_unit_test(a_checkpoint_is_gone_on_with_by_its_name_alone),
+        cmocka_unit_test(no_film_is_refused_with_its_name),
+    };
+    if (spawn_find_rtc() != 0)
+        return 1;
+    return cmocka_run_group_tests(tests, enter, scratch_leave);
+}

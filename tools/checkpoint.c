@@ -1,0 +1,81 @@
+/* checkpoint.c - writes checkpoints during a render, and goes on from one. */
+#include "checkpoint.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "film_note.h"
+#include "inputs.h"
+#include "message.h"
+#include "outputs.h"
+#include "status.h"
+
+static const double default_seconds = 60;
+
+int checkpoint_resume(command_line *arguments)
+{
+    const option_value *resume = &arguments->options[OPTION_RESUME];
+    rt_error error;
+    if (!resume->given)
+        return STATUS_DONE;
+    if (rt_film_load(&arguments->film, resume->text, arguments->memory, &error) != RT_OK) {
+        int status = message_failure(&error);
+        if (access(resume->text, F_OK) != 0)
+            message_hint("a render writes it from its first checkpoint on");
+        return status;
+    }
+    option_value *kept = &arguments->options[OPTION_CHECKPOINT];
+    if (!kept->given)
+        *kept = *resume;
+    return film_note_give(arguments, &arguments->note, arguments->film);
+}
+
+static void save(void *user, const rt_film *film)
+{
+    checkpoint *c = user;
+    rt_film_info info;
+    rt_error error;
+    rt_film_get_info(film, &info);
+    if (info.units_done == 0)
+        return;
+    const int failed = rt_film_save(film, c->path, &error) != RT_OK;
+    if (failed && !c->failed) {
+        progress_clear(c->progress);
+        message_warning("no checkpoint, and the render goes on: %s", error.message);
+    }
+    c->failed = failed;
+    c->saved += !failed;
+}
+
+/* Whether the file may be written: new, or the one that is continued. */
+static int check_file(const char *path, const command_line *arguments)
+{
+    const char *resumed = arguments->options[OPTION_RESUME].text;
+    if (strcmp(outputs_extension(path), ".rtpart") != 0) {
+        message_error("--checkpoint %s: a checkpoint goes to a file called NAME.rtpart", path);
+        return STATUS_USAGE;
+    }
+    if (access(path, F_OK) == 0 && !(resumed && inputs_are_same(path, resumed))) {
+        message_error("--checkpoint %s: the file is there already", path);
+        message_hint("go on from it by `rtc --resume %s`, or remove it", path);
+        return STATUS_USAGE;
+    }
+    return outputs_check_writable(path);
+}
+
+int checkpoint_plan(checkpoint *out, rt_render_options *options, const command_line *arguments)
+{
+    const option_value *given = arguments->options;
+    options->resume = arguments->film;
+    if (!given[OPTION_CHECKPOINT].given) {
+        if (given[OPTION_EVERY].given && !out->is_quiet)
+            message_warning("--every has no effect without --checkpoint");
+        return STATUS_DONE;
+    }
+    out->path = given[OPTION_CHECKPOINT].text;
+    options->checkpoint = save;
+    options->checkpoint_user = out;
+    options->checkpoint_seconds =
+        given[OPTION_EVERY].given ? given[OPTION_EVERY].real : default_seconds;
+    return check_file(out->path, arguments);
+}

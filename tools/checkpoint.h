@@ -1,0 +1,29 @@
+/* checkpoint.h - --checkpoint, --every and --resume: a render that can be gone on with. */
+#ifndef RTC_CHECKPOINT_H
+#define RTC_CHECKPOINT_H
+
+#include "options.h"
+#include "progress.h"
+
+/* Where checkpoints go, and what became of them. Must stay where it is: the options point to it. */
+typedef struct checkpoint {
+    const char *path; /* NULL: none */
+    progress_display *progress;
+    int is_quiet;
+    uint64_t saved; /* how many were written */
+    int failed;     /* the last one was not */
+} checkpoint;
+
+/*
+ * Loads the film of --resume into *arguments, and gives the options that it was rendered with where
+ * the command line gives no others; the checkpoint is then the file itself. Returns an exit status.
+ */
+int checkpoint_resume(command_line *arguments);
+
+/*
+ * Sets the options of a render by --checkpoint, --every and --resume. A file that is there is not
+ * overwritten, unless it is the one to be continued. Returns an exit status.
+ */
+int checkpoint_plan(checkpoint *out, rt_render_options *options, const command_line *arguments);
+
+#endif

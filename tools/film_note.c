@@ -1,0 +1,113 @@
+/* film_note.c - the options of a render as lines in its film, and read from there. */
+#include "film_note.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command_line.h"
+#include "message.h"
+#include "settings.h"
+#include "status.h"
+
+/* Options that belong to a picture, not to the run that rendered a part of it. */
+static const option_id of_picture[] = {OPTION_ACCEL,      OPTION_PHOTON_MAP, OPTION_LIGHT_SHARES,
+                                       OPTION_CHECKPOINT, OPTION_EVERY,      OPTION_PART,
+                                       OPTION_EXPOSURE,   OPTION_TONEMAP};
+
+/* A text that grows; without memory it has failed, and stays so. */
+typedef struct text {
+    char *at;
+    size_t size;
+    int failed;
+} text;
+
+/* Adds a line, `given NAME VALUE` or `scene PATH`; one with a newline in it is left out. */
+static void add_line(text *out, const char *word, const char *name, const char *value)
+{
+    if (strchr(value, '\n') || out->failed)
+        return;
+    const size_t length = strlen(word) + strlen(name) + strlen(value) + 4;
+    char *longer = realloc(out->at, out->size + length);
+    if (!longer) {
+        out->failed = 1;
+        return;
+    }
+    out->at = longer;
+    out->size += (size_t)snprintf(out->at + out->size, length, "%s %s%s%s\n", word, name,
+                                  name[0] ? " " : "", value);
+}
+
+char *film_note_make(const command_line *arguments, const char *scene)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    text note = {0};
+    add_line(&note, "scene", "", scene);
+    for (size_t i = 0; i < count; i++) {
+        char name[SETTING_NAME_SIZE];
+        if (settings_text(arguments, &settings[i]))
+            add_line(&note, "given", settings_name(name, &settings[i]),
+                     settings_text(arguments, &settings[i]));
+    }
+    for (size_t i = 0; i < sizeof of_picture / sizeof *of_picture; i++) {
+        const option_id id = of_picture[i];
+        if (arguments->options[id].given)
+            add_line(&note, "given", option_table[id].name, arguments->options[id].text);
+    }
+    for (size_t i = 0; i < arguments->output_count; i++)
+        add_line(&note, "given", "out", arguments->outputs[i]);
+    if (note.failed) {
+        free(note.at);
+        return NULL;
+    }
+    return note.at;
+}
+
+size_t film_note_find(const char **value, const rt_film *film, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *line = rt_film_note(film), *end; (end = strchr(line, '\n')); line = end + 1)
+        if (strncmp(line, name, length) == 0 && line[length] == ' ') {
+            *value = line + length + 1;
+            return (size_t)(end - *value);
+        }
+    return 0;
+}
+
+/* Gives what a line says; it ends in a zero byte. */
+static int give_line(command_line *arguments, char *line, int has_outputs)
+{
+    if (strncmp(line, "scene ", 6) == 0) {
+        if (arguments->operand_count == 0)
+            arguments->operands[arguments->operand_count++] = line + 6;
+        return STATUS_DONE;
+    }
+    char *value = strncmp(line, "given ", 6) == 0 ? strchr(line + 6, ' ') : NULL;
+    if (!value)
+        return STATUS_DONE;
+    *value++ = '\0';
+    if (has_outputs && strcmp(line + 6, "out") == 0)
+        return STATUS_DONE;
+    return arguments_give(arguments, line + 6, value);
+}
+
+int film_note_give(command_line *arguments, char **text, const rt_film *film)
+{
+    const char *note = rt_film_note(film);
+    const int has_outputs = arguments->output_count > 0;
+    int status = STATUS_DONE;
+    char *copy = malloc(strlen(note) + 1);
+    if (!copy) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    memcpy(copy, note, strlen(note) + 1);
+    *text = copy;
+    for (char *line = copy, *end; status == STATUS_DONE && (end = strchr(line, '\n'));
+         line = end + 1) {
+        *end = '\0';
+        status = give_line(arguments, line, has_outputs);
+    }
+    return status;
+}
