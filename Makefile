@@ -261,7 +261,8 @@ TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench build-fuzz check check-corpus check-crowd check-faults check-fuzz \
-	check-kills check-memory check-mutation check-peers check-quick check-reference check-reproducible check-samples \
+	check-kills check-memory check-mutation check-peers check-quick \
+	check-reference check-reproducible check-samples \
 	check-sanitize check-threads clean demo deps deps-fuzz deps-lint format fuzz help install \
 	lint lint-quick need-deps proof run-all run-quick run-threads study uninstall
 .DELETE_ON_ERROR:

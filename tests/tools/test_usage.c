@@ -29,7 +29,6 @@ static const struct {
     {"", "which scene?"},
     {"a.rts b.rts", "one scene at a time: 'a.rts' and 'b.rts'"},
     {"chekc a.rts", "did you mean `rtc check`?"},
-    {"info m.rtp", "did you mean `rtc photons info`?"},
     {"merge m.rtp n.rtp", "did you mean `rtc photons merge`?"},
     {"a.rts --spp", "--spp needs a value"},
     {"a.rts --spp=", "--spp needs a value"},
