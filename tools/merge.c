@@ -24,12 +24,17 @@ typedef struct merge_job {
     command_line original; /* the command line of the render, from the film's note */
 } merge_job;
 
-/* The reader of a film file says what it is not; a photon map has a command of its own. */
+/* A photon map has a command of its own. */
+static void hint_maps(const char *path)
+{
+    if (strcmp(outputs_extension(path), ".rtp") == 0)
+        message_hint("`rtc photons merge` joins photon maps");
+}
+
 static int fail_load(const char *path, const rt_error *error)
 {
     int status = message_failure(error);
-    if (strcmp(outputs_extension(path), ".rtp") == 0)
-        message_hint("`rtc photons merge` joins photon maps");
+    hint_maps(path);
     return status;
 }
 
@@ -146,7 +151,7 @@ static int run(merge_job *job)
     const command_line *arguments = job->arguments;
     if (arguments->operand_count == 0 || arguments->output_count == 0) {
         message_error("usage: rtc merge FILM.rtpart... --out FILE [--out FILE]...");
-        message_hint("`rtc merge --help` says more");
+        hint_maps(arguments->operand_count > 0 ? arguments->operands[0] : "");
         return STATUS_USAGE;
     }
     int status = outputs_plan(&job->outputs, arguments, NULL, 0, 0);
