@@ -122,7 +122,7 @@ static const struct {
     {"check --help=yes", "--help takes no value"},
     {"a.rts --caustic-k 1", "--caustic-k takes a whole number from 2 to 65536"},
     {"a.rts --caustic-kernel q", "--caustic-kernel takes epanechnikov, box"},
-    {"a.rts --part 1/2", "takes no option --part"},
+    {"check a.rts --part 1/2", "takes no option --part"},
     {"photons", "usage: rtc photons"},
     {"photons a.rts", "--out FILE"},
     {"photons help", "try `rtc help photons`"},
