@@ -216,7 +216,8 @@ static void bsdfs_are_reciprocal(void **state)
                 const double b = (back_values[i].diffuse[c] + back_values[i].rough[c]) / wo[i][2];
                 compared += f > 1e-4;
                 across += through && f > 1e-4;
-                if (!(fabs(f - b) <= 2e-3 * (f + b) + 1e-6))
+                /* Far off a lobe's peak float32 leaves few digits, and devices differ in them. */
+                if (!(fabs(f - b) <= 2e-3 * (f + b) + 2e-6))
                     fail_msg("%s: %g forwards, %g backwards", materials[m].name, f, b);
             }
         }

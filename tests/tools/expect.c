@@ -82,6 +82,14 @@ void expect_no_file(const char *name)
         fail_msg("there is a file %s", name);
 }
 
+int device_is_cpu(void)
+{
+    run run = run_rtc("devices");
+    int is_cpu = strstr(run.out, "not a CPU") == NULL;
+    run_free(&run);
+    return is_cpu;
+}
+
 double stats_number(const run *run, const char *name)
 {
     size_t length = strlen(name);

@@ -20,6 +20,9 @@ void expect_different_files(const char *a, const char *b);
 void expect_file(const char *name);
 void expect_no_file(const char *name);
 
+/* Whether all devices are CPUs, to which some of what rtc does is limited. */
+int device_is_cpu(void);
+
 /* A number that --stats prints: the one behind "name: " at the start of a line. */
 double stats_number(const run *run, const char *name);
 

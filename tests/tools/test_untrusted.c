@@ -61,6 +61,15 @@ static void need_landlock(void)
         skip();
 }
 
+/* The files of other devices stay closed to an untrusted run. */
+static void need_cpu(void)
+{
+    if (device_is_cpu())
+        return;
+    print_message("an untrusted run opens a CPU device alone\n");
+    skip();
+}
+
 static void files_outside_of_the_folder_are_refused(void **state)
 {
     static const char *const texts[] = {
@@ -96,6 +105,7 @@ static void files_in_the_folder_are_read(void **state)
 {
     (void)state;
     need_landlock();
+    need_cpu();
     scratch_write("in/colour.ppm", "P6\n1 1\n255\nabc");
     scratch_write("in/a.rts", "include \"inside.rts\"\ntexture t { file \"colour.ppm\" }\n"
                               "material painted { kd_texture t }\n"
@@ -189,6 +199,7 @@ static void a_scene_that_fills_memory_is_refused(void **state)
 {
     (void)state;
     need_landlock();
+    need_cpu();
     scratch_write("in/a.rts", "material m { kd 1 }\n"
                               "repeat i from 1 to 2000000 {\n"
                               "sphere { centre i 0 0  radius 1  material m } }\n");
