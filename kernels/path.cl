@@ -10,6 +10,34 @@
 #if RT_WIDTH > 1
 #include "integrate/batch.h"
 #else
+/*
+ * Adds a launch's samples to a pixel. One loop goes over the vertices of all its paths: where a
+ * path ends the next begins at once, so that work-items in step need not wait for the longest of
+ * their paths, sample by sample (Novak, Havran, Dachsbacher: "Path Regeneration for Interactive
+ * Path Tracing", Eurographics 2010).
+ */
+static inline void sample_pixel(const struct scene *scene, const rt_params *params, uint2 at,
+                                uint index, rt_film_pixel *pixel)
+{
+    struct path path;
+    float weight = 0.0f;
+    path.alive = false;
+    for (uint begun = 0u;;) {
+        if (!path.alive) {
+            if (begun > 0u)
+                film_add(pixel, path.radiance, weight, path.cut_off);
+            if (begun == params->sample_count)
+                return;
+            const struct sampler sampler =
+                sampler_start(scene, params, index, params->first_sample + begun++);
+            path_begin(&path, scene, &sampler,
+                       pixel_ray(&scene->header->camera, params, &sampler, at, &weight));
+        }
+        if (path.alive)
+            path_extend(scene, params, &path, FOLLOW_ALL, 0);
+    }
+}
+
 /* Adds a launch's samples to the pixels of the items from `item` to before `end`. */
 static inline void sample_pixels(const struct scene *scene, const rt_params *params, uint item,
                                  uint end, global rt_film_pixel *film)
@@ -18,15 +46,7 @@ static inline void sample_pixels(const struct scene *scene, const rt_params *par
         const uint2 at = pixel_of_item(params, params->first_item + item);
         const uint index = at.y * params->width + at.x;
         rt_film_pixel pixel = film[index];
-        for (uint i = 0u; i < params->sample_count; i++) {
-            const struct sampler sampler =
-                sampler_start(scene, params, index, params->first_sample + i);
-            float weight, cut_off;
-            const struct ray ray = pixel_ray(&scene->header->camera, params, &sampler, at, &weight);
-            const float3 radiance =
-                follow_path(scene, params, &sampler, ray, FOLLOW_ALL, 0, &cut_off);
-            film_add(&pixel, radiance, weight, cut_off);
-        }
+        sample_pixel(scene, params, at, index, &pixel);
         film[index] = pixel;
     }
 }

@@ -87,15 +87,13 @@ RARELY_CALLED void take_block(struct coincident *coincident, const struct scene 
     uint mask = intersect_block(block, frame, ray->t_min, ray->t_max, &found);
     if (!mask)
         return;
-    const float8 scale = 1.0f / found.det;
-    const struct lane_array ts = lane_array(found.t * scale), us = lane_array(found.u * scale),
-                            vs = lane_array(found.v * scale);
+    const struct lane_hits hits = lane_hits(&found);
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
         struct hit hit;
-        hit.t = lane_read(&ts, lane);
-        hit.u = lane_read(&us, lane);
-        hit.v = lane_read(&vs, lane);
+        hit.t = lane_hit(&hits, &hits.t, lane);
+        hit.u = lane_hit(&hits, &hits.u, lane);
+        hit.v = lane_hit(&hits, &hits.v, lane);
         hit.prim = instance == RT_NONE ? block->prim[lane] & RT_BLOCK_PRIM : instance;
         hit.slot = index * RT_BVH_WIDTH + lane;
         take_face(coincident, scene, &hit);

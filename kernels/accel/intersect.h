@@ -58,6 +58,43 @@ struct block_hits {
 };
 
 /*
+ * The same divided by det, to be read lane by lane: eight at once at width 8, and at width 1, where
+ * each lane costs a division, those that are read.
+ */
+struct lane_hits {
+    struct lane_array t, u, v;
+#if RT_WIDTH == 1
+    struct lane_array det;
+#endif
+};
+
+INLINE_ALWAYS struct lane_hits lane_hits(const struct block_hits *found)
+{
+    struct lane_hits hits;
+#if RT_WIDTH == 1
+    const float8 scale = (float8)(1.0f);
+    hits.det = lane_array(found->det);
+#else
+    const float8 scale = 1.0f / found->det;
+#endif
+    hits.t = lane_array(found->t * scale);
+    hits.u = lane_array(found->u * scale);
+    hits.v = lane_array(found->v * scale);
+    return hits;
+}
+
+/* One of t, u and v in a lane that is hit. */
+INLINE_ALWAYS float lane_hit(const struct lane_hits *hits, const struct lane_array *which,
+                             uint lane)
+{
+#if RT_WIDTH == 1
+    return lane_read(which, lane) * (1.0f / lane_read(&hits->det, lane));
+#else
+    return lane_read(which, lane);
+#endif
+}
+
+/*
  * One product rounded before the other is subtracted: exactly opposite when the factors change
  * sides.
  */

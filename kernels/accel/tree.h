@@ -21,17 +21,15 @@
 INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *found, uint mask,
                                    float t_min, global const rt_tri_block *block, uint index)
 {
-    const float8 scale = 1.0f / found->det;
-    const struct lane_array ts = lane_array(found->t * scale), us = lane_array(found->u * scale),
-                            vs = lane_array(found->v * scale);
+    const struct lane_hits hits = lane_hits(found);
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
         const uint prim = block->prim[lane] & RT_BLOCK_PRIM;
-        const float t = lane_read(&ts, lane);
+        const float t = lane_hit(&hits, &hits.t, lane);
         if (t >= t_min && (t < hit->t || (t == hit->t && prim < hit->prim))) {
             hit->t = t;
-            hit->u = lane_read(&us, lane);
-            hit->v = lane_read(&vs, lane);
+            hit->u = lane_hit(&hits, &hits.u, lane);
+            hit->v = lane_hit(&hits, &hits.v, lane);
             hit->prim = prim;
             hit->slot = index * RT_BVH_WIDTH + lane;
         }

@@ -80,6 +80,30 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
         path_scatter(path, &surface, &bsdf, lobe, u.hi.xyw, boundary.beyond);
 }
 
+/* Extends a path that is alive by its next vertex. */
+static inline void path_extend(const struct scene *scene, const rt_params *params,
+                               struct path *path, const uint purpose, const struct gather *gather)
+{
+    /* Draw the sample values of the next vertex: that hides the latency of memory below. */
+    const float8 u = path_numbers(path);
+
+    /* Find the nearest surface, or what the environment emits. */
+    struct hit hit;
+    if (!closest_hit(scene, &path->ray, &hit)) {
+        add_environment(path, scene, params, purpose);
+        path->alive = false;
+        return;
+    }
+
+    /* Add emission, sample a light, apply Russian roulette, sample the BSDF. */
+    struct connection connection;
+    connection.radiance = (float3)(0.0f);
+    path_vertex(scene, params, path, &hit, u, &connection, purpose, gather);
+
+    /* Add the direct light that arrives. */
+    add_connection(path, scene, &connection);
+}
+
 /* Follows one path to its end; returns its radiance and writes the throughput that was cut off. */
 static inline float3 follow_path(const struct scene *scene, const rt_params *params,
                                  const struct sampler *sampler, struct ray ray, const uint purpose,
@@ -87,25 +111,8 @@ static inline float3 follow_path(const struct scene *scene, const rt_params *par
 {
     struct path path;
     path_begin(&path, scene, sampler, ray);
-    while (path.alive) {
-        /* Draw the sample values of the next vertex: that hides the latency of memory below. */
-        const float8 u = path_numbers(&path);
-
-        /* Find the nearest surface, or what the environment emits. */
-        struct hit hit;
-        if (!closest_hit(scene, &path.ray, &hit)) {
-            add_environment(&path, scene, params, purpose);
-            break;
-        }
-
-        /* Add emission, sample a light, apply Russian roulette, sample the BSDF. */
-        struct connection connection;
-        connection.radiance = (float3)(0.0f);
-        path_vertex(scene, params, &path, &hit, u, &connection, purpose, gather);
-
-        /* Add the direct light that arrives. */
-        add_connection(&path, scene, &connection);
-    }
+    while (path.alive)
+        path_extend(scene, params, &path, purpose, gather);
     *cut_off = path.cut_off;
     return path.radiance;
 }
