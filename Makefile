@@ -80,7 +80,8 @@ LIB_SRC := \
 	lib/photon/map_read.c lib/photon/map_warnings.c lib/photon/map_write.c \
 	lib/photon/neighbour_search.c \
 	lib/photon/photon_boxes.c \
-	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_tree.c \
+	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_packer.c \
+	lib/photon/photon_tree.c \
 	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
 	lib/render/enclosing_media.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
@@ -119,7 +120,8 @@ TOOL_SRC := \
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
 	kernels/photon_camera.cl \
-	kernels/photon_emit.cl kernels/photon_film.cl kernels/gather_neighbours.cl \
+	kernels/photon_emit.cl kernels/photon_film.cl kernels/photon_pack.cl \
+	kernels/gather_neighbours.cl \
 	kernels/gather_tree.cl \
 	kernels/trace.cl
 

@@ -6,10 +6,20 @@
 
 #include "base/memory.h"
 #include "photon/forecast.h"
+#include "photon/photon_packer.h"
 #include "render/prepare.h"
 
-/* Bounds of a batch: the memory of its slots, and its length, so that progress moves. */
-enum { SLOT_BYTES_A_BATCH = 1 << 26, PATHS_A_BATCH = 1 << 15, LEAST_BATCH = 64 };
+/*
+ * Bounds of a batch: the memory of its slots, and its length, so that progress moves; a GPU takes
+ * more, to have all of it at work.
+ */
+enum {
+    SLOT_BYTES_CPU = 1 << 26,
+    SLOT_BYTES_GPU = 1 << 28,
+    PATHS_CPU = 1 << 15,
+    PATHS_GPU = 1 << 18,
+    LEAST_BATCH = 64
+};
 
 /* Arguments of the kernel: rt_params, the scene, and then buffers. */
 enum { EMIT_ARGUMENTS = 5 };
@@ -19,11 +29,13 @@ struct rt_emitter {
     cl_kernel kernel;
     cl_mem scene;
     rt_light_sources lights;
-    cl_mem shares;             /* rt_light_share, one a light of the kernels' table */
-    size_t slots;              /* photons a path can store; 0 before the first emission */
-    size_t paths;              /* a batch, at most */
-    cl_mem photons;            /* rt_photon [slots][paths] */
-    cl_mem accounts;           /* rt_path_account [paths] */
+    cl_mem shares;   /* rt_light_share, one a light of the kernels' table */
+    size_t slots;    /* photons a path can store; 0 before the first emission */
+    size_t paths;    /* a batch, at most */
+    cl_mem photons;  /* rt_photon [slots][paths] */
+    cl_mem accounts; /* rt_path_account [paths] */
+    int packs;       /* the device packs photons before they are read */
+    rt_photon_packer packer;
     uint64_t memory;           /* bytes that the photons of a map must fit into; 0: any */
     void (*after)(void *user); /* each batch; NULL: nothing */
     void *after_user;
@@ -50,6 +62,7 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
     e->kernel = kernel;
     e->scene = scene;
     e->memory = rt_physical_memory();
+    e->packs = !device->info.is_cpu;
     rt_status status = rt_light_sources_read(&e->lights, device, scene, shares, share_count, error);
     if (status == RT_OK)
         status = rt_buffer_create(
@@ -66,6 +79,7 @@ static void release_batch(rt_emitter *e)
 {
     rt_buffer_release(e->device, e->photons);
     rt_buffer_release(e->device, e->accounts);
+    rt_photon_packer_release(&e->packer);
     e->photons = e->accounts = NULL;
     e->slots = 0;
 }
@@ -78,6 +92,12 @@ void rt_emitter_destroy(rt_emitter *e)
     rt_buffer_release(e->device, e->shares);
     rt_light_sources_free(&e->lights);
     free(e);
+}
+
+void rt_emitter_pack(rt_emitter *e)
+{
+    release_batch(e);
+    e->packs = 1;
 }
 
 void rt_emitter_limit_memory(rt_emitter *e, uint64_t bytes)
@@ -110,13 +130,15 @@ void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
 
 static rt_status create_batch(rt_emitter *e, size_t slots, size_t paths, rt_error *error)
 {
-    rt_status status = rt_buffer_create(
-        e->device, &e->photons, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-        paths * slots * sizeof(rt_photon), NULL, "the buffer of photon slots", error);
+    const cl_mem_flags flags = CL_MEM_READ_WRITE | (e->packs ? 0 : CL_MEM_ALLOC_HOST_PTR);
+    rt_status status =
+        rt_buffer_create(e->device, &e->photons, flags, paths * slots * sizeof(rt_photon), NULL,
+                         "the buffer of photon slots", error);
     if (status == RT_OK)
-        status = rt_buffer_create(
-            e->device, &e->accounts, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-            paths * sizeof(rt_path_account), NULL, "the buffer of path accounts", error);
+        status = rt_buffer_create(e->device, &e->accounts, flags, paths * sizeof(rt_path_account),
+                                  NULL, "the buffer of path accounts", error);
+    if (status == RT_OK && e->packs)
+        status = rt_photon_packer_create(&e->packer, e->device, paths, slots, error);
     if (status != RT_OK)
         release_batch(e);
     return status;
@@ -128,8 +150,10 @@ static rt_status create_batch(rt_emitter *e, size_t slots, size_t paths, rt_erro
  */
 static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_error *error)
 {
-    size_t most = SLOT_BYTES_A_BATCH / (slots * sizeof(rt_photon));
-    size_t paths = most < 1 ? 1 : most > PATHS_A_BATCH ? PATHS_A_BATCH : most;
+    const int is_cpu = e->device->info.is_cpu;
+    size_t most = (is_cpu ? SLOT_BYTES_CPU : SLOT_BYTES_GPU) / (slots * sizeof(rt_photon));
+    size_t bound = is_cpu ? PATHS_CPU : PATHS_GPU;
+    size_t paths = most < 1 ? 1 : most > bound ? bound : most;
     if (paths > count)
         paths = (size_t)count;
     if (e->slots == slots && e->paths >= paths)
@@ -156,31 +180,39 @@ static size_t bytes_in_use(const rt_emitter *e, const rt_path_account *accounts,
     return rows == 0 ? 0 : ((rows - 1) * e->paths + paths) * sizeof(rt_photon);
 }
 
-/*
- * Appends the photons and accounts of a batch to the map; memory shared with the device is mapped,
- * not copied.
- */
+/* Appends the photons of a batch to a list; memory shared with the device is mapped, not copied. */
+static rt_status take_photons(rt_emitter *e, rt_photon_list *list, const rt_path_account *accounts,
+                              size_t paths, rt_error *error)
+{
+    const void *photons = NULL;
+    if (e->packs)
+        return rt_photon_packer_append(&e->packer, list, e->photons, e->paths, accounts, paths,
+                                       error);
+    size_t bytes = bytes_in_use(e, accounts, paths);
+    rt_status status =
+        bytes > 0 ? rt_buffer_map(e->device, e->photons, bytes, &photons, "photons", error) : RT_OK;
+    if (status == RT_OK)
+        status = rt_photon_list_append(list, photons, e->paths, accounts, paths, e->device->threads,
+                                       error);
+    rt_status end = rt_buffer_unmap(e->device, e->photons, photons, status == RT_OK ? error : NULL);
+    return status == RT_OK ? end : status;
+}
+
+/* Appends the photons of a batch to the map, and books its accounts. */
 static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, size_t paths,
                             rt_error *error)
 {
-    const void *photons = NULL, *accounts = NULL;
+    const void *accounts = NULL;
     rt_status status = rt_buffer_map(e->device, e->accounts, paths * sizeof(rt_path_account),
                                      &accounts, "the accounts of photon paths", error);
-    size_t bytes = status == RT_OK ? bytes_in_use(e, accounts, paths) : 0;
-    if (bytes > 0)
-        status = rt_buffer_map(e->device, e->photons, bytes, &photons, "photons", error);
     if (status == RT_OK)
-        status = rt_photon_list_append(map->lists + kind, photons, e->paths, accounts, paths,
-                                       e->device->threads, error);
+        status = take_photons(e, map->lists + kind, accounts, paths, error);
     if (status == RT_OK && kind == RT_PHOTONS_GLOBAL)
         status =
             rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads, error);
-    rt_status first =
-        rt_buffer_unmap(e->device, e->photons, photons, status == RT_OK ? error : NULL);
-    status = status == RT_OK ? first : status;
-    rt_status second =
+    rt_status end =
         rt_buffer_unmap(e->device, e->accounts, accounts, status == RT_OK ? error : NULL);
-    return status == RT_OK ? second : status;
+    return status == RT_OK ? end : status;
 }
 
 static rt_params make_params(const rt_emitter *e, const rt_photon_settings *settings,

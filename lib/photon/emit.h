@@ -29,6 +29,9 @@ void rt_emitter_destroy(rt_emitter *emitter);
 /* The memory that the photons of a map must fit into, in bytes; at first this machine's. 0: any. */
 void rt_emitter_limit_memory(rt_emitter *emitter, uint64_t bytes);
 
+/* Has the device pack photons before they are read, as one with memory of its own does anyway. */
+void rt_emitter_pack(rt_emitter *emitter);
+
 /*
  * Warns of light that photon paths leave out: that of the environment and of directional lights on
  * far parts of planes.

@@ -20,6 +20,21 @@ struct rt_gatherer {
     rt_tree_gather tree;
 };
 
+enum { POINTS_MAX_CPU = 1 << 16, POINTS_MAX_GPU = 1 << 18 };
+
+rt_photon_search rt_photon_search_of(const rt_device *device, rt_gather gather, uint32_t k,
+                                     uint32_t caustic_k)
+{
+    if (k == RT_K_ALL || caustic_k == RT_K_ALL || gather == RT_GATHER_DEVICE)
+        return RT_SEARCH_TREE;
+    return gather == RT_GATHER_AUTO && !device->info.is_cpu ? RT_SEARCH_TREE : RT_SEARCH_NEIGHBOURS;
+}
+
+size_t rt_gather_points_max(const rt_device *device)
+{
+    return device->info.is_cpu ? POINTS_MAX_CPU : POINTS_MAX_GPU;
+}
+
 const char *rt_gather_kernel_name(rt_photon_search search)
 {
     return search == RT_SEARCH_TREE ? "gather_tree" : "gather_neighbours";
@@ -65,7 +80,7 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
     g->device = device;
     g->kernel = kernel;
     g->search = options->search;
-    g->capacity = RT_GATHER_POINTS_MAX;
+    g->capacity = rt_gather_points_max(device);
     if (g->search == RT_SEARCH_TREE) {
         status = rt_tree_gather_prepare(&g->tree, device, list, &estimate, &g->capacity, error);
     } else {

@@ -15,13 +15,20 @@
 
 typedef struct rt_gatherer rt_gatherer;
 
-/* The maximum number of gather points per call. */
-enum { RT_GATHER_POINTS_MAX = 1 << 16 };
-
 typedef enum rt_photon_search {
     RT_SEARCH_NEIGHBOURS, /* neighbour lists from the host, by FLANN: k nearest only */
     RT_SEARCH_TREE        /* a tree on the device */
 } rt_photon_search;
+
+/*
+ * The search that a setting means; k, caustic_k: photons of the estimates, RT_K_ALL for all within
+ * a radius. On a CPU device the host's is the quicker one to start.
+ */
+rt_photon_search rt_photon_search_of(const rt_device *device, rt_gather gather, uint32_t k,
+                                     uint32_t caustic_k);
+
+/* The maximum number of gather points per call: a GPU takes more, to have all of it at work. */
+size_t rt_gather_points_max(const rt_device *device);
 
 /* How to gather. */
 typedef struct rt_gather_options {
@@ -65,7 +72,7 @@ void rt_gatherer_limit_pixels(rt_gatherer *gatherer, cl_mem squared, float facto
 /* Gathers with another density kernel from here on; the photons found stay the same. */
 void rt_gatherer_set_density(rt_gatherer *gatherer, rt_density density, float cone_k);
 
-/* The maximum number of points per call of rt_gatherer_add, at most RT_GATHER_POINTS_MAX. */
+/* The maximum number of points per call of rt_gatherer_add, at most rt_gather_points_max. */
 size_t rt_gatherer_capacity(const rt_gatherer *gatherer);
 
 /*

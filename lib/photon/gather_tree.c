@@ -10,7 +10,12 @@
  * Scratch memory of all work-items together, in floats; points that one takes on a CPU, where few
  * run at once; and the shortest batch, where there is little memory.
  */
-enum { SCRATCH_MAX = 1 << 24, POINTS_AN_ITEM_CPU = 16, LEAST_BATCH = 64 };
+enum {
+    SCRATCH_MAX_CPU = 1 << 24,
+    SCRATCH_MAX_GPU = 1 << 26,
+    POINTS_AN_ITEM_CPU = 16,
+    LEAST_BATCH = 64
+};
 
 /*
  * Room for the distances of one search: twice k, so that the selection of the k smallest is rare,
@@ -59,7 +64,8 @@ rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_
                                  rt_error *error)
 {
     size_t stride = distances(estimate->k),
-           least = (*capacity * stride + SCRATCH_MAX - 1) / SCRATCH_MAX;
+           most = device->info.is_cpu ? SCRATCH_MAX_CPU : SCRATCH_MAX_GPU,
+           least = (*capacity * stride + most - 1) / most;
     size_t usual = device->info.is_cpu ? POINTS_AN_ITEM_CPU : 1;
     memset(g, 0, sizeof *g);
     g->estimate = *estimate;

@@ -51,7 +51,8 @@ static rt_status make_gatherer(irradiance *a, const rt_photon_map *map, rt_photo
 
 static rt_status prepare(irradiance *a, const rt_photon_map *map, size_t count, rt_error *error)
 {
-    a->capacity = count < RT_GATHER_POINTS_MAX ? count : RT_GATHER_POINTS_MAX;
+    const size_t most = rt_gather_points_max(a->device);
+    a->capacity = count < most ? count : most;
     const char *name = rt_gather_kernel_name(a->search);
     rt_status status = rt_device_kernel(a->device, &a->kernel, name, name, a->options.hooks, error);
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
@@ -152,10 +153,7 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
         status = check_points(positions, normals, count, error);
     if (status != RT_OK || count == 0)
         return status;
-    a.search = a.options.gather == RT_GATHER_DEVICE || a.options.k == RT_K_ALL ||
-                       a.options.caustic_k == RT_K_ALL
-                   ? RT_SEARCH_TREE
-                   : RT_SEARCH_NEIGHBOURS;
+    a.search = rt_photon_search_of(device, a.options.gather, a.options.k, a.options.caustic_k);
     rt_photon_map_warn_even(map, a.options.area, a.options.hooks);
     status = prepare(&a, map, count, error);
     for (size_t done = 0, now; done < count && status == RT_OK; done += now) {

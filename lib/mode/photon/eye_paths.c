@@ -133,7 +133,7 @@ rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
     paths->device = job->renderer->device;
     paths->kernels = *kernels;
     paths->rows = o->final_gather < o->max_depth ? o->final_gather : o->max_depth;
-    paths->capacity = RT_GATHER_POINTS_MAX / (1 + paths->rows);
+    paths->capacity = rt_gather_points_max(paths->device) / (1 + paths->rows);
     if (pixels < paths->capacity)
         paths->capacity = pixels;
     rt_status status = create_memory(paths, error);

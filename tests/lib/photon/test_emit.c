@@ -77,8 +77,11 @@ static rt_renderer *make_room(const float kd[3], ceiling above, setting how)
     return make_room_on(test_device(), kd, above, how);
 }
 
+/* Whose work it is to bring photons together: that of the usual side, or the device's anyway. */
+typedef enum packing { PACKING_USUAL, PACKING_ON_DEVICE } packing;
+
 static rt_photon_map emit_map(rt_renderer *renderer, uint32_t max_depth, rt_direct direct,
-                              uint64_t count)
+                              uint64_t count, packing how)
 {
     rt_photon_map map = {.settings = {.max_depth = max_depth, .direct = direct}};
     rt_emitter *emitter = NULL;
@@ -93,6 +96,8 @@ static rt_photon_map emit_map(rt_renderer *renderer, uint32_t max_depth, rt_dire
     expect_ok(
         rt_emitter_create(&emitter, renderer->device, kernel, renderer->scene, NULL, 0, &error),
         &error);
+    if (how == PACKING_ON_DEVICE)
+        rt_emitter_pack(emitter);
     expect_ok(rt_emitter_emit(emitter, &map, RT_PHOTONS_GLOBAL, test_seed(11), 0, count, &progress,
                               &error),
               &error);
@@ -106,14 +111,20 @@ static rt_photon_map emit_map(rt_renderer *renderer, uint32_t max_depth, rt_dire
 }
 
 /* The photons alone. */
-static rt_photon_list emit(rt_renderer *renderer, uint32_t max_depth, rt_direct direct,
-                           uint64_t count)
+static rt_photon_list emit_by(rt_renderer *renderer, uint32_t max_depth, rt_direct direct,
+                              uint64_t count, packing how)
 {
-    rt_photon_map map = emit_map(renderer, max_depth, direct, count);
+    rt_photon_map map = emit_map(renderer, max_depth, direct, count, how);
     rt_photon_list list = map.lists[RT_PHOTONS_GLOBAL];
     map.lists[RT_PHOTONS_GLOBAL] = (rt_photon_list){0};
     rt_photon_map_free(&map);
     return list;
+}
+
+static rt_photon_list emit(rt_renderer *renderer, uint32_t max_depth, rt_direct direct,
+                           uint64_t count)
+{
+    return emit_by(renderer, max_depth, direct, count, PACKING_USUAL);
 }
 
 static uint32_t segments(const rt_photon *photon)
@@ -280,6 +291,26 @@ static void maps_do_not_depend_on_batches(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Where nearly all slots are full, what is packed of a batch takes more than one reading. */
+static void maps_do_not_depend_on_who_packs_them(void **state)
+{
+    static const float albedos[] = {0.3f, 0.999f};
+    (void)state;
+    for (size_t i = 0; i < sizeof albedos / sizeof *albedos; i++) {
+        const float kd[3] = {albedos[i], albedos[i], albedos[i]};
+        rt_renderer *renderer = make_room(kd, CEILING_MIRROR, LIGHT_IN_GLASS);
+        rt_photon_list expected = emit_by(renderer, 128, RT_DIRECT_PHOTONS, 9000, PACKING_USUAL);
+        rt_photon_list packed = emit_by(renderer, 128, RT_DIRECT_PHOTONS, 9000, PACKING_ON_DEVICE);
+        assert_int_equal(packed.count, expected.count);
+        assert_int_equal(packed.emitted, expected.emitted);
+        assert_memory_equal(packed.photons, expected.photons,
+                            expected.count * sizeof *expected.photons);
+        rt_photon_list_clear(&expected);
+        rt_photon_list_clear(&packed);
+        rt_renderer_destroy(renderer);
+    }
+}
+
 static void maps_do_not_depend_on_threads_and_work_groups(void **state)
 {
     static const float kd[3] = {0.2f, 0.5f, 0.8f};
@@ -361,6 +392,7 @@ int main(void)
         cmocka_unit_test(delta_surfaces_store_nothing_and_pass_all_flux),
         cmocka_unit_test(photons_are_whole),
         cmocka_unit_test(maps_do_not_depend_on_batches),
+        cmocka_unit_test(maps_do_not_depend_on_who_packs_them),
         cmocka_unit_test(more_photons_than_fit_are_foreseen),
         cmocka_unit_test(emission_stops_when_photons_will_not_fit),
         cmocka_unit_test(maps_do_not_depend_on_threads_and_work_groups),
