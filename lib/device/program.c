@@ -44,10 +44,27 @@ static rt_status report_build(rt_device *device, cl_program program, const char 
                    name, device->info.name, rt_cl_error_name(code), line);
 }
 
+/* Whether the device has an extension; where it does not answer, it has none. */
+static int has_extension(const rt_device *device, const char *name)
+{
+    size_t size = 0;
+    if (clGetDeviceInfo(device->id, CL_DEVICE_EXTENSIONS, 0, NULL, &size) != CL_SUCCESS)
+        return 0;
+    char *all = calloc(size + 1, 1);
+    int found = all &&
+                clGetDeviceInfo(device->id, CL_DEVICE_EXTENSIONS, size, all, NULL) == CL_SUCCESS &&
+                strstr(all, name) != NULL;
+    free(all);
+    return found;
+}
+
 /*
  * The paths that a work-item follows at a time, and exact division: bounds on rounding in the
  * kernels take quotients and roots to be correctly rounded, which OpenCL 1.2 promises on demand
  * alone, where a device can do it.
+ *
+ * NVIDIA's compiler would give a work-item up to 255 registers, so that few run at once. With 128
+ * paths are followed a tenth faster; with fewer it depends on the scene (measured on an H100).
  */
 static rt_status build_options(char *options, size_t size, const rt_device *device, rt_error *error)
 {
@@ -57,9 +74,10 @@ static rt_status build_options(char *options, size_t size, const rt_device *devi
                     "asking the device how it rounds", error);
     if (status != RT_OK)
         return status;
-    snprintf(options, size, "-cl-std=CL1.2 -D RT_WIDTH=%u%s", device->width,
+    snprintf(options, size, "-cl-std=CL1.2 -D RT_WIDTH=%u%s%s", device->width,
              can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt"
-                                                       : "");
+                                                       : "",
+             has_extension(device, "cl_nv_compiler_options") ? " -cl-nv-maxrregcount=128" : "");
     return RT_OK;
 }
 
