@@ -57,7 +57,8 @@ static inline void connect_light(struct connection *connection, const struct sce
 static inline void add_connection(struct path *path, const struct scene *scene,
                                   const struct connection *connection)
 {
-    if (largest3(connection->radiance) > 0.0f && !occluded(scene, &connection->ray))
+    const struct ray ray = connection->ray; /* a copy, as in path_extend */
+    if (largest3(connection->radiance) > 0.0f && !occluded(scene, &ray))
         path->radiance += connection->radiance;
 }
 

@@ -87,9 +87,13 @@ static inline void path_extend(const struct scene *scene, const rt_params *param
     /* Draw the sample values of the next vertex: that hides the latency of memory below. */
     const float8 u = path_numbers(path);
 
-    /* Find the nearest surface, or what the environment emits. */
+    /*
+     * Find the nearest surface, or what the environment emits. A copy of the ray is handed on, so
+     * that the path can live in registers.
+     */
+    const struct ray ray = path->ray;
     struct hit hit;
-    if (!closest_hit(scene, &path->ray, &hit)) {
+    if (!closest_hit(scene, &ray, &hit)) {
         add_environment(path, scene, params, purpose);
         path->alive = false;
         return;

@@ -62,9 +62,9 @@ check programs_compile_without_a_warning_at_both_widths "$work/warnings"
 grep -E '\[[0-9]+ x (%|<|float)' "$work/private" >"$work/arrays"
 check no_array_of_paths_hits_or_lanes_is_in_private_memory "$work/arrays"
 
-# One of each, and the words that a pixel of the film reserves.
-handed='connection|contact|hit|light_sample|path|rt_params|scene|surface'
+# One of each, but of rays the path's own and the shadow ray; and the sums of a pixel of the film.
+handed='contact|hit|light_sample|rt_params|scene|surface'
 grep -E '^(path|photon_camera):' "$work/own" |
-    grep -vE "^[a-z_]+: +1 (%struct\.($handed)|\[3 x i32\])\$" >"$work/rest"
+    grep -vE "^[a-z_]+: +(1 %struct\.($handed)|2 %struct\.ray|6 i64)\$" >"$work/rest"
 check a_path_has_in_private_memory_what_it_hands_to_calls "$work/rest"
 exit $bad
