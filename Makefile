@@ -91,6 +91,7 @@ LIB_SRC := \
 	lib/scene/texture.c lib/scene/transform.c lib/scene/view.c \
 	lib/setting/field.c lib/setting/number.c lib/setting/options.c lib/setting/setting.c \
 	lib/setting/table.c lib/setting/word.c \
+	lib/share/choose.c lib/share/render.c lib/share/share.c \
 	lib/shape/area_scale.c lib/shape/unit_sphere.c lib/shape/box.c lib/shape/classes.c \
 	lib/shape/cone.c lib/shape/cylinder.c lib/shape/disc.c lib/shape/edges.c \
 	lib/shape/ellipsoid.c lib/shape/frustum.c lib/shape/placed.c lib/shape/plane.c \
@@ -191,6 +192,7 @@ TESTS_PROOF := \
 TESTS_FULL  := \
 	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
 	tests/lib/mode/test_photon_mode.c tests/lib/mode/test_film_parts.c \
+	tests/lib/share/test_share.c \
 	tests/lib/photon/test_unbiased.c \
 	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
@@ -226,7 +228,7 @@ TEST_SUPPORT_SRC := \
 	tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \
 	tests/lib/photon/emitted.c tests/lib/photon/points.c \
-	tests/lib/mode/photon_room.c \
+	tests/lib/mode/film_renders.c tests/lib/mode/photon_room.c \
 	tests/lib/scene/scenes.c \
 	tests/proof/optics.c tests/proof/page.c tests/proof/proof.c \
 	tests/statistics/chi_square.c tests/statistics/emission.c tests/statistics/emitters.c \
@@ -580,7 +582,7 @@ REALNAME    := librt-render.so.$(VERSION)
 BINDIR      ?= $(PREFIX)/bin
 INCLUDEDIR  ?= $(PREFIX)/include
 PUBLIC_H    := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h render.h \
-               scene.h setting.h)
+               scene.h setting.h share.h)
 INSTALLED    = $(BINDIR)/rtc $(LIBDIR)/pkgconfig/librt-render.pc \
                $(addprefix $(INCLUDEDIR)/rt/,rt.h common.h $(notdir $(PUBLIC_H))) \
                $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a)

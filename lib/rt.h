@@ -90,6 +90,7 @@
 #include "rt/setting.h"
 #include "rt/photon.h"
 #include "rt/film.h"
+#include "rt/share.h"
 #include "rt/image.h"
 
 #endif

@@ -113,3 +113,32 @@ rt_unit_range rt_coverage_gap(const rt_coverage *coverage, uint64_t first, uint6
         end = coverage->ranges[i].first;
     return (rt_unit_range){first, first < end ? end - first : 0};
 }
+
+uint64_t rt_coverage_prefix(const rt_coverage *coverage)
+{
+    return coverage->count > 0 && coverage->ranges[0].first == 0 ? coverage->ranges[0].count : 0;
+}
+
+rt_status rt_coverage_remove(rt_coverage *coverage, rt_unit_range range, rt_error *error)
+{
+    const uint64_t end = range.first + range.count;
+    rt_coverage rest = {0};
+    rt_status status = RT_OK;
+    for (size_t i = 0; i < coverage->count && status == RT_OK; i++) {
+        const rt_unit_range r = coverage->ranges[i];
+        const uint64_t r_end = r.first + r.count;
+        const uint64_t before = r_end < range.first ? r_end : range.first,
+                       after = r.first > end ? r.first : end;
+        if (r.first < before)
+            status = rt_coverage_add(&rest, (rt_unit_range){r.first, before - r.first}, error);
+        if (status == RT_OK && after < r_end)
+            status = rt_coverage_add(&rest, (rt_unit_range){after, r_end - after}, error);
+    }
+    if (status != RT_OK) {
+        rt_coverage_free(&rest);
+        return status;
+    }
+    rt_coverage_free(coverage);
+    *coverage = rest;
+    return RT_OK;
+}

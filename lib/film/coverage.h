@@ -26,6 +26,12 @@ int rt_coverage_overlaps(const rt_coverage *a, const rt_coverage *b);
 /* The units of a set. */
 uint64_t rt_coverage_units(const rt_coverage *coverage);
 
+/* The units from the first one of the picture on that are in the set. */
+uint64_t rt_coverage_prefix(const rt_coverage *coverage);
+
+/* Takes the units of a range out of the set, as far as they are in it. */
+rt_status rt_coverage_remove(rt_coverage *coverage, rt_unit_range range, rt_error *error);
+
 /*
  * The first run of units from `first` on and before `end` that are not in the set; its count is 0
  * when there is none.

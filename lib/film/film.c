@@ -55,6 +55,7 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_mem
     film->options.checkpoint_user = film->options.units_user = NULL;
     film->options.next_units = NULL;
     film->options.note = NULL;
+    film->options.hand_over = 0;
     const uint64_t reserved = bytes_reserved(options);
     film->units = rt_units_of(options, 0);
     film->note = options->note ? copy_text(options->note) : NULL;
@@ -103,6 +104,27 @@ void rt_film_destroy(rt_film *film)
     rt_film_layers_free(&film->layers);
     rt_memory_give(film->memory, film->reserved);
     free(film);
+}
+
+void rt_film_clear(rt_film *film)
+{
+    const rt_film_stats before = film->stats;
+    const size_t pixels = rt_film_pixels(film);
+    memset(film->pixels, 0, rt_film_bytes(film));
+    if (film->layer_sums)
+        memset(film->layer_sums, 0, RT_LAYER_COUNT * pixels * sizeof *film->layer_sums);
+    if (film->photon_sums)
+        memset(film->photon_sums, 0, pixels * sizeof *film->photon_sums);
+    film->done.count = 0;
+    film->stats = (rt_film_stats){.light_power = before.light_power};
+    if (film->units.in_passes) {
+        rt_ledger_reset(&film->ledger);
+        return;
+    }
+    /* Without passes the same photons serve all samples. */
+    film->stats.photons_emitted = before.photons_emitted;
+    film->stats.photons_stored = before.photons_stored;
+    film->stats.photons_rejected = before.photons_rejected;
 }
 
 size_t rt_film_pixels(const rt_film *film)

@@ -37,6 +37,9 @@ struct rt_film {
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_memory *memory,
                          rt_error *error);
 
+/* Takes all samples out of a film; what it is a picture of stays. */
+void rt_film_clear(rt_film *film);
+
 /* width * height */
 size_t rt_film_pixels(const rt_film *film);
 

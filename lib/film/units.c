@@ -99,6 +99,30 @@ double rt_units_samples_before(const rt_units *units, uint64_t unit)
     return samples;
 }
 
+double rt_units_amount(const rt_units *units, rt_unit_range range)
+{
+    if (units->in_passes)
+        return (double)range.count;
+    double samples = 0;
+    for (uint64_t first = range.first, end = range.first + range.count; first < end;) {
+        const uint64_t block_end = (first / units->items + 1) * units->items,
+                       to = block_end < end ? block_end : end;
+        samples += (double)rt_units_block(units, first).count * (double)(to - first);
+        first = to;
+    }
+    return samples / units->items;
+}
+
+uint32_t rt_units_length(const rt_units *units, uint64_t unit)
+{
+    const uint64_t rounds = unit / units->items / units->replicates;
+    if (rounds == 0)
+        return units->base / units->replicates;
+    const rt_sample_block last =
+        rt_units_block(units, (rounds * units->replicates - 1) * units->items);
+    return last.first + last.count;
+}
+
 uint64_t rt_units_chunks(const rt_units *units)
 {
     const uint64_t in_block = (units->items + RT_CHUNK_ITEMS - 1) / RT_CHUNK_ITEMS;

@@ -53,6 +53,12 @@ rt_sample_block rt_units_block(const rt_units *units, uint64_t unit);
 /* Samples of a pixel in the units before this one, of all replicates, without those of `base`. */
 double rt_units_samples_before(const rt_units *units, uint64_t unit);
 
+/* Samples, of all replicates, or passes in some units, as a mean over the pixels. */
+double rt_units_amount(const rt_units *units, rt_unit_range range);
+
+/* The samples, or passes, that each replicate has with the units before this one. */
+uint32_t rt_units_length(const rt_units *units, uint64_t unit);
+
 /*
  * A chunk is the part of the work that is handed out: up to RT_CHUNK_ITEMS units of one block, or a
  * pass.

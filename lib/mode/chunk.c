@@ -48,14 +48,14 @@ typedef struct once {
     uint64_t first, count;
 } once;
 
-static int next(void *user, uint64_t *first, uint64_t *count)
+static rt_units_answer next(void *user, uint64_t *first, uint64_t *count)
 {
     once *units = user;
-    const int there_are = units->count > 0;
+    const rt_units_answer answer = units->count > 0 ? RT_UNITS_GIVEN : RT_UNITS_NONE;
     *first = units->first;
     *count = units->count;
     units->count = 0;
-    return there_are;
+    return answer;
 }
 
 rt_status rt_chunk_render(rt_film **out, rt_renderer *renderer, const rt_render_options *options,

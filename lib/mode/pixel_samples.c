@@ -60,6 +60,18 @@ static rt_status read_sums(const rt_render_job *job, const rt_pixel_samples *sta
     return status == RT_OK ? rt_first_hit_layers_read(job->layers, film, error) : status;
 }
 
+/* Writes the sums to the device. */
+static rt_status write_sums(const rt_render_job *job, const rt_pixel_samples *state,
+                            rt_error *error)
+{
+    const rt_film *film = job->film;
+    rt_status status = RT_OK;
+    if (state->kernel)
+        status = rt_buffer_write(state->device, state->pixels, 0, rt_film_bytes(film), film->pixels,
+                                 error);
+    return status == RT_OK ? rt_first_hit_layers_write(job->layers, film, error) : status;
+}
+
 /* Tests the error and makes a checkpoint where these are due. */
 static rt_status look(const rt_render_job *job, const rt_pixel_samples *state, rt_work *work,
                       rt_stage_progress *progress, rt_error *error)
@@ -70,8 +82,8 @@ static rt_status look(const rt_render_job *job, const rt_pixel_samples *state, r
         status = read_sums(job, state, error);
     if (status == RT_OK && test)
         rt_work_test(work);
-    if (status == RT_OK && save)
-        rt_work_save(work);
+    if (status == RT_OK && save && rt_work_save(work))
+        status = write_sums(job, state, error);
     progress->error = rt_noise_last(&work->noise);
     return status;
 }
@@ -87,6 +99,8 @@ static rt_status sample_film(const rt_render_job *job, const rt_pixel_samples *s
 
     while (status == RT_OK && rt_work_next(work, &run)) {
         const uint32_t each = rt_units_block(&job->film->units, run.first).count;
+        if (run.count == 0)
+            status = look(job, state, work, progress, error);
         while (status == RT_OK && run.count > 0 && !rt_work_is_out_of_time(work)) {
             const double most = each > 0 ? samples / each + 1 : (double)run.count;
             const rt_unit_range now = {run.first,

@@ -8,6 +8,7 @@
 #include "mode/modes.h"
 #include "mode/photon/layers.h"
 #include "photon/fingerprint.h"
+#include "photon/map_check.h"
 #include "photon/photon_map.h"
 #include "setting/options.h"
 
@@ -29,7 +30,7 @@ static rt_status check_part(const rt_render_options *o, rt_error *error)
 {
     if (o->parts > 0 && (o->part < 1 || o->part > o->parts))
         return rt_fail_field(error, RT_ERROR_USAGE, "part", "part %u of %u", o->part, o->parts);
-    if (o->target_error > 0 && (o->parts > 1 || o->next_units))
+    if (o->target_error > 0 && o->parts > 1)
         return rt_fail_field(error, RT_ERROR_USAGE, "target_error",
                              "the error of the picture cannot be tested in a part of it");
     return RT_OK;
@@ -115,8 +116,11 @@ static rt_status run(rt_render_job *job, rt_error *error)
     status = prepare(mode, job, state, error);
     if (status == RT_OK)
         status = mode->run(job, state, error);
-    if ((status == RT_OK || status == RT_CANCELLED) && job->options->checkpoint)
+    if ((status == RT_OK || status == RT_CANCELLED) && job->options->checkpoint) {
         job->options->checkpoint(job->options->checkpoint_user, job->film);
+        if (job->options->hand_over)
+            rt_film_clear(job->film);
+    }
     if (status == RT_OK || status == RT_CANCELLED) {
         rt_status resolved = rt_film_resolve(job->film, job->options->hooks, error);
         status = resolved == RT_OK ? status : resolved;
@@ -141,9 +145,12 @@ static rt_status identify(rt_render_job *job, rt_error *error)
     const rt_render_options *o = job->options;
     rt_film *film = job->film;
     rt_renderer *renderer = job->renderer;
+    int is_own = 1; /* the photons are those that the render itself would emit */
     rt_status status =
         rt_picture_fingerprint(&film->scene, renderer->device, renderer->scene, error);
-    for (int kind = 0; kind < RT_PHOTON_KINDS && o->photon_map; kind++) {
+    if (status == RT_OK && o->photon_map)
+        status = rt_photon_map_is_emitted(&is_own, o->photon_map, renderer, o, error);
+    for (int kind = 0; kind < RT_PHOTON_KINDS && !is_own; kind++) {
         const rt_path_ranges *ranges = o->photon_map->ranges + kind;
         film->light = rt_fingerprint(film->light, &ranges->count, sizeof ranges->count);
         for (size_t i = 0; i < ranges->count; i++) {
@@ -159,15 +166,43 @@ static rt_status identify(rt_render_job *job, rt_error *error)
 }
 
 /* Makes what the render needs besides its mode. */
-static rt_status open(rt_render_job *job, rt_error *error)
+static rt_status open(rt_render_job *job, int is_joined, rt_error *error)
 {
     const rt_render_options *o = job->options;
     rt_status status = rt_renderer_aim(job->renderer, o, error);
     if (status == RT_OK)
         status = rt_film_create(&job->film, o, job->renderer->device->memory, error);
-    if (status == RT_OK && has_identity(o))
+    if (status == RT_OK && is_joined)
         status = identify(job, error);
-    return status == RT_OK && o->resume ? rt_film_continue(job->film, o->resume, error) : status;
+    if (status == RT_OK && o->resume)
+        status = rt_film_continue(job->film, o->resume, error);
+    if (status == RT_OK)
+        job->film->stats.light_power = job->renderer->image.light_power;
+    return status;
+}
+
+/* Checks a render, completes its options and makes its film. */
+static rt_status begin(rt_render_job *job, rt_render_options *o, int is_joined, rt_error *error)
+{
+    rt_status status = check_and_complete(o, error);
+    if (status == RT_OK && !job->renderer->has_camera)
+        status = rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
+    return status == RT_OK ? open(job, is_joined || has_identity(o), error) : status;
+}
+
+rt_status rt_film_begin(rt_film **out, rt_renderer *renderer, const rt_render_options *options,
+                        rt_error *error)
+{
+    if (rt_is_missing(renderer, "renderer", error))
+        return RT_ERROR_USAGE;
+    rt_render_options o = options ? *options : renderer->options;
+    rt_render_job job = {.renderer = renderer, .options = &o};
+    rt_status status = begin(&job, &o, 1, error);
+    if (status == RT_OK)
+        *out = job.film;
+    else
+        rt_film_destroy(job.film);
+    return status;
 }
 
 /* Whether a cancelled render is worth something: a picture without holes, or units of a part. */
@@ -183,16 +218,10 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
         return RT_ERROR_USAGE;
     rt_render_options o = options ? *options : renderer->options;
     rt_render_job job = {.renderer = renderer, .options = &o};
-    rt_status status = check_and_complete(&o, error);
-
-    if (status == RT_OK && !renderer->has_camera)
-        status = rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
-    if (status == RT_OK)
-        status = open(&job, error);
+    rt_status status = begin(&job, &o, 0, error);
     if (status != RT_OK)
         goto out;
     job.film->stats.build_seconds += renderer->build_seconds;
-    job.film->stats.light_power = renderer->image.light_power;
     status = run(&job, error);
     if (status == RT_CANCELLED) {
         *out = NULL;

@@ -8,21 +8,6 @@ static const double rarity = 100;
 
 /* ---- What comes next --------------------------------------------------------- */
 
-/* Samples a pixel, or passes, of some units, each weighted by its part of the picture. */
-static double amount(const rt_units *units, rt_unit_range range)
-{
-    if (units->in_passes)
-        return (double)range.count;
-    double samples = 0;
-    for (uint64_t first = range.first, end = range.first + range.count; first < end;) {
-        const uint64_t block_end = (first / units->items + 1) * units->items,
-                       to = block_end < end ? block_end : end;
-        samples += (double)rt_units_block(units, first).count * (double)(to - first);
-        first = to;
-    }
-    return samples / units->items;
-}
-
 /* What the film has of its work. */
 static double amount_done(const rt_film *film)
 {
@@ -35,19 +20,10 @@ static double amount_done(const rt_film *film)
     return done;
 }
 
-/* The units that all replicates have in common, in samples of each. */
+/* Samples that all replicates have in common. */
 static uint32_t length_done(const rt_film *film)
 {
-    const rt_units *units = &film->units;
-    if (film->done.count == 0 || film->done.ranges[0].first > 0)
-        return units->base / units->replicates;
-    const uint64_t blocks = film->done.ranges[0].count / units->items;
-    const uint64_t rounds = blocks / units->replicates;
-    if (rounds == 0)
-        return units->base / units->replicates;
-    const rt_sample_block last =
-        rt_units_block(units, (rounds * units->replicates - 1) * units->items);
-    return last.first + last.count;
+    return rt_units_length(&film->units, rt_coverage_prefix(&film->done));
 }
 
 rt_work rt_work_begin(rt_film *film, const rt_render_options *options)
@@ -93,14 +69,19 @@ int rt_work_next(rt_work *work, rt_unit_range *out)
     if (work->enough || rt_work_is_out_of_time(work))
         return 0;
     rt_unit_range range = find(work), given = {0, 0};
-    while (range.count == 0 && o->next_units &&
-           o->next_units(o->units_user, &given.first, &given.count)) {
+    rt_units_answer answer = o->next_units ? RT_UNITS_GIVEN : RT_UNITS_NONE;
+    while (range.count == 0 && answer == RT_UNITS_GIVEN) {
+        answer = o->next_units(o->units_user, &given.first, &given.count);
+        if (answer != RT_UNITS_GIVEN)
+            break;
         work->at = given.first;
         work->end = given.first + given.count;
         range = find(work);
     }
+    *out = range;
+    work->must_save = answer == RT_UNITS_SAVE;
     if (range.count == 0)
-        return 0;
+        return work->must_save;
     const uint64_t block_end = (range.first / units->items + 1) * units->items;
     if (range.count > block_end - range.first)
         range.count = block_end - range.first;
@@ -111,7 +92,7 @@ int rt_work_next(rt_work *work, rt_unit_range *out)
 
 rt_status rt_work_done(rt_work *work, rt_unit_range units, rt_error *error)
 {
-    work->done += amount(&work->film->units, units);
+    work->done += rt_units_amount(&work->film->units, units);
     return rt_coverage_add(&work->film->done, units, error);
 }
 
@@ -161,7 +142,8 @@ int rt_work_save_is_due(const rt_work *work)
 {
     const rt_render_options *o = work->options;
     return o->checkpoint &&
-           rt_clock() - work->saved >= fmax(o->checkpoint_seconds, rarity * work->saving);
+           (work->must_save ||
+            rt_clock() - work->saved >= fmax(o->checkpoint_seconds, rarity * work->saving));
 }
 
 void rt_work_time(rt_work *work, double *seconds)
@@ -176,11 +158,16 @@ void rt_work_end_time(rt_work *work)
         *work->seconds = work->before + rt_clock();
 }
 
-void rt_work_save(rt_work *work)
+int rt_work_save(rt_work *work)
 {
     const double began = rt_clock();
     rt_work_end_time(work);
     work->options->checkpoint(work->options->checkpoint_user, work->film);
+    if (work->options->hand_over)
+        rt_film_clear(work->film);
+    if (work->seconds)
+        rt_work_time(work, work->seconds);
     work->saved = rt_clock();
     work->saving = work->saved - began;
+    return work->options->hand_over;
 }

@@ -22,13 +22,17 @@ typedef struct rt_work {
     double before;    /* what they were, less rt_clock() */
     int is_whole;     /* neither a part nor handed out: the error can be tested on the way */
     int enough;       /* the error asked for is reached */
+    int must_save;    /* next_units wants a checkpoint */
     rt_noise noise;
 } rt_work;
 
 /* Begins with the units that the film lacks. */
 rt_work rt_work_begin(rt_film *film, const rt_render_options *options);
 
-/* The next units of one block; 0: there are none, or time is up, or the error small enough. */
+/*
+ * The next units of one block; 0: there are none, or time is up, or the error small enough. None at
+ * all where a checkpoint is to be made first, see rt_work_save_is_due.
+ */
 int rt_work_next(rt_work *work, rt_unit_range *out);
 
 /* Notes units whose samples the sums of the film, here or on the device, have. */
@@ -47,9 +51,12 @@ double rt_work_fraction(const rt_work *work);
 int rt_work_test_is_due(const rt_work *work);
 void rt_work_test(rt_work *work);
 
-/* Whether a checkpoint is due, which needs the film's sums: rt_work_save. */
+/*
+ * Whether a checkpoint is due, which needs the film's sums: rt_work_save. Returns whether the film
+ * was handed over and is empty now, which the device has to know.
+ */
 int rt_work_save_is_due(const rt_work *work);
-void rt_work_save(rt_work *work);
+int rt_work_save(rt_work *work);
 
 /* Books the time since this work began on these seconds of the film's stats, from now on. */
 void rt_work_time(rt_work *work, double *seconds);

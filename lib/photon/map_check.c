@@ -24,6 +24,38 @@ static rt_status check_shapes(const rt_photon_map *map, const rt_renderer *rende
     return status;
 }
 
+/* Whether a list has the paths that a render emits for it, and no others. */
+static int has_paths(const rt_path_ranges *ranges, uint64_t paths, uint32_t seed)
+{
+    const rt_path_range *r = ranges->ranges;
+    return paths == 0 ? ranges->count == 0
+                      : ranges->count == 1 && r->first == 0 && r->count == paths && r->seed == seed;
+}
+
+rt_status rt_photon_map_is_emitted(int *out, const rt_photon_map *map, const rt_renderer *renderer,
+                                   const rt_render_options *o, rt_error *error)
+{
+    const rt_photon_settings mine = rt_photon_settings_of(o), *its = &map->settings;
+    rt_light_sources lights = {0};
+    rt_ledger ledger = {0};
+
+    *out = 0;
+    if (its->max_depth != mine.max_depth || its->sampler != mine.sampler ||
+        its->direct != mine.direct || its->split != mine.split ||
+        !has_paths(map->ranges + RT_PHOTONS_GLOBAL, o->photons, o->seed) ||
+        !has_paths(map->ranges + RT_PHOTONS_CAUSTIC, o->caustic_photons, o->seed))
+        return RT_OK;
+    rt_status status = rt_light_sources_read(&lights, renderer->device, renderer->scene,
+                                             o->light_shares, o->light_share_count, error);
+    if (status == RT_OK)
+        status = rt_ledger_create(&ledger, &lights, error);
+    if (status == RT_OK)
+        *out = rt_ledger_matches(&ledger, &map->ledger);
+    rt_ledger_free(&ledger);
+    rt_light_sources_free(&lights);
+    return status;
+}
+
 rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *renderer,
                               const rt_render_options *options, rt_error *error)
 {

@@ -13,4 +13,8 @@
 rt_status rt_photon_map_check(const rt_photon_map *map, const rt_renderer *renderer,
                               const rt_render_options *options, rt_error *error);
 
+/* Whether a map is what a render by complete options would emit itself, in the same scene. */
+rt_status rt_photon_map_is_emitted(int *out, const rt_photon_map *map, const rt_renderer *renderer,
+                                   const rt_render_options *options, rt_error *error);
+
 #endif

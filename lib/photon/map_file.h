@@ -58,16 +58,12 @@ enum {
 extern const uint8_t rt_map_magic[8];
 
 /* A map as the bytes of its file. The caller frees *out. */
-rt_status rt_photon_map_encode(rt_bytes *out, const rt_photon_map *map, rt_error *error);
+rt_status rt_photon_map_encode_in(rt_bytes *out, const rt_photon_map *map, rt_error *error);
 
 /*
- * The map that a file of these bytes holds; name stands for the file in messages. Fails with
- * RT_ERROR_INPUT when it is damaged. The caller owns *out.
+ * The map that a file of these bytes holds, counted in `memory`; name stands for the file in
+ * messages. Fails with RT_ERROR_INPUT when it is damaged. The caller owns *out.
  */
-rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size,
-                               const char *name, rt_error *error);
-
-/* The same, with a map that counts in `memory`. */
 rt_status rt_photon_map_decode_in(rt_photon_map **out, const uint8_t *data, size_t size,
                                   const char *name, rt_memory *memory, rt_error *error);
 

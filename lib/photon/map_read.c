@@ -224,10 +224,10 @@ static rt_status read_photons(reader *r, rt_photon_list *list, const rt_path_ran
     return status;
 }
 
-rt_status rt_photon_map_decode(rt_photon_map **out, const uint8_t *data, size_t size,
-                               const char *name, rt_error *error)
+rt_status rt_photon_map_decode(rt_photon_map **out, const void *data, size_t size,
+                               rt_memory *memory, rt_error *error)
 {
-    return rt_photon_map_decode_in(out, data, size, name, NULL, error);
+    return rt_photon_map_decode_in(out, data, size, "the buffer", memory, error);
 }
 
 rt_status rt_photon_map_decode_in(rt_photon_map **out, const uint8_t *data, size_t size,

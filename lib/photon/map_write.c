@@ -64,7 +64,7 @@ static size_t file_size_of(const rt_photon_map *map)
     return size;
 }
 
-rt_status rt_photon_map_encode(rt_bytes *out, const rt_photon_map *map, rt_error *error)
+rt_status rt_photon_map_encode_in(rt_bytes *out, const rt_photon_map *map, rt_error *error)
 {
     rt_memory *memory = map->lists[RT_PHOTONS_GLOBAL].memory;
     size_t size = file_size_of(map);
@@ -91,12 +91,31 @@ rt_status rt_photon_map_encode(rt_bytes *out, const rt_photon_map *map, rt_error
     return RT_OK;
 }
 
+rt_status rt_photon_map_encode(const rt_photon_map *map, void *buffer, size_t capacity,
+                               size_t *size, rt_error *error)
+{
+    rt_bytes bytes = {0};
+    if (rt_is_missing(map, "map", error))
+        return RT_ERROR_USAGE;
+    *size = file_size_of(map);
+    if (!buffer)
+        return RT_OK;
+    if (*size > capacity)
+        return rt_fail(error, RT_ERROR_USAGE,
+                       "the photon map takes %zu bytes, and the buffer has %zu", *size, capacity);
+    rt_status status = rt_photon_map_encode_in(&bytes, map, error);
+    if (status == RT_OK)
+        memcpy(buffer, bytes.data, bytes.size);
+    rt_bytes_free(&bytes);
+    return status;
+}
+
 rt_status rt_photon_map_save(const rt_photon_map *map, const char *path, rt_error *error)
 {
     if (rt_is_missing(map, "map", error))
         return RT_ERROR_USAGE;
     rt_bytes bytes = {0};
-    rt_status status = rt_photon_map_encode(&bytes, map, error);
+    rt_status status = rt_photon_map_encode_in(&bytes, map, error);
     if (status == RT_OK)
         status = rt_file_replace(path, &bytes, error);
     rt_bytes_free(&bytes);

@@ -189,6 +189,13 @@ RT_API rt_status rt_film_decode(rt_film **out, const void *data, size_t size, rt
 RT_API rt_status rt_film_add(rt_film *film, const rt_film *other, rt_error *error);
 
 /*
+ * The film of a render without its samples, or with those of options->resume: what other films of
+ * the picture are added to. options NULL: the scene's own. The caller owns *out.
+ */
+RT_API rt_status rt_film_begin(rt_film **out, rt_renderer *renderer,
+                               const rt_render_options *options, rt_error *error);
+
+/*
  * Makes means, layers and statistics from the sums of a film that was loaded, decoded or added to.
  * hooks: for warnings; may be NULL.
  */

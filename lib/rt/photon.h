@@ -149,6 +149,16 @@ RT_API rt_status rt_photon_map_load_in(rt_photon_map **out, const char *path, rt
                                        rt_error *error);
 
 /*
+ * The same bytes in memory of the caller: *size receives their number, and buffer [capacity] the
+ * bytes. Fails with RT_ERROR_USAGE when they do not fit; buffer NULL asks for the size alone. A map
+ * that is decoded counts in `memory`, which may be NULL.
+ */
+RT_API rt_status rt_photon_map_encode(const rt_photon_map *map, void *buffer, size_t capacity,
+                                      size_t *size, rt_error *error);
+RT_API rt_status rt_photon_map_decode(rt_photon_map **out, const void *data, size_t size,
+                                      rt_memory *memory, rt_error *error);
+
+/*
  * Writes the photons as the points of a binary PLY file: position, normal, flux in W, direction of
  * travel, segments of the path, whether caustic, and an 8-bit colour (the flux by the brightest,
  * sRGB) for viewers; and the shape that it lies on, as rt_hit.shape, and the seed and index of its

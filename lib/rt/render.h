@@ -53,6 +53,13 @@ typedef enum rt_gather { RT_GATHER_AUTO = 0, RT_GATHER_FLANN, RT_GATHER_DEVICE }
 typedef struct rt_photon_map rt_photon_map;
 typedef struct rt_film rt_film;
 
+/* What rt_render_options.next_units answers. */
+typedef enum rt_units_answer {
+    RT_UNITS_NONE = 0, /* there are none left */
+    RT_UNITS_GIVEN,
+    RT_UNITS_SAVE /* checkpoint is to be called now, then next_units again */
+} rt_units_answer;
+
 /*
  * The settings of a render, and what belongs to one call. A scene carries such options as its
  * defaults. The ranges, defaults and effects of settings stand in one table, rt_settings of
@@ -167,11 +174,17 @@ typedef struct rt_render_options {
      */
     const char *note;
     /*
-     * hands out work: sets first and count to a range of units, as rt_chunk_units has them, that no
-     * other film of the picture has, and returns 1, or 0 when there are none left. NULL: all units
-     * that the film lacks, or its part. target_error is not for it
+     * 1: checkpoint takes all samples away, and the film begins anew after each call, so that the
+     * films that it was called with add up to the picture. The film of rt_render is then empty
      */
-    int (*next_units)(void *user, uint64_t *first, uint64_t *count);
+    int hand_over;
+    /*
+     * hands out work: sets first and count to a range of units, as rt_chunk_units has them, that no
+     * other film of the picture has, and returns RT_UNITS_GIVEN. NULL: all units that the film
+     * lacks, or its part. target_error makes independent sequences, but whoever hands out the units
+     * tests the error
+     */
+    rt_units_answer (*next_units)(void *user, uint64_t *first, uint64_t *count);
     void *units_user;
 } rt_render_options;
 

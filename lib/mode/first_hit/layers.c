@@ -52,10 +52,23 @@ rt_status rt_first_hit_layers_add(rt_first_hit_layers *layers, const rt_params *
                : status;
 }
 
+static size_t bytes_of(const rt_film *film)
+{
+    return RT_LAYER_COUNT * rt_film_pixels(film) * sizeof *film->layer_sums;
+}
+
+rt_status rt_first_hit_layers_write(const rt_first_hit_layers *layers, const rt_film *film,
+                                    rt_error *error)
+{
+    return layers->kernel ? rt_buffer_write(layers->renderer->device, layers->sums, 0,
+                                            bytes_of(film), film->layer_sums, error)
+                          : RT_OK;
+}
+
 rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *film,
                                    rt_error *error)
 {
-    size_t bytes = RT_LAYER_COUNT * rt_film_pixels(film) * sizeof *film->layer_sums;
+    const size_t bytes = bytes_of(film);
     return layers->kernel ? rt_buffer_read(layers->renderer->device, layers->sums, 0, bytes,
                                            film->layer_sums, error)
                           : RT_OK;

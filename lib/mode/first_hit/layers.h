@@ -33,6 +33,10 @@ rt_status rt_first_hit_layers_add(rt_first_hit_layers *layers, const rt_params *
 rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *film,
                                    rt_error *error);
 
+/* Copies the sums of the film to the device. Does nothing where there are no layers. */
+rt_status rt_first_hit_layers_write(const rt_first_hit_layers *layers, const rt_film *film,
+                                    rt_error *error);
+
 /* Makes the film's layers, means and ids, from the sums, if there are any. */
 void rt_first_hit_layers_resolve(rt_film *film);
 

@@ -353,6 +353,14 @@ rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)
     return status == RT_OK ? rt_first_hit_layers_read(paths->job->layers, film, error) : status;
 }
 
+rt_status rt_eye_paths_write(const rt_eye_paths *paths, rt_error *error)
+{
+    const rt_film *film = paths->job->film;
+    rt_status status =
+        rt_buffer_write(paths->device, paths->pixels, 0, rt_film_bytes(film), film->pixels, error);
+    return status == RT_OK ? rt_first_hit_layers_write(paths->job->layers, film, error) : status;
+}
+
 rt_status rt_eye_paths_begin_pass(rt_eye_paths *paths, rt_error *error)
 {
     const size_t pixels = rt_film_pixels(paths->job->film);

@@ -64,8 +64,9 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
                              uint32_t sample, float *squared, rt_stage_progress *progress,
                              rt_error *error);
 
-/* Reads the film from the device, and the layers of the first hit. Not in passes. */
+/* Reads the film from the device, and the layers of the first hit; writes them. Not in passes. */
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error);
+rt_status rt_eye_paths_write(const rt_eye_paths *paths, rt_error *error);
 
 /*
  * In passes: an empty film for the next one; and the samples of one, from `first` on, added to this

@@ -174,6 +174,18 @@ static rt_status render_pass(rt_photon_render *r, uint32_t pass, rt_stage_progre
     return status;
 }
 
+/* Makes a checkpoint where it is due. */
+static rt_status save(rt_photon_render *r, rt_error *error)
+{
+    const rt_render_job *job = r->job;
+    if (!rt_work_save_is_due(&r->work))
+        return RT_OK;
+    rt_status status = rt_first_hit_layers_read(job->layers, job->film, error);
+    if (status == RT_OK && rt_work_save(&r->work))
+        status = rt_first_hit_layers_write(job->layers, job->film, error);
+    return status;
+}
+
 /* Notes that a pass is done; tests the error and makes a checkpoint where these are due. */
 static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
                           rt_error *error)
@@ -183,11 +195,8 @@ static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress 
     film->stats.passes++;
     if (status == RT_OK && rt_work_test_is_due(&r->work))
         rt_work_test(&r->work);
-    if (status == RT_OK && rt_work_save_is_due(&r->work)) {
-        status = rt_first_hit_layers_read(r->job->layers, film, error);
-        if (status == RT_OK)
-            rt_work_save(&r->work);
-    }
+    if (status == RT_OK)
+        status = save(r, error);
     progress->error = rt_noise_last(&r->work.noise);
     return status;
 }
@@ -202,6 +211,10 @@ rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
     rt_status status = rt_stage_begin(&progress, o->hooks, RT_STAGE_RENDER);
     while (status == RT_OK && rt_work_next(&r->work, &run)) {
         const uint32_t pass = (uint32_t)run.first;
+        if (run.count == 0) {
+            status = save(r, error);
+            continue;
+        }
         const double began = rt_clock(), from = rt_work_fraction(&r->work);
         const double to = from + fmax(1 / r->work.all, o->time > 0 ? longest / o->time : 0);
         rt_stage_part(&progress, from, fmin(to, 1));

@@ -99,8 +99,8 @@ static rt_status save(rt_photon_render *r, rt_error *error)
     if (!rt_work_save_is_due(&r->work))
         return RT_OK;
     rt_status status = rt_eye_paths_read(&r->eye_paths, error);
-    if (status == RT_OK)
-        rt_work_save(&r->work);
+    if (status == RT_OK && rt_work_save(&r->work))
+        status = rt_eye_paths_write(&r->eye_paths, error);
     return status;
 }
 
@@ -120,7 +120,7 @@ static rt_status sample(rt_photon_render *r, rt_stage_progress *progress, rt_err
         const rt_unit_range items = {run.first % units->items, run.count};
         const double from = rt_work_fraction(&r->work);
         rt_stage_part(progress, from, from);
-        if (block.count > 0)
+        if (block.count > 0 && run.count > 0)
             status = rt_eye_paths_sample(&r->eye_paths, &r->queries, items, block.first, progress,
                                          error);
         /* A cancel comes after the batch is in the film. */

@@ -7,60 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "film/film.h"
-
-static const char room[] = "camera { eye 0 1 3.4  look_at 0 1 0  fov 50 }\n"
-                           "material white { kd 0.7 0.6 0.5 }\n"
-                           "material glass { kt 1 1 1  ior 1.5  fresnel dielectric }\n"
-                           "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 0 2  material white }\n"
-                           "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 2 0  material white }\n"
-                           "sphere { centre 0.2 0.5 0  radius 0.4  material glass }\n"
-                           "light point { position 0.1 1.8 0.3  intensity 3 2 1 }\n";
-
-enum { width = 70, height = 41, pixels = width * height };
-
-/* The renders: of each mode, with all that accumulates beside the picture. */
-typedef struct named_options {
-    const char *name;
-    rt_render_options options;
-} named_options;
-
-static const named_options renders[] = {
-    {"path", {.mode = RT_MODE_PATH, .spp = 11, .aov = 1}},
-    {"path with error", {.mode = RT_MODE_PATH, .spp = 37, .variance = 1}},
-    {"direct", {.mode = RT_MODE_DIRECT, .spp = 5, .filter = RT_FILTER_MITCHELL}},
-    {"normals", {.mode = RT_MODE_NORMALS, .spp = 6}},
-    {"photons", {.mode = RT_MODE_PHOTON, .spp = 3, .photons = 3000, .photon_layers = 1, .aov = 1}},
-    {"final gather",
-     {.mode = RT_MODE_PHOTON,
-      .spp = 2,
-      .photons = 3000,
-      .final_gather = 1,
-      .caustic_photons = 900}},
-    {"passes", {.mode = RT_MODE_PHOTON, .passes = 9, .photons = 900, .photon_layers = 1, .aov = 1}},
-    {"passes with error",
-     {.mode = RT_MODE_PHOTON, .passes = 19, .spp = 2, .photons = 500, .variance = 1}},
-    {"passes without photons to be found",
-     {.mode = RT_MODE_PHOTON, .passes = 20, .photons = 2, .caustic_photons = 1}},
-};
-enum { RENDERS = sizeof renders / sizeof *renders };
+#include "film_renders.h"
 
 static rt_renderer *renderer(void)
 {
     static rt_renderer *made;
     if (!made)
-        made = test_renderer(room);
+        made = test_renderer(film_room);
     return made;
-}
-
-static rt_render_options options_of(const named_options *render)
-{
-    rt_render_options o = render->options;
-    o.width = width;
-    o.height = height;
-    o.seed = 3;
-    o.part = o.parts = 1;
-    return o;
 }
 
 static rt_film *render(const rt_render_options *options)
@@ -69,41 +23,6 @@ static rt_film *render(const rt_render_options *options)
     rt_error error;
     expect_ok(rt_render(&film, renderer(), options, &error), &error);
     return film;
-}
-
-/* Fails unless both films have the same sums, means, layers and photon counts. */
-static void expect_same(const rt_film *a, const rt_film *b, const char *name)
-{
-    const char *differs = NULL;
-    assert_int_equal(rt_film_bytes(a), rt_film_bytes(b));
-    if (memcmp(a->pixels, b->pixels, rt_film_bytes(a)) != 0)
-        differs = "sums";
-    else if (memcmp(a->rgb, b->rgb, 3 * pixels * sizeof *a->rgb) != 0)
-        differs = "means";
-    else if (!a->layer_sums != !b->layer_sums || !a->photon_sums != !b->photon_sums)
-        differs = "kinds of layers";
-    else if (a->layer_sums && memcmp(a->layer_sums, b->layer_sums,
-                                     RT_LAYER_COUNT * pixels * sizeof *a->layer_sums) != 0)
-        differs = "layers";
-    else if (a->photon_sums &&
-             memcmp(a->photon_sums, b->photon_sums, pixels * sizeof *a->photon_sums) != 0)
-        differs = "photon layers";
-    else if (a->stats.photons_emitted != b->stats.photons_emitted ||
-             a->stats.photons_stored != b->stats.photons_stored ||
-             a->stats.gathers != b->stats.gathers || a->stats.passes != b->stats.passes ||
-             a->stats.spp != b->stats.spp || a->stats.relative_error != b->stats.relative_error)
-        differs = "counts";
-    else if (a->ledger.count != b->ledger.count || a->ledger.paths != b->ledger.paths ||
-             (a->ledger.count > 0 && memcmp(a->ledger.rows, b->ledger.rows,
-                                            a->ledger.count * sizeof *a->ledger.rows) != 0))
-        differs = "ledger";
-    for (int i = 0; i < RT_FILM_LAYER_COUNT && !differs; i++) {
-        const float *x = a->layers.data[i], *y = b->layers.data[i];
-        if (!x != !y || (x && memcmp(x, y, rt_layer_infos[i].channels * pixels * sizeof *x) != 0))
-            differs = rt_layer_infos[i].name;
-    }
-    if (differs)
-        fail_msg("%s: %s differ", name, differs);
 }
 
 /* A film from the bytes of its file, so that each test goes through these. */
@@ -128,8 +47,8 @@ static void parts_have_the_bits_of_a_render_at_once(void **state)
 {
     enum { PARTS = 3 };
     (void)state;
-    for (size_t i = 0; i < RENDERS; i++) {
-        rt_render_options o = options_of(renders + i);
+    for (size_t i = 0; i < FILM_RENDERS; i++) {
+        rt_render_options o = film_render_options(film_renders + i);
         rt_film *whole = render(&o), *joined = NULL;
         rt_error error;
         o.parts = PARTS;
@@ -152,7 +71,7 @@ static void parts_have_the_bits_of_a_render_at_once(void **state)
         }
         joined = through_bytes(joined);
         expect_ok(rt_film_resolve(joined, NULL, &error), &error);
-        expect_same(whole, joined, renders[i].name);
+        expect_same_film(whole, joined, film_renders[i].name);
         rt_film_destroy(joined);
         rt_film_destroy(whole);
     }
@@ -190,8 +109,8 @@ static void keep(void *user, const rt_film *film)
 static void sittings_have_the_bits_of_a_render_at_once(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < RENDERS; i++) {
-        rt_render_options o = options_of(renders + i);
+    for (size_t i = 0; i < FILM_RENDERS; i++) {
+        rt_render_options o = film_render_options(film_renders + i);
         rt_film *whole = render(&o), *film = NULL, *kept = NULL;
         rt_hooks hooks = {.progress = cancel};
         rt_error error;
@@ -219,7 +138,7 @@ static void sittings_have_the_bits_of_a_render_at_once(void **state)
         }
         expect_ok(status, &error);
         assert_true(sittings > 1);
-        expect_same(whole, film, renders[i].name);
+        expect_same_film(whole, film, film_renders[i].name);
         rt_film_destroy(kept);
         rt_film_destroy(film);
         rt_film_destroy(whole);
@@ -229,8 +148,8 @@ static void sittings_have_the_bits_of_a_render_at_once(void **state)
 static void more_samples_or_passes_continue_a_finished_film(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < RENDERS; i++) {
-        rt_render_options o = options_of(renders + i);
+    for (size_t i = 0; i < FILM_RENDERS; i++) {
+        rt_render_options o = film_render_options(film_renders + i);
         const int in_passes = o.passes > 1;
         rt_film *less = through_bytes(render(&o));
         rt_error error;
@@ -239,10 +158,10 @@ static void more_samples_or_passes_continue_a_finished_film(void **state)
         rt_film *whole = render(&o);
         o.resume = less;
         rt_film *film = render(&o);
-        expect_same(whole, film, renders[i].name);
+        expect_same_film(whole, film, film_renders[i].name);
         rt_film *none = NULL;
         o.resume = film;
-        o.spp = in_passes ? o.spp : renders[i].options.spp - 1;
+        o.spp = in_passes ? o.spp : film_renders[i].options.spp - 1;
         o.passes = in_passes ? 2 : 0;
         assert_int_equal(rt_render(&none, renderer(), &o, &error), RT_ERROR_USAGE);
         assert_string_equal(error.field, in_passes ? "passes" : "spp");
@@ -256,8 +175,8 @@ static void more_samples_or_passes_continue_a_finished_film(void **state)
 static void chunks_have_the_bits_of_a_render_at_once(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < RENDERS; i++) {
-        rt_render_options o = options_of(renders + i);
+    for (size_t i = 0; i < FILM_RENDERS; i++) {
+        rt_render_options o = film_render_options(film_renders + i);
         rt_film *whole = render(&o), *joined = NULL;
         rt_error error;
         uint64_t chunks;
@@ -274,7 +193,7 @@ static void chunks_have_the_bits_of_a_render_at_once(void **state)
             }
         }
         expect_ok(rt_film_resolve(joined, NULL, &error), &error);
-        expect_same(whole, joined, renders[i].name);
+        expect_same_film(whole, joined, film_renders[i].name);
         rt_film_destroy(joined);
         rt_film_destroy(whole);
     }

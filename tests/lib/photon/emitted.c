@@ -28,8 +28,8 @@ void expect_same_map(const rt_photon_map *a, const rt_photon_map *b)
 {
     rt_bytes x = {0}, y = {0};
     rt_error error;
-    expect_ok(rt_photon_map_encode(&x, a, &error), &error);
-    expect_ok(rt_photon_map_encode(&y, b, &error), &error);
+    expect_ok(rt_photon_map_encode_in(&x, a, &error), &error);
+    expect_ok(rt_photon_map_encode_in(&y, b, &error), &error);
     assert_int_equal(x.size, y.size);
     assert_memory_equal(x.data, y.data, x.size);
     rt_bytes_free(&x);

@@ -37,8 +37,8 @@ static void keep(void *user, const rt_photon_map *map)
     rt_error error;
     rt_photon_map_destroy(s->kept);
     s->kept = NULL;
-    expect_ok(rt_photon_map_encode(&bytes, map, &error), &error);
-    expect_ok(rt_photon_map_decode(&s->kept, bytes.data, bytes.size, "checkpoint", &error), &error);
+    expect_ok(rt_photon_map_encode_in(&bytes, map, &error), &error);
+    expect_ok(rt_photon_map_decode(&s->kept, bytes.data, bytes.size, NULL, &error), &error);
     rt_bytes_free(&bytes);
     /* Progress is told ten times a second at most: the next report comes right behind. */
     if (--s->left < 0)

@@ -1,0 +1,303 @@
+/* share.c - gives workers their units, and adds up what they hand over. */
+#include "share/share.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "setting/options.h"
+
+/* A checkpoint takes at most one part in so many of the time between two. */
+static const double rarity = 100;
+
+/* The length of the replicates below which no test ends a render. */
+enum { untested = 3 };
+
+/* ---- The horizon ---------------------------------------------------------------- */
+
+/* The units after which the error is tested next, or all. */
+static uint64_t next_horizon(const rt_share *share)
+{
+    const rt_units *units = &share->film->units;
+    const uint64_t round = (uint64_t)units->items * units->replicates;
+    if (share->options.target_error <= 0)
+        return UINT64_MAX;
+    for (uint64_t at = round; at <= units->count; at += round)
+        if (rt_noise_is_due(&share->noise, rt_units_length(units, at)))
+            return at;
+    return UINT64_MAX;
+}
+
+/* Tests the error where all units up to the horizon are done, and moves that on. */
+static void test(rt_share *share)
+{
+    const rt_film *film = share->film;
+    while (!share->enough && share->horizon <= film->units.count &&
+           rt_coverage_prefix(&film->done) >= share->horizon) {
+        const uint32_t length = rt_units_length(&film->units, share->horizon);
+        if (film->done.count == 1 && film->done.ranges[0].count == share->horizon)
+            share->enough = rt_noise_test(&share->noise, film, length, share->options.target_error);
+        share->noise.next_test = rt_replicate_grow(length);
+        share->horizon = next_horizon(share);
+    }
+}
+
+/* ---- Create and destroy ----------------------------------------------------------- */
+
+static rt_status check(const rt_render_options *o, rt_error *error)
+{
+    if (o->parts > 1 || o->next_units)
+        return rt_fail_field(error, RT_ERROR_USAGE, "part", "a part of a picture is not shared");
+    return RT_OK;
+}
+
+/* Makes the film, and finds what is to be done. */
+static rt_status open(rt_share *share, rt_renderer *renderer, rt_error *error)
+{
+    rt_status status = rt_film_begin(&share->film, renderer, &share->options, error);
+    if (status == RT_OK && share->film->units.base > 0)
+        status = rt_fail_field(error, RT_ERROR_USAGE, "spp",
+                               "the samples of a finished film are raised by one renderer alone");
+    if (status == RT_OK)
+        status = rt_coverage_join(&share->given, &share->film->done, error);
+    if (status != RT_OK)
+        return status;
+    const double all = rt_share_rendered(share);
+    share->before = all;
+    share->noise = rt_noise_begin(untested);
+    share->horizon = next_horizon(share);
+    test(share);
+    return RT_OK;
+}
+
+rt_status rt_share_create(rt_share **out, rt_renderer *renderer, const rt_render_options *options,
+                          rt_error *error)
+{
+    if (rt_is_missing(renderer, "renderer", error) || rt_is_missing(options, "options", error))
+        return RT_ERROR_USAGE;
+    rt_status status = check(options, error);
+    if (status != RT_OK)
+        return status;
+    rt_share *share = calloc(1, sizeof *share);
+    if (!share)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a picture to be shared");
+    pthread_mutex_init(&share->lock, NULL);
+    pthread_cond_init(&share->changed, NULL);
+    share->options = *options;
+    share->saved = rt_clock();
+    status = open(share, renderer, error);
+    if (status == RT_OK)
+        *out = share;
+    else
+        rt_share_destroy(share);
+    return status;
+}
+
+void rt_share_destroy(rt_share *share)
+{
+    if (!share)
+        return;
+    for (uint32_t i = 0; i < share->count; i++)
+        rt_coverage_free(&share->workers[i].held);
+    free(share->workers);
+    rt_coverage_free(&share->given);
+    rt_film_destroy(share->film);
+    pthread_cond_destroy(&share->changed);
+    pthread_mutex_destroy(&share->lock);
+    free(share);
+}
+
+/* ---- Workers ---------------------------------------------------------------------- */
+
+rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error)
+{
+    rt_status status = RT_OK;
+    pthread_mutex_lock(&share->lock);
+    rt_share_worker *workers = realloc(share->workers, (share->count + 1) * sizeof *share->workers);
+    if (workers) {
+        share->workers = workers;
+        workers[share->count] = (rt_share_worker){.handed = rt_clock()};
+        *worker = share->count++;
+    } else {
+        status = rt_fail(error, RT_ERROR_MEMORY, "out of memory for a worker");
+    }
+    pthread_mutex_unlock(&share->lock);
+    return status;
+}
+
+/* Whether a worker has units and films are due. */
+static int must_hand_over(const rt_share *share, const rt_share_worker *worker, double now)
+{
+    return worker->held.count > 0 && share->options.checkpoint &&
+           now - worker->handed >= fmax(share->options.checkpoint_seconds, rarity * share->saving);
+}
+
+/* Gives a worker units, or says why there are none. */
+static rt_share_task give(rt_share *share, rt_share_worker *worker, rt_unit_range *out, double now)
+{
+    const int ends = share->stopped || share->enough || rt_share_is_out_of_time(share, now);
+    *out = (rt_unit_range){0, 0};
+    if (!ends && !must_hand_over(share, worker, now))
+        *out = rt_share_choose(share, worker, now);
+    if (out->count > 0) {
+        if (rt_coverage_add(&worker->held, *out, NULL) == RT_OK &&
+            rt_coverage_add(&share->given, *out, NULL) == RT_OK) {
+            worker->given = rt_units_amount(&share->film->units, *out);
+            return RT_SHARE_RENDER;
+        }
+        share->stopped = 1; /* no memory for a list */
+    }
+    if (worker->held.count > 0)
+        return RT_SHARE_HAND_OVER;
+    if (ends || share->stopped ||
+        rt_coverage_prefix(&share->film->done) >= share->film->units.count)
+        return RT_SHARE_END;
+    return RT_SHARE_WAIT;
+}
+
+rt_share_task rt_share_ask(rt_share *share, uint32_t worker, uint64_t *first, uint64_t *count)
+{
+    rt_unit_range range;
+    const double now = rt_clock();
+    pthread_mutex_lock(&share->lock);
+    if (share->began == 0)
+        share->began = now;
+    const rt_share_task task = give(share, share->workers + worker, &range, now);
+    pthread_mutex_unlock(&share->lock);
+    *first = range.first;
+    *count = range.count;
+    return task;
+}
+
+void rt_share_note(rt_share *share, uint32_t worker, uint64_t first, uint64_t count, double seconds)
+{
+    pthread_mutex_lock(&share->lock);
+    rt_share_worker *w = share->workers + worker;
+    const double amount = rt_units_amount(&share->film->units, (rt_unit_range){first, count});
+    if (seconds > 0 && amount > 0)
+        w->rate = amount / seconds;
+    w->rendered += amount;
+    pthread_mutex_unlock(&share->lock);
+}
+
+/* Whether a worker was given all that a film has. */
+static int holds(const rt_share_worker *worker, const rt_coverage *done)
+{
+    for (size_t i = 0; i < done->count; i++) {
+        const rt_unit_range r = done->ranges[i];
+        size_t j = 0;
+        while (j < worker->held.count &&
+               !(worker->held.ranges[j].first <= r.first &&
+                 worker->held.ranges[j].first + worker->held.ranges[j].count >= r.first + r.count))
+            j++;
+        if (j == worker->held.count)
+            return 0;
+    }
+    return 1;
+}
+
+/* Makes a checkpoint where it is due. */
+static void save(rt_share *share)
+{
+    const rt_render_options *o = &share->options;
+    const double now = rt_clock();
+    if (!o->checkpoint || now - share->saved < fmax(o->checkpoint_seconds, rarity * share->saving))
+        return;
+    o->checkpoint(o->checkpoint_user, share->film);
+    share->saved = rt_clock();
+    share->saving = share->saved - now;
+}
+
+rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, rt_error *error)
+{
+    if (rt_is_missing(film, "film", error))
+        return RT_ERROR_USAGE;
+    pthread_mutex_lock(&share->lock);
+    rt_share_worker *w = share->workers + worker;
+    rt_status status = holds(w, &film->done)
+                           ? rt_film_add(share->film, film, error)
+                           : rt_fail(error, RT_ERROR_USAGE, "the film has what was not asked for");
+    for (size_t i = 0; i < film->done.count && status == RT_OK; i++)
+        status = rt_coverage_remove(&w->held, film->done.ranges[i], error);
+    if (status == RT_OK) {
+        w->rendered = 0;
+        w->handed = rt_clock();
+        test(share);
+        save(share);
+    }
+    pthread_cond_broadcast(&share->changed);
+    pthread_mutex_unlock(&share->lock);
+    return status;
+}
+
+void rt_share_leave(rt_share *share, uint32_t worker)
+{
+    pthread_mutex_lock(&share->lock);
+    rt_share_worker *w = share->workers + worker;
+    rt_status status = RT_OK;
+    for (size_t i = 0; i < w->held.count && status == RT_OK; i++)
+        status = rt_coverage_remove(&share->given, w->held.ranges[i], NULL);
+    if (status != RT_OK)
+        share->stopped = 1;
+    rt_coverage_free(&w->held);
+    w->rendered = 0;
+    w->is_gone = 1;
+    pthread_cond_broadcast(&share->changed);
+    pthread_mutex_unlock(&share->lock);
+}
+
+void rt_share_stop(rt_share *share)
+{
+    pthread_mutex_lock(&share->lock);
+    share->stopped = 1;
+    pthread_cond_broadcast(&share->changed);
+    pthread_mutex_unlock(&share->lock);
+}
+
+/* ---- The picture ------------------------------------------------------------------ */
+
+void rt_share_get_progress(rt_share *share, rt_progress *out)
+{
+    pthread_mutex_lock(&share->lock);
+    const rt_render_options *o = &share->options;
+    const double now = rt_clock(), elapsed = share->began > 0 ? now - share->began : 0;
+    const double rendered = rt_share_rendered(share), all = rt_share_all(share);
+    double done = fmin(rendered / all, 1), again = share->before / all;
+    if (o->target_error > 0) {
+        const double by_error = rt_noise_progress(
+            &share->noise, rendered / share->film->units.replicates, o->target_error);
+        done = by_error > 0 ? fmax(done, by_error) : 0;
+    }
+    if (o->time > 0)
+        done = fmax(done, fmin(elapsed / o->time, 1));
+    *out = (rt_progress){
+        .stage = o->mode == RT_MODE_PHOTON && !share->film->units.in_passes ? RT_STAGE_GATHER
+                                                                            : RT_STAGE_RENDER,
+        .fraction = done,
+        .elapsed = elapsed,
+        .remaining = done > again ? elapsed * (1 - done) / (done - again) : -1,
+        .error = rt_noise_last(&share->noise),
+    };
+    pthread_mutex_unlock(&share->lock);
+}
+
+rt_status rt_share_finish(rt_film **out, rt_share *share, const rt_hooks *hooks, rt_error *error)
+{
+    const rt_render_options *o = &share->options;
+    rt_film *film = share->film;
+    const int is_whole = share->enough || rt_share_is_out_of_time(share, rt_clock()) ||
+                         rt_coverage_prefix(&film->done) >= film->units.count;
+    *out = NULL;
+    if (o->checkpoint)
+        o->checkpoint(o->checkpoint_user, film);
+    rt_status status = rt_film_resolve(film, hooks, error);
+    if (status != RT_OK)
+        return status;
+    if (film->stats.spp > 0) {
+        *out = film;
+        share->film = NULL;
+    }
+    return is_whole ? RT_OK : rt_fail(error, RT_CANCELLED, "cancelled");
+}
