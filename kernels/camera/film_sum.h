@@ -2,11 +2,11 @@
  * film_sum.h - exact sums of a film's pixels: the same bits in whatever order samples are added and
  * in how many parts, on one device or on many. Host and device read this file.
  *
- * The bits of a float are divided at fixed places into bins of 31: bin b counts units of
- * 2^(31 b - 149), so that the 24 bits of a float lie in one bin or in two neighbours. A channel
+ * The bits of a float are divided at fixed places into bins of 32: bin b counts units of
+ * 2^(32 b - 149), so that the 24 bits of a float lie in one bin or in two neighbours. A channel
  * keeps two bins as whole numbers, the higher one being the highest of any value so far. What lies
  * in bins below both is left out, of every value alike, whether it comes before the highest or
- * after. That is less than 2^-31 of the largest value each time. A sum of 2^32 values cannot
+ * after. That is less than 2^-32 of the largest value each time. A sum of 2^31 values cannot
  * overflow.
  *
  * References:
@@ -18,7 +18,7 @@
 
 #include "types.h"
 
-#define RT_FILM_BIN_BITS 31u /* of a bin */
+#define RT_FILM_BIN_BITS 32u /* of a bin */
 #define RT_FILM_BIN_LAST 7u  /* the highest that is a lower bin */
 
 /* The lower bin of a channel; the higher one follows. */
@@ -41,23 +41,24 @@ static inline void film_raise(rt_film_pixel *pixel, int channel, rt_u32 bin)
 /* Adds the value of a finite float, given by its bits, to a channel. */
 static inline void film_add_bits(rt_film_pixel *pixel, int channel, rt_u32 bits)
 {
-    const rt_u32 exponent = bits >> 23 & 255u;
-    const rt_u32 place = exponent ? exponent - 1u : 0u, bin = place / RT_FILM_BIN_BITS;
-    const rt_i64 digits = (rt_i64)((bits & 0x7fffffu) | (exponent ? 0x800000u : 0u))
+    const rt_u32 exponent = bits >> 23 & 255u, place = exponent - (exponent > 0u);
+    const rt_u32 bin = place / RT_FILM_BIN_BITS;
+    const rt_u64 digits = (rt_u64)((bits & 0x7fffffu) | (rt_u32)(exponent > 0u) << 23)
                           << place % RT_FILM_BIN_BITS;
-    const rt_i64 sign = bits >> 31 ? -1 : 1;
-    const rt_i64 upper = digits >> RT_FILM_BIN_BITS, lower = digits & 0x7fffffff;
+    const rt_i64 sign = (bits >> 31) ? -1 : 1;
+    const rt_i64 upper = sign * (rt_i64)(digits >> RT_FILM_BIN_BITS);
+    const rt_i64 lower = sign * (rt_i64)(digits & 0xffffffffu);
 
-    if (upper != 0 || (lower != 0 && bin > 0u))
-        film_raise(pixel, channel, upper != 0 ? bin : bin - 1u);
+    if (bin != film_bin(pixel, channel) && digits != 0u)
+        film_raise(pixel, channel, upper != 0 ? bin : bin - (bin > 0u));
     const rt_u32 now = film_bin(pixel, channel);
     if (bin == now) {
-        pixel->high[channel] += sign * upper;
-        pixel->low[channel] += sign * lower;
+        pixel->high[channel] += upper;
+        pixel->low[channel] += lower;
     } else if (bin == now + 1u) {
-        pixel->high[channel] += sign * lower;
+        pixel->high[channel] += lower;
     } else if (bin + 1u == now) {
-        pixel->low[channel] += sign * upper;
+        pixel->low[channel] += upper;
     }
 }
 

@@ -42,10 +42,10 @@ static rt_status check(const rt_render_options *o, rt_error *error)
     rt_status status = check_gather(o, error);
     if (status != RT_OK)
         return status;
-    if ((uint64_t)o->passes * o->spp > UINT32_MAX)
+    if ((uint64_t)o->passes * o->spp > INT32_MAX)
         return rt_fail_field(error, RT_ERROR_USAGE, "passes",
                              "%u passes of %u samples are more than the %lu possible", o->passes,
-                             o->spp, (unsigned long)UINT32_MAX);
+                             o->spp, (unsigned long)INT32_MAX);
     if (o->passes > 1 && o->photon_map)
         return rt_fail_field(error, RT_ERROR_USAGE, "passes",
                              "a photon map that is there already has one pass");

@@ -99,7 +99,7 @@ static void one_value_is_kept_to_the_bit(void **state)
     }
 }
 
-/* 2^20 times the largest float: the bins have room for 2^32 of it. */
+/* 2^20 times the largest float: the bins have room for 2^31 of it. */
 static void sums_do_not_overflow(void **state)
 {
     rt_film_pixel pixel = {0};
