@@ -125,9 +125,10 @@ const option option_table[OPTION_COUNT] = {
         {"untrusted", NULL, KIND_FLAG, GROUP_DEVICE, RENDER | CHECK | PHOTONS, 0, 0, NULL, 0, NULL,
          "for a scene by a stranger: read files in its folder only, give up the rights to do other "
          "than to write the outputs, and limit CPU time and memory (Linux)"},
-    [OPTION_DEVICE] = {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 0, 0,
-                       NULL, 0, "0",
-                       "a number of `rtc devices`, or part of a device's or platform's name"},
+    [OPTION_DEVICE] =
+        {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 0, 0, NULL, 0, "0",
+         "a number of `rtc devices`, or part of a device's or platform's name; a render takes "
+         "several too, as in 0,1, or all, which share the picture"},
     [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1,
                         UINT32_MAX, NULL, 0, "all",
                         "host threads, and compute units used of a CPU device"},

@@ -131,9 +131,10 @@ typedef struct command_line {
     size_t output_count;
     const char **operands;
     size_t operand_count;
-    rt_memory *memory; /* by --memory, or NULL; owned */
-    rt_film *film;     /* of --resume, or NULL; owned */
-    char *note;        /* its text, which options point to; owned */
+    rt_memory *memory;       /* by --memory, or NULL; owned */
+    rt_film *film;           /* of --resume, or NULL; owned */
+    char *note;              /* its text, which options point to; owned */
+    const struct team *team; /* that this process is of, or NULL */
 } command_line;
 
 #endif

@@ -128,7 +128,8 @@ int photons_emit(const command_line *arguments)
     if (status == STATUS_DONE)
         status = load(&job);
     if (status == STATUS_DONE)
-        status = session_open_device(&job.session, &job.device);
+        status = session_open_device(&job.session, &job.device,
+                                     session_value(&job.session, OPTION_DEVICE)->text);
     if (status == STATUS_DONE)
         status = emit(&job);
     if (status == STATUS_DONE)

@@ -7,6 +7,7 @@
 #include "checkpoint.h"
 #include "command_line.h"
 #include "commands.h"
+#include "crew.h"
 #include "film_note.h"
 #include "inputs.h"
 #include "light_shares.h"
@@ -39,10 +40,15 @@ typedef struct render_job {
     size_t share_count;
     char *command; /* as images record it */
     rt_scene *scene;
-    rt_device *device;
-    rt_renderer *renderer;
+    crew crew;
     rt_film *film;
 } render_job;
+
+/* Whether another process leads the render, and writes what comes of it. */
+static int is_worker(const render_job *job)
+{
+    return job->session.arguments->team && job->session.arguments->team->is_worker;
+}
 
 static const option_value *value(const render_job *job, option_id id)
 {
@@ -82,7 +88,7 @@ static int set_options(render_job *job)
     job->options.part = job->part;
     job->options.parts = job->parts;
     job->options.note = job->note;
-    return status == STATUS_DONE
+    return status == STATUS_DONE && !is_worker(job)
                ? checkpoint_plan(&job->checkpoint, &job->options, job->session.arguments)
                : status;
 }
@@ -119,10 +125,10 @@ static int make_film(render_job *job)
     options.hooks = &job->session.hooks;
     if (value(job, OPTION_ACCEL)->given)
         options.accel = (rt_accel)value(job, OPTION_ACCEL)->choice;
-    rt_status result =
-        rt_renderer_create(&job->renderer, job->scene, job->device, &options, &error);
+    rt_status result = crew_prepare(&job->crew, job->scene, &options, &error);
     if (result == RT_OK)
-        result = rt_render(&job->film, job->renderer, &job->options, &error);
+        result = crew_render(&job->film, &job->crew, &job->options, job->session.arguments->team,
+                             &error);
     progress_clear(&job->session.progress);
     if (session_was_interrupted(result))
         return STATUS_INTERRUPTED;
@@ -223,9 +229,9 @@ static int write_images(const render_job *job, int status)
     if (!job->session.quiet)
         say_how_good_it_is(job);
     if (value(job, OPTION_STATS)->given && value(job, OPTION_JSON)->given)
-        stats_print_json(job->scene, job->device, &job->options, job->film);
+        stats_print_json(job->scene, job->crew.devices[0], &job->options, job->film);
     else if (value(job, OPTION_STATS)->given)
-        stats_print(job->scene, job->device, &job->options, job->film);
+        stats_print(job->scene, job->crew.devices[0], &job->options, job->film);
     return status;
 }
 
@@ -264,7 +270,7 @@ static int plan(render_job *job)
 {
     const option_value *part = value(job, OPTION_PART);
     int status = part->given ? part_read(&job->part, &job->parts, part->text) : STATUS_DONE;
-    if (status == STATUS_DONE)
+    if (status == STATUS_DONE && !is_worker(job))
         status = outputs_plan(&job->outputs, job->session.arguments, job->scene_path, job->part,
                               job->parts);
     if (status != STATUS_DONE)
@@ -293,10 +299,10 @@ static int run(render_job *job)
     if (status == STATUS_DONE)
         status = load(job);
     if (status == STATUS_DONE)
-        status = session_open_device(&job->session, &job->device);
+        status = crew_open(&job->crew, &job->session);
     if (status == STATUS_DONE)
         status = make_film(job);
-    if (status == STATUS_DONE || status == STATUS_INTERRUPTED)
+    if ((status == STATUS_DONE || status == STATUS_INTERRUPTED) && !is_worker(job))
         status = write_images(job, status);
     if (job->checkpoint.failed && (status == STATUS_DONE || status == STATUS_INTERRUPTED))
         status = STATUS_OUTPUT;
@@ -343,8 +349,7 @@ int command_render(const command_line *arguments)
         hint_command(job.scene_path);
     rt_film_destroy(job.film);
     rt_photon_map_destroy(job.photon_map);
-    rt_renderer_destroy(job.renderer);
-    rt_device_close(job.device);
+    crew_close(&job.crew);
     rt_scene_destroy(job.scene);
     free(job.shares);
     free(job.command);

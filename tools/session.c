@@ -124,11 +124,11 @@ int session_was_interrupted(rt_status result)
     return result == RT_CANCELLED || (result == RT_ERROR_DEVICE && interrupt_pending());
 }
 
-int session_open_device(const session *s, rt_device **out)
+int session_open_device(const session *s, rt_device **out, const char *select)
 {
     rt_device_options options = {0};
     rt_error error;
-    options.select = session_value(s, OPTION_DEVICE)->text;
+    options.select = select;
     options.threads = (uint32_t)session_value(s, OPTION_THREADS)->count;
     options.work_group = (uint32_t)session_value(s, OPTION_WORK_GROUP)->count;
     options.memory = s->arguments->memory;

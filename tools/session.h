@@ -5,6 +5,7 @@
 #include "options.h"
 #include "progress.h"
 #include "rt.h"
+#include "team.h"
 
 /* A command under way. Must stay where it is: the hooks point to it. */
 typedef struct session {
@@ -45,9 +46,9 @@ int session_check_options(const session *session, const rt_render_options *own,
 int session_was_interrupted(rt_status result);
 
 /*
- * Opens the device that the command line names; from then on the first Ctrl-C stops the work by its
- * hooks. Returns an exit status; the caller owns *out.
+ * Opens the device of this name, as in rt_device_options; from then on the first Ctrl-C stops the
+ * work by its hooks. Returns an exit status; the caller owns *out.
  */
-int session_open_device(const session *session, rt_device **out);
+int session_open_device(const session *session, rt_device **out, const char *select);
 
 #endif

@@ -49,13 +49,12 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_mem
     film->options.hooks = NULL;
     film->options.photon_map = NULL;
     film->options.light_shares = NULL;
-    film->options.light_share_count = 0;
+    film->options.light_share_count = 0, film->options.hand_over = 0;
     film->options.resume = NULL;
     film->options.checkpoint = NULL;
     film->options.checkpoint_user = film->options.units_user = NULL;
     film->options.next_units = NULL;
     film->options.note = NULL;
-    film->options.hand_over = 0;
     const uint64_t reserved = bytes_reserved(options);
     film->units = rt_units_of(options, 0);
     film->note = options->note ? copy_text(options->note) : NULL;

@@ -30,8 +30,8 @@ static void name_light(char *out, size_t size, const rt_ledger *ledger, size_t i
              shape, power, (unsigned long long)row->paths, row->paths == 1 ? "" : "s");
 }
 
-/* One line for all lights. */
-static void warn_lights(const rt_ledger *ledger, const rt_hooks *hooks)
+/* One line for all. */
+void rt_photon_map_warn_lights(const rt_ledger *ledger, const rt_hooks *hooks)
 {
     char names[100 * LIGHTS_NAMED] = "", more[40] = "";
     size_t starved = 0;
@@ -82,7 +82,7 @@ void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledge
     char of_pass[32] = "", name[64];
     if (pass > 0)
         snprintf(of_pass, sizeof of_pass, " of pass %u", (unsigned)pass);
-    warn_lights(ledger, hooks);
+    rt_photon_map_warn_lights(ledger, hooks);
     snprintf(name, sizeof name, "%sphoton map%s", map->settings.split ? "global " : "", of_pass);
     warn_list(map, RT_PHOTONS_GLOBAL, name, k, hooks);
     snprintf(name, sizeof name, "caustic photon map%s", of_pass);
@@ -97,4 +97,15 @@ void rt_photon_map_warn_even(const rt_photon_map *map, rt_area area, const rt_ho
                 "the photons of the map, by the sampler sobol, are spread more evenly than area "
                 "hull supposes, "
                 "and the light comes out too dark: emit the map with the sampler independent");
+}
+
+void rt_photon_map_warn_gathers(const rt_film_stats *stats, const rt_hooks *hooks)
+{
+    /* Of a map without any photon enough is said. */
+    if (stats->photons_stored > 0 && stats->gathers_empty > stats->gathers_at_ends / 2)
+        rt_warn(hooks,
+                "%llu of the %llu queries of the photon map found no photon: the light of photons "
+                "there is missing or very noisy; use a larger radius or more photons",
+                (unsigned long long)stats->gathers_empty,
+                (unsigned long long)stats->gathers_at_ends);
 }

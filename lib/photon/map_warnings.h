@@ -15,4 +15,10 @@ void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledge
 /* Warns where the hull is used with Sobol photons, which are too evenly distributed for it. */
 void rt_photon_map_warn_even(const rt_photon_map *map, rt_area area, const rt_hooks *hooks);
 
+/* Of the lights alone. */
+void rt_photon_map_warn_lights(const rt_ledger *ledger, const rt_hooks *hooks);
+
+/* Warns where most queries at the ends of eye paths found no photon. */
+void rt_photon_map_warn_gathers(const rt_film_stats *stats, const rt_hooks *hooks);
+
 #endif

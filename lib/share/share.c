@@ -7,10 +7,14 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "photon/map_warnings.h"
 #include "setting/options.h"
 
 /* A checkpoint takes at most one part in so many of the time between two. */
 static const double rarity = 100;
+
+/* Seconds after which films are handed over where there are no checkpoints: they may be lost. */
+static const double default_seconds = 60;
 
 /* The length of the replicates below which no test ends a render. */
 enum { untested = 3 };
@@ -130,8 +134,9 @@ rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error)
 /* Whether a worker has units and films are due. */
 static int must_hand_over(const rt_share *share, const rt_share_worker *worker, double now)
 {
-    return worker->held.count > 0 && share->options.checkpoint &&
-           now - worker->handed >= fmax(share->options.checkpoint_seconds, rarity * share->saving);
+    const rt_render_options *o = &share->options;
+    const double every = o->checkpoint ? o->checkpoint_seconds : default_seconds;
+    return worker->held.count > 0 && now - worker->handed >= fmax(every, rarity * share->saving);
 }
 
 /* Gives a worker units, or says why there are none. */
@@ -283,6 +288,21 @@ void rt_share_get_progress(rt_share *share, rt_progress *out)
     pthread_mutex_unlock(&share->lock);
 }
 
+/* Warns of what a render alone warns of at its end, see mode/photon. */
+static void warn(const rt_share *share, const rt_hooks *hooks)
+{
+    const rt_film *film = share->film;
+    const rt_render_options *o = &film->options;
+    if (o->mode != RT_MODE_PHOTON)
+        return;
+    if (share->options.photon_map)
+        rt_photon_map_warn_starved(share->options.photon_map, &film->ledger, 0, o->k, o->caustic_k,
+                                   hooks);
+    else
+        rt_photon_map_warn_lights(&film->ledger, hooks);
+    rt_photon_map_warn_gathers(&film->stats, hooks);
+}
+
 rt_status rt_share_finish(rt_film **out, rt_share *share, const rt_hooks *hooks, rt_error *error)
 {
     const rt_render_options *o = &share->options;
@@ -292,6 +312,8 @@ rt_status rt_share_finish(rt_film **out, rt_share *share, const rt_hooks *hooks,
     *out = NULL;
     if (o->checkpoint)
         o->checkpoint(o->checkpoint_user, film);
+    if (is_whole)
+        warn(share, hooks);
     rt_status status = rt_film_resolve(film, hooks, error);
     if (status != RT_OK)
         return status;

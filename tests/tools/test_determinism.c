@@ -66,6 +66,34 @@ static void path_mode_gives_the_same_bytes(void **state)
     check_mode("--mode path");
 }
 
+/* PoCL is told to offer two devices. A runtime that ignores that has one, which all names too. */
+static void several_devices_give_the_same_bytes(void **state)
+{
+    static const char *const modes[] = {"--mode path", "--mode path --target-error 0.6 --spp 64",
+                                        "--mode photon --caustic-photons 5000 --spp 3",
+                                        "--mode photon --passes 5 --photons 4000"};
+    (void)state;
+    scratch_write("a.rts", scene);
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        run run = run_rtc("a.rts --quiet --seed 3 %s --out one.exr", modes[i]);
+        expect_status(&run, 0);
+        run_free(&run);
+        run = run_rtc("POCL_DEVICES='pthread basic' rtc a.rts --quiet --seed 3 %s --device all "
+                      "--out all.exr",
+                      modes[i]);
+        expect_status(&run, 0);
+        run_free(&run);
+        expect_same_files("one.exr", "all.exr");
+    }
+    run run = run_rtc("a.rts --device 0,0");
+    expect_status(&run, 2);
+    expect_err(&run, "--device 0,0 names device 0 twice");
+    run_free(&run);
+    run = run_rtc("a.rts --device 0,,1");
+    expect_status(&run, 2);
+    run_free(&run);
+}
+
 /* PoCL is told to take no more than 4 work-items a work-group, less than are usual here. */
 static void a_device_of_small_work_groups_gives_the_same_bytes(void **state)
 {
@@ -120,6 +148,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(path_mode_gives_the_same_bytes),
+        TEST(several_devices_give_the_same_bytes),
         TEST(a_device_of_small_work_groups_gives_the_same_bytes),
         TEST(photon_mode_gives_the_same_bytes),
         TEST(what_is_said_of_the_error_is_the_same_bytes),

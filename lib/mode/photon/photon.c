@@ -193,13 +193,7 @@ static void warn(const rt_photon_render *r)
         rt_emitter_warn_reach(r->emitter, o->hooks);
     rt_photon_map_warn_starved(r->in_use, &film->ledger, stats->passes, o->k, o->caustic_k,
                                o->hooks);
-    /* Of a map without any photon enough is said. */
-    if (stats->photons_stored > 0 && stats->gathers_empty > stats->gathers_at_ends / 2)
-        rt_warn(o->hooks,
-                "%llu of the %llu queries of the photon map found no photon: the light of photons "
-                "there is missing or very noisy; use a larger radius or more photons",
-                (unsigned long long)stats->gathers_empty,
-                (unsigned long long)stats->gathers_at_ends);
+    rt_photon_map_warn_gathers(stats, o->hooks);
 }
 
 static rt_status run(const rt_render_job *job, void *state, rt_error *error)
