@@ -21,11 +21,10 @@ typedef enum rt_photon_search {
 } rt_photon_search;
 
 /*
- * The search that a setting means; k, caustic_k: photons of the estimates, RT_K_ALL for all within
- * a radius. On a CPU device the host's is the quicker one to start.
+ * The search that the settings of a render in one pass mean. Where they leave the choice, a CPU
+ * device takes the host's for the k nearest; the hull is for that one alone.
  */
-rt_photon_search rt_photon_search_of(const rt_device *device, rt_gather gather, uint32_t k,
-                                     uint32_t caustic_k);
+rt_photon_search rt_photon_search_of(const rt_device *device, const rt_render_options *options);
 
 /* The maximum number of gather points per call: a GPU takes more, to have all of it at work. */
 size_t rt_gather_points_max(const rt_device *device);

@@ -63,9 +63,7 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
 
     r->job = job;
     r->in_passes = o->passes > 1;
-    r->search = r->in_passes
-                    ? RT_SEARCH_TREE
-                    : rt_photon_search_of(job->renderer->device, o->gather, o->k, o->caustic_k);
+    r->search = r->in_passes ? RT_SEARCH_TREE : rt_photon_search_of(job->renderer->device, o);
     r->in_use = o->photon_map ? o->photon_map : &r->map;
     if (o->photon_map)
         status = rt_photon_map_check(o->photon_map, job->renderer, o, error);
