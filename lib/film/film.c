@@ -36,52 +36,64 @@ static char *copy_text(const char *text)
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
+/* The settings, without what belongs to one call. */
+static rt_render_options settings_of(const rt_render_options *options)
+{
+    rt_render_options o = *options;
+    o.hooks = NULL;
+    o.photon_map = NULL;
+    o.light_shares = NULL;
+    o.light_share_count = 0;
+    o.hand_over = 0;
+    o.resume = NULL;
+    o.checkpoint = NULL;
+    o.checkpoint_user = o.units_user = NULL;
+    o.next_units = NULL;
+    o.note = NULL;
+    return o;
+}
+
+/* Makes room for the sums and means. */
+static rt_status create_sums(rt_film *film, rt_error *error)
+{
+    static const char what[] = "the film";
+    const rt_render_options *o = &film->options;
+    const size_t count = rt_film_pixels(film), planes = film->units.replicates;
+    const uint64_t reserved = bytes_reserved(o);
+    const double all = (double)count * (planes * sizeof *film->pixels + 3 * sizeof *film->rgb);
+    rt_status status = rt_memory_foresee(film->memory, (double)reserved + all, what, error);
+    if (status == RT_OK)
+        status = rt_memory_take(film->memory, reserved, what, error);
+    if (status != RT_OK)
+        return status;
+    film->reserved = reserved;
+    film->pixels =
+        rt_memory_zeroed(film->memory, planes * count, sizeof *film->pixels, what, error);
+    if (film->pixels)
+        film->rgb = rt_memory_zeroed(film->memory, count, 3 * sizeof *film->rgb, what, error);
+    if (!film->rgb)
+        return RT_ERROR_MEMORY;
+    if (o->mode == RT_MODE_PHOTON && o->photon_layers) {
+        film->photon_sums = rt_memory_zeroed(film->memory, count, sizeof *film->photon_sums,
+                                             "the sums of photon layers", error);
+        return film->photon_sums ? RT_OK : RT_ERROR_MEMORY;
+    }
+    return RT_OK;
+}
+
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_memory *memory,
                          rt_error *error)
 {
-    static const char what[] = "the film";
-    size_t count = (size_t)options->width * options->height;
     rt_film *film = calloc(1, sizeof *film);
     if (!film)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film");
     film->memory = memory;
-    film->options = *options;
-    film->options.hooks = NULL;
-    film->options.photon_map = NULL;
-    film->options.light_shares = NULL;
-    film->options.light_share_count = 0, film->options.hand_over = 0;
-    film->options.resume = NULL;
-    film->options.checkpoint = NULL;
-    film->options.checkpoint_user = film->options.units_user = NULL;
-    film->options.next_units = NULL;
-    film->options.note = NULL;
-    const uint64_t reserved = bytes_reserved(options);
+    film->options = settings_of(options);
     film->units = rt_units_of(options, 0);
     film->note = options->note ? copy_text(options->note) : NULL;
-    if (options->note && !film->note) {
-        free(film);
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film");
-    }
-    const double all =
-        (double)count * (film->units.replicates * sizeof *film->pixels + 3 * sizeof *film->rgb);
-    rt_status status = rt_memory_foresee(memory, (double)reserved + all, what, error);
-    if (status == RT_OK)
-        status = rt_memory_take(memory, reserved, what, error);
-    if (status != RT_OK)
-        goto out;
-    film->reserved = reserved;
-    film->pixels =
-        rt_memory_zeroed(memory, count * film->units.replicates, sizeof *film->pixels, what, error);
-    if (film->pixels)
-        film->rgb = rt_memory_zeroed(memory, count, 3 * sizeof *film->rgb, what, error);
-    if (film->rgb && options->mode == RT_MODE_PHOTON && options->photon_layers)
-        film->photon_sums = rt_memory_zeroed(memory, count, sizeof *film->photon_sums,
-                                             "the sums of photon layers", error);
-    status = film->rgb && (film->photon_sums || !options->photon_layers ||
-                           options->mode != RT_MODE_PHOTON)
-                 ? RT_OK
-                 : RT_ERROR_MEMORY;
-out:
+    rt_status status = options->note && !film->note
+                           ? rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film")
+                           : create_sums(film, error);
     if (status == RT_OK)
         *out = film;
     else

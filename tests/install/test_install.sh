@@ -49,6 +49,7 @@ cat >"$work/expected" <<'END'
 ./usr/local/include/rt/rt.h
 ./usr/local/include/rt/scene.h
 ./usr/local/include/rt/setting.h
+./usr/local/include/rt/share.h
 ./usr/local/lib/librt-render.a
 ./usr/local/lib/librt-render.so
 ./usr/local/lib/librt-render.so.0
