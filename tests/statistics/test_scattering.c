@@ -216,8 +216,12 @@ static void bsdfs_are_reciprocal(void **state)
                 const double b = (back_values[i].diffuse[c] + back_values[i].rough[c]) / wo[i][2];
                 compared += f > 1e-4;
                 across += through && f > 1e-4;
-                /* Where the half vector is at the edge of what can scatter, rounding decides. */
-                if (!(fabs(f - b) <= 2e-3 * (f + b) + 5e-5))
+                /*
+                 * Far off a lobe's peak float32 leaves few digits, and devices differ in them: an
+                 * H100 gave 2.7e-5 one way and 0 the other at the edge of what can scatter.
+                 */
+                const double rounding = test_device()->info.is_cpu ? 2e-6 : 5e-5;
+                if (!(fabs(f - b) <= 2e-3 * (f + b) + rounding))
                     fail_msg("%s: %g forwards, %g backwards", materials[m].name, f, b);
             }
         }
