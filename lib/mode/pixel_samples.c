@@ -20,17 +20,27 @@ static void adapt(double *samples, double seconds)
         *samples /= 2;
 }
 
-/* Launches the samples of some units of one block and waits for them. */
+/* The samples of a pixel in some units of one block, or in whole blocks. */
+static rt_sample_block samples_of(const rt_units *units, rt_unit_range range)
+{
+    rt_sample_block all = rt_units_block(units, range.first);
+    for (uint64_t i = units->items; i < range.count; i += units->items)
+        all.count += rt_units_block(units, range.first + i).count;
+    return all;
+}
+
+/* Launches the samples of some units, as rt_work_extend has them, and waits for them. */
 static rt_status launch(const rt_render_job *job, const rt_pixel_samples *state, rt_params *params,
                         rt_unit_range units, rt_error *error)
 {
     rt_device *device = job->renderer->device;
-    const rt_sample_block block = rt_units_block(&job->film->units, units.first);
+    const uint32_t items = job->film->units.items;
+    const rt_sample_block block = samples_of(&job->film->units, units);
     rt_status status = RT_OK;
     if (block.count == 0)
         return RT_OK;
-    params->first_item = (uint32_t)(units.first % job->film->units.items);
-    params->item_count = (uint32_t)units.count;
+    params->first_item = (uint32_t)(units.first % items);
+    params->item_count = units.count < items ? (uint32_t)units.count : items;
     params->replicate = params->plane = block.replicate;
     params->first_sample = block.first;
     params->sample_count = block.count;
@@ -99,10 +109,15 @@ static rt_status sample_film(const rt_render_job *job, const rt_pixel_samples *s
 
     while (status == RT_OK && rt_work_next(work, &run)) {
         const uint32_t each = rt_units_block(&job->film->units, run.first).count;
+        /* Where a block takes little time, several make a launch. */
+        while (2.0 * samples_of(&job->film->units, run).count * job->film->units.items <= samples &&
+               rt_work_extend(work, &run))
+            continue;
         if (run.count == 0)
             status = look(job, state, work, progress, error);
         while (status == RT_OK && run.count > 0 && !rt_work_is_out_of_time(work)) {
-            const double most = each > 0 ? samples / each + 1 : (double)run.count;
+            const int is_short = each == 0 || run.count > job->film->units.items;
+            const double most = is_short ? (double)run.count : samples / each + 1;
             const rt_unit_range now = {run.first,
                                        (double)run.count < most ? run.count : (uint64_t)most};
             const double began = rt_clock();

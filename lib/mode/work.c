@@ -90,6 +90,21 @@ int rt_work_next(rt_work *work, rt_unit_range *out)
     return 1;
 }
 
+int rt_work_extend(rt_work *work, rt_unit_range *range)
+{
+    const rt_units *units = &work->film->units;
+    const uint64_t end = range->first + range->count;
+    if (units->replicates > 1 || work->options->parts > 1 || range->count == 0 ||
+        range->first % units->items != 0 || range->count % units->items != 0)
+        return 0;
+    const rt_unit_range gap = rt_coverage_gap(&work->film->done, end, work->end);
+    if (gap.first != end || gap.count < units->items)
+        return 0;
+    range->count += units->items;
+    work->at = end + units->items;
+    return 1;
+}
+
 rt_status rt_work_done(rt_work *work, rt_unit_range units, rt_error *error)
 {
     work->done += rt_units_amount(&work->film->units, units);

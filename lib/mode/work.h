@@ -35,6 +35,12 @@ rt_work rt_work_begin(rt_film *film, const rt_render_options *options);
  */
 int rt_work_next(rt_work *work, rt_unit_range *out);
 
+/*
+ * Adds the next block to a range of whole blocks, where all of it is to be done too and its samples
+ * follow theirs; returns whether it did.
+ */
+int rt_work_extend(rt_work *work, rt_unit_range *range);
+
 /* Notes units whose samples the sums of the film, here or on the device, have. */
 rt_status rt_work_done(rt_work *work, rt_unit_range units, rt_error *error);
 
