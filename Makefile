@@ -61,6 +61,7 @@ LIB_SRC := \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
 	lib/pack/touch.c \
+	lib/film/columns.c \
 	lib/film/coverage.c lib/film/cut_off.c lib/film/film.c lib/film/film_info.c \
 	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
 	lib/film/noise.c lib/film/photon_sums.c lib/film/student_t.c lib/film/units.c \
@@ -175,7 +176,8 @@ TESTS_QUICK := \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \
 	tests/lib/render/test_oren_nayar.c tests/lib/render/test_touching.c \
 	tests/lib/photon/test_photon_maps.c \
-	tests/lib/film/test_cut_off.c \
+	tests/lib/film/test_columns.c tests/lib/film/test_cut_off.c \
+	tests/lib/film/test_film_file.c \
 	tests/lib/film/test_sums.c tests/lib/film/test_units.c tests/lib/film/test_student_t.c \
 	tests/lib/render/test_vertices.c \
 	tests/lib/scene/test_environment.c tests/lib/scene/test_findings.c \
@@ -243,7 +245,8 @@ FUZZ_SRC := \
 	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \
 	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/in_process.c tests/fuzz/ply_file.c \
 	tests/fuzz/scene_text.c \
-	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_map.c \
+	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_film.c \
+	tests/fuzz/target_map.c \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
 	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \
 	tests/fuzz/target_scene.c tests/fuzz/target_stl.c tests/fuzz/targets.c \
@@ -548,10 +551,11 @@ $(B)/tests/bench/bench_trace: $(BENCH_TRACE) $(B)/librt.a
 	$(CC) $(ALL_CFLAGS) $(if $(HAVE_EMBREE),-DRT_HAVE_EMBREE) $(LDFLAGS) -o $@ $^ \
 	    $(if $(HAVE_EMBREE),-lembree3) $(ALL_LIBS)
 
-bench: all $(addprefix $(B)/tests/bench/bench_,trace gather progressive)
+bench: all $(addprefix $(B)/tests/bench/bench_,trace gather progressive checkpoint)
 	$(B)/tests/bench/bench_trace
 	$(B)/tests/bench/bench_gather
 	$(B)/tests/bench/bench_progressive scenes/cornell.rts 20
+	cd $(B) && tests/bench/bench_checkpoint ../scenes/cornell.rts
 	RTC=$(B)/rtc tests/bench/bench_render.sh
 	RTC=$(B)/rtc tests/bench/bench_error.sh
 

@@ -87,7 +87,7 @@ static inline void film_join(rt_film_pixel *pixel, const rt_film_pixel *other)
         pixel->low[c] = (rt_i64)((rt_u64)pixel->low[c] + (rt_u64)more.low[c]);
     }
     film_reject(pixel, more.bins >> RT_FILM_REJECTED);
-    pixel->weight += more.weight;
+    pixel->weight = (rt_i32)((rt_u32)pixel->weight + (rt_u32)more.weight);
     pixel->count += more.count;
     pixel->cut_off = film_add_saturated(pixel->cut_off, more.cut_off);
 }

@@ -7,4 +7,7 @@
 
 uint32_t rt_crc32(const void *data, size_t size);
 
+/* The checksum of what has `sum`, 0 for nothing, followed by these bytes. */
+uint32_t rt_crc32_add(uint32_t sum, const void *data, size_t size);
+
 #endif

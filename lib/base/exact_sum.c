@@ -8,6 +8,12 @@ enum { bin_bits = 31, lowest_place = -1074, mantissa_bits = 52 };
 
 static const uint64_t bin_mask = 0x7fffffff;
 
+/* The sum of two, which wraps around where one came from a damaged file. */
+static int64_t wrapped(int64_t a, int64_t b)
+{
+    return (int64_t)((uint64_t)a + (uint64_t)b);
+}
+
 /* Moves a sum up until its lower bin is at least this one. */
 static void raise_to(rt_exact_sum *sum, int64_t bin)
 {
@@ -40,9 +46,9 @@ void rt_exact_sum_add(rt_exact_sum *sum, double value)
     raise_to(sum, bin + top - 1);
     for (int i = 0; i <= top; i++) {
         if (bin + i == sum->bin + 1)
-            sum->high += sign * digits[i];
+            sum->high = wrapped(sum->high, sign * digits[i]);
         else if (bin + i == sum->bin)
-            sum->low += sign * digits[i];
+            sum->low = wrapped(sum->low, sign * digits[i]);
     }
 }
 
@@ -51,9 +57,8 @@ void rt_exact_sum_join(rt_exact_sum *sum, const rt_exact_sum *other)
     rt_exact_sum more = *other;
     raise_to(sum, more.bin);
     raise_to(&more, sum->bin);
-    /* Sums that came from a file may wrap around. */
-    sum->high = (int64_t)((uint64_t)sum->high + (uint64_t)more.high);
-    sum->low = (int64_t)((uint64_t)sum->low + (uint64_t)more.low);
+    sum->high = wrapped(sum->high, more.high);
+    sum->low = wrapped(sum->low, more.low);
 }
 
 double rt_exact_sum_value(const rt_exact_sum *sum)

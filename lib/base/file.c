@@ -134,19 +134,26 @@ out:
 
 /* The functions below return 0, or the errno of what failed. */
 
-static int write_all(int fd, const rt_bytes *bytes)
+int rt_file_put(int fd, const void *data, size_t size)
 {
-    size_t done = 0;
-    while (done < bytes->size) {
-        ssize_t count = write(fd, bytes->data + done, bytes->size - done);
+    const uint8_t *at = data;
+    while (size > 0) {
+        ssize_t count = write(fd, at, size);
         if (count < 0 && errno == EINTR)
             continue;
         if (count < 0)
             return errno;
-        done += (size_t)count;
+        at += count;
+        size -= (size_t)count;
     }
     return 0;
 }
+
+/* What is to be in a file. */
+typedef struct content {
+    rt_file_content *put;
+    const void *user;
+} content;
 
 static int close_file(int fd)
 {
@@ -156,12 +163,12 @@ static int close_file(int fd)
     return close(fd) != 0 && errno != EINTR ? errno : 0;
 }
 
-static int write_in_place(const char *path, const rt_bytes *bytes)
+static int write_in_place(const char *path, const content *content)
 {
     int fd = open(path, O_WRONLY | O_CLOEXEC);
     if (fd < 0)
         return errno;
-    int code = write_all(fd, bytes);
+    int code = content->put(content->user, fd);
     int close_code = close_file(fd);
     return code ? code : close_code;
 }
@@ -186,7 +193,7 @@ static int open_temporary(int *fd, char *name, size_t name_size, const char *tar
  * Writes a temporary file and renames it to target; `old` is target's status or NULL when it is
  * new.
  */
-static int replace(const char *target, const struct stat *old, const rt_bytes *bytes)
+static int replace(const char *target, const struct stat *old, const content *content)
 {
     char name[PATH_MAX];
     int fd;
@@ -195,7 +202,7 @@ static int replace(const char *target, const struct stat *old, const rt_bytes *b
     int code = open_temporary(&fd, name, sizeof name, target);
     if (code)
         return code;
-    code = write_all(fd, bytes);
+    code = content->put(content->user, fd);
     if (!code && old && fchmod(fd, old->st_mode & 0777) != 0)
         code = errno;
     if (!code && fsync(fd) != 0)
@@ -211,7 +218,7 @@ static int replace(const char *target, const struct stat *old, const rt_bytes *b
 }
 
 /* Makes the file that path, a link to nothing, points to. */
-static int make_target(const char *path, const rt_bytes *bytes)
+static int make_target(const char *path, const content *content)
 {
     /* Its name is known once it is there. */
     int fd = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
@@ -221,34 +228,47 @@ static int make_target(const char *path, const rt_bytes *bytes)
     char *target = realpath(path, NULL);
     if (!target)
         return errno;
-    int code = replace(target, NULL, bytes);
+    int code = replace(target, NULL, content);
     if (code)
         unlink(target);
     free(target);
     return code;
 }
 
-rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error)
+rt_status rt_file_replace_by(const char *path, rt_file_content *put, const void *user,
+                             rt_error *error)
 {
     if (rt_is_missing(path, "path", error))
         return RT_ERROR_USAGE;
+    const content now = {put, user};
     struct stat old, link;
     int code;
     if (stat(path, &old) != 0) {
         code = errno;
         if (code == ENOENT)
-            code = lstat(path, &link) == 0 ? make_target(path, bytes) : replace(path, NULL, bytes);
+            code = lstat(path, &link) == 0 ? make_target(path, &now) : replace(path, NULL, &now);
     } else if (S_ISDIR(old.st_mode)) {
         code = EISDIR;
     } else if (!S_ISREG(old.st_mode)) {
-        code = write_in_place(path, bytes);
+        code = write_in_place(path, &now);
     } else {
         /* Replace what a symbolic link points to, not the link. */
         char *target = realpath(path, NULL);
-        code = target ? replace(target, &old, bytes) : errno;
+        code = target ? replace(target, &old, &now) : errno;
         free(target);
     }
     return code ? fail_errno(error, RT_ERROR_OUTPUT, "write", path, code) : RT_OK;
+}
+
+static int put_bytes(const void *user, int fd)
+{
+    const rt_bytes *bytes = user;
+    return rt_file_put(fd, bytes->data, bytes->size);
+}
+
+rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error)
+{
+    return rt_file_replace_by(path, put_bytes, bytes, error);
 }
 
 rt_status rt_file_write(const char *path, const void *data, size_t size, rt_error *error)

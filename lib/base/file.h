@@ -40,4 +40,12 @@ rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_
  */
 rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error);
 
+/* Writes the content of a file, by rt_file_put; returns 0, or the errno of what failed. */
+typedef int rt_file_content(const void *user, int fd);
+int rt_file_put(int fd, const void *data, size_t size);
+
+/* The same as rt_file_replace for what is too large to be in memory at once. */
+rt_status rt_file_replace_by(const char *path, rt_file_content *content, const void *user,
+                             rt_error *error);
+
 #endif

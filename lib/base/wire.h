@@ -13,18 +13,29 @@ typedef struct rt_writer {
     uint8_t *at;
 } rt_writer;
 
+/* Written out byte by byte, to a place of its own: compilers make one store of that. */
 static inline void rt_put32(rt_writer *w, uint32_t value)
 {
-    for (int i = 0; i < 4; i++)
-        w->at[i] = (uint8_t)(value >> (8 * i));
-    w->at += 4;
+    uint8_t *to = w->at;
+    to[0] = (uint8_t)value;
+    to[1] = (uint8_t)(value >> 8);
+    to[2] = (uint8_t)(value >> 16);
+    to[3] = (uint8_t)(value >> 24);
+    w->at = to + 4;
 }
 
 static inline void rt_put64(rt_writer *w, uint64_t value)
 {
-    for (int i = 0; i < 8; i++)
-        w->at[i] = (uint8_t)(value >> (8 * i));
-    w->at += 8;
+    uint8_t *to = w->at;
+    to[0] = (uint8_t)value;
+    to[1] = (uint8_t)(value >> 8);
+    to[2] = (uint8_t)(value >> 16);
+    to[3] = (uint8_t)(value >> 24);
+    to[4] = (uint8_t)(value >> 32);
+    to[5] = (uint8_t)(value >> 40);
+    to[6] = (uint8_t)(value >> 48);
+    to[7] = (uint8_t)(value >> 56);
+    w->at = to + 8;
 }
 
 static inline void rt_put_double(rt_writer *w, double value)

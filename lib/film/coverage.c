@@ -86,11 +86,16 @@ int rt_coverage_overlaps(const rt_coverage *a, const rt_coverage *b)
     return 0;
 }
 
-rt_status rt_coverage_join(rt_coverage *coverage, const rt_coverage *other, rt_error *error)
+rt_status rt_coverage_prepare(rt_coverage *coverage, const rt_coverage *other, rt_error *error)
 {
     if (rt_coverage_overlaps(coverage, other))
         return rt_fail(error, RT_ERROR_USAGE, "the same part of the picture twice");
-    rt_status status = reserve(coverage, coverage->count + other->count, error);
+    return reserve(coverage, coverage->count + other->count, error);
+}
+
+rt_status rt_coverage_join(rt_coverage *coverage, const rt_coverage *other, rt_error *error)
+{
+    rt_status status = rt_coverage_prepare(coverage, other, error);
     for (size_t i = 0; i < other->count && status == RT_OK; i++)
         status = rt_coverage_add(coverage, other->ranges[i], error);
     return status;

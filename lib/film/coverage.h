@@ -20,6 +20,9 @@ rt_status rt_coverage_add(rt_coverage *coverage, rt_unit_range range, rt_error *
 /* Adds all of another set; RT_ERROR_USAGE, with nothing added, when they have a unit in common. */
 rt_status rt_coverage_join(rt_coverage *coverage, const rt_coverage *other, rt_error *error);
 
+/* Fails where rt_coverage_join would, and makes room for it: that cannot fail then. */
+rt_status rt_coverage_prepare(rt_coverage *coverage, const rt_coverage *other, rt_error *error);
+
 /* Whether two sets have a unit in common. */
 int rt_coverage_overlaps(const rt_coverage *a, const rt_coverage *b);
 

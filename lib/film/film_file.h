@@ -27,17 +27,22 @@
  *          as the program gave them, then every setting
  *   168 bytes a light, as in a photon map (photon/map_file.h)
  *   16 bytes a range of units: u64 first, u64 count; ascending, apart from each other
- *   each run: u64 first, u64 count, then 64 bytes a pixel: i64 high[3], i64 low[3], u32 bins, i32
- *          weight, u32 count, u32 cut off, as rt_film_pixel says. Pixels are counted through the
- *          planes, then through the RT_LAYER_COUNT layers; those without samples are left out
- *   with sums of photon layers, the same runs: 144 bytes a pixel: u64 asked, u64 photons, u64
- *          samples, then radius, density, value, square and bias, each i64 high, i64 low, i64 bin
+ *   each run: u64 first, u64 count, then its pixels, of 10 columns: i64 high[3], low[3], u32 bins,
+ *          count - weight, count, u32 cut off, as rt_film_pixel says. Pixels are counted through
+ *          the planes, then through the RT_LAYER_COUNT layers; those without samples are left out
+ *   with sums of photon layers, all pixels, of 18 columns: u64 asked, u64 photons, u64 samples,
+ *          then radius, density, value, square and bias, each i64 high, i64 low, i64 bin
  *   4      CRC-32 (that of zlib) of all bytes before
+ *
+ * Pixels come in blocks of 256, of which the last of a run may be shorter. A block is its columns,
+ * one after the other, each: i64 the least number, u8 width, 0 to 8, and of each pixel how much
+ * more its number is, in `width` bytes.
  */
 #ifndef RT_LIB_FILM_FILM_FILE_H
 #define RT_LIB_FILM_FILM_FILE_H
 
 #include "base/bytes.h"
+#include "film/columns.h"
 #include "film/film.h"
 
 enum { RT_FILM_VERSION = 1 };
@@ -46,16 +51,13 @@ enum { RT_FILM_VERSION = 1 };
 enum {
     RT_FILM_HEADER = 200,
     RT_FILM_RANGE = 16,
-    RT_FILM_PIXEL = 64,
-    RT_FILM_PHOTON_SUMS = 144,
+    RT_FILM_PIXEL_COLUMNS = 10,
+    RT_FILM_SUMS_COLUMNS = 18,
     RT_FILM_CHECKSUM = 4
 };
 
 /* The first eight bytes. */
 extern const uint8_t rt_film_magic[8];
-
-/* A film as the bytes of its file. The caller frees *out. */
-rt_status rt_film_encode_in(rt_bytes *out, const rt_film *film, rt_error *error);
 
 /*
  * The film that a file of these bytes holds, counted in `memory`; name stands for the file in

@@ -217,19 +217,44 @@ static rt_status read_ranges(reader *r, const header *h, rt_film *film)
     return RT_OK;
 }
 
-static int read_pixel(reader *r, rt_film_pixel *p)
+/* Whether a column holds a number of 32 bits. */
+static int is_word(const rt_block *b, int column, size_t row)
 {
-    for (int c = 0; c < 3; c++)
-        p->high[c] = rt_get_signed64(&r->at);
-    for (int c = 0; c < 3; c++)
-        p->low[c] = rt_get_signed64(&r->at);
-    p->bins = rt_get32(&r->at);
-    p->weight = (int32_t)rt_get_signed32(&r->at);
-    p->count = rt_get32(&r->at);
-    p->cut_off = rt_get32(&r->at);
+    return b->values[column][row] >= 0 && b->values[column][row] <= UINT32_MAX;
+}
+
+/* Takes a pixel from a row; whether it is in range. */
+static int get_pixel(const rt_block *b, size_t row, rt_film_pixel *p)
+{
+    const int64_t count = b->values[8][row], beside = b->values[7][row];
+    if (!is_word(b, 6, row) || !is_word(b, 8, row) || !is_word(b, 9, row) || beside < 0 ||
+        beside > 2 * count || count - beside < INT32_MIN || count - beside > INT32_MAX)
+        return 0;
+    for (int c = 0; c < 3; c++) {
+        p->high[c] = b->values[c][row];
+        p->low[c] = b->values[3 + c][row];
+    }
+    p->bins = (uint32_t)b->values[6][row];
+    p->weight = (int32_t)(count - beside);
+    p->count = (uint32_t)count;
+    p->cut_off = (uint32_t)b->values[9][row];
     return film_bin(p, 0) <= RT_FILM_BIN_LAST && film_bin(p, 1) <= RT_FILM_BIN_LAST &&
-           film_bin(p, 2) <= RT_FILM_BIN_LAST && (int64_t)p->weight <= (int64_t)p->count &&
-           (int64_t)p->weight >= -(int64_t)p->count;
+           film_bin(p, 2) <= RT_FILM_BIN_LAST;
+}
+
+/* Reads the pixels of a run, in blocks. */
+static rt_status read_run(reader *r, rt_film_pixel *pixels, size_t count)
+{
+    rt_block block = {.columns = RT_FILM_PIXEL_COLUMNS};
+    for (size_t at = 0; at < count; at += block.rows) {
+        block.rows = count - at < RT_BLOCK_ROWS ? count - at : RT_BLOCK_ROWS;
+        if (!rt_block_get(&r->at, r->end, &block))
+            return fail_content(r, "it is too short for its pixels");
+        for (size_t i = 0; i < block.rows; i++)
+            if (!get_pixel(&block, i, pixels + at + i))
+                return fail_content(r, "a pixel is out of range");
+    }
+    return RT_OK;
 }
 
 static rt_status read_pixels(reader *r, const header *h, rt_film *film)
@@ -237,44 +262,52 @@ static rt_status read_pixels(reader *r, const header *h, rt_film *film)
     const size_t pixels = rt_film_pixels(film), planes = pixels * film->units.replicates,
                  all = planes + (h->flags & 1 ? RT_LAYER_COUNT * pixels : 0);
     uint64_t end = 0;
-    for (uint64_t run = 0; run < h->runs; run++) {
+    rt_status status = RT_OK;
+    for (uint64_t run = 0; run < h->runs && status == RT_OK; run++) {
         if (!has(r, 1, RT_FILM_RANGE))
             return fail_content(r, "it is too short for its pixels");
         const uint64_t first = rt_get64(&r->at), count = rt_get64(&r->at);
-        if (first < end || first >= all || count == 0 || count > all - first ||
-            !has(r, count, RT_FILM_PIXEL))
+        /* A run ends with the planes, as the layers lie elsewhere. */
+        const size_t limit = first < planes ? planes : all;
+        if (first < end || first >= limit || count == 0 || count > limit - first)
             return fail_content(r, "its runs of pixels are out of order");
         end = first + count;
-        for (uint64_t i = first; i < end; i++)
-            if (!read_pixel(r, i < planes ? film->pixels + i : film->layer_sums + (i - planes)))
-                return fail_content(r, "a pixel is out of range");
+        status = read_run(
+            r, first < planes ? film->pixels + first : film->layer_sums + ((size_t)first - planes),
+            (size_t)count);
     }
-    return RT_OK;
+    return status;
 }
 
-static int read_exact(reader *r, rt_exact_sum *sum)
+static int get_exact(const rt_block *b, size_t row, int column, rt_exact_sum *sum)
 {
-    sum->high = rt_get_signed64(&r->at);
-    sum->low = rt_get_signed64(&r->at);
-    sum->bin = rt_get_signed64(&r->at);
+    sum->high = b->values[column][row];
+    sum->low = b->values[column + 1][row];
+    sum->bin = b->values[column + 2][row];
     return sum->bin >= 0 && sum->bin <= RT_EXACT_SUM_BIN_LAST;
+}
+
+static int get_photon_sums(const rt_block *b, size_t row, rt_photon_sums *s)
+{
+    s->asked = (uint64_t)b->values[0][row];
+    s->photons = (uint64_t)b->values[1][row];
+    s->samples = (uint64_t)b->values[2][row];
+    return get_exact(b, row, 3, &s->radius) && get_exact(b, row, 6, &s->density) &&
+           get_exact(b, row, 9, &s->value) && get_exact(b, row, 12, &s->square) &&
+           get_exact(b, row, 15, &s->bias);
 }
 
 static rt_status read_photon_sums(reader *r, rt_film *film)
 {
-    const size_t pixels = rt_film_pixels(film);
-    if (!film->photon_sums)
-        return RT_OK;
-    if (!has(r, pixels, RT_FILM_PHOTON_SUMS))
-        return fail_content(r, "it is too short for its photon layers");
-    for (size_t i = 0; i < pixels; i++) {
-        rt_photon_sums *s = film->photon_sums + i;
-        s->asked = rt_get64(&r->at);
-        s->photons = rt_get64(&r->at);
-        s->samples = rt_get64(&r->at);
-        if (!read_exact(r, &s->radius) || !read_exact(r, &s->density) ||
-            !read_exact(r, &s->value) || !read_exact(r, &s->square) || !read_exact(r, &s->bias))
-            return fail_content(r, "sums of its photon layers are out of range");
+    const size_t pixels = film->photon_sums ? rt_film_pixels(film) : 0;
+    rt_block block = {.columns = RT_FILM_SUMS_COLUMNS};
+    for (size_t at = 0; at < pixels; at += block.rows) {
+        block.rows = pixels - at < RT_BLOCK_ROWS ? pixels - at : RT_BLOCK_ROWS;
+        if (!rt_block_get(&r->at, r->end, &block))
+            return fail_content(r, "it is too short for its photon layers");
+        for (size_t i = 0; i < block.rows; i++)
+            if (!get_photon_sums(&block, i, film->photon_sums + at + i))
+                return fail_content(r, "sums of its photon layers are out of range");
     }
     return RT_OK;
 }
@@ -314,7 +347,9 @@ static rt_status make_film(reader *r, const header *h, const rt_render_options *
         return status;
     rt_film *film = *out;
     if (film->units.replicates != h->planes || h->flags > 3 ||
-        (h->flags & 2) != (film->photon_sums ? 2u : 0u) || h->base > film->units.samples)
+        (h->flags & 2) != (film->photon_sums ? 2u : 0u) ||
+        (h->flags & 1 && !film->options.aov && rt_mode_shows_light(film->options.mode)) ||
+        h->base > film->units.samples || (h->base > 0 && film->units.in_passes))
         return fail_content(r, "its layers do not go with its settings");
     film->units = rt_units_of(&film->options, h->base);
     film->stats = h->stats;
@@ -326,13 +361,14 @@ static rt_status make_film(reader *r, const header *h, const rt_render_options *
 rt_status rt_film_decode_in(rt_film **out, const uint8_t *data, size_t size, const char *name,
                             rt_memory *memory, rt_error *error)
 {
-    reader r = {{data}, data + size - RT_FILM_CHECKSUM, name, memory, error};
+    reader r = {{data}, data, name, memory, error};
     rt_render_options options = {0};
     rt_film *film = NULL;
     char *note = NULL;
     rt_status status = check_frame(data, size, name, error);
     if (status != RT_OK)
         return status;
+    r.end = data + size - RT_FILM_CHECKSUM;
     const header h = read_header(&r);
     if (!has_sound_times(&h.stats))
         return fail_content(&r, "its times are out of range");

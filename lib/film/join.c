@@ -75,19 +75,25 @@ void rt_film_join_ids(rt_film_pixel *pixels, const rt_film_pixel *others, size_t
     }
 }
 
-static rt_status add_layers(rt_film *film, const rt_film *from, rt_error *error)
+/* Makes the sums of layers that another film has, if it has any. */
+static rt_status make_layers(rt_film *film, const rt_film *from, rt_error *error)
+{
+    const size_t pixels = rt_film_pixels(film);
+    if (!from->layer_sums || film->layer_sums)
+        return RT_OK;
+    film->layer_sums = calloc(RT_LAYER_COUNT * pixels, sizeof *film->layer_sums);
+    return film->layer_sums ? RT_OK
+                            : rt_fail(error, RT_ERROR_MEMORY,
+                                      "out of memory for the layers of %zu pixels", pixels);
+}
+
+static void add_layers(rt_film *film, const rt_film *from)
 {
     const size_t pixels = rt_film_pixels(film), ids = RT_LAYER_IDS * pixels;
     if (!from->layer_sums)
-        return RT_OK;
-    if (!film->layer_sums)
-        film->layer_sums = calloc(RT_LAYER_COUNT * pixels, sizeof *film->layer_sums);
-    if (!film->layer_sums)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels",
-                       pixels);
+        return;
     rt_film_join_pixels(film->layer_sums, from->layer_sums, ids);
     rt_film_join_ids(film->layer_sums + ids, from->layer_sums + ids, pixels);
-    return RT_OK;
 }
 
 /* Photons of passes add up; without passes all films have those of the same map. */
@@ -96,10 +102,14 @@ static rt_status add_photons(rt_film *film, const rt_film *from, rt_error *error
     rt_film_stats *stats = &film->stats;
     if (!film->units.in_passes && film->ledger.count > 0)
         return RT_OK;
+    rt_status status =
+        from->ledger.count > 0 ? rt_ledger_add(&film->ledger, &from->ledger, error) : RT_OK;
+    if (status != RT_OK)
+        return status;
     stats->photons_emitted += from->stats.photons_emitted;
     stats->photons_stored += from->stats.photons_stored;
     stats->photons_rejected += from->stats.photons_rejected;
-    return from->ledger.count > 0 ? rt_ledger_add(&film->ledger, &from->ledger, error) : RT_OK;
+    return RT_OK;
 }
 
 static void add_stats(rt_film_stats *stats, const rt_film_stats *from)
@@ -116,14 +126,16 @@ static void add_stats(rt_film_stats *stats, const rt_film_stats *from)
     stats->render_seconds += from->render_seconds;
 }
 
+/* Adds all that is summed, or nothing. */
 static rt_status add_sums(rt_film *film, const rt_film *from, rt_error *error)
 {
     const size_t pixels = rt_film_pixels(film);
-    rt_status status = add_layers(film, from, error);
+    rt_status status = make_layers(film, from, error);
     if (status == RT_OK)
         status = add_photons(film, from, error);
     if (status != RT_OK)
         return status;
+    add_layers(film, from);
     rt_film_join_pixels(film->pixels, from->pixels, pixels * film->units.replicates);
     if (film->photon_sums && from->photon_sums)
         rt_photon_sums_join(film->photon_sums, from->photon_sums, pixels);
@@ -186,7 +198,10 @@ rt_status rt_film_add(rt_film *film, const rt_film *from, rt_error *error)
     if (status == RT_OK && film->ledger.count > 0 && from->ledger.count > 0 &&
         !rt_ledger_matches(&film->ledger, &from->ledger))
         status = rt_fail(error, RT_ERROR_USAGE, "the films are of other lights");
+    /* The film stays as it was where something fails: what is left after the sums cannot. */
     if (status == RT_OK)
-        status = rt_coverage_join(&film->done, &from->done, error);
-    return status == RT_OK ? add_sums(film, from, error) : status;
+        status = rt_coverage_prepare(&film->done, &from->done, error);
+    if (status == RT_OK)
+        status = add_sums(film, from, error);
+    return status == RT_OK ? rt_coverage_join(&film->done, &from->done, error) : status;
 }

@@ -113,12 +113,14 @@ static void book_share(void *user, uint32_t index)
     }
 }
 
+/* Sums that came from a damaged file may wrap around. */
 static void add_row(rt_ledger_row *to, const rt_ledger_row *from)
 {
     to->paths += from->paths;
     for (int column = 0; column < RT_LEDGER_COLUMNS; column++)
         for (int c = 0; c < 3; c++)
-            to->sums[column][c] += from->sums[column][c];
+            to->sums[column][c] =
+                (int64_t)((uint64_t)to->sums[column][c] + (uint64_t)from->sums[column][c]);
 }
 
 rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights,
@@ -190,6 +192,8 @@ rt_status rt_ledger_add(rt_ledger *a, const rt_ledger *b, rt_error *error)
 {
     if (!a->rows)
         return copy(a, b, error);
+    if (!rt_ledger_matches(a, b))
+        return rt_fail(error, RT_ERROR_USAGE, "the energy ledgers are of other lights");
     for (size_t i = 0; i < a->count; i++)
         if (!row_fits(a->rows + i, b->rows + i))
             return rt_fail(error, RT_ERROR_USAGE,

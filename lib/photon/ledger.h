@@ -60,8 +60,8 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights,
 int rt_ledger_matches(const rt_ledger *a, const rt_ledger *b);
 
 /*
- * Adds b to a. One without lights becomes a copy of b. Fails with RT_ERROR_USAGE when the sums
- * become too large.
+ * Adds b to a. One without lights becomes a copy of b. Fails with RT_ERROR_USAGE when they are of
+ * other lights, or the sums become too large.
  */
 rt_status rt_ledger_add(rt_ledger *a, const rt_ledger *b, rt_error *error);
 

@@ -7,9 +7,9 @@
 #include "tools/command_line.h"
 #include "tools/settings.h"
 
-const char *const fuzz_command_files[] = {"s.rts", "w.rts", "p.rts", "a.exr", "b.exr",
-                                          "c.png", "m.rtp", "n.rtp", "k.rtp", "z.rtp",
-                                          "l.exr", "e.rts", NULL};
+const char *const fuzz_command_files[] = {"s.rts", "w.rts", "p.rts",    "a.exr",    "b.exr",
+                                          "c.png", "m.rtp", "n.rtp",    "k.rtp",    "z.rtp",
+                                          "l.exr", "e.rts", "f.rtpart", "g.rtpart", NULL};
 
 /* Names of outputs, forms and kinds, and values of options that take any text. */
 static const char *const others[] = {

@@ -30,14 +30,16 @@ static int is_given(const command_line *line, option_id id)
 /* Whether a command keeps to small files of the current directory, and asks for no device. */
 static int is_harmless(const command_line *line)
 {
+    static const option_id files[] = {OPTION_PHOTON_MAP, OPTION_RESUME, OPTION_CHECKPOINT};
     for (size_t i = 0; i < line->operand_count; i++)
         if (strchr(line->operands[i], '/') || strcmp(line->operands[i], "-") == 0)
             return 0;
     for (size_t i = 0; i < line->output_count; i++)
         if (strchr(line->outputs[i], '/'))
             return 0;
-    if (is_given(line, OPTION_PHOTON_MAP) && strchr(line->options[OPTION_PHOTON_MAP].text, '/'))
-        return 0;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (is_given(line, files[i]) && strchr(line->options[files[i]].text, '/'))
+            return 0;
     if (line->command == COMMAND_MESH)
         return is_given(line, OPTION_TRIANGLES) &&
                line->options[OPTION_TRIANGLES].count <= triangles_max;
@@ -104,6 +106,8 @@ static void begin(void)
     fuzz_write_seed(&fuzz_target_map, 3, "k.rtp");
     fuzz_write_seed(&fuzz_target_map, 0, "z.rtp");
     fuzz_write_seed(&fuzz_target_exr, FUZZ_EXR_LAYERS, "l.exr");
+    fuzz_write_seed(&fuzz_target_film, 0, "f.rtpart");
+    fuzz_write_seed(&fuzz_target_film, 1, "g.rtpart");
     write_errors();
 }
 
@@ -242,6 +246,10 @@ static const char *const lines[] = {
     "photons\ndiff\nn.rtp\nn.rtp\n--json",
     "photons\nmerge\nk.rtp\nn.rtp\n--out\no.rtp",
     "photons\nexport\nn.rtp\n--out\no.ply",
+    "merge\nf.rtpart\ng.rtpart\n--out\no.png\n--incomplete",
+    "merge\nf.rtpart\nf.rtpart\n--out\no.rtpart",
+    "info\nf.rtpart\ng.rtpart\n--json",
+    "info\ng.rtpart\nm.rtp",
     "mesh\nsphere\n--triangles\n100\n--out\no.ply",
     "mesh\ntorus\n--triangles\n30",
     "mesh\nknot\n--triangles\n1",

@@ -15,6 +15,7 @@
     X(pfm)                                                                                         \
     X(exr)                                                                                         \
     X(map)                                                                                         \
+    X(film)                                                                                        \
     X(command)
 
 #define FUZZ_DECLARE(name) extern const fuzz_target fuzz_target_##name;

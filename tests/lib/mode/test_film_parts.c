@@ -159,6 +159,9 @@ static void more_samples_or_passes_continue_a_finished_film(void **state)
         o.resume = less;
         rt_film *film = render(&o);
         expect_same_film(whole, film, film_renders[i].name);
+        rt_film_info info;
+        rt_film_get_info(film, &info);
+        assert_true(info.done == 1 && info.units_done == info.units);
         rt_film *none = NULL;
         o.resume = film;
         o.spp = in_passes ? o.spp : film_renders[i].options.spp - 1;
