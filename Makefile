@@ -101,6 +101,10 @@ LIB_SRC := \
 
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc lib/photon/flann_shim.cc
 
+# The public interface, beside lib/rt.h.
+PUBLIC_H := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h render.h \
+            scene.h setting.h share.h)
+
 DSL_SRC := \
 	dsl/blocks.c dsl/budget.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c \
 	dsl/lexer.c dsl/load.c dsl/names.c dsl/no_effect.c dsl/origin.c dsl/parse_block.c \
@@ -216,6 +220,7 @@ TESTS_SHELL := \
 	tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
 	tests/proof/test_page.sh tests/test_includes.sh tests/test_style.sh \
+	tests/tools/cluster/test_pool.sh \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \
@@ -316,6 +321,20 @@ $(B)/$(SONAME): $(LIB_OBJ) lib/exports.map
 $(B)/rtc: $(TOOL_OBJ) $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
 
+# ---- Many machines: see tools/cluster/README.md -----------------------------
+
+# Programs of the installed library, built beside it: headers lie in a folder as they will there.
+CLUSTER := $(addprefix $(B)/tools/cluster/,pool)
+
+$(B)/include/rt/rt.h: lib/rt.h $(PUBLIC_H) kernels/common.h
+	@mkdir -p $(@D)
+	cp $^ $(@D)
+
+$(B)/tools/cluster/%: tools/cluster/%.c $(B)/include/rt/rt.h $(B)/librt.a
+	@mkdir -p $(@D)
+	$(CC) -std=c99 $(WARNINGS) $(WERROR) -D_POSIX_C_SOURCE=200809L -I$(B)/include $(CFLAGS) \
+	    $(LDFLAGS) -o $@ $(filter %.c %.a,$^) $(ALL_LIBS)
+
 # ---- Tests ------------------------------------------------------------------
 
 TEST_LIBS    := $(shell pkg-config --libs cmocka 2>/dev/null)
@@ -390,7 +409,7 @@ run-quick: all $(call TEST_BIN,$(TESTS_QUICK))
 # The longest first, so that it is not left to run alone; it fills the cores while the quick ones
 # wait for their device to open. It draws more samples of the same routines than its quick namesake.
 TESTS_SHORT := $(filter-out tests/statistics/test_chi_square_quick.c,$(TESTS_QUICK))
-run-all: all $(call TEST_BIN,$(TESTS_SHORT) $(TESTS_FULL))
+run-all: all $(CLUSTER) $(call TEST_BIN,$(TESTS_SHORT) $(TESTS_FULL))
 	$(RUN_TESTS) $(call TEST_BIN,$(firstword $(TESTS_FULL)) $(TESTS_SHORT)) $(TESTS_SHELL) \
 	    $(call TEST_BIN,$(wordlist 2,$(words $(TESTS_FULL)),$(TESTS_FULL)))
 
@@ -586,8 +605,6 @@ $(B)/docs: $(B)/dsl/docs.o $(B)/dsl/reference.o $(B)/librt.a
 REALNAME    := librt-render.so.$(VERSION)
 BINDIR      ?= $(PREFIX)/bin
 INCLUDEDIR  ?= $(PREFIX)/include
-PUBLIC_H    := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h render.h \
-               scene.h setting.h share.h)
 INSTALLED    = $(BINDIR)/rtc $(LIBDIR)/pkgconfig/librt-render.pc \
                $(addprefix $(INCLUDEDIR)/rt/,rt.h common.h $(notdir $(PUBLIC_H))) \
                $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a)

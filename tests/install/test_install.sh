@@ -119,6 +119,12 @@ check example_builds_statically build_static static
 check static_example_needs_no_shared_library eval '! objdump -p static | grep librt-render'
 check static_example_renders_the_same eval 'says_radiance static && is_same shared.out static.out'
 
+# The pool of processes, which has a test of its own.
+# shellcheck disable=SC2046 # a list of flags
+check pool_of_processes_builds cc -std=c99 -pedantic -Wall -Wextra -Werror \
+    -D_POSIX_C_SOURCE=200809L -o pool "$OLDPWD/tools/cluster/pool.c" \
+    $(pkg-config --cflags --libs librt-render)
+
 # ---- In a folder of one's own -------------------------------------------------------
 
 # As the README says, from `make install PREFIX=` to `./a.out`.
