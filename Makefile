@@ -220,7 +220,7 @@ TESTS_SHELL := \
 	tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
 	tests/proof/test_page.sh tests/test_includes.sh tests/test_style.sh \
-	tests/tools/cluster/test_pool.sh \
+	tests/tools/cluster/test_pool.sh tests/tools/cluster/test_templates.sh \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \
