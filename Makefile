@@ -205,7 +205,7 @@ TESTS_FULL  := \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
 	tests/tools/test_rtc.c $(TESTS_PROOF) tests/threads/test_threads.c \
 	tests/faults/test_faults.c tests/faults/test_commands.c tests/faults/test_icd.c \
-	tests/faults/test_life.c \
+	tests/faults/test_films.c tests/faults/test_life.c \
 	tests/lib/mode/test_photon_bias.c tests/kernels/test_shapes_many.c \
 	tests/lib/photon/test_aim.c tests/tools/test_photons.c tests/lib/mode/test_photon_film.c \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
@@ -357,7 +357,7 @@ $(B)/libtests.a: $(TEST_SUPPORT)
 
 # Each call that fails in turn is wrapped by the linker. One of the tests runs rtc as a whole, on a
 # device that stays open.
-FAULT_TESTS := $(addprefix $(B)/tests/faults/test_,commands faults life)
+FAULT_TESTS := $(addprefix $(B)/tests/faults/test_,commands faults films life)
 FAULT_OBJ   := $(addprefix $(B)/tests/faults/,fault.o inject.o scene_files.o)
 $(FAULT_TESTS): %: %.o $(FAULT_OBJ) \
 		$(B)/libtests.a $(B)/librt.a tests/faults/calls.inc.h tests/faults/wrap.sh
@@ -519,7 +519,7 @@ $(B)/tests/faults/test_icd: | $(B)/tests/faults/icd.so
 
 # Small renders, and the commands of rtc, in which each call for memory, to files, threads and
 # OpenCL fails in turn.
-check-faults: $(B)/tests/faults/test_faults $(B)/tests/faults/test_commands
+check-faults: $(addprefix $(B)/tests/faults/test_,faults films commands)
 	RT_TEST_LONG=1 RT_TEST_TIMEOUT=3600 tests/run.sh $^
 
 # Eight processes at once on one cache of compiled kernels: cold, damaged, read-only, full.

@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -24,7 +25,7 @@
 
 /* Driver threads do not come here, but threads of the library do. */
 static long count, target, live;
-static int is_armed, lasts;
+static int is_armed, lasts, kills;
 static const char *fired;
 static FILE *failed_stream;
 
@@ -32,10 +33,17 @@ void fault_arm(long n, int for_good)
 {
     target = n;
     lasts = for_good;
+    kills = 0;
     fired = NULL;
     failed_stream = NULL;
     __atomic_store_n(&count, 0, __ATOMIC_SEQ_CST);
     __atomic_store_n(&is_armed, 1, __ATOMIC_SEQ_CST);
+}
+
+void fault_kill_at(long n)
+{
+    fault_arm(n, 0);
+    kills = 1;
 }
 
 long fault_disarm(void)
@@ -61,6 +69,8 @@ static int fires(const char *name)
     long n = __atomic_add_fetch(&count, 1, __ATOMIC_SEQ_CST);
     if (target == 0 || (lasts ? n < target : n != target))
         return 0;
+    if (kills)
+        raise(SIGKILL);
     if (n == target)
         fired = name;
     return 1;

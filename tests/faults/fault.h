@@ -11,6 +11,9 @@
  */
 void fault_arm(long n, int for_good);
 
+/* Kills this process before the n-th call from now on. */
+void fault_kill_at(long n);
+
 /* Ends that. Returns how many calls there were. */
 long fault_disarm(void);
 
