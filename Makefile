@@ -274,10 +274,10 @@ TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench build-fuzz check check-corpus check-crowd check-faults check-fuzz \
-	check-kills check-memory check-mutation check-peers check-quick \
+	check-kills check-memory check-mpi check-mutation check-peers check-quick \
 	check-reference check-reproducible check-samples \
 	check-sanitize check-threads clean demo deps deps-fuzz deps-lint format fuzz help install \
-	lint lint-quick need-deps proof run-all run-quick run-threads study uninstall
+	lint lint-quick mpi need-deps proof run-all run-quick run-threads study uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -334,6 +334,18 @@ $(B)/tools/cluster/%: tools/cluster/%.c $(B)/include/rt/rt.h $(B)/librt.a
 	@mkdir -p $(@D)
 	$(CC) -std=c99 $(WARNINGS) $(WERROR) -D_POSIX_C_SOURCE=200809L -I$(B)/include $(CFLAGS) \
 	    $(LDFLAGS) -o $@ $(filter %.c %.a,$^) $(ALL_LIBS)
+
+# rtc on many processes, by the MPI whose compiler MPICC is; not part of `all`.
+MPICC   ?= mpicc
+MPI_B   ?= $(B)/mpi
+MPI_SRC := tools/mpi/lead.c tools/mpi/rtc_mpi.c tools/mpi/wire.c tools/mpi/worker.c
+MPI_OBJ := $(patsubst tools/mpi/%.c,$(MPI_B)/%.o,$(MPI_SRC))
+mpi: $(MPI_B)/rtc-mpi
+$(MPI_OBJ): $(MPI_B)/%.o: tools/mpi/%.c | need-deps
+	@mkdir -p $(@D)
+	$(MPICC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+$(MPI_B)/rtc-mpi: $(MPI_OBJ) $(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ)) $(B)/librt.a
+	$(MPICC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
 
 # ---- Tests ------------------------------------------------------------------
 
@@ -432,6 +444,16 @@ study-consistency study-caustic: study-%: all $(B)/tests/studies/study_consisten
 		$(B)/tests/studies/study_caustic
 	@mkdir -p build/study
 	$(B)/tests/studies/study_$*
+
+# Each MPI that is installed: pictures on several processes. NETWORK=network adds network namespaces
+# with a delay, which only root can make.
+MPIS ?= $(foreach mpi,openmpi mpich,$(if $(shell command -v mpicc.$(mpi)),$(mpi)))
+check-mpi: all
+	@for mpi in $(MPIS); do \
+	    $(MAKE) --no-print-directory mpi MPICC=mpicc.$$mpi MPI_B=$(B)/$$mpi && \
+	    RTC=$(B)/rtc tests/mpi/test_mpi.sh mpirun.$$mpi $(B)/$$mpi/rtc-mpi modes ends kills \
+	        $(NETWORK) || exit 1; \
+	done
 
 # The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see
 # tests/render/test_reference.c.
@@ -641,6 +663,8 @@ help:
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'
 	@echo 'make check-threads   many threads on the library, under the thread sanitizer'
+	@echo 'make mpi             builds $(B)/mpi/rtc-mpi, rtc on many processes'
+	@echo 'make check-mpi       compares its pictures with those of rtc, and kills processes'
 	@echo 'make check-memory    small renders on Oclgrind, a device that checks each access'
 	@echo 'make check-faults    renders and commands, each of whose system calls fails in turn'
 	@echo 'make check-crowd     ROUNDS ($(ROUNDS)) of eight processes on one cache of kernels'

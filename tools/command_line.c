@@ -9,6 +9,7 @@
 #include "photons.h"
 #include "settings.h"
 #include "status.h"
+#include "untrusted.h"
 
 static const char *const command_names[COMMAND_COUNT] = {
     [COMMAND_RENDER] = "",         [COMMAND_CHECK] = "check",   [COMMAND_MESH] = "mesh",
@@ -327,6 +328,19 @@ int arguments_parse(command_line *out, int argc, char **argv)
         status = STATUS_USAGE;
     }
     return status;
+}
+
+int arguments_limit_memory(command_line *arguments)
+{
+    const option_value *limit = &arguments->options[OPTION_MEMORY];
+    uint64_t bytes = limit->given ? limit->count
+                     : arguments->options[OPTION_UNTRUSTED].given
+                         ? (uint64_t)UNTRUSTED_MEMORY_MIB << 20
+                         : 0;
+    rt_error error;
+    return bytes == 0 || rt_memory_create(&arguments->memory, bytes, &error) == RT_OK
+               ? STATUS_DONE
+               : message_failure(&error);
 }
 
 void arguments_free(command_line *arguments)

@@ -92,11 +92,21 @@ static int give_line(command_line *arguments, char *line, int has_outputs)
     return arguments_give(arguments, line + 6, value);
 }
 
+int film_note_give_text(command_line *arguments, char *note)
+{
+    const int has_outputs = arguments->output_count > 0;
+    int status = STATUS_DONE;
+    for (char *line = note, *end; status == STATUS_DONE && (end = strchr(line, '\n'));
+         line = end + 1) {
+        *end = '\0';
+        status = give_line(arguments, line, has_outputs);
+    }
+    return status;
+}
+
 int film_note_give(command_line *arguments, char **text, const rt_film *film)
 {
     const char *note = rt_film_note(film);
-    const int has_outputs = arguments->output_count > 0;
-    int status = STATUS_DONE;
     char *copy = malloc(strlen(note) + 1);
     if (!copy) {
         message_error("out of memory");
@@ -104,10 +114,5 @@ int film_note_give(command_line *arguments, char **text, const rt_film *film)
     }
     memcpy(copy, note, strlen(note) + 1);
     *text = copy;
-    for (char *line = copy, *end; status == STATUS_DONE && (end = strchr(line, '\n'));
-         line = end + 1) {
-        *end = '\0';
-        status = give_line(arguments, line, has_outputs);
-    }
-    return status;
+    return film_note_give_text(arguments, copy);
 }

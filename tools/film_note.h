@@ -17,6 +17,9 @@ char *film_note_make(const command_line *arguments, const char *scene);
  */
 int film_note_give(command_line *arguments, char **text, const rt_film *film);
 
+/* The same with the note as a text of the caller's, which outlives *arguments and is changed. */
+int film_note_give_text(command_line *arguments, char *note);
+
 /* The value of a line of a film's note, such as "scene", up to its newline; its length, or 0. */
 size_t film_note_find(const char **value, const rt_film *film, const char *name);
 

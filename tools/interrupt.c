@@ -84,6 +84,15 @@ static void *wait_for_signals(void *data)
     return NULL;
 }
 
+void interrupt_block(void)
+{
+    sigset_t all;
+    sigemptyset(&all);
+    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++)
+        sigaddset(&all, caught[i]);
+    pthread_sigmask(SIG_BLOCK, &all, NULL);
+}
+
 void interrupt_catch(int in_json, int quiet)
 {
     pthread_t thread;

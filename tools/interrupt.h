@@ -6,6 +6,9 @@
 #ifndef RTC_INTERRUPT_H
 #define RTC_INTERRUPT_H
 
+/* Puts the signals off until interrupt_catch; for programs that start threads before. */
+void interrupt_block(void);
+
 /*
  * From now on these signals end the program at once with STATUS_INTERRUPTED, also where it waits
  * for a file or for stdin. One that was ignored when the program began stays ignored. What is said

@@ -306,7 +306,7 @@ static int run(render_job *job)
         status = write_images(job, status);
     if (job->checkpoint.failed && (status == STATUS_DONE || status == STATUS_INTERRUPTED))
         status = STATUS_OUTPUT;
-    else if (status == STATUS_INTERRUPTED && job->checkpoint.saved > 0 && !job->session.quiet)
+    else if (status != STATUS_DONE && job->checkpoint.saved > 0 && !job->session.quiet)
         message_note("`rtc --resume %s` goes on", job->checkpoint.path);
     return status;
 }

@@ -9,7 +9,6 @@
 #include "message.h"
 #include "rt.h"
 #include "status.h"
-#include "untrusted.h"
 
 static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,
@@ -32,20 +31,6 @@ static int run(const command_line *arguments)
     return commands[arguments->command](arguments);
 }
 
-/* Makes the count of what --memory limits; what strangers send has a limit in any case. */
-static int limit_memory(command_line *arguments)
-{
-    const option_value *limit = &arguments->options[OPTION_MEMORY];
-    uint64_t bytes = limit->given ? limit->count
-                     : arguments->options[OPTION_UNTRUSTED].given
-                         ? (uint64_t)UNTRUSTED_MEMORY_MIB << 20
-                         : 0;
-    rt_error error;
-    return bytes == 0 || rt_memory_create(&arguments->memory, bytes, &error) == RT_OK
-               ? STATUS_DONE
-               : message_failure(&error);
-}
-
 int main(int argc, char **argv)
 {
     /* A closed pipe is an error of the write, not the end of a render. */
@@ -56,7 +41,7 @@ int main(int argc, char **argv)
     command_line arguments;
     int status = arguments_parse(&arguments, argc, argv);
     if (status == STATUS_DONE)
-        status = limit_memory(&arguments);
+        status = arguments_limit_memory(&arguments);
     if (status == STATUS_DONE && !arguments.options[OPTION_HELP].given)
         status = checkpoint_resume(&arguments);
     if (status == STATUS_DONE)
