@@ -119,7 +119,7 @@ TOOL_SRC := \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
 	tools/no_effect.c tools/number.c tools/options.c tools/outputs.c tools/part.c \
-	tools/photons.c tools/photons_emit.c \
+	tools/photons.c tools/photons_emit.c tools/photons_keep.c \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/recorded.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
 	tools/stats.c tools/untrusted.c

@@ -16,7 +16,8 @@ int checkpoint_resume(command_line *arguments)
 {
     const option_value *resume = &arguments->options[OPTION_RESUME];
     rt_error error;
-    if (!resume->given)
+    /* An emission has a map there. */
+    if (!resume->given || arguments->command == COMMAND_PHOTONS)
         return STATUS_DONE;
     if (rt_film_load(&arguments->film, resume->text, arguments->memory, &error) != RT_OK) {
         int status = message_failure(&error);

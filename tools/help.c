@@ -156,6 +156,12 @@ static const struct {
     {OPTION_OUT, COMMAND_MERGE, NULL,
      "where the picture goes: .exr .pfm (linear), .png .ppm (sRGB), or .rtpart, a film; may be "
      "repeated"},
+    {OPTION_CHECKPOINT, COMMAND_PHOTONS, "",
+     "keep the photons so far in a map NAME.rtp, which --resume goes on from; an older one stays "
+     "until the new one is whole"},
+    {OPTION_RESUME, COMMAND_PHOTONS, "",
+     "emit only the paths that this map lacks, which is of the same scene and settings; it is the "
+     "checkpoint too where none is given"},
     {OPTION_PART, COMMAND_PHOTONS, "",
      "emit the I-th of N parts of the map, to be merged later; auto takes I and N from Slurm, MPI "
      "or an indexed job"},

@@ -49,13 +49,14 @@ const option option_table[OPTION_COUNT] = {
          "--stats prints"},
 
     [OPTION_CHECKPOINT] =
-        {"checkpoint", "FILE", KIND_TEXT, GROUP_KEEP, RENDER, 0, 0, NULL, 0, NULL,
+        {"checkpoint", "FILE", KIND_TEXT, GROUP_KEEP, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
          "keep the work so far in a file NAME.rtpart, which --resume goes on from; an older one "
          "stays until the new one is whole"},
-    [OPTION_EVERY] = {"every", "SECONDS", KIND_REAL, GROUP_KEEP, RENDER, 0, 1e9, NULL, 0, "60",
+    [OPTION_EVERY] = {"every", "SECONDS", KIND_REAL, GROUP_KEEP, RENDER | PHOTONS, 0, 1e9, NULL, 0,
+                      "60",
                       "time between checkpoints; more where writing one takes over 1 % of it"},
     [OPTION_RESUME] =
-        {"resume", "FILE", KIND_TEXT, GROUP_KEEP, RENDER, 0, 0, NULL, 0, NULL,
+        {"resume", "FILE", KIND_TEXT, GROUP_KEEP, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
          "go on from a checkpoint or film, with its scene, options, outputs and checkpoint where "
          "none are given; more --spp or --passes continue a finished render"},
     [OPTION_PART] =

@@ -4,6 +4,7 @@
 #include "message.h"
 #include "part.h"
 #include "photons.h"
+#include "photons_keep.h"
 #include "scene_file.h"
 #include "session.h"
 #include "light_shares.h"
@@ -22,6 +23,7 @@ typedef struct emit_job {
     rt_device *device;
     rt_renderer *renderer;
     rt_photon_map *map;
+    map_checkpoint checkpoint;
     input_list inputs;
 } emit_job;
 
@@ -43,7 +45,10 @@ static int read_options(emit_job *job, const command_line *arguments)
     int part = read_part(job),
         shares = light_shares_read(&job->shares, &job->share_count, arguments);
     status = status == STATUS_DONE ? part : status;
-    return status == STATUS_DONE ? shares : status;
+    status = status == STATUS_DONE ? shares : status;
+    job->checkpoint.progress = &job->session.progress;
+    return status == STATUS_DONE ? map_checkpoint_plan(&job->checkpoint, &job->options, arguments)
+                                 : status;
 }
 
 static int load(emit_job *job)
@@ -66,6 +71,17 @@ static int load(emit_job *job)
                                                                            : session_fail(&error);
 }
 
+static void say_interrupted(const emit_job *job)
+{
+    const map_checkpoint *c = &job->checkpoint;
+    if (job->session.quiet)
+        return;
+    if (c->saved > 0)
+        message_note("interrupted; the same command with --resume %s goes on", c->path);
+    else
+        message_note("interrupted; nothing was written");
+}
+
 static int emit(emit_job *job)
 {
     rt_renderer_options options = {.hooks = &job->session.hooks};
@@ -79,9 +95,8 @@ static int emit(emit_job *job)
         result = rt_photon_map_emit(&job->map, job->renderer, &job->options, &error);
     progress_clear(&job->session.progress);
     if (session_was_interrupted(result)) {
-        if (!job->session.quiet)
-            message_note("interrupted; nothing was written");
-        return STATUS_INTERRUPTED;
+        say_interrupted(job);
+        return job->checkpoint.failed ? STATUS_OUTPUT : STATUS_INTERRUPTED;
     }
     return result == RT_OK ? STATUS_DONE : session_fail(&error);
 }
@@ -109,7 +124,8 @@ static int save(const emit_job *job)
 /* With --untrusted, gives up the rights that the emission does not need. */
 static int confine(const emit_job *job)
 {
-    const untrusted_needs needs = {job->scene_path, NULL, &job->map_path, 1, 1};
+    const char *const outputs[] = {job->map_path, job->checkpoint.path};
+    const untrusted_needs needs = {job->scene_path, NULL, outputs, job->checkpoint.path ? 2 : 1, 1};
     return session_value(&job->session, OPTION_UNTRUSTED)->given ? untrusted_confine(&needs)
                                                                  : STATUS_DONE;
 }
@@ -134,7 +150,10 @@ int photons_emit(const command_line *arguments)
         status = emit(&job);
     if (status == STATUS_DONE)
         status = save(&job);
+    if (status == STATUS_DONE && job.checkpoint.failed)
+        status = STATUS_OUTPUT;
     rt_photon_map_destroy(job.map);
+    rt_photon_map_destroy(job.checkpoint.resumed);
     rt_renderer_destroy(job.renderer);
     rt_device_close(job.device);
     rt_scene_destroy(job.scene);

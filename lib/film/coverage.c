@@ -42,12 +42,15 @@ static rt_status reserve(rt_coverage *coverage, size_t count, rt_error *error)
 
 rt_status rt_coverage_add(rt_coverage *coverage, rt_unit_range range, rt_error *error)
 {
-    size_t i = find(coverage, range.first);
-    uint64_t end = range.first + range.count;
+    const size_t i = find(coverage, range.first);
+    const uint64_t end = range.first + range.count;
     if (range.count == 0)
         return RT_OK;
     if (i < coverage->count && coverage->ranges[i].first < end)
         return rt_fail(error, RT_ERROR_USAGE, "the same part of the picture twice");
+    rt_status status = reserve(coverage, coverage->count + 1, error);
+    if (status != RT_OK)
+        return status;
     rt_unit_range *at = coverage->ranges + i;
     int joins_before = i > 0 && at[-1].first + at[-1].count == range.first;
     int joins_after = i < coverage->count && at->first == end;
@@ -61,10 +64,6 @@ rt_status rt_coverage_add(rt_coverage *coverage, rt_unit_range range, rt_error *
         at->first = range.first;
         at->count += range.count;
     } else {
-        rt_status status = reserve(coverage, coverage->count + 1, error);
-        if (status != RT_OK)
-            return status;
-        at = coverage->ranges + i;
         memmove(at + 1, at, (coverage->count - i) * sizeof *at);
         *at = range;
         coverage->count++;

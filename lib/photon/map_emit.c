@@ -18,7 +18,7 @@ typedef struct emission {
     cl_kernel kernel;
     rt_emitter *emitter;
     rt_photon_map *map;
-    double saved; /* rt_clock() at the last checkpoint */
+    double saved, saving; /* rt_clock() at the last checkpoint, and the seconds that it took */
 } emission;
 
 static rt_status compile(emission *e, rt_error *error)
@@ -33,19 +33,24 @@ static rt_status compile(emission *e, rt_error *error)
 
 /* ---- Checkpoints ------------------------------------------------------------ */
 
+/* Checkpoints take 1 % of the time at most. */
+static const double rarity = 100;
+
 /* Hands out the map so far. */
 static void save(emission *e)
 {
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         rt_photon_map_settle(e->map, (rt_photon_kind)kind);
+    const double began = rt_clock();
     e->how->checkpoint(e->how->checkpoint_user, e->map);
     e->saved = rt_clock();
+    e->saving = e->saved - began;
 }
 
 static void save_when_due(void *user)
 {
     emission *e = user;
-    if (rt_clock() - e->saved >= e->how->checkpoint_seconds)
+    if (rt_clock() - e->saved >= fmax(e->how->checkpoint_seconds, rarity * e->saving))
         save(e);
 }
 

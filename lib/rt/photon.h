@@ -44,7 +44,7 @@ typedef struct rt_emit_options {
      */
     void (*checkpoint)(void *user, const rt_photon_map *map);
     void *checkpoint_user;
-    double checkpoint_seconds;
+    double checkpoint_seconds; /* and at least 100 times what the last one took */
 } rt_emit_options;
 
 /*

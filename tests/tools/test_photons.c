@@ -4,11 +4,13 @@
  */
 #include <fcntl.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -17,6 +19,7 @@
 #include "image/image.h"
 #include "lib/image/scratch.h"
 #include "spawn.h"
+#include "tools/status.h"
 
 /*
  * A closed box with a glass ball under an area light, and a light far too weak for its share of
@@ -59,6 +62,80 @@ static void parts_merge_into_the_same_file(void **state)
     succeed("photons merge 3.rtp 1.rtp 2.rtp --out merged.rtp");
     expect_same_files("whole.rtp", "merged.rtp");
     expect_different_files("1.rtp", "2.rtp");
+}
+
+/* A part stands for an emission that was stopped; the map of all is then the checkpoint too. */
+static void an_emission_goes_on_from_its_checkpoint(void **state)
+{
+    static const char options[] = "--photons 3000 --caustic-photons 1000";
+    (void)state;
+    run whole = run_rtc("photons a.rts %s --quiet --out whole.rtp --checkpoint kept.rtp --every 0",
+                        options);
+    expect_status(&whole, 0);
+    run_free(&whole);
+    expect_same_files("whole.rtp", "kept.rtp");
+    for (int part = 1; part <= 3; part++) {
+        run stopped =
+            run_rtc("photons a.rts %s --quiet --out c%d.rtp --part %d/3", options, part, part);
+        run on = run_rtc("photons a.rts %s --quiet --out on.rtp --resume c%d.rtp", options, part);
+        expect_status(&stopped, 0);
+        expect_status(&on, 0);
+        expect_same_files("whole.rtp", "on.rtp");
+        run_free(&stopped);
+        run_free(&on);
+    }
+    expect_same_files("whole.rtp", "c2.rtp");
+}
+
+/* Stopped behind its first checkpoint, and gone on with from that. */
+static void a_stopped_emission_leaves_its_checkpoint(void **state)
+{
+    static const int signals[] = {SIGINT, SIGKILL};
+    (void)state;
+    succeed("photons a.rts --photons 3e5 --quiet --out whole.rtp");
+    for (size_t i = 0; i < 2; i++) {
+        char said[1024];
+        unlink("c.rtp");
+        running running = start_rtc("photons a.rts --photons 3e5 --out on.rtp --checkpoint c.rtp "
+                                    "--every 0");
+        for (int waits = 0; waits < 3000 && access("c.rtp", F_OK) != 0; waits++)
+            nanosleep(&(struct timespec){0, 10000000}, NULL);
+        kill(running.pid, signals[i]);
+        const int status = running_finish(&running, said, sizeof said);
+        /* On a fast machine it may be done before. */
+        assert_true(status == 0 || status == (i == 0 ? STATUS_INTERRUPTED : 128 + SIGKILL));
+        if (status == STATUS_INTERRUPTED)
+            assert_non_null(strstr(said, "the same command with --resume c.rtp goes on"));
+        unlink("on.rtp");
+        succeed("photons a.rts --photons 3e5 --quiet --out on.rtp --resume c.rtp");
+        expect_same_files("whole.rtp", "on.rtp");
+    }
+}
+
+static void what_cannot_be_gone_on_with_is_refused(void **state)
+{
+    static const struct {
+        const char *line, *says;
+    } cases[] = {
+        {"--resume a.rtp --max-depth 3", "max_depth is 3 here, and"},
+        {"--resume a.rtp --seed 2", "seed is 2 here, and 0 in the photon map"},
+        {"--resume a.rtp --photons 50", "photons is 50 here, and the photon map that is there has"},
+        {"--resume none.rtp", "none.rtp: No such file"},
+        {"--resume a.rts", "a.rts: this is no photon map"},
+        {"--checkpoint a.rtp", "--checkpoint a.rtp: the file is there already"},
+        {"--checkpoint a.exr", "a file called NAME.rtp"},
+        {"--checkpoint nowhere/c.rtp", "there is no such directory"},
+    };
+    (void)state;
+    succeed("photons a.rts --photons 100 --quiet --out a.rtp");
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        run run = run_rtc("photons a.rts --photons 100 --out b.rtp %s", cases[i].line);
+        assert_int_not_equal(run.status, 0);
+        expect_err(&run, "error: ");
+        expect_err(&run, cases[i].says);
+        run_free(&run);
+        expect_no_file("b.rtp");
+    }
 }
 
 static void info_says_what_a_map_holds(void **state)
@@ -393,6 +470,9 @@ int main(void)
 #define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, enter, scratch_leave)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(parts_merge_into_the_same_file),
+        IN_SCRATCH(an_emission_goes_on_from_its_checkpoint),
+        IN_SCRATCH(a_stopped_emission_leaves_its_checkpoint),
+        IN_SCRATCH(what_cannot_be_gone_on_with_is_refused),
         IN_SCRATCH(info_says_what_a_map_holds),
         IN_SCRATCH(results_are_json_when_asked),
         IN_SCRATCH(diff_tells_equal_maps_from_others),

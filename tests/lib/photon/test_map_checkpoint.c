@@ -84,7 +84,7 @@ static void expect_sittings(rt_renderer *renderer, const rt_emit_options *how)
     rt_status status = RT_CANCELLED;
     int sittings = 0;
     for (; status == RT_CANCELLED; sittings++) {
-        rt_photon_map *next = sit(renderer, how, kept, sittings % 2, &status);
+        rt_photon_map *next = sit(renderer, how, kept, 0, &status);
         rt_photon_map_destroy(kept);
         kept = next;
     }

@@ -1,0 +1,71 @@
+/* photons_keep.c - writes a photon map while it is emitted, and goes on from one. */
+#include "photons_keep.h"
+
+#include <strings.h>
+#include <unistd.h>
+
+#include "inputs.h"
+#include "message.h"
+#include "outputs.h"
+#include "photons.h"
+#include "status.h"
+
+static const double default_seconds = 60;
+
+static void save(void *user, const rt_photon_map *map)
+{
+    map_checkpoint *c = user;
+    rt_error error;
+    const int failed = rt_photon_map_save(map, c->path, &error) != RT_OK;
+    if (failed && !c->failed) {
+        progress_clear(c->progress);
+        message_warning("no checkpoint, and the emission goes on: %s", error.message);
+    }
+    c->failed = failed;
+    c->saved += !failed;
+}
+
+static int load(map_checkpoint *out, const char *path, const command_line *arguments)
+{
+    int status = photons_load(&out->resumed, path, arguments);
+    if (status != STATUS_DONE && access(path, F_OK) != 0)
+        message_hint("an emission writes it from its first checkpoint on");
+    return status;
+}
+
+/* Whether the file may be written: new, or the one that is continued. */
+static int check_file(const char *path, const char *resumed)
+{
+    if (strcasecmp(outputs_extension(path), ".rtp") != 0) {
+        message_error("--checkpoint %s: that of photons goes to a file called NAME.rtp", path);
+        return STATUS_USAGE;
+    }
+    if (access(path, F_OK) == 0 && !(resumed && inputs_are_same(path, resumed))) {
+        message_error("--checkpoint %s: the file is there already", path);
+        message_hint("go on from it by --resume %s, or remove it", path);
+        return STATUS_USAGE;
+    }
+    return outputs_check_writable(path);
+}
+
+int map_checkpoint_plan(map_checkpoint *out, rt_emit_options *options,
+                        const command_line *arguments)
+{
+    const option_value *given = arguments->options;
+    const char *resumed = given[OPTION_RESUME].given ? given[OPTION_RESUME].text : NULL;
+    int status = resumed ? load(out, resumed, arguments) : STATUS_DONE;
+    if (status != STATUS_DONE)
+        return status;
+    options->resume = out->resumed;
+    out->path = given[OPTION_CHECKPOINT].given ? given[OPTION_CHECKPOINT].text : resumed;
+    if (!out->path) {
+        if (given[OPTION_EVERY].given && !given[OPTION_QUIET].given)
+            message_warning("--every has no effect without --checkpoint");
+        return STATUS_DONE;
+    }
+    options->checkpoint = save;
+    options->checkpoint_user = out;
+    options->checkpoint_seconds =
+        given[OPTION_EVERY].given ? given[OPTION_EVERY].real : default_seconds;
+    return check_file(out->path, resumed);
+}
