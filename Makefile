@@ -220,7 +220,8 @@ TESTS_SHELL := \
 	tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
 	tests/proof/test_page.sh tests/test_includes.sh tests/test_style.sh \
-	tests/tools/cluster/test_pool.sh tests/tools/cluster/test_templates.sh \
+	tests/tools/cluster/test_pool.sh tests/tools/cluster/test_simulate.sh \
+	tests/tools/cluster/test_templates.sh \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \
@@ -273,11 +274,12 @@ LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench build-fuzz check check-corpus check-crowd check-faults check-fuzz \
-	check-kills check-memory check-mpi check-mutation check-peers check-quick \
+.PHONY: all bench build-fuzz check check-cluster check-corpus check-crowd check-faults \
+	check-fuzz check-kills check-memory check-mpi check-mutation check-peers check-quick \
 	check-reference check-reproducible check-samples \
 	check-sanitize check-threads clean demo deps deps-fuzz deps-lint format fuzz help install \
-	lint lint-quick mpi need-deps proof run-all run-quick run-threads study uninstall
+	lint lint-quick mpi need-deps proof run-all run-quick run-threads study \
+	study-cluster uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -324,7 +326,7 @@ $(B)/rtc: $(TOOL_OBJ) $(B)/librt.a
 # ---- Many machines: see tools/cluster/README.md -----------------------------
 
 # Programs of the installed library, built beside it: headers lie in a folder as they will there.
-CLUSTER := $(addprefix $(B)/tools/cluster/,pool)
+CLUSTER := $(addprefix $(B)/tools/cluster/,measure pool simulate)
 
 $(B)/include/rt/rt.h: lib/rt.h $(PUBLIC_H) kernels/common.h
 	@mkdir -p $(@D)
@@ -334,6 +336,18 @@ $(B)/tools/cluster/%: tools/cluster/%.c $(B)/include/rt/rt.h $(B)/librt.a
 	@mkdir -p $(@D)
 	$(CC) -std=c99 $(WARNINGS) $(WERROR) -D_POSIX_C_SOURCE=200809L -I$(B)/include $(CFLAGS) \
 	    $(LDFLAGS) -o $@ $(filter %.c %.a,$^) $(ALL_LIBS)
+$(B)/tools/cluster/simulate: tools/cluster/model.c tools/cluster/model.h
+
+# The model of time by ranks beside 1, 2 and 4 processes of this machine.
+check-cluster: all $(CLUSTER)
+	tools/cluster/check.sh
+
+# What it says up to 10 000 ranks: the tables and the plot of its page.
+study-cluster: $(B)/tools/cluster/simulate
+	$< --plot tools/cluster/figures.txt >tools/cluster/curves.svg
+	$< --curves tools/cluster/figures.txt >$(B)/curves.md
+	sed -i -e '/<!-- curves -->/,/<!-- end -->/{/<!--/!d}' \
+	    -e '/<!-- curves -->/r $(B)/curves.md' tools/cluster/README.md
 
 # rtc on many processes, by the MPI whose compiler MPICC is; not part of `all`.
 MPICC   ?= mpicc
@@ -675,6 +689,8 @@ help:
 	@echo 'make bench           measures speed, beside a peer where one is installed'
 	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
 	@echo 'make study           numbers and pictures on photon mapping; study-k ... makes one'
+	@echo 'make study-cluster   simulates up to 10 000 processes, for tools/cluster/README.md'
+	@echo 'make check-cluster   the model of that beside 1, 2 and 4 processes of this machine'
 	@echo 'make format          formats the C, OpenCL C and C++ sources by clang-format'
 	@echo 'make lint            checks formatting, style, shell scripts and C'
 	@echo 'make lint-quick      the same without cppcheck'

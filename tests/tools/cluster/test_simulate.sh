@@ -1,0 +1,83 @@
+#!/bin/sh
+# test_simulate.sh - the simulator of clusters agrees with what can be computed by hand, and the
+# page's tables and plot are its own. Needs build/tools/cluster/simulate.
+set -u
+simulate=$PWD/build/tools/cluster/simulate
+cluster=$PWD/tools/cluster
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+bad=0
+
+check() {
+    name=$1
+    shift
+    if "$@" >"$work/log" 2>&1; then
+        printf 'ok %s\n' "$name"
+    else
+        printf 'not ok %s\n' "$name"
+        sed 's/^/    /' "$work/log"
+        bad=1
+    fi
+}
+
+# A cluster without chance, of one megapixel and 1024 samples of 1 us: 1074 s of work.
+calm="width=1024 height=1024 spp=1024 sample=1e-6 start=1 spread=0 speeds=0 stragglers=0 life=0
+    encode=0 decode=0 add=0 resolve=0 latency=0 serve=0 bandwidth=1e9 path=1e-6 stored=1 tree=0
+    gather=1e-6 every=1e9"
+# seconds NAME=VALUE...: of that cluster.
+# shellcheck disable=SC2086 # a list
+seconds() { "$simulate" $calm "$@" | cut -d' ' -f1; }
+# is EXPECTED TOLERANCE NAME=VALUE...: the seconds are within this part of what is expected.
+is() {
+    expected=$1 tolerance=$2
+    shift 2
+    got=$(seconds "$@")
+    echo "$got s, and not $expected s: $*"
+    awk -v got="$got" -v want="$expected" -v tolerance="$tolerance" \
+        'BEGIN { exit !(got > want * (1 - tolerance) && got < want * (1 + tolerance)) }'
+}
+
+check one_rank_takes_start_and_samples is 1074.74 1e-3 ranks=1
+check ranks_share_the_samples is 11.74 0.02 ranks=100 pixel_bytes=0
+check ranks_share_the_cores is 540 0.02 ranks=4 cores=2 pixel_bytes=0
+check parts_share_the_samples is 11.74 0.02 ranks=100 pixel_bytes=0 schedule=parts pieces=1
+check a_straggler_takes_little_by_demand is 12.1 0.03 ranks=100 pixel_bytes=0 \
+    stragglers=0.02 straggling=3 repeats=50
+# Films of 67 MB, which take 67 ms each; in bands, 256 ranks return 0.8 MB at most.
+check rank_0_receives_films_one_by_one is 7.71 0.02 ranks=100 spp=65536 sample=1e-10
+check a_tree_receives_them_in_log_time is 1.54 0.02 ranks=100 spp=65536 sample=1e-10 films=tree
+check bands_make_films_small is 1.23 0.02 ranks=256 spp=65536 sample=1e-10 films=bands
+check each_rank_emits_all_photons is 111.74 0.02 ranks=100 pixel_bytes=0 map=each photons=1e8
+check photons_are_emitted_in_parts_and_exchanged is 62.74 0.02 ranks=100 pixel_bytes=0 \
+    map=exchanged photons=1e8 photon_bytes=62.5
+# The first radii and one pass, of 1.05 s each.
+check passes_are_shared_no_further is 3.1 0.01 ranks=2000 pixel_bytes=0 map=passes passes=1000 \
+    spp=1000 photons=0
+# Every 100 s one of 100 ranks fails and undoes half of 20 s, in 11 s of work or so.
+check failures_undo_the_work_since_a_checkpoint is 1330 0.03 ranks=100 sample=1e-4 \
+    pixel_bytes=0 life=10000 every=20 relaunch=10 repeats=100
+
+check unknown_parameters_are_refused eval '! "$simulate" rank=3'
+check words_are_no_numbers eval '! "$simulate" ranks=many'
+
+# ---- The page --------------------------------------------------------------------------------
+
+# near FILE FILE: the same but for the last digits, which the machine's mathematics may change.
+near() {
+    awk 'function differ(text) { print FILENAME ":" FNR ": " text; status = 1; exit }
+        NR == FNR { line[FNR] = $0; count = FNR; next }
+        {
+            n = split(line[FNR], a, /[^0-9.]+/)
+            m = split($0, b, /[^0-9.]+/)
+            if (n != m)
+                differ($0)
+            for (i = 1; i <= n; i++)
+                if (a[i] - b[i] > 2 + 0.03 * a[i] || b[i] - a[i] > 2 + 0.03 * a[i])
+                    differ($0)
+        }
+        END { exit status || FNR != count }' "$1" "$2"
+}
+"$simulate" --curves "$cluster/figures.txt" >"$work/tables"
+sed -n '/<!-- curves -->/,/<!-- end -->/p' "$cluster/README.md" | sed '1d;$d' >"$work/page"
+check the_page_has_these_tables near "$work/tables" "$work/page"
+exit $bad

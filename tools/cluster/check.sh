@@ -1,0 +1,76 @@
+#!/bin/sh
+# check.sh - the model against this machine: pictures by 1, 2 and 4 processes of one thread, as a
+# pool with a queue and as parts that are merged, beside what simulate says.
+#
+#   tools/cluster/check.sh [ROUNDS]
+#
+# `make check-cluster` calls it. Each round measures the figures anew, then renders; the medians of
+# ROUNDS (3) are compared. It takes two minutes a round, and nothing else should run meanwhile.
+# Prints the figures and the table of README.md. The status is 1 where the model is off by more than
+# 10 %.
+set -u
+cd "$(dirname "$0")/../.." || exit 2
+bin=$PWD/build
+rounds=${1:-3}
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+sed -e 's/^film .*/film { width 640  height 360 }/' -e 's/mode      path .*/mode path  spp 128/' \
+    scenes/cornell.rts >"$work/scene.rts"
+cd "$work" || exit 2
+
+now() { date +%s.%N; }
+median() { sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
+# timed NAME COMMAND...: its seconds, to NAME.
+timed() {
+    name=$1
+    began=$(now)
+    shift
+    "$@" >log 2>&1 || { cat log; exit 2; }
+    echo "$began $(now)" | awk '{ print $2 - $1 }' >>"$name"
+}
+
+pool() { "$bin/tools/cluster/pool" scene.rts pool.pfm "$1"; }
+parts() {
+    for i in $(seq "$1"); do
+        "$bin/rtc" scene.rts --quiet --threads 1 --part "$i/$1" --out "p$i-$1.rtpart" &
+    done
+    wait
+    "$bin/rtc" merge p*-"$1".rtpart --quiet --out parts.pfm && rm p*.rtpart
+}
+
+for round in $(seq "$rounds"); do
+    "$bin/tools/cluster/measure" scene.rts >"figures.$round" || exit 2
+    for ranks in 1 2 4; do
+        timed "pool.$ranks" pool "$ranks"
+        timed "parts.$ranks" parts "$ranks"
+        cmp pool.pfm parts.pfm || exit 2
+    done
+done
+# The median of each figure.
+sed 's/=.*//' figures.1 | while read -r name; do
+    value=$(cat figures.* | sed -n "s/^$name=\([^ ]*\).*/\1/p" | median)
+    sed -n "s/^$name=[^ ]*/$name=$value/p" figures.1
+done >figures
+cat figures
+
+# predicted SCHEDULE RANKS: by the model, for processes on the cores of this machine.
+predicted() {
+    "$bin/tools/cluster/simulate" figures width=640 height=360 spp=128 ranks="$2" schedule="$1" \
+        cores="$(nproc)" tasks=16 guided=0 pieces=1 speeds=0 stragglers=0 life=0 latency=1e-5 |
+        cut -d' ' -f1
+}
+echo
+echo "| ranks on $(nproc) cores | | measured, s | model, s | off by |"
+echo '|--:|--|--:|--:|--:|'
+for kind in pool parts; do
+    schedule=$kind
+    [ $kind = parts ] || schedule=demand
+    for ranks in 1 2 4; do
+        echo "$ranks $kind $(median <"$kind.$ranks") $(predicted "$schedule" "$ranks")"
+    done
+done | awk '{
+        off = 100 * ($4 / $3 - 1)
+        printf "| %d | %s | %.2f | %.2f | %+.1f %% |\n", $1, $2, $3, $4, off
+        bad += off > 10 || off < -10
+    }
+    END { exit bad > 0 }'
