@@ -4,12 +4,13 @@
  *     bench_checkpoint [SCENE [SPP]]
  *
  * 1920 x 1080 pixels with all layers, by path tracing and photon mapping, the file in the current
- * folder. Prints the median of five runs each, and beside them plain copies and writes of as many
- * bytes.
+ * folder. Prints the medians of five runs each, of time and of CPU time, and beside them plain
+ * copies and writes of as many bytes.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/crc32.h"
@@ -83,15 +84,17 @@ static void write_plainly(const subject *s)
 
 static void measure(const char *name, void (*work)(const subject *), const subject *s)
 {
-    double seconds[runs];
+    double seconds[runs], busy[runs];
     for (int run = 0; run < runs; run++) {
         const double began = rt_clock();
+        const clock_t busy_before = clock();
         work(s);
+        busy[run] = (double)(clock() - busy_before) / CLOCKS_PER_SEC;
         seconds[run] = rt_clock() - began;
     }
     qsort(seconds, runs, sizeof *seconds, by_value);
-    printf("  %-12s %7.3f s  %6.2f GB/s\n", name, seconds[runs / 2],
-           (double)s->size / seconds[runs / 2] * 1e-9);
+    qsort(busy, runs, sizeof *busy, by_value);
+    printf("  %-12s %7.3f s  %7.3f s of CPU\n", name, seconds[runs / 2], busy[runs / 2]);
 }
 
 static void bench(const char *name, rt_renderer *renderer, const rt_render_options *options)
