@@ -25,8 +25,10 @@ int checkpoint_resume(command_line *arguments)
             message_hint("a render writes it from its first checkpoint on");
         return status;
     }
+    /* A film that was made without checkpoints is only read. */
+    const char *named;
     option_value *kept = &arguments->options[OPTION_CHECKPOINT];
-    if (!kept->given)
+    if (!kept->given && film_note_find(&named, arguments->film, "given checkpoint") > 0)
         *kept = *resume;
     return film_note_give(arguments, &arguments->note, arguments->film);
 }

@@ -87,7 +87,8 @@ static int give_line(command_line *arguments, char *line, int has_outputs)
     if (!value)
         return STATUS_DONE;
     *value++ = '\0';
-    if (has_outputs && strcmp(line + 6, "out") == 0)
+    /* A stranger's film does not choose which files are written. */
+    if ((has_outputs || arguments->options[OPTION_UNTRUSTED].given) && strcmp(line + 6, "out") == 0)
         return STATUS_DONE;
     return arguments_give(arguments, line + 6, value);
 }

@@ -63,19 +63,23 @@ static void die_of(int signal_number)
 
 static void *wait_for_signals(void *data)
 {
-    int signal_number;
+    int signal_number, first = 0;
     (void)data;
     while (sigwait(&waited, &signal_number) == 0) {
         if (sigismember(&ignored, signal_number))
             continue;
-        if (signal_number == SIGQUIT || get(&pending)) {
+        /* A service manager may send two kinds at once: only the same one again is impatience. */
+        if (signal_number == SIGQUIT || (get(&pending) && signal_number == first)) {
             die_of(signal_number);
+        } else if (get(&pending)) {
+            continue;
         } else if (!get(&deferred)) {
             say("\nrtc: interrupted; nothing was written\n",
                 "{\"severity\":\"note\",\"message\":\"interrupted; nothing was written\"}\n");
             _exit(STATUS_INTERRUPTED);
         } else {
             set(&pending);
+            first = signal_number;
             say("\nrtc: stopping; interrupt again to stop at once\n",
                 "{\"severity\":\"note\",\"message\":\"stopping; interrupt again to stop at "
                 "once\"}\n");

@@ -57,8 +57,9 @@ const option option_table[OPTION_COUNT] = {
                       "time between checkpoints; more where writing one takes over 1 % of it"},
     [OPTION_RESUME] =
         {"resume", "FILE", KIND_TEXT, GROUP_KEEP, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
-         "go on from a checkpoint or film, with its scene, options, outputs and checkpoint where "
-         "none are given; more --spp or --passes continue a finished render"},
+         "go on from a checkpoint or film, with its scene, options and outputs where none are "
+         "given; a checkpoint is kept up to date. More --spp or --passes go on from a finished "
+         "render"},
     [OPTION_PART] =
         {"part", "I/N", KIND_TEXT, GROUP_KEEP, RENDER | PHOTONS, 0, 0, NULL, 0, "1/1",
          "do the I-th of N parts of the work, into a film NAME.rtpart, to be merged later; auto "

@@ -104,7 +104,7 @@ static int add_defaults(output_list *out, const char *scene, uint32_t part, uint
     size_t stem = strlen(name);
     if (strcmp(outputs_extension(name), ".rts") == 0 && stem > 4)
         stem -= 4;
-    if (parts > 0) {
+    if (parts > 1) {
         snprintf(suffix, sizeof suffix, ".%" PRIu32 "of%" PRIu32 ".rtpart", part, parts);
         return add(out, name, stem, suffix);
     }
@@ -154,11 +154,12 @@ int outputs_plan(output_list *out, const command_line *arguments, const char *sc
     }
     int status = arguments->output_count || !scene ? add_given(out, arguments)
                                                    : add_defaults(out, scene, part, parts);
-    for (size_t i = 0; i < out->count && status == STATUS_DONE && parts > 0; i++)
+    for (size_t i = 0; i < out->count && status == STATUS_DONE && parts > 1; i++)
         if (!outputs_is_film(out->paths[i])) {
             message_error("--out %s: a part of a picture goes to a film called NAME.rtpart",
                           out->paths[i]);
-            message_hint("`rtc merge` makes images of all parts");
+            message_hint("`rtc merge` makes images of all parts; --part 1/1 renders all of the "
+                         "picture");
             status = STATUS_USAGE;
         }
     for (size_t i = 0; i < out->count && status == STATUS_DONE; i++)

@@ -10,18 +10,19 @@
 #include "status.h"
 
 /*
- * Where engines say which part this process is: the variable of its number, of the first number (or
- * the number itself), and of how many there are.
+ * Where engines say which part this process is: the variables of its number, of the first one, of
+ * the step between two, and of how many there are.
  */
 static const struct {
-    const char *index, *first, *count;
+    const char *index, *first, *step, *count;
     uint64_t begins; /* the first number where there is no variable for it */
 } engines[] = {
-    {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_COUNT", 1},
-    {"OMPI_COMM_WORLD_RANK", NULL, "OMPI_COMM_WORLD_SIZE", 0},
-    {"PMI_RANK", NULL, "PMI_SIZE", 0},
-    {"SLURM_PROCID", NULL, "SLURM_NTASKS", 0},
-    {"JOB_COMPLETION_INDEX", NULL, "JOB_COMPLETIONS", 0},
+    {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_STEP",
+     "SLURM_ARRAY_TASK_COUNT", 1},
+    {"OMPI_COMM_WORLD_RANK", NULL, NULL, "OMPI_COMM_WORLD_SIZE", 0},
+    {"PMI_RANK", NULL, NULL, "PMI_SIZE", 0},
+    {"SLURM_PROCID", NULL, NULL, "SLURM_NTASKS", 0},
+    {"JOB_COMPLETION_INDEX", NULL, NULL, "JOB_COMPLETIONS", 0},
 };
 
 static int set(uint32_t *part, uint32_t *parts, uint64_t number, uint64_t count)
@@ -47,7 +48,7 @@ static int read_variable(uint64_t *out, const char *name)
 static int read_auto(uint32_t *part, uint32_t *parts)
 {
     for (size_t i = 0; i < sizeof engines / sizeof *engines; i++) {
-        uint64_t index, count, first = engines[i].begins;
+        uint64_t index, count, step = 1, first = engines[i].begins;
         if (!read_variable(&index, engines[i].index))
             continue;
         if (!read_variable(&count, engines[i].count)) {
@@ -56,7 +57,9 @@ static int read_auto(uint32_t *part, uint32_t *parts)
             return STATUS_USAGE;
         }
         read_variable(&first, engines[i].first);
-        return set(part, parts, index < first ? 0 : index - first + 1, count);
+        if (!read_variable(&step, engines[i].step) || step == 0)
+            step = 1;
+        return set(part, parts, index < first ? 0 : (index - first) / step + 1, count);
     }
     message_error("--part auto: this is no job of Slurm or MPI, and no indexed job");
     message_hint("set JOB_COMPLETION_INDEX, from 0, and JOB_COMPLETIONS, or give --part I/N");

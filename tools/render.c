@@ -265,6 +265,24 @@ static int record_command(render_job *job)
     return STATUS_DEVICE;
 }
 
+/* What of the picture is not there, and how to go on. */
+static void say_what_is_left(const render_job *job)
+{
+    rt_film_info info = {0};
+    const double part =
+        job->film && job->parts > 1 ? rt_film_part_done(job->film, job->part, job->parts) : 1;
+    if (job->film)
+        rt_film_get_info(job->film, &info);
+    if (part < 1)
+        message_note("%.3g %% of part %u of %u is done", 100 * part, (unsigned)job->part,
+                     (unsigned)job->parts);
+    else if (job->film && job->parts > 1 && info.units_done == 0)
+        message_warning("part %u of %u is empty: the picture has fewer pieces of work",
+                        (unsigned)job->part, (unsigned)job->parts);
+    if (job->checkpoint.saved > 0 && (!job->film || info.units_done < info.units))
+        message_note("`rtc --resume %s` goes on", job->checkpoint.path);
+}
+
 /* Reads --part; a film that is kept whole is part 1 of 1. */
 static int plan(render_job *job)
 {
@@ -306,8 +324,8 @@ static int run(render_job *job)
         status = write_images(job, status);
     if (job->checkpoint.failed && (status == STATUS_DONE || status == STATUS_INTERRUPTED))
         status = STATUS_OUTPUT;
-    else if (status != STATUS_DONE && job->checkpoint.saved > 0 && !job->session.quiet)
-        message_note("`rtc --resume %s` goes on", job->checkpoint.path);
+    else if (!job->session.quiet && !is_worker(job))
+        say_what_is_left(job);
     return status;
 }
 

@@ -47,7 +47,7 @@ rt_status rt_coverage_add(rt_coverage *coverage, rt_unit_range range, rt_error *
     if (range.count == 0)
         return RT_OK;
     if (i < coverage->count && coverage->ranges[i].first < end)
-        return rt_fail(error, RT_ERROR_USAGE, "the same part of the picture twice");
+        return rt_fail(error, RT_ERROR_USAGE, "both hold some of the same samples");
     rt_status status = reserve(coverage, coverage->count + 1, error);
     if (status != RT_OK)
         return status;
@@ -88,7 +88,7 @@ int rt_coverage_overlaps(const rt_coverage *a, const rt_coverage *b)
 rt_status rt_coverage_prepare(rt_coverage *coverage, const rt_coverage *other, rt_error *error)
 {
     if (rt_coverage_overlaps(coverage, other))
-        return rt_fail(error, RT_ERROR_USAGE, "the same part of the picture twice");
+        return rt_fail(error, RT_ERROR_USAGE, "both hold some of the same samples");
     return reserve(coverage, coverage->count + other->count, error);
 }
 

@@ -194,6 +194,7 @@ static uint32_t resolve(rt_film *film, size_t i)
 
 void rt_film_make_means(rt_film *film)
 {
+    film->is_resolved = 1;
     uint32_t fewest = rt_film_count(film, 0);
     film->stats.rejected = 0;
     for (size_t i = 0; i < rt_film_pixels(film); i++) {
@@ -206,7 +207,7 @@ void rt_film_make_means(rt_film *film)
 
 const float *rt_film_rgb(const rt_film *film)
 {
-    return film->rgb;
+    return film->is_resolved ? film->rgb : NULL;
 }
 
 const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels)

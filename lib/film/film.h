@@ -26,6 +26,7 @@ struct rt_film {
     /* [RT_LAYER_COUNT][height][width], the sums of the kernel first_hit, or NULL */
     rt_film_pixel *layer_sums;
     rt_photon_sums *photon_sums; /* [height][width], or NULL */
+    int is_resolved;             /* rgb and layers are those of the sums */
     rt_film_layers layers;       /* each [height][width][channels] */
 };
 

@@ -34,8 +34,9 @@ static rt_status compare_settings(const rt_film *a, const rt_film *b, int is_con
         rt_setting_get(y, sizeof y, s, &b->options);
         if (strcmp(x, y) != 0 && !may_differ(s->field.name, is_continued))
             return rt_fail_field(error, RT_ERROR_USAGE, s->field.name,
-                                 "%s is %s here, and %s in the film that is there", s->field.name,
-                                 x, y);
+                                 is_continued ? "%s is %s, and %s in the film to be continued"
+                                              : "%s is %s in one film and %s in the other",
+                                 s->field.name, x, y);
     }
     return RT_OK;
 }
@@ -129,6 +130,7 @@ static void add_stats(rt_film_stats *stats, const rt_film_stats *from)
 /* Adds all that is summed, or nothing. */
 static rt_status add_sums(rt_film *film, const rt_film *from, rt_error *error)
 {
+    film->is_resolved = 0;
     const size_t pixels = rt_film_pixels(film);
     rt_status status = make_layers(film, from, error);
     if (status == RT_OK)
@@ -162,7 +164,8 @@ static rt_status continue_units(rt_film *film, const rt_film *from, rt_error *er
         return rt_coverage_join(&film->done, &from->done, error);
     }
     if (wants < has)
-        return rt_fail_field(error, RT_ERROR_USAGE, what, "the film is of %u samples a pixel", has);
+        return rt_fail_field(error, RT_ERROR_USAGE, what,
+                             "the film is of %u samples a pixel; they cannot be fewer", has);
     if (done < from->units.count)
         return rt_fail_field(error, RT_ERROR_USAGE, what,
                              "a film of %u samples a pixel that is not finished cannot be raised "

@@ -123,22 +123,32 @@ uint32_t rt_units_length(const rt_units *units, uint64_t unit)
     return last.first + last.count;
 }
 
+/* The units of a chunk, but for the last of a block. */
+static uint64_t chunk_items(const rt_units *units)
+{
+    const uint64_t part = (units->items + 63) / 64, least = 64;
+    return part < least ? least : part > RT_CHUNK_ITEMS ? RT_CHUNK_ITEMS : part;
+}
+
+/* The chunks of a block. */
+static uint64_t chunks_in_block(const rt_units *units)
+{
+    return (units->items + chunk_items(units) - 1) / chunk_items(units);
+}
+
 uint64_t rt_units_chunks(const rt_units *units)
 {
-    const uint64_t in_block = (units->items + RT_CHUNK_ITEMS - 1) / RT_CHUNK_ITEMS;
-    return units->count / units->items * in_block;
+    return units->count / units->items * chunks_in_block(units);
 }
 
 rt_unit_range rt_units_chunk(const rt_units *units, uint64_t chunk)
 {
-    const uint64_t in_block = (units->items + RT_CHUNK_ITEMS - 1) / RT_CHUNK_ITEMS;
-    const uint64_t item = chunk % in_block * RT_CHUNK_ITEMS, left = units->items - item;
-    return (rt_unit_range){chunk / in_block * units->items + item,
-                           left < RT_CHUNK_ITEMS ? left : RT_CHUNK_ITEMS};
+    const uint64_t in_block = chunks_in_block(units), items = chunk_items(units);
+    const uint64_t item = chunk % in_block * items, left = units->items - item;
+    return (rt_unit_range){chunk / in_block * units->items + item, left < items ? left : items};
 }
 
 uint64_t rt_units_chunk_of(const rt_units *units, uint64_t unit)
 {
-    const uint64_t in_block = (units->items + RT_CHUNK_ITEMS - 1) / RT_CHUNK_ITEMS;
-    return unit / units->items * in_block + unit % units->items / RT_CHUNK_ITEMS;
+    return unit / units->items * chunks_in_block(units) + unit % units->items / chunk_items(units);
 }

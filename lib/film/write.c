@@ -52,6 +52,9 @@ rt_status rt_film_write(const rt_film *film, const char *path, const rt_image_op
 {
     if (rt_is_missing(film, "film", error))
         return RT_ERROR_USAGE;
+    if (!film->is_resolved)
+        return rt_fail(error, RT_ERROR_USAGE,
+                       "the film was loaded or added to: rt_film_resolve makes its means");
     const char *names[3 + RT_LAYER_CHANNELS_MAX * RT_FILM_LAYER_COUNT] = {"R", "G", "B"};
     const rt_render_options *o = &film->options;
     uint32_t channels = 3;

@@ -29,7 +29,10 @@ RT_API rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render
                            rt_error *error);
 RT_API void rt_film_destroy(rt_film *film);
 
-/* Linear radiance, [height][width][3], top row first; owned by the film. */
+/*
+ * Linear radiance, [height][width][3], top row first; owned by the film. NULL for one that was
+ * loaded or added to and not resolved since; see rt_film_resolve.
+ */
 RT_API const float *rt_film_rgb(const rt_film *film);
 RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height);
 
@@ -61,10 +64,11 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  *
  *   with rt_render_options.photon_layers
  *
- *   photon.count 1 itself mean number of photons summed at the end of an eye path photon.radius 1
- *   itself mean radius of the disc that they lie in, m photon.density 1 itself mean of their number
- *   over the disc's area, 1/m^2 photon.variance 1 itself variance of the pixel, the mean of its
- *   three channels (2) photon.bias 1 itself bias of the pixel, the mean of its three channels (3)
+ *   photon.count     1  itself    mean number of photons summed at the end of an eye path
+ *   photon.radius    1  itself    mean radius of the disc that they lie in, m
+ *   photon.density   1  itself    mean of their number over the disc's area, 1/m^2
+ *   photon.variance  1  itself    variance of the pixel, the mean of its three channels (2)
+ *   photon.bias      1  itself    bias of the pixel, the mean of its three channels (3)
  *
  * (1) The expected value of the pixel is within rt_film_stats.interval_factor sqrt(variance) of the
  * pixel, with a confidence of 95 %. In photon mode variance is the noise alone, without the bias of

@@ -157,7 +157,7 @@ typedef struct rt_render_options {
      */
     const rt_film *resume;
     /*
-     * render part 1 .. parts of the work alone; rt_film_merge joins the parts. target_error is not
+     * render part 1 .. parts of the work alone; rt_film_add joins the parts. target_error is not
      * for parts. parts 0: all
      */
     uint32_t part, parts;

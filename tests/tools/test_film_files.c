@@ -70,12 +70,12 @@ static void what_is_missing_double_or_foreign_is_named(void **state)
     RTC(STATUS_DONE, "merge s.1of3.rtpart s.2of3.rtpart --incomplete --out x.exr");
     run twice = run_rtc("merge s.1of3.rtpart s.1of3.rtpart --out x.exr");
     expect_status(&twice, STATUS_INPUT);
-    expect_err(&twice, "s.1of3.rtpart does not fit s.1of3.rtpart: the same part of the picture");
+    expect_err(&twice, "s.1of3.rtpart does not fit s.1of3.rtpart: both hold some of the same");
     run_free(&twice);
     RTC(STATUS_DONE, "s.rts --spp 5 --quiet --part 2/3 --out five.rtpart");
     run other = run_rtc("merge s.1of3.rtpart five.rtpart --out x.exr");
     expect_status(&other, STATUS_INPUT);
-    expect_err(&other, "spp is 4 here, and 5");
+    expect_err(&other, "spp is 4 in one film and 5 in the other");
     run_free(&other);
     run image = run_rtc("s.rts --part 1/3 --out x.png");
     expect_status(&image, STATUS_USAGE);
@@ -103,6 +103,9 @@ static void parts_are_those_of_the_job(void **state)
         {"OMPI_COMM_WORLD_RANK=0 OMPI_COMM_WORLD_SIZE=6", "s.1of6.rtpart"},
         {"PMI_RANK=6 PMI_SIZE=7", "s.7of7.rtpart"},
         {"SLURM_PROCID=1 SLURM_NTASKS=8", "s.2of8.rtpart"},
+        {"SLURM_ARRAY_TASK_ID=6 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRAY_TASK_STEP=2 "
+         "SLURM_ARRAY_TASK_COUNT=9",
+         "s.3of9.rtpart"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
@@ -119,9 +122,14 @@ static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
         /* The first part of a whole stands for a render that was stopped. */
         RTC(STATUS_DONE, "s.rts %s --quiet --part 2/3 --out c.rtpart", modes[i]);
         RTC(STATUS_DONE, "s.rts --resume c.rtpart --part 1/1 --quiet --out done.rtpart --out "
-                         "all.rtpart");
-        RTC(STATUS_DONE, "merge done.rtpart --out done.exr --quiet");
+                         "done.exr");
+        RTC(STATUS_DONE, "merge done.rtpart --out merged.exr --quiet");
         expect_same_files("whole.exr", "done.exr");
+        expect_same_files("whole.exr", "merged.exr");
+        /* The film of a part is only read. */
+        run part = run_rtc("info c.rtpart --json");
+        expect_out(&part, "\"part\":2,\"parts\":3");
+        run_free(&part);
         unlink("c.rtpart");
     }
     RTC(STATUS_DONE, "s.rts --spp 6 --quiet --out whole.exr");
@@ -141,7 +149,7 @@ static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
     run_free(&info);
     run other = run_rtc("--resume c.rtpart --seed 9");
     expect_status(&other, STATUS_USAGE);
-    expect_err(&other, "seed is 9 here, and 0");
+    expect_err(&other, "seed is 9, and 0 in the film to be continued");
     run_free(&other);
     run less = run_rtc("--resume c.rtpart --spp 3");
     expect_status(&less, STATUS_USAGE);
@@ -152,6 +160,24 @@ static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
     expect_err(&changed, "of this one before it was changed");
     run_free(&changed);
     scratch_write("s.rts", small_scene);
+}
+
+/* What a film says of outputs is not done for a stranger. */
+static void an_untrusted_film_names_no_outputs(void **state)
+{
+    (void)state;
+    RTC(STATUS_DONE, "s.rts --spp 2 --quiet --out victim.png --checkpoint v.rtpart");
+    scratch_write("victim.png", "precious");
+    run done = run_rtc("--resume v.rtpart --untrusted --quiet --out mine.png");
+    if (done.status != STATUS_DEVICE) { /* where rights can be given up */
+        expect_status(&done, STATUS_DONE);
+        expect_file("mine.png");
+    }
+    run_free(&done);
+    run none = run_rtc("--resume v.rtpart --untrusted --quiet");
+    run_free(&none);
+    scratch_write("precious.txt", "precious");
+    expect_same_files("victim.png", "precious.txt");
 }
 
 static void no_film_is_refused_with_its_name(void **state)
@@ -179,6 +205,7 @@ int main(void)
         cmocka_unit_test(what_is_missing_double_or_foreign_is_named),
         cmocka_unit_test(parts_are_those_of_the_job),
         cmocka_unit_test(a_checkpoint_is_gone_on_with_by_its_name_alone),
+        cmocka_unit_test(an_untrusted_film_names_no_outputs),
         cmocka_unit_test(no_film_is_refused_with_its_name),
     };
     if (spawn_find_rtc() != 0)

@@ -70,6 +70,8 @@ static void parts_have_the_bits_of_a_render_at_once(void **state)
             rt_film_destroy(part);
         }
         joined = through_bytes(joined);
+        assert_null(rt_film_rgb(joined));
+        assert_int_equal(rt_film_write(joined, "none.exr", NULL, &error), RT_ERROR_USAGE);
         expect_ok(rt_film_resolve(joined, NULL, &error), &error);
         expect_same_film(whole, joined, film_renders[i].name);
         rt_film_destroy(joined);
