@@ -16,7 +16,8 @@ typedef struct checkpoint {
 
 /*
  * Loads the film of --resume into *arguments, and gives the options that it was rendered with where
- * the command line gives no others; where it had a checkpoint, that is the file itself. Returns an exit status.
+ * the command line gives no others; a film that is a checkpoint goes on being one. Returns an exit
+ * status.
  */
 int checkpoint_resume(command_line *arguments);
 

@@ -60,8 +60,8 @@ double rt_units_amount(const rt_units *units, rt_unit_range range);
 uint32_t rt_units_length(const rt_units *units, uint64_t unit);
 
 /*
- * A chunk is the part of the work that is handed out: a 64th of a block, but at least 64 and at most
- * RT_CHUNK_ITEMS units; or a pass.
+ * A chunk is the part of the work that is handed out: a 64th of a block, but at least 64 and at
+ * most RT_CHUNK_ITEMS units; or a pass.
  */
 enum { RT_CHUNK_ITEMS = 4096 };
 uint64_t rt_units_chunks(const rt_units *units);
