@@ -1,6 +1,7 @@
 #!/bin/sh
 # check.sh - the model against this machine: pictures by 1, 2 and 4 processes of one thread, as a
-# pool with a queue and as parts that are merged, beside what simulate says.
+# pool with a queue, as parts that are merged and, where `make mpi` has built it, by rtc-mpi, beside
+# what simulate says.
 #
 #   tools/cluster/check.sh [ROUNDS]
 #
@@ -38,13 +39,25 @@ parts() {
     "$bin/rtc" merge p*-"$1".rtpart --quiet --out parts.pfm && rm p*.rtpart
 }
 
+kinds='pool parts'
+mpi() {
+    OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+        OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none \
+        mpirun -np "$1" "$bin/mpi/rtc-mpi" "${2:-scene.rts}" --threads 1 --quiet --out mpi.pfm
+}
+[ ! -x "$bin/mpi/rtc-mpi" ] || kinds="$kinds mpi"
+# Of a picture of one pixel: what mpirun takes to start, beside the start of a process.
+sed 's/^film .*/film { width 1  height 1 }/' scene.rts >pixel.rts
+
 for round in $(seq "$rounds"); do
     "$bin/tools/cluster/measure" scene.rts >"figures.$round" || exit 2
     for ranks in 1 2 4; do
-        timed "pool.$ranks" pool "$ranks"
-        timed "parts.$ranks" parts "$ranks"
-        cmp pool.pfm parts.pfm || exit 2
+        for kind in $kinds; do
+            timed "$kind.$ranks" "$kind" "$ranks"
+            cmp pool.pfm "$kind.pfm" || exit 2
+        done
     done
+    [ "$kinds" = 'pool parts' ] || timed mpi.start mpi 1 pixel.rts
 done
 # The median of each figure.
 sed 's/=.*//' figures.1 | while read -r name; do
@@ -53,20 +66,24 @@ sed 's/=.*//' figures.1 | while read -r name; do
 done >figures
 cat figures
 
-# predicted SCHEDULE RANKS: by the model, for processes on the cores of this machine.
+# predicted KIND RANKS: by the model, for processes on the cores of this machine.
 predicted() {
-    "$bin/tools/cluster/simulate" figures width=640 height=360 spp=128 ranks="$2" schedule="$1" \
-        cores="$(nproc)" tasks=16 guided=0 pieces=1 speeds=0 stragglers=0 life=0 latency=1e-5 |
-        cut -d' ' -f1
+    case $1 in
+    pool) set -- "$2" schedule=demand tasks=16 guided=0 ;;
+    parts) set -- "$2" schedule=parts pieces=1 ;;
+    mpi) set -- "$2" schedule=demand start="$(median <mpi.start)" ;;
+    esac
+    ranks=$1
+    shift
+    "$bin/tools/cluster/simulate" figures width=640 height=360 spp=128 ranks="$ranks" \
+        cores="$(nproc)" speeds=0 stragglers=0 life=0 latency=1e-5 "$@" | cut -d' ' -f1
 }
 echo
 echo "| ranks on $(nproc) cores | | measured, s | model, s | off by |"
 echo '|--:|--|--:|--:|--:|'
-for kind in pool parts; do
-    schedule=$kind
-    [ $kind = parts ] || schedule=demand
+for kind in $kinds; do
     for ranks in 1 2 4; do
-        echo "$ranks $kind $(median <"$kind.$ranks") $(predicted "$schedule" "$ranks")"
+        echo "$ranks $kind $(median <"$kind.$ranks") $(predicted "$kind" "$ranks")"
     done
 done | awk '{
         off = 100 * ($4 / $3 - 1)
