@@ -185,7 +185,8 @@ mode_over_network() {
     "$rtc" "$@" --mode photon --spp 8 --photons 1e5 --out photons.exr
     hosts=10.99.0.2,10.99.0.3,10.99.0.4
     case $run in
-    *mpich*) over="$run -launcher ssh -launcher-exec $work/agent -localhost 10.99.0.1 -hosts $hosts" ;;
+    *mpich*) over="$run -launcher ssh -launcher-exec $work/agent -localhost 10.99.0.1
+        -hosts $hosts" ;;
     *) over="$run --mca plm_rsh_agent $work/agent --host $hosts --mca btl tcp,self
         --mca btl_tcp_if_include 10.99.0.0/24 --mca oob_tcp_if_include 10.99.0.0/24" ;;
     esac
