@@ -68,8 +68,9 @@ static void *wait_for_signals(void *data)
     while (sigwait(&waited, &signal_number) == 0) {
         if (sigismember(&ignored, signal_number))
             continue;
-        /* A service manager may send two kinds at once: only the same one again is impatience. */
-        if (signal_number == SIGQUIT || (get(&pending) && signal_number == first)) {
+        /* Impatience is Ctrl-C, or the same again; a service manager may send HUP with TERM. */
+        const int is_again = signal_number == first || signal_number == SIGINT || first == SIGINT;
+        if (signal_number == SIGQUIT || (get(&pending) && is_again)) {
             die_of(signal_number);
         } else if (get(&pending)) {
             continue;

@@ -496,6 +496,22 @@ static void second_interrupt_kills(void **state)
     expect_no_file("a.pfm");
 }
 
+/* As a service manager sends them: both ask for the same. */
+static void a_hangup_with_a_termination_writes_the_picture(void **state)
+{
+    (void)state;
+    static char said[1 << 20];
+    scratch_write("a.rts", small_scene);
+    said[0] = '\0';
+    running running = start_rtc("a.rts --spp 16000000 --progress json --out a.pfm");
+    assert_int_equal(running_wait_for(&running, "\"render\"", said, sizeof said), 0);
+    kill(running.pid, SIGHUP);
+    kill(running.pid, SIGTERM);
+    assert_int_equal(running_finish(&running, said, sizeof said), 130);
+    expect_file("a.pfm");
+    remove("a.pfm");
+}
+
 /* A scene that never ends on stdin: the first signal stops the reading, and with it the run. */
 static void interrupted_wait_for_stdin_ends_at_once(void **state)
 {
@@ -554,6 +570,7 @@ int main(void)
         TEST(an_interrupt_while_photons_are_emitted_says_what_helps),
         TEST(quiet_says_nothing_of_an_interrupt),
         TEST(second_interrupt_kills),
+        TEST(a_hangup_with_a_termination_writes_the_picture),
         TEST(interrupted_wait_for_stdin_ends_at_once),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
