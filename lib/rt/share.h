@@ -51,7 +51,7 @@ RT_API void rt_share_note(rt_share *share, uint32_t worker, uint64_t first, uint
 
 /*
  * Adds the film that a worker hands over. Fails as rt_film_add does, and where the worker was not
- * to render what the film has.
+ * to render what the film has; what it was given is then given to others.
  */
 RT_API rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film,
                               rt_error *error);

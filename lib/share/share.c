@@ -16,6 +16,9 @@ static const double rarity = 100;
 /* Seconds after which films are handed over where there are no checkpoints: they may be lost. */
 static const double default_seconds = 60;
 
+/* And the first one, so that what does not fit is found out early. */
+static const double first_seconds = 1;
+
 /* The length of the replicates below which no test ends a render. */
 enum { untested = 3 };
 
@@ -135,7 +138,9 @@ rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error)
 static int must_hand_over(const rt_share *share, const rt_share_worker *worker, double now)
 {
     const rt_render_options *o = &share->options;
-    const double every = o->checkpoint ? o->checkpoint_seconds : default_seconds;
+    double every = o->checkpoint ? o->checkpoint_seconds : default_seconds;
+    if (!worker->is_proven)
+        every = fmin(every, first_seconds);
     return worker->held.count > 0 && now - worker->handed >= fmax(every, rarity * share->saving);
 }
 
@@ -187,6 +192,18 @@ void rt_share_note(rt_share *share, uint32_t worker, uint64_t first, uint64_t co
     pthread_mutex_unlock(&share->lock);
 }
 
+/* Lets others have what a worker was given and did not hand over. */
+static void take_back(rt_share *share, rt_share_worker *worker)
+{
+    rt_status status = RT_OK;
+    for (size_t i = 0; i < worker->held.count && status == RT_OK; i++)
+        status = rt_coverage_remove(&share->given, worker->held.ranges[i], NULL);
+    if (status != RT_OK)
+        share->stopped = 1;
+    rt_coverage_free(&worker->held);
+    worker->rendered = 0;
+}
+
 /* Whether a worker was given all that a film has. */
 static int holds(const rt_share_worker *worker, const rt_coverage *done)
 {
@@ -228,9 +245,12 @@ rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, rt
         status = rt_coverage_remove(&w->held, film->done.ranges[i], error);
     if (status == RT_OK) {
         w->rendered = 0;
+        w->is_proven = 1;
         w->handed = rt_clock();
         test(share);
         save(share);
+    } else {
+        take_back(share, w);
     }
     pthread_cond_broadcast(&share->changed);
     pthread_mutex_unlock(&share->lock);
@@ -241,13 +261,7 @@ void rt_share_leave(rt_share *share, uint32_t worker)
 {
     pthread_mutex_lock(&share->lock);
     rt_share_worker *w = share->workers + worker;
-    rt_status status = RT_OK;
-    for (size_t i = 0; i < w->held.count && status == RT_OK; i++)
-        status = rt_coverage_remove(&share->given, w->held.ranges[i], NULL);
-    if (status != RT_OK)
-        share->stopped = 1;
-    rt_coverage_free(&w->held);
-    w->rendered = 0;
+    take_back(share, w);
     w->is_gone = 1;
     pthread_cond_broadcast(&share->changed);
     pthread_mutex_unlock(&share->lock);

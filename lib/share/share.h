@@ -9,6 +9,7 @@
 
 typedef struct rt_share_worker {
     int is_gone;
+    int is_proven;    /* a film of it fitted */
     rt_coverage held; /* the units that it was given and has not handed over */
     double rendered;  /* samples or passes of these that are rendered, as rt_units_amount */
     double given;     /* what it was given last, likewise */

@@ -89,9 +89,16 @@ ends() {
     timeout 120 $run -np 1 "$rtc_mpi" "$scene" $small --spp 1e5 --seed 1 --out x.exr : \
         -np 1 "$rtc_mpi" "$scene" $small --spp 1e5 --seed 2 >log 2>&1
     check a_process_with_another_seed_is_refused grep -q 'rank 1: .*seed' log
+    # In the foreground, because a shell lets what is in the background ignore interrupts.
+    : >log
+    (
+        until grep -q '^render' log; do sleep 0.1; done
+        pkill -INT -f "^[^ ]*$run -np 3 $rtc_mpi .*--out x.exr"
+    ) &
     # shellcheck disable=SC2086
-    timeout -s INT 4 $run -np 3 "$rtc_mpi" "$scene" $small --spp 1e7 --out x.exr \
+    timeout 120 "$run" -np 3 "$rtc_mpi" "$scene" $small --spp 1e7 --out x.exr \
         --checkpoint i.rtpart --every 1 >log 2>&1
+    kill $! 2>/dev/null
     check an_interrupt_writes_the_picture grep -q 'interrupted; wrote x.exr' log
     check an_interrupt_keeps_the_work "$rtc" info i.rtpart
 }

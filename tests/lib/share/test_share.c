@@ -306,6 +306,9 @@ static void only_what_was_given_is_taken(void **state)
     expect_ok(rt_share_join(&worker, share, &error), &error);
     assert_int_equal(rt_share_ask(share, worker, &first, &count), RT_SHARE_RENDER);
     assert_int_equal(rt_share_add(share, worker, whole, &error), RT_ERROR_USAGE);
+    /* Nothing of it is waited for. */
+    rt_share_stop(share);
+    assert_int_equal(rt_share_ask(share, worker, &first, &count), RT_SHARE_END);
     rt_share_destroy(share);
     rt_film_destroy(whole);
     o.parts = 2;
