@@ -16,6 +16,12 @@ double rt_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+double rt_checkpoint_interval(double seconds, double last_took)
+{
+    const double rarity = 100;
+    return seconds > rarity * last_took ? seconds : rarity * last_took;
+}
+
 const char *rt_stage_name(rt_stage stage)
 {
     static const char *const names[] = {"load", "build", "compile", "emit", "gather", "render"};

@@ -18,6 +18,9 @@ typedef struct rt_stage_progress {
 /* Seconds on a monotonic clock. */
 double rt_clock(void);
 
+/* The time from one checkpoint to the next: as asked for, but 100 times what the last one took. */
+double rt_checkpoint_interval(double seconds, double last_took);
+
 /*
  * Each reports to the progress callback and returns RT_OK, or RT_CANCELLED once the callback asked
  * for it.

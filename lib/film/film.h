@@ -59,6 +59,9 @@ double rt_film_sum(const rt_film_pixel *pixel, int channel);
  */
 double rt_film_divisor(double weight, double count);
 
+/* The samples of a pixel, or passes, that the film holds; the mean over its pixels. */
+double rt_film_samples_done(const rt_film *film);
+
 /* The samples of pixel i, in all planes. */
 uint32_t rt_film_count(const rt_film *film, size_t i);
 

@@ -6,21 +6,19 @@ void rt_film_get_options(const rt_film *film, rt_render_options *out)
     *out = film->options;
 }
 
-/* Samples or passes in some units, in pixels. */
-static double samples_in(const rt_units *units, rt_unit_range range)
+double rt_film_samples_done(const rt_film *film)
 {
-    return rt_units_samples_before(units, range.first + range.count) -
-           rt_units_samples_before(units, range.first);
+    double done = film->units.base;
+    for (size_t i = 0; i < film->done.count; i++)
+        done += rt_units_amount(&film->units, film->done.ranges[i]);
+    return done;
 }
 
 void rt_film_get_info(const rt_film *film, rt_film_info *out)
 {
     const rt_film_stats *s = &film->stats;
-    double done = film->units.base;
-    for (size_t i = 0; i < film->done.count; i++)
-        done += samples_in(&film->units, film->done.ranges[i]);
     *out = (rt_film_info){
-        .done = done / film->units.samples,
+        .done = rt_film_samples_done(film) / film->units.samples,
         .units = film->units.count,
         .units_done = rt_coverage_units(&film->done),
         .samples = film->units.samples,

@@ -5,9 +5,6 @@
 
 #include "film/student_t.h"
 
-/* Length of the replicates at the first test that can end a render. */
-enum { fewest = 4 };
-
 /* ---- The error -------------------------------------------------------------- */
 
 /*
@@ -83,7 +80,7 @@ static double relative_error(const rt_film *film, double *bound)
 rt_noise rt_noise_begin(uint32_t length)
 {
     rt_noise noise = {.next_test = 1};
-    while (noise.next_test <= length)
+    while (noise.next_test < length)
         noise.next_test = rt_replicate_grow(noise.next_test);
     return noise;
 }
@@ -100,7 +97,7 @@ int rt_noise_test(rt_noise *noise, const rt_film *film, uint32_t length, double 
     noise->tested_at = length;
     noise->next_test = rt_replicate_grow(length);
     noise->error = relative_error(film, &noise->bound);
-    return target > 0 && noise->bound <= target && length >= fewest;
+    return target > 0 && noise->bound <= target && length >= RT_NOISE_FEWEST;
 }
 
 double rt_noise_last(const rt_noise *noise)

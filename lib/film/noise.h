@@ -53,7 +53,10 @@ typedef struct rt_noise {
     uint32_t tested_at;  /* when they had this length; 0 before */
 } rt_noise;
 
-/* For replicates that grow from this length on. */
+/* The length of the replicates at the first test that can end a render. */
+enum { RT_NOISE_FEWEST = 4 };
+
+/* The first test is at this length, or the next one after it that has a test. */
 rt_noise rt_noise_begin(uint32_t length);
 
 /* Whether the error is to be estimated at this length; see rt_noise_test. */

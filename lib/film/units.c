@@ -101,16 +101,8 @@ double rt_units_samples_before(const rt_units *units, uint64_t unit)
 
 double rt_units_amount(const rt_units *units, rt_unit_range range)
 {
-    if (units->in_passes)
-        return (double)range.count;
-    double samples = 0;
-    for (uint64_t first = range.first, end = range.first + range.count; first < end;) {
-        const uint64_t block_end = (first / units->items + 1) * units->items,
-                       to = block_end < end ? block_end : end;
-        samples += (double)rt_units_block(units, first).count * (double)(to - first);
-        first = to;
-    }
-    return samples / units->items;
+    return rt_units_samples_before(units, range.first + range.count) -
+           rt_units_samples_before(units, range.first);
 }
 
 uint32_t rt_units_length(const rt_units *units, uint64_t unit)

@@ -3,27 +3,23 @@
 
 #include <math.h>
 
-/* A checkpoint takes at most one part in so many of the time between two. */
-static const double rarity = 100;
-
 /* ---- What comes next --------------------------------------------------------- */
-
-/* What the film has of its work. */
-static double amount_done(const rt_film *film)
-{
-    double done = film->units.base;
-    for (size_t i = 0; i < film->done.count; i++) {
-        const rt_unit_range r = film->done.ranges[i];
-        done += rt_units_samples_before(&film->units, r.first + r.count) -
-                rt_units_samples_before(&film->units, r.first);
-    }
-    return done;
-}
 
 /* Samples that all replicates have in common. */
 static uint32_t length_done(const rt_film *film)
 {
     return rt_units_length(&film->units, rt_coverage_prefix(&film->done));
+}
+
+/* A film that is continued where the error is tested has to be: it may be small enough. */
+static void begin_tests(rt_work *work)
+{
+    const uint32_t length = length_done(work->film);
+    work->noise = rt_noise_begin(length);
+    if (rt_work_test_is_due(work))
+        rt_work_test(work);
+    else if (length > 0 && rt_noise_is_due(&work->noise, length))
+        work->noise = rt_noise_begin(length + 1); /* it was tested before what came after it */
 }
 
 rt_work rt_work_begin(rt_film *film, const rt_render_options *options)
@@ -32,12 +28,10 @@ rt_work rt_work_begin(rt_film *film, const rt_render_options *options)
     const double parts = options->parts > 1 ? options->parts : 1;
     work.is_whole = options->parts <= 1 && !options->next_units;
     work.end = work.is_whole || options->parts > 1 ? film->units.count : 0;
-    work.all = (options->mode == RT_MODE_PHOTON && options->passes > 1 ? options->passes
-                                                                       : film->units.samples) /
-               parts;
-    work.done = amount_done(film);
+    work.all = film->units.samples / parts;
+    work.done = rt_film_samples_done(film);
     work.began = work.saved = rt_clock();
-    work.noise = rt_noise_begin(length_done(film));
+    begin_tests(&work);
     return work;
 }
 
@@ -157,8 +151,8 @@ int rt_work_save_is_due(const rt_work *work)
 {
     const rt_render_options *o = work->options;
     return o->checkpoint &&
-           (work->must_save ||
-            rt_clock() - work->saved >= fmax(o->checkpoint_seconds, rarity * work->saving));
+           (work->must_save || rt_clock() - work->saved >=
+                                   rt_checkpoint_interval(o->checkpoint_seconds, work->saving));
 }
 
 void rt_work_time(rt_work *work, double *seconds)

@@ -26,7 +26,7 @@ typedef struct rt_work {
     rt_noise noise;
 } rt_work;
 
-/* Begins with the units that the film lacks. */
+/* Begins with the units that the film lacks; its sums must be in host memory. */
 rt_work rt_work_begin(rt_film *film, const rt_render_options *options);
 
 /*

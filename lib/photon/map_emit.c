@@ -33,9 +33,6 @@ static rt_status compile(emission *e, rt_error *error)
 
 /* ---- Checkpoints ------------------------------------------------------------ */
 
-/* Checkpoints take 1 % of the time at most. */
-static const double rarity = 100;
-
 /* Hands out the map so far. */
 static void save(emission *e)
 {
@@ -50,7 +47,7 @@ static void save(emission *e)
 static void save_when_due(void *user)
 {
     emission *e = user;
-    if (rt_clock() - e->saved >= fmax(e->how->checkpoint_seconds, rarity * e->saving))
+    if (rt_clock() - e->saved >= rt_checkpoint_interval(e->how->checkpoint_seconds, e->saving))
         save(e);
 }
 

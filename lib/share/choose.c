@@ -19,9 +19,7 @@ enum { first_chunks = 4 };
 
 double rt_share_rendered(const rt_share *share)
 {
-    rt_film_info info;
-    rt_film_get_info(share->film, &info);
-    double rendered = info.done * share->film->units.samples;
+    double rendered = rt_film_samples_done(share->film);
     for (uint32_t i = 0; i < share->count; i++)
         rendered += share->workers[i].rendered;
     return rendered;

@@ -10,17 +10,11 @@
 #include "photon/map_warnings.h"
 #include "setting/options.h"
 
-/* A checkpoint takes at most one part in so many of the time between two. */
-static const double rarity = 100;
-
 /* Seconds after which films are handed over where there are no checkpoints: they may be lost. */
 static const double default_seconds = 60;
 
 /* And the first one, so that what does not fit is found out early. */
 static const double first_seconds = 1;
-
-/* The length of the replicates below which no test ends a render. */
-enum { untested = 3 };
 
 /* ---- The horizon ---------------------------------------------------------------- */
 
@@ -73,7 +67,7 @@ static rt_status open(rt_share *share, rt_renderer *renderer, rt_error *error)
         return status;
     const double all = rt_share_rendered(share);
     share->before = all;
-    share->noise = rt_noise_begin(untested);
+    share->noise = rt_noise_begin(RT_NOISE_FEWEST);
     share->horizon = next_horizon(share);
     test(share);
     return RT_OK;
@@ -141,7 +135,8 @@ static int must_hand_over(const rt_share *share, const rt_share_worker *worker, 
     double every = o->checkpoint ? o->checkpoint_seconds : default_seconds;
     if (!worker->is_proven)
         every = fmin(every, first_seconds);
-    return worker->held.count > 0 && now - worker->handed >= fmax(every, rarity * share->saving);
+    return worker->held.count > 0 &&
+           now - worker->handed >= rt_checkpoint_interval(every, share->saving);
 }
 
 /* Gives a worker units, or says why there are none. */
@@ -225,7 +220,8 @@ static void save(rt_share *share)
 {
     const rt_render_options *o = &share->options;
     const double now = rt_clock();
-    if (!o->checkpoint || now - share->saved < fmax(o->checkpoint_seconds, rarity * share->saving))
+    if (!o->checkpoint ||
+        now - share->saved < rt_checkpoint_interval(o->checkpoint_seconds, share->saving))
         return;
     o->checkpoint(o->checkpoint_user, share->film);
     share->saved = rt_clock();

@@ -147,6 +147,35 @@ static void sittings_have_the_bits_of_a_render_at_once(void **state)
     }
 }
 
+/* A film whose error was small enough is not gone on with, unless a smaller one is asked for. */
+static void a_film_that_reached_its_error_stays_as_it_is(void **state)
+{
+    const rt_render_options modes[] = {
+        {.mode = RT_MODE_PATH, .target_error = 0.3},
+        {.mode = RT_MODE_PHOTON, .passes = 1000, .photons = 500, .target_error = 0.3}};
+    (void)state;
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        const film_render r = {"to an error", modes[i]};
+        rt_render_options o = film_render_options(&r);
+        rt_film *film = render(&o);
+        rt_film_stats stats;
+        rt_film_get_stats(film, &stats);
+        assert_true(stats.relative_error_bound <= o.target_error);
+        rt_film *kept = through_bytes(render(&o));
+        o.resume = kept;
+        rt_film *same = render(&o);
+        expect_same_film(film, same, "resumed at its end");
+        o.target_error = 0.1;
+        rt_film *more = render(&o);
+        o.resume = NULL;
+        rt_film *whole = render(&o);
+        expect_same_film(whole, more, "resumed to a smaller error");
+        rt_film *films[] = {film, kept, same, more, whole};
+        for (size_t k = 0; k < sizeof films / sizeof *films; k++)
+            rt_film_destroy(films[k]);
+    }
+}
+
 static void more_samples_or_passes_continue_a_finished_film(void **state)
 {
     (void)state;
@@ -258,6 +287,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_have_the_bits_of_a_render_at_once),
         cmocka_unit_test(sittings_have_the_bits_of_a_render_at_once),
+        cmocka_unit_test(a_film_that_reached_its_error_stays_as_it_is),
         cmocka_unit_test(more_samples_or_passes_continue_a_finished_film),
         cmocka_unit_test(chunks_have_the_bits_of_a_render_at_once),
         cmocka_unit_test(what_does_not_fit_is_refused_by_name),
