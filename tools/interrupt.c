@@ -18,7 +18,7 @@ static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
 
 /* What the thread that waits and the others share. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static int deferred, pending;
+static int deferred, pending, ending;
 
 /* Set before that thread begins. */
 static int as_json, is_quiet;
@@ -75,6 +75,7 @@ static void *wait_for_signals(void *data)
         } else if (get(&pending)) {
             continue;
         } else if (!get(&deferred)) {
+            set(&ending);
             say("\nrtc: interrupted; nothing was written\n",
                 "{\"severity\":\"note\",\"message\":\"interrupted; nothing was written\"}\n");
             _exit(STATUS_INTERRUPTED);
@@ -122,6 +123,12 @@ void interrupt_catch(int in_json, int quiet)
 void interrupt_defer(void)
 {
     set(&deferred);
+}
+
+void interrupt_let_end(void)
+{
+    while (get(&ending))
+        pause();
 }
 
 int interrupt_pending(void)

@@ -1,7 +1,7 @@
 /*
  * interrupt.h - what Ctrl-C, SIGTERM and SIGHUP (a lost connection) do: at once while nothing is
- * lost by it; later the first asks, the second kills. SIGQUIT kills always. SIGXCPU, when CPU time
- * is up, is as SIGTERM.
+ * lost by it; later the first asks. The same again kills, and so does Ctrl-C with another. SIGQUIT
+ * kills always. SIGXCPU, when CPU time is up, is as SIGTERM.
  */
 #ifndef RTC_INTERRUPT_H
 #define RTC_INTERRUPT_H
@@ -21,6 +21,12 @@ void interrupt_catch(int in_json, int quiet);
  * action.
  */
 void interrupt_defer(void);
+
+/*
+ * Where one of them is ending the program, waits for that: what the end of the work says, whose
+ * input may have ended with whoever sent the signal, is not the status then.
+ */
+void interrupt_let_end(void);
 
 /* Whether one came. */
 int interrupt_pending(void);

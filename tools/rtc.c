@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "commands.h"
 #include "help.h"
+#include "interrupt.h"
 #include "message.h"
 #include "rt.h"
 #include "status.h"
@@ -50,6 +51,7 @@ int main(int argc, char **argv)
     arguments_free(&arguments);
     rt_memory_destroy(memory);
     int written = message_finish_stdout();
+    interrupt_let_end();
     /* That things differ, which is status 1 too, is no result while what differs is lost. */
     return status == STATUS_DONE || (status == STATUS_INPUT && written != STATUS_DONE) ? written
                                                                                        : status;
