@@ -1,6 +1,5 @@
 /*
- * direct.cl - emission and direct light alone: each work-item takes the samples of one pixel, in
- * order.
+ * direct.cl - emission and direct light alone: each work-item takes the samples of one pixel.
  */
 #include "camera/camera.h"
 #include "entry.h"

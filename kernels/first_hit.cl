@@ -84,11 +84,8 @@ KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
             value[layer] = (float3)(0.0f);
         if (can_follow(&ray) && closest_hit(&scene, &ray, &hit))
             layers_of(value, &scene, &ray, &hit, weight);
-        for (uint layer = 0; layer < RT_LAYER_COUNT; layer++) {
-            if (layer == RT_LAYER_IDS)
-                continue;
+        for (uint layer = 0; layer < RT_LAYER_IDS; layer++)
             film_add(&sums[layer], value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f, 0.0f);
-        }
         keep_ids(&sums[RT_LAYER_IDS], value[RT_LAYER_IDS],
                  (rt_i64)(params.first_sample + i) * RT_REPLICATES + params.replicate);
     }

@@ -1,6 +1,5 @@
 /*
- * path.cl - path tracing: each work-item takes the samples of a few pixels, those of a pixel in
- * order.
+ * path.cl - path tracing: each work-item takes the samples of a few pixels.
  */
 #include "camera/camera.h"
 #include "entry.h"

@@ -391,7 +391,7 @@ typedef struct rt_params {
 } rt_params;
 RT_SIZE(rt_params, 80);
 
-#define RT_REPLICATES 8 /* sequences of samples, where the error is estimated: film/replicates.h */
+#define RT_REPLICATES 8 /* sequences of samples, where the error is estimated: film/units.h */
 #define RT_FILM_REJECTED 12u             /* bit of rt_film_pixel.bins */
 #define RT_FILM_CUT_OFF (1.0f / 4096.0f) /* unit of rt_film_pixel.cut_off, which stops at its end */
 
@@ -426,7 +426,7 @@ RT_SIZE(rt_film_pixel, 64);
  * no sums: `high` has shape, material and 1 + the number of the sample, of the lowest sample that
  * meets something, samples of the same number by replicate; 0 where none does
  */
-#define RT_LAYER_IDS 5u
+#define RT_LAYER_IDS 5u /* the last */
 #define RT_LAYER_COUNT 6u
 
 /* ---- Photons ------------------------------------------------------------ */

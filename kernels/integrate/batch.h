@@ -373,10 +373,7 @@ static inline bool next_sample(const struct scene *scene, const rt_params *param
     return true;
 }
 
-/*
- * Adds a launch's samples to the pixels of the items from `item` to before `end`, those of a pixel
- * in order.
- */
+/* Adds a launch's samples to the pixels of the items from `item` to before `end`. */
 INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *params, uint item,
                                 uint end, global rt_film_pixel *film)
 {
