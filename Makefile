@@ -42,7 +42,7 @@ LIB_SRC := \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
 	lib/base/bytes.c lib/base/claim.c lib/base/crc32.c lib/base/error.c \
-	lib/base/exact_sum.c lib/base/file.c lib/base/half.c lib/base/memory.c \
+	lib/base/exact_sum.c lib/base/file.c lib/base/frame.c lib/base/half.c lib/base/memory.c \
 	lib/base/parallel.c lib/base/progress.c lib/base/version.c \
 	lib/device/buffer.c lib/device/device.c lib/device/kernel_cache.c \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \

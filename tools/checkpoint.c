@@ -1,7 +1,7 @@
 /* checkpoint.c - writes checkpoints during a render, and goes on from one. */
 #include "checkpoint.h"
 
-#include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include "film_note.h"
@@ -9,8 +9,6 @@
 #include "message.h"
 #include "outputs.h"
 #include "status.h"
-
-static const double default_seconds = 60;
 
 int checkpoint_resume(command_line *arguments)
 {
@@ -50,17 +48,16 @@ static void save(void *user, const rt_film *film)
     c->saved += !failed;
 }
 
-/* Whether the file may be written: new, or the one that is continued. */
-static int check_file(const char *path, const command_line *arguments)
+int checkpoint_check_file(const char *path, const char *extension, const char *resumed,
+                          const char *go_on)
 {
-    const char *resumed = arguments->options[OPTION_RESUME].text;
-    if (strcmp(outputs_extension(path), ".rtpart") != 0) {
-        message_error("--checkpoint %s: a checkpoint goes to a file called NAME.rtpart", path);
+    if (strcasecmp(outputs_extension(path), extension) != 0) {
+        message_error("--checkpoint %s: it goes to a file called NAME%s", path, extension);
         return STATUS_USAGE;
     }
     if (access(path, F_OK) == 0 && !(resumed && inputs_are_same(path, resumed))) {
         message_error("--checkpoint %s: the file is there already", path);
-        message_hint("go on from it by `rtc --resume %s`, or remove it", path);
+        message_hint("go on from it by `%s %s`, or remove it", go_on, path);
         return STATUS_USAGE;
     }
     return outputs_check_writable(path);
@@ -79,6 +76,6 @@ int checkpoint_plan(checkpoint *out, rt_render_options *options, const command_l
     options->checkpoint = save;
     options->checkpoint_user = out;
     options->checkpoint_seconds =
-        given[OPTION_EVERY].given ? given[OPTION_EVERY].real : default_seconds;
-    return check_file(out->path, arguments);
+        given[OPTION_EVERY].given ? given[OPTION_EVERY].real : CHECKPOINT_SECONDS;
+    return checkpoint_check_file(out->path, ".rtpart", given[OPTION_RESUME].text, "rtc --resume");
 }

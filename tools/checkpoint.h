@@ -14,6 +14,17 @@ typedef struct checkpoint {
     int failed;     /* the last one was not */
 } checkpoint;
 
+/* Seconds between checkpoints where --every says nothing. */
+#define CHECKPOINT_SECONDS 60.0
+
+/*
+ * Whether --checkpoint may name a file with this extension: one that is not there, or `resumed`,
+ * which is gone on with; NULL: none. go_on: how a hint says to do that, "--resume". Returns an exit
+ * status.
+ */
+int checkpoint_check_file(const char *path, const char *extension, const char *resumed,
+                          const char *go_on);
+
 /*
  * Loads the film of --resume into *arguments, and gives the options that it was rendered with where
  * the command line gives no others; a film that is a checkpoint goes on being one. Returns an exit

@@ -1,16 +1,12 @@
 /* photons_keep.c - writes a photon map while it is emitted, and goes on from one. */
 #include "photons_keep.h"
 
-#include <strings.h>
 #include <unistd.h>
 
-#include "inputs.h"
+#include "checkpoint.h"
 #include "message.h"
-#include "outputs.h"
 #include "photons.h"
 #include "status.h"
-
-static const double default_seconds = 60;
 
 static void save(void *user, const rt_photon_map *map)
 {
@@ -33,21 +29,6 @@ static int load(map_checkpoint *out, const char *path, const command_line *argum
     return status;
 }
 
-/* Whether the file may be written: new, or the one that is continued. */
-static int check_file(const char *path, const char *resumed)
-{
-    if (strcasecmp(outputs_extension(path), ".rtp") != 0) {
-        message_error("--checkpoint %s: that of photons goes to a file called NAME.rtp", path);
-        return STATUS_USAGE;
-    }
-    if (access(path, F_OK) == 0 && !(resumed && inputs_are_same(path, resumed))) {
-        message_error("--checkpoint %s: the file is there already", path);
-        message_hint("go on from it by --resume %s, or remove it", path);
-        return STATUS_USAGE;
-    }
-    return outputs_check_writable(path);
-}
-
 int map_checkpoint_plan(map_checkpoint *out, rt_emit_options *options,
                         const command_line *arguments)
 {
@@ -66,6 +47,6 @@ int map_checkpoint_plan(map_checkpoint *out, rt_emit_options *options,
     options->checkpoint = save;
     options->checkpoint_user = out;
     options->checkpoint_seconds =
-        given[OPTION_EVERY].given ? given[OPTION_EVERY].real : default_seconds;
-    return check_file(out->path, resumed);
+        given[OPTION_EVERY].given ? given[OPTION_EVERY].real : CHECKPOINT_SECONDS;
+    return checkpoint_check_file(out->path, ".rtp", resumed, "--resume");
 }

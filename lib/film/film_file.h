@@ -42,6 +42,7 @@
 #define RT_LIB_FILM_FILM_FILE_H
 
 #include "base/bytes.h"
+#include "base/frame.h"
 #include "film/columns.h"
 #include "film/film.h"
 
@@ -52,12 +53,10 @@ enum {
     RT_FILM_HEADER = 200,
     RT_FILM_RANGE = 16,
     RT_FILM_PIXEL_COLUMNS = 10,
-    RT_FILM_SUMS_COLUMNS = 18,
-    RT_FILM_CHECKSUM = 4
+    RT_FILM_SUMS_COLUMNS = 18
 };
 
-/* The first eight bytes. */
-extern const uint8_t rt_film_magic[8];
+extern const rt_frame rt_film_frame;
 
 /*
  * The film that a file of these bytes holds, counted in `memory`; name stands for the file in

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/wire.h"
@@ -49,45 +48,14 @@ static int has(const reader *r, uint64_t count, size_t bytes)
 static rt_status file_size(uint64_t *out, const uint8_t *start, size_t size, const char *name,
                            rt_error *error)
 {
-    if (size < sizeof rt_film_magic || memcmp(start, rt_film_magic, sizeof rt_film_magic) != 0)
-        return rt_fail(error, RT_ERROR_INPUT, "%.350s: this is no film file", name);
-    rt_reader r = {start + sizeof rt_film_magic};
-    if (size < RT_FILM_HEADER)
-        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the film file is cut short in its header",
-                       name);
-    const uint32_t version = rt_get32(&r), bytes = rt_get32(&r);
-    if (version != RT_FILM_VERSION || bytes != RT_FILM_HEADER)
-        return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: a film file of version %u with a header of %u bytes; known is "
-                       "version %d with %d: render it anew",
-                       name, version, bytes, RT_FILM_VERSION, RT_FILM_HEADER);
-    *out = rt_get64(&r);
-    return RT_OK;
-}
-
-static rt_status check_frame(const uint8_t *data, size_t size, const char *name, rt_error *error)
-{
-    uint64_t told;
-    rt_status status = file_size(&told, data, size, name, error);
-    if (status != RT_OK)
-        return status;
-    if (told != size || size < RT_FILM_HEADER + RT_FILM_CHECKSUM)
-        return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: the film file has %zu bytes instead of the %llu it was written "
-                       "with",
-                       name, size, (unsigned long long)told);
-    rt_reader r = {data + size - RT_FILM_CHECKSUM};
-    if (rt_get32(&r) != rt_crc32(data, size - RT_FILM_CHECKSUM))
-        return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: the film file is damaged: its checksum does not fit", name);
-    return RT_OK;
+    return rt_frame_size(out, &rt_film_frame, start, size, name, error);
 }
 
 static header read_header(reader *r)
 {
     header h = {0};
     rt_reader *at = &r->at;
-    at->at += 24;
+    at->at += RT_FRAME_START;
     h.scene = rt_get64(at);
     h.light = rt_get64(at);
     h.text = rt_get32(at);
@@ -365,10 +333,10 @@ rt_status rt_film_decode_in(rt_film **out, const uint8_t *data, size_t size, con
     rt_render_options options = {0};
     rt_film *film = NULL;
     char *note = NULL;
-    rt_status status = check_frame(data, size, name, error);
+    rt_status status = rt_frame_check(&rt_film_frame, data, size, name, error);
     if (status != RT_OK)
         return status;
-    r.end = data + size - RT_FILM_CHECKSUM;
+    r.end = data + size - RT_FRAME_CHECKSUM;
     const header h = read_header(&r);
     if (!has_sound_times(&h.stats))
         return fail_content(&r, "its times are out of range");

@@ -10,7 +10,11 @@
 #include "film/film_file.h"
 #include "photon/ledger_file.h"
 
-const uint8_t rt_film_magic[8] = {0x89, 'R', 'T', 'F', '\r', '\n', 0x1a, '\n'};
+const rt_frame rt_film_frame = {{0x89, 'R', 'T', 'F', '\r', '\n', 0x1a, '\n'},
+                                RT_FILM_VERSION,
+                                RT_FILM_HEADER,
+                                "film file",
+                                "render it anew"};
 
 /* ---- The text ----------------------------------------------------------------- */
 
@@ -225,11 +229,7 @@ static void put_stats(rt_writer *w, const rt_film *film)
 static void put_header(rt_writer *w, const film_file *file)
 {
     const rt_film *film = file->film;
-    memcpy(w->at, rt_film_magic, sizeof rt_film_magic);
-    w->at += sizeof rt_film_magic;
-    rt_put32(w, RT_FILM_VERSION);
-    rt_put32(w, RT_FILM_HEADER);
-    rt_put64(w, file->size);
+    rt_frame_put(w, &rt_film_frame, file->size);
     rt_put64(w, film->scene);
     rt_put64(w, film->light);
     rt_put32(w, (uint32_t)file->text.size);
@@ -261,7 +261,7 @@ static rt_status file_open(film_file *file, const rt_film *film, rt_error *error
     put_photon_sums(&count, film);
     file->runs = count.runs;
     file->size = RT_FILM_HEADER + file->text.size + RT_LEDGER_ROW_BYTES * film->ledger.count +
-                 RT_FILM_RANGE * film->done.count + count.counted + RT_FILM_CHECKSUM;
+                 RT_FILM_RANGE * film->done.count + count.counted + RT_FRAME_CHECKSUM;
     file->bytes = malloc(STREAM_BYTES + RT_BLOCK_BEYOND);
     return file->bytes ? RT_OK : rt_fail(error, RT_ERROR_MEMORY, "out of memory to write a film");
 }

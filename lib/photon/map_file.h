@@ -41,21 +41,15 @@
 #define RT_LIB_PHOTON_MAP_FILE_H
 
 #include "base/bytes.h"
+#include "base/frame.h"
 #include "photon/photon_map.h"
 
 enum { RT_MAP_VERSION = 2 };
 
 /* Sizes of the file's parts. */
-enum {
-    RT_MAP_HEADER = 160,
-    RT_MAP_LIGHT = 168,
-    RT_MAP_RANGE = 32,
-    RT_MAP_PHOTON = 64,
-    RT_MAP_CHECKSUM = 4
-};
+enum { RT_MAP_HEADER = 160, RT_MAP_LIGHT = 168, RT_MAP_RANGE = 32, RT_MAP_PHOTON = 64 };
 
-/* The first eight bytes. */
-extern const uint8_t rt_map_magic[8];
+extern const rt_frame rt_map_frame;
 
 /* A map as the bytes of its file. The caller frees *out. */
 rt_status rt_photon_map_encode_in(rt_bytes *out, const rt_photon_map *map, rt_error *error);
@@ -66,9 +60,5 @@ rt_status rt_photon_map_encode_in(rt_bytes *out, const rt_photon_map *map, rt_er
  */
 rt_status rt_photon_map_decode_in(rt_photon_map **out, const uint8_t *data, size_t size,
                                   const char *name, rt_memory *memory, rt_error *error);
-
-/* What the start of a file says of the size of the whole; fails as decoding does. */
-rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size,
-                                  const char *name, rt_error *error);
 
 #endif

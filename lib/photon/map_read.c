@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "photon/ledger_file.h"
@@ -31,45 +30,10 @@ typedef struct counts {
     uint64_t lights, photons[RT_PHOTON_KINDS], ranges[RT_PHOTON_KINDS];
 } counts;
 
-rt_status rt_photon_map_file_size(uint64_t *out, const uint8_t *start, size_t size,
-                                  const char *name, rt_error *error)
+static rt_status file_size(uint64_t *out, const uint8_t *start, size_t size, const char *name,
+                           rt_error *error)
 {
-    if (size < sizeof rt_map_magic || memcmp(start, rt_map_magic, sizeof rt_map_magic) != 0)
-        return rt_fail(error, RT_ERROR_INPUT, "%.350s: this is no photon map", name);
-    reader r = {{start + sizeof rt_map_magic}, name, error};
-    if (size < RT_MAP_HEADER)
-        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short in its header",
-                       name);
-    uint32_t version = rt_get32(&r.at), header = rt_get32(&r.at);
-    if (version != RT_MAP_VERSION || header != RT_MAP_HEADER)
-        return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: a photon map of version %u with a header of %u bytes; known is "
-                       "version %d with %d: emit "
-                       "it anew",
-                       name, version, header, RT_MAP_VERSION, RT_MAP_HEADER);
-    *out = rt_get64(&r.at);
-    return RT_OK;
-}
-
-/* Checks the parts that surround the content: size and checksum. */
-static rt_status check_frame(const uint8_t *data, size_t size, const char *name, rt_error *error)
-{
-    uint64_t told;
-    rt_status status = rt_photon_map_file_size(&told, data, size, name, error);
-    if (status != RT_OK)
-        return status;
-    if (told != size)
-        return rt_fail(
-            error, RT_ERROR_INPUT,
-            "%.350s: the photon map has %zu bytes instead of the %llu it was written with", name,
-            size, (unsigned long long)told);
-    if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
-        return rt_fail(error, RT_ERROR_INPUT, "%.350s: the photon map is cut short", name);
-    reader r = {{data + size - RT_MAP_CHECKSUM}, name, error};
-    if (rt_get32(&r.at) != rt_crc32(data, size - RT_MAP_CHECKSUM))
-        return rt_fail(error, RT_ERROR_INPUT,
-                       "%.350s: the photon map is damaged: its checksum does not fit", name);
-    return RT_OK;
+    return rt_frame_size(out, &rt_map_frame, start, size, name, error);
 }
 
 static rt_status fail_content(const reader *r, const char *what)
@@ -80,7 +44,7 @@ static rt_status fail_content(const reader *r, const char *what)
 
 static rt_status read_header(reader *r, rt_photon_map *map, counts *n)
 {
-    r->at.at += 24;
+    r->at.at += RT_FRAME_START;
     map->settings.scene = rt_get64(&r->at);
     map->settings.max_depth = rt_get32(&r->at);
     map->settings.sampler = rt_get32(&r->at);
@@ -120,7 +84,7 @@ static int take(uint64_t *left, uint64_t count, uint64_t size)
 
 static rt_status check_counts(const reader *r, const counts *n, size_t file_size)
 {
-    uint64_t left = file_size - RT_MAP_HEADER - RT_MAP_CHECKSUM;
+    uint64_t left = file_size - RT_MAP_HEADER - RT_FRAME_CHECKSUM;
     int fits = take(&left, n->lights, RT_MAP_LIGHT);
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         fits = fits && take(&left, n->ranges[kind], RT_MAP_RANGE) &&
@@ -235,7 +199,7 @@ rt_status rt_photon_map_decode_in(rt_photon_map **out, const uint8_t *data, size
 {
     reader r = {{data}, name, error};
     counts n = {0};
-    rt_status status = check_frame(data, size, name, error);
+    rt_status status = rt_frame_check(&rt_map_frame, data, size, name, error);
     if (status != RT_OK)
         return status;
     rt_photon_map *map = calloc(1, sizeof *map);
@@ -271,8 +235,7 @@ rt_status rt_photon_map_load_in(rt_photon_map **out, const char *path, rt_memory
                                 rt_error *error)
 {
     rt_bytes bytes = {.memory = memory};
-    rt_status status =
-        rt_file_read_sized(&bytes, path, RT_MAP_HEADER, rt_photon_map_file_size, error);
+    rt_status status = rt_file_read_sized(&bytes, path, RT_MAP_HEADER, file_size, error);
     if (status == RT_OK)
         status = rt_photon_map_decode_in(out, bytes.data, bytes.size, path, memory, error);
     rt_bytes_free(&bytes);

@@ -8,15 +8,15 @@
 #include "photon/ledger_file.h"
 #include "photon/map_file.h"
 
-const uint8_t rt_map_magic[8] = {0x89, 'R', 'T', 'P', '\r', '\n', 0x1a, '\n'};
+const rt_frame rt_map_frame = {{0x89, 'R', 'T', 'P', '\r', '\n', 0x1a, '\n'},
+                               RT_MAP_VERSION,
+                               RT_MAP_HEADER,
+                               "photon map",
+                               "emit it anew"};
 
 static void put_header(rt_writer *w, const rt_photon_map *map, size_t file_size)
 {
-    memcpy(w->at, rt_map_magic, sizeof rt_map_magic);
-    w->at += sizeof rt_map_magic;
-    rt_put32(w, RT_MAP_VERSION);
-    rt_put32(w, RT_MAP_HEADER);
-    rt_put64(w, file_size);
+    rt_frame_put(w, &rt_map_frame, file_size);
     rt_put64(w, map->settings.scene);
     rt_put32(w, map->settings.max_depth);
     rt_put32(w, map->settings.sampler);
@@ -58,7 +58,7 @@ static void put_photon(rt_writer *w, const rt_photon *p)
 
 static size_t file_size_of(const rt_photon_map *map)
 {
-    size_t size = RT_MAP_HEADER + RT_MAP_LIGHT * map->ledger.count + RT_MAP_CHECKSUM;
+    size_t size = RT_MAP_HEADER + RT_MAP_LIGHT * map->ledger.count + RT_FRAME_CHECKSUM;
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         size += RT_MAP_RANGE * map->ranges[kind].count + RT_MAP_PHOTON * map->lists[kind].count;
     return size;
@@ -86,7 +86,7 @@ rt_status rt_photon_map_encode_in(rt_bytes *out, const rt_photon_map *map, rt_er
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         for (size_t i = 0; i < map->lists[kind].count; i++)
             put_photon(&w, map->lists[kind].photons + i);
-    rt_put32(&w, rt_crc32(data, size - RT_MAP_CHECKSUM));
+    rt_put32(&w, rt_crc32(data, size - RT_FRAME_CHECKSUM));
     *out = (rt_bytes){data, size, size, memory};
     return RT_OK;
 }

@@ -276,19 +276,19 @@ enum { at_size = 16, at_scene = 24, at_text = 40, at_ranges = 64, at_runs = 72, 
 
 static void seal(uint8_t *data, size_t size)
 {
-    if (size < RT_FILM_HEADER + RT_FILM_CHECKSUM)
+    if (size < RT_FILM_HEADER + RT_FRAME_CHECKSUM)
         return;
-    memcpy(data, rt_film_magic, sizeof rt_film_magic);
+    memcpy(data, rt_film_frame.magic, sizeof rt_film_frame.magic);
     fuzz_set(data + 8, RT_FILM_VERSION, 4);
     fuzz_set(data + 12, RT_FILM_HEADER, 4);
     fuzz_set(data + at_size, size, 8);
-    fuzz_set(data + size - RT_FILM_CHECKSUM, rt_crc32(data, size - RT_FILM_CHECKSUM), 4);
+    fuzz_set(data + size - RT_FRAME_CHECKSUM, rt_crc32(data, size - RT_FRAME_CHECKSUM), 4);
 }
 
 /* Bytes of the text, as far as there are so many. */
 static size_t text_size(const uint8_t *data, size_t size)
 {
-    const size_t most = size - RT_FILM_HEADER - RT_FILM_CHECKSUM;
+    const size_t most = size - RT_FILM_HEADER - RT_FRAME_CHECKSUM;
     const uint64_t told = fuzz_get(data + at_text, 4);
     return told < most ? (size_t)told : most;
 }
@@ -340,10 +340,10 @@ static size_t change_line(uint8_t *data, size_t size, size_t room, fuzz_random *
 static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t number)
 {
     fuzz_random random = fuzz_random_begin(number);
-    if (size < RT_FILM_HEADER + RT_FILM_CHECKSUM)
+    if (size < RT_FILM_HEADER + RT_FRAME_CHECKSUM)
         return fuzz_mutate_bytes(data, size, room);
     const size_t content = RT_FILM_HEADER + text_size(data, size),
-                 rest = size - RT_FILM_CHECKSUM - content;
+                 rest = size - RT_FRAME_CHECKSUM - content;
     switch (fuzz_random_below(&random, 8)) {
     case 0:
         size = fuzz_mutate_bytes(data, size, room);

@@ -153,13 +153,13 @@ enum {
 /* The magic, the size and the checksum. */
 static void seal(uint8_t *data, size_t size)
 {
-    if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
+    if (size < RT_MAP_HEADER + RT_FRAME_CHECKSUM)
         return;
-    memcpy(data, rt_map_magic, sizeof rt_map_magic);
+    memcpy(data, rt_map_frame.magic, sizeof rt_map_frame.magic);
     fuzz_set(data + 8, RT_MAP_VERSION, 4);
     fuzz_set(data + 12, RT_MAP_HEADER, 4);
     fuzz_set(data + at_size, size, 8);
-    fuzz_set(data + size - RT_MAP_CHECKSUM, rt_crc32(data, size - RT_MAP_CHECKSUM), 4);
+    fuzz_set(data + size - RT_FRAME_CHECKSUM, rt_crc32(data, size - RT_FRAME_CHECKSUM), 4);
 }
 
 /* ---- Seeds --------------------------------------------------------------------------------- */
@@ -219,7 +219,7 @@ static void add(fuzz_inputs *seeds, unsigned lights, int is_split, unsigned rang
 {
     static const uint32_t settings[3] = {5, 1, 1}; /* greatest depth, sampler, direct light */
     rt_bytes file = {0};
-    fuzz_put(&file, rt_map_magic, sizeof rt_map_magic);
+    fuzz_put(&file, rt_map_frame.magic, sizeof rt_map_frame.magic);
     fuzz_put_number(&file, 0, 8, 0); /* seal fills in these and the next, the size */
     fuzz_put_number(&file, 0, 8, 0);
     fuzz_put_number(&file, 7, 8, 0);
@@ -240,7 +240,7 @@ static void add(fuzz_inputs *seeds, unsigned lights, int is_split, unsigned rang
     for (int kind = 0; kind <= is_split; kind++)
         for (unsigned i = 0; i < photons_a_range * ranges; i++)
             put_photon(&file, 20 * (i / photons_a_range) + i % photons_a_range, kind);
-    fuzz_put_number(&file, 0, RT_MAP_CHECKSUM, 0);
+    fuzz_put_number(&file, 0, RT_FRAME_CHECKSUM, 0);
     seal(file.data, file.size);
     fuzz_add(seeds, file.data, file.size);
     rt_bytes_free(&file);
@@ -267,17 +267,17 @@ static const size_t count_places[table_count] = {
 static int find_tables(const uint8_t *data, size_t size, size_t starts[table_count + 1])
 {
     size_t at = RT_MAP_HEADER;
-    if (size < RT_MAP_HEADER + RT_MAP_CHECKSUM)
+    if (size < RT_MAP_HEADER + RT_FRAME_CHECKSUM)
         return 0;
     for (int i = 0; i < table_count; i++) {
         uint64_t count = fuzz_get(data + count_places[i], 8);
         starts[i] = at;
-        if (count > (size - RT_MAP_CHECKSUM - at) / row_sizes[i])
+        if (count > (size - RT_FRAME_CHECKSUM - at) / row_sizes[i])
             return 0;
         at += (size_t)count * row_sizes[i];
     }
     starts[table_count] = at;
-    return at == size - RT_MAP_CHECKSUM;
+    return at == size - RT_FRAME_CHECKSUM;
 }
 
 /* Adds a copy of a row, or takes one away. */
