@@ -173,47 +173,83 @@ static int write_in_place(const char *path, const content *content)
     return code ? code : close_code;
 }
 
-/*
- * Opens a new file beside target, and removes those that killed processes left there. The name does
- * not grow with target's own, so that a name of the greatest allowed length works too.
- */
-static int open_temporary(int *fd, char *name, size_t name_size, const char *target)
+/* Writes the folder that target is in, with its slash, or "" for the current one. */
+static int folder_of(char *out, size_t size, const char *target)
 {
-    char folder[PATH_MAX];
     const char *slash = strrchr(target, '/');
-    int length =
-        snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - target) + 1 : 0, target);
-    if (length < 0 || (size_t)length >= sizeof folder)
-        return ENAMETOOLONG;
-    rt_claim_clean(folder, ".rt-", ".tmp", NULL);
-    return rt_claim_new(fd, name, name_size, folder, ".rt-", ".tmp", 0666);
+    int length = snprintf(out, size, "%.*s", slash ? (int)(slash - target) + 1 : 0, target);
+    return length < 0 || (size_t)length >= size ? ENAMETOOLONG : 0;
+}
+
+/* Opens a folder to be synchronised; -1 where this user may write into it but not read it. */
+static int open_folder(int *fd, const char *folder)
+{
+    *fd = open(*folder ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    return *fd >= 0 || errno == EACCES ? 0 : errno;
 }
 
 /*
- * Writes a temporary file and renames it to target; `old` is target's status or NULL when it is
- * new.
+ * A new name outlives a loss of power once its folder is on the disk. Some file systems cannot
+ * synchronise folders, and have no need to or no way.
  */
-static int replace(const char *target, const struct stat *old, const content *content)
+static int sync_folder(int fd)
 {
-    char name[PATH_MAX];
-    int fd;
-    if (old && access(target, W_OK) != 0)
-        return errno;
-    int code = open_temporary(&fd, name, sizeof name, target);
-    if (code)
-        return code;
-    code = content->put(content->user, fd);
+    if (fd < 0 || fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS)
+        return 0;
+    return errno;
+}
+
+/* Writes and synchronises a file and closes it; `old` is as in replace. */
+static int fill(int fd, const struct stat *old, const content *content)
+{
+    int code = content->put(content->user, fd);
     if (!code && old && fchmod(fd, old->st_mode & 0777) != 0)
         code = errno;
     if (!code && fsync(fd) != 0)
         code = errno;
     int close_code = close_file(fd);
-    if (!code)
-        code = close_code;
+    return code ? code : close_code;
+}
+
+/*
+ * Writes a file beside target and renames it; `old` is target's status or NULL when it is new. The
+ * file's own name does not grow with target's, so that one of the greatest allowed length works
+ * too; those that killed processes left in the folder are removed.
+ */
+static int replace_in(const char *folder, const char *target, const struct stat *old,
+                      const content *content)
+{
+    char name[PATH_MAX];
+    int fd;
+    rt_claim_clean(folder, ".rt-", ".tmp", NULL);
+    int code = rt_claim_new(&fd, name, sizeof name, folder, ".rt-", ".tmp", 0666);
+    if (code)
+        return code;
+    code = fill(fd, old, content);
     if (!code && rename(name, target) != 0)
         code = errno;
     if (code)
         unlink(name);
+    return code;
+}
+
+/* The same, and synchronises the folder. */
+static int replace(const char *target, const struct stat *old, const content *content)
+{
+    char folder[PATH_MAX];
+    int fd;
+    if (old && access(target, W_OK) != 0)
+        return errno;
+    int code = folder_of(folder, sizeof folder, target);
+    if (!code)
+        code = open_folder(&fd, folder);
+    if (code)
+        return code;
+    code = replace_in(folder, target, old, content);
+    if (!code)
+        code = sync_folder(fd);
+    if (fd >= 0)
+        close(fd);
     return code;
 }
 

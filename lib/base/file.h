@@ -31,12 +31,13 @@ rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_
 
 /*
  * Makes path hold exactly these bytes, or leaves it as it was: they go to a temporary file in the
- * same directory, are synchronised to the disk, and the file is renamed. A new file has the
- * permissions that open() gives (0666 less the umask), a replaced one keeps its own; a symbolic
- * link stays and its target is replaced, or made where there is none. What is not a regular file (a
- * device, a pipe) is written in place. Fails with RT_ERROR_OUTPUT, naming path and cause; the
- * temporary file is then gone. One that a killed process left is removed by the next write into
- * that folder.
+ * same directory, are synchronised to the disk, the file is renamed, and the directory synchronised
+ * where its file system can. A new file has the permissions that open() gives (0666 less the
+ * umask), a replaced one keeps its own; a symbolic link stays and its target is replaced, or made
+ * where there is none. What is not a regular file (a device, a pipe) is written in place. Fails
+ * with RT_ERROR_OUTPUT, naming path and cause; the temporary file is then gone. Where the directory
+ * alone could not be synchronised, path holds the new bytes, which a loss of power may still take.
+ * A temporary file that a killed process left is removed by the next write into that folder.
  */
 rt_status rt_file_replace(const char *path, const rt_bytes *bytes, rt_error *error);
 

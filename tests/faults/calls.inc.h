@@ -10,7 +10,7 @@
 /* Files. */
 FAULT(ssize_t, read, (int fd, void *to, size_t n), (fd, to, n), failed(EIO))
 FAULT(ssize_t, write, (int fd, const void *from, size_t n), (fd, from, n), failed(ENOSPC))
-FAULT(int, fsync, (int fd), (fd), failed(EIO))
+FAULT(int, fsync, (int fd), (fd), failed(sync_code))
 FAULT(int, close, (int fd), (fd), (__real_close(fd), failed(EIO)))
 FAULT(int, rename, (const char *from, const char *to), (from, to), failed(EIO))
 FAULT(int, mkdir, (const char *path, mode_t mode), (path, mode), failed(ENOSPC))

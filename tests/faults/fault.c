@@ -25,7 +25,7 @@
 
 /* Driver threads do not come here, but threads of the library do. */
 static long count, target, live;
-static int is_armed, lasts, kills;
+static int is_armed, lasts, kills, sync_code = EIO;
 static const char *fired;
 static FILE *failed_stream;
 
@@ -44,6 +44,11 @@ void fault_kill_at(long n)
 {
     fault_arm(n, 0);
     kills = 1;
+}
+
+void fault_fail_sync_with(int code)
+{
+    sync_code = code;
 }
 
 long fault_disarm(void)

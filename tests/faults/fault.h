@@ -11,6 +11,9 @@
  */
 void fault_arm(long n, int for_good);
 
+/* The errno of an fsync() that fails: EIO until this is called. */
+void fault_fail_sync_with(int code);
+
 /* Kills this process before the n-th call from now on. */
 void fault_kill_at(long n);
 

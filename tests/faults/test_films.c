@@ -9,6 +9,7 @@
  */
 #define _XOPEN_SOURCE 700
 
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -340,58 +341,128 @@ static rt_bytes read_file(const char *path)
     return bytes;
 }
 
-/* Kills at each call; the file is the older one, if there is one, or the newer, and can be read. */
-static int kill_all(const char *path, const rt_film *older, const rt_film *newer)
+/* Kills of one kind, and what they left. */
+typedef struct kill_tally {
+    int kills, older, none, newer;
+} kill_tally;
+
+/* The older film at path, or none, and beside it what one killed process left, as ever. */
+static void set_scene(const char *path, const rt_film *older, const rt_film *any)
+{
+    rt_error error;
+    expect_ok(rt_film_save(older ? older : any, path, &error), &error);
+    if (!older)
+        unlink(path);
+    scratch_write(".rt-999999999-0.tmp", "half a film");
+}
+
+/* The file is there, the one or the other to the byte, and can be read; counts which. */
+static void look_at(const char *path, const rt_bytes right[2], kill_tally *tally)
+{
+    rt_film *film = NULL;
+    rt_error error;
+    tally->kills++;
+    if (access(path, F_OK) != 0) {
+        assert_int_equal(right[0].size, 0);
+        tally->none++;
+        return;
+    }
+    rt_bytes now = read_file(path);
+    const int is_new = now.size == right[1].size && memcmp(now.data, right[1].data, now.size) == 0;
+    assert_int_equal(now.size, right[is_new].size);
+    assert_memory_equal(now.data, right[is_new].data, now.size);
+    expect_ok(rt_film_load(&film, path, NULL, &error), &error);
+    tally->newer += is_new;
+    tally->older += !is_new;
+    rt_film_destroy(film);
+    rt_bytes_free(&now);
+}
+
+/* Kills at each call while the newer film takes the place of the older one, if there is one. */
+static void kill_all(const char *path, const rt_film *older, const rt_film *newer, kill_tally *sum)
 {
     rt_bytes right[2] = {{0}, {0}};
-    int kills = 0, news = 0;
+    kill_tally now = {0, 0, 0, 0};
     rt_error error;
-    if (older) {
-        expect_ok(rt_film_save(older, path, &error), &error);
+    set_scene(path, older, newer);
+    if (older)
         right[0] = read_file(path);
-    }
     expect_ok(rt_film_save(newer, "right.rtpart", &error), &error);
     right[1] = read_file("right.rtpart");
     assert_true(right[1].size > 2 << 20); /* three pieces */
-    for (long n = 1; save_and_die(newer, path, n); n++, kills++) {
-        rt_film *film = NULL;
-        if (access(path, F_OK) != 0) {
-            assert_null(older);
-            continue;
-        }
-        rt_bytes now = read_file(path);
-        const rt_bytes *is =
-            right + (now.size == right[1].size && memcmp(now.data, right[1].data, now.size) == 0);
-        assert_int_equal(now.size, is->size);
-        assert_memory_equal(now.data, is->data, now.size);
-        expect_ok(rt_film_load(&film, path, NULL, &error), &error);
-        news += is == right + 1;
-        rt_film_destroy(film);
-        rt_bytes_free(&now);
-        if (is == right + 1 && older)
-            expect_ok(rt_film_save(older, path, &error), &error);
-        else if (is == right + 1)
-            unlink(path);
-    }
+    for (long n = 1; set_scene(path, older, newer), save_and_die(newer, path, n); n++)
+        look_at(path, right, &now);
     rt_bytes_free(&right[0]);
     rt_bytes_free(&right[1]);
-    print_message("%s: %d kills, the newer file after %d\n", path, kills, news);
-    return kills;
+    print_message("%s: %d kills left the older film %d times, none %d times, the newer %d times\n",
+                  path, now.kills, now.older, now.none, now.newer);
+    assert_true(now.newer > 0 && now.older + now.none > 0);
+    sum->kills += now.kills;
+    sum->older += now.older;
+    sum->none += now.none;
+    sum->newer += now.newer;
 }
 
 static void a_kill_at_any_call_leaves_a_whole_file(void **state)
 {
     rt_film *older = make_film(2), *newer = make_film(3);
-    int kills = kill_all("film.rtpart", older, newer);
+    kill_tally sum = {0, 0, 0, 0};
     (void)state;
-    kills += kill_all("first.rtpart", NULL, newer);
+    kill_all("film.rtpart", older, newer, &sum);
+    kill_all("first.rtpart", NULL, newer, &sum);
     assert_int_equal(symlink("film.rtpart", "link.rtpart"), 0);
-    kills += kill_all("link.rtpart", older, newer);
-    assert_true(kills >= 50);
+    kill_all("link.rtpart", older, newer, &sum);
+    print_message("%d kills: the older film %d times, none %d times, the newer %d times\n",
+                  sum.kills, sum.older, sum.none, sum.newer);
+    assert_true(sum.kills >= 50);
     /* film, first, link and right: what killed processes left is gone. */
     assert_int_equal(scratch_count(), 4);
     rt_film_destroy(newer);
     rt_film_destroy(older);
+}
+
+/* Writes "new" over "old" while call n fails. */
+static rt_status save_without(long n, rt_error *error)
+{
+    scratch_write("file", "old");
+    fault_arm(n, 0);
+    const rt_status status = rt_file_write("file", "new", 3, error);
+    fault_disarm();
+    return status;
+}
+
+/* The numbers of the calls of fsync() while a file is replaced. */
+static int find_syncs(long out[2])
+{
+    int count = 0;
+    rt_error error;
+    for (long n = 1; save_without(n, &error), fault_fired(); n++)
+        if (strcmp(fault_fired(), "fsync") == 0 && count++ < 2)
+            out[count - 1] = n;
+    return count;
+}
+
+/* The file first, then its folder; file systems that cannot synchronise a folder are none worse. */
+static void the_folder_is_synchronised_where_it_can_be(void **state)
+{
+    static const int cannot[] = {EINVAL, ENOTSUP, ENOSYS};
+    long at[2];
+    rt_error error;
+    (void)state;
+    assert_int_equal(find_syncs(at), 2);
+    assert_int_equal(save_without(at[0], &error), RT_ERROR_OUTPUT);
+    scratch_expect("file", "old");
+    assert_int_equal(save_without(at[1], &error), RT_ERROR_OUTPUT);
+    assert_non_null(strstr(error.message, strerror(EIO)));
+    scratch_expect("file", "new");
+    for (size_t i = 0; i < sizeof cannot / sizeof *cannot; i++) {
+        fault_fail_sync_with(cannot[i]);
+        assert_int_equal(save_without(at[0], &error), RT_ERROR_OUTPUT);
+        assert_int_equal(save_without(at[1], &error), RT_OK);
+        scratch_expect("file", "new");
+    }
+    fault_fail_sync_with(EIO);
+    assert_int_equal(scratch_count(), 1);
 }
 
 int main(void)
@@ -400,6 +471,7 @@ int main(void)
     /* The kills come before a device is opened: a child has the threads of none. */
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(a_kill_at_any_call_leaves_a_whole_file),
+        IN_SCRATCH(the_folder_is_synchronised_where_it_can_be),
         IN_SCRATCH(each_call_of_films_put_together),
         IN_SCRATCH(each_call_of_an_emission_that_goes_on),
     };

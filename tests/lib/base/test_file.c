@@ -198,6 +198,19 @@ static void an_unwritable_directory_is_left_alone(void **state)
     assert_int_equal(access("closed/new", F_OK), -1);
 }
 
+/* Its folder cannot be opened, and so not be synchronised. */
+static void a_directory_that_cannot_be_read_is_written_into(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("drop", 0333), 0);
+    assert_int_equal(chmod("drop", 0333), 0);
+    scratch_drop_rights();
+    assert_int_equal(replace("drop/new", "text", NULL), RT_OK);
+    scratch_take_rights();
+    scratch_expect("drop/new", "text");
+    assert_int_equal(unlink("drop/new"), 0);
+}
+
 static void a_full_device_is_an_error(void **state)
 {
     (void)state;
@@ -304,6 +317,7 @@ int main(void)
         IN_SCRATCH(temporary_files_of_ended_processes_are_removed),
         IN_SCRATCH(impossible_places_are_named),
         IN_SCRATCH(an_unwritable_directory_is_left_alone),
+        IN_SCRATCH(a_directory_that_cannot_be_read_is_written_into),
         IN_SCRATCH(a_full_device_is_an_error),
         IN_SCRATCH(a_device_is_written_in_place),
         IN_SCRATCH(a_write_that_stops_midway_leaves_the_old_file),
