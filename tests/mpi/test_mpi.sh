@@ -11,7 +11,9 @@ shift 2
 [ $# -gt 0 ] || set -- modes ends kills
 rtc=$(realpath "${RTC:-build/rtc}") || exit 1
 scene=$(realpath scenes/cornell.rts) || exit 1
+tests=$(realpath tests/mpi) || exit 1
 work=$(mktemp -d) || exit 1
+is_network=
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 bad=0
@@ -36,11 +38,25 @@ check() {
     fi
 }
 
+# The words before -np: how processes are started on the machines of `network`.
+launch() {
+    hosts=$(echo 10.99.0.2,10.99.0.3,10.99.0.4,10.99.0.5 | cut -d, -f "-$1")
+    case $run in
+    *mpich*)
+        echo "-launcher ssh -launcher-exec $work/agent -localhost 10.99.0.1 -hosts $hosts" ;;
+    *)
+        echo "--mca plm_rsh_agent $work/agent --host $hosts --mca btl tcp,self" \
+            "--mca btl_tcp_if_include 10.99.0.0/24 --mca oob_tcp_if_include 10.99.0.0/24" ;;
+    esac
+}
+
 # together RANKS OPTION...: renders on so many processes.
 together() {
     count=$1
     shift
-    timeout 120 "$run" -np "$count" "$rtc_mpi" "$@" >log 2>&1
+    # shellcheck disable=SC2046 # words
+    timeout 120 "$run" $([ ! "$is_network" ] || launch "$count") -np "$count" "$rtc_mpi" "$@" \
+        >log 2>&1
 }
 
 small='--width 90 --height 70'
@@ -55,7 +71,7 @@ mode() {
     for ranks in 1 2 3 4; do
         # shellcheck disable=SC2086
         together $ranks "$scene" --quiet $small "$@" --out together.exr
-        check "${name}_on_$ranks" cmp alone.exr together.exr
+        check "${name}_on_$ranks${is_network:+_machines}" cmp alone.exr together.exr
         rm -f together.exr
     done
 }
@@ -150,60 +166,75 @@ kills() {
     done
 }
 
-# Machines that are network namespaces, 20 ms apart: each process is one, beside the runner's.
-network() {
-    for name in a b c; do
-        ip netns add "rtc_$name" || return
+# Machines that are network namespaces: each process is one, beside the runner's. Frames between any
+# two take DELAY milliseconds, by delay_bridge, which needs nothing of the kernel but TAP devices.
+machines='a b c d'
+delay=${DELAY:-5}
+bridge_pid=
+
+unplug() {
+    [ ! "$bridge_pid" ] || kill "$bridge_pid" 2>/dev/null
+    for name in $machines; do
+        ip netns del "rtc_$name" 2>/dev/null
     done
-    ip link add rtc_bridge type bridge && ip addr add 10.99.0.1/24 dev rtc_bridge &&
-        ip link set rtc_bridge up
+    bridge_pid=
+}
+
+plug() {
+    # shellcheck disable=SC2046,SC2086 # words
+    "$bridge" "$delay" rtc_host $(printf 'rtc_%s ' $machines) >bridge.log 2>&1 &
+    bridge_pid=$!
+    for _ in 1 2 3 4 5 6 7 8 9 10; do
+        ! grep -q ready bridge.log || break
+        sleep 0.1
+    done
+    grep ready bridge.log || { cat bridge.log; return 1; }
+    ip addr add 10.99.0.1/24 dev rtc_host && ip link set rtc_host up || return
     n=1
-    for name in a b c; do
+    for name in $machines; do
         n=$((n + 1))
-        ip link add "rtc_v$name" type veth peer name eth0 netns "rtc_$name"
-        ip link set "rtc_v$name" master rtc_bridge up
-        ip -n "rtc_$name" addr add "10.99.0.$n/24" dev eth0
-        ip -n "rtc_$name" link set eth0 up
-        ip -n "rtc_$name" link set lo up
-        ip netns exec "rtc_$name" tc qdisc add dev eth0 root netem delay 10ms 2>/dev/null ||
-            echo '# this kernel has no netem: no delay'
+        ip netns add "rtc_$name" && ip link set "rtc_$name" netns "rtc_$name" name eth0 &&
+            ip -n "rtc_$name" addr add "10.99.0.$n/24" dev eth0 &&
+            ip -n "rtc_$name" link set eth0 up && ip -n "rtc_$name" link set lo up || return
     done
-    # What the runner starts elsewhere it starts by this in place of ssh.
+}
+
+# What the runner starts elsewhere it starts by this in place of ssh.
+make_agent() {
     cat >agent <<'AGENT'
 #!/bin/sh
 while [ "${1#-}" != "$1" ]; do shift; done
-name=$(echo "$1" | sed 's/.*\.//' | tr 234 abc)
+name=$(echo "$1" | sed 's/.*\.//' | tr 2345 abcd)
 shift
 exec ip netns exec "rtc_$name" unshare --uts sh -c "hostname rtc-$name; $*"
 AGENT
     chmod +x agent
-    mode_over_network
-    for name in a b c; do
-        ip link del "rtc_v$name"
-        ip netns del "rtc_$name"
-    done
-    ip link del rtc_bridge
 }
 
-mode_over_network() {
-    # shellcheck disable=SC2086
-    set -- "$scene" $small --quiet
-    "$rtc" "$@" --spp 200 --out alone.exr
-    "$rtc" "$@" --mode photon --spp 8 --photons 1e5 --out photons.exr
-    hosts=10.99.0.2,10.99.0.3,10.99.0.4
-    case $run in
-    *mpich*) over="$run -launcher ssh -launcher-exec $work/agent -localhost 10.99.0.1
-        -hosts $hosts" ;;
-    *) over="$run --mca plm_rsh_agent $work/agent --host $hosts --mca btl tcp,self
-        --mca btl_tcp_if_include 10.99.0.0/24 --mca oob_tcp_if_include 10.99.0.0/24" ;;
-    esac
-    # shellcheck disable=SC2086
-    timeout 60 $over -np 3 "$rtc_mpi" "$@" --spp 200 --out n.exr >log 2>&1
-    check a_picture_over_a_slow_network cmp alone.exr n.exr
-    # shellcheck disable=SC2086
-    timeout 60 $over -np 3 "$rtc_mpi" "$@" --mode photon --spp 8 --photons 1e5 --out p.exr \
-        >log 2>&1
-    check a_photon_map_over_a_slow_network cmp photons.exr p.exr
+is_delayed() {
+    "$bridge" --round-trip 10.99.0.2 | tee round_trip
+    awk -v delay="$delay" '{ exit !($1 >= 2 * delay && $1 < 2 * delay + 20) }' round_trip
+}
+
+# The modes again, each process in a namespace of its own.
+network() {
+    bridge=$work/delay_bridge
+    trap 'unplug; rm -rf "$work"' EXIT
+    trap 'exit 130' INT TERM
+    # shellcheck disable=SC2086 # as in `ccache cc`
+    ${CC:-cc} -std=c99 -D_POSIX_C_SOURCE=200809L -O1 -o "$bridge" "$tests/delay_bridge.c" || exit 1
+    make_agent
+    was=$bad
+    bad=0
+    check namespaces_can_be_made plug
+    [ "$bad" -ne 0 ] || check "frames_take_${delay}_ms" is_delayed
+    [ "$bad" -ne 0 ] || {
+        is_network=1
+        modes
+        is_network=
+    }
+    unplug
+    bad=$((bad | was))
 }
 
 for part; do
