@@ -274,7 +274,7 @@ LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench build-fuzz check check-cluster check-corpus check-crowd check-faults \
+.PHONY: all bench bench-mpi build-fuzz check check-cluster check-corpus check-crowd check-faults \
 	check-fuzz check-kills check-memory check-mpi check-mutation check-peers check-quick \
 	check-reference check-reproducible check-samples \
 	check-sanitize check-threads clean demo deps deps-fuzz deps-lint format fuzz help install \
@@ -352,7 +352,8 @@ study-cluster: $(B)/tools/cluster/simulate
 # rtc on many processes, by the MPI whose compiler MPICC is; not part of `all`.
 MPICC   ?= mpicc
 MPI_B   ?= $(B)/mpi
-MPI_SRC := tools/mpi/lead.c tools/mpi/rtc_mpi.c tools/mpi/wire.c tools/mpi/worker.c
+MPI_SRC := tools/mpi/lead.c tools/mpi/lead_map.c tools/mpi/rtc_mpi.c tools/mpi/wire.c \
+	tools/mpi/worker.c
 MPI_OBJ := $(patsubst tools/mpi/%.c,$(MPI_B)/%.o,$(MPI_SRC))
 mpi: $(MPI_B)/rtc-mpi
 $(MPI_OBJ): $(MPI_B)/%.o: tools/mpi/%.c | need-deps
@@ -465,8 +466,15 @@ MPIS ?= $(foreach mpi,openmpi mpich,$(if $(shell command -v mpicc.$(mpi)),$(mpi)
 check-mpi: all
 	@for mpi in $(MPIS); do \
 	    $(MAKE) --no-print-directory mpi MPICC=mpicc.$$mpi MPI_B=$(B)/$$mpi && \
-	    RTC=$(B)/rtc tests/mpi/test_mpi.sh mpirun.$$mpi $(B)/$$mpi/rtc-mpi modes ends kills \
-	        $(NETWORK) || exit 1; \
+	    RTC=$(B)/rtc tests/mpi/test_mpi.sh mpirun.$$mpi $(B)/$$mpi/rtc-mpi modes raises ends \
+	        kills $(NETWORK) || exit 1; \
+	done
+
+# Two processes of one thread beside one of two, with each MPI that is installed.
+bench-mpi: all
+	@for mpi in $(MPIS); do \
+	    $(MAKE) --no-print-directory mpi MPICC=mpicc.$$mpi MPI_B=$(B)/$$mpi && \
+	    tests/bench/bench_mpi.sh mpirun.$$mpi $(B)/$$mpi/rtc-mpi || exit 1; \
 	done
 
 # The scenes of RT_REFERENCE, a directory of renders by an independent renderer; see
@@ -687,6 +695,7 @@ help:
 	@echo 'make check-fuzz      20 s of fuzzing, guided by coverage, of each reader of files'
 	@echo 'make fuzz            HOURS ($(HOURS)) of CPU time of it for each, or for TARGET'
 	@echo 'make bench           measures speed, beside a peer where one is installed'
+	@echo 'make bench-mpi       two processes beside two threads of one, with each MPI'
 	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
 	@echo 'make study           numbers and pictures on photon mapping; study-k ... makes one'
 	@echo 'make study-cluster   simulates up to 10 000 processes, for tools/cluster/README.md'

@@ -46,6 +46,7 @@ static rt_render_options settings_of(const rt_render_options *options)
     o.light_share_count = 0;
     o.hand_over = 0;
     o.resume = NULL;
+    o.raised_from = 0;
     o.checkpoint = NULL;
     o.checkpoint_user = o.units_user = NULL;
     o.next_units = NULL;
@@ -89,7 +90,8 @@ rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_mem
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film");
     film->memory = memory;
     film->options = settings_of(options);
-    film->units = rt_units_of(options, 0);
+    film->units = rt_units_of(options, options->resume ? 0 : options->raised_from);
+    film->lacks_base = film->units.base > 0;
     film->note = options->note ? copy_text(options->note) : NULL;
     rt_status status = options->note && !film->note
                            ? rt_fail(error, RT_ERROR_MEMORY, "out of memory for a film")

@@ -20,6 +20,7 @@ struct rt_film {
     uint64_t light;   /* that of a photon map and of light shares, if given by the caller; or 0 */
     rt_ledger ledger; /* of all photon paths */
     rt_units units;   /* the work that the whole picture takes */
+    int lacks_base;   /* the samples of units.base are in another film, to be added to */
     rt_coverage done; /* the units whose samples are in the sums */
     rt_film_pixel *pixels; /* [units.replicates][height][width], the sums */
     float *rgb;            /* [height][width][3], the means */

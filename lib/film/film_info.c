@@ -8,7 +8,7 @@ void rt_film_get_options(const rt_film *film, rt_render_options *out)
 
 double rt_film_samples_done(const rt_film *film)
 {
-    double done = film->units.base;
+    double done = film->lacks_base ? 0 : film->units.base;
     for (size_t i = 0; i < film->done.count; i++)
         done += rt_units_amount(&film->units, film->done.ranges[i]);
     return done;

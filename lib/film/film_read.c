@@ -314,12 +314,14 @@ static rt_status make_film(reader *r, const header *h, const rt_render_options *
     if (status != RT_OK)
         return status;
     rt_film *film = *out;
-    if (film->units.replicates != h->planes || h->flags > 3 ||
+    if (film->units.replicates != h->planes || h->flags > 7 ||
         (h->flags & 2) != (film->photon_sums ? 2u : 0u) ||
         (h->flags & 1 && !film->options.aov && rt_mode_shows_light(film->options.mode)) ||
-        h->base > film->units.samples || (h->base > 0 && film->units.in_passes))
+        h->base > film->units.samples || (h->base > 0 && film->units.in_passes) ||
+        (h->base == 0 && h->flags & 4))
         return fail_content(r, "its layers do not go with its settings");
     film->units = rt_units_of(&film->options, h->base);
+    film->lacks_base = (h->flags & 4) != 0;
     film->stats = h->stats;
     film->scene = h->scene;
     film->light = h->light;

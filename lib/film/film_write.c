@@ -235,7 +235,8 @@ static void put_header(rt_writer *w, const film_file *file)
     rt_put32(w, (uint32_t)file->text.size);
     rt_put32(w, film->units.replicates);
     rt_put32(w, film->units.base);
-    rt_put32(w, (film->layer_sums ? 1u : 0u) | (film->photon_sums ? 2u : 0u));
+    rt_put32(w, (film->layer_sums ? 1u : 0u) | (film->photon_sums ? 2u : 0u) |
+                    (film->lacks_base ? 4u : 0u));
     rt_put32(w, film->options.part);
     rt_put32(w, film->options.parts);
     rt_put64(w, film->done.count);

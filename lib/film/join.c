@@ -161,12 +161,13 @@ static rt_status continue_units(rt_film *film, const rt_film *from, rt_error *er
     }
     if (film->units.in_passes || wants == has) {
         film->units = rt_units_of(&film->options, from->units.base);
+        film->lacks_base = from->lacks_base;
         return rt_coverage_join(&film->done, &from->done, error);
     }
     if (wants < has)
         return rt_fail_field(error, RT_ERROR_USAGE, what,
                              "the film is of %u samples a pixel; they cannot be fewer", has);
-    if (done < from->units.count)
+    if (done < from->units.count || from->lacks_base)
         return rt_fail_field(error, RT_ERROR_USAGE, what,
                              "a film of %u samples a pixel that is not finished cannot be raised "
                              "to %u: finish it first",
@@ -188,6 +189,19 @@ rt_status rt_film_continue(rt_film *film, const rt_film *from, rt_error *error)
     return status == RT_OK ? add_sums(film, from, error) : status;
 }
 
+/* Fails where two films that raise a finished one do not go together. */
+static rt_status compare_base(const rt_film *film, const rt_film *from, rt_error *error)
+{
+    const uint32_t a = film->units.base, b = from->units.base;
+    if (a != b)
+        return rt_fail(error, RT_ERROR_USAGE,
+                       "the films raise others, of %u and of %u samples a pixel", a, b);
+    if (a > 0 && !film->lacks_base && !from->lacks_base)
+        return rt_fail(error, RT_ERROR_USAGE,
+                       "both films have the %u samples a pixel of the one that they raise", a);
+    return RT_OK;
+}
+
 rt_status rt_film_add(rt_film *film, const rt_film *from, rt_error *error)
 {
     if (rt_is_missing(film, "film", error) || rt_is_missing(from, "other", error))
@@ -195,9 +209,8 @@ rt_status rt_film_add(rt_film *film, const rt_film *from, rt_error *error)
     if (!film->scene || !from->scene)
         return rt_fail(error, RT_ERROR_USAGE, "a film was rendered without a part or checkpoint");
     rt_status status = compare(film, from, 0, error);
-    if (status == RT_OK && (film->units.base > 0 || from->units.base > 0))
-        status = rt_fail(error, RT_ERROR_USAGE,
-                         "a film that raises the samples of a finished one cannot be joined");
+    if (status == RT_OK)
+        status = compare_base(film, from, error);
     if (status == RT_OK && film->ledger.count > 0 && from->ledger.count > 0 &&
         !rt_ledger_matches(&film->ledger, &from->ledger))
         status = rt_fail(error, RT_ERROR_USAGE, "the films are of other lights");
@@ -206,5 +219,8 @@ rt_status rt_film_add(rt_film *film, const rt_film *from, rt_error *error)
         status = rt_coverage_prepare(&film->done, &from->done, error);
     if (status == RT_OK)
         status = add_sums(film, from, error);
-    return status == RT_OK ? rt_coverage_join(&film->done, &from->done, error) : status;
+    if (status != RT_OK)
+        return status;
+    film->lacks_base = film->lacks_base && from->lacks_base;
+    return rt_coverage_join(&film->done, &from->done, error);
 }

@@ -36,6 +36,18 @@ static rt_status check_part(const rt_render_options *o, rt_error *error)
     return RT_OK;
 }
 
+/* Fails where a render is to leave out samples that there are not. */
+static rt_status check_raise(const rt_render_options *o, rt_error *error)
+{
+    if (o->raised_from > 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
+        return rt_fail_field(error, RT_ERROR_USAGE, "raised_from",
+                             "passes need no film that is raised: each is a unit of its own");
+    if (o->raised_from > o->spp)
+        return rt_fail_field(error, RT_ERROR_USAGE, "raised_from",
+                             "raised from %u samples a pixel to %u", o->raised_from, o->spp);
+    return RT_OK;
+}
+
 /* Checks options, and completes them where they are right. */
 static rt_status check_and_complete(rt_render_options *o, rt_error *error)
 {
@@ -47,6 +59,8 @@ static rt_status check_and_complete(rt_render_options *o, rt_error *error)
     status = check_noise(o, error);
     if (status == RT_OK)
         status = check_part(o, error);
+    if (status == RT_OK)
+        status = check_raise(o, error);
     return status == RT_OK && mode->check ? mode->check(o, error) : status;
 }
 

@@ -157,6 +157,11 @@ typedef struct rt_render_options {
      */
     const rt_film *resume;
     /*
+     * the samples of a pixel that a finished render had, where its film is continued to `spp` of
+     * them elsewhere: the film of this one leaves them out, to be added to that. 0: leave out none
+     */
+    uint32_t raised_from;
+    /*
      * render part 1 .. parts of the work alone; rt_film_add joins the parts. target_error is not
      * for parts. parts 0: all
      */

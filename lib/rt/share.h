@@ -25,12 +25,15 @@ typedef struct rt_share rt_share;
 /*
  * Of the options, time counts from the first question of a worker on, and checkpoint is called
  * about every checkpoint_seconds, from the thread that adds a film, and by rt_share_finish. part
- * and next_units are not for it. A film to be resumed may have fewer passes, but not fewer samples.
+ * and next_units are not for it.
  * What the options point to must outlive the share. The caller owns *out.
  */
 RT_API rt_status rt_share_create(rt_share **out, rt_renderer *renderer,
                                  const rt_render_options *options, rt_error *error);
 RT_API void rt_share_destroy(rt_share *share);
+
+/* What workers elsewhere set rt_render_options.raised_from to. */
+RT_API uint32_t rt_share_raised_from(const rt_share *share);
 
 /* The number of a new worker. */
 RT_API rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error);
@@ -50,11 +53,19 @@ RT_API void rt_share_note(rt_share *share, uint32_t worker, uint64_t first, uint
                           double seconds);
 
 /*
- * Adds the film that a worker hands over. Fails as rt_film_add does, and where the worker was not
- * to render what the film has; what it was given is then given to others.
+ * Adds the film that a worker hands over. seconds: what it took to receive and decode; workers are
+ * told to hand over so seldom that this and adding take a tenth of the time, but before they have
+ * ten times checkpoint_seconds to lose. Fails as rt_film_add does, and where the worker was not to
+ * render what the film has; what it was given is then given to others.
  */
-RT_API rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film,
+RT_API rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, double seconds,
                               rt_error *error);
+
+/*
+ * A worker has handed its film over to another, which adds it to its own: from now on that one has
+ * the units. So films of many workers come together in a tree, of whatever shape.
+ */
+RT_API void rt_share_pass(rt_share *share, uint32_t from, uint32_t to);
 
 /* A worker is gone. What it was given and has not handed over is given to others. */
 RT_API void rt_share_leave(rt_share *share, uint32_t worker);

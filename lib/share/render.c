@@ -74,7 +74,7 @@ static void hand_over(void *user, const rt_film *film)
     local *l = user;
     if (l->status != RT_OK)
         return;
-    l->status = rt_share_add(l->share, l->number, film, l->error);
+    l->status = rt_share_add(l->share, l->number, film, 0, l->error);
     if (l->status != RT_OK)
         rt_share_stop(l->share);
 }
@@ -126,6 +126,7 @@ rt_status rt_share_render(rt_share *share, rt_renderer *renderer, const rt_hooks
         return status;
     o.time = 0;
     o.resume = NULL;
+    o.raised_from = rt_share_raised_from(share);
     o.hooks = &own;
     o.next_units = next_units;
     o.units_user = o.checkpoint_user = &l;

@@ -16,6 +16,15 @@ static const double default_seconds = 60;
 /* And the first one, so that what does not fit is found out early. */
 static const double first_seconds = 1;
 
+/*
+ * Films are asked for so seldom that taking them keeps to this part of the time, however many
+ * workers there are; but from each at the latest after so many times the seconds above.
+ */
+static const double taking_part = 0.1, most_late = 10;
+
+/* What a pixel of a film takes, in seconds, until it is known. */
+static const double pixel_taking = 6e-8;
+
 /* ---- The horizon ---------------------------------------------------------------- */
 
 /* The units after which the error is tested next, or all. */
@@ -54,20 +63,35 @@ static rt_status check(const rt_render_options *o, rt_error *error)
     return RT_OK;
 }
 
+/* The units whose samples a finished film had are nothing to hand out. */
+static rt_status skip_base(rt_film *film, rt_error *error)
+{
+    const rt_unit_range gap = rt_coverage_gap(&film->done, 0, film->units.count);
+    rt_unit_range base = {0, 0};
+    if (film->units.base == 0 || gap.first > 0)
+        return RT_OK;
+    while (base.count < gap.count && rt_units_block(&film->units, base.count).count == 0)
+        base.count += film->units.items;
+    if (base.count > gap.count)
+        base.count = gap.count;
+    return base.count > 0 ? rt_coverage_add(&film->done, base, error) : RT_OK;
+}
+
 /* Makes the film, and finds what is to be done. */
 static rt_status open(rt_share *share, rt_renderer *renderer, rt_error *error)
 {
     rt_status status = rt_film_begin(&share->film, renderer, &share->options, error);
-    if (status == RT_OK && share->film->units.base > 0)
-        status = rt_fail_field(error, RT_ERROR_USAGE, "spp",
-                               "the samples of a finished film are raised by one renderer alone");
+    if (status == RT_OK)
+        status = skip_base(share->film, error);
     if (status == RT_OK)
         status = rt_coverage_join(&share->given, &share->film->done, error);
     if (status != RT_OK)
         return status;
-    const double all = rt_share_rendered(share);
-    share->before = all;
-    share->noise = rt_noise_begin(RT_NOISE_FEWEST);
+    share->before = rt_share_rendered(share);
+    share->taking = pixel_taking * share->film->units.replicates * rt_film_pixels(share->film);
+    /* A film that is raised was tested before. */
+    const uint32_t base = share->film->units.base / share->film->units.replicates;
+    share->noise = rt_noise_begin(base < RT_NOISE_FEWEST ? RT_NOISE_FEWEST : base + 1);
     share->horizon = next_horizon(share);
     test(share);
     return RT_OK;
@@ -128,15 +152,20 @@ rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error)
     return status;
 }
 
-/* Whether a worker has units and films are due. */
-static int must_hand_over(const rt_share *share, const rt_share_worker *worker, double now)
+/* Whether a worker has units and is to hand them over, so that they are not lost. */
+static int must_hand_over(rt_share *share, rt_share_worker *worker, double now)
 {
     const rt_render_options *o = &share->options;
-    double every = o->checkpoint ? o->checkpoint_seconds : default_seconds;
-    if (!worker->is_proven)
-        every = fmin(every, first_seconds);
-    return worker->held.count > 0 &&
-           now - worker->handed >= rt_checkpoint_interval(every, share->saving);
+    const double asked = o->checkpoint ? o->checkpoint_seconds : default_seconds;
+    const double every = rt_checkpoint_interval(asked, share->saving), age = now - worker->handed;
+    if (worker->held.count == 0 || worker->is_told)
+        return worker->is_told;
+    if (age < (worker->is_proven ? every : fmin(every, first_seconds)) ||
+        (now < share->rested && age < most_late * every))
+        return 0;
+    share->rested = fmax(share->rested, now) + share->taking / taking_part;
+    worker->is_told = 1;
+    return 1;
 }
 
 /* Gives a worker units, or says why there are none. */
@@ -197,6 +226,7 @@ static void take_back(rt_share *share, rt_share_worker *worker)
         share->stopped = 1;
     rt_coverage_free(&worker->held);
     worker->rendered = 0;
+    worker->is_told = 0;
 }
 
 /* Whether a worker was given all that a film has. */
@@ -228,11 +258,22 @@ static void save(rt_share *share)
     share->saving = share->saved - now;
 }
 
-rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, rt_error *error)
+/* A worker has nothing left of what it was given. */
+static void note_handed(rt_share_worker *worker)
+{
+    worker->rendered = 0;
+    worker->is_proven = 1;
+    worker->is_told = 0;
+    worker->handed = rt_clock();
+}
+
+rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, double seconds,
+                       rt_error *error)
 {
     if (rt_is_missing(film, "film", error))
         return RT_ERROR_USAGE;
     pthread_mutex_lock(&share->lock);
+    const double began = rt_clock();
     rt_share_worker *w = share->workers + worker;
     rt_status status = holds(w, &film->done)
                            ? rt_film_add(share->film, film, error)
@@ -240,9 +281,8 @@ rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, rt
     for (size_t i = 0; i < film->done.count && status == RT_OK; i++)
         status = rt_coverage_remove(&w->held, film->done.ranges[i], error);
     if (status == RT_OK) {
-        w->rendered = 0;
-        w->is_proven = 1;
-        w->handed = rt_clock();
+        note_handed(w);
+        share->taking += (seconds + w->handed - began - share->taking) / 2;
         test(share);
         save(share);
     } else {
@@ -251,6 +291,18 @@ rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, rt
     pthread_cond_broadcast(&share->changed);
     pthread_mutex_unlock(&share->lock);
     return status;
+}
+
+void rt_share_pass(rt_share *share, uint32_t from, uint32_t to)
+{
+    pthread_mutex_lock(&share->lock);
+    rt_share_worker *a = share->workers + from, *b = share->workers + to;
+    if (rt_coverage_join(&b->held, &a->held, NULL) != RT_OK)
+        share->stopped = 1; /* no memory for a list */
+    b->rendered += a->rendered;
+    rt_coverage_free(&a->held);
+    note_handed(a);
+    pthread_mutex_unlock(&share->lock);
 }
 
 void rt_share_leave(rt_share *share, uint32_t worker)
@@ -269,6 +321,11 @@ void rt_share_stop(rt_share *share)
     share->stopped = 1;
     pthread_cond_broadcast(&share->changed);
     pthread_mutex_unlock(&share->lock);
+}
+
+uint32_t rt_share_raised_from(const rt_share *share)
+{
+    return share->film->units.base;
 }
 
 /* ---- The picture ------------------------------------------------------------------ */

@@ -10,6 +10,7 @@
 typedef struct rt_share_worker {
     int is_gone;
     int is_proven;    /* a film of it fitted */
+    int is_told;      /* to hand over, as films are due, and has not done so yet */
     rt_coverage held; /* the units that it was given and has not handed over */
     double rendered;  /* samples or passes of these that are rendered, as rt_units_amount */
     double given;     /* what it was given last, likewise */
@@ -33,6 +34,8 @@ struct rt_share {
     double began;  /* rt_clock() at the first question; 0: before */
     double saved;  /* rt_clock() after the last checkpoint */
     double saving; /* seconds that it took */
+    double taking; /* seconds that it takes to receive a film and to add it */
+    double rested; /* rt_clock() from when on another film may be asked for */
 };
 
 /* The units that a worker is to render next, at the given time; none, its count is 0. */

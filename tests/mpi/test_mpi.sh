@@ -1,14 +1,16 @@
 #!/bin/sh
 # test_mpi.sh - a picture on 1 to 4 processes has the bytes of rtc's, in every mode; errors, kills
 # and interrupts end all of them, with a checkpoint that any number takes up. `make check-mpi` runs
-# it with each MPI that is installed: test_mpi.sh RUNNER PROGRAM [modes|ends|kills|network]...
+# it with each MPI that is installed.
+#
+#   test_mpi.sh RUNNER PROGRAM [modes|raises|ends|kills|network]...
 set -u
 LC_ALL=C
 export LC_ALL
 run=$1
 rtc_mpi=$(realpath "$2") || exit 1
 shift 2
-[ $# -gt 0 ] || set -- modes ends kills
+[ $# -gt 0 ] || set -- modes raises ends kills
 rtc=$(realpath "${RTC:-build/rtc}") || exit 1
 scene=$(realpath scenes/cornell.rts) || exit 1
 tests=$(realpath tests/mpi) || exit 1
@@ -86,6 +88,22 @@ modes() {
     mode passes --mode photon --passes 7 --photons 5000 --photon-layers
     mode passes_to_an_error --mode photon --passes 200 --photons 3000 --target-error 1
     mode target_error --target-error 0.7
+}
+
+# A finished render is raised by any number of processes.
+raises() {
+    for ranks in 1 3 4; do
+        for what in --mode=path --variance '--mode photon --photons 5000'; do
+            rm -f ./*.exr r.rtpart
+            what=$(echo "$what" | tr = ' ')
+            # shellcheck disable=SC2086
+            set -- "$scene" --quiet $small $what
+            "$rtc" "$@" --spp 29 --out alone.exr || bad=1
+            together $((5 - ranks)) "$@" --spp 13 --out r.exr --checkpoint r.rtpart
+            together $ranks --resume r.rtpart --quiet --spp 29
+            check "raised_by_$ranks ($what)" cmp alone.exr r.exr
+        done
+    done
 }
 
 # How runs end that do not render.
@@ -181,6 +199,7 @@ unplug() {
 }
 
 plug() {
+    : >bridge.log
     # shellcheck disable=SC2046,SC2086 # words
     "$bridge" "$delay" rtc_host $(printf 'rtc_%s ' $machines) >bridge.log 2>&1 &
     bridge_pid=$!

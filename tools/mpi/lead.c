@@ -74,16 +74,29 @@ static char *receive(lead *l, int rank, const message *m)
 
 static void take_film(lead *l, int rank, const message *m)
 {
+    const double began = now();
     rt_film *film = NULL;
     rt_error error;
     char *data = receive(l, rank, m);
+    l->members[rank].is_sending = 0;
     rt_status status = rt_film_decode(&film, data, m->count, &error);
     if (status == RT_OK)
-        status = rt_share_add(l->share, l->members[rank].worker, film, &error);
+        status = rt_share_add(l->share, l->members[rank].worker, film, now() - began, &error);
     if (status != RT_OK)
         fail(l, rank, STATUS_INPUT, error.message);
     rt_film_destroy(film);
     free(data);
+}
+
+/* A rank has the film of another, or was told that there is none. */
+static void take_collected(lead *l, int rank, const message *m)
+{
+    member *from = l->members + m->first;
+    if (m->count > 0)
+        rt_share_pass(l->share, from->worker, l->members[rank].worker);
+    from->passes_to = 0;
+    if (from->is_gone)
+        rt_share_leave(l->share, from->worker);
 }
 
 static void take_part(lead *l, int rank, const message *m)
@@ -105,9 +118,10 @@ static void take_leave(lead *l, int rank, const message *m)
     const int status = (int)m->first;
     if (status != STATUS_DONE && status != STATUS_INTERRUPTED)
         fail(l, rank, status, text[0] ? text : "it failed without a word");
-    if (from->has_joined)
+    if (from->has_joined && !from->passes_to)
         rt_share_leave(l->share, from->worker);
     from->is_gone = 1;
+    from->is_sending = 0;
     l->left--;
     free(text);
 }
@@ -129,6 +143,8 @@ static void take_question(lead *l, int rank, const message *m)
     if (from->has_joined && m->count > 0)
         rt_share_note(l->share, from->worker, m->first, m->count, m->seconds);
     from->is_waiting = 1;
+    from->is_new = m->kind == MESSAGE_BEGIN;
+    from->is_sending = 0;
 }
 
 static void take(lead *l, int rank)
@@ -138,11 +154,15 @@ static void take(lead *l, int rank)
     case MESSAGE_HELLO:
         answer_hello(l, rank);
         break;
+    case MESSAGE_BEGIN:
     case MESSAGE_ASK:
         take_question(l, rank, &m);
         break;
     case MESSAGE_FILM:
         take_film(l, rank, &m);
+        break;
+    case MESSAGE_COLLECTED:
+        take_collected(l, rank, &m);
         break;
     case MESSAGE_MAP:
         take_part(l, rank, &m);
@@ -151,8 +171,10 @@ static void take(lead *l, int rank)
         take_leave(l, rank, &m);
         break;
     case MESSAGE_NOTE:
+    case MESSAGE_RAISED:
     case MESSAGE_RENDER:
     case MESSAGE_HAND_OVER:
+    case MESSAGE_COLLECT:
     case MESSAGE_END:
         break;
     }
@@ -160,29 +182,68 @@ static void take(lead *l, int rank)
 
 /* ---- What they are told ------------------------------------------------------------- */
 
-/* Answers a worker that waits, if there is an answer. */
-static void answer(lead *l, int rank, rt_share *share, int is_over)
+static void tell(lead *l, int rank, message m)
+{
+    wire_send(rank, TAG_DOWN, &m);
+    l->members[rank].is_waiting = 0;
+}
+
+/* What a worker is to do, if it waits and there is something; else MESSAGE_NOTE. */
+static message task_of(lead *l, int rank, rt_share *share, int is_over)
 {
     static const message_kind kinds[] = {[RT_SHARE_END] = MESSAGE_END,
                                          [RT_SHARE_RENDER] = MESSAGE_RENDER,
-                                         [RT_SHARE_HAND_OVER] = MESSAGE_HAND_OVER};
+                                         [RT_SHARE_HAND_OVER] = MESSAGE_HAND_OVER,
+                                         [RT_SHARE_WAIT] = MESSAGE_NOTE};
     member *to = l->members + rank;
     rt_error error;
-    message m = {.kind = MESSAGE_END};
-    if (share && !to->has_joined) {
+    message m = {.kind = is_over ? MESSAGE_END : MESSAGE_NOTE};
+    if (!to->is_waiting || !share)
+        return to->is_waiting ? m : (message){.kind = MESSAGE_NOTE};
+    if (to->is_new)
+        return (message){.kind = MESSAGE_RAISED, .first = rt_share_raised_from(share)};
+    if (to->passes_to)
+        return (message){.kind = MESSAGE_NOTE};
+    if (!to->has_joined)
         to->has_joined = rt_share_join(&to->worker, share, &error) == RT_OK;
-        is_over |= !to->has_joined;
+    if (to->has_joined)
+        m.kind = kinds[rt_share_ask(share, to->worker, &m.first, &m.count)];
+    else
+        m.kind = MESSAGE_END;
+    if (m.kind == MESSAGE_HAND_OVER)
+        m.first = 0;
+    return m;
+}
+
+/* A worker hands its film to another, which adds it to its own. */
+static void pair(lead *l, int from, int to)
+{
+    l->members[from].passes_to = to;
+    tell(l, to, (message){.kind = MESSAGE_COLLECT, .first = (uint64_t)from});
+    tell(l, from, (message){.kind = MESSAGE_HAND_OVER, .first = (uint64_t)to});
+}
+
+/*
+ * Answers those that wait, where there is an answer. While one film is on its way to this process,
+ * others that are due come together in pairs: so many films take as many steps as a tree has.
+ */
+static void answer_all(lead *l, rt_share *share, int is_over)
+{
+    int is_sent = 0, single = 0;
+    for (int i = 1; i < l->ranks; i++)
+        is_sent |= l->members[i].is_sending;
+    for (int i = 1; i < l->ranks; i++) {
+        const message m = task_of(l, i, share, is_over);
+        if (m.kind == MESSAGE_HAND_OVER && is_sent && single) {
+            pair(l, i, single);
+            single = 0;
+        } else if (m.kind == MESSAGE_HAND_OVER && is_sent) {
+            single = i;
+        } else if (m.kind != MESSAGE_NOTE) {
+            is_sent |= l->members[i].is_sending = m.kind == MESSAGE_HAND_OVER;
+            tell(l, i, m);
+        }
     }
-    if (!share && !is_over)
-        return;
-    if (share && to->has_joined) {
-        const rt_share_task task = rt_share_ask(share, to->worker, &m.first, &m.count);
-        if (task == RT_SHARE_WAIT)
-            return;
-        m.kind = kinds[task];
-    }
-    wire_send(rank, TAG_DOWN, &m);
-    to->is_waiting = 0;
 }
 
 /* Tells all to stop, once, and no longer waits for them than is wise. */
@@ -218,9 +279,7 @@ static void talk(lead *l)
             wire_pass_on(0, l->ranks, l->map, l->map_size);
             l->map_is_sent = 1;
         }
-        for (int i = 1; i < l->ranks; i++)
-            if (l->members[i].is_waiting)
-                answer(l, i, share, is_over || l->has_stopped);
+        answer_all(l, share, is_over || l->has_stopped);
         wire_rest();
     }
 }
@@ -250,71 +309,6 @@ void lead_end(lead *l)
 
 /* ---- The render --------------------------------------------------------------------- */
 
-/* Waits for the parts of all others; returns whether they are there. */
-static int wait_for_parts(lead *l)
-{
-    for (;;) {
-        pthread_mutex_lock(&l->lock);
-        const int parts = l->parts, failed = l->status != 0;
-        pthread_mutex_unlock(&l->lock);
-        if (parts == l->ranks - 1 || failed || interrupt_pending())
-            return parts == l->ranks - 1 && !failed;
-        wire_rest();
-    }
-}
-
-/* Makes the bytes of the map, for the thread that talks. */
-static rt_status publish(lead *l, const rt_photon_map *map, rt_error *error)
-{
-    size_t size;
-    rt_status status = rt_photon_map_encode(map, NULL, 0, &size, error);
-    void *data = status == RT_OK ? malloc(size) : NULL;
-    if (status == RT_OK && data)
-        status = rt_photon_map_encode(map, data, size, &size, error);
-    else if (status == RT_OK)
-        status =
-            (*error = (rt_error){.status = RT_ERROR_MEMORY, .message = "out of memory"}).status;
-    if (status != RT_OK) {
-        free(data);
-        return status;
-    }
-    pthread_mutex_lock(&l->lock);
-    l->map = data;
-    l->map_size = size;
-    pthread_mutex_unlock(&l->lock);
-    return RT_OK;
-}
-
-/* Emits a part of the map, and joins it with those of the others. */
-static rt_status share_map(lead *l, rt_photon_map **out, rt_renderer *renderer,
-                           const rt_render_options *options, rt_error *error)
-{
-    rt_render_options o = *options;
-    rt_hooks hooks = *options->hooks;
-    const rt_emit_options emit = {.render = &o, .part = 0, .parts = (uint32_t)l->ranks};
-    hooks.warning = NULL; /* a part has fewer photons than the map */
-    o.hooks = &hooks;
-    rt_status status = rt_photon_map_emit(&l->members[0].part, renderer, &emit, error);
-    if (status != RT_OK)
-        return status;
-    if (!wait_for_parts(l))
-        return RT_CANCELLED;
-    const rt_photon_map **parts = calloc((size_t)l->ranks, sizeof *parts);
-    if (!parts) {
-        *error = (rt_error){.status = RT_ERROR_MEMORY, .message = "out of memory"};
-        return RT_ERROR_MEMORY;
-    }
-    for (int i = 0; i < l->ranks; i++)
-        parts[i] = l->members[i].part;
-    status = rt_photon_map_merge(out, parts, (size_t)l->ranks, error);
-    free(parts);
-    for (int i = 0; i < l->ranks; i++) {
-        rt_photon_map_destroy(l->members[i].part);
-        l->members[i].part = NULL;
-    }
-    return status == RT_OK && l->ranks > 1 ? publish(l, *out, error) : status;
-}
-
 /* What the library would say of a failure like that of a worker. */
 static rt_status failure_of(const lead *l, rt_error *error)
 {
@@ -342,7 +336,7 @@ rt_status lead_render(void *user, rt_film **out, rt_renderer *renderer,
         return RT_ERROR_MEMORY;
     }
     if (crew_emits(options)) {
-        status = share_map(l, &map, renderer, options, error);
+        status = lead_share_map(l, &map, renderer, options, error);
         o.photon_map = map;
     }
     if (status == RT_OK)

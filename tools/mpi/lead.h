@@ -12,7 +12,10 @@
 typedef struct member {
     int is_gone;    /* it has said its last word */
     int is_waiting; /* for an answer */
+    int is_new;     /* that answer is what it begins with */
     int has_joined;
+    int is_sending;  /* it was told to hand its film to this process */
+    int passes_to;   /* rank that was told to collect its film, and has not said so yet; or 0 */
     uint32_t worker; /* its number in the share */
     rt_photon_map *part;
 } member;
@@ -45,6 +48,10 @@ void lead_free(lead *lead);
 /* For team.render. */
 rt_status lead_render(void *user, rt_film **out, rt_renderer *renderer,
                       const rt_render_options *options, rt_error *error);
+
+/* Emits a part of the photon map, and joins it with those of the others. */
+rt_status lead_share_map(lead *lead, rt_photon_map **out, rt_renderer *renderer,
+                         const rt_render_options *options, rt_error *error);
 
 /* Tells all others to end, and waits for their last word. */
 void lead_end(lead *lead);

@@ -14,20 +14,25 @@ enum {
     TAG_DOWN,   /* answers */
     TAG_DATA,   /* bytes behind a message, either way */
     TAG_STOP,   /* a worker is to hand over what it has, and to end */
+    TAG_FILM,   /* a film, from worker to worker */
     TAG_MAP     /* the photon map, from process to process */
 };
 
 typedef enum message_kind {
     /* of workers */
-    MESSAGE_HELLO, /* what is the note of the film to be resumed? */
-    MESSAGE_ASK,   /* first, count and seconds of what was rendered; what comes next? */
-    MESSAGE_FILM,  /* count bytes follow */
-    MESSAGE_MAP,   /* count bytes follow: the part of the photon map */
-    MESSAGE_BYE,   /* ended with the exit status `first`; count bytes say why */
+    MESSAGE_HELLO,     /* what is the note of the film to be resumed? */
+    MESSAGE_BEGIN,     /* from how many samples is a finished film raised? */
+    MESSAGE_ASK,       /* first, count and seconds of what was rendered; what comes next? */
+    MESSAGE_FILM,      /* count bytes follow; none: there is no film */
+    MESSAGE_COLLECTED, /* count films of rank `first` are added to this one's */
+    MESSAGE_MAP,       /* count bytes follow: the part of the photon map */
+    MESSAGE_BYE,       /* ended with the exit status `first`; count bytes say why */
     /* of rank 0 */
     MESSAGE_NOTE,      /* count bytes follow */
+    MESSAGE_RAISED,    /* from `first` samples, or none */
     MESSAGE_RENDER,    /* units first .. first + count - 1 */
-    MESSAGE_HAND_OVER, /* the film, then ask again */
+    MESSAGE_HAND_OVER, /* the film to rank `first`, then ask again */
+    MESSAGE_COLLECT,   /* the film that rank `first` hands over, then ask again */
     MESSAGE_END
 } message_kind;
 

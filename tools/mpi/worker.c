@@ -8,6 +8,7 @@
 
 #include "../crew.h"
 #include "../interrupt.h"
+#include "../status.h"
 
 static double now(void)
 {
@@ -121,6 +122,51 @@ static void ask(worker *w)
     w->is_asked = 1;
 }
 
+/* Adds the film that another worker hands over, if it has one, to the sum of those. */
+static rt_status add_film(worker *w, const void *data, size_t size)
+{
+    rt_film *film = NULL;
+    rt_status status = rt_film_decode(&film, data, size, w->error);
+    if (status == RT_OK && w->sum)
+        status = rt_film_add(w->sum, film, w->error);
+    else if (status == RT_OK) {
+        w->sum = film;
+        return RT_OK;
+    }
+    rt_film_destroy(film);
+    return status;
+}
+
+/* Waits for the film of another worker, which sends one, if only an empty one, whatever happens. */
+static void collect(worker *w, int from)
+{
+    const message head = wire_receive(from, TAG_FILM);
+    message collected = {.kind = MESSAGE_COLLECTED, .first = (uint64_t)from};
+    void *data = malloc(head.count + 1);
+    if (!data)
+        wire_abort(STATUS_DEVICE);
+    wire_receive_bytes(from, TAG_FILM, data, head.count);
+    if (head.count > 0 && w->status == RT_OK) {
+        w->status = add_film(w, data, head.count);
+        collected.count = w->status == RT_OK;
+    }
+    wire_send(0, TAG_UP, &collected);
+    free(data);
+}
+
+/* The answer to the last question; other workers' films are collected meanwhile. */
+static message receive_answer(worker *w)
+{
+    for (;;) {
+        const message answer = wire_receive(0, TAG_DOWN);
+        w->is_asked = 0;
+        if (answer.kind != MESSAGE_COLLECT)
+            return answer;
+        collect(w, (int)answer.first);
+        ask(w);
+    }
+}
+
 /* The next units are asked for while these are rendered. */
 static rt_units_answer next_units(void *user, uint64_t *first, uint64_t *count)
 {
@@ -133,10 +179,11 @@ static rt_units_answer next_units(void *user, uint64_t *first, uint64_t *count)
         return RT_UNITS_NONE;
     if (!w->is_asked)
         ask(w);
-    const message answer = wire_receive(0, TAG_DOWN);
-    w->is_asked = 0;
-    if (answer.kind == MESSAGE_HAND_OVER)
+    const message answer = receive_answer(w);
+    if (answer.kind == MESSAGE_HAND_OVER) {
+        w->to = (int)answer.first;
         return RT_UNITS_SAVE;
+    }
     w->is_ended = answer.kind != MESSAGE_RENDER;
     if (w->is_ended)
         return RT_UNITS_NONE;
@@ -162,20 +209,56 @@ static rt_status encode(worker *w, const rt_film *film, size_t *size)
     return status == RT_OK ? rt_film_encode(film, w->buffer, w->capacity, size, w->error) : status;
 }
 
+/* Sends the bytes of a film to whom it was to go; another worker waits for them even without. */
+static void send_film(worker *w, size_t size)
+{
+    const message head = {.kind = MESSAGE_FILM, .count = size};
+    if (size > 0 || w->to > 0) {
+        wire_send(w->to, w->to > 0 ? TAG_FILM : TAG_UP, &head);
+        wire_send_bytes(w->to, w->to > 0 ? TAG_FILM : TAG_DATA, w->buffer, size);
+    }
+    w->to = 0;
+}
+
+/* Hands the film over, with those of others; film: NULL where there are these alone. */
 static void hand_over(void *user, const rt_film *film)
 {
     worker *w = user;
-    rt_film_info info;
-    size_t size;
-    rt_film_get_info(film, &info);
-    if (info.units_done == 0 || w->status != RT_OK)
-        return;
-    w->status = encode(w, film, &size);
-    if (w->status != RT_OK)
-        return;
-    const message head = {.kind = MESSAGE_FILM, .count = size};
-    wire_send(0, TAG_UP, &head);
-    wire_send_bytes(0, TAG_DATA, w->buffer, size);
+    rt_film_info info = {0};
+    size_t size = 0;
+    if (film)
+        rt_film_get_info(film, &info);
+    if (w->status == RT_OK && w->sum && info.units_done > 0)
+        w->status = rt_film_add(w->sum, film, w->error);
+    if (w->status == RT_OK && (w->sum || info.units_done > 0))
+        w->status = encode(w, w->sum ? w->sum : film, &size);
+    send_film(w, w->status == RT_OK ? size : 0);
+    rt_film_destroy(w->sum);
+    w->sum = NULL;
+}
+
+/* Does what others count on when a question is answered that came too early. */
+static void settle(worker *w)
+{
+    if (w->is_asked) {
+        const message answer = wire_receive(0, TAG_DOWN);
+        w->is_asked = 0;
+        if (answer.kind == MESSAGE_COLLECT)
+            collect(w, (int)answer.first);
+        if (answer.kind == MESSAGE_HAND_OVER)
+            w->to = (int)answer.first;
+    }
+    hand_over(w, NULL);
+}
+
+/* Asks what a film that is raised had; returns whether there is something to render. */
+static int begin(rt_render_options *options)
+{
+    const message question = {.kind = MESSAGE_BEGIN};
+    wire_send(0, TAG_UP, &question);
+    const message answer = wire_receive(0, TAG_DOWN);
+    options->raised_from = (uint32_t)answer.first;
+    return answer.kind == MESSAGE_RAISED;
 }
 
 rt_status worker_render(void *user, rt_film **out, rt_renderer *renderer,
@@ -201,12 +284,10 @@ rt_status worker_render(void *user, rt_film **out, rt_renderer *renderer,
     o.checkpoint = hand_over;
     o.checkpoint_seconds = INFINITY;
     o.hand_over = 1;
-    if (status == RT_OK)
+    if (status == RT_OK && begin(&o))
         status = rt_render(&film, renderer, &o, error);
     rt_film_destroy(film);
     rt_photon_map_destroy(map);
-    /* An answer that nobody waits for any more. */
-    if (w->is_asked)
-        wire_receive(0, TAG_DOWN);
+    settle(w);
     return w->status == RT_OK ? status : w->status;
 }

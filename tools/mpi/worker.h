@@ -15,6 +15,8 @@ typedef struct worker {
     double began;
     int is_asked; /* a question is on its way */
     int is_ended;
+    int to;          /* rank that gets the film next */
+    rt_film *sum;    /* of the films that others handed to this one, or NULL */
     uint8_t *buffer; /* of films */
     size_t capacity;
     rt_status status; /* of handing over */

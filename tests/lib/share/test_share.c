@@ -4,9 +4,11 @@
  */
 #include "support.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "../mode/film_renders.h"
 
@@ -293,6 +295,178 @@ static void an_interrupted_picture_is_taken_up_by_others(void **state)
     }
 }
 
+/* Renders units on a worker elsewhere. */
+static rt_units_answer next_units(void *user, uint64_t *first, uint64_t *count)
+{
+    rt_unit_range *range = user;
+    const rt_units_answer answer = range->count > 0 ? RT_UNITS_GIVEN : RT_UNITS_NONE;
+    *first = range->first;
+    *count = range->count;
+    range->count = 0;
+    return answer;
+}
+
+/* The film of what a share gives a new worker. */
+static rt_film *render_given(rt_share *share, uint32_t *worker, const rt_render_options *options)
+{
+    rt_render_options o = *options;
+    rt_unit_range range;
+    rt_film *film = NULL;
+    rt_error error;
+    expect_ok(rt_share_join(worker, share, &error), &error);
+    assert_int_equal(rt_share_ask(share, *worker, &range.first, &range.count), RT_SHARE_RENDER);
+    o.checkpoint = NULL;
+    o.next_units = next_units;
+    o.units_user = &range;
+    expect_ok(rt_render(&film, renderers[0], &o, &error), &error);
+    return film;
+}
+
+/* A worker passes its film on to another and leaves; a third one does what is left. */
+static void films_come_together_in_a_tree(void **state)
+{
+    rt_render_options o = options_of(1);
+    rt_film *alone = render_alone(&o), *film = NULL;
+    rt_share *share = NULL;
+    rt_error error;
+    uint32_t a, b, c;
+    (void)state;
+    expect_ok(rt_share_create(&share, renderers[0], &o, &error), &error);
+    expect_ok(rt_share_join(&c, share, &error), &error);
+    rt_film *sum = render_given(share, &a, &o), *from = render_given(share, &b, &o);
+    expect_ok(rt_film_add(sum, from, &error), &error);
+    assert_int_equal(rt_share_add(share, c, sum, 0, &error), RT_ERROR_USAGE);
+    rt_share_pass(share, b, a);
+    rt_share_leave(share, b);
+    expect_ok(rt_share_add(share, a, sum, 0, &error), &error);
+    work_all(share, 1);
+    expect_ok(rt_share_finish(&film, share, NULL, &error), &error);
+    expect_same_film(alone, film, "films of a tree");
+    rt_film_destroy(sum);
+    rt_film_destroy(from);
+    rt_film_destroy(film);
+    rt_film_destroy(alone);
+    rt_share_destroy(share);
+}
+
+static void ignore(void *user, const rt_film *film)
+{
+    (void)user;
+    (void)film;
+}
+
+static void sleep_for(double seconds)
+{
+    const struct timespec time = {(time_t)seconds, (long)(1e9 * (seconds - floor(seconds)))};
+    nanosleep(&time, NULL);
+}
+
+/* Those who take films would do nothing else. */
+static void films_are_asked_for_no_faster_than_they_can_be_taken(void **state)
+{
+    rt_render_options o = options_of(0);
+    rt_share *share = NULL;
+    rt_error error;
+    uint32_t a, b;
+    uint64_t first, count;
+    (void)state;
+    o.spp = 100000;
+    o.checkpoint = ignore;
+    o.checkpoint_seconds = 0.3;
+    expect_ok(rt_share_create(&share, renderers[0], &o, &error), &error);
+    rt_film *film = render_given(share, &a, &o), *other = render_given(share, &b, &o);
+    sleep_for(0.4);
+    /* It takes 100 s, so that the next one may come after 1000 s. */
+    assert_int_equal(rt_share_ask(share, a, &first, &count), RT_SHARE_HAND_OVER);
+    expect_ok(rt_share_add(share, a, film, 200, &error), &error);
+    assert_int_equal(rt_share_ask(share, a, &first, &count), RT_SHARE_RENDER);
+    sleep_for(0.4);
+    assert_int_equal(rt_share_ask(share, b, &first, &count), RT_SHARE_HAND_OVER);
+    expect_ok(rt_share_add(share, b, other, 200, &error), &error);
+    assert_int_equal(rt_share_ask(share, b, &first, &count), RT_SHARE_RENDER);
+    sleep_for(0.4);
+    assert_int_equal(rt_share_ask(share, a, &first, &count), RT_SHARE_RENDER);
+    assert_int_equal(rt_share_ask(share, b, &first, &count), RT_SHARE_RENDER);
+    /* More than ten times the interval is not to be lost. */
+    sleep_for(3);
+    assert_int_equal(rt_share_ask(share, a, &first, &count), RT_SHARE_HAND_OVER);
+    assert_int_equal(rt_share_ask(share, a, &first, &count), RT_SHARE_HAND_OVER);
+    rt_film_destroy(film);
+    rt_film_destroy(other);
+    rt_share_destroy(share);
+}
+
+/* Finished films are continued to more samples, by one renderer and by several. */
+static void a_finished_picture_is_raised_by_several(void **state)
+{
+    (void)state;
+    for (int i = 0; i < FILM_RENDERS; i++) {
+        rt_render_options o = options_of(i);
+        kept k = {NULL, 0};
+        rt_photon_map *map = emit_parts(&o);
+        o.photon_map = map;
+        o.checkpoint = keep;
+        o.checkpoint_user = &k;
+        rt_film_destroy(render_together(&o, 1));
+        rt_film *finished = k.film;
+        k.film = NULL;
+        if (o.passes > 1)
+            o.passes += 7;
+        else
+            o.spp = 2 * o.spp + 3;
+        rt_film *alone = render_alone(&o);
+        o.resume = finished;
+        for (int count = 1; count <= WORKERS; count++) {
+            rt_film *film = render_together(&o, count);
+            expect_same_film(alone, film, film_renders[i].name);
+            rt_film_destroy(film);
+        }
+        rt_film_destroy(alone);
+        rt_film_destroy(k.film);
+        rt_film_destroy(finished);
+        rt_photon_map_destroy(map);
+    }
+}
+
+/* The samples of the finished film are in one of the films, once. */
+static void what_was_raised_counts_once(void **state)
+{
+    rt_render_options o = options_of(0);
+    rt_film *whole = NULL, *rest = NULL, *copy = NULL, *raised = NULL;
+    rt_error error;
+    size_t size;
+    uint8_t bytes[4096];
+    (void)state;
+    expect_ok(rt_film_begin(&rest, renderers[0], &o, &error), &error);
+    o.parts = o.part = 1;
+    expect_ok(rt_render(&whole, renderers[0], &o, &error), &error);
+    o.resume = whole;
+    o.spp += 9;
+    expect_ok(rt_film_begin(&raised, renderers[0], &o, &error), &error);
+    assert_int_equal(rt_film_add(raised, raised, &error), RT_ERROR_USAGE);
+    assert_non_null(strstr(error.message, "both films have"));
+    rt_film_destroy(rest);
+    o.resume = NULL;
+    expect_ok(rt_film_begin(&rest, renderers[0], &o, &error), &error);
+    assert_int_equal(rt_film_add(raised, rest, &error), RT_ERROR_USAGE);
+    rt_film_destroy(rest);
+    o.raised_from = o.spp - 9;
+    expect_ok(rt_film_begin(&rest, renderers[0], &o, &error), &error);
+    expect_ok(rt_film_encode(rest, bytes, sizeof bytes, &size, &error), &error);
+    expect_ok(rt_film_decode(&copy, bytes, size, &error), &error);
+    assert_true(copy->lacks_base);
+    expect_ok(rt_film_add(rest, raised, &error), &error);
+    assert_false(rest->lacks_base);
+    expect_ok(rt_film_add(rest, copy, &error), &error);
+    o.raised_from = o.spp + 1;
+    assert_int_equal(rt_render_options_check(&o, &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "raised_from");
+    rt_film_destroy(copy);
+    rt_film_destroy(rest);
+    rt_film_destroy(raised);
+    rt_film_destroy(whole);
+}
+
 static void only_what_was_given_is_taken(void **state)
 {
     rt_render_options o = options_of(0);
@@ -305,7 +479,7 @@ static void only_what_was_given_is_taken(void **state)
     expect_ok(rt_share_create(&share, renderers[0], &o, &error), &error);
     expect_ok(rt_share_join(&worker, share, &error), &error);
     assert_int_equal(rt_share_ask(share, worker, &first, &count), RT_SHARE_RENDER);
-    assert_int_equal(rt_share_add(share, worker, whole, &error), RT_ERROR_USAGE);
+    assert_int_equal(rt_share_add(share, worker, whole, 0, &error), RT_ERROR_USAGE);
     /* Nothing of it is waited for. */
     rt_share_stop(share);
     assert_int_equal(rt_share_ask(share, worker, &first, &count), RT_SHARE_END);
@@ -325,6 +499,10 @@ int main(void)
         cmocka_unit_test(what_a_lost_worker_held_is_rendered_by_others),
         cmocka_unit_test(an_interrupted_picture_is_taken_up_by_others),
         cmocka_unit_test(only_what_was_given_is_taken),
+        cmocka_unit_test(films_come_together_in_a_tree),
+        cmocka_unit_test(films_are_asked_for_no_faster_than_they_can_be_taken),
+        cmocka_unit_test(a_finished_picture_is_raised_by_several),
+        cmocka_unit_test(what_was_raised_counts_once),
     };
     return cmocka_run_group_tests(tests, open_workers, close_workers);
 }
