@@ -173,7 +173,8 @@ TESTS_QUICK := \
 	tests/lib/photon/test_map_file.c tests/lib/photon/test_map_parts.c \
 	tests/lib/photon/test_photon_list.c \
 	tests/lib/photon/test_point_order.c tests/lib/photon/test_neighbour_search.c \
-	tests/lib/render/test_each_shape.c tests/lib/render/test_estimators.c \
+	tests/lib/render/test_each_shape.c tests/lib/render/test_enclosing_media.c \
+	tests/lib/render/test_estimators.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_memory_limit.c \

@@ -10,9 +10,12 @@
 #include "rt.h"
 
 /*
- * Finds these solids and notes them in a scene's image on the device; does nothing where no
- * material lets light in. Runs as part of a stage.
+ * Whether the kernel may find a solid around the camera or a light; where it cannot, as bounds
+ * tell, the image of the scene is right without it.
  */
+int rt_enclosing_media_are_possible(const rt_scene *scene);
+
+/* Finds these solids and notes them in a scene's image on the device. Runs as part of a stage. */
 rt_status rt_enclosing_media_find(rt_device *device, cl_mem image, const rt_scene *scene,
                                   rt_stage_progress *progress, rt_error *error);
 

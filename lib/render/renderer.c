@@ -57,7 +57,7 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
                                error);
     if (status == RT_OK)
         status = upload(renderer, error);
-    if (status == RT_OK)
+    if (status == RT_OK && rt_enclosing_media_are_possible(scene))
         status = rt_enclosing_media_find(device, renderer->scene, scene, &progress, error);
     if (status == RT_OK)
         status = rt_stage_end(&progress, &renderer->build_seconds);

@@ -1,0 +1,154 @@
+/*
+ * test_enclosing_media.c - the kernel that looks for solids around the camera and the lights is
+ * left out only where it would find none.
+ */
+#include "render/enclosing_media.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { scenes = 1500, shapes = 3, lights_max = 4 };
+
+static rt_error error;
+
+static float uniform(float lo, float hi)
+{
+    return lo + (hi - lo) * (float)(rand() / (RAND_MAX + 1.0));
+}
+
+static void point(float p[3], float reach)
+{
+    for (int i = 0; i < 3; i++)
+        p[i] = uniform(-reach, reach);
+}
+
+/* A tetrahedron, which is closed, or its first three faces. */
+static void add_mesh(rt_scene *scene, const rt_surface *surface, const float at[3])
+{
+    static const uint32_t faces[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    float corners[4][3];
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 3; j++)
+            corners[i][j] = at[j] + (i == j + 1);
+    expect_ok(rt_scene_add_triangles(scene, NULL, corners[0], 4, faces, 3 + rand() % 2, NULL,
+                                     surface, &error),
+              &error);
+}
+
+/* One of the shapes, open or closed, somewhere. */
+static void add_shape(rt_scene *scene, const rt_surface *surface)
+{
+    const float size[3] = {1, 2, 0.5f}, up[3] = {0, 1, 0},
+                edge[2][3] = {{3, 0.2f, 0}, {0.2f, 0, 4}};
+    float at[3], to[3];
+    rt_status status = RT_OK;
+    point(at, 2);
+    point(to, 2);
+    switch (rand() % 7) {
+    case 0:
+        status = rt_scene_add_sphere(scene, NULL, at, uniform(0.3f, 2), surface, &error);
+        break;
+    case 1:
+        status = rt_scene_add_box(scene, NULL, at, size, surface, &error);
+        break;
+    case 2:
+        status = rt_scene_add_torus(scene, NULL, at, up, 1, 0.4f, surface, &error);
+        break;
+    case 3:
+        status = rt_scene_add_cylinder(scene, NULL, at, to, 0.5f, rand() % 2, surface, &error);
+        break;
+    case 4:
+        status = rt_scene_add_quad(scene, NULL, at, edge[0], edge[1], surface, &error);
+        break;
+    case 5:
+        add_mesh(scene, surface, at);
+        break;
+    case 6:
+        if (rand() % 4 == 0)
+            status = rt_scene_add_plane(scene, NULL, at, up, surface, &error);
+        break;
+    }
+    expect_ok(status, &error);
+}
+
+/* A few shapes of glass, an opaque emitter and a point light, seen from somewhere. */
+static rt_scene *random_scene(void)
+{
+    const rt_material glass = {.kt = {1, 1, 1}, .ior = 1.5f}, black = {0};
+    rt_scene *scene = NULL;
+    rt_surface surface;
+    rt_camera camera = {.look_at = {0.1f, 0.2f, 9}, .fov = 40};
+    rt_point_light light = {.intensity = {1, 1, 1}};
+    float at[3];
+    memset(&surface, 0, sizeof surface);
+    for (int i = 0; i < 3; i++)
+        surface.transform.m[i][i] = 1;
+    expect_ok(rt_scene_create(&scene, &error), &error);
+    expect_ok(rt_scene_add_material(scene, NULL, NULL, &glass, &error), &error);
+    expect_ok(rt_scene_add_material(scene, &surface.material, NULL, &black, &error), &error);
+    surface.radiance[0] = 1;
+    point(at, 3);
+    expect_ok(rt_scene_add_sphere(scene, NULL, at, 0.1f, &surface, &error), &error);
+    surface.radiance[0] = 0;
+    surface.material = 0;
+    for (int i = 0; i < shapes; i++)
+        add_shape(scene, &surface);
+    point(light.position, 3);
+    expect_ok(rt_scene_add_point_light(scene, &light, &error), &error);
+    point(camera.eye, 3);
+    expect_ok(rt_scene_set_camera(scene, &camera, &error), &error);
+    return scene;
+}
+
+/* Whether the kernel finds a solid around the camera or a light. */
+static int finds_any(const rt_scene *scene)
+{
+    rt_renderer *renderer = NULL;
+    rt_stage_progress progress;
+    rt_scene_header header;
+    rt_light_data lights[lights_max];
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    expect_ok(rt_stage_begin(&progress, NULL, RT_STAGE_BUILD), NULL);
+    expect_ok(rt_enclosing_media_find(renderer->device, renderer->scene, scene, &progress, &error),
+              &error);
+    test_read(renderer->scene, sizeof header, &header);
+    assert_in_range(header.light_count, 1, lights_max);
+    expect_ok(rt_buffer_read(renderer->device, renderer->scene,
+                             (size_t)header.lights * RT_SCENE_ROW,
+                             header.light_count * sizeof *lights, lights, &error),
+              &error);
+    int found = header.eye_media[0] != 0;
+    for (rt_u32 i = 0; i < header.light_count; i++)
+        found |= lights[i].media[0] != 0;
+    rt_renderer_destroy(renderer);
+    return found;
+}
+
+static void media_are_possible_where_the_kernel_finds_them(void **state)
+{
+    (void)state;
+    int found = 0, left_out = 0;
+    srand(1);
+    for (int i = 0; i < scenes; i++) {
+        rt_scene *scene = random_scene();
+        const int is_possible = rt_enclosing_media_are_possible(scene), is_there = finds_any(scene);
+        if (is_there && !is_possible)
+            fail_msg("scene %d: a medium is there that was held impossible", i);
+        found += is_there;
+        left_out += !is_possible;
+        rt_scene_destroy(scene);
+    }
+    /* Both cases occur. */
+    assert_in_range(found, scenes / 20, scenes);
+    assert_in_range(left_out, scenes / 20, scenes);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(media_are_possible_where_the_kernel_finds_them)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
