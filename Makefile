@@ -575,7 +575,7 @@ check-crowd: all
 # Renders that are killed again and again and gone on with: the bytes of a whole one.
 KILLS ?= 100
 check-kills: all
-	tests/tools/kills.sh $(KILLS)
+	RTC=$(B)/rtc tests/tools/kills.sh $(KILLS)
 
 # Two builds of the last commit, in two folders: the same bytes.
 check-reproducible: deps

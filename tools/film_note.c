@@ -38,18 +38,42 @@ static void add_line(text *out, const char *word, const char *name, const char *
                                   name[0] ? " " : "", value);
 }
 
-char *film_note_make(const command_line *arguments, const char *scene)
+/*
+ * --time is for one sitting: a film keeps what it was begun with, and nothing that was given when
+ * it was continued.
+ */
+static void add_time(text *out, const command_line *arguments)
+{
+    char value[64];
+    const char *kept = settings_text(arguments, rt_setting_find("time"));
+    if (arguments->film) {
+        const size_t length = film_note_find(&kept, arguments->film, "given time");
+        snprintf(value, sizeof value, "%.*s", (int)length, length > 0 ? kept : "");
+        kept = length > 0 ? value : NULL;
+    }
+    if (kept)
+        add_line(out, "given", "time", kept);
+}
+
+/* Adds all other settings that are given. */
+static void add_settings(text *out, const command_line *arguments)
 {
     size_t count;
-    const rt_setting *settings = rt_settings(&count);
-    text note = {0};
-    add_line(&note, "scene", "", scene);
+    const rt_setting *settings = rt_settings(&count), *time = rt_setting_find("time");
     for (size_t i = 0; i < count; i++) {
         char name[SETTING_NAME_SIZE];
-        if (settings_text(arguments, &settings[i]))
-            add_line(&note, "given", settings_name(name, &settings[i]),
+        if (settings_text(arguments, &settings[i]) && &settings[i] != time)
+            add_line(out, "given", settings_name(name, &settings[i]),
                      settings_text(arguments, &settings[i]));
     }
+}
+
+char *film_note_make(const command_line *arguments, const char *scene)
+{
+    text note = {0};
+    add_line(&note, "scene", "", scene);
+    add_settings(&note, arguments);
+    add_time(&note, arguments);
     for (size_t i = 0; i < sizeof of_picture / sizeof *of_picture; i++) {
         const option_id id = of_picture[i];
         if (arguments->options[id].given)

@@ -1,5 +1,6 @@
 /* info.c - `rtc info`: what a film file holds, and how far it is. */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,10 +13,21 @@
 #include "progress.h"
 #include "status.h"
 
-/* Seconds that the rest will take on machines like those so far; negative: not known. */
-static double rest_of(const rt_film_info *info)
+/* Whether a render was to go on until --time or --target-error ended it. */
+static int is_without_end(const rt_film *film)
 {
-    return info->done > 0 ? info->seconds * (1 - info->done) / info->done : -1;
+    rt_render_options options;
+    rt_film_get_options(film, &options);
+    return options.spp >= rt_setting_find("spp")->field.range.high;
+}
+
+/* Seconds that the rest will take on machines like those so far; negative: not known. */
+static double rest_of(const rt_film *film, const rt_film_info *info)
+{
+    return info->done >= 1        ? 0
+           : is_without_end(film) ? -1
+           : info->done > 0       ? info->seconds * (1 - info->done) / info->done
+                                  : -1;
 }
 
 /* "3 (37.5 % done), 5 of 7": the parts that are not complete. */
@@ -56,11 +68,15 @@ static void print_info(const char *path, const rt_film *film)
     rt_film_get_info(film, &info);
     const size_t length = film_note_find(&scene, film, "scene");
     printf("film: %s\nscene: %.*s\n", path, length > 0 ? (int)length : (int)strlen(scene), scene);
-    printf("done: %.4g %%\n", 100 * info.done);
+    if (is_without_end(film))
+        printf("done: %.4g samples a pixel, of as many as --time or --target-error let it have\n",
+               info.done * info.samples);
+    else
+        printf("done: %.4g %%\n", 100 * info.done);
     progress_format_time(seconds, sizeof seconds, info.seconds);
     printf("time spent: %s\n", seconds);
-    if (info.done < 1 && rest_of(&info) >= 0) {
-        progress_format_time(seconds, sizeof seconds, rest_of(&info));
+    if (info.done < 1 && rest_of(film, &info) >= 0) {
+        progress_format_time(seconds, sizeof seconds, rest_of(film, &info));
         printf("time to come: about %s\n", seconds);
     }
     if (info.parts > 1) {
@@ -87,9 +103,10 @@ static void print_json(const char *path, const rt_film *film)
     json_string(path);
     printf(",\"scene\":");
     json_string(name);
-    json_member("done", info.done);
+    json_member("done", is_without_end(film) ? NAN : info.done);
+    json_member("samples_done", info.done * info.samples);
     json_member("seconds", info.seconds);
-    json_member("rest_seconds", info.done < 1 ? rest_of(&info) : 0);
+    json_member("rest_seconds", rest_of(film, &info));
     printf(",\"part\":%" PRIu32 ",\"parts\":%" PRIu32 ",\"units\":%" PRIu64
            ",\"units_done\":%" PRIu64 ",\"fingerprint\":\"%016" PRIx64 "\",\"settings\":{",
            info.part, info.parts, info.units, info.units_done, info.scene);

@@ -58,12 +58,13 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_RESUME] =
         {"resume", "FILE", KIND_TEXT, GROUP_KEEP, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
          "go on from a checkpoint or film, with its scene, options and outputs where none are "
-         "given; a checkpoint is kept up to date. More --spp or --passes go on from a finished "
-         "render"},
+         "given; a checkpoint is kept up to date. Options given here hold for later sittings too, "
+         "but "
+         "--time. Other --spp or --passes go on, where none are taken back"},
     [OPTION_PART] =
         {"part", "I/N", KIND_TEXT, GROUP_KEEP, RENDER | PHOTONS, 0, 0, NULL, 0, "1/1",
          "do the I-th of N parts of the work, into a film NAME.rtpart, to be merged later; auto "
-         "takes I and N from Slurm, MPI or an indexed job"},
+         "takes I and N from Slurm (an array of all parts), MPI or an indexed job"},
     [OPTION_INCOMPLETE] = {"incomplete", NULL, KIND_FLAG, GROUP_KEEP, MERGE, 0, 0, NULL, 0, NULL,
                            "write images of a film although parts of it are missing"},
 

@@ -41,6 +41,7 @@ typedef struct render_job {
     char *command; /* as images record it */
     rt_scene *scene;
     crew crew;
+    double seconds; /* from its first photon or sample on */
     rt_film *film;
 } render_job;
 
@@ -129,6 +130,7 @@ static int make_film(render_job *job)
     if (result == RT_OK)
         result = crew_render(&job->film, &job->crew, &job->options, job->session.arguments->team,
                              &error);
+    job->seconds = session_seconds(&job->session);
     progress_clear(&job->session.progress);
     if (session_was_interrupted(result))
         return STATUS_INTERRUPTED;
@@ -158,7 +160,9 @@ static void say_what_was_written(const render_job *job, int interrupted)
     join_outputs(names, sizeof names, &job->outputs);
     if (job->parts > 1)
         snprintf(part, sizeof part, "part %u of %u, ", (unsigned)job->part, (unsigned)job->parts);
-    progress_format_time(seconds, sizeof seconds, info.seconds);
+    /* A film adds up the time of all devices, which pass theirs side by side. */
+    const int is_shared = job->crew.count > 1 || job->session.arguments->team;
+    progress_format_time(seconds, sizeof seconds, is_shared ? job->seconds : info.seconds);
     message_note("%swrote %s: %s%u x %u, %u sample%s a pixel, rendered in %s",
                  interrupted ? "interrupted; " : "", names, part, (unsigned)width, (unsigned)height,
                  (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);

@@ -3,16 +3,36 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #include "interrupt.h"
 #include "message.h"
 #include "settings.h"
 #include "status.h"
 
+static double clock_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double session_seconds(const session *s)
+{
+    return s->began > 0 ? clock_now() - s->began : 0;
+}
+
+static int follows_light(rt_stage stage)
+{
+    return stage == RT_STAGE_EMIT || stage == RT_STAGE_GATHER || stage == RT_STAGE_RENDER;
+}
+
 static int on_progress(void *user, const rt_progress *report)
 {
     session *s = user;
     int stop = interrupt_pending();
+    if (s->began == 0 && follows_light(report->stage))
+        s->began = clock_now() - report->elapsed;
     if (!stop)
         progress_show(&s->progress, report);
     return stop;

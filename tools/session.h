@@ -13,6 +13,7 @@ typedef struct session {
     int quiet;
     progress_display progress;
     rt_hooks hooks;
+    double began; /* when light was first followed, by a clock that is never set; 0: not yet */
 } session;
 
 /*
@@ -20,6 +21,9 @@ typedef struct session {
  * Ctrl-C.
  */
 void session_begin(session *session, const command_line *arguments);
+
+/* Seconds since light was first followed; what was compiled before does not count. */
+double session_seconds(const session *session);
 
 const option_value *session_value(const session *session, option_id id);
 

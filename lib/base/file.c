@@ -190,7 +190,7 @@ static int open_folder(int *fd, const char *folder)
 
 /*
  * A new name outlives a loss of power once its folder is on the disk. Some file systems cannot
- * synchronise folders, and have no need to or no way.
+ * synchronise folders, and need not or cannot be told to.
  */
 static int sync_folder(int fd)
 {

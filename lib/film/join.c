@@ -1,6 +1,7 @@
 /* join.c - films of the same picture, compared and added. */
 #include "film/join.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -119,7 +120,8 @@ static void add_stats(rt_film_stats *stats, const rt_film_stats *from)
     stats->gathers += from->gathers;
     stats->gathers_at_ends += from->gathers_at_ends;
     stats->gathers_empty += from->gathers_empty;
-    stats->light_power = from->light_power;
+    /* A film from a file or from another machine does not tell. */
+    stats->light_power = fmax(stats->light_power, from->light_power);
     stats->build_seconds += from->build_seconds;
     stats->compile_seconds += from->compile_seconds;
     stats->emit_seconds += from->emit_seconds;
@@ -147,30 +149,49 @@ static rt_status add_sums(rt_film *film, const rt_film *from, rt_error *error)
 
 /* ---- Continuing and adding ------------------------------------------------------ */
 
-/* The units that a film has left when it continues another. */
+/* The end of the last unit that a film has. */
+static uint64_t end_of(const rt_film *film)
+{
+    const rt_coverage *done = &film->done;
+    if (done->count == 0)
+        return 0;
+    return done->ranges[done->count - 1].first + done->ranges[done->count - 1].count;
+}
+
+static rt_status continue_passes(rt_film *film, const rt_film *from, rt_error *error)
+{
+    if (end_of(from) > film->units.count)
+        return rt_fail_field(error, RT_ERROR_USAGE, "passes", "the film has pass %llu already",
+                             (unsigned long long)end_of(from));
+    return rt_coverage_join(&film->done, &from->done, error);
+}
+
+/*
+ * The units that a film has left when it continues another, of as many samples or others. Those of
+ * the other film stay what they are where none is of a block that the end of either cuts short.
+ */
 static rt_status continue_units(rt_film *film, const rt_film *from, rt_error *error)
 {
     const uint32_t has = from->units.samples, wants = film->units.samples;
-    const char *what = film->units.in_passes ? "passes" : "spp";
-    const uint64_t done = rt_coverage_units(&from->done);
-    if (film->units.in_passes && from->done.count > 0) {
-        const rt_unit_range last = from->done.ranges[from->done.count - 1];
-        if (last.first + last.count > film->units.count)
-            return rt_fail_field(error, RT_ERROR_USAGE, what, "the film has pass %llu already",
-                                 (unsigned long long)(last.first + last.count));
-    }
-    if (film->units.in_passes || wants == has) {
+    const int is_finished =
+        rt_coverage_units(&from->done) == from->units.count && !from->lacks_base;
+    if (film->units.in_passes)
+        return continue_passes(film, from, error);
+    if (wants >= from->units.base &&
+        (wants == has || end_of(from) <= rt_units_shared(&from->units, wants))) {
         film->units = rt_units_of(&film->options, from->units.base);
         film->lacks_base = from->lacks_base;
         return rt_coverage_join(&film->done, &from->done, error);
     }
     if (wants < has)
-        return rt_fail_field(error, RT_ERROR_USAGE, what,
-                             "the film is of %u samples a pixel; they cannot be fewer", has);
-    if (done < from->units.count || from->lacks_base)
-        return rt_fail_field(error, RT_ERROR_USAGE, what,
-                             "a film of %u samples a pixel that is not finished cannot be raised "
-                             "to %u: finish it first",
+        return rt_fail_field(error, RT_ERROR_USAGE, "spp",
+                             "some pixels of the film have more than %u samples, or are in a block "
+                             "of samples that goes beyond: they cannot be fewer",
+                             wants);
+    if (!is_finished)
+        return rt_fail_field(error, RT_ERROR_USAGE, "spp",
+                             "a film of %u samples a pixel that has begun the last ones cannot be "
+                             "raised to %u: finish it first",
                              has, wants);
     film->units = rt_units_of(&film->options, has);
     return RT_OK;

@@ -66,6 +66,24 @@ rt_units rt_units_of(const rt_render_options *o, uint32_t base)
     return units;
 }
 
+/* The blocks of a sequence of so many samples that are not cut short by its end. */
+static uint64_t whole_blocks(uint32_t samples, uint32_t longest)
+{
+    const uint64_t blocks = block_count(samples, longest);
+    return blocks - (block_begin(blocks, longest) > samples);
+}
+
+uint64_t rt_units_shared(const rt_units *units, uint32_t samples)
+{
+    const uint32_t both = samples < units->samples ? samples : units->samples;
+    const uint64_t rounds =
+        whole_blocks(share(both, units->replicates, units->replicates - 1), units->longest);
+    uint64_t blocks = rounds * units->replicates;
+    for (uint32_t r = 0; r < units->replicates; r++)
+        blocks += whole_blocks(share(both, units->replicates, r), units->longest) > rounds;
+    return blocks * units->items;
+}
+
 rt_sample_block rt_units_block(const rt_units *units, uint64_t unit)
 {
     uint64_t block = unit / units->items;

@@ -47,6 +47,12 @@ int rt_noise_wanted(const rt_render_options *options);
 /* The units of a render by complete options; base: see rt_units. */
 rt_units rt_units_of(const rt_render_options *options, uint32_t base);
 
+/*
+ * How many units from the first on stand for the same samples where a pixel is to have so many, and
+ * not units->samples; not for passes. Blocks are the same but for the last, which is cut short.
+ */
+uint64_t rt_units_shared(const rt_units *units, uint32_t samples);
+
 /* The block that a unit belongs to. */
 rt_sample_block rt_units_block(const rt_units *units, uint64_t unit);
 

@@ -110,7 +110,9 @@ rt_status rt_work_done(rt_work *work, rt_unit_range units, rt_error *error)
 int rt_work_is_out_of_time(const rt_work *work)
 {
     const rt_film *film = work->film;
-    if (work->options->time <= 0 || rt_clock() - work->began < work->options->time)
+    const rt_render_options *o = work->options;
+    /* Whoever hands out the units ends by time, too. */
+    if (o->time <= 0 || o->next_units || rt_clock() - work->began < o->time)
         return 0;
     if (!work->is_whole || film->units.base > 0)
         return 1;
@@ -122,7 +124,8 @@ double rt_work_fraction(const rt_work *work)
 {
     const rt_render_options *o = work->options;
     const double by_samples = work->all > 0 ? fmin(work->done / work->all, 1) : 1;
-    const double by_time = o->time > 0 ? fmin((rt_clock() - work->began) / o->time, 1) : 0;
+    const double by_time =
+        o->time > 0 && !o->next_units ? fmin((rt_clock() - work->began) / o->time, 1) : 0;
     if (o->target_error == 0)
         return fmax(by_samples, by_time);
     /* Until the error is first tested nothing is known: samples may be without limit. */

@@ -132,7 +132,7 @@ typedef struct rt_film_stats {
      * Student's t, two-sided, replicates - 1 degrees of freedom
      */
     double interval_factor;
-    /* emitted power of all lights, W, mean of the three channels */
+    /* emitted power of all lights, W, mean of the three channels; 0 in a film that was loaded */
     double light_power;
     double build_seconds, compile_seconds, emit_seconds, gather_seconds, render_seconds;
 } rt_film_stats;

@@ -153,7 +153,8 @@ typedef struct rt_render_options {
     /*
      * a film of the same scene and settings, to be continued: rt_render copies it and adds what it
      * lacks. spp, passes, time and target_error may be others: more samples or passes than a film
-     * has continue it. NULL: begin anew
+     * has continue it, and so do fewer than it was to have, where none of them is done. A film
+     * whose last samples are begun has to be finished before it is raised. NULL: begin anew
      */
     const rt_film *resume;
     /*
@@ -186,8 +187,8 @@ typedef struct rt_render_options {
     /*
      * hands out work: sets first and count to a range of units, as rt_chunk_units has them, that no
      * other film of the picture has, and returns RT_UNITS_GIVEN. NULL: all units that the film
-     * lacks, or its part. target_error makes independent sequences, but whoever hands out the units
-     * tests the error
+     * lacks, or its part. target_error makes independent sequences, and time lets spp be without
+     * limit, but whoever hands out the units tests the error and looks at the clock
      */
     rt_units_answer (*next_units)(void *user, uint64_t *first, uint64_t *count);
     void *units_user;

@@ -124,7 +124,6 @@ rt_status rt_share_render(rt_share *share, rt_renderer *renderer, const rt_hooks
     rt_status status = rt_share_join(&l.number, share, error);
     if (status != RT_OK)
         return status;
-    o.time = 0;
     o.resume = NULL;
     o.raised_from = rt_share_raised_from(share);
     o.hooks = &own;

@@ -2,6 +2,8 @@
  * test_film_files.c - checkpoints, parts and films of rtc: the image has the bytes of a render at
  * once, and what cannot be is refused by name.
  */
+#define _XOPEN_SOURCE 700 /* setenv */
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -97,20 +99,38 @@ static void parts_are_those_of_the_job(void **state)
     static const struct {
         const char *set, *file;
     } jobs[] = {
-        {"SLURM_ARRAY_TASK_ID=7 SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_COUNT=4", "s.3of4.rtpart"},
+        {"SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_MIN=0 SLURM_ARRAY_TASK_MAX=3 "
+         "SLURM_ARRAY_TASK_COUNT=4",
+         "s.3of4.rtpart"},
         {"SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=5 SLURM_PROCID=0 SLURM_NTASKS=1",
          "s.2of5.rtpart"},
         {"OMPI_COMM_WORLD_RANK=0 OMPI_COMM_WORLD_SIZE=6", "s.1of6.rtpart"},
         {"PMI_RANK=6 PMI_SIZE=7", "s.7of7.rtpart"},
         {"SLURM_PROCID=1 SLURM_NTASKS=8", "s.2of8.rtpart"},
-        {"SLURM_ARRAY_TASK_ID=6 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRAY_TASK_STEP=2 "
-         "SLURM_ARRAY_TASK_COUNT=9",
+        {"SLURM_ARRAY_TASK_ID=5 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=18 "
+         "SLURM_ARRAY_TASK_STEP=2 SLURM_ARRAY_TASK_COUNT=9",
          "s.3of9.rtpart"},
+    };
+    /* Of arrays of some tasks, the number of all parts is not known. */
+    static const char *const again[] = {
+        "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=3 "
+        "SLURM_ARRAY_TASK_COUNT=1",
+        "SLURM_ARRAY_TASK_ID=7 SLURM_ARRAY_TASK_MIN=5 SLURM_ARRAY_TASK_MAX=8 "
+        "SLURM_ARRAY_TASK_COUNT=4",
+        "SLURM_ARRAY_TASK_ID=4 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=9 "
+        "SLURM_ARRAY_TASK_COUNT=4",
     };
     (void)state;
     for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
         RTC(STATUS_DONE, "%s rtc s.rts --mode normals --spp 1 --quiet --part auto", jobs[i].set);
         expect_file(jobs[i].file);
+    }
+    for (size_t i = 0; i < sizeof again / sizeof *again; i++) {
+        run refused = run_rtc("%s rtc s.rts --mode normals --spp 1 --part auto", again[i]);
+        expect_status(&refused, STATUS_USAGE);
+        expect_err(&refused, "the number of parts is not known");
+        expect_err(&refused, "--part I/N");
+        run_free(&refused);
     }
 }
 
@@ -162,6 +182,65 @@ static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
     scratch_write("s.rts", small_scene);
 }
 
+/* --time is for one sitting: that of the beginning stays, and what comes later is not kept. */
+static void a_time_given_to_a_sitting_is_not_kept(void **state)
+{
+    (void)state;
+    RTC(STATUS_DONE, "s.rts --spp 64 --quiet --out whole.pfm");
+    RTC(STATUS_DONE, "s.rts --spp 1 --checkpoint t.rtpart --quiet --out t.pfm");
+    RTC(STATUS_DONE, "--resume t.rtpart --spp 64 --time 1e-6 --quiet");
+    expect_different_files("whole.pfm", "t.pfm");
+    RTC(STATUS_DONE, "--resume t.rtpart --quiet");
+    expect_same_files("whole.pfm", "t.pfm");
+    /* The time of the beginning stays, also where one sitting had none. */
+    RTC(STATUS_DONE, "s.rts --spp 64 --time 1e-6 --checkpoint u.rtpart --quiet --out u.pfm");
+    expect_different_files("whole.pfm", "u.pfm");
+    RTC(STATUS_DONE, "--resume u.rtpart --time 0 --quiet");
+    expect_same_files("whole.pfm", "u.pfm");
+    RTC(STATUS_DONE, "--resume u.rtpart --spp 4096 --quiet");
+    run info = run_rtc("info u.rtpart");
+    if (strstr(info.out, "done: 100 %"))
+        fail_msg("the time of the beginning is lost");
+    run_free(&info);
+}
+
+/* Without --spp, a time alone ends a render: nothing is known of its end. */
+static void a_render_without_end_tells_its_samples(void **state)
+{
+    (void)state;
+    RTC(STATUS_DONE, "s.rts --spp 64 --quiet --out whole.pfm");
+    RTC(STATUS_DONE, "s.rts --time 1e-6 --checkpoint e.rtpart --quiet --out e.pfm");
+    run info = run_rtc("info e.rtpart");
+    expect_out(&info, " samples a pixel, of as many as --time or --target-error");
+    if (strstr(info.out, "time to come"))
+        fail_msg("a time to come: %s", info.out);
+    run_free(&info);
+    run json = run_rtc("info e.rtpart --json");
+    expect_out(&json, "\"done\":null,\"samples_done\":");
+    expect_out(&json, "\"rest_seconds\":-1");
+    run_free(&json);
+    /* It is not bound to have no end. */
+    RTC(STATUS_DONE, "--resume e.rtpart --spp 64 --time 0 --quiet");
+    expect_same_files("whole.pfm", "e.pfm");
+}
+
+/* The time that passes, not its sum over devices. */
+static void devices_that_share_a_picture_take_the_time_that_passes(void **state)
+{
+    static const char words[] = "rendered in ";
+    (void)state;
+    setenv("POCL_DEVICES", "basic basic basic basic", 1);
+    run all = run_rtc("s.rts --device all --time 1 --threads 1 --out d.exr");
+    unsetenv("POCL_DEVICES");
+    expect_status(&all, STATUS_DONE);
+    const char *said = strstr(all.err, words);
+    assert_non_null(said);
+    const double seconds = strtod(said + strlen(words), NULL);
+    if (device_is_cpu() && !(seconds >= 0.9 && seconds < 3))
+        fail_msg("four devices that render for a second: %s", said);
+    run_free(&all);
+}
+
 /* What a film says of outputs is not done for a stranger. */
 static void an_untrusted_film_names_no_outputs(void **state)
 {
@@ -205,6 +284,9 @@ int main(void)
         cmocka_unit_test(what_is_missing_double_or_foreign_is_named),
         cmocka_unit_test(parts_are_those_of_the_job),
         cmocka_unit_test(a_checkpoint_is_gone_on_with_by_its_name_alone),
+        cmocka_unit_test(a_time_given_to_a_sitting_is_not_kept),
+        cmocka_unit_test(a_render_without_end_tells_its_samples),
+        cmocka_unit_test(devices_that_share_a_picture_take_the_time_that_passes),
         cmocka_unit_test(an_untrusted_film_names_no_outputs),
         cmocka_unit_test(no_film_is_refused_with_its_name),
     };

@@ -277,7 +277,6 @@ rt_status worker_render(void *user, rt_film **out, rt_renderer *renderer,
         status = share_map(w, &map, renderer, &o, error);
         o.photon_map = map;
     }
-    o.time = 0;
     o.resume = NULL;
     o.next_units = next_units;
     o.units_user = o.checkpoint_user = w;

@@ -205,6 +205,85 @@ static void more_samples_or_passes_continue_a_finished_film(void **state)
     }
 }
 
+/* Continues a film to so many samples; it is the film of a render at once, or refused. */
+static void expect_continued(const rt_render_options *options, const rt_film *from, uint32_t spp,
+                             int is_refused, const char *name)
+{
+    rt_render_options o = *options;
+    rt_film *film = NULL;
+    rt_error error;
+    o.spp = spp;
+    o.resume = from;
+    const rt_status status = rt_render(&film, renderer(), &o, &error);
+    if (is_refused) {
+        assert_int_equal(status, RT_ERROR_USAGE);
+        assert_string_equal(error.field, "spp");
+        assert_null(film);
+        return;
+    }
+    expect_ok(status, &error);
+    o.resume = NULL;
+    rt_film *whole = render(&o);
+    expect_same_film(whole, film, name);
+    rt_film_info info;
+    rt_film_get_info(film, &info);
+    assert_true(info.done == 1 && info.units_done == info.units);
+    rt_film_destroy(whole);
+    rt_film_destroy(film);
+}
+
+/* Chunk `chunk`, counted from the end where it is negative, of so many samples. */
+static rt_film *render_chunk(const rt_render_options *options, uint32_t spp, int64_t chunk)
+{
+    rt_render_options o = *options;
+    rt_film *film = NULL;
+    rt_error error;
+    uint64_t chunks;
+    o.spp = spp;
+    expect_ok(rt_chunk_count(&chunks, &o, &error), &error);
+    expect_ok(rt_chunk_render(&film, renderer(), &o,
+                              chunk < 0 ? chunks - (uint64_t)-chunk : (uint64_t)chunk, 1, &error),
+              &error);
+    return through_bytes(film);
+}
+
+/* Of 19 samples the last three are of a block that goes on to 24, in one sequence. */
+static void an_unfinished_film_takes_other_samples_where_its_own_stay(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < FILM_RENDERS; i++) {
+        rt_render_options o = film_render_options(film_renders + i);
+        const int is_cut = o.mode != RT_MODE_PHOTON;
+        if (o.passes > 1)
+            continue;
+        rt_film *first = render_chunk(&o, 19, 0), *last = render_chunk(&o, 19, -1);
+        expect_continued(&o, first, 40, 0, film_renders[i].name);
+        expect_continued(&o, first, 10, 0, film_renders[i].name);
+        expect_continued(&o, last, 40, is_cut, film_renders[i].name);
+        expect_continued(&o, last, 10, 1, film_renders[i].name);
+        rt_film_destroy(last);
+        rt_film_destroy(first);
+    }
+}
+
+/* What a film from a file or from another machine does not know, it does not take away. */
+static void the_light_power_stays(void **state)
+{
+    rt_render_options o = {.width = 8, .height = 8, .spp = 2, .mode = RT_MODE_PATH};
+    rt_film *film = NULL, *part = render_chunk(&o, 2, 0);
+    rt_film_stats before, after;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_film_begin(&film, renderer(), &o, &error), &error);
+    rt_film_get_stats(film, &before);
+    assert_true(before.light_power > 0);
+    expect_ok(rt_film_add(film, part, &error), &error);
+    rt_film_get_stats(film, &after);
+    assert_true(after.light_power == before.light_power);
+    rt_film_destroy(part);
+    rt_film_destroy(film);
+}
+
 /* In the order of a stranger: from both ends. */
 static void chunks_have_the_bits_of_a_render_at_once(void **state)
 {
@@ -289,6 +368,8 @@ int main(void)
         cmocka_unit_test(sittings_have_the_bits_of_a_render_at_once),
         cmocka_unit_test(a_film_that_reached_its_error_stays_as_it_is),
         cmocka_unit_test(more_samples_or_passes_continue_a_finished_film),
+        cmocka_unit_test(an_unfinished_film_takes_other_samples_where_its_own_stay),
+        cmocka_unit_test(the_light_power_stays),
         cmocka_unit_test(chunks_have_the_bits_of_a_render_at_once),
         cmocka_unit_test(what_does_not_fit_is_refused_by_name),
     };
