@@ -275,12 +275,13 @@ LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench bench-mpi build-fuzz check check-cluster check-corpus check-crowd check-faults \
-	check-fuzz check-kills check-memory check-mpi check-mutation check-peers check-quick \
-	check-reference check-reproducible check-samples \
-	check-sanitize check-threads clean demo deps deps-fuzz deps-lint format fuzz help install \
-	lint lint-quick mpi need-deps proof run-all run-quick run-threads study \
-	study-cluster uninstall
+.PHONY: all bench bench-checkpoint bench-compare bench-mpi bench-reference \
+	build-fuzz check \
+	check-cluster check-corpus check-crowd check-faults check-fuzz check-kills check-memory \
+	check-mpi check-mutation check-peers check-quick check-reference check-reproducible \
+	check-samples check-sanitize check-threads clean demo deps deps-fuzz deps-lint format \
+	fuzz help install lint lint-quick mpi need-deps proof run-all run-quick run-threads \
+	study study-cluster uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -407,6 +408,7 @@ $(B)/tests/lib/mesh/test_openmesh: $(B)/tests/faults/failing_new.o
 
 # Measured beside what FLANN's own library does.
 $(B)/tests/bench/bench_gather: TEST_LIBS += -lflann
+$(B)/tests/bench/bench_gather $(B)/tests/bench/bench_progressive: $(B)/tests/bench/bench.o
 
 # The targets of fuzzing, and the command line of rtc, which is one of them.
 FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) \
@@ -608,20 +610,39 @@ deps-lint:
 
 HAVE_EMBREE = $(shell echo 'int main(void) { return 0; }' | \
                 $(CC) -x c - -lembree3 -o /dev/null 2>/dev/null && echo yes)
-BENCH_TRACE := tests/bench/bench_trace.c tests/bench/embree_peer.c
+BENCH_TRACE := tests/bench/bench_trace.c tests/bench/bench.c tests/bench/embree_peer.c
 
 $(B)/tests/bench/bench_trace: $(BENCH_TRACE) $(B)/librt.a
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(if $(HAVE_EMBREE),-DRT_HAVE_EMBREE) $(LDFLAGS) -o $@ $^ \
 	    $(if $(HAVE_EMBREE),-lembree3) $(ALL_LIBS)
 
-bench: all $(addprefix $(B)/tests/bench/bench_,trace gather progressive checkpoint)
-	$(B)/tests/bench/bench_trace
-	$(B)/tests/bench/bench_gather
-	$(B)/tests/bench/bench_progressive scenes/cornell.rts 20
+BENCHES := $(addprefix $(B)/tests/bench/bench_,trace gather progressive)
+
+# RUNS, DEVICE, ONLY (measurements), SUITE (scenes): see tests/bench/README.md.
+BENCH = python3 tests/bench/bench.py --build $(B) $(if $(RUNS),--runs $(RUNS)) \
+	$(if $(DEVICE),--device '$(DEVICE)') $(if $(ONLY),--only $(ONLY)) \
+	$(if $(SUITE),--suite $(SUITE)) $(if $(KEEP),--keep)
+
+bench: all $(BENCHES)
+	$(BENCH)
+
+# What moved since the commit BASE.
+bench-compare: all $(BENCHES)
+	@test -n '$(BASE)' || { echo 'usage: make bench-compare BASE=COMMIT' >&2; exit 2; }
+	rm -rf $(B)/bench/base
+	git worktree prune
+	git worktree add --force --detach $(B)/bench/base $(BASE)
+	+$(MAKE) -C $(B)/bench/base B=build all \
+	    $(addprefix build/tests/bench/bench_,trace gather progressive)
+	$(BENCH) --base $(B)/bench/base
+
+# The references of time to equal error, each compared with Mitsuba's picture.
+bench-reference: all
+	RTC=$(B)/rtc tests/bench/make_reference.sh $(SCENES)
+
+bench-checkpoint: $(B)/tests/bench/bench_checkpoint
 	cd $(B) && tests/bench/bench_checkpoint ../scenes/cornell.rts
-	RTC=$(B)/rtc tests/bench/bench_render.sh
-	RTC=$(B)/rtc tests/bench/bench_error.sh
 
 # ---- Dependencies and demonstration -------------------------------------------
 
@@ -695,7 +716,9 @@ help:
 	@echo 'make check-mutation  mutation testing: plants errors that the tests must see'
 	@echo 'make check-fuzz      20 s of fuzzing, guided by coverage, of each reader of files'
 	@echo 'make fuzz            HOURS ($(HOURS)) of CPU time of it for each, or for TARGET'
-	@echo 'make bench           measures speed, beside a peer where one is installed'
+	@echo 'make bench           measures speed, beside each peer that is there'
+	@echo 'make bench-compare   what moved since the commit BASE'
+	@echo 'make bench-reference makes the references of time to equal error anew'
 	@echo 'make bench-mpi       two processes beside two threads of one, with each MPI'
 	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
 	@echo 'make study           numbers and pictures on photon mapping; study-k ... makes one'

@@ -5,8 +5,8 @@
  *
  *     bench_gather [PHOTONS [QUERIES [K]]]    1 000 000, 100 000 and 50 by default
  *
- * Photons lie at random on the walls of a box, queries at random on its floor. Prints queries a
- * second, the median of five runs, on all cores, and the ratio to FLANN.
+ * Photons lie at random on the walls of a box, queries at random on its floor. Prints thousand
+ * queries a second on all cores, and the seconds in which the device's tree is built.
  */
 #include <flann/flann.h>
 #include <math.h>
@@ -16,12 +16,11 @@
 #include <unistd.h>
 
 #include "base/progress.h"
+#include "bench/bench.h"
 #include "lib/photon/points.h"
 #include "photon/gather_tree.h"
 #include "photon/point_order.h"
 #include "photon/neighbour_search.h"
-
-enum { runs = 5 };
 
 /* What all contestants are given. */
 typedef struct problem {
@@ -36,24 +35,6 @@ typedef struct problem {
     rt_gather_disc *discs;
 } problem;
 
-static void *allocate(size_t count, size_t size)
-{
-    void *memory = calloc(count, size);
-    if (!memory) {
-        fprintf(stderr, "bench_gather: out of memory\n");
-        exit(1);
-    }
-    return memory;
-}
-
-static void must(rt_status status, const rt_error *error)
-{
-    if (status != RT_OK) {
-        fprintf(stderr, "bench_gather: %s\n", error->message);
-        exit(1);
-    }
-}
-
 static void lay_photon(rt_photon *photon, points_stream *stream)
 {
     int side = (int)(6 * points_uniform(stream)), axis = side / 2;
@@ -66,14 +47,14 @@ static void lay_photon(rt_photon *photon, points_stream *stream)
 static void pose(problem *p)
 {
     points_stream stream = {1};
-    p->map.photons = allocate(p->photons, sizeof *p->map.photons);
+    p->map.photons = bench_allocate(p->photons, sizeof *p->map.photons);
     p->map.count = p->map.capacity = p->photons;
-    p->positions = allocate(p->photons, 3 * sizeof *p->positions);
-    p->points = allocate(p->queries, sizeof *p->points);
-    p->places = allocate(p->queries, 3 * sizeof *p->places);
-    p->indices = allocate(p->queries, p->k * sizeof *p->indices);
-    p->squared = allocate(p->queries, p->k * sizeof *p->squared);
-    p->discs = allocate(p->queries, sizeof *p->discs);
+    p->positions = bench_allocate(p->photons, 3 * sizeof *p->positions);
+    p->points = bench_allocate(p->queries, sizeof *p->points);
+    p->places = bench_allocate(p->queries, 3 * sizeof *p->places);
+    p->indices = bench_allocate(p->queries, p->k * sizeof *p->indices);
+    p->squared = bench_allocate(p->queries, p->k * sizeof *p->squared);
+    p->discs = bench_allocate(p->queries, sizeof *p->discs);
     for (size_t i = 0; i < p->photons; i++) {
         lay_photon(p->map.photons + i, &stream);
         memcpy(p->positions + 3 * i, p->map.photons[i].position, 3 * sizeof *p->positions);
@@ -98,18 +79,6 @@ static void discard(problem *p)
     free(p->discs);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double times[runs])
-{
-    qsort(times, runs, sizeof *times, by_value);
-    return times[runs / 2];
-}
-
 /* The gather on the device, with all that it needs. */
 typedef struct device_side {
     rt_device *device;
@@ -125,23 +94,23 @@ static void open_device(device_side *d, const problem *p)
     rt_density_params estimate = {
         RT_DENSITY_EPANECHNIKOV, 1.1f, 0, p->k, HUGE_VALF, 0, 0, 1, RT_AREA_DISC, 0, {0}};
     rt_error error;
-    must(rt_device_open(&d->device, NULL, &error), &error);
-    must(rt_device_kernel(d->device, &d->kernel, "gather_tree", "gather_tree", NULL, &error),
-         &error);
-    must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE, p->queries * sizeof *p->points,
-                          NULL, "points", &error),
-         &error);
-    d->in_order = allocate(p->queries, sizeof *d->in_order);
-    d->order = allocate(2 * p->queries, sizeof *d->order);
+    d->device = bench_device();
+    bench_must(rt_device_kernel(d->device, &d->kernel, "gather_tree", "gather_tree", NULL, &error),
+               &error);
+    bench_must(rt_buffer_create(d->device, &d->points, CL_MEM_READ_WRITE,
+                                p->queries * sizeof *p->points, NULL, "points", &error),
+               &error);
+    d->in_order = bench_allocate(p->queries, sizeof *d->in_order);
+    d->order = bench_allocate(2 * p->queries, sizeof *d->order);
     double began = rt_clock();
     size_t capacity = p->queries;
-    must(rt_tree_gather_prepare(&d->gather, d->device, &p->map, &estimate, &capacity, &error),
-         &error);
+    bench_must(rt_tree_gather_prepare(&d->gather, d->device, &p->map, &estimate, &capacity, &error),
+               &error);
     if (capacity < p->queries) {
         fprintf(stderr, "no memory to gather at %zu points\n", p->queries);
         exit(1);
     }
-    printf("the device's tree takes %.3f s to build\n", rt_clock() - began);
+    bench_figure("tree.ours", rt_clock() - began);
 }
 
 static void close_device(device_side *d)
@@ -158,32 +127,25 @@ static void close_device(device_side *d)
 static void gather_on_device(device_side *d, const problem *p)
 {
     rt_error error;
-    must(rt_point_order(d->order, d->order + p->queries, p->points->position, sizeof *p->points,
-                        p->queries, p->threads, &error),
-         &error);
+    bench_must(rt_point_order(d->order, d->order + p->queries, p->points->position,
+                              sizeof *p->points, p->queries, p->threads, &error),
+               &error);
     for (size_t i = 0; i < p->queries; i++)
         d->in_order[i] = p->points[d->order[i] & RT_POINT_ORDER_INDEX];
-    must(rt_buffer_write(d->device, d->points, 0, p->queries * sizeof *d->in_order, d->in_order,
-                         &error),
-         &error);
-    must(rt_tree_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error),
-         &error);
-    must(rt_buffer_read(d->device, d->gather.discs, 0, p->queries * sizeof *p->discs, p->discs,
-                        &error),
-         &error);
-}
-
-static void report(const char *name, const problem *p, double times[runs], double flann)
-{
-    double seconds = median(times);
-    printf("%-6s %8.0f k queries/s %6.2f x FLANN\n", name, (double)p->queries / seconds / 1e3,
-           flann / seconds);
+    bench_must(rt_buffer_write(d->device, d->points, 0, p->queries * sizeof *d->in_order,
+                               d->in_order, &error),
+               &error);
+    bench_must(
+        rt_tree_gather_launch(&d->gather, d->device, d->kernel, d->points, 0, p->queries, &error),
+        &error);
+    bench_must(rt_buffer_read(d->device, d->gather.discs, 0, p->queries * sizeof *p->discs,
+                              p->discs, &error),
+               &error);
 }
 
 static void compete(problem *p)
 {
     struct FLANNParameters parameters = DEFAULT_FLANN_PARAMETERS;
-    double plain[runs], ours[runs], device[runs];
     device_side d;
     rt_neighbour_search *search = NULL;
     rt_error error;
@@ -197,30 +159,25 @@ static void compete(problem *p)
     parameters.leaf_max_size = 10;
     flann_index_t tree =
         flann_build_index_float(p->positions, (int)p->photons, 3, &speedup, &parameters);
-    must(rt_neighbour_search_create(&search, &p->map, p->k, HUGE_VALF, 0, p->threads, NULL, &error),
-         &error);
+    bench_must(
+        rt_neighbour_search_create(&search, &p->map, p->k, HUGE_VALF, 0, p->threads, NULL, &error),
+        &error);
 
     open_device(&d, p);
     gather_on_device(&d, p); /* the driver compiles at the first launch */
 
-    for (int run = 0; run < runs; run++) {
-        double t0 = rt_clock();
-        flann_find_nearest_neighbors_index_float(tree, p->places, (int)p->queries, p->indices,
-                                                 p->squared, (int)p->k, &parameters);
-        double t1 = rt_clock();
-        must(rt_neighbour_search_find(search, p->points, p->queries, (rt_u32 *)p->indices, p->discs,
-                                      &error),
-             &error);
-        plain[run] = t1 - t0;
-        double t2 = rt_clock();
-        gather_on_device(&d, p);
-        ours[run] = t2 - t1;
-        device[run] = rt_clock() - t2;
-    }
-    double flann = median(plain);
-    report("FLANN", p, plain, flann);
-    report("librt", p, ours, flann);
-    report("device", p, device, flann);
+    const double thousands = 1e-3 * (double)p->queries, begin = rt_clock();
+    flann_find_nearest_neighbors_index_float(tree, p->places, (int)p->queries, p->indices,
+                                             p->squared, (int)p->k, &parameters);
+    const double flann_ended = rt_clock();
+    bench_must(rt_neighbour_search_find(search, p->points, p->queries, (rt_u32 *)p->indices,
+                                        p->discs, &error),
+               &error);
+    const double host_ended = rt_clock();
+    gather_on_device(&d, p);
+    bench_figure("gather.flann", thousands / (flann_ended - begin));
+    bench_figure("gather.host", thousands / (host_ended - flann_ended));
+    bench_figure("gather.device", thousands / (rt_clock() - host_ended));
     close_device(&d);
     flann_free_index_float(tree, &parameters);
     rt_neighbour_search_destroy(search);
@@ -240,8 +197,6 @@ int main(int argc, char **argv)
         return 2;
     }
     pose(&p);
-    printf("gather: k = %u of %zu photons, %zu queries, %u threads\n", (unsigned)p.k, p.photons,
-           p.queries, (unsigned)p.threads);
     compete(&p);
     discard(&p);
     return 0;

@@ -5,9 +5,8 @@
  *     bench_trace [CELLS]    cells around the equator, 1224 by default: 1.5 M triangles
  *
  * The mesh is a bumpy ball, made by formula, in a box. Rays: one million from a camera, in tiles of
- * 8 x 8, and from where those end one million diffuse bounces. Prints the median of five runs on
- * all cores, and how our time compares; our rays are timed on the device, without their way there
- * and back.
+ * 8 x 8, and from where those end one million diffuse bounces, on all cores. Prints seconds, and
+ * million rays a second; our rays are timed on the device, without the copies there and back.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,12 +16,13 @@
 
 #include "accel/bvh.h"
 #include "base/progress.h"
+#include "bench/bench.h"
 #include "bench/embree_peer.h"
 #include "device/device.h"
 #include "render/renderer.h"
 #include "rt.h"
 
-enum { runs = 5, film_side = 1024, ray_count = film_side * film_side };
+enum { film_side = 1024, ray_count = film_side * film_side };
 
 typedef struct mesh {
     float *positions;
@@ -43,36 +43,6 @@ typedef struct contest {
     embree_peer *peer;
 } contest;
 
-static void must(rt_status status, const rt_error *error)
-{
-    if (status != RT_OK) {
-        fprintf(stderr, "bench_trace: %s\n", error->message);
-        exit(1);
-    }
-}
-
-static void *allocate(size_t bytes)
-{
-    void *memory = calloc(1, bytes);
-    if (memory == NULL) {
-        fprintf(stderr, "bench_trace: out of memory\n");
-        exit(1);
-    }
-    return memory;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double times[runs])
-{
-    qsort(times, runs, sizeof *times, by_value);
-    return times[runs / 2];
-}
-
 static void set_vertex(float *p, double radius, double u, double v)
 {
     p[0] = (float)(radius * sin(v) * cos(u));
@@ -91,8 +61,8 @@ static mesh make_mesh(uint32_t around)
     const double pi = acos(-1.0);
     const uint32_t rows = around / 2, ball = around * (rows + 1);
     mesh m = {NULL, NULL, ball + 8, 2 * around * rows + 12};
-    m.positions = allocate((size_t)m.vertices * 12 + 16);
-    m.indices = allocate((size_t)m.triangles * 12);
+    m.positions = bench_allocate(1, (size_t)m.vertices * 12 + 16);
+    m.indices = bench_allocate(1, (size_t)m.triangles * 12);
 
     for (uint32_t j = 0; j <= rows; j++)
         for (uint32_t i = 0; i < around; i++) {
@@ -171,12 +141,12 @@ static double our_build(const contest *c)
     rt_bvh_counts counts;
     rt_error error;
     const double begin = rt_clock();
-    must(rt_bvh_build(&bvh, &input, c->threads, NULL, &error), &error);
+    bench_must(rt_bvh_build(&bvh, &input, c->threads, NULL, &error), &error);
     rt_bvh_get_counts(bvh, &counts);
     rt_bvh_node *nodes = malloc(counts.nodes * sizeof *nodes);
     rt_tri_block *blocks = malloc(counts.blocks * sizeof *blocks);
     if (nodes == NULL || blocks == NULL)
-        must(RT_ERROR_MEMORY, &(rt_error){.message = "out of memory"});
+        bench_must(RT_ERROR_MEMORY, &(rt_error){.message = "out of memory"});
     rt_bvh_write(bvh, nodes, blocks, NULL, 0, 0);
     const double seconds = rt_clock() - begin;
     rt_bvh_destroy(bvh);
@@ -191,57 +161,39 @@ static double our_trace(const contest *c)
     const rt_arg args[] = {RT_ARG(c->renderer->scene), RT_ARG(c->rays_there), RT_ARG(count),
                            RT_ARG(c->hits_there)};
     rt_error error;
-    must(rt_kernel_args(c->kernel, args, 4, &error), &error);
+    bench_must(rt_kernel_args(c->kernel, args, 4, &error), &error);
     const double begin = rt_clock();
-    must(rt_launch(c->device, c->kernel, ray_count, &error), &error);
-    must(rt_device_finish(c->device, &error), &error);
+    bench_must(rt_launch(c->device, c->kernel, ray_count, &error), &error);
+    bench_must(rt_device_finish(c->device, &error), &error);
     return rt_clock() - begin;
 }
 
-static void compete_in_building(contest *c)
+static void compete_in_building(const contest *c)
 {
-    double ours[runs], theirs[runs];
-    for (int run = 0; run < runs; run++) {
-        ours[run] = our_build(c);
-        if (c->peer == NULL)
-            continue;
+    bench_figure("build.ours", our_build(c));
+    if (c->peer) {
         const double begin = rt_clock();
         embree_peer_build(c->peer);
-        theirs[run] = rt_clock() - begin;
+        bench_figure("build.embree", rt_clock() - begin);
     }
-    const double us = median(ours);
-    printf("build     librt %6.3f s", us);
-    if (c->peer) {
-        const double them = median(theirs);
-        printf("         Embree %6.3f s         %5.2f x", them, them / us);
-    }
-    printf("\n");
 }
 
-static void compete_in_tracing(contest *c, const char *name)
+static void compete_in_tracing(const contest *c, const char *ours, const char *embree)
 {
-    double ours[runs], theirs[runs];
     rt_error error;
-    must(rt_buffer_write(c->device, c->rays_there, 0, ray_count * sizeof *c->rays, c->rays, &error),
-         &error);
+    bench_must(
+        rt_buffer_write(c->device, c->rays_there, 0, ray_count * sizeof *c->rays, c->rays, &error),
+        &error);
     our_trace(c); /* compiles */
-    for (int run = 0; run < runs; run++) {
-        ours[run] = our_trace(c);
-        if (c->peer == NULL)
-            continue;
+    bench_figure(ours, 1e-6 * ray_count / our_trace(c));
+    if (c->peer) {
         const double begin = rt_clock();
         embree_peer_trace(c->peer, c->rays, ray_count, c->hits);
-        theirs[run] = rt_clock() - begin;
+        bench_figure(embree, 1e-6 * ray_count / (rt_clock() - begin));
     }
-    must(rt_buffer_read(c->device, c->hits_there, 0, ray_count * sizeof *c->hits, c->hits, &error),
-         &error);
-    const double us = median(ours);
-    printf("%-9s librt %6.2f Mrays/s", name, ray_count / us * 1e-6);
-    if (c->peer) {
-        const double them = median(theirs);
-        printf("   Embree %6.2f Mrays/s   %5.2f x", ray_count / them * 1e-6, them / us);
-    }
-    printf("\n");
+    bench_must(
+        rt_buffer_read(c->device, c->hits_there, 0, ray_count * sizeof *c->hits, c->hits, &error),
+        &error);
 }
 
 static void open_contest(contest *c, uint32_t around)
@@ -254,25 +206,26 @@ static void open_contest(contest *c, uint32_t around)
     uint32_t index;
     c->threads = cores > 0 ? (uint32_t)cores : 1;
     c->mesh = make_mesh(around);
-    c->rays = allocate(ray_count * sizeof *c->rays);
-    c->hits = allocate(ray_count * sizeof *c->hits);
+    c->rays = bench_allocate(1, ray_count * sizeof *c->rays);
+    c->hits = bench_allocate(1, ray_count * sizeof *c->hits);
     c->peer = embree_peer_create(c->mesh.positions, c->mesh.vertices, c->mesh.indices,
                                  c->mesh.triangles, c->threads);
-    must(rt_device_open(&c->device, NULL, &error), &error);
-    must(rt_scene_create(&scene, &error), &error);
-    must(rt_scene_add_material(scene, &index, NULL, &white, &error), &error);
-    must(rt_scene_add_triangles(scene, NULL, c->mesh.positions, c->mesh.vertices, c->mesh.indices,
-                                c->mesh.triangles, NULL, &plain, &error),
-         &error);
-    must(rt_renderer_create(&c->renderer, scene, c->device, NULL, &error), &error);
+    c->device = bench_device();
+    bench_must(rt_scene_create(&scene, &error), &error);
+    bench_must(rt_scene_add_material(scene, &index, NULL, &white, &error), &error);
+    bench_must(rt_scene_add_triangles(scene, NULL, c->mesh.positions, c->mesh.vertices,
+                                      c->mesh.indices, c->mesh.triangles, NULL, &plain, &error),
+               &error);
+    bench_must(rt_renderer_create(&c->renderer, scene, c->device, NULL, &error), &error);
     rt_scene_destroy(scene);
-    must(rt_device_kernel(c->device, &c->kernel, "trace", "trace_closest", NULL, &error), &error);
-    must(rt_buffer_create(c->device, &c->rays_there, CL_MEM_READ_ONLY, ray_count * sizeof *c->rays,
-                          NULL, "rays", &error),
-         &error);
-    must(rt_buffer_create(c->device, &c->hits_there, CL_MEM_WRITE_ONLY, ray_count * sizeof *c->hits,
-                          NULL, "hits", &error),
-         &error);
+    bench_must(rt_device_kernel(c->device, &c->kernel, "trace", "trace_closest", NULL, &error),
+               &error);
+    bench_must(rt_buffer_create(c->device, &c->rays_there, CL_MEM_READ_ONLY,
+                                ray_count * sizeof *c->rays, NULL, "rays", &error),
+               &error);
+    bench_must(rt_buffer_create(c->device, &c->hits_there, CL_MEM_WRITE_ONLY,
+                                ray_count * sizeof *c->hits, NULL, "hits", &error),
+               &error);
 }
 
 static void close_contest(contest *c)
@@ -299,14 +252,11 @@ int main(int argc, char **argv)
     contest c;
     memset(&c, 0, sizeof c);
     open_contest(&c, (uint32_t)around);
-    printf("trace: %u triangles, %d rays, %u threads%s\n", (unsigned)c.mesh.triangles,
-           (int)ray_count, (unsigned)c.threads,
-           c.peer ? "" : "; built without Embree (libembree-dev), so no peer");
     compete_in_building(&c);
     aim_camera(c.rays);
-    compete_in_tracing(&c, "camera");
+    compete_in_tracing(&c, "camera.ours", "camera.embree");
     bounce(c.rays, c.hits);
-    compete_in_tracing(&c, "diffuse");
+    compete_in_tracing(&c, "diffuse.ours", "diffuse.embree");
     close_contest(&c);
     return 0;
 }
