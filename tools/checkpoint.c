@@ -17,6 +17,8 @@ int checkpoint_resume(command_line *arguments)
     /* An emission has a map there. */
     if (!resume->given || arguments->command == COMMAND_PHOTONS)
         return STATUS_DONE;
+    /* Before it is read, as a process that ends writes it once more. */
+    const long holder = file_lock_take(&arguments->lock, resume->text);
     if (rt_film_load(&arguments->film, resume->text, arguments->memory, &error) != RT_OK) {
         int status = message_failure(&error);
         if (access(resume->text, F_OK) != 0)
@@ -28,6 +30,10 @@ int checkpoint_resume(command_line *arguments)
     option_value *kept = &arguments->options[OPTION_CHECKPOINT];
     if (!kept->given && film_note_find(&named, arguments->film, "given checkpoint") > 0)
         *kept = *resume;
+    if (!kept->given || !inputs_are_same(kept->text, resume->text))
+        file_lock_release(&arguments->lock);
+    else if (holder != 0)
+        return file_lock_fail(resume->text, holder);
     return film_note_give(arguments, &arguments->note, arguments->film);
 }
 
@@ -77,5 +83,10 @@ int checkpoint_plan(checkpoint *out, rt_render_options *options, const command_l
     options->checkpoint_user = out;
     options->checkpoint_seconds =
         given[OPTION_EVERY].given ? given[OPTION_EVERY].real : CHECKPOINT_SECONDS;
-    return checkpoint_check_file(out->path, ".rtpart", given[OPTION_RESUME].text, "rtc --resume");
+    int status =
+        checkpoint_check_file(out->path, ".rtpart", given[OPTION_RESUME].text, "rtc --resume");
+    if (status != STATUS_DONE || arguments->lock.is_held)
+        return status;
+    const long holder = file_lock_take(&out->lock, out->path);
+    return holder == 0 ? STATUS_DONE : file_lock_fail(out->path, holder);
 }

@@ -12,6 +12,7 @@ typedef struct checkpoint {
     int is_quiet;
     uint64_t saved; /* how many were written */
     int failed;     /* the last one was not */
+    file_lock lock; /* where --checkpoint names a file of its own; the caller releases it */
 } checkpoint;
 
 /* Seconds between checkpoints where --every says nothing. */

@@ -346,6 +346,7 @@ int arguments_limit_memory(command_line *arguments)
 void arguments_free(command_line *arguments)
 {
     rt_film_destroy(arguments->film);
+    file_lock_release(&arguments->lock);
     free(arguments->note);
     free(arguments->settings);
     free(arguments->outputs);

@@ -152,6 +152,7 @@ int photons_emit(const command_line *arguments)
         status = save(&job);
     if (status == STATUS_DONE && job.checkpoint.failed)
         status = STATUS_OUTPUT;
+    file_lock_release(&job.checkpoint.lock);
     rt_photon_map_destroy(job.map);
     rt_photon_map_destroy(job.checkpoint.resumed);
     rt_renderer_destroy(job.renderer);

@@ -34,11 +34,17 @@ int map_checkpoint_plan(map_checkpoint *out, rt_emit_options *options,
 {
     const option_value *given = arguments->options;
     const char *resumed = given[OPTION_RESUME].given ? given[OPTION_RESUME].text : NULL;
+    out->path = given[OPTION_CHECKPOINT].given ? given[OPTION_CHECKPOINT].text : resumed;
+    /* Before it is read, as a process that ends writes it once more. */
+    const long holder = out->path ? file_lock_take(&out->lock, out->path) : 0;
+    if (holder != 0) {
+        int checked = checkpoint_check_file(out->path, ".rtp", resumed, "--resume");
+        return checked == STATUS_DONE ? file_lock_fail(out->path, holder) : checked;
+    }
     int status = resumed ? load(out, resumed, arguments) : STATUS_DONE;
     if (status != STATUS_DONE)
         return status;
     options->resume = out->resumed;
-    out->path = given[OPTION_CHECKPOINT].given ? given[OPTION_CHECKPOINT].text : resumed;
     if (!out->path) {
         if (given[OPTION_EVERY].given && !given[OPTION_QUIET].given)
             message_warning("--every has no effect without --checkpoint");

@@ -12,12 +12,13 @@ typedef struct map_checkpoint {
     progress_display *progress;
     uint64_t saved; /* how many were written */
     int failed;     /* the last one was not */
+    file_lock lock; /* of path */
 } map_checkpoint;
 
 /*
  * Sets the options of an emission, which point to *out from then on. A file that is there is not
  * overwritten, unless it is the one to be continued. Returns an exit status; in either case, free
- * out->resumed by rt_photon_map_destroy.
+ * out->resumed by rt_photon_map_destroy, and release out->lock.
  */
 int map_checkpoint_plan(map_checkpoint *out, rt_emit_options *options,
                         const command_line *arguments);

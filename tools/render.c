@@ -13,6 +13,7 @@
 #include "light_shares.h"
 #include "message.h"
 #include "no_effect.h"
+#include "other_work.h"
 #include "outputs.h"
 #include "part.h"
 #include "photons.h"
@@ -127,6 +128,12 @@ static int make_film(render_job *job)
     if (value(job, OPTION_ACCEL)->given)
         options.accel = (rt_accel)value(job, OPTION_ACCEL)->choice;
     rt_status result = crew_prepare(&job->crew, job->scene, &options, &error);
+    if (result == RT_OK && !is_worker(job)) {
+        int status = other_work_check(&job->outputs, job->crew.renderers[0], &job->options,
+                                      job->session.arguments);
+        if (status != STATUS_DONE)
+            return status;
+    }
     if (result == RT_OK)
         result = crew_render(&job->film, &job->crew, &job->options, job->session.arguments->team,
                              &error);
@@ -252,6 +259,8 @@ static int confine(const render_job *job)
     }
     for (size_t i = 0; i < count; i++)
         paths[i] = job->outputs.paths[i];
+    if (value(job, OPTION_CHECKPOINT)->given)
+        paths[count++] = value(job, OPTION_CHECKPOINT)->text;
     const untrusted_needs needs = {job->scene_path, value(job, OPTION_PHOTON_MAP)->text, paths,
                                    count, 1};
     int status = untrusted_confine(&needs);
@@ -369,6 +378,7 @@ int command_render(const command_line *arguments)
     int status = run(&job);
     if (status == STATUS_INPUT && !job.scene)
         hint_command(job.scene_path);
+    file_lock_release(&job.checkpoint.lock);
     rt_film_destroy(job.film);
     rt_photon_map_destroy(job.photon_map);
     crew_close(&job.crew);

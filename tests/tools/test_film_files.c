@@ -5,12 +5,14 @@
 #define _XOPEN_SOURCE 700 /* setenv */
 
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -47,9 +49,13 @@ static void parts_merge_to_the_bytes_of_one_render(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
         RTC(STATUS_DONE, "s.rts %s --seed 4 --quiet --out whole.exr", modes[i]);
-        for (int part = 1; part <= 3; part++)
+        for (int part = 1; part <= 3; part++) {
+            char name[32];
+            snprintf(name, sizeof name, "p%d.rtpart", part);
+            unlink(name);
             RTC(STATUS_DONE, "s.rts %s --seed 4 --quiet --part %d/3 --out p%d.rtpart", modes[i],
                 part, part);
+        }
         RTC(STATUS_DONE, "merge p3.rtpart p1.rtpart --out two.rtpart --quiet");
         RTC(STATUS_DONE, "merge p2.rtpart two.rtpart --out merged.exr --out merged.png --quiet");
         expect_same_files("whole.exr", "merged.exr");
@@ -141,6 +147,7 @@ static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
         RTC(STATUS_DONE, "s.rts %s --quiet --out whole.exr", modes[i]);
         /* The first part of a whole stands for a render that was stopped. */
         RTC(STATUS_DONE, "s.rts %s --quiet --part 2/3 --out c.rtpart", modes[i]);
+        unlink("done.rtpart");
         RTC(STATUS_DONE, "s.rts --resume c.rtpart --part 1/1 --quiet --out done.rtpart --out "
                          "done.exr");
         RTC(STATUS_DONE, "merge done.rtpart --out merged.exr --quiet");
@@ -180,6 +187,74 @@ static void a_checkpoint_is_gone_on_with_by_its_name_alone(void **state)
     expect_err(&changed, "of this one before it was changed");
     run_free(&changed);
     scratch_write("s.rts", small_scene);
+}
+
+/* A film is not lost to a render of something else; the same work may be done again. */
+static void a_film_of_other_work_is_not_overwritten(void **state)
+{
+    static const struct {
+        const char *options, *why;
+    } others[] = {
+        {"--spp 4 --part 1/3", "it is part 2 of 3"},
+        {"--spp 4 --part 2/4", "it is part 2 of 3"},
+        {"--spp 4", "it is part 2 of 3"},
+        {"--spp 5 --part 2/3", "spp is 5 in one film and 4 in the other"},
+        {"--spp 4 --part 2/3 --seed 2", "seed is 2 in one film and 0 in the other"},
+    };
+    (void)state;
+    unlink("o.rtpart");
+    RTC(STATUS_DONE, "s.rts --spp 4 --part 2/3 --quiet --out o.rtpart");
+    RTC(STATUS_DONE, "s.rts --spp 4 --part 2/3 --quiet --out kept.rtpart");
+    RTC(STATUS_DONE, "merge o.rtpart --out before.pfm --incomplete --quiet");
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        run refused = run_rtc("s.rts %s --out o.rtpart", others[i].options);
+        expect_status(&refused, STATUS_USAGE);
+        expect_err(&refused, "--out o.rtpart: the film that is there is of other work");
+        expect_err(&refused, others[i].why);
+        run_free(&refused);
+    }
+    RTC(STATUS_DONE, "merge o.rtpart --out after.pfm --incomplete --quiet");
+    expect_same_files("before.pfm", "after.pfm");
+    RTC(STATUS_DONE, "s.rts --spp 4 --part 2/3 --quiet --out o.rtpart");
+    RTC(STATUS_DONE, "--resume o.rtpart --spp 6 --quiet --out o.rtpart");
+    RTC(STATUS_DONE, "s.rts --spp 4 --part 1/3 --quiet --out 1.rtpart");
+    RTC(STATUS_DONE, "merge kept.rtpart 1.rtpart --out two.rtpart --quiet");
+    run two = run_rtc("s.rts --spp 4 --part 2/3 --out two.rtpart");
+    expect_status(&two, STATUS_USAGE);
+    expect_err(&two, "it has other parts too");
+    run_free(&two);
+    /* What is no whole film any more holds no work. */
+    scratch_write("o.rtpart", "half a film");
+    RTC(STATUS_DONE, "s.rts --spp 4 --part 1/3 --quiet --out o.rtpart");
+}
+
+/* Two processes do not write one checkpoint; what a killed one left is taken over. */
+static void a_checkpoint_is_of_one_process(void **state)
+{
+    char pid[32], said[4096];
+    (void)state;
+    running first = start_rtc("s.rts --spp 10000000 --checkpoint l.rtpart --every 0 --out l.exr");
+    for (int waits = 0; waits < 3000 && access("l.rtpart", F_OK) != 0; waits++)
+        nanosleep(&(struct timespec){0, 10000000}, NULL);
+    snprintf(pid, sizeof pid, "process %ld", (long)first.pid);
+    assert_int_equal(symlink("l.rtpart", "link.rtpart"), 0);
+    static const char *const lines[] = {"--resume l.rtpart", "--resume ./link.rtpart",
+                                        "s.rts --spp 2 --resume l.rtpart --checkpoint l.rtpart"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        run second = run_rtc("%s", lines[i]);
+        expect_status(&second, STATUS_OUTPUT);
+        expect_err(&second, "is the checkpoint of a run that goes on");
+        expect_err(&second, pid);
+        run_free(&second);
+    }
+    /* To look at it is no harm. */
+    RTC(STATUS_DONE, "info l.rtpart");
+    kill(first.pid, SIGKILL);
+    assert_int_equal(running_finish(&first, said, sizeof said), 128 + SIGKILL);
+    expect_file("l.rtpart.lock");
+    RTC(STATUS_DONE, "--resume l.rtpart --time 1e-6 --quiet");
+    expect_no_file("l.rtpart.lock");
+    expect_no_file("./link.rtpart.lock");
 }
 
 /* --time is for one sitting: that of the beginning stays, and what comes later is not kept. */
@@ -284,6 +359,8 @@ int main(void)
         cmocka_unit_test(what_is_missing_double_or_foreign_is_named),
         cmocka_unit_test(parts_are_those_of_the_job),
         cmocka_unit_test(a_checkpoint_is_gone_on_with_by_its_name_alone),
+        cmocka_unit_test(a_film_of_other_work_is_not_overwritten),
+        cmocka_unit_test(a_checkpoint_is_of_one_process),
         cmocka_unit_test(a_time_given_to_a_sitting_is_not_kept),
         cmocka_unit_test(a_render_without_end_tells_its_samples),
         cmocka_unit_test(devices_that_share_a_picture_take_the_time_that_passes),

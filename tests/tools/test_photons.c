@@ -87,6 +87,31 @@ static void an_emission_goes_on_from_its_checkpoint(void **state)
     expect_same_files("whole.rtp", "c2.rtp");
 }
 
+/* Two processes do not write one checkpoint. */
+static void a_checkpoint_is_of_one_process(void **state)
+{
+    char pid[32], said[1024];
+    (void)state;
+    unlink("l.rtp");
+    running first = start_rtc("photons a.rts --photons 3e6 --out on.rtp --checkpoint l.rtp "
+                              "--every 0");
+    for (int waits = 0; waits < 3000 && access("l.rtp", F_OK) != 0; waits++)
+        nanosleep(&(struct timespec){0, 10000000}, NULL);
+    kill(first.pid, SIGSTOP); /* it holds the lock as long as is needed here */
+    snprintf(pid, sizeof pid, "process %ld", (long)first.pid);
+    run second = run_rtc("photons a.rts --photons 3e6 --out x.rtp --resume l.rtp");
+    kill(first.pid, SIGKILL);
+    running_finish(&first, said, sizeof said);
+    expect_status(&second, STATUS_OUTPUT);
+    expect_err(&second, "l.rtp is the checkpoint of a run that goes on");
+    expect_err(&second, pid);
+    run_free(&second);
+    run third = run_rtc("photons a.rts --photons 3e5 --out x.rtp --resume l.rtp");
+    expect_no_err(&third, "is the checkpoint of");
+    run_free(&third);
+    expect_no_file("l.rtp.lock");
+}
+
 /* Stopped behind its first checkpoint, and gone on with from that. */
 static void a_stopped_emission_leaves_its_checkpoint(void **state)
 {
@@ -471,6 +496,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(parts_merge_into_the_same_file),
         IN_SCRATCH(an_emission_goes_on_from_its_checkpoint),
+        IN_SCRATCH(a_checkpoint_is_of_one_process),
         IN_SCRATCH(a_stopped_emission_leaves_its_checkpoint),
         IN_SCRATCH(what_cannot_be_gone_on_with_is_refused),
         IN_SCRATCH(info_says_what_a_map_holds),
