@@ -31,6 +31,18 @@ rt_device *bench_device(void)
     return device;
 }
 
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double bench_median(double *values)
+{
+    qsort(values, bench_turns, sizeof *values, by_value);
+    return values[bench_turns / 2];
+}
+
 void bench_figure(const char *name, double value)
 {
     printf("%s %.6g\n", name, value);

@@ -170,30 +170,40 @@ static double our_trace(const contest *c)
 
 static void compete_in_building(const contest *c)
 {
-    bench_figure("build.ours", our_build(c));
-    if (c->peer) {
+    double ours[bench_turns], theirs[bench_turns];
+    for (int turn = 0; turn < bench_turns; turn++) {
+        ours[turn] = our_build(c);
         const double begin = rt_clock();
-        embree_peer_build(c->peer);
-        bench_figure("build.embree", rt_clock() - begin);
+        if (c->peer)
+            embree_peer_build(c->peer);
+        theirs[turn] = rt_clock() - begin;
     }
+    bench_figure("build.ours", bench_median(ours));
+    if (c->peer)
+        bench_figure("build.embree", bench_median(theirs));
 }
 
-static void compete_in_tracing(const contest *c, const char *ours, const char *embree)
+static void compete_in_tracing(const contest *c, const char *name, const char *peer_name)
 {
+    double ours[bench_turns], theirs[bench_turns];
     rt_error error;
     bench_must(
         rt_buffer_write(c->device, c->rays_there, 0, ray_count * sizeof *c->rays, c->rays, &error),
         &error);
     our_trace(c); /* compiles */
-    bench_figure(ours, 1e-6 * ray_count / our_trace(c));
-    if (c->peer) {
+    for (int turn = 0; turn < bench_turns; turn++) {
+        ours[turn] = our_trace(c);
         const double begin = rt_clock();
-        embree_peer_trace(c->peer, c->rays, ray_count, c->hits);
-        bench_figure(embree, 1e-6 * ray_count / (rt_clock() - begin));
+        if (c->peer)
+            embree_peer_trace(c->peer, c->rays, ray_count, c->hits);
+        theirs[turn] = rt_clock() - begin;
     }
     bench_must(
         rt_buffer_read(c->device, c->hits_there, 0, ray_count * sizeof *c->hits, c->hits, &error),
         &error);
+    bench_figure(name, 1e-6 * ray_count / bench_median(ours));
+    if (c->peer)
+        bench_figure(peer_name, 1e-6 * ray_count / bench_median(theirs));
 }
 
 static void open_contest(contest *c, uint32_t around)
