@@ -2,7 +2,7 @@
 
 The error is the root of the mean squared difference from a kept reference, over the mean of that.
 It is measured at 1, 4, 16 ... samples a pixel and interpolated between them, logarithm by
-logarithm; beyond the last, which takes LONGEST seconds or more, it falls as the root of the time,
+logarithm; beyond the last, the first to take LONGEST seconds, it falls as the root of the time,
 and a tilde says so. Seconds are those of the render alone: without start, reading of the scene,
 build of the hierarchy and compilation of kernels, in both programs.
 """
@@ -20,7 +20,7 @@ SCENES = ["box_area", "box_point", "box_caustic", "mesh", "glass_metal", "many_l
 SAMPLERS = ["multijitter", "orthogonal", "ldsampler"]
 TARGETS = ["5", "1"]  # percent
 LADDER = [4**i for i in range(9)]
-LONGEST = 4.0
+LONGEST = 1.0
 
 
 def scene_file(tree, name):
