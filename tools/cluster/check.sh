@@ -71,7 +71,7 @@ predicted() {
     case $1 in
     pool) set -- "$2" schedule=demand tasks=16 guided=0 ;;
     parts) set -- "$2" schedule=parts pieces=1 ;;
-    mpi) set -- "$2" schedule=demand start="$(median <mpi.start)" ;;
+    mpi) set -- "$2" schedule=demand films=tree start="$(median <mpi.start)" ;;
     esac
     ranks=$1
     shift

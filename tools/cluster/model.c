@@ -22,7 +22,9 @@ typedef struct simulation {
     rank *ranks;
     int count;
     uint64_t random;
-    double busy; /* rank 0 answers no request before */
+    double busy;     /* rank 0 answers no request before; ranks ask one task ahead of films */
+    double received; /* it receives no film before */
+    double rested;   /* it asks for no film before */
 } simulation;
 
 /* ---- Random numbers -------------------------------------------------------------------------- */
@@ -129,19 +131,37 @@ static double encode(const model *m, double pixels)
     return pixels * m->planes * m->encode;
 }
 
-/* When a film that leaves a rank at time t is in safety. */
-static double hand_over(simulation *s, const rank *r, double t)
+/*
+ * Whether a rank that asks for work is to hand its film over first: not more often than rank 0 has
+ * time for, but in the end.
+ */
+static int must_hand_over(simulation *s, const rank *r)
 {
     const model *m = s->m;
-    t += encode(m, r->pixels);
-    if (m->reduction == TREE)
-        return t + ceil(log2(s->count)) * receive(m, pixels_of(m));
-    if (m->schedule == IN_PARTS)
-        return t + r->pixels * m->planes * m->pixel_bytes / m->bandwidth;
+    const double age = r->at - r->saved;
+    if (m->guided == 0 || age < m->every || (r->at < s->rested && age < m->late * m->every))
+        return 0;
+    s->rested = fmax(s->rested, r->at) + receive(m, r->pixels) / m->taking;
+    return 1;
+}
+
+/* When a film that leaves a rank now is in safety. Those that are late all come together. */
+static double hand_over(simulation *s, const rank *r)
+{
+    const model *m = s->m;
+    const double t = r->at + encode(m, r->pixels);
     if (s->count == 1)
         return t;
-    s->busy = fmax(s->busy, t) + receive(m, r->pixels);
-    return s->busy;
+    if (m->reduction == TREE && r->at - r->saved >= m->late * m->every)
+        return t + ceil(log2(s->count)) * receive(m, pixels_of(m));
+    s->received = fmax(s->received, t) + receive(m, r->pixels);
+    return s->received;
+}
+
+/* When the film of a part is in its file. */
+static double save(const model *m, const rank *r, double t)
+{
+    return t + encode(m, r->pixels) + r->pixels * m->planes * m->pixel_bytes / m->bandwidth;
 }
 
 static int earlier(const void *a, const void *b)
@@ -221,11 +241,10 @@ static void render_by_demand(simulation *s)
     qsort(r, (size_t)s->count, sizeof *r, earlier);
     /* The heap keeps the rank that asks next in front; those that are done are behind it. */
     for (int asking = s->count; asking > 0;) {
-        if (m->guided > 0 && r->at - r->saved >= m->every) {
-            r->at = r->saved = hand_over(s, r, r->at);
+        if (must_hand_over(s, r)) {
+            r->at = r->saved = hand_over(s, r);
             r->pixels = 0;
-        }
-        if (given < all) {
+        } else if (given < all) {
             const double samples = next_task(s, &given, all, &count);
             s->busy = fmax(s->busy, r->at + m->latency) + m->serve;
             r->at = s->busy + m->latency + work(s, samples, count, count) / r->speed;
@@ -239,8 +258,15 @@ static void render_by_demand(simulation *s)
     }
 }
 
-/* The time of work in which failures undo all since the last checkpoint. */
-static double with_failures(simulation *s, double seconds, double life)
+/* From one film of a rank to the next. */
+static double interval(const model *m, int count)
+{
+    const double share = count > 1 ? count * receive(m, pixels_of(m)) / m->taking : 0;
+    return fmax(m->every, fmin(share, m->late * m->every));
+}
+
+/* The time of work in which failures undo all since the last checkpoint, one every so often. */
+static double with_failures(simulation *s, double seconds, double life, double every)
 {
     const model *m = s->m;
     double spent = 0, left = seconds;
@@ -248,7 +274,7 @@ static double with_failures(simulation *s, double seconds, double life)
         const double lived = -log(uniform(&s->random)) * life;
         if (lived >= left)
             break;
-        left -= floor(lived / m->every) * m->every;
+        left -= floor(lived / every) * every;
         spent += lived + m->relaunch;
     }
     return spent + left;
@@ -270,9 +296,9 @@ static void render_parts(simulation *s)
     for (double part = 0; part < parts; part++) {
         rank alone = {.speed = r->speed, .pixels = pixels};
         const double seconds = work(s, samples, chunks, bands) / r->speed;
-        const double saving = hand_over(s, &alone, 0) * floor(seconds / m->every);
+        const double saving = save(m, &alone, 0) * floor(seconds / m->every);
         const double begin = part < s->count ? 0 : m->start / r->speed;
-        r->at += with_failures(s, begin + seconds + saving, m->life);
+        r->at += with_failures(s, begin + seconds + saving, m->life, m->every);
         r->pixels += pixels;
         sink(r, s->count);
     }
@@ -335,7 +361,7 @@ static double simulate(simulation *s)
         render_by_demand(s);
     double t = reduce(s) + pixels_of(m) * m->resolve;
     if (m->schedule == BY_DEMAND && s->count > 1)
-        t = with_failures(s, t, m->life / s->count);
+        t = with_failures(s, t, m->life / s->count, interval(m, s->count));
     return t;
 }
 
@@ -346,7 +372,7 @@ double model_seconds(const model *m)
     rank *ranks = calloc((size_t)count, sizeof *ranks);
     double sum = 0;
     for (int i = 0; i < repeats && ranks; i++) {
-        simulation s = {m, ranks, count, 0, 0};
+        simulation s = {.m = m, .ranks = ranks, .count = count};
         s.random = 88172645463325252ull + 1000003ull * (uint64_t)m->seed + 7919ull * (uint64_t)i;
         sum += simulate(&s);
     }

@@ -43,6 +43,8 @@
     X(life, 3e7, "s, mean time to a failure of a rank; 0: there are none")                         \
     X(relaunch, 60, "s, until a failed run, or part, begins again")                                \
     X(every, 300, "s, between checkpoints")                                                        \
+    X(taking, 0.1, "of its time at most rank 0 receives films, before the end")                    \
+    X(late, 10, "times `every`: a film is not kept back for that any longer")                      \
     /* what the schedule does */                                                                   \
     X(tasks, 64, "for each rank, of equal size")                                                   \
     X(guided, 2, "a task is at most 1/(guided ranks) of what is left; 0: no limit")                \
@@ -54,7 +56,10 @@
 /* Who renders which chunk. */
 typedef enum schedule { BY_DEMAND, IN_PARTS } schedule;
 
-/* How films come together: all to rank 0, by a tree, or to rank 0 from ranks that keep to bands. */
+/*
+ * How films come together: all to rank 0, by a tree of pairs, or to rank 0 from ranks that keep to
+ * bands.
+ */
 typedef enum reduction { DIRECT, TREE, BANDS } reduction;
 
 /*

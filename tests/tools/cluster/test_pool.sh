@@ -52,6 +52,14 @@ check three_processes_make_the_same_picture same_as_rtc scene 3
 check more_processes_than_tasks_make_the_same_picture same_as_rtc passes 5
 check missing_scene_is_told fails_with 'cannot read the scene' pool missing.rts out.pfm 2
 check usage_is_told fails_with PROCESSES pool scene.rts out.pfm 0
-check failed_processes_are_told fails_with 'a process has failed' \
+check missing_devices_are_told fails_with 'no OpenCL platform' \
     env OCL_ICD_VENDORS="$work/none" "$bin/tools/cluster/pool" scene.rts out.pfm 2
+# Kills the process that the first one starts.
+kill_one() {
+    "$bin/tools/cluster/pool" long.rts out.pfm 2 2>said &
+    until pkill -KILL -P $!; do sleep 0.1; done
+    wait $!
+}
+sed 's/spp 7/spp 3000/' scene.rts >long.rts
+check failed_processes_are_told eval '! kill_one && grep "a process has failed" said'
 exit $bad

@@ -54,8 +54,16 @@ check photons_are_emitted_in_parts_and_exchanged is 62.74 0.02 ranks=100 pixel_b
 check passes_are_shared_no_further is 3.1 0.01 ranks=2000 pixel_bytes=0 map=passes passes=1000 \
     spp=1000 photons=0
 # Every 100 s one of 100 ranks fails and undoes half of 20 s, in 11 s of work or so.
-check failures_undo_the_work_since_a_checkpoint is 1330 0.03 ranks=100 sample=1e-4 \
+check failures_undo_the_work_since_a_checkpoint is 1330 0.03 ranks=100 sample=1e-5 spp=10240 \
     pixel_bytes=0 life=10000 every=20 relaunch=10 repeats=100
+
+# A film takes 1.05 s. It is due every 60 s, but rank 0 asks for one in ten seconds, and for all of
+# them after 600 s. Those that are late come in by 7 steps, as all do at the end.
+films="ranks=100 spp=102400 sample=1e-6 tasks=640 pixel_bytes=1000 films=tree"
+# shellcheck disable=SC2086 # a list
+check films_take_rank_0_a_tenth_of_its_time is 1090 4e-3 $films every=60
+# shellcheck disable=SC2086 # a list
+check films_come_in_by_a_tree_at_the_end is 1082.1 1e-3 $films
 
 check unknown_parameters_are_refused eval '! "$simulate" rank=3'
 check words_are_no_numbers eval '! "$simulate" ranks=many'
