@@ -216,7 +216,8 @@ TESTS_FULL  := \
 	tests/tools/test_film_files.c tests/tools/test_mesh.c tests/tools/test_scenes.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
-	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c tests/lib/photon/test_map_parts.c
+	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c \
+	tests/lib/photon/test_map_parts.c tests/lib/share/test_share.c
 TESTS_SHELL := \
 	tests/kernels/test_width1.sh \
 	tests/install/test_install.sh \
