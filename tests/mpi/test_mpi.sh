@@ -171,6 +171,7 @@ kills() {
         left=$(members k.exr | wc -l)
         check "kill_${kill}_ends_all" test "$ended" -ne 124 -a "$left" -eq 0
         if [ "$ended" -ne 0 ]; then
+            check "kill_${kill}_is_told" grep -q 'ignal 9' log
             resume="--resume k.rtpart"
             [ -e k.rtpart ] || resume="$* $what --out k.exr"
             # shellcheck disable=SC2086
