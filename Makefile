@@ -115,7 +115,8 @@ DSL_SRC := \
 TOOL_SRC := \
 	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \
 	tools/compare_print.c tools/crew.c \
-	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/help.c \
+	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/film_place.c \
+	tools/help.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
 	tools/no_effect.c tools/number.c tools/options.c tools/other_work.c tools/outputs.c \

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "film_note.h"
+#include "film_place.h"
 #include "inputs.h"
 #include "message.h"
 #include "outputs.h"
@@ -34,7 +35,9 @@ int checkpoint_resume(command_line *arguments)
         file_lock_release(&arguments->lock);
     else if (holder != 0)
         return file_lock_fail(resume->text, holder);
-    return film_note_give(arguments, &arguments->note, arguments->film);
+    int status = film_place_enter(arguments, rt_film_note(arguments->film));
+    return status == STATUS_DONE ? film_note_give(arguments, &arguments->note, arguments->film)
+                                 : status;
 }
 
 static void save(void *user, const rt_film *film)

@@ -348,6 +348,7 @@ void arguments_free(command_line *arguments)
     rt_film_destroy(arguments->film);
     file_lock_release(&arguments->lock);
     free(arguments->note);
+    free(arguments->paths);
     free(arguments->settings);
     free(arguments->outputs);
     free(arguments->operands);

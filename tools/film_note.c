@@ -1,11 +1,14 @@
 /* film_note.c - the options of a render as lines in its film, and read from there. */
 #include "film_note.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "command_line.h"
+#include "film_place.h"
 #include "message.h"
 #include "settings.h"
 #include "status.h"
@@ -70,7 +73,10 @@ static void add_settings(text *out, const command_line *arguments)
 
 char *film_note_make(const command_line *arguments, const char *scene)
 {
+    char folder[PATH_MAX];
     text note = {0};
+    if (getcwd(folder, sizeof folder))
+        add_line(&note, "folder", "", folder);
     add_line(&note, "scene", "", scene);
     add_settings(&note, arguments);
     add_time(&note, arguments);
@@ -99,20 +105,36 @@ size_t film_note_find(const char **value, const rt_film *film, const char *name)
     return 0;
 }
 
+/* A stranger's film does not choose what is read, either. */
+static int fail_name(const char *what, const char *path)
+{
+    message_error("--untrusted: the film names the %s %s, outside of this folder", what, path);
+    message_hint("name it on the command line");
+    return STATUS_INPUT;
+}
+
 /* Gives what a line says; it ends in a zero byte. */
 static int give_line(command_line *arguments, char *line, int has_outputs)
 {
+    const int is_untrusted = arguments->options[OPTION_UNTRUSTED].given;
     if (strncmp(line, "scene ", 6) == 0) {
-        if (arguments->operand_count == 0)
-            arguments->operands[arguments->operand_count++] = line + 6;
+        if (arguments->operand_count > 0)
+            return STATUS_DONE;
+        if (is_untrusted && !film_place_may_name(line + 6))
+            return fail_name("scene", line + 6);
+        arguments->operands[arguments->operand_count++] = line + 6;
         return STATUS_DONE;
     }
     char *value = strncmp(line, "given ", 6) == 0 ? strchr(line + 6, ' ') : NULL;
     if (!value)
         return STATUS_DONE;
     *value++ = '\0';
+    const option *map = &option_table[OPTION_PHOTON_MAP];
+    if (is_untrusted && strcmp(line + 6, map->name) == 0 &&
+        !arguments->options[OPTION_PHOTON_MAP].given && !film_place_may_name(value))
+        return fail_name(map->name, value);
     /* A stranger's film does not choose which files are written. */
-    if ((has_outputs || arguments->options[OPTION_UNTRUSTED].given) && strcmp(line + 6, "out") == 0)
+    if ((has_outputs || is_untrusted) && strcmp(line + 6, "out") == 0)
         return STATUS_DONE;
     return arguments_give(arguments, line + 6, value);
 }

@@ -135,6 +135,7 @@ typedef struct command_line {
     rt_memory *memory;       /* by --memory, or NULL; owned */
     rt_film *film;           /* of --resume, or NULL; owned */
     char *note;              /* its text, which options point to; owned */
+    char *paths;             /* those that film_place_enter made absolute; owned */
     file_lock lock;          /* of the checkpoint that is gone on with */
     const struct team *team; /* that this process is of, or NULL */
 } command_line;

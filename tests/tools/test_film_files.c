@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -316,6 +317,55 @@ static void devices_that_share_a_picture_take_the_time_that_passes(void **state)
     run_free(&all);
 }
 
+/* From anywhere: the names in a film are meant from where it was begun, those given from here. */
+static void a_render_is_gone_on_with_from_another_folder(void **state)
+{
+    static const char *const made[] = {"job/s.rts", "job/whole.exr", "job/a.exr", "job/c.rtpart"};
+    (void)state;
+    assert_int_equal(mkdir("job", 0700), 0);
+    scratch_write("job/s.rts", small_scene);
+    assert_int_equal(chdir("job"), 0);
+    RTC(STATUS_DONE, "s.rts --spp 7 --quiet --out whole.exr");
+    RTC(STATUS_DONE, "s.rts --spp 2 --checkpoint c.rtpart --quiet --out a.exr");
+    assert_int_equal(chdir(".."), 0);
+    unlink("s.rts");
+    unlink("a.exr");
+    RTC(STATUS_DONE, "--resume job/c.rtpart --spp 7 --quiet");
+    expect_same_files("job/whole.exr", "job/a.exr");
+    expect_no_file("a.exr");
+    RTC(STATUS_DONE, "--resume job/c.rtpart --quiet --out here.exr");
+    expect_same_files("job/whole.exr", "here.exr");
+    /* A folder that was moved is entered by its user. */
+    assert_int_equal(rename("job", "moved"), 0);
+    assert_int_equal(chdir("moved"), 0);
+    unlink("a.exr");
+    RTC(STATUS_DONE, "--resume c.rtpart --quiet --out a.exr");
+    expect_same_files("whole.exr", "a.exr");
+    assert_int_equal(chdir(".."), 0);
+    assert_int_equal(rename("moved", "job"), 0);
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++)
+        assert_int_equal(unlink(made[i]), 0);
+    assert_int_equal(rmdir("job"), 0);
+    scratch_write("s.rts", small_scene);
+}
+
+/* A stranger's film does not choose what is read. */
+static void an_untrusted_film_names_no_file_elsewhere(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir("in", 0700), 0);
+    assert_int_equal(chdir("in"), 0);
+    RTC(STATUS_DONE, "../s.rts --spp 1 --checkpoint c.rtpart --quiet --out a.exr");
+    run outside = run_rtc("--resume c.rtpart --untrusted --out b.exr");
+    expect_status(&outside, STATUS_INPUT);
+    expect_err(&outside, "the film names the scene ../s.rts, outside of this folder");
+    run_free(&outside);
+    unlink("c.rtpart");
+    unlink("a.exr");
+    assert_int_equal(chdir(".."), 0);
+    assert_int_equal(rmdir("in"), 0);
+}
+
 /* What a film says of outputs is not done for a stranger. */
 static void an_untrusted_film_names_no_outputs(void **state)
 {
@@ -364,7 +414,9 @@ int main(void)
         cmocka_unit_test(a_time_given_to_a_sitting_is_not_kept),
         cmocka_unit_test(a_render_without_end_tells_its_samples),
         cmocka_unit_test(devices_that_share_a_picture_take_the_time_that_passes),
+        cmocka_unit_test(a_render_is_gone_on_with_from_another_folder),
         cmocka_unit_test(an_untrusted_film_names_no_outputs),
+        cmocka_unit_test(an_untrusted_film_names_no_file_elsewhere),
         cmocka_unit_test(no_film_is_refused_with_its_name),
     };
     if (spawn_find_rtc() != 0)

@@ -10,6 +10,7 @@
 #include "../command_line.h"
 #include "../commands.h"
 #include "../film_note.h"
+#include "../film_place.h"
 #include "../help.h"
 #include "../interrupt.h"
 #include "../message.h"
@@ -123,7 +124,9 @@ static int run_worker(worker *w, command_line *arguments)
     char *note = worker_hello();
     if (!note)
         return STATUS_DONE;
-    status = film_note_give_text(arguments, note);
+    status = film_place_enter(arguments, note);
+    if (status == STATUS_DONE)
+        status = film_note_give_text(arguments, note);
     if (status == STATUS_DONE)
         status = arguments_limit_memory(arguments);
     w->memory = arguments->memory;
