@@ -278,7 +278,7 @@ LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
 SONAME   := librt-render.so.$(SOVERSION)
 
-.PHONY: all bench bench-checkpoint bench-compare bench-mpi bench-reference \
+.PHONY: all bench bench-checkpoint bench-compare bench-mpi bench-reference bench-scaling \
 	build-fuzz check \
 	check-cluster check-corpus check-crowd check-faults check-fuzz check-kills check-memory \
 	check-mpi check-mutation check-peers check-quick check-reference check-reproducible \
@@ -640,6 +640,11 @@ bench-compare: all $(BENCHES)
 	    $(addprefix build/tests/bench/bench_,trace gather progressive)
 	$(BENCH) --base $(B)/bench/base
 
+# Cost against work, with plots; ONLY names studies.
+bench-scaling: all
+	python3 tests/bench/scaling.py --build $(B) $(if $(DEVICE),--device '$(DEVICE)') \
+	    $(if $(ONLY),--only $(ONLY))
+
 # The references of time to equal error, each compared with Mitsuba's picture.
 bench-reference: all
 	RTC=$(B)/rtc tests/bench/make_reference.sh $(SCENES)
@@ -721,6 +726,7 @@ help:
 	@echo 'make fuzz            HOURS ($(HOURS)) of CPU time of it for each, or for TARGET'
 	@echo 'make bench           measures speed, beside each peer that is there'
 	@echo 'make bench-compare   what moved since the commit BASE'
+	@echo 'make bench-scaling   cost against triangles, samples, lights, photons, pixels, threads'
 	@echo 'make bench-reference makes the references of time to equal error anew'
 	@echo 'make bench-mpi       two processes beside two threads of one, with each MPI'
 	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
