@@ -726,7 +726,7 @@ help:
 	@echo 'make fuzz            HOURS ($(HOURS)) of CPU time of it for each, or for TARGET'
 	@echo 'make bench           measures speed, beside each peer that is there'
 	@echo 'make bench-compare   what moved since the commit BASE'
-	@echo 'make bench-scaling   cost against triangles, samples, lights, photons, pixels, threads'
+	@echo 'make bench-scaling   cost against triangles, samples, lights, photons, pixels ...'
 	@echo 'make bench-reference makes the references of time to equal error anew'
 	@echo 'make bench-mpi       two processes beside two threads of one, with each MPI'
 	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
