@@ -43,18 +43,16 @@ def render_once(scene, spp, seed):
 def render(scene, pixels, spp, seed):
     """
     The picture, and the seconds it took: of several renders where memory wants it. Some samplers
-    have a kernel for each SPP, so what is short is rendered twice, and the second one counts.
+    have a kernel for each SPP, so each part is rendered twice, and the second one counts.
     """
     parts = 1
     while pixels * spp > PASS * parts:
         parts *= 4
     total, seconds = 0.0, 0.0
     for part in range(parts):
-        image, taken = render_once(scene, spp // parts, seed * 1000 + part)
+        image = render_once(scene, spp // parts, seed * 1000 + part)[0]
         total = total + np.array(image, dtype=np.float64)
-        if taken < 2.0:
-            taken = render_once(scene, spp // parts, seed * 1000 + part)[1]
-        seconds += taken
+        seconds += render_once(scene, spp // parts, seed * 1000 + part)[1]
     return total / parts, seconds
 
 
