@@ -44,7 +44,8 @@ LIB_SRC := \
 	lib/base/bytes.c lib/base/claim.c lib/base/crc32.c lib/base/error.c \
 	lib/base/exact_sum.c lib/base/file.c lib/base/frame.c lib/base/half.c lib/base/memory.c \
 	lib/base/parallel.c lib/base/progress.c lib/base/version.c \
-	lib/device/buffer.c lib/device/device.c lib/device/kernel_cache.c \
+	lib/device/buffer.c lib/device/compile.c lib/device/compiler.c lib/device/device.c \
+	lib/device/kernel_cache.c \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \
 	lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c \
 	lib/image/exr_core.c lib/image/exr_read.c lib/image/exr_write.c lib/image/flip.c \
@@ -84,7 +85,8 @@ LIB_SRC := \
 	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_packer.c \
 	lib/photon/photon_tree.c \
 	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
-	lib/render/enclosing_media.c lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
+	lib/render/compile.c lib/render/enclosing_media.c \
+	lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
 	lib/scene/find_nests.c lib/scene/find_solids.c lib/scene/findings.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
@@ -116,7 +118,7 @@ TOOL_SRC := \
 	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \
 	tools/compare_print.c tools/crew.c \
 	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/film_place.c \
-	tools/help.c \
+	tools/help.c tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
 	tools/no_effect.c tools/number.c tools/options.c tools/other_work.c tools/outputs.c \
@@ -206,6 +208,7 @@ TESTS_FULL  := \
 	tests/lib/photon/test_unbiased.c \
 	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
+	tests/tools/test_kernels.c \
 	tests/tools/test_rtc.c $(TESTS_PROOF) tests/threads/test_threads.c \
 	tests/faults/test_faults.c tests/faults/test_commands.c tests/faults/test_icd.c \
 	tests/faults/test_films.c tests/faults/test_life.c \

@@ -22,8 +22,12 @@ static int tell(rt_reading *reading, double fraction, double now)
     if (fraction > reading->furthest)
         reading->furthest = fraction;
     fraction = reading->furthest;
-    rt_progress report = {RT_STAGE_LOAD, fraction, elapsed,
-                          fraction > 0 ? elapsed * (1 - fraction) / fraction : -1, -1};
+    const double remaining = fraction > 0 ? elapsed * (1 - fraction) / fraction : -1;
+    rt_progress report = {.stage = RT_STAGE_LOAD,
+                          .fraction = fraction,
+                          .elapsed = elapsed,
+                          .remaining = remaining,
+                          .error = -1};
     return reading->hooks->progress(reading->hooks->user, &report) == 0;
 }
 

@@ -15,6 +15,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
         "       rtc devices                 list the OpenCL devices\n"
         "       rtc doctor [OPTION]...      check that everything works here\n"
+        "       rtc kernels [PROGRAM]...    compile the kernels ahead of the first render\n"
         "       rtc photons ...             emit, merge, inspect and export photon maps\n"
         "       rtc compare A... B [OPTION]... measure how images differ from a reference\n"
         "       rtc merge FILM... --out FILE   join the parts of a picture\n"
@@ -49,6 +50,11 @@ static const char *const usages[COMMAND_COUNT] = {
         "\n"
         "Checks step by step that OpenCL, the kernels, the modes path and photon and the\n"
         "image writers work on this machine, and says what to do about what does not.\n",
+    [COMMAND_KERNELS] =
+        "usage: rtc kernels [PROGRAM]... [OPTION]...\n"
+        "\n"
+        "Compiles all kernels, or those of the programs named, so that no render has to\n"
+        "wait for them: after installation, or into the image of a container.\n",
     [COMMAND_PHOTONS] =
         "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
         "       rtc photons info MAP...                          what maps hold\n"

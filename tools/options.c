@@ -7,6 +7,7 @@
 #define CHECK (1u << COMMAND_CHECK)
 #define MESH (1u << COMMAND_MESH)
 #define DOCTOR (1u << COMMAND_DOCTOR)
+#define KERNELS (1u << COMMAND_KERNELS)
 #define PHOTONS (1u << COMMAND_PHOTONS)
 #define COMPARE (1u << COMMAND_COMPARE)
 #define MERGE (1u << COMMAND_MERGE)
@@ -129,15 +130,16 @@ const option option_table[OPTION_COUNT] = {
          "for a scene by a stranger: read files in its folder only, give up the rights to do other "
          "than to write the outputs, and limit CPU time and memory (Linux)"},
     [OPTION_DEVICE] =
-        {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 0, 0, NULL, 0, "0",
+        {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR | KERNELS, 0, 0, NULL, 0,
+         "0",
          "a number of `rtc devices`, or part of a device's or platform's name; a render takes "
          "several too, as in 0,1, or all, which share the picture"},
     [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1,
                         UINT32_MAX, NULL, 0, "all",
                         "host threads, and compute units used of a CPU device"},
-    [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR,
-                           1, UINT32_MAX, NULL, 0, "chosen for the device",
-                           "work-items per work-group"},
+    [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE,
+                           RENDER | PHOTONS | DOCTOR | KERNELS, 1, UINT32_MAX, NULL, 0,
+                           "chosen for the device", "work-items per work-group"},
     [OPTION_MEMORY] =
         {"memory", "LIMIT", KIND_SIZE, GROUP_DEVICE, RENDER | CHECK | PHOTONS | MERGE | INFO,
          1, 0x1p60, NULL, 0, "no limit",
@@ -150,8 +152,8 @@ const option option_table[OPTION_COUNT] = {
                          "lines elsewhere; with json one JSON object per line"},
     [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "print what the render did and how long it took on stdout"},
-    [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR, 0, 0,
-                        NULL, 0, NULL, "log details to stderr"},
+    [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR | KERNELS,
+                        0, 0, NULL, 0, NULL, "log details to stderr"},
     [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | PHOTONS | MERGE, 0, 0,
                       NULL, 0, NULL,
                       "say nothing but errors; progress only where --progress asks for it"},

@@ -59,8 +59,13 @@ static void show_text(progress_display *progress, const rt_progress *report)
     if (report->error >= 0.0)
         fprintf(stderr, "  error %.3g %%", 100.0 * report->error);
     /* A build that the driver has cached is over before this is reached. */
-    if (compiling && report->elapsed >= notable_compile)
-        fputs("  compiling kernels (first run)", stderr);
+    if (compiling && report->elapsed >= notable_compile) {
+        if (report->steps > 0)
+            fprintf(stderr, "  %u of %u program%s compiled (first run)", (unsigned)report->step,
+                    (unsigned)report->steps, report->steps == 1 ? "" : "s");
+        else
+            fputs("  compiling kernels (first run)", stderr);
+    }
     fputs(progress->redraw ? "\033[K" : "\n", stderr);
     progress->drawn = progress->redraw;
     fflush(stderr);

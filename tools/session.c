@@ -1,9 +1,12 @@
 /* session.c - what the commands that render or emit share. */
+#define _XOPEN_SOURCE 700 /* readlink */
+
 #include "session.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "interrupt.h"
 #include "message.h"
@@ -144,6 +147,19 @@ int session_was_interrupted(rt_status result)
     return result == RT_CANCELLED || (result == RT_ERROR_DEVICE && interrupt_pending());
 }
 
+/* rtc itself, which has the command `kernels`; NULL where it may start no process. */
+static const char *own_program(const session *s)
+{
+    static const char path[] = "/proc/self/exe";
+    char link[4096];
+    const ssize_t length = readlink(path, link, sizeof link - 1);
+    if (length < 0 || session_value(s, OPTION_UNTRUSTED)->given)
+        return NULL;
+    link[length] = '\0';
+    const char *slash = strrchr(link, '/');
+    return slash && strcmp(slash + 1, "rtc") == 0 ? path : NULL;
+}
+
 int session_open_device(const session *s, rt_device **out, const char *select)
 {
     rt_device_options options = {0};
@@ -152,6 +168,7 @@ int session_open_device(const session *s, rt_device **out, const char *select)
     options.threads = (uint32_t)session_value(s, OPTION_THREADS)->count;
     options.work_group = (uint32_t)session_value(s, OPTION_WORK_GROUP)->count;
     options.memory = s->arguments->memory;
+    options.compiler = own_program(s);
     interrupt_defer();
     if (rt_device_open(out, &options, &error) != RT_OK)
         return session_fail(&error);

@@ -35,9 +35,11 @@ static rt_status report(rt_stage_progress *progress, double fraction, double now
     fraction = progress->furthest = fraction > progress->furthest ? fraction : progress->furthest;
     if (hooks && hooks->progress) {
         double elapsed = now - progress->began;
-        rt_progress info = {progress->stage, fraction, elapsed,
-                            fraction > 0 ? elapsed * (1 - fraction) / fraction : -1,
-                            progress->error};
+        rt_progress info = {
+            progress->stage, fraction,
+            elapsed,         fraction > 0 ? elapsed * (1 - fraction) / fraction : -1,
+            progress->error, progress->step,
+            progress->steps};
         if (hooks->progress(hooks->user, &info))
             progress->cancelled = 1;
     }
@@ -52,6 +54,7 @@ rt_status rt_stage_begin(rt_stage_progress *progress, const rt_hooks *hooks, rt_
     progress->cancelled = 0;
     progress->error = -1;
     progress->furthest = 0;
+    progress->step = progress->steps = 0;
     rt_stage_part(progress, 0, 1);
     return report(progress, 0, progress->began);
 }

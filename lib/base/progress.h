@@ -8,10 +8,11 @@
 typedef struct rt_stage_progress {
     const rt_hooks *hooks; /* may be NULL */
     rt_stage stage;
-    double began, last; /* seconds, rt_clock() */
-    double from, to;    /* the part of the stage that fractions are of, 0 to 1 */
-    double error;       /* relative error of the picture so far, negative while unknown */
-    double furthest;    /* fraction reported so far; none is below it */
+    double began, last;   /* seconds, rt_clock() */
+    double from, to;      /* the part of the stage that fractions are of, 0 to 1 */
+    double error;         /* relative error of the picture so far, negative while unknown */
+    double furthest;      /* fraction reported so far; none is below it */
+    uint32_t step, steps; /* see rt_progress; set between reports */
     int cancelled;
 } rt_stage_progress;
 

@@ -158,6 +158,7 @@ static rt_status select_device(rt_device *device, const char *select, rt_error *
         if (by_number
                 ? i == number
                 : contains(device->info.name, select) || contains(device->info.platform, select)) {
+            device->number = i;
             device->platform = list.platform[i];
             device->id = list.id[i];
             return rt_cl_check(code, "asking the device what it is", error);
@@ -216,6 +217,12 @@ static rt_status choose_width(rt_device *device, uint32_t asked, rt_error *error
     return RT_OK;
 }
 
+static char *copy_text(const char *text)
+{
+    char *copy = malloc(strlen(text) + 1);
+    return copy ? strcpy(copy, text) : NULL;
+}
+
 rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_error *error)
 {
     static const rt_device_options defaults;
@@ -228,6 +235,10 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     if (!device)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a device");
     device->memory = options->memory;
+    if (options->compiler && !(device->compiler = copy_text(options->compiler))) {
+        rt_device_close(device);
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a device");
+    }
     rt_driver_lock();
     if ((status = select_device(device, options->select, error)) != RT_OK)
         goto out;
@@ -265,6 +276,7 @@ void rt_device_close(rt_device *device)
     if (device->context)
         clReleaseContext(device->context);
     rt_driver_unlock();
+    free(device->compiler);
     free(device);
 }
 

@@ -22,6 +22,8 @@ struct rt_device {
     cl_context context;
     cl_command_queue queue; /* in order */
     rt_device_info info;
+    uint32_t number;      /* in the list of rt_devices_list */
+    char *compiler;       /* as in rt_device_options; owned */
     uint32_t threads;     /* host threads to use, at least 1 */
     uint32_t work_group;  /* work-items per work-group, at least 1 */
     uint32_t width;       /* paths that a work-item follows at a time, 1 or 8 */
@@ -52,7 +54,19 @@ rt_status rt_cl_check(cl_int code, const char *what, rt_error *error);
 rt_status rt_device_kernel(rt_device *device, cl_kernel *out, const char *program,
                            const char *kernel, const rt_hooks *hooks, rt_error *error);
 
-/* The same from any table of sources that ends with a NULL name, such as the tests' own. */
+/* The program itself, which stays the device's. */
+rt_status rt_device_program(rt_device *device, cl_program *out, const char *program,
+                            const rt_hooks *hooks, rt_error *error);
+
+/* Whether one of the library's programs is built on the device, or something of it is stored. */
+int rt_device_has_program(const rt_device *device, const char *program);
+
+/* Whether what the device's driver compiles is stored for other processes. */
+int rt_device_stores(const rt_device *device);
+
+/*
+ * rt_device_kernel from any table of sources that ends with a NULL name, such as the tests' own.
+ */
 rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kernel_source *sources,
                                 const char *program, const char *kernel, const rt_hooks *hooks,
                                 rt_error *error);

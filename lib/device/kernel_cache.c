@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/progress.h"
@@ -181,6 +182,14 @@ static int stored_path(char path[RT_PATH_MAX], const slot *s)
 {
     return snprintf(path, RT_PATH_MAX, "%s/%s-%016llx%s", store, s->program,
                     (unsigned long long)s->key, RT_STORED_SUFFIX) < RT_PATH_MAX;
+}
+
+int rt_kernel_cache_has(uint64_t key, const char *program)
+{
+    char path[RT_PATH_MAX];
+    slot s = {.key = key};
+    snprintf(s.program, sizeof s.program, "%s", program);
+    return is_kept && stored_path(path, &s) && access(path, R_OK) == 0;
 }
 
 void rt_kernel_cache_fetch(uint64_t key, const char *program)

@@ -32,6 +32,9 @@ void rt_kernel_cache_opened(void);
 void rt_kernel_cache_fetch(uint64_t key, const char *program);
 void rt_kernel_cache_built(uint64_t key);
 
+/* Whether something is stored of a program. */
+int rt_kernel_cache_has(uint64_t key, const char *program);
+
 /* Stores the programs of which something was compiled since. */
 void rt_kernel_cache_keep(void);
 

@@ -9,6 +9,8 @@
 #include "base/progress.h"
 #include "device/kernel_cache.h"
 
+enum { OPTIONS_SIZE = 128 };
+
 /* Copies the first line of a build log that speaks of an error. */
 static void first_error(char *line, size_t size, const char *log)
 {
@@ -122,11 +124,19 @@ static cl_int build_cached(rt_device *device, cl_program program, const rt_kerne
     return code;
 }
 
+int rt_device_stores(const rt_device *device)
+{
+    rt_driver_lock();
+    const int is_kept = rt_kernel_cache_store()[0] != 0;
+    rt_driver_unlock();
+    return is_kept && strcmp(device->info.platform, "Portable Computing Language") == 0;
+}
+
 static rt_status build(rt_device *device, cl_program *out, const rt_kernel_source *source,
                        const rt_hooks *hooks, rt_error *error)
 {
     cl_int code;
-    char options[128];
+    char options[OPTIONS_SIZE];
     const char *text = (const char *)source->text;
     rt_status status = build_options(options, sizeof options, device, error);
     if (status != RT_OK)
@@ -143,6 +153,14 @@ static rt_status build(rt_device *device, cl_program *out, const rt_kernel_sourc
     }
     *out = program;
     return RT_OK;
+}
+
+/* The source of a program, or the entry that ends the table. */
+static const rt_kernel_source *find_source(const rt_kernel_source *sources, const char *program)
+{
+    while (sources->name && strcmp(sources->name, program) != 0)
+        sources++;
+    return sources;
 }
 
 /* Finds the number of a program among those already built, or builds it. */
@@ -185,6 +203,41 @@ static int is_first(rt_device *device, int program, const char *kernel)
     return 1;
 }
 
+int rt_device_has_program(const rt_device *device, const char *program)
+{
+    char options[OPTIONS_SIZE];
+    const rt_kernel_source *source = find_source(rt_kernel_sources, program);
+    if (!source->name || build_options(options, sizeof options, device, NULL) != RT_OK)
+        return 0;
+    for (int i = 0; i < device->program_count; i++)
+        if (device->programs[i].source == source)
+            return 1;
+    rt_driver_lock();
+    const int is_stored = rt_kernel_cache_has(cache_key(device, source, options), program);
+    rt_driver_unlock();
+    return is_stored;
+}
+
+/* The number of a program, built now if it is not yet. */
+static rt_status program_of(rt_device *device, int *out, const rt_kernel_source *sources,
+                            const char *program, const rt_hooks *hooks, rt_error *error)
+{
+    const rt_kernel_source *source = find_source(sources, program);
+    if (!source->name)
+        return rt_fail(error, RT_ERROR_DEVICE, "there is no kernel program '%s'", program);
+    return find_program(device, out, source, hooks, error);
+}
+
+rt_status rt_device_program(rt_device *device, cl_program *out, const char *program,
+                            const rt_hooks *hooks, rt_error *error)
+{
+    int number = 0;
+    rt_status status = program_of(device, &number, rt_kernel_sources, program, hooks, error);
+    if (status == RT_OK)
+        *out = device->programs[number].program;
+    return status;
+}
+
 rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kernel_source *sources,
                                 const char *program, const char *kernel, const rt_hooks *hooks,
                                 rt_error *error)
@@ -192,11 +245,7 @@ rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kern
     int number = 0;
     cl_int code;
 
-    while (sources->name && strcmp(sources->name, program) != 0)
-        sources++;
-    if (!sources->name)
-        return rt_fail(error, RT_ERROR_DEVICE, "there is no kernel program '%s'", program);
-    rt_status status = find_program(device, &number, sources, hooks, error);
+    rt_status status = program_of(device, &number, sources, program, hooks, error);
     if (status != RT_OK)
         return status;
     cl_kernel made = clCreateKernel(device->programs[number].program, kernel, &code);

@@ -9,6 +9,7 @@
 #include "film/film.h"
 #include "mode/first_hit/layers.h"
 #include "mode/work.h"
+#include "render/compile.h"
 #include "render/renderer.h"
 
 /* A render under way, as rt_render hands it to a mode. */
@@ -26,6 +27,9 @@ typedef struct rt_mode_class {
 
     /* Fails where complete options do not fit together in this mode; or NULL. */
     rt_status (*check)(const rt_render_options *options, rt_error *error);
+
+    /* Adds the programs that prepare makes kernels of; or NULL. */
+    void (*programs)(rt_program_list *list, const rt_render_job *job);
 
     /* Compiles the kernels, as part of the stage `compile`; or NULL. */
     rt_status (*prepare)(const rt_render_job *job, void *state, rt_stage_progress *progress,

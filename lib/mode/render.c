@@ -78,11 +78,19 @@ rt_status rt_render_options_check(const rt_render_options *options, rt_error *er
 static rt_status prepare(const rt_mode_class *mode, const rt_render_job *job, void *state,
                          rt_error *error)
 {
+    const int has_layers = job->options->aov || mode->show;
+    rt_program_list programs = {0};
     rt_stage_progress progress;
+    if (mode->programs)
+        mode->programs(&programs, job);
+    if (has_layers)
+        rt_program_list_add(&programs, "first_hit");
     rt_status status = rt_stage_begin(&progress, job->options->hooks, RT_STAGE_COMPILE);
+    if (status == RT_OK)
+        status = rt_programs_compile(job->renderer->device, &programs, &progress);
     if (status == RT_OK && mode->prepare)
         status = mode->prepare(job, state, &progress, error);
-    if (status == RT_OK && (job->options->aov || mode->show))
+    if (status == RT_OK && has_layers)
         status =
             rt_first_hit_layers_prepare(job->layers, job->renderer, job->film, &progress, error);
     return status == RT_OK ? rt_stage_end(&progress, &job->film->stats.compile_seconds) : status;

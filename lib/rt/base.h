@@ -96,6 +96,8 @@ typedef struct rt_progress {
     double remaining; /* estimated seconds to the end of this stage, negative while unknown */
     /* relative RMSE of the picture so far, see rt_film_stats; negative while unknown */
     double error;
+    /* of the stage `compile`: programs that are compiled, and that had to be; else 0 of 0 */
+    uint32_t step, steps;
 } rt_progress;
 
 /*

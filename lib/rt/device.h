@@ -38,6 +38,13 @@ typedef struct rt_device_options {
     uint32_t work_group; /* work-items per work-group; 0: chosen for the device */
     uint32_t width;    /* paths that a work-item follows at a time: 1 or 8; 0: 8 on a CPU, else 1 */
     rt_memory *memory; /* what is made on the device counts in it; NULL: nowhere */
+    /*
+     * The path of a program that, called as `PATH kernels PROGRAM --device N --work-group N`, does
+     * what rt_device_compile does and ends, as rtc is one. Where several programs have to be
+     * compiled, it compiles some of them at the same time, in up to threads - 1 processes. NULL:
+     * they are compiled one after the other.
+     */
+    const char *compiler;
 } rt_device_options;
 
 /*
@@ -59,6 +66,13 @@ RT_API rt_status rt_device_open(rt_device **out, const rt_device_options *option
  * suffice.
  */
 RT_API rt_status rt_device_folders(char *work, char *kept, size_t size, rt_error *error);
+
+/*
+ * Compiles one of the library's programs for OpenCL, or all of them for NULL, so that what the
+ * driver makes of it is in the cache. Fails with RT_ERROR_USAGE where there is no such program.
+ */
+RT_API rt_status rt_device_compile(rt_device *device, const char *program, const rt_hooks *hooks,
+                                   rt_error *error);
 
 RT_API void rt_device_close(rt_device *device);
 RT_API void rt_device_get_info(const rt_device *device, rt_device_info *out);

@@ -388,8 +388,8 @@ static void help_describes_every_option(void **state)
 static void each_command_has_its_help(void **state)
 {
     (void)state;
-    static const char *const commands[] = {"check",  "mesh",    "devices",
-                                           "doctor", "photons", "compare"};
+    static const char *const commands[] = {"check",   "mesh",    "devices", "doctor",
+                                           "photons", "compare", "kernels"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         char usage[64];
         snprintf(usage, sizeof usage, "usage: rtc %s", commands[i]);

@@ -2,6 +2,12 @@
 #include "mode/modes.h"
 #include "mode/pixel_samples.h"
 
+static void programs(rt_program_list *list, const rt_render_job *job)
+{
+    (void)job;
+    rt_program_list_add(list, "direct");
+}
+
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,
                          rt_error *error)
 {
@@ -12,6 +18,7 @@ const rt_mode_class rt_mode_direct = {
     .has_noise = 1,
     .state_size = sizeof(rt_pixel_samples),
     .check = rt_pixel_samples_check,
+    .programs = programs,
     .prepare = prepare,
     .run = rt_pixel_samples_run,
     .release = rt_pixel_samples_release,

@@ -14,6 +14,12 @@ static void warn_of_missing_caustics(const rt_render_job *job)
             "mirrors or glass); mode photon shows them");
 }
 
+static void programs(rt_program_list *list, const rt_render_job *job)
+{
+    (void)job;
+    rt_program_list_add(list, "path");
+}
+
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,
                          rt_error *error)
 {
@@ -26,6 +32,7 @@ const rt_mode_class rt_mode_path = {
     .has_noise = 1,
     .state_size = sizeof(rt_pixel_samples),
     .check = rt_pixel_samples_check,
+    .programs = programs,
     .prepare = prepare,
     .run = rt_pixel_samples_run,
     .release = rt_pixel_samples_release,

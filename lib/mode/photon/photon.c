@@ -54,6 +54,21 @@ static rt_status check(const rt_render_options *o, rt_error *error)
 
 /* ---- Preparation ------------------------------------------------------------ */
 
+static rt_photon_search search_of(const rt_render_job *job)
+{
+    return job->options->passes > 1 ? RT_SEARCH_TREE
+                                    : rt_photon_search_of(job->renderer->device, job->options);
+}
+
+static void programs(rt_program_list *list, const rt_render_job *job)
+{
+    if (!job->options->photon_map)
+        rt_program_list_add(list, "photon_emit");
+    rt_program_list_add(list, "photon_camera");
+    rt_program_list_add(list, rt_gather_kernel_name(search_of(job)));
+    rt_program_list_add(list, "photon_film");
+}
+
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,
                          rt_error *error)
 {
@@ -63,7 +78,7 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
 
     r->job = job;
     r->in_passes = o->passes > 1;
-    r->search = r->in_passes ? RT_SEARCH_TREE : rt_photon_search_of(job->renderer->device, o);
+    r->search = search_of(job);
     r->in_use = o->photon_map ? o->photon_map : &r->map;
     if (o->photon_map)
         status = rt_photon_map_check(o->photon_map, job->renderer, o, error);
@@ -220,6 +235,7 @@ const rt_mode_class rt_mode_photon = {
     .has_noise = 1,
     .state_size = sizeof(rt_photon_render),
     .check = check,
+    .programs = programs,
     .prepare = prepare,
     .run = run,
     .release = release,

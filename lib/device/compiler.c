@@ -1,0 +1,62 @@
+/* compiler.c - starts the compiler that rt_device_options names. */
+#define _XOPEN_SOURCE 700 /* posix_spawn */
+
+#include "device/compiler.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+uint32_t rt_compilers(const rt_device *device)
+{
+    return device->compiler && rt_device_stores(device) ? device->threads - 1 : 0;
+}
+
+/* Starts it with nothing to read or to say. */
+static int begin_silent(pid_t *out, char *const argv[])
+{
+    posix_spawn_file_actions_t files;
+    int code = posix_spawn_file_actions_init(&files);
+    if (code)
+        return code;
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO && !code; fd++)
+        code = posix_spawn_file_actions_addopen(&files, fd, "/dev/null", O_RDWR, 0);
+    if (!code)
+        code = posix_spawn(out, argv[0], &files, NULL, argv, environ);
+    posix_spawn_file_actions_destroy(&files);
+    return code;
+}
+
+pid_t rt_compiler_begin(const rt_device *device, const char *program)
+{
+    char name[64], number[16], group[16];
+    pid_t process;
+    snprintf(name, sizeof name, "%s", program);
+    snprintf(number, sizeof number, "%" PRIu32, device->number);
+    snprintf(group, sizeof group, "%" PRIu32, device->work_group);
+    char *const argv[] = {device->compiler, "kernels",      name,  "--device",
+                          number,           "--work-group", group, NULL};
+    return begin_silent(&process, argv) == 0 ? process : -1;
+}
+
+/* Both fail where the program that uses the library has waited for all of its children. */
+void rt_compiler_wait(pid_t process)
+{
+    siginfo_t info;
+    while (waitid(P_PID, (id_t)process, &info, WEXITED | WNOWAIT) < 0 && errno == EINTR)
+        continue;
+}
+
+void rt_compiler_end(pid_t process)
+{
+    while (waitpid(process, NULL, 0) < 0 && errno == EINTR)
+        continue;
+}
