@@ -283,7 +283,7 @@ SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench bench-checkpoint bench-compare bench-mpi bench-reference bench-scaling \
 	build-fuzz check \
-	check-cluster check-corpus check-crowd check-faults check-fuzz check-kills check-memory \
+	check-cluster check-corpus check-crowd check-faults check-fuzz check-gpu-code check-kills check-memory \
 	check-mpi check-mutation check-peers check-quick check-reference check-reproducible \
 	check-samples check-sanitize check-threads clean demo deps deps-fuzz deps-lint format \
 	fuzz help install lint lint-quick mpi need-deps proof run-all run-quick run-threads \
@@ -648,6 +648,10 @@ bench-scaling: all
 	python3 tests/bench/scaling.py --build $(B) $(if $(DEVICE),--device '$(DEVICE)') \
 	    $(if $(ONLY),--only $(ONLY))
 
+# Registers, memory and spills of each kernel by compilers for GPUs, which need no GPU.
+check-gpu-code:
+	sh tests/bench/gpu_code.sh
+
 # The references of time to equal error, each compared with Mitsuba's picture.
 bench-reference: all
 	RTC=$(B)/rtc tests/bench/make_reference.sh $(SCENES)
@@ -731,6 +735,7 @@ help:
 	@echo 'make bench-compare   what moved since the commit BASE'
 	@echo 'make bench-scaling   cost against triangles, samples, lights, photons, pixels ...'
 	@echo 'make bench-reference makes the references of time to equal error anew'
+	@echo 'make check-gpu-code  registers, memory and spills of each kernel, by clang for GPUs'
 	@echo 'make bench-mpi       two processes beside two threads of one, with each MPI'
 	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
 	@echo 'make study           numbers and pictures on photon mapping; study-k ... makes one'
