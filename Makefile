@@ -283,7 +283,8 @@ SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench bench-checkpoint bench-compare bench-mpi bench-reference bench-scaling \
 	build-fuzz check \
-	check-cluster check-corpus check-crowd check-faults check-fuzz check-gpu-code check-kills check-memory \
+	check-cluster check-corpus check-crowd check-faults check-fuzz check-gpu-code check-kills \
+	check-memory \
 	check-mpi check-mutation check-peers check-quick check-reference check-reproducible \
 	check-samples check-sanitize check-threads clean demo deps deps-fuzz deps-lint format \
 	fuzz help install lint lint-quick mpi need-deps proof run-all run-quick run-threads \

@@ -33,7 +33,8 @@ compile() {
 
 # The sum of the frames in PTX: entries of a file share what they call.
 local_memory() {
-    awk '/\.local \.align/ { sub(/.*\[/, ""); sub(/\].*/, ""); sum += $0 } END { print sum + 0 }' "$1"
+    awk '/\.local \.align/ { sub(/.*\[/, ""); sub(/\].*/, ""); sum += $0 }
+        END { print sum + 0 }' "$1"
 }
 
 # ENTRY REGISTERS STACK SPILLED for each entry of a file, from PTX.
@@ -69,18 +70,23 @@ amd_rows() {
         inside && $1 == ".vgpr_spill_count:" { print entry, vgprs, sgprs, scratch, $2 }' "$1"
 }
 
-echo "| kernel | sm_80: registers | memory, bytes | spilled, bytes | gfx90a: VGPRs | SGPRs |" \
-     "scratch, bytes | spilled VGPRs |"
+echo "NVIDIA sm_80: registers, memory and spills in bytes; AMD gfx90a: VGPRs, SGPRs, scratch in"
+echo "bytes, spilled VGPRs."
+echo
+echo "| kernel | registers | memory | spills | VGPRs | SGPRs | scratch | spilled |"
 echo "|---|---|---|---|---|---|---|---|"
-[ $# -gt 0 ] || set -- $(for file in kernels/*.cl; do basename "$file" .cl; done)
-for program; do
+[ $# -gt 0 ] || set -- kernels/*.cl
+for file; do
+    program=$(basename "$file" .cl)
     compile "$program" "$work/nvidia.s" nvptx64--nvidiacl.bc -target nvptx64-nvidia-nvcl \
         -Xclang -target-cpu -Xclang sm_80
     compile "$program" "$work/amd.s" amdgcn--amdhsa.bc -target amdgcn-amd-amdhsa -mcpu=gfx90a \
         -nogpulib
     nvidia_rows "$work/nvidia.s" | sort >"$work/nvidia"
     amd_rows "$work/amd.s" | sort >"$work/amd"
-    [ -s "$work/nvidia" ] && [ "$(wc -l <"$work/nvidia")" = "$(wc -l <"$work/amd")" ] ||
-        { echo "gpu_code.sh: $program: not all kernels came out"; exit 1; }
+    if [ ! -s "$work/nvidia" ] || [ "$(wc -l <"$work/nvidia")" != "$(wc -l <"$work/amd")" ]; then
+        echo "gpu_code.sh: $program: not all kernels came out"
+        exit 1
+    fi
     join "$work/nvidia" "$work/amd" | sed 's/ / | /g; s/^/| /; s/$/ |/'
 done
