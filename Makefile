@@ -240,6 +240,7 @@ TEST_SUPPORT_SRC := \
 	tests/kernels/bsdf_draw.c tests/kernels/light_draw.c tests/kernels/rays.c \
 	tests/kernels/rng_draw.c \
 	tests/kernels/shape_check.c tests/kernels/shape_reference.c tests/kernels/statistics.c \
+	tests/lib/base/frame_damage.c \
 	tests/lib/image/damage.c tests/lib/image/exr_sample.c tests/lib/image/pictures.c \
 	tests/lib/image/scratch.c \
 	tests/lib/mesh/sample.c \

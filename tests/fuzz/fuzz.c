@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/crc32.h"
+
 /* ---- Inputs -------------------------------------------------------------------------------- */
 
 void fuzz_put(rt_bytes *bytes, const void *data, size_t size)
@@ -161,4 +163,13 @@ void fuzz_set(uint8_t *at, uint64_t value, int size)
 {
     for (int i = 0; i < size; i++)
         at[i] = (uint8_t)(value >> 8 * i);
+}
+
+void fuzz_seal(uint8_t *data, size_t size, const rt_frame *frame)
+{
+    rt_writer start = {data};
+    if (size < (size_t)frame->header + RT_FRAME_CHECKSUM)
+        return;
+    rt_frame_put(&start, frame, size);
+    fuzz_set(data + size - RT_FRAME_CHECKSUM, rt_crc32(data, size - RT_FRAME_CHECKSUM), 4);
 }

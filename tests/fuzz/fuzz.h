@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 #include "base/bytes.h"
+#include "base/frame.h"
 
 /* ---- Inputs -------------------------------------------------------------------------------- */
 
@@ -108,5 +109,11 @@ size_t fuzz_splice(uint8_t *data, size_t size, size_t room, size_t at, size_t go
 /* Little-endian numbers of 1 to 8 bytes. */
 uint64_t fuzz_get(const uint8_t *at, int size);
 void fuzz_set(uint8_t *at, uint64_t value, int size);
+
+/*
+ * Gives a file of this kind, where it is long enough, the start that it must have, its size and a
+ * sound checksum.
+ */
+void fuzz_seal(uint8_t *data, size_t size, const rt_frame *frame);
 
 #endif

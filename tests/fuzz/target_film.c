@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
 #include "film/film_file.h"
 #include "film/join.h"
 #include "fuzz/targets.h"
@@ -271,19 +270,8 @@ static void words(fuzz_inputs *out)
 
 /* ---- Mutation ------------------------------------------------------------------------------ */
 
-/* Places in the header: the size of the file, the bytes of the text, and the first that counts. */
-enum { at_size = 16, at_scene = 24, at_text = 40, at_ranges = 64, at_runs = 72, at_lights = 80 };
-
-static void seal(uint8_t *data, size_t size)
-{
-    if (size < RT_FILM_HEADER + RT_FRAME_CHECKSUM)
-        return;
-    memcpy(data, rt_film_frame.magic, sizeof rt_film_frame.magic);
-    fuzz_set(data + 8, RT_FILM_VERSION, 4);
-    fuzz_set(data + 12, RT_FILM_HEADER, 4);
-    fuzz_set(data + at_size, size, 8);
-    fuzz_set(data + size - RT_FRAME_CHECKSUM, rt_crc32(data, size - RT_FRAME_CHECKSUM), 4);
-}
+/* Places in the header: the first that counts, the bytes of the text, and numbers of parts. */
+enum { at_scene = 24, at_text = 40, at_ranges = 64, at_runs = 72, at_lights = 80 };
 
 /* Bytes of the text, as far as there are so many. */
 static size_t text_size(const uint8_t *data, size_t size)
@@ -373,7 +361,7 @@ static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t number)
         break;
     }
     if (fuzz_random_below(&random, 16))
-        seal(data, size);
+        fuzz_seal(data, size, &rt_film_frame);
     return size;
 }
 

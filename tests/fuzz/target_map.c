@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
 #include "fuzz/targets.h"
 #include "mesh/load.h"
 #include "photon/map_file.h"
@@ -139,7 +138,6 @@ static int run(const uint8_t *data, size_t size)
 
 /* Places of numbers of 8 bytes in the header, and of a kind of photons after its start. */
 enum {
-    at_size = 16,
     at_lights = 56,
     at_paths = 64,
     at_kinds = 80,
@@ -149,18 +147,6 @@ enum {
     kind_ranges = 24,
     table_count = 5
 };
-
-/* The magic, the size and the checksum. */
-static void seal(uint8_t *data, size_t size)
-{
-    if (size < RT_MAP_HEADER + RT_FRAME_CHECKSUM)
-        return;
-    memcpy(data, rt_map_frame.magic, sizeof rt_map_frame.magic);
-    fuzz_set(data + 8, RT_MAP_VERSION, 4);
-    fuzz_set(data + 12, RT_MAP_HEADER, 4);
-    fuzz_set(data + at_size, size, 8);
-    fuzz_set(data + size - RT_FRAME_CHECKSUM, rt_crc32(data, size - RT_FRAME_CHECKSUM), 4);
-}
 
 /* ---- Seeds --------------------------------------------------------------------------------- */
 
@@ -220,7 +206,7 @@ static void add(fuzz_inputs *seeds, unsigned lights, int is_split, unsigned rang
     static const uint32_t settings[3] = {5, 1, 1}; /* greatest depth, sampler, direct light */
     rt_bytes file = {0};
     fuzz_put(&file, rt_map_frame.magic, sizeof rt_map_frame.magic);
-    fuzz_put_number(&file, 0, 8, 0); /* seal fills in these and the next, the size */
+    fuzz_put_number(&file, 0, 8, 0); /* fuzz_seal fills in these and the next, the size */
     fuzz_put_number(&file, 0, 8, 0);
     fuzz_put_number(&file, 7, 8, 0);
     for (int i = 0; i < 3; i++)
@@ -241,7 +227,7 @@ static void add(fuzz_inputs *seeds, unsigned lights, int is_split, unsigned rang
         for (unsigned i = 0; i < photons_a_range * ranges; i++)
             put_photon(&file, 20 * (i / photons_a_range) + i % photons_a_range, kind);
     fuzz_put_number(&file, 0, RT_FRAME_CHECKSUM, 0);
-    seal(file.data, file.size);
+    fuzz_seal(file.data, file.size, &rt_map_frame);
     fuzz_add(seeds, file.data, file.size);
     rt_bytes_free(&file);
 }
@@ -366,7 +352,7 @@ static size_t mutate(uint8_t *data, size_t size, size_t room, uint32_t seed)
     if (fuzz_random_below(&random, 4))
         add_up(data, size);
     if (fuzz_random_below(&random, 16))
-        seal(data, size);
+        fuzz_seal(data, size, &rt_map_frame);
     return size;
 }
 

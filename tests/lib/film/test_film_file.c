@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
 #include "base/file.h"
 #include "film/film_file.h"
+#include "lib/base/frame_damage.h"
 #include "lib/image/scratch.h"
 
 static const char room[] = "camera { eye 0 1 3.4  look_at 0 1 0  fov 50 }\n"
@@ -126,40 +126,14 @@ static void a_damage_to_any_byte_is_refused(void **state)
 {
     rt_film *film = render(renders + 2, 1);
     rt_bytes file = encode(film);
-    rt_error error;
     (void)state;
-    /* Cut short at each byte, and a bit turned in each. */
-    for (size_t at = 0; at < file.size; at++) {
-        expect_refused(file.data, at, "film file");
-        file.data[at] ^= (uint8_t)(1 << (at % 8));
-        expect_refused(file.data, file.size, "film file");
-        file.data[at] ^= (uint8_t)(1 << (at % 8));
-    }
-    expect_ok(rt_bytes_put(&file, file.size, "tail", 4, &error), &error);
-    expect_refused(file.data, file.size, "bytes instead of");
+    frame_damage(&file, "film file", expect_refused);
     rt_bytes_free(&file);
     rt_film_destroy(film);
 }
 
-static void put(uint8_t *at, uint64_t value, int bytes)
-{
-    for (int i = 0; i < bytes; i++)
-        at[i] = (uint8_t)(value >> (8 * i));
-}
-
-static void seal(rt_bytes *file)
-{
-    put(file->data + 16, file->size, 8);
-    put(file->data + file->size - 4, rt_crc32(file->data, file->size - 4), 4);
-}
-
 /* Changes of the header that a checksum made anew would hide. */
-static const struct {
-    size_t at;
-    uint64_t value;
-    int bytes;
-    const char *reason;
-} lies[] = {
+static const frame_lie lies[] = {
     {0, 0, 1, "no film file"},
     {8, 2, 4, "version 2 "},
     {12, 64, 4, "header of 64"},
@@ -185,14 +159,7 @@ static void lies_with_a_sound_checksum_are_refused(void **state)
     rt_film *film = render(renders + 2, 1);
     rt_bytes file = encode(film);
     (void)state;
-    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
-        uint8_t before[8];
-        memcpy(before, file.data + lies[i].at, 8);
-        put(file.data + lies[i].at, lies[i].value, lies[i].bytes);
-        seal(&file);
-        expect_refused(file.data, file.size, lies[i].reason);
-        memcpy(file.data + lies[i].at, before, 8);
-    }
+    frame_tell_lies(&file, lies, sizeof lies / sizeof *lies, expect_refused);
     rt_bytes_free(&file);
     rt_film_destroy(film);
 }
@@ -241,7 +208,7 @@ static void any_lie_is_refused_or_harmless(void **state)
                 rt_film *back = NULL;
                 rt_error error;
                 file.data[at] ^= turns[k];
-                put(file.data + file.size - 4, rt_crc32(file.data, file.size - 4), 4);
+                frame_seal(&file);
                 rt_status status = rt_film_decode(&back, file.data, file.size, &error);
                 assert_true(status == RT_OK || status == RT_ERROR_INPUT);
                 assert_int_equal(status == RT_OK, back != NULL);

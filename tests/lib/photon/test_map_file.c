@@ -11,6 +11,7 @@
 
 #include "base/crc32.h"
 #include "base/file.h"
+#include "lib/base/frame_damage.h"
 #include "lib/image/scratch.h"
 #include "photon/map_file.h"
 
@@ -125,27 +126,12 @@ static void a_damage_to_any_byte_is_refused(void **state)
     rt_photon_map *map = make_map();
     rt_bytes file = encode(map);
     (void)state;
-    /* Cut short at each byte, and a bit turned in each. */
-    for (size_t at = 0; at < file.size; at++) {
-        expect_refused(file.data, at, "photon map");
-        file.data[at] ^= (uint8_t)(1 << (at % 8));
-        expect_refused(file.data, file.size, "photon map");
-        file.data[at] ^= (uint8_t)(1 << (at % 8));
-    }
-    /* Two blocks changed places; a tail too many. */
+    frame_damage(&file, "photon map", expect_refused);
+    /* Two blocks changed places. */
     memmove(file.data + 400, file.data + 464, 64);
     expect_refused(file.data, file.size, "checksum");
-    rt_error error;
-    expect_ok(rt_bytes_put(&file, file.size, "tail", 4, &error), &error);
-    expect_refused(file.data, file.size, "bytes instead of");
     rt_bytes_free(&file);
     rt_photon_map_destroy(map);
-}
-
-static void put(uint8_t *at, uint64_t value, int bytes)
-{
-    for (int i = 0; i < bytes; i++)
-        at[i] = (uint8_t)(value >> (8 * i));
 }
 
 /* Where the first photon, the first light and the first range of the map of make_map lie. */
@@ -158,12 +144,7 @@ enum {
 };
 
 /* Changes that a checksum made anew would hide. */
-static const struct {
-    size_t at;
-    uint64_t value;
-    int bytes;
-    const char *reason;
-} lies[] = {
+static const frame_lie lies[] = {
     {0, 0, 1, "no photon map"},
     {8, 1, 4, "version 1 "},
     {12, 64, 4, "header of 64"},
@@ -216,16 +197,8 @@ static void lies_with_a_sound_checksum_are_refused(void **state)
 {
     rt_photon_map *map = make_map();
     rt_bytes file = encode(map);
-    uint8_t *copy = malloc(file.size);
     (void)state;
-    assert_non_null(copy);
-    for (size_t i = 0; i < sizeof lies / sizeof *lies; i++) {
-        memcpy(copy, file.data, file.size);
-        put(copy + lies[i].at, lies[i].value, lies[i].bytes);
-        put(copy + file.size - 4, rt_crc32(copy, file.size - 4), 4);
-        expect_refused(copy, file.size, lies[i].reason);
-    }
-    free(copy);
+    frame_tell_lies(&file, lies, sizeof lies / sizeof *lies, expect_refused);
     rt_bytes_free(&file);
     rt_photon_map_destroy(map);
 }
@@ -244,7 +217,7 @@ static void any_lie_is_refused_or_harmless(void **state)
         rt_photon_map *back = NULL;
         rt_error error;
         file.data[at] ^= 0xff;
-        put(file.data + file.size - 4, rt_crc32(file.data, file.size - 4), 4);
+        frame_seal(&file);
         rt_status status =
             rt_photon_map_decode_in(&back, file.data, file.size, "lie", NULL, &error);
         assert_true(status == RT_OK || status == RT_ERROR_INPUT);

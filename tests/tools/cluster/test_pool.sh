@@ -3,23 +3,8 @@
 # and says what fails. Needs build/rtc and build/tools/cluster/pool.
 set -u
 bin=$PWD/build
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
+. "${0%/*}/check.sh"
 cd "$work" || exit 1
-bad=0
-
-# check NAME COMMAND...: one test; shows what the command said when it fails.
-check() {
-    name=$1
-    shift
-    if "$@" >log 2>&1; then
-        printf 'ok %s\n' "$name"
-    else
-        printf 'not ok %s\n' "$name"
-        sed 's/^/    /' log
-        bad=1
-    fi
-}
 
 cat >scene.rts <<'END_OF_SCENE'
 camera { eye 0 1 -4  look_at 0 1 0  fov 40 }

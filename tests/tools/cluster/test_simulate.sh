@@ -4,21 +4,7 @@
 set -u
 simulate=$PWD/build/tools/cluster/simulate
 cluster=$PWD/tools/cluster
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-bad=0
-
-check() {
-    name=$1
-    shift
-    if "$@" >"$work/log" 2>&1; then
-        printf 'ok %s\n' "$name"
-    else
-        printf 'not ok %s\n' "$name"
-        sed 's/^/    /' "$work/log"
-        bad=1
-    fi
-}
+. "${0%/*}/check.sh"
 
 # A cluster without chance, of one megapixel and 1024 samples of 1 us: 1074 s of work.
 calm="width=1024 height=1024 spp=1024 sample=1e-6 start=1 spread=0 speeds=0 stragglers=0 life=0

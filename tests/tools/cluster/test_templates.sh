@@ -8,25 +8,11 @@
 set -u
 rtc=$PWD/build/rtc
 templates=$PWD/tools/cluster
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
+. "${0%/*}/check.sh"
 cd "$work" || exit 1
 mkdir bin
 PATH=$work/bin:$PATH
 export PATH work
-bad=0
-
-check() {
-    name=$1
-    shift
-    if "$@" >log 2>&1; then
-        printf 'ok %s\n' "$name"
-    else
-        printf 'not ok %s\n' "$name"
-        sed 's/^/    /' log
-        bad=1
-    fi
-}
 
 program() { cat >"bin/$1" && chmod +x "bin/$1"; }
 
