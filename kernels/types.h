@@ -255,7 +255,7 @@ RT_SIZE(rt_light_data, 112);
 typedef struct rt_light_node {
     /* of the bounds of its lights, or of the scene for those from infinitely far */
     float centre[3];
-    float power;   /* of its lights, as a part of all */
+    float weight;  /* of its lights, as a part of all; see lib/light/tree.c */
     float falloff; /* factor of the squared distance: 1; 0 for lights from infinitely far */
     float extent;  /* added to it for the extent of the bounds, m^2, above 0 */
     rt_u32 light;  /* of a leaf: index in lights */

@@ -150,7 +150,7 @@ static inline void choose_lights(struct chosen_lights *lights, const struct scen
     float3 positions[8];
     vec3_x8_rows(from, positions);
     lights->flat = lights->single = lights->delta = 0u;
-    if (scene->light_nodes[1].power == 0.0f)
+    if (scene->light_nodes[1].weight == 0.0f)
         return;
     for (; wanted; wanted &= wanted - 1u) {
         const uint i = lane_first(wanted), bit = 1u << i;

@@ -146,7 +146,7 @@ static inline bool sample_light(const struct scene *scene, float3 from, float4 u
                                 struct light_sample *sample)
 {
     float pmf;
-    if (scene->light_nodes[1].power == 0.0f)
+    if (scene->light_nodes[1].weight == 0.0f)
         return false;
     const uint light = choose_light(scene, from, u.z, &pmf);
     if (pmf == 0.0f || !sample_chosen(scene, scene->lights + light, from, u.xy, sample))

@@ -1,6 +1,6 @@
 /*
- * tree.h - choosing a light for a point by its estimated contribution: its power over the square
- * of its distance.
+ * tree.h - choosing a light for a point by its estimated contribution: its weight, the power
+ * corrected for the directions of emission (lib/light/tree.c), over the square of its distance.
  *
  * The light tree, a binary one, is traversed from the root; at each node a child is chosen with
  * probability proportional to the estimate for its lights. The light's sample is then divided by
@@ -16,7 +16,7 @@
 #include "scene.h"
 #include "types.h"
 
-/* The square of the distance that a node's power is divided by. */
+/* The square of the distance that a node's weight is divided by. */
 static inline float node_distance(global const rt_light_node *node, float3 from)
 {
     const float3 towards = row3(node->centre) - from;
@@ -29,10 +29,10 @@ static inline float node_distance(global const rt_light_node *node, float3 from)
  */
 static inline float first_probability(global const rt_light_node *pair, float3 from)
 {
-    if (pair[0].power == 0.0f || pair[1].power == 0.0f)
-        return pair[1].power == 0.0f ? 1.0f : 0.0f;
+    if (pair[0].weight == 0.0f || pair[1].weight == 0.0f)
+        return pair[1].weight == 0.0f ? 1.0f : 0.0f;
     const float ratio = node_distance(pair, from) / node_distance(pair + 1, from);
-    return pair[0].power / (pair[0].power + pair[1].power * ratio);
+    return pair[0].weight / (pair[0].weight + pair[1].weight * ratio);
 }
 
 /*

@@ -176,6 +176,52 @@ static void near_lights_are_chosen_more_often(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Adds a quad of 0.2 m x 0.2 m, 3 m above the origin, that gives it 1 W/m^2. */
+static void add_area_light(rt_scene *scene)
+{
+    static const float corner[3] = {-0.1f, 3, -0.1f}, x[3] = {0.2f, 0, 0}, z[3] = {0, 0, 0.2f};
+    const rt_surface emitter = {.radiance = {225, 225, 225}};
+    expect_ok(rt_scene_add_quad(scene, NULL, corner, x, z, &emitter, &error), &error);
+}
+
+/*
+ * An area light, and one of another kind that gives the point below as much: each is chosen about
+ * as often. By power an environment would be chosen four times as often, and a narrow spot hardly.
+ */
+static void lights_that_give_as_much_are_chosen_as_often(void **state)
+{
+    static const float pi = 3.14159265f, at[3] = {0, 3, 0}, down[3] = {0, -1, 0}, origin[3] = {0};
+    const rt_point_light point = {.position = {0, 3, 0}, .intensity = {9, 9, 9}};
+    const rt_spot_light spot = {
+        .position = {0, 3, 0}, .intensity = {9, 9, 9}, .inner = 4, .outer = 5};
+    const rt_directional_light sun = {.direction = {0, -1, 0}, .irradiance = {1, 1, 1}};
+    const rt_environment sky = {.radiance = {1 / pi, 1 / pi, 1 / pi}};
+    const float bright = 900 / pi;
+    const rt_surface ball = {.radiance = {bright, bright, bright}};
+    (void)state;
+    for (int kind = 0; kind < 6; kind++) {
+        float chances[2];
+        rt_scene *scene = light_scene();
+        add_area_light(scene);
+        if (kind == 0)
+            expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
+        else if (kind == 1)
+            expect_ok(rt_scene_add_spot_light(scene, &spot, &error), &error);
+        else if (kind == 2)
+            expect_ok(rt_scene_add_directional_light(scene, &sun, &error), &error);
+        else if (kind == 3)
+            expect_ok(rt_scene_set_environment(scene, &sky, &error), &error);
+        else if (kind == 4)
+            expect_ok(rt_scene_add_sphere(scene, NULL, at, 0.1f, &ball, &error), &error);
+        else
+            expect_ok(rt_scene_add_disc(scene, NULL, at, down, 0.1f, 0, &ball, &error), &error);
+        rt_renderer *renderer = light_renderer(scene);
+        light_chances(renderer, origin, 2, chances);
+        assert_float_equal(chances[0], 0.5, 0.01);
+        rt_renderer_destroy(renderer);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -183,6 +229,7 @@ int main(void)
         cmocka_unit_test(any_number_of_lights_can_be_chosen_from),
         cmocka_unit_test(lights_without_power_are_never_chosen),
         cmocka_unit_test(near_lights_are_chosen_more_often),
+        cmocka_unit_test(lights_that_give_as_much_are_chosen_as_often),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
