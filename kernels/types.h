@@ -391,8 +391,8 @@ typedef struct rt_params {
 } rt_params;
 RT_SIZE(rt_params, 80);
 
-#define RT_REPLICATES 8 /* sequences of samples, where the error is estimated: film/units.h */
-#define RT_FILM_REJECTED 12u             /* bit of rt_film_pixel.bins */
+#define RT_REPLICATES 8      /* sequences of samples, where the error is estimated: film/units.h */
+#define RT_FILM_REJECTED 12u /* bit of rt_film_pixel.bins */
 #define RT_FILM_CUT_OFF (1.0f / 4096.0f) /* unit of rt_film_pixel.cut_off, which stops at its end */
 
 /*

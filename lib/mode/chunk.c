@@ -24,22 +24,22 @@ rt_status rt_chunk_count(uint64_t *out, const rt_render_options *options, rt_err
     return status;
 }
 
-rt_status rt_chunk_units(uint64_t *first, uint64_t *count, const rt_render_options *options,
-                         uint64_t chunk, uint64_t chunks, rt_error *error)
+rt_status rt_chunk_units(uint64_t *first, uint64_t *units, const rt_render_options *options,
+                         uint64_t chunk, uint64_t count, rt_error *error)
 {
-    rt_units units;
-    rt_status status = units_of(&units, options, error);
+    rt_units all;
+    rt_status status = units_of(&all, options, error);
     if (status != RT_OK)
         return status;
-    const uint64_t all = rt_units_chunks(&units);
-    if (chunk >= all || chunks == 0 || chunks > all - chunk)
+    const uint64_t chunks = rt_units_chunks(&all);
+    if (chunk >= chunks || count == 0 || count > chunks - chunk)
         return rt_fail(error, RT_ERROR_USAGE, "chunks %llu to %llu of %llu",
-                       (unsigned long long)chunk, (unsigned long long)(chunk + chunks - 1),
-                       (unsigned long long)all);
-    const rt_unit_range begin = rt_units_chunk(&units, chunk),
-                        last = rt_units_chunk(&units, chunk + chunks - 1);
+                       (unsigned long long)chunk, (unsigned long long)(chunk + count - 1),
+                       (unsigned long long)chunks);
+    const rt_unit_range begin = rt_units_chunk(&all, chunk),
+                        last = rt_units_chunk(&all, chunk + count - 1);
     *first = begin.first;
-    *count = last.first + last.count - begin.first;
+    *units = last.first + last.count - begin.first;
     return RT_OK;
 }
 

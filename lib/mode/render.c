@@ -188,7 +188,7 @@ static rt_status identify(rt_render_job *job, rt_error *error)
 }
 
 /* Makes what the render needs besides its mode. */
-static rt_status open(rt_render_job *job, int is_joined, rt_error *error)
+static rt_status open_job(rt_render_job *job, int is_joined, rt_error *error)
 {
     const rt_render_options *o = job->options;
     rt_status status = rt_renderer_aim(job->renderer, o, error);
@@ -209,7 +209,7 @@ static rt_status begin(rt_render_job *job, rt_render_options *o, int is_joined, 
     rt_status status = check_and_complete(o, error);
     if (status == RT_OK && !job->renderer->has_camera)
         status = rt_fail(error, RT_ERROR_INPUT, "the scene has no camera");
-    return status == RT_OK ? open(job, is_joined || has_identity(o), error) : status;
+    return status == RT_OK ? open_job(job, is_joined || has_identity(o), error) : status;
 }
 
 rt_status rt_film_begin(rt_film **out, rt_renderer *renderer, const rt_render_options *options,
