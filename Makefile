@@ -41,7 +41,7 @@ ALL_LIBS   = $(PKG_LIBS) -lm -pthread
 LIB_SRC := \
 	lib/accel/bvh.c lib/accel/collapse.c lib/accel/partition.c lib/accel/refs.c \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
-	lib/base/bytes.c lib/base/claim.c lib/base/crc32.c lib/base/error.c \
+	lib/base/bytes.c lib/base/checksum.c lib/base/claim.c lib/base/crc32.c lib/base/error.c \
 	lib/base/exact_sum.c lib/base/file.c lib/base/frame.c lib/base/half.c lib/base/memory.c \
 	lib/base/parallel.c lib/base/progress.c lib/base/version.c \
 	lib/device/buffer.c lib/device/compile.c lib/device/compiler.c lib/device/device.c \
@@ -62,7 +62,7 @@ LIB_SRC := \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
 	lib/pack/touch.c \
-	lib/film/columns.c \
+	lib/film/areas.c lib/film/columns.c \
 	lib/film/coverage.c lib/film/cut_off.c lib/film/film.c lib/film/film_info.c \
 	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
 	lib/film/noise.c lib/film/photon_sums.c lib/film/student_t.c lib/film/units.c \
@@ -156,7 +156,8 @@ TESTS_QUICK := \
 	tests/kernels/test_sample.c tests/kernels/test_shape_sample.c tests/kernels/test_shapes.c \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
-	tests/lib/base/test_file.c tests/lib/base/test_half.c tests/lib/base/test_memory.c \
+	tests/lib/base/test_checksum.c tests/lib/base/test_file.c tests/lib/base/test_half.c \
+	tests/lib/base/test_memory.c \
 	tests/lib/device/test_kernel_cache.c \
 	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
 	tests/lib/image/test_display.c \

@@ -1,6 +1,6 @@
 /*
- * first_hit.cl - the layers of the first hit, such as albedo, normal and depth; layers_of has each
- * of them. Each work-item takes the samples of one pixel, the same samples as the other modes.
+ * first_hit.cl - the layers of the first hit, such as albedo, normal and depth. Each item takes the
+ * samples of one pixel, the same samples as the other modes.
  */
 #include "bsdf/bsdf.h"
 #include "camera/camera.h"
@@ -20,9 +20,14 @@ static float depth_of(global const rt_camera_data *camera, float3 position)
                                                       : dot(away, row3(camera->axis));
 }
 
-/* What a sample of this filter weight, which hit a surface, adds to each layer. */
-static void layers_of(float3 *value, const struct scene *scene, const struct ray *ray,
-                      const struct hit *hit, float weight)
+/* What a sample met first. */
+struct first_hit {
+    float3 albedo, normal, position, uv; /* uv.z is the depth */
+    uint shape, material;
+};
+
+static struct first_hit first_hit_at(const struct scene *scene, const struct ray *ray,
+                                     const struct hit *hit)
 {
     struct surface surface = surface_at(scene, ray, hit);
     const float3 wo = -ray->direction;
@@ -35,31 +40,51 @@ static void layers_of(float3 *value, const struct scene *scene, const struct ray
         bsdf_at(scene, scene->materials + shape->material, &surface, wo, &boundary, (float3)(1.0f));
     /* bsdf.shading is on the side of wo; the layer has it on the side of the shape's normal. */
     const float side = dot(wo, surface.normal) < 0.0f ? -1.0f : 1.0f;
-    const float depth = depth_of(&scene->header->camera, surface.position);
-
-    value[RT_LAYER_ALBEDO] = bsdf_albedo(&bsdf);
-    value[RT_LAYER_NORMAL] = side * bsdf.shading;
-    value[RT_LAYER_DEPTH] = (float3)(depth, 1.0f, weight);
-    value[RT_LAYER_POSITION] = surface.position;
+    struct first_hit first;
+    first.albedo = bsdf_albedo(&bsdf);
+    first.normal = side * bsdf.shading;
+    first.position = surface.position;
     surface_uv(&surface, scene);
-    value[RT_LAYER_UV] = (float3)(surface.u, surface.v, 0.0f);
-    value[RT_LAYER_IDS] = (float3)((float)surface.shape, (float)shape->material, 1.0f);
+    first.uv = (float3)(surface.u, surface.v, depth_of(&scene->header->camera, surface.position));
+    first.shape = surface.shape;
+    first.material = shape->material;
+    return first;
 }
 
-/* Keeps the ids of a sample unless those of one with a lower number are there already. */
-static void keep_ids(rt_film_pixel *ids, float3 value, rt_i64 number)
+/* In fixed point; what rounding has put outside of [-1, 1] is brought back. */
+static inline rt_i64 fixed_point(float value)
 {
-    ids->count++;
-    if (value.z == 0.0f || (ids->high[2] != 0 && ids->high[2] <= number))
-        return;
-    ids->high[0] = (rt_i64)value.x;
-    ids->high[1] = (rt_i64)value.y;
-    ids->high[2] = 1 + number;
+    return (rt_i64)rint(clamp(value, -1.0f, 1.0f) * RT_FIRST_HIT_UNIT);
 }
 
-/* layers: RT_LAYER_COUNT films one after the other; see RT_LAYER_ALBEDO for what they sum. */
+/* Adds a hit of this filter weight, unless it is rejected; returns whether it was not. */
+static bool add_hit(rt_first_hits *sums, const struct first_hit *hit, float weight)
+{
+    if (!all(isfinite(hit->albedo + hit->normal)) || !all(isfinite(hit->position)) ||
+        !all(isfinite(hit->uv))) {
+        sums->rejected = film_add_saturated(sums->rejected, 1u);
+        return false;
+    }
+    const film_sums exact = film_sums_of_hits(sums);
+    sums->albedo[0] += fixed_point(weight * hit->albedo.x);
+    sums->albedo[1] += fixed_point(weight * hit->albedo.y);
+    sums->albedo[2] += fixed_point(weight * hit->albedo.z);
+    sums->normal[0] += fixed_point(weight * hit->normal.x);
+    sums->normal[1] += fixed_point(weight * hit->normal.y);
+    sums->normal[2] += fixed_point(weight * hit->normal.z);
+    film_add_bits(exact, RT_HIT_POSITION, as_uint(hit->position.x));
+    film_add_bits(exact, RT_HIT_POSITION + 1, as_uint(hit->position.y));
+    film_add_bits(exact, RT_HIT_POSITION + 2, as_uint(hit->position.z));
+    film_add_bits(exact, RT_HIT_UV, as_uint(hit->uv.x));
+    film_add_bits(exact, RT_HIT_UV + 1, as_uint(hit->uv.y));
+    film_add_bits(exact, RT_HIT_DEPTH, as_uint(hit->uv.z));
+    sums->hits++;
+    sums->hit_weight += weight < 0.0f ? -1 : 1;
+    return true;
+}
+
 KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
-                 global rt_film_pixel *layers)
+                 global rt_first_hits *film)
 {
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
@@ -67,28 +92,23 @@ KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
     const struct scene scene = scene_open(header);
     const uint2 at = pixel_of_item(&params, params.first_item + item);
     const uint index = at.y * params.width + at.x;
-    const size_t film_size = (size_t)params.width * params.height;
-
-    rt_film_pixel sums[RT_LAYER_COUNT];
-    for (uint layer = 0; layer < RT_LAYER_COUNT; layer++)
-        sums[layer] = layers[layer * film_size + index];
+    rt_first_hits sums = film[index];
 
     for (uint i = 0; i < params.sample_count; i++) {
-        const struct sampler sampler =
-            sampler_start(&scene, &params, index, params.first_sample + i);
-        float3 value[RT_LAYER_COUNT];
+        const uint number = params.first_sample + i;
+        const struct sampler sampler = sampler_start(&scene, &params, index, number);
         float weight;
         const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
         struct hit hit;
-        for (uint layer = 0; layer < RT_LAYER_COUNT; layer++)
-            value[layer] = (float3)(0.0f);
-        if (can_follow(&ray) && closest_hit(&scene, &ray, &hit))
-            layers_of(value, &scene, &ray, &hit, weight);
-        for (uint layer = 0; layer < RT_LAYER_IDS; layer++)
-            film_add(&sums[layer], value[layer], layer < RT_LAYER_WEIGHTED ? weight : 1.0f, 0.0f);
-        keep_ids(&sums[RT_LAYER_IDS], value[RT_LAYER_IDS],
-                 (rt_i64)(params.first_sample + i) * RT_REPLICATES + params.replicate);
+        if (can_follow(&ray) && closest_hit(&scene, &ray, &hit)) {
+            const struct first_hit first = first_hit_at(&scene, &ray, &hit);
+            if (!add_hit(&sums, &first, weight))
+                continue;
+            first_hits_keep(&sums, 1 + (rt_i64)number * RT_REPLICATES + params.replicate,
+                            first.shape, first.material);
+        }
+        sums.count++;
+        sums.weight += weight < 0.0f ? -1 : 1;
     }
-    for (uint layer = 0; layer < RT_LAYER_COUNT; layer++)
-        layers[layer * film_size + index] = sums[layer];
+    film[index] = sums;
 }

@@ -412,22 +412,33 @@ typedef struct rt_film_pixel {
 } rt_film_pixel;
 RT_SIZE(rt_film_pixel, 64);
 
+/* Of the channels of rt_first_hits that have bins; a coordinate may be of any size. */
+#define RT_HIT_POSITION 0 /* three */
+#define RT_HIT_UV 3       /* two */
+#define RT_HIT_DEPTH 5
+#define RT_HIT_CHANNELS 6
+
+#define RT_FIRST_HIT_UNIT 4294967296.0f /* inverse unit of what lies in [-1, 1]: 2^32 */
+
 /*
- * Layers beside the radiance. A sample that meets nothing adds 0 to all; w is the weight of the
- * film's filter. The first RT_LAYER_WEIGHTED ones are summed with the weight w, the others with 1.
+ * The layers of a pixel beside its radiance: exact sums over its samples, those that meet something
+ * being hits; w is the weight of the film's filter. All zero is a pixel without samples.
  */
-#define RT_LAYER_ALBEDO 0u   /* albedo */
-#define RT_LAYER_NORMAL 1u   /* shading normal */
-#define RT_LAYER_WEIGHTED 2u /* how many there are */
-#define RT_LAYER_DEPTH 2u    /* depth, 1 and w of samples that meet something */
-#define RT_LAYER_POSITION 3u /* position */
-#define RT_LAYER_UV 4u       /* texture coordinates */
-/*
- * no sums: `high` has shape, material and 1 + the number of the sample, of the lowest sample that
- * meets something, samples of the same number by replicate; 0 where none does
- */
-#define RT_LAYER_IDS 5u /* the last */
-#define RT_LAYER_COUNT 6u
+typedef struct rt_first_hits {
+    rt_i64 albedo[3], normal[3]; /* w times albedo and shading normal, in 1 / RT_FIRST_HIT_UNIT */
+    /* position, texture coordinates and depth of hits, as rt_film_pixel has its channels */
+    rt_i64 high[RT_HIT_CHANNELS], low[RT_HIT_CHANNELS];
+    rt_u32 bins;            /* the lower bin of channel c, in bits 4 c to 4 c + 3 */
+    rt_u32 rejected;        /* samples left out because something was not finite */
+    rt_u32 count;           /* samples */
+    rt_i32 weight;          /* sum of w */
+    rt_u32 hits;            /* how many, */
+    rt_i32 hit_weight;      /* and the sum of their w */
+    rt_i64 first;           /* 1 + the number of the lowest hit; of the same number, by replicate */
+    rt_u32 shape, material; /* of that one; 0 where there is none */
+    rt_u32 reserved[2];
+} rt_first_hits;
+RT_SIZE(rt_first_hits, 192);
 
 /* ---- Photons ------------------------------------------------------------ */
 

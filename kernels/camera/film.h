@@ -37,9 +37,10 @@ static inline void film_add(rt_film_pixel *pixel, float3 radiance, float weight,
         film_reject(pixel, 1u);
         return;
     }
-    film_add_bits(pixel, 0, as_uint(weight * radiance.x));
-    film_add_bits(pixel, 1, as_uint(weight * radiance.y));
-    film_add_bits(pixel, 2, as_uint(weight * radiance.z));
+    const film_sums sums = film_sums_of(pixel);
+    film_add_bits(sums, 0, as_uint(weight * radiance.x));
+    film_add_bits(sums, 1, as_uint(weight * radiance.y));
+    film_add_bits(sums, 2, as_uint(weight * radiance.z));
     pixel->weight += weight < 0.0f ? -1 : 1;
     pixel->cut_off =
         film_add_saturated(pixel->cut_off, convert_uint_sat_rte(cut_off / RT_FILM_CUT_OFF));

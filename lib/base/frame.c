@@ -1,7 +1,7 @@
 /* frame.c - the start and the end of binary files. */
 #include "base/frame.h"
 
-#include "base/crc32.h"
+#include "base/checksum.h"
 #include "base/error.h"
 
 void rt_frame_put(rt_writer *w, const rt_frame *frame, uint64_t size)
@@ -47,7 +47,7 @@ rt_status rt_frame_check(const rt_frame *frame, const uint8_t *data, size_t size
     if (size < (size_t)frame->header + RT_FRAME_CHECKSUM)
         return rt_fail(error, RT_ERROR_INPUT, "%.350s: the %s is cut short", name, frame->what);
     rt_reader r = {data + size - RT_FRAME_CHECKSUM};
-    if (rt_get32(&r) != rt_crc32(data, size - RT_FRAME_CHECKSUM))
+    if (rt_get64(&r) != rt_checksum_of(data, size - RT_FRAME_CHECKSUM))
         return rt_fail(error, RT_ERROR_INPUT,
                        "%.350s: the %s is damaged: its checksum does not fit", name, frame->what);
     return RT_OK;

@@ -1,6 +1,7 @@
 /*
  * frame.h - what surrounds the content of our binary files: eight bytes that name the kind, u32
- * version, u32 size of the header, u64 size of the whole file; at the end the CRC-32 of all before.
+ * version, u32 size of the header, u64 size of the whole file; at the end the u64 checksum of all
+ * before (base/checksum.h).
  */
 #ifndef RT_LIB_BASE_FRAME_H
 #define RT_LIB_BASE_FRAME_H
@@ -8,7 +9,7 @@
 #include "base/wire.h"
 #include "rt.h"
 
-enum { RT_FRAME_START = 24, RT_FRAME_CHECKSUM = 4 };
+enum { RT_FRAME_START = 24, RT_FRAME_CHECKSUM = 8 };
 
 /* A kind of file. */
 typedef struct rt_frame {

@@ -141,6 +141,39 @@ rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, 
         "returning memory to the device", error);
 }
 
+rt_status rt_mirror_create(rt_device *device, cl_mem *out, size_t bytes, void *host,
+                           const char *what, rt_error *error)
+{
+    const cl_mem_flags flags = CL_MEM_READ_WRITE;
+    return rt_buffer_create(device, out, device->info.is_cpu ? flags | CL_MEM_USE_HOST_PTR : flags,
+                            bytes, host, what, error);
+}
+
+/* Tells the driver that the host reads or writes the memory that a buffer works on. */
+static rt_status touch(rt_device *device, cl_mem buffer, cl_map_flags flags, size_t bytes,
+                       rt_error *error)
+{
+    cl_int code = CL_SUCCESS;
+    void *mapped =
+        clEnqueueMapBuffer(device->queue, buffer, CL_TRUE, flags, 0, bytes, 0, NULL, NULL, &code);
+    rt_status status = rt_cl_check(code, "sharing memory with the device", error);
+    return status == RT_OK ? rt_buffer_unmap(device, buffer, mapped, error) : status;
+}
+
+rt_status rt_mirror_read(rt_device *device, cl_mem buffer, size_t bytes, void *host,
+                         rt_error *error)
+{
+    return device->info.is_cpu ? touch(device, buffer, CL_MAP_READ, bytes, error)
+                               : rt_buffer_read(device, buffer, 0, bytes, host, error);
+}
+
+rt_status rt_mirror_write(rt_device *device, cl_mem buffer, size_t bytes, const void *host,
+                          rt_error *error)
+{
+    return device->info.is_cpu ? touch(device, buffer, CL_MAP_WRITE, bytes, error)
+                               : rt_buffer_write(device, buffer, 0, bytes, host, error);
+}
+
 void rt_buffer_release(rt_device *device, cl_mem buffer)
 {
     cl_mem_flags flags = 0;

@@ -85,6 +85,18 @@ rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t
 rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes,
                           const void *host, rt_error *error);
 
+/*
+ * A buffer whose content is that of host memory, where there is room for it all: a CPU device works
+ * on that memory itself, others have a copy. rt_mirror_read brings the host's content up to date,
+ * rt_mirror_write the buffer's. The memory must last longer than the buffer.
+ */
+rt_status rt_mirror_create(rt_device *device, cl_mem *out, size_t bytes, void *host,
+                           const char *what, rt_error *error);
+rt_status rt_mirror_read(rt_device *device, cl_mem buffer, size_t bytes, void *host,
+                         rt_error *error);
+rt_status rt_mirror_write(rt_device *device, cl_mem buffer, size_t bytes, const void *host,
+                          rt_error *error);
+
 /* Copies the first bytes of a buffer to `offset` in another. */
 rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes,
                          rt_error *error);

@@ -1,6 +1,6 @@
 /*
- * columns.h - rows of whole numbers in few bytes: in each column of a block the differences from
- * its least number, in as many bytes as the greatest of them takes.
+ * columns.h - arrays of structs in few bytes: in each column of some rows the differences from the
+ * first number, in as many bytes as the greatest of them takes.
  */
 #ifndef RT_LIB_FILM_COLUMNS_H
 #define RT_LIB_FILM_COLUMNS_H
@@ -9,30 +9,44 @@
 
 #include "base/wire.h"
 
+/* What a member of a struct holds. */
+typedef enum rt_number {
+    RT_NUMBER_64, /* signed or not */
+    RT_NUMBER_U32,
+    RT_NUMBER_I32
+} rt_number;
+
+/* A member: `count` columns, one after the other. */
+typedef struct rt_member {
+    size_t offset;
+    rt_number number;
+    int count;
+} rt_member;
+
+/* A struct, of `size` bytes, as its members. */
+typedef struct rt_table {
+    size_t size;
+    const rt_member *members;
+    int count;
+} rt_table;
+
 enum {
-    RT_BLOCK_ROWS = 256,
-    RT_BLOCK_COLUMNS = 18, /* the most there are */
-    /* the most that a block takes: its columns, each after its least number and its width */
-    RT_BLOCK_BYTES = RT_BLOCK_COLUMNS * (9 + 8 * RT_BLOCK_ROWS),
-    RT_BLOCK_BEYOND = 8 /* bytes behind it that writing may change */
+    RT_COLUMNS_ROWS = 128, /* the most rows that are packed together */
+    RT_COLUMN_HEAD = 9,    /* bytes of a column before its differences: width, first number */
+    RT_COLUMNS_BEYOND = 8  /* bytes behind the rows that packing may change */
 };
 
-/* Some rows, of all or of the first few columns. */
-typedef struct rt_block {
-    size_t rows, columns;
-    int64_t values[RT_BLOCK_COLUMNS][RT_BLOCK_ROWS];
-} rt_block;
+/* The most bytes that so many rows take. */
+size_t rt_columns_most(const rt_table *table, size_t rows);
 
-/* The bytes that a block takes. */
-size_t rt_block_size(const rt_block *block);
-
-/* Writes them; there is room for RT_BLOCK_BEYOND more. */
-void rt_block_put(rt_writer *w, const rt_block *block);
+/* Packs up to RT_COLUMNS_ROWS rows; there is room for RT_COLUMNS_BEYOND bytes more. */
+void rt_columns_put(rt_writer *w, const rt_table *table, const void *rows, size_t count);
 
 /*
- * Reads the values of a block, whose rows and columns are set; 0 when it does not end before `end`
- * or a width is above 8.
+ * Reads as many rows back; 0 when they do not end before `end`, a width is above 8 or a number
+ * outside of its member's range.
  */
-int rt_block_get(rt_reader *r, const uint8_t *end, rt_block *block);
+int rt_columns_get(rt_reader *r, const uint8_t *end, const rt_table *table, void *rows,
+                   size_t count);
 
 #endif

@@ -25,7 +25,7 @@ static uint64_t bytes_reserved(const rt_render_options *o)
     for (int i = 0; i < RT_FILM_LAYER_COUNT; i++)
         channels += groups[rt_layer_infos[i].group] ? rt_layer_infos[i].channels : 0;
     if (groups[RT_LAYERS_FIRST_HIT])
-        sums = RT_LAYER_COUNT * sizeof(rt_film_pixel);
+        sums = sizeof(rt_first_hits);
     return pixels * (sums + sizeof(float) * (channels + 3 * (3 + channels)));
 }
 
@@ -54,6 +54,30 @@ static rt_render_options settings_of(const rt_render_options *options)
     return o;
 }
 
+/* Bytes of a cache's line. */
+enum { LINE = 64 };
+
+/* The first line of a cache in some memory: a CPU device works on the film in place. */
+static void *line_of(void *memory)
+{
+    const size_t beyond = (size_t)((uintptr_t)memory % LINE);
+    return (uint8_t *)memory + (beyond > 0 ? LINE - beyond : 0);
+}
+
+rt_status rt_film_make_first_hits(rt_film *film, rt_error *error)
+{
+    const size_t pixels = rt_film_pixels(film);
+    if (film->first_hits)
+        return RT_OK;
+    /* They count already, by bytes_reserved. */
+    film->hit_memory = calloc(1, pixels * sizeof *film->first_hits + LINE);
+    if (!film->hit_memory)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels",
+                       pixels);
+    film->first_hits = line_of(film->hit_memory);
+    return RT_OK;
+}
+
 /* Makes room for the sums and means. */
 static rt_status create_sums(rt_film *film, rt_error *error)
 {
@@ -68,10 +92,12 @@ static rt_status create_sums(rt_film *film, rt_error *error)
     if (status != RT_OK)
         return status;
     film->reserved = reserved;
-    film->pixels =
-        rt_memory_zeroed(film->memory, planes * count, sizeof *film->pixels, what, error);
-    if (film->pixels)
-        film->rgb = rt_memory_zeroed(film->memory, count, 3 * sizeof *film->rgb, what, error);
+    film->pixel_memory =
+        rt_memory_zeroed(film->memory, planes * count + 1, sizeof *film->pixels, what, error);
+    if (!film->pixel_memory)
+        return RT_ERROR_MEMORY;
+    film->pixels = line_of(film->pixel_memory);
+    film->rgb = rt_memory_zeroed(film->memory, count, 3 * sizeof *film->rgb, what, error);
     if (!film->rgb)
         return RT_ERROR_MEMORY;
     if (o->mode == RT_MODE_PHOTON && o->photon_layers) {
@@ -110,10 +136,10 @@ void rt_film_destroy(rt_film *film)
     rt_ledger_free(&film->ledger);
     rt_coverage_free(&film->done);
     free(film->note);
-    rt_memory_free(film->pixels);
+    rt_memory_free(film->pixel_memory);
     rt_memory_free(film->photon_sums);
     rt_memory_free(film->rgb);
-    free(film->layer_sums);
+    free(film->hit_memory);
     rt_film_layers_free(&film->layers);
     rt_memory_give(film->memory, film->reserved);
     free(film);
@@ -124,8 +150,8 @@ void rt_film_clear(rt_film *film)
     const rt_film_stats before = film->stats;
     const size_t pixels = rt_film_pixels(film);
     memset(film->pixels, 0, rt_film_bytes(film));
-    if (film->layer_sums)
-        memset(film->layer_sums, 0, RT_LAYER_COUNT * pixels * sizeof *film->layer_sums);
+    if (film->first_hits)
+        memset(film->first_hits, 0, pixels * sizeof *film->first_hits);
     if (film->photon_sums)
         memset(film->photon_sums, 0, pixels * sizeof *film->photon_sums);
     film->done.count = 0;
@@ -156,11 +182,21 @@ void rt_film_join_pixels(rt_film_pixel *pixels, const rt_film_pixel *others, siz
         film_join(pixels + i, others + i);
 }
 
+/* The sum of what two neighbouring bins hold. */
+static double sum_of(int64_t high, int64_t low, uint32_t bin)
+{
+    const int unit = (int)(bin * RT_FILM_BIN_BITS) - 149;
+    return ldexp((double)high, unit + (int)RT_FILM_BIN_BITS) + ldexp((double)low, unit);
+}
+
 double rt_film_sum(const rt_film_pixel *pixel, int channel)
 {
-    const int unit = (int)(film_bin(pixel, channel) * RT_FILM_BIN_BITS) - 149;
-    return ldexp((double)pixel->high[channel], unit + (int)RT_FILM_BIN_BITS) +
-           ldexp((double)pixel->low[channel], unit);
+    return sum_of(pixel->high[channel], pixel->low[channel], film_bin(pixel->bins, channel));
+}
+
+double rt_first_hits_sum(const rt_first_hits *hits, int channel)
+{
+    return sum_of(hits->high[channel], hits->low[channel], film_bin(hits->bins, channel));
 }
 
 double rt_film_divisor(double weight, double count)

@@ -22,10 +22,10 @@ struct rt_film {
     rt_units units;   /* the work that the whole picture takes */
     int lacks_base;   /* the samples of units.base are in another film, to be added to */
     rt_coverage done; /* the units whose samples are in the sums */
-    rt_film_pixel *pixels; /* [units.replicates][height][width], the sums */
-    float *rgb;            /* [height][width][3], the means */
-    /* [RT_LAYER_COUNT][height][width], the sums of the kernel first_hit, or NULL */
-    rt_film_pixel *layer_sums;
+    void *pixel_memory, *hit_memory; /* where the sums lie, on the lines of a cache */
+    rt_film_pixel *pixels;           /* [units.replicates][height][width], the sums */
+    float *rgb;                      /* [height][width][3], the means */
+    rt_first_hits *first_hits;   /* [height][width], the sums of the kernel first_hit, or NULL */
     rt_photon_sums *photon_sums; /* [height][width], or NULL */
     int is_resolved;             /* rgb and layers are those of the sums */
     rt_film_layers layers;       /* each [height][width][channels] */
@@ -38,6 +38,9 @@ struct rt_film {
  */
 rt_status rt_film_create(rt_film **out, const rt_render_options *options, rt_memory *memory,
                          rt_error *error);
+
+/* Makes room for the layers of the first hit, without samples, unless they are there. */
+rt_status rt_film_make_first_hits(rt_film *film, rt_error *error);
 
 /* Takes all samples out of a film; what it is a picture of stays. */
 void rt_film_clear(rt_film *film);
@@ -53,6 +56,7 @@ void rt_film_join_pixels(rt_film_pixel *pixels, const rt_film_pixel *others, siz
 
 /* The sum of a channel. */
 double rt_film_sum(const rt_film_pixel *pixel, int channel);
+double rt_first_hits_sum(const rt_first_hits *hits, int channel);
 
 /*
  * What a sum is divided by: the sum of weights. Where a few samples' signs nearly cancel, which

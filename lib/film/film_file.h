@@ -6,7 +6,7 @@
  *
  *   bytes  header
  *    0  8  89 52 54 46 0d 0a 1a 0a ("\x89RTF\r\n\x1a\n")
- *    8  4  version, 1
+ *    8  4  version, 2
  *   12  4  size of the header, 200
  *   16  8  size of the whole file
  *   24  8  fingerprint of scene and camera
@@ -28,36 +28,53 @@
  *          as the program gave them, then every setting
  *   168 bytes a light, as in a photon map (photon/map_file.h)
  *   16 bytes a range of units: u64 first, u64 count; ascending, apart from each other
- *   each run: u64 first, u64 count, then its pixels, of 10 columns: i64 high[3], low[3], u32 bins,
- *          count - weight, count, u32 cut off, as rt_film_pixel says. Pixels are counted through
- *          the planes, then through the RT_LAYER_COUNT layers; those without samples are left out
- *   with sums of photon layers, all pixels, of 18 columns: u64 asked, u64 photons, u64 samples,
- *          then radius, density, value, square and bias, each i64 high, i64 low, i64 bin
- *   4      CRC-32 (that of zlib) of all bytes before
+ *   each run: u64 first, u64 count, at most 128, then its rows in columns. Rows are counted through
+ *          the pixels of all planes, then those of the layers of the first hit and of the photon
+ *          layers, if there are such; runs ascend, and rows without samples are left out
+ *   8      checksum of all bytes before (base/checksum.h)
  *
- * Pixels come in blocks of 256, of which the last of a run may be shorter. A block is its columns,
- * one after the other, each: i64 the least number, u8 width, 0 to 8, and of each pixel how much
- * more its number is, in `width` bytes.
+ * A row of a pixel has 10 columns: high[3], low[3], bins, weight, count, cut_off of rt_film_pixel.
+ * One of the first hit has 27, those of rt_first_hits from albedo[3] to material. One of the photon
+ * layers has 18: asked, photons and samples of rt_photon_sums, then radius, density, value, square
+ * and bias, each high, low and bin.
+ *
+ * A column of a run is u8 width, 0 to 8, its number of the first row as 64 bits, and for each row,
+ * the first too, what its number is more than that, in `width` bytes with sign.
+ *
+ * Version 1 had all layers in pixels of their own; it is not read.
  */
 #ifndef RT_LIB_FILM_FILM_FILE_H
 #define RT_LIB_FILM_FILM_FILE_H
 
 #include "base/bytes.h"
+#include "base/checksum.h"
 #include "base/frame.h"
 #include "film/columns.h"
 #include "film/film.h"
 
-enum { RT_FILM_VERSION = 1 };
+enum { RT_FILM_VERSION = 2 };
 
 /* Sizes of the file's parts. */
-enum {
-    RT_FILM_HEADER = 200,
-    RT_FILM_RANGE = 16,
-    RT_FILM_PIXEL_COLUMNS = 10,
-    RT_FILM_SUMS_COLUMNS = 18
-};
+enum { RT_FILM_HEADER = 200, RT_FILM_RANGE = 16 };
 
 extern const rt_frame rt_film_frame;
+
+/*
+ * The bytes before the runs, which are so many and take so many bytes in all. Fails with
+ * RT_ERROR_USAGE where the film cannot be kept. The caller frees *out.
+ */
+rt_status rt_film_put_head(rt_bytes *out, const rt_film *film, uint64_t runs, size_t bands,
+                           rt_error *error);
+
+/*
+ * The runs come in bands of so many rows, the last of each area of the film shorter. One band's are
+ * written by rt_film_put_band, which returns how many bytes they are, at most rt_film_band_most;
+ * *runs: how many runs. Bands may be written at once by several threads.
+ */
+enum { RT_FILM_BAND_ROWS = 64 * RT_COLUMNS_ROWS };
+size_t rt_film_bands(const rt_film *film);
+size_t rt_film_band_most(const rt_film *film);
+size_t rt_film_put_band(uint8_t *out, uint64_t *runs, const rt_film *film, size_t band);
 
 /*
  * The film that a file of these bytes holds, counted in `memory`; name stands for the file in

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/wire.h"
-#include "camera/film_sum.h"
+#include "film/areas.h"
 #include "film/film_file.h"
 #include "photon/ledger_file.h"
 #include "setting/options.h"
@@ -185,99 +185,43 @@ static rt_status read_ranges(reader *r, const header *h, rt_film *film)
     return RT_OK;
 }
 
-/* Whether a column holds a number of 32 bits. */
-static int is_word(const rt_block *b, int column, size_t row)
+/* The area that a row lies in; NULL: none. */
+static const rt_film_area *find_area(const rt_film_area *areas, int count, uint64_t row)
 {
-    return b->values[column][row] >= 0 && b->values[column][row] <= UINT32_MAX;
+    for (int i = 0; i < count; i++)
+        if (row >= areas[i].first && row - areas[i].first < areas[i].count)
+            return areas + i;
+    return NULL;
 }
 
-/* Takes a pixel from a row; whether it is in range. */
-static int get_pixel(const rt_block *b, size_t row, rt_film_pixel *p)
+/* Reads the rows of a run, counted in their area. */
+static rt_status read_run(reader *r, const rt_film_area *area, size_t first, size_t count)
 {
-    const int64_t count = b->values[8][row], beside = b->values[7][row];
-    if (!is_word(b, 6, row) || !is_word(b, 8, row) || !is_word(b, 9, row) || beside < 0 ||
-        beside > 2 * count || count - beside < INT32_MIN || count - beside > INT32_MAX)
-        return 0;
-    for (int c = 0; c < 3; c++) {
-        p->high[c] = b->values[c][row];
-        p->low[c] = b->values[3 + c][row];
-    }
-    p->bins = (uint32_t)b->values[6][row];
-    p->weight = (int32_t)(count - beside);
-    p->count = (uint32_t)count;
-    p->cut_off = (uint32_t)b->values[9][row];
-    return film_bin(p, 0) <= RT_FILM_BIN_LAST && film_bin(p, 1) <= RT_FILM_BIN_LAST &&
-           film_bin(p, 2) <= RT_FILM_BIN_LAST;
+    uint8_t *rows = (uint8_t *)area->rows + first * area->table->size;
+    if (!rt_columns_get(&r->at, r->end, area->table, rows, count))
+        return fail_content(r, "its pixels are cut short or out of range");
+    return rt_area_is_sound(area, first, count) ? RT_OK
+                                                : fail_content(r, "a pixel is out of range");
 }
 
-/* Reads the pixels of a run, in blocks. */
-static rt_status read_run(reader *r, rt_film_pixel *pixels, size_t count)
+static rt_status read_runs(reader *r, const header *h, const rt_film *film)
 {
-    rt_block block = {.columns = RT_FILM_PIXEL_COLUMNS};
-    for (size_t at = 0; at < count; at += block.rows) {
-        block.rows = count - at < RT_BLOCK_ROWS ? count - at : RT_BLOCK_ROWS;
-        if (!rt_block_get(&r->at, r->end, &block))
-            return fail_content(r, "it is too short for its pixels");
-        for (size_t i = 0; i < block.rows; i++)
-            if (!get_pixel(&block, i, pixels + at + i))
-                return fail_content(r, "a pixel is out of range");
-    }
-    return RT_OK;
-}
-
-static rt_status read_pixels(reader *r, const header *h, rt_film *film)
-{
-    const size_t pixels = rt_film_pixels(film), planes = pixels * film->units.replicates,
-                 all = planes + (h->flags & 1 ? RT_LAYER_COUNT * pixels : 0);
+    rt_film_area areas[RT_FILM_AREAS];
+    const int area_count = rt_film_areas(areas, film);
     uint64_t end = 0;
     rt_status status = RT_OK;
     for (uint64_t run = 0; run < h->runs && status == RT_OK; run++) {
         if (!has(r, 1, RT_FILM_RANGE))
             return fail_content(r, "it is too short for its pixels");
         const uint64_t first = rt_get64(&r->at), count = rt_get64(&r->at);
-        /* A run ends with the planes, as the layers lie elsewhere. */
-        const size_t limit = first < planes ? planes : all;
-        if (first < end || first >= limit || count == 0 || count > limit - first)
+        const rt_film_area *area = find_area(areas, area_count, first);
+        if (!area || first < end || count == 0 || count > RT_COLUMNS_ROWS ||
+            count > area->count - (first - area->first))
             return fail_content(r, "its runs of pixels are out of order");
         end = first + count;
-        status = read_run(
-            r, first < planes ? film->pixels + first : film->layer_sums + ((size_t)first - planes),
-            (size_t)count);
+        status = read_run(r, area, (size_t)first - area->first, (size_t)count);
     }
     return status;
-}
-
-static int get_exact(const rt_block *b, size_t row, int column, rt_exact_sum *sum)
-{
-    sum->high = b->values[column][row];
-    sum->low = b->values[column + 1][row];
-    sum->bin = b->values[column + 2][row];
-    return sum->bin >= 0 && sum->bin <= RT_EXACT_SUM_BIN_LAST;
-}
-
-static int get_photon_sums(const rt_block *b, size_t row, rt_photon_sums *s)
-{
-    s->asked = (uint64_t)b->values[0][row];
-    s->photons = (uint64_t)b->values[1][row];
-    s->samples = (uint64_t)b->values[2][row];
-    return get_exact(b, row, 3, &s->radius) && get_exact(b, row, 6, &s->density) &&
-           get_exact(b, row, 9, &s->value) && get_exact(b, row, 12, &s->square) &&
-           get_exact(b, row, 15, &s->bias);
-}
-
-static rt_status read_photon_sums(reader *r, rt_film *film)
-{
-    const size_t pixels = film->photon_sums ? rt_film_pixels(film) : 0;
-    rt_block block = {.columns = RT_FILM_SUMS_COLUMNS};
-    for (size_t at = 0; at < pixels; at += block.rows) {
-        block.rows = pixels - at < RT_BLOCK_ROWS ? pixels - at : RT_BLOCK_ROWS;
-        if (!rt_block_get(&r->at, r->end, &block))
-            return fail_content(r, "it is too short for its photon layers");
-        for (size_t i = 0; i < block.rows; i++)
-            if (!get_photon_sums(&block, i, film->photon_sums + at + i))
-                return fail_content(r, "sums of its photon layers are out of range");
-    }
-    return RT_OK;
 }
 
 static rt_status read_content(reader *r, const header *h, rt_film *film)
@@ -285,15 +229,10 @@ static rt_status read_content(reader *r, const header *h, rt_film *film)
     rt_status status = read_ledger(r, h, &film->ledger);
     if (status == RT_OK)
         status = read_ranges(r, h, film);
-    if (status == RT_OK && h->flags & 1) {
-        film->layer_sums = calloc(RT_LAYER_COUNT * rt_film_pixels(film), sizeof *film->layer_sums);
-        if (!film->layer_sums)
-            status = rt_fail(r->error, RT_ERROR_MEMORY, "out of memory for the layers of a film");
-    }
+    if (status == RT_OK && h->flags & 1)
+        status = rt_film_make_first_hits(film, r->error);
     if (status == RT_OK)
-        status = read_pixels(r, h, film);
-    if (status == RT_OK)
-        status = read_photon_sums(r, film);
+        status = read_runs(r, h, film);
     if (status == RT_OK && r->at.at != r->end)
         status = fail_content(r, "bytes are left over");
     return status;

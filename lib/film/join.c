@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "camera/film_sum.h"
 #include "film/noise.h"
 
 /* ---- The same picture --------------------------------------------------------- */
@@ -65,37 +66,11 @@ static rt_status compare(const rt_film *a, const rt_film *b, int is_continued, r
 
 /* ---- Sums --------------------------------------------------------------------- */
 
-void rt_film_join_ids(rt_film_pixel *pixels, const rt_film_pixel *others, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        rt_film_pixel *ids = pixels + i;
-        const rt_film_pixel *other = others + i;
-        const uint32_t samples = ids->count + other->count;
-        if (other->high[2] != 0 && (ids->high[2] == 0 || other->high[2] < ids->high[2]))
-            *ids = *other;
-        ids->count = samples;
-    }
-}
-
-/* Makes the sums of layers that another film has, if it has any. */
-static rt_status make_layers(rt_film *film, const rt_film *from, rt_error *error)
-{
-    const size_t pixels = rt_film_pixels(film);
-    if (!from->layer_sums || film->layer_sums)
-        return RT_OK;
-    film->layer_sums = calloc(RT_LAYER_COUNT * pixels, sizeof *film->layer_sums);
-    return film->layer_sums ? RT_OK
-                            : rt_fail(error, RT_ERROR_MEMORY,
-                                      "out of memory for the layers of %zu pixels", pixels);
-}
-
 static void add_layers(rt_film *film, const rt_film *from)
 {
-    const size_t pixels = rt_film_pixels(film), ids = RT_LAYER_IDS * pixels;
-    if (!from->layer_sums)
-        return;
-    rt_film_join_pixels(film->layer_sums, from->layer_sums, ids);
-    rt_film_join_ids(film->layer_sums + ids, from->layer_sums + ids, pixels);
+    const size_t pixels = from->first_hits ? rt_film_pixels(film) : 0;
+    for (size_t i = 0; i < pixels; i++)
+        first_hits_join(film->first_hits + i, from->first_hits + i);
 }
 
 /* Photons of passes add up; without passes all films have those of the same map. */
@@ -134,7 +109,7 @@ static rt_status add_sums(rt_film *film, const rt_film *from, rt_error *error)
 {
     film->is_resolved = 0;
     const size_t pixels = rt_film_pixels(film);
-    rt_status status = make_layers(film, from, error);
+    rt_status status = from->first_hits ? rt_film_make_first_hits(film, error) : RT_OK;
     if (status == RT_OK)
         status = add_photons(film, from, error);
     if (status != RT_OK)

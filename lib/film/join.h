@@ -14,7 +14,4 @@
  */
 rt_status rt_film_continue(rt_film *film, const rt_film *from, rt_error *error);
 
-/* The ids of the first hit of so many pixels joined to others: those of the lower sample stay. */
-void rt_film_join_ids(rt_film_pixel *pixels, const rt_film_pixel *others, size_t count);
-
 #endif

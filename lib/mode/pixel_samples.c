@@ -65,8 +65,8 @@ static rt_status read_sums(const rt_render_job *job, const rt_pixel_samples *sta
     rt_film *film = job->film;
     rt_status status = RT_OK;
     if (state->kernel)
-        status = rt_buffer_read(state->device, state->pixels, 0, rt_film_bytes(film), film->pixels,
-                                error);
+        status =
+            rt_mirror_read(state->device, state->pixels, rt_film_bytes(film), film->pixels, error);
     return status == RT_OK ? rt_first_hit_layers_read(job->layers, film, error) : status;
 }
 
@@ -77,8 +77,8 @@ static rt_status write_sums(const rt_render_job *job, const rt_pixel_samples *st
     const rt_film *film = job->film;
     rt_status status = RT_OK;
     if (state->kernel)
-        status = rt_buffer_write(state->device, state->pixels, 0, rt_film_bytes(film), film->pixels,
-                                 error);
+        status =
+            rt_mirror_write(state->device, state->pixels, rt_film_bytes(film), film->pixels, error);
     return status == RT_OK ? rt_first_hit_layers_write(job->layers, film, error) : status;
 }
 
@@ -156,9 +156,8 @@ rt_status rt_pixel_samples_prepare(rt_pixel_samples *out, const rt_render_job *j
     memset(&none, 0, sizeof none);
     out->device = device;
     out->pixels_an_item = pixels_an_item;
-    rt_status status =
-        rt_buffer_create(device, &out->pixels, CL_MEM_READ_WRITE, rt_film_bytes(job->film),
-                         job->film->pixels, "the film", error);
+    rt_status status = rt_mirror_create(device, &out->pixels, rt_film_bytes(job->film),
+                                        job->film->pixels, "the film", error);
     rt_arg args[] = {RT_ARG(none), RT_ARG(job->renderer->scene), RT_ARG(out->pixels)};
     if (status == RT_OK)
         status = rt_kernel_prepare(device, &out->kernel, kernel, kernel, args, 3, progress, error);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "camera/film_sum.h"
 #include "film/cut_off.h"
 #include "film/join.h"
 #include "mode/modes.h"
@@ -96,6 +97,13 @@ static rt_status prepare(const rt_mode_class *mode, const rt_render_job *job, vo
     return status == RT_OK ? rt_stage_end(&progress, &job->film->stats.compile_seconds) : status;
 }
 
+/* The samples of a pixel whose layers are its picture. */
+static void take_counts(rt_film_pixel *pixel, const rt_first_hits *hits)
+{
+    *pixel = (rt_film_pixel){.weight = hits->weight, .count = hits->count};
+    film_reject(pixel, hits->rejected);
+}
+
 rt_status rt_film_resolve(rt_film *film, const rt_hooks *hooks, rt_error *error)
 {
     if (rt_is_missing(film, "film", error))
@@ -104,11 +112,11 @@ rt_status rt_film_resolve(rt_film *film, const rt_hooks *hooks, rt_error *error)
     const size_t pixels = rt_film_pixels(film);
     rt_status status = RT_OK;
     /* Where a layer is the picture, the film takes its sample counts too. */
-    if (mode->show && film->layer_sums)
-        memcpy(film->pixels, film->layer_sums, pixels * sizeof *film->pixels);
+    for (size_t i = 0; i < pixels && mode->show && film->first_hits; i++)
+        take_counts(film->pixels + i, film->first_hits + i);
     rt_film_make_means(film);
     rt_film_check_cut_off(film, hooks);
-    if (film->layer_sums)
+    if (film->first_hits)
         status = rt_film_layers_add(&film->layers, RT_LAYERS_FIRST_HIT, pixels, error);
     if (status != RT_OK)
         return status;

@@ -6,7 +6,7 @@
  *
  *   bytes  header
  *    0  8  89 52 54 50 0d 0a 1a 0a ("\x89RTP\r\n\x1a\n")
- *    8  4  version, 2
+ *    8  4  version, 3
  *   12  4  size of the header, 160
  *   16  8  size of the whole file
  *   24  8  fingerprint of the scene, 0: not taken
@@ -30,12 +30,12 @@
  *   64 bytes a photon, global, then caustic, in the order of ranges and paths: f32 position[3], u32
  *          path, f32 wi[3], u32 flags, f32 flux[3], f32 shading, f32 normal[3], u32 shape, as
  *          rt_photon says
- *     4    CRC-32 (that of zlib) of all bytes before
+ *     8    checksum of all bytes before (base/checksum.h)
  *
  * A reader refuses what does not add up, what is not finite, positions beyond 1e15 m, directions
  * that are not of unit length, and bytes left over. Shapes are those of the scene; they are checked
  * where the map is used with one. Version 1 had one unit for all lights, which lost the flux of
- * weak ones; it is not read.
+ * weak ones, and version 2 had a CRC-32; they are not read.
  */
 #ifndef RT_LIB_PHOTON_MAP_FILE_H
 #define RT_LIB_PHOTON_MAP_FILE_H
@@ -44,7 +44,7 @@
 #include "base/frame.h"
 #include "photon/photon_map.h"
 
-enum { RT_MAP_VERSION = 2 };
+enum { RT_MAP_VERSION = 3 };
 
 /* Sizes of the file's parts. */
 enum { RT_MAP_HEADER = 160, RT_MAP_LIGHT = 168, RT_MAP_RANGE = 32, RT_MAP_PHOTON = 64 };

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/crc32.h"
+#include "base/checksum.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "photon/ledger_file.h"
@@ -86,7 +86,7 @@ rt_status rt_photon_map_encode_in(rt_bytes *out, const rt_photon_map *map, rt_er
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         for (size_t i = 0; i < map->lists[kind].count; i++)
             put_photon(&w, map->lists[kind].photons + i);
-    rt_put32(&w, rt_crc32(data, size - RT_FRAME_CHECKSUM));
+    rt_put64(&w, rt_checksum_of(data, size - RT_FRAME_CHECKSUM));
     *out = (rt_bytes){data, size, size, memory};
     return RT_OK;
 }

@@ -13,7 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/crc32.h"
+#include "base/checksum.h"
 #include "base/file.h"
 #include "base/progress.h"
 #include "rt.h"
@@ -66,7 +66,7 @@ static void save(const subject *s)
 
 static void check(const subject *s)
 {
-    if (rt_crc32(s->bytes, s->size) == 1)
+    if (rt_checksum_of(s->bytes, s->size) == 1)
         puts("");
 }
 

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/crc32.h"
+#include "base/checksum.h"
 
 /* ---- Inputs -------------------------------------------------------------------------------- */
 
@@ -171,5 +171,5 @@ void fuzz_seal(uint8_t *data, size_t size, const rt_frame *frame)
     if (size < (size_t)frame->header + RT_FRAME_CHECKSUM)
         return;
     rt_frame_put(&start, frame, size);
-    fuzz_set(data + size - RT_FRAME_CHECKSUM, rt_crc32(data, size - RT_FRAME_CHECKSUM), 4);
+    fuzz_set(data + size - RT_FRAME_CHECKSUM, rt_checksum_of(data, size - RT_FRAME_CHECKSUM), 8);
 }

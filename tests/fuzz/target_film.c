@@ -185,6 +185,24 @@ static void fill(rt_film_pixel *p, size_t i)
     p->cut_off = (uint32_t)i;
 }
 
+/* The same of its layers: one of the samples hit. */
+static void fill_hits(rt_first_hits *hits, size_t i)
+{
+    for (int c = 0; c < 3; c++)
+        hits->albedo[c] = hits->normal[c] = (int64_t)(i + 1) << 30;
+    for (int c = 0; c < RT_HIT_CHANNELS; c++) {
+        hits->high[c] = (int64_t)(1000 * i) - c;
+        hits->low[c] = (int64_t)i << 24;
+    }
+    hits->bins = 0x333333;
+    hits->count = 2;
+    hits->weight = 2;
+    hits->hits = 1;
+    hits->hit_weight = 1;
+    hits->first = 1;
+    hits->shape = (uint32_t)i;
+}
+
 static void fill_ledger(rt_film *film)
 {
     rt_error error;
@@ -230,11 +248,11 @@ static rt_film *make_seed(size_t number)
     FUZZ_EXPECT(rt_film_create(&film, &o, NULL, &error) == RT_OK);
     film->scene = 7;
     if (o.aov || !rt_mode_shows_light(o.mode))
-        film->layer_sums = calloc(RT_LAYER_COUNT * rt_film_pixels(film), sizeof *film->layer_sums);
+        FUZZ_EXPECT(rt_film_make_first_hits(film, &error) == RT_OK);
     for (size_t i = sample->empty; i < rt_film_pixels(film) * film->units.replicates; i++)
         fill(film->pixels + i, i);
-    for (size_t i = 0; film->layer_sums && i < RT_LAYER_COUNT * rt_film_pixels(film); i++)
-        fill(film->layer_sums + i, i);
+    for (size_t i = 0; film->first_hits && i < rt_film_pixels(film); i++)
+        fill_hits(film->first_hits + i, i);
     for (size_t i = 0; film->photon_sums && i < rt_film_pixels(film); i++) {
         film->photon_sums[i].asked = film->photon_sums[i].samples = 2;
         rt_exact_sum_add(&film->photon_sums[i].value, (double)i);

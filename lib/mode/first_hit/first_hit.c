@@ -8,10 +8,8 @@
 /* (n + 1) / 2, weighted by the fraction of the samples that hit. */
 static void show_normals(float rgb[3], const rt_film *film, size_t i)
 {
-    size_t pixels = rt_film_pixels(film);
-    const rt_film_pixel *normal = film->layer_sums + RT_LAYER_NORMAL * pixels + i;
-    const rt_film_pixel *depth = film->layer_sums + RT_LAYER_DEPTH * pixels + i;
-    float covered = (float)(rt_film_sum(depth, 2) / rt_film_divisor(normal->weight, normal->count));
+    const rt_first_hits *sums = film->first_hits + i;
+    float covered = (float)(sums->hit_weight / rt_film_divisor(sums->weight, sums->count));
     for (int c = 0; c < 3; c++)
         rgb[c] = 0.5f * (film->layers.data[RT_FILM_NORMAL][3 * i + c] + covered);
 }

@@ -9,23 +9,23 @@
 
 /* ---- On the device ---------------------------------------------------------- */
 
+static size_t bytes_of(const rt_film *film)
+{
+    return rt_film_pixels(film) * sizeof *film->first_hits;
+}
+
 rt_status rt_first_hit_layers_prepare(rt_first_hit_layers *out, rt_renderer *renderer,
                                       rt_film *film, rt_stage_progress *progress, rt_error *error)
 {
-    size_t pixels = rt_film_pixels(film), count = RT_LAYER_COUNT * pixels;
     rt_params none;
     memset(&none, 0, sizeof none);
 
     out->renderer = renderer;
     out->device = renderer->device;
-    if (!film->layer_sums)
-        film->layer_sums = calloc(count, sizeof *film->layer_sums);
-    if (!film->layer_sums)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for the layers of %zu pixels",
-                       pixels);
-    rt_status status = rt_buffer_create(renderer->device, &out->sums, CL_MEM_READ_WRITE,
-                                        count * sizeof *film->layer_sums, film->layer_sums,
-                                        "the buffer of the film's layers", error);
+    rt_status status = rt_film_make_first_hits(film, error);
+    if (status == RT_OK)
+        status = rt_mirror_create(renderer->device, &out->sums, bytes_of(film), film->first_hits,
+                                  "the buffer of the film's layers", error);
     rt_arg args[] = {RT_ARG(none), RT_ARG(renderer->scene), RT_ARG(out->sums)};
     if (status == RT_OK)
         status = rt_kernel_prepare(renderer->device, &out->kernel, "first_hit", "first_hit", args,
@@ -52,67 +52,58 @@ rt_status rt_first_hit_layers_add(rt_first_hit_layers *layers, const rt_params *
                : status;
 }
 
-static size_t bytes_of(const rt_film *film)
-{
-    return RT_LAYER_COUNT * rt_film_pixels(film) * sizeof *film->layer_sums;
-}
-
 rt_status rt_first_hit_layers_write(const rt_first_hit_layers *layers, const rt_film *film,
                                     rt_error *error)
 {
-    return layers->kernel ? rt_buffer_write(layers->renderer->device, layers->sums, 0,
-                                            bytes_of(film), film->layer_sums, error)
+    return layers->kernel ? rt_mirror_write(layers->device, layers->sums, bytes_of(film),
+                                            film->first_hits, error)
                           : RT_OK;
 }
 
 rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *film,
                                    rt_error *error)
 {
-    const size_t bytes = bytes_of(film);
-    return layers->kernel ? rt_buffer_read(layers->renderer->device, layers->sums, 0, bytes,
-                                           film->layer_sums, error)
+    return layers->kernel ? rt_mirror_read(layers->device, layers->sums, bytes_of(film),
+                                           film->first_hits, error)
                           : RT_OK;
 }
 
 /* ---- In the film ------------------------------------------------------------ */
 
-/* How a channel is computed from its sums. */
+/* How a channel is computed from the sums of a pixel that has samples. */
 typedef enum rule {
-    MEAN,         /* over the film's divisor: the sum of the filter's weights */
-    MEAN_OF_HITS, /* over the number of samples that hit; 0 without any */
-    FIRST_ID      /* that of one sample; -1 without any */
+    FIXED, /* the mean of what lies in [-1, 1], over the film's divisor: the sum of weights */
+    HITS,  /* the mean over the samples that hit; 0 without any */
+    SHAPE, /* ids of one sample; -1 without any */
+    MATERIAL
 } rule;
 
-/* The sums that a layer is made from: channels from `channel` on of one of RT_LAYER_COUNT. */
+/* The sums that a layer is made from: channels from `first` on. */
 typedef struct source {
     rt_film_layer_id layer;
-    rt_u32 sums;
-    uint32_t channel;
     rule rule;
+    int first;
 } source;
 
 static const source sources[] = {
-    {RT_FILM_ALBEDO, RT_LAYER_ALBEDO, 0, MEAN},
-    {RT_FILM_NORMAL, RT_LAYER_NORMAL, 0, MEAN},
-    {RT_FILM_DEPTH, RT_LAYER_DEPTH, 0, MEAN_OF_HITS},
-    {RT_FILM_POSITION, RT_LAYER_POSITION, 0, MEAN_OF_HITS},
-    {RT_FILM_UV, RT_LAYER_UV, 0, MEAN_OF_HITS},
-    {RT_FILM_SHAPE, RT_LAYER_IDS, 0, FIRST_ID},
-    {RT_FILM_MATERIAL, RT_LAYER_IDS, 1, FIRST_ID},
+    {RT_FILM_ALBEDO, FIXED, 0},          {RT_FILM_NORMAL, FIXED, 3},
+    {RT_FILM_DEPTH, HITS, RT_HIT_DEPTH}, {RT_FILM_POSITION, HITS, RT_HIT_POSITION},
+    {RT_FILM_UV, HITS, RT_HIT_UV},       {RT_FILM_SHAPE, SHAPE, 0},
+    {RT_FILM_MATERIAL, MATERIAL, 0},
 };
 
-/* The value of a channel of a pixel that has samples; hits: how many of them hit. */
-static double value_of(const source *source, const rt_film_pixel *sums, uint32_t channel,
-                       double hits)
+static double value_of(rule rule, const rt_first_hits *sums, int channel)
 {
-    const int of = (int)(source->channel + channel);
-    switch (source->rule) {
-    case MEAN:
-        return rt_film_sum(sums, of) / rt_film_divisor(sums->weight, sums->count);
-    case MEAN_OF_HITS:
-        return hits > 0 ? rt_film_sum(sums, of) / hits : 0;
-    case FIRST_ID:
-        return hits > 0 ? (double)sums->high[of] : -1;
+    const int64_t *fixed = channel < 3 ? sums->albedo + channel : sums->normal + (channel - 3);
+    switch (rule) {
+    case FIXED:
+        return (double)*fixed / RT_FIRST_HIT_UNIT / rt_film_divisor(sums->weight, sums->count);
+    case HITS:
+        return sums->hits > 0 ? rt_first_hits_sum(sums, channel) / sums->hits : 0;
+    case SHAPE:
+        return sums->hits > 0 ? (double)sums->shape : -1;
+    case MATERIAL:
+        return sums->hits > 0 ? (double)sums->material : -1;
     }
     return 0;
 }
@@ -120,18 +111,16 @@ static double value_of(const source *source, const rt_film_pixel *sums, uint32_t
 void rt_first_hit_layers_resolve(rt_film *film)
 {
     size_t pixels = rt_film_pixels(film);
-    if (!film->layer_sums)
+    if (!film->first_hits)
         return;
-    const rt_film_pixel *depth = film->layer_sums + RT_LAYER_DEPTH * pixels;
     for (size_t s = 0; s < sizeof sources / sizeof *sources; s++) {
-        const rt_film_pixel *sums = film->layer_sums + sources[s].sums * pixels;
-        uint32_t channels = rt_layer_infos[sources[s].layer].channels;
+        const uint32_t channels = rt_layer_infos[sources[s].layer].channels;
         float *layer = film->layers.data[sources[s].layer];
         for (size_t i = 0; i < channels * pixels; i++) {
-            size_t pixel = i / channels;
-            if (sums[pixel].count > 0)
-                layer[i] = (float)value_of(sources + s, sums + pixel, (uint32_t)(i % channels),
-                                           rt_film_sum(depth + pixel, 1));
+            const rt_first_hits *sums = film->first_hits + i / channels;
+            if (sums->count > 0)
+                layer[i] =
+                    (float)value_of(sources[s].rule, sums, sources[s].first + (int)(i % channels));
         }
     }
 }

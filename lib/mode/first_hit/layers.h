@@ -14,7 +14,7 @@ typedef struct rt_first_hit_layers {
     rt_renderer *renderer;
     rt_device *device;
     cl_kernel kernel;
-    cl_mem sums; /* rt_film_pixel [RT_LAYER_COUNT][height][width] */
+    cl_mem sums; /* rt_first_hits [height][width] */
 } rt_first_hit_layers;
 
 /*

@@ -76,9 +76,9 @@ static rt_status create_film(rt_eye_paths *paths, rt_error *error)
         if (!paths->pass_sums)
             return RT_ERROR_MEMORY;
     }
-    return rt_buffer_create(
-        paths->device, &paths->pixels, CL_MEM_READ_WRITE, pixels * sizeof *film->pixels,
-        film->units.in_passes ? paths->pass_pixels : film->pixels, "the film", error);
+    return rt_mirror_create(paths->device, &paths->pixels, pixels * sizeof *film->pixels,
+                            film->units.in_passes ? paths->pass_pixels : film->pixels, "the film",
+                            error);
 }
 
 static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
@@ -349,7 +349,7 @@ rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)
 {
     rt_film *film = paths->job->film;
     rt_status status =
-        rt_buffer_read(paths->device, paths->pixels, 0, rt_film_bytes(film), film->pixels, error);
+        rt_mirror_read(paths->device, paths->pixels, rt_film_bytes(film), film->pixels, error);
     return status == RT_OK ? rt_first_hit_layers_read(paths->job->layers, film, error) : status;
 }
 
@@ -357,7 +357,7 @@ rt_status rt_eye_paths_write(const rt_eye_paths *paths, rt_error *error)
 {
     const rt_film *film = paths->job->film;
     rt_status status =
-        rt_buffer_write(paths->device, paths->pixels, 0, rt_film_bytes(film), film->pixels, error);
+        rt_mirror_write(paths->device, paths->pixels, rt_film_bytes(film), film->pixels, error);
     return status == RT_OK ? rt_first_hit_layers_write(paths->job->layers, film, error) : status;
 }
 
@@ -368,7 +368,7 @@ rt_status rt_eye_paths_begin_pass(rt_eye_paths *paths, rt_error *error)
     memset(paths->pass_pixels, 0, bytes);
     if (paths->pass_sums)
         memset(paths->pass_sums, 0, pixels * sizeof *paths->pass_sums);
-    return rt_buffer_write(paths->device, paths->pixels, 0, bytes, paths->pass_pixels, error);
+    return rt_mirror_write(paths->device, paths->pixels, bytes, paths->pass_pixels, error);
 }
 
 /* The layers of the first hit get the samples of a pass once it is whole. */
@@ -390,7 +390,7 @@ rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t fi
     rt_film *film = paths->job->film;
     const size_t pixels = rt_film_pixels(film);
     rt_status status =
-        rt_buffer_read(paths->device, paths->pixels, 0, pixels * sizeof *paths->pass_pixels,
+        rt_mirror_read(paths->device, paths->pixels, pixels * sizeof *paths->pass_pixels,
                        paths->pass_pixels, error);
     if (status != RT_OK)
         return status;

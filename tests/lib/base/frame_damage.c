@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/crc32.h"
+#include "base/checksum.h"
 #include "base/frame.h"
 #include "support.h"
 
@@ -16,7 +16,7 @@ static void put(uint8_t *at, uint64_t value, int bytes)
 void frame_seal(rt_bytes *file)
 {
     uint8_t *end = file->data + file->size - RT_FRAME_CHECKSUM;
-    put(end, rt_crc32(file->data, file->size - RT_FRAME_CHECKSUM), RT_FRAME_CHECKSUM);
+    put(end, rt_checksum_of(file->data, file->size - RT_FRAME_CHECKSUM), RT_FRAME_CHECKSUM);
 }
 
 static rt_bytes copy_of(const rt_bytes *file)

@@ -23,7 +23,7 @@ static void add(rt_film_pixel *pixel, float value)
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
     for (int c = 0; c < 3; c++)
-        film_add_bits(pixel, c, bits);
+        film_add_bits(film_sums_of(pixel), c, bits);
     pixel->weight++;
     pixel->count++;
 }

@@ -52,10 +52,10 @@ void expect_same_film(const rt_film *a, const rt_film *b, const char *name)
         differs = "sums";
     else if (memcmp(a->rgb, b->rgb, 3 * pixels * sizeof *a->rgb) != 0)
         differs = "means";
-    else if (!a->layer_sums != !b->layer_sums || !a->photon_sums != !b->photon_sums)
+    else if (!a->first_hits != !b->first_hits || !a->photon_sums != !b->photon_sums)
         differs = "kinds of layers";
-    else if (a->layer_sums && memcmp(a->layer_sums, b->layer_sums,
-                                     RT_LAYER_COUNT * pixels * sizeof *a->layer_sums) != 0)
+    else if (a->first_hits &&
+             memcmp(a->first_hits, b->first_hits, pixels * sizeof *a->first_hits) != 0)
         differs = "layers";
     else if (a->photon_sums &&
              memcmp(a->photon_sums, b->photon_sums, pixels * sizeof *a->photon_sums) != 0)
