@@ -43,7 +43,8 @@ static int is_harmless(const command_line *line)
     if (line->command == COMMAND_MESH)
         return is_given(line, OPTION_TRIANGLES) &&
                line->options[OPTION_TRIANGLES].count <= triangles_max;
-    return line->command != COMMAND_DEVICES && line->command != COMMAND_DOCTOR;
+    return line->command != COMMAND_DEVICES && line->command != COMMAND_DOCTOR &&
+           line->command != COMMAND_KERNELS;
 }
 
 /* Stands in for rt_device_open: a render ends where it would begin. */
