@@ -114,6 +114,35 @@ rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offse
         "copying on the device", error);
 }
 
+/* What rt_buffer_map and rt_buffer_map_begin fail with. */
+static rt_status check_map(cl_int code, const char *what, rt_error *error)
+{
+    char text[128];
+    if (code == CL_SUCCESS)
+        return RT_OK;
+    snprintf(text, sizeof text, "reading %s from the device", what);
+    return rt_cl_check(code, text, error);
+}
+
+rt_status rt_buffer_map_begin(rt_device *device, cl_mem buffer, size_t bytes, const void **out,
+                              cl_event *ready, const char *what, rt_error *error)
+{
+    cl_int code = CL_SUCCESS;
+    void *mapped = clEnqueueMapBuffer(device->queue, buffer, CL_FALSE, CL_MAP_READ, 0, bytes, 0,
+                                      NULL, ready, &code);
+    rt_status status = check_map(code, what, error);
+    if (status == RT_OK)
+        *out = mapped;
+    return status;
+}
+
+rt_status rt_buffer_map_wait(cl_event ready, const char *what, rt_error *error)
+{
+    rt_status status = check_map(clWaitForEvents(1, &ready), what, error);
+    clReleaseEvent(ready);
+    return status;
+}
+
 rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out,
                         const char *what, rt_error *error)
 {
@@ -123,13 +152,10 @@ rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const vo
     if (code == CL_SUCCESS)
         mapped = clEnqueueMapBuffer(device->queue, buffer, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL,
                                     NULL, &code);
-    if (code != CL_SUCCESS) {
-        char text[128];
-        snprintf(text, sizeof text, "reading %s from the device", what);
-        return rt_cl_check(code, text, error);
-    }
-    *out = mapped;
-    return RT_OK;
+    rt_status status = check_map(code, what, error);
+    if (status == RT_OK)
+        *out = mapped;
+    return status;
 }
 
 rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, rt_error *error)

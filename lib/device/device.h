@@ -107,7 +107,14 @@ rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offse
  */
 rt_status rt_buffer_map(rt_device *device, cl_mem buffer, size_t bytes, const void **out,
                         const char *what, rt_error *error);
-/* Ends that; NULL is allowed. */
+/*
+ * The same in two steps: what is enqueued between them runs while the host waits, and then reads;
+ * bytes > 0. Nothing may be read from *out before rt_buffer_map_wait, which releases the event.
+ */
+rt_status rt_buffer_map_begin(rt_device *device, cl_mem buffer, size_t bytes, const void **out,
+                              cl_event *ready, const char *what, rt_error *error);
+rt_status rt_buffer_map_wait(cl_event ready, const char *what, rt_error *error);
+/* Ends a mapping; NULL is allowed. */
 rt_status rt_buffer_unmap(rt_device *device, cl_mem buffer, const void *mapped, rt_error *error);
 
 /* Releases a buffer of the device, or a kernel; NULL is allowed. */

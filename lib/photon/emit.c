@@ -24,17 +24,29 @@ enum {
 /* Arguments of the kernel: rt_params, the scene, and then buffers. */
 enum { EMIT_ARGUMENTS = 5 };
 
+/* Batches that take turns: the device follows the paths of one while the host takes another's. */
+enum { BATCHES = 2 };
+
+/* A batch of paths, and while it is under way where the host reads it. */
+typedef struct emission_batch {
+    cl_mem photons;  /* rt_photon [slots][paths]; NULL: there is no such batch */
+    cl_mem accounts; /* rt_path_account [paths] */
+    rt_params params;
+    const void *mapped_photons; /* NULL where the device packs them */
+    const void *mapped_accounts;
+    cl_event ready; /* complete when both are mapped */
+} emission_batch;
+
 struct rt_emitter {
     rt_device *device;
     cl_kernel kernel;
     cl_mem scene;
     rt_light_sources lights;
-    cl_mem shares;   /* rt_light_share, one a light of the kernels' table */
-    size_t slots;    /* photons a path can store; 0 before the first emission */
-    size_t paths;    /* a batch, at most */
-    cl_mem photons;  /* rt_photon [slots][paths] */
-    cl_mem accounts; /* rt_path_account [paths] */
-    int packs;       /* the device packs photons before they are read */
+    cl_mem shares; /* rt_light_share, one a light of the kernels' table */
+    size_t slots;  /* photons a path can store; 0 before the first emission */
+    size_t paths;  /* a batch, at most */
+    emission_batch batches[BATCHES];
+    int packs; /* the device packs photons before they are read */
     rt_photon_packer packer;
     uint64_t memory;           /* bytes that the photons of a map must fit into; 0: any */
     void (*after)(void *user); /* each batch; NULL: nothing */
@@ -75,12 +87,18 @@ rt_status rt_emitter_create(rt_emitter **out, rt_device *device, cl_kernel kerne
     return status;
 }
 
-static void release_batch(rt_emitter *e)
+static void release_buffers(const rt_emitter *e, emission_batch *batch)
 {
-    rt_buffer_release(e->device, e->photons);
-    rt_buffer_release(e->device, e->accounts);
+    rt_buffer_release(e->device, batch->photons);
+    rt_buffer_release(e->device, batch->accounts);
+    batch->photons = batch->accounts = NULL;
+}
+
+static void release_batches(rt_emitter *e)
+{
+    for (int i = 0; i < BATCHES; i++)
+        release_buffers(e, e->batches + i);
     rt_photon_packer_release(&e->packer);
-    e->photons = e->accounts = NULL;
     e->slots = 0;
 }
 
@@ -88,7 +106,7 @@ void rt_emitter_destroy(rt_emitter *e)
 {
     if (!e)
         return;
-    release_batch(e);
+    release_batches(e);
     rt_buffer_release(e->device, e->shares);
     rt_light_sources_free(&e->lights);
     free(e);
@@ -96,7 +114,7 @@ void rt_emitter_destroy(rt_emitter *e)
 
 void rt_emitter_pack(rt_emitter *e)
 {
-    release_batch(e);
+    release_batches(e);
     e->packs = 1;
 }
 
@@ -128,20 +146,42 @@ void rt_emitter_warn_reach(const rt_emitter *e, const rt_hooks *hooks)
                                        : "middle of the other shapes");
 }
 
-static rt_status create_batch(rt_emitter *e, size_t slots, size_t paths, rt_error *error)
+static rt_status create_buffers(const rt_emitter *e, emission_batch *batch, size_t slots,
+                                size_t paths, rt_error *error)
 {
     const cl_mem_flags flags = CL_MEM_READ_WRITE | (e->packs ? 0 : CL_MEM_ALLOC_HOST_PTR);
     rt_status status =
-        rt_buffer_create(e->device, &e->photons, flags, paths * slots * sizeof(rt_photon), NULL,
+        rt_buffer_create(e->device, &batch->photons, flags, paths * slots * sizeof(rt_photon), NULL,
                          "the buffer of photon slots", error);
     if (status == RT_OK)
-        status = rt_buffer_create(e->device, &e->accounts, flags, paths * sizeof(rt_path_account),
-                                  NULL, "the buffer of path accounts", error);
+        status =
+            rt_buffer_create(e->device, &batch->accounts, flags, paths * sizeof(rt_path_account),
+                             NULL, "the buffer of path accounts", error);
+    if (status != RT_OK)
+        release_buffers(e, batch);
+    return status;
+}
+
+static rt_status create_batch(rt_emitter *e, size_t slots, size_t paths, rt_error *error)
+{
+    rt_status status = create_buffers(e, e->batches, slots, paths, error);
     if (status == RT_OK && e->packs)
         status = rt_photon_packer_create(&e->packer, e->device, paths, slots, error);
     if (status != RT_OK)
-        release_batch(e);
+        release_batches(e);
     return status;
+}
+
+/*
+ * Makes the other batches that `count` paths have use for, as far as there is memory. Packing
+ * serves one batch at a time.
+ */
+static void create_more(rt_emitter *e, uint64_t count)
+{
+    for (int i = 1; i < BATCHES && count > i * (uint64_t)e->paths && !e->packs; i++)
+        if (!e->batches[i].photons &&
+            create_buffers(e, e->batches + i, e->slots, e->paths, NULL) != RT_OK)
+            return;
 }
 
 /*
@@ -156,9 +196,11 @@ static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_e
     size_t paths = most < 1 ? 1 : most > bound ? bound : most;
     if (paths > count)
         paths = (size_t)count;
-    if (e->slots == slots && e->paths >= paths)
+    if (e->slots == slots && e->paths >= paths) {
+        create_more(e, count);
         return RT_OK;
-    release_batch(e);
+    }
+    release_batches(e);
     rt_status status = create_batch(e, slots, paths, error);
     while (status == RT_ERROR_MEMORY && paths > LEAST_BATCH) {
         paths /= 2;
@@ -167,52 +209,83 @@ static rt_status prepare_batch(rt_emitter *e, size_t slots, uint64_t count, rt_e
     if (status == RT_OK) {
         e->slots = slots;
         e->paths = paths;
+        create_more(e, count);
     }
     return status;
 }
 
-/* Bytes of the slots up to the last row that a path of the batch reaches. */
-static size_t bytes_in_use(const rt_emitter *e, const rt_path_account *accounts, size_t paths)
+/* Ends the mapping of a batch. */
+static rt_status unmap_batch(const rt_emitter *e, emission_batch *b, rt_error *error)
 {
-    size_t rows = 0;
-    for (size_t i = 0; i < paths; i++)
-        rows = accounts[i].photons > rows ? accounts[i].photons : rows;
-    return rows == 0 ? 0 : ((rows - 1) * e->paths + paths) * sizeof(rt_photon);
+    rt_status status = rt_buffer_unmap(e->device, b->photons, b->mapped_photons, error);
+    rt_status other =
+        rt_buffer_unmap(e->device, b->accounts, b->mapped_accounts, status == RT_OK ? error : NULL);
+    b->mapped_photons = b->mapped_accounts = NULL;
+    return status == RT_OK ? other : status;
 }
 
-/* Appends the photons of a batch to a list; memory shared with the device is mapped, not copied. */
-static rt_status take_photons(rt_emitter *e, rt_photon_list *list, const rt_path_account *accounts,
-                              size_t paths, rt_error *error)
+/* Has the device follow the paths of a batch, and map what they leave. */
+static rt_status begin_batch(const rt_emitter *e, emission_batch *b, rt_error *error)
 {
-    const void *photons = NULL;
-    if (e->packs)
-        return rt_photon_packer_append(&e->packer, list, e->photons, e->paths, accounts, paths,
-                                       error);
-    size_t bytes = bytes_in_use(e, accounts, paths);
-    rt_status status =
-        bytes > 0 ? rt_buffer_map(e->device, e->photons, bytes, &photons, "photons", error) : RT_OK;
+    const size_t paths = b->params.item_count;
+    const size_t photons = e->paths * e->slots * sizeof(rt_photon);
+    rt_arg args[EMIT_ARGUMENTS] = {RT_ARG(b->params), RT_ARG(e->scene), RT_ARG(e->shares),
+                                   RT_ARG(b->photons), RT_ARG(b->accounts)};
+    rt_status status = rt_kernel_args(e->kernel, args, EMIT_ARGUMENTS, error);
     if (status == RT_OK)
-        status = rt_photon_list_append(list, photons, e->paths, accounts, paths, e->device->threads,
-                                       error);
-    rt_status end = rt_buffer_unmap(e->device, e->photons, photons, status == RT_OK ? error : NULL);
-    return status == RT_OK ? end : status;
+        status = rt_launch(e->device, e->kernel, paths, error);
+    if (status == RT_OK && !e->packs)
+        status = rt_buffer_map_begin(e->device, b->photons, photons, &b->mapped_photons, NULL,
+                                     "photons", error);
+    if (status == RT_OK)
+        status = rt_buffer_map_begin(e->device, b->accounts, paths * sizeof(rt_path_account),
+                                     &b->mapped_accounts, &b->ready, "the accounts of photon paths",
+                                     error);
+    if (status != RT_OK)
+        unmap_batch(e, b, NULL);
+    return status;
 }
 
 /* Appends the photons of a batch to the map, and books its accounts. */
-static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, size_t paths,
-                            rt_error *error)
+static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
+                            const emission_batch *b, rt_error *error)
 {
-    const void *accounts = NULL;
-    rt_status status = rt_buffer_map(e->device, e->accounts, paths * sizeof(rt_path_account),
-                                     &accounts, "the accounts of photon paths", error);
+    const rt_path_account *accounts = b->mapped_accounts;
+    const size_t paths = b->params.item_count;
+    rt_photon_list *list = map->lists + kind;
+    rt_status status = e->packs ? rt_photon_packer_append(&e->packer, list, b->photons, e->paths,
+                                                          accounts, paths, error)
+                                : rt_photon_list_append(list, b->mapped_photons, e->paths, accounts,
+                                                        paths, e->device->threads, error);
+    return status == RT_OK && kind == RT_PHOTONS_GLOBAL
+               ? rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads,
+                                error)
+               : status;
+}
+
+/* Waits for a batch, and takes its photons, accounts and range into the map. */
+static rt_status end_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
+                           emission_batch *b, rt_error *error)
+{
+    const rt_photon_list *list = map->lists + kind;
+    const size_t before = list->count;
+    rt_status status = rt_buffer_map_wait(b->ready, "photons", error);
     if (status == RT_OK)
-        status = take_photons(e, map->lists + kind, accounts, paths, error);
-    if (status == RT_OK && kind == RT_PHOTONS_GLOBAL)
-        status =
-            rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads, error);
-    rt_status end =
-        rt_buffer_unmap(e->device, e->accounts, accounts, status == RT_OK ? error : NULL);
-    return status == RT_OK ? end : status;
+        status = take_batch(e, map, kind, b, error);
+    rt_status unmapped = unmap_batch(e, b, status == RT_OK ? error : NULL);
+    status = status == RT_OK ? unmapped : status;
+    if (status != RT_OK)
+        return status;
+    const rt_path_range range = {b->params.first_item, b->params.item_count, list->count - before,
+                                 b->params.seed};
+    return rt_path_ranges_add(map->ranges + kind, &range, error);
+}
+
+/* Waits for a batch that is not wanted any more. */
+static void drop_batch(const rt_emitter *e, emission_batch *b)
+{
+    rt_buffer_map_wait(b->ready, "photons", NULL);
+    unmap_batch(e, b, NULL);
 }
 
 static rt_params make_params(const rt_emitter *e, const rt_photon_settings *settings,
@@ -246,50 +319,50 @@ static rt_status foresee(const rt_photon_list *list, size_t photons, uint64_t do
                                    "the photon map", error);
 }
 
-/* Runs a batch, and takes its photons, accounts and range into the map. */
-static rt_status emit_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
-                            const rt_arg args[EMIT_ARGUMENTS], const rt_params *p, rt_error *error)
+/* After `done` of `count` paths: whether there is memory for the others; reports progress. */
+static rt_status note_batch(const rt_emitter *e, const rt_photon_list *list, size_t before,
+                            size_t others, uint64_t done, uint64_t count,
+                            rt_stage_progress *progress, rt_error *error)
 {
-    const rt_photon_list *list = map->lists + kind;
-    const size_t before = list->count;
-    rt_status status = rt_kernel_args(e->kernel, args, EMIT_ARGUMENTS, error);
+    const size_t photons = list->count - before;
+    rt_status status = foresee(list, photons, done, count, error);
     if (status == RT_OK)
-        status = rt_launch(e->device, e->kernel, p->item_count, error);
-    if (status == RT_OK)
-        status = take_batch(e, map, kind, p->item_count, error);
-    if (status != RT_OK)
-        return status;
-    const rt_path_range range = {p->first_item, p->item_count, list->count - before, p->seed};
-    return rt_path_ranges_add(map->ranges + kind, &range, error);
+        status = rt_photon_forecast(others, photons, done, count, e->memory, error);
+    if (status == RT_OK && e->after)
+        e->after(e->after_user);
+    return status == RT_OK ? rt_stage_update(progress, (double)done / (double)count) : status;
 }
 
 /* Runs the batches of a range one after the other. */
-static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind, rt_params *p,
-                              uint64_t first, uint64_t count, rt_stage_progress *progress,
-                              rt_error *error)
+static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
+                              const rt_params *params, uint64_t first, uint64_t count,
+                              rt_stage_progress *progress, rt_error *error)
 {
-    rt_arg args[EMIT_ARGUMENTS] = {{sizeof *p, p},
-                                   RT_ARG(e->scene),
-                                   RT_ARG(e->shares),
-                                   RT_ARG(e->photons),
-                                   RT_ARG(e->accounts)};
     const rt_photon_list *list = map->lists + kind;
-    size_t before = list->count, others = before + map->lists[!kind].count;
+    const size_t before = list->count, others = before + map->lists[!kind].count;
+    const unsigned ring = e->batches[1].photons ? BATCHES : 1;
+    unsigned begun = 0, ended = 0; /* batches */
+    uint64_t next = 0, done = 0;   /* paths */
     rt_status status = RT_OK;
-    for (uint64_t done = 0; done < count && status == RT_OK; done += p->item_count) {
-        p->first_item = (rt_u32)(first + done);
-        p->item_count = (rt_u32)(count - done < e->paths ? count - done : e->paths);
-        status = emit_batch(e, map, kind, args, p, error);
+    while (status == RT_OK && done < count) {
+        emission_batch *b = e->batches + begun % ring;
+        if (next < count && begun - ended < ring) {
+            b->params = *params;
+            b->params.first_item = (rt_u32)(first + next);
+            b->params.item_count = (rt_u32)(count - next < e->paths ? count - next : e->paths);
+            status = begin_batch(e, b, error);
+            begun += status == RT_OK;
+            next += b->params.item_count;
+            continue;
+        }
+        b = e->batches + ended++ % ring;
+        status = end_batch(e, map, kind, b, error);
+        done += b->params.item_count;
         if (status == RT_OK)
-            status = foresee(list, list->count - before, done + p->item_count, count, error);
-        if (status == RT_OK)
-            status = rt_photon_forecast(others, list->count - before, done + p->item_count, count,
-                                        e->memory, error);
-        if (status == RT_OK && e->after)
-            e->after(e->after_user);
-        if (status == RT_OK)
-            status = rt_stage_update(progress, (double)(done + p->item_count) / (double)count);
+            status = note_batch(e, list, before, others, done, count, progress, error);
     }
+    while (ended < begun)
+        drop_batch(e, e->batches + ended++ % ring);
     return status;
 }
 
