@@ -28,6 +28,7 @@ KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
     /* from the point before, with some to spare: k photons lie inside more often than not */
     float guess = 0.0f;
     struct photon_start start;
+    struct group_start group = group_at_root(&tree);
     if (estimate.k == 0u && begin < end)
         start = start_of_points(&tree, points + begin, end - begin, &estimate, own_limits);
 
@@ -39,10 +40,12 @@ KERNEL gather_tree(const rt_params params, const rt_density_params estimate,
         disc.is_query = gathers_photons(points + i);
         disc.pixel = points[i].pixel;
         if (disc.is_query) {
+            if (estimate.k > 0u && guess > group.squared_radius && guess < estimate.squared_limit)
+                group = start_of_group(&tree, points + i, end - i, guess);
             const struct photon_sum sum =
                 estimate.k == 0u ? sum_within(&tree, &start, &query, &estimate,
                                               point_limit(points + i, &estimate, own_limits))
-                                 : sum_nearest(&tree, &query, &estimate, guess,
+                                 : sum_nearest(&tree, &group, &query, &estimate, guess,
                                                scratch + (size_t)item * estimate.stride);
             guess = 1.3f * sum.squared_radius;
             disc.count = sum.count;

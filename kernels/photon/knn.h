@@ -218,18 +218,18 @@ INLINE_ALWAYS float candidate_distance(const struct photon_tree *tree,
 
 /*
  * Takes all accepted photons nearer than a guess, in no particular order; true when they are k or
- * more. The traversal needs no order and seldom a selection, so a good guess makes the search twice
- * as fast.
+ * more. start: where a traversal up to the guess begins. The traversal needs no order and seldom a
+ * selection, so a good guess makes the search twice as fast.
  */
 INLINE_ALWAYS bool take_within(struct distances *d, const struct photon_tree *tree,
-                               const struct photon_query *query, float guess)
+                               const struct photon_start *start, const struct photon_query *query,
+                               float guess)
 {
     struct tree_traversal traversal;
     uint first, mask;
     d->count = 0u;
     d->bound = guess;
-    const struct photon_start root = start_at_root(tree);
-    traversal_start(&traversal, &root);
+    traversal_start(&traversal, start);
     while (traversal_next(&traversal, tree, query, d->bound, &first, &mask))
         for (; mask; mask &= mask - 1u)
             take_distances(d, tree, query, first + lane_first(mask));
@@ -259,13 +259,13 @@ INLINE_ALWAYS void take_all(struct distances *d, const struct photon_tree *tree,
 
 /*
  * The squared radius of the disc around a point; 0 when no photon counts. guess: an estimate, such
- * as that of a nearby point, or 0; it changes the time taken, not the result. scratch:
- * [estimate->stride]. Where k photons are accepted, the caller applies the limit of max_candidates:
- * only the summation counts the candidates.
+ * as that of a nearby point, or 0; it changes the time taken, not the result. start: where a
+ * traversal up to the guess begins. scratch: [estimate->stride]. Where k photons are accepted, the
+ * caller applies the limit of max_candidates: only the summation counts the candidates.
  */
-INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_query *query,
-                                const rt_density_params *estimate, float guess,
-                                global float *scratch)
+INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct photon_start *start,
+                                const struct photon_query *query, const rt_density_params *estimate,
+                                float guess, global float *scratch)
 {
     struct distances d;
     if (tree->shape.levels == 0u)
@@ -273,7 +273,8 @@ INLINE_ALWAYS float disc_radius(const struct photon_tree *tree, const struct pho
     d.squared = scratch;
     d.capacity = estimate->stride;
     d.k = estimate->k;
-    if (!(guess > 0.0f && guess < estimate->squared_limit && take_within(&d, tree, query, guess)))
+    if (!(guess > 0.0f && guess < estimate->squared_limit &&
+          take_within(&d, tree, start, query, guess)))
         take_all(&d, tree, query, estimate);
     if (d.count >= d.k) {
         pad_distances(&d);

@@ -95,16 +95,35 @@ INLINE_ALWAYS uint sum_disc(struct photon_sum *sum, const struct photon_tree *tr
                : sum_photons(sum, tree, start, query, estimate, 0);
 }
 
-/* The estimate at a point from the k nearest; guess and scratch as for disc_radius. */
+/* Where the traversals of a group of points begin, up to a squared radius. */
+struct group_start {
+    struct photon_start start;
+    float squared_radius;
+};
+
+/* Before there is a guess: at the root. */
+INLINE_ALWAYS struct group_start group_at_root(const struct photon_tree *tree)
+{
+    struct group_start group;
+    group.start = start_at_root(tree);
+    group.squared_radius = 0.0f;
+    return group;
+}
+
+/* The estimate at a point of a group from the k nearest; guess and scratch as for disc_radius. */
 INLINE_NEVER struct photon_sum sum_nearest(const struct photon_tree *tree,
+                                           const struct group_start *group,
                                            const struct photon_query *query,
                                            const rt_density_params *estimate, float guess,
                                            global float *scratch)
 {
     const struct photon_start root = start_at_root(tree);
     struct photon_sum sum;
-    sum.squared_radius = disc_radius(tree, query, estimate, guess, scratch);
-    const uint candidates = sum_disc(&sum, tree, &root, query, estimate);
+    sum.squared_radius = disc_radius(tree, guess <= group->squared_radius ? &group->start : &root,
+                                     query, estimate, guess, scratch);
+    const uint candidates =
+        sum_disc(&sum, tree, sum.squared_radius <= group->squared_radius ? &group->start : &root,
+                 query, estimate);
     if (candidates >= estimate->max_candidates &&
         tree->shape.photon_count > estimate->max_candidates) {
         sum.squared_radius =
@@ -160,6 +179,25 @@ static inline struct photon_start start_of_points(const struct photon_tree *tree
             limit = max(limit, point_limit(points + i, estimate, own_limits));
         }
     return start_near(tree, low, high, limit);
+}
+
+/*
+ * Where the traversals of a group of points begin while their guesses are not much above this one.
+ */
+static inline struct group_start start_of_group(const struct photon_tree *tree,
+                                                global const rt_gather_point *points, uint count,
+                                                float guess)
+{
+    float3 low = (float3)(INFINITY), high = -low;
+    for (uint i = 0u; i < count; i++)
+        if (gathers_photons(points + i)) {
+            low = min(low, row3(points[i].position));
+            high = max(high, row3(points[i].position));
+        }
+    struct group_start group;
+    group.squared_radius = 2.0f * guess;
+    group.start = start_near(tree, low, high, group.squared_radius);
+    return group;
 }
 
 #endif

@@ -52,23 +52,24 @@ kernel void neighbours(const rt_params params, const rt_density_params estimate,
     global float *own = scratch + (size_t)item * estimate.stride;
     struct photon_start start = start_at_root(&tree);
     struct photon_sum sum;
+    /* By turns as one of a group of up to four points. */
+    const uint first = item - item % 4u, count = min(1u + item % 4u, params.item_count - first);
     if (estimate.k == 0u) {
-        /* By turns as one of a group of up to four points. */
-        const uint first = item - item % 4u;
-        start =
-            start_of_points(&tree, points + first, min(1u + item % 4u, params.item_count - first),
-                            &estimate, own_limits);
+        start = start_of_points(&tree, points + first, count, &estimate, own_limits);
         sum = sum_within(&tree, &start, &query, &estimate,
                          point_limit(points + item, &estimate, own_limits));
     } else {
         /* By turns without a guess, with a good one, one much too large and one too small. */
-        sum = sum_nearest(&tree, &query, &estimate, 0.0f, own);
-        if (item % 4u)
-            sum = sum_nearest(&tree, &query, &estimate,
-                              sum.squared_radius * (item % 4u == 1u   ? 1.3f
-                                                    : item % 4u == 2u ? 30.0f
-                                                                      : 0.5f),
-                              own);
+        struct group_start group = group_at_root(&tree);
+        sum = sum_nearest(&tree, &group, &query, &estimate, 0.0f, own);
+        if (item % 4u) {
+            const float guess = sum.squared_radius * (item % 4u == 1u   ? 1.3f
+                                                      : item % 4u == 2u ? 30.0f
+                                                                        : 0.5f);
+            if (tree.shape.levels > 0u && guess < INFINITY)
+                group = start_of_group(&tree, points + first, count, guess);
+            sum = sum_nearest(&tree, &group, &query, &estimate, guess, own);
+        }
     }
 
     rt_gather_disc disc = list_photons(&tree, &start, &query, &sum, params.slots,
