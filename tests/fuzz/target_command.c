@@ -62,7 +62,7 @@ static int run_command(const command_line *line)
         [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,
         [COMMAND_MESH] = command_mesh,       [COMMAND_PHOTONS] = command_photons,
         [COMMAND_COMPARE] = command_compare, [COMMAND_MERGE] = command_merge,
-        [COMMAND_INFO] = command_info,
+        [COMMAND_INFO] = command_info,       [COMMAND_KERNELS] = command_kernels,
     };
     message_as_json(0);
     if (is_given(line, OPTION_HELP)) {
