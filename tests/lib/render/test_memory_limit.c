@@ -276,7 +276,8 @@ static void a_render_keeps_every_limit(void **state)
                              *const films[] = {"the film", "the buffer of the film's layers"};
     (void)state;
     expect_render(shapes_text, &plain, 1.05, shapes, sizeof shapes / sizeof *shapes);
-    expect_render(floor_text, &layers, 1.3, films, sizeof films / sizeof *films);
+    /* A CPU device sums the layers in the film's own memory. */
+    expect_render(floor_text, &layers, 1.3, films, test_device()->info.is_cpu ? 1 : 2);
 }
 
 static void photons_keep_every_limit(void **state)
