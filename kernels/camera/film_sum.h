@@ -20,6 +20,13 @@
 
 #include "types.h"
 
+/* Adding to a pixel must be inlined: called, it would take the pixel out of a GPU's registers. */
+#if defined(__clang__)
+#define FILM_INLINE static inline __attribute__((always_inline))
+#else
+#define FILM_INLINE static inline
+#endif
+
 #define RT_FILM_BIN_BITS 32u /* of a bin */
 #define RT_FILM_BIN_LAST 7u  /* the highest that is a lower bin */
 
@@ -59,7 +66,7 @@ static inline void film_raise(film_sums sums, int channel, rt_u32 bin)
 }
 
 /* Adds the value of a finite float, given by its bits, to a channel. */
-static inline void film_add_bits(film_sums sums, int channel, rt_u32 bits)
+FILM_INLINE void film_add_bits(film_sums sums, int channel, rt_u32 bits)
 {
     const rt_u32 exponent = bits >> 23 & 255u, place = exponent - (exponent > 0u);
     const rt_u32 bin = place / RT_FILM_BIN_BITS;

@@ -8,7 +8,7 @@
 set -u
 
 find_clang() {
-    for each in ${CLANG:-} clang clang-14 clang-15 clang-16 clang-17 clang-18 clang-19; do
+    for each in ${CLANG:-} clang clang-19 clang-18 clang-17 clang-16 clang-15 clang-14; do
         if "$each" --print-targets 2>/dev/null | grep -q amdgcn; then
             echo "$each"
             return
