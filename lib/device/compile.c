@@ -5,7 +5,6 @@
 #include "device/device.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/error.h"
 #include "device/kernel_source.h"
@@ -67,9 +66,8 @@ rt_status rt_device_compile(rt_device *device, const char *program, const rt_hoo
                             rt_error *error)
 {
     cl_mem buffer = NULL;
-    const rt_kernel_source *source = rt_kernel_sources;
-    while (program && source->name && strcmp(source->name, program) != 0)
-        source++;
+    const rt_kernel_source *source =
+        program ? rt_kernel_source_find(rt_kernel_sources, program) : rt_kernel_sources;
     if (!source->name)
         return rt_fail(error, RT_ERROR_USAGE, "there is no kernel program '%s'", program);
     void *zero = calloc(1, BUFFER_SIZE);

@@ -14,4 +14,7 @@ typedef struct rt_kernel_source {
 /* The library's programs; the last entry has a NULL name. Generated from kernels/ by the build. */
 extern const rt_kernel_source rt_kernel_sources[];
 
+/* The entry of this name in such a table, or the last one. */
+const rt_kernel_source *rt_kernel_source_find(const rt_kernel_source *sources, const char *name);
+
 #endif

@@ -155,10 +155,9 @@ static rt_status build(rt_device *device, cl_program *out, const rt_kernel_sourc
     return RT_OK;
 }
 
-/* The source of a program, or the entry that ends the table. */
-static const rt_kernel_source *find_source(const rt_kernel_source *sources, const char *program)
+const rt_kernel_source *rt_kernel_source_find(const rt_kernel_source *sources, const char *name)
 {
-    while (sources->name && strcmp(sources->name, program) != 0)
+    while (sources->name && strcmp(sources->name, name) != 0)
         sources++;
     return sources;
 }
@@ -206,7 +205,7 @@ static int is_first(rt_device *device, int program, const char *kernel)
 int rt_device_has_program(const rt_device *device, const char *program)
 {
     char options[OPTIONS_SIZE];
-    const rt_kernel_source *source = find_source(rt_kernel_sources, program);
+    const rt_kernel_source *source = rt_kernel_source_find(rt_kernel_sources, program);
     if (!source->name || build_options(options, sizeof options, device, NULL) != RT_OK)
         return 0;
     for (int i = 0; i < device->program_count; i++)
@@ -222,7 +221,7 @@ int rt_device_has_program(const rt_device *device, const char *program)
 static rt_status program_of(rt_device *device, int *out, const rt_kernel_source *sources,
                             const char *program, const rt_hooks *hooks, rt_error *error)
 {
-    const rt_kernel_source *source = find_source(sources, program);
+    const rt_kernel_source *source = rt_kernel_source_find(sources, program);
     if (!source->name)
         return rt_fail(error, RT_ERROR_DEVICE, "there is no kernel program '%s'", program);
     return find_program(device, out, source, hooks, error);

@@ -26,10 +26,7 @@ void rt_program_list_add(rt_program_list *list, const char *program)
 
 static size_t length_of(const char *program)
 {
-    const rt_kernel_source *source = rt_kernel_sources;
-    while (source->name && strcmp(source->name, program) != 0)
-        source++;
-    return source->length;
+    return rt_kernel_source_find(rt_kernel_sources, program)->length;
 }
 
 /* Those that the device has not, the longest first: begun last, it would be waited for. */
