@@ -23,8 +23,7 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
 static rt_status upload(rt_renderer *renderer, rt_error *error)
 {
     rt_device *device = renderer->device;
-    cl_mem_flags flags = CL_MEM_READ_WRITE | (device->info.is_cpu ? CL_MEM_USE_HOST_PTR : 0);
-    rt_status status = rt_buffer_create(device, &renderer->scene, flags, renderer->image.bytes,
+    rt_status status = rt_mirror_create(device, &renderer->scene, renderer->image.bytes,
                                         renderer->image.data, "the scene", error);
     if (status == RT_OK && !device->info.is_cpu)
         rt_scene_image_free(&renderer->image);
