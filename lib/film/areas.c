@@ -81,7 +81,7 @@ int rt_area_has_samples(const rt_film_area *area, size_t row)
     return 0;
 }
 
-/* Whether so many bins from the lowest on may be, and a sum of weights can be one of so many. */
+/* Whether these can be the lower bins of so many channels. */
 static int has_sound_bins(uint32_t bins, int channels)
 {
     for (int c = 0; c < channels; c++)
@@ -90,6 +90,7 @@ static int has_sound_bins(uint32_t bins, int channels)
     return 1;
 }
 
+/* Whether so many samples can have this sum of weights, of 1 or -1 each. */
 static int is_sound_weight(int32_t weight, uint32_t count)
 {
     return weight >= -(int64_t)count && weight <= (int64_t)count;

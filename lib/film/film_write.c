@@ -102,13 +102,18 @@ out:
 
 /* ---- Bands of pixels ------------------------------------------------------------ */
 
+static size_t bands_of(const rt_film_area *area)
+{
+    return (area->count + RT_FILM_BAND_ROWS - 1) / RT_FILM_BAND_ROWS;
+}
+
 /* The area that a band lies in; *from: its first row there. */
 static rt_film_area area_of(const rt_film *film, size_t band, size_t *from)
 {
     rt_film_area areas[RT_FILM_AREAS];
     const int count = rt_film_areas(areas, film);
     for (int i = 0; i < count; i++) {
-        const size_t bands = (areas[i].count + RT_FILM_BAND_ROWS - 1) / RT_FILM_BAND_ROWS;
+        const size_t bands = bands_of(areas + i);
         *from = band * RT_FILM_BAND_ROWS;
         if (band < bands || i == count - 1)
             return areas[i];
@@ -123,7 +128,7 @@ size_t rt_film_bands(const rt_film *film)
     const int count = rt_film_areas(areas, film);
     size_t bands = 0;
     for (int i = 0; i < count; i++)
-        bands += (areas[i].count + RT_FILM_BAND_ROWS - 1) / RT_FILM_BAND_ROWS;
+        bands += bands_of(areas + i);
     return bands;
 }
 
@@ -152,16 +157,18 @@ size_t rt_film_put_band(uint8_t *out, uint64_t *runs, const rt_film *film, size_
                  end = from + (left < RT_FILM_BAND_ROWS ? left : RT_FILM_BAND_ROWS);
     rt_writer w = {out};
     *runs = 0;
-    for (size_t first = from, count; first<end; first += count> 0 ? count : 1) {
-        for (count = 0; count < RT_COLUMNS_ROWS && first + count < end; count++)
-            if (!rt_area_has_samples(&area, first + count))
-                break;
+    for (size_t first = from; first < end; first++) {
+        size_t count = 0;
+        while (count < RT_COLUMNS_ROWS && first + count < end &&
+               rt_area_has_samples(&area, first + count))
+            count++;
         if (count == 0)
             continue;
         rt_put64(&w, area.first + first);
         rt_put64(&w, count);
         rt_columns_put(&w, area.table, (uint8_t *)area.rows + first * area.table->size, count);
         ++*runs;
+        first += count - 1;
     }
     return (size_t)(w.at - out);
 }
