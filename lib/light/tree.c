@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "light/lights.h"
+#include "scene/shape_class.h"
 
 /*
  * What is added to the squared distance of a cluster for its extent, as a fraction of the squared
@@ -141,9 +142,10 @@ static void include_light(cluster *c, const tree_builder *p, const rt_light_data
 /* Whether it emits on one side of a plane, or on both. */
 static int is_flat(const tree_builder *p, const rt_light_data *light)
 {
-    return light->kind == RT_LIGHT_QUAD || light->kind == RT_LIGHT_TRIANGLE ||
-           (light->kind == RT_LIGHT_SHAPE &&
-            p->scene->shapes[p->prim_shape[light->prim]].kind == RT_SHAPE_DISC);
+    if (light->kind == RT_LIGHT_QUAD || light->kind == RT_LIGHT_TRIANGLE)
+        return 1;
+    const rt_scene_shape *shape = p->scene->shapes + p->prim_shape[light->prim];
+    return rt_shape_class_of(shape->kind)->boundary(p->scene, shape) == RT_BOUNDARY_FLAT;
 }
 
 /*
