@@ -29,18 +29,6 @@ typedef struct doctor_visit {
     const char *remedy; /* instead of the check's own, where a check knows better */
 } doctor_visit;
 
-static void on_log(void *user, const char *line)
-{
-    (void)user;
-    message_note("%s", line);
-}
-
-static void on_warning(void *user, const char *line)
-{
-    (void)user;
-    message_warning("%s", line);
-}
-
 static rt_status fail(rt_error *error, rt_status status, const char *message)
 {
     memset(error, 0, sizeof *error);
@@ -97,8 +85,8 @@ static rt_status check_build(doctor_visit *visit, char *said, rt_error *error)
 {
     rt_hooks hooks = {0};
     rt_renderer_options options = {0};
-    hooks.log = visit->verbose ? on_log : NULL;
-    hooks.warning = on_warning;
+    hooks.log = visit->verbose ? message_of_log : NULL;
+    hooks.warning = message_of_warning;
     options.hooks = &hooks;
     rt_status status =
         rt_renderer_create(&visit->renderer, visit->scene, visit->device, &options, error);
@@ -135,8 +123,8 @@ static rt_status check_mode(doctor_visit *visit, char *said, rt_mode mode, const
     rt_hooks hooks = {0};
     rt_render_options options;
     rt_scene_get_options(visit->scene, &options);
-    hooks.log = visit->verbose ? on_log : NULL;
-    hooks.warning = on_warning;
+    hooks.log = visit->verbose ? message_of_log : NULL;
+    hooks.warning = message_of_warning;
     options.hooks = &hooks;
     options.mode = mode;
     options.spp = 4;

@@ -7,23 +7,11 @@
 #include "rt.h"
 #include "status.h"
 
-static void on_log(void *user, const char *line)
-{
-    (void)user;
-    message_note("%s", line);
-}
-
-static void on_warning(void *user, const char *line)
-{
-    (void)user;
-    message_warning("%s", line);
-}
-
 int command_kernels(const command_line *arguments)
 {
     const option_value *values = arguments->options;
-    const rt_hooks hooks = {.log = values[OPTION_VERBOSE].given ? on_log : NULL,
-                            .warning = on_warning};
+    const rt_hooks hooks = {.log = values[OPTION_VERBOSE].given ? message_of_log : NULL,
+                            .warning = message_of_warning};
     const rt_device_options options = {.select = values[OPTION_DEVICE].text,
                                        .work_group = (uint32_t)values[OPTION_WORK_GROUP].count};
     rt_device *device = NULL;

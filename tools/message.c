@@ -232,6 +232,18 @@ static void put_text_diagnostic(const rt_diagnostic *diagnostic)
                     diagnostic->length > 0 ? (size_t)diagnostic->length : 1);
 }
 
+void message_of_log(void *user, const char *line)
+{
+    (void)user;
+    message_note("%s", line);
+}
+
+void message_of_warning(void *user, const char *line)
+{
+    (void)user;
+    message_warning("%s", line);
+}
+
 void message_diagnostic(const rt_diagnostic *diagnostic)
 {
     if (as_json)

@@ -28,6 +28,10 @@ void message_warning(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_hint(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_note(const char *format, ...) PRINTF_LIKE(1, 2);
 
+/* A note and a warning for rt_hooks. */
+void message_of_log(void *user, const char *line);
+void message_of_warning(void *user, const char *line);
+
 /* An error or a warning of a scene: place, message, source line, caret and hint. */
 void message_diagnostic(const rt_diagnostic *diagnostic);
 
