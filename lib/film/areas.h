@@ -16,7 +16,7 @@ typedef struct rt_film_area {
     size_t count;
 } rt_film_area;
 
-enum { RT_FILM_AREAS = 3 };
+enum { RT_FILM_AREAS = 3, RT_AREA_ROW_MOST = 192 /* bytes of the longest row */ };
 
 /* The areas that a film has, in the order of their rows; returns how many. */
 int rt_film_areas(rt_film_area out[RT_FILM_AREAS], const rt_film *film);

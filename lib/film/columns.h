@@ -1,6 +1,7 @@
 /*
  * columns.h - arrays of structs in few bytes: in each column of some rows the differences from the
- * first number, in as many bytes as the greatest of them takes.
+ * first number, without the low bits that are zero in all, in as many bytes as the greatest takes.
+ * (Sums of floats are multiples of the last bit of the smallest.)
  */
 #ifndef RT_LIB_FILM_COLUMNS_H
 #define RT_LIB_FILM_COLUMNS_H
@@ -32,7 +33,7 @@ typedef struct rt_table {
 
 enum {
     RT_COLUMNS_ROWS = 128, /* the most rows that are packed together */
-    RT_COLUMN_HEAD = 9,    /* bytes of a column before its differences: width, first number */
+    RT_COLUMN_HEAD = 10,   /* bytes of a column before its differences: form, first number */
     RT_COLUMNS_BEYOND = 8  /* bytes behind the rows that packing may change */
 };
 
@@ -43,8 +44,8 @@ size_t rt_columns_most(const rt_table *table, size_t rows);
 void rt_columns_put(rt_writer *w, const rt_table *table, const void *rows, size_t count);
 
 /*
- * Reads as many rows back; 0 when they do not end before `end`, a width is above 8 or a number
- * outside of its member's range.
+ * Reads as many rows back; 0 when they do not end before `end`, a width is above 8, a shift above
+ * 63 or a number outside of its member's range.
  */
 int rt_columns_get(rt_reader *r, const uint8_t *end, const rt_table *table, void *rows,
                    size_t count);

@@ -38,8 +38,9 @@
  * layers has 18: asked, photons and samples of rt_photon_sums, then radius, density, value, square
  * and bias, each high, low and bin.
  *
- * A column of a run is u8 width, 0 to 8, its number of the first row as 64 bits, and for each row,
- * the first too, what its number is more than that, in `width` bytes with sign.
+ * A column of a run is u8 width, 0 to 8, u8 shift, 0 to 63, its number of the first row as 64 bits,
+ * and for each row, the first too, what its number is more than that, in 2^shift, in `width` bytes
+ * with sign.
  *
  * Version 1 had all layers in pixels of their own; it is not read.
  */
@@ -71,8 +72,9 @@ rt_status rt_film_put_head(rt_bytes *out, const rt_film *film, uint64_t runs, si
  * written by rt_film_put_band, which returns how many bytes they are, at most rt_film_band_most;
  * *runs: how many runs. Bands may be written at once by several threads.
  */
-enum { RT_FILM_BAND_ROWS = 64 * RT_COLUMNS_ROWS };
+enum { RT_FILM_BAND_ROWS = 16 * RT_COLUMNS_ROWS };
 size_t rt_film_bands(const rt_film *film);
+size_t rt_film_band_of(const rt_film *film, size_t row); /* counted through all areas */
 size_t rt_film_band_most(const rt_film *film);
 size_t rt_film_put_band(uint8_t *out, uint64_t *runs, const rt_film *film, size_t band);
 

@@ -132,6 +132,19 @@ size_t rt_film_bands(const rt_film *film)
     return bands;
 }
 
+size_t rt_film_band_of(const rt_film *film, size_t row)
+{
+    rt_film_area areas[RT_FILM_AREAS];
+    const int count = rt_film_areas(areas, film);
+    size_t before = 0;
+    for (int i = 0; i + 1 < count && row >= areas[i + 1].first; i++)
+        before += bands_of(areas + i);
+    for (int i = count - 1; i > 0; i--)
+        if (row >= areas[i].first)
+            return before + (row - areas[i].first) / RT_FILM_BAND_ROWS;
+    return row / RT_FILM_BAND_ROWS;
+}
+
 size_t rt_film_band_most(const rt_film *film)
 {
     rt_film_area areas[RT_FILM_AREAS];
@@ -149,26 +162,40 @@ size_t rt_film_band_most(const rt_film *film)
     return most + RT_COLUMNS_BEYOND;
 }
 
+/* Writes the runs among some rows, which are numbered from `number` on. */
+static uint64_t put_runs(rt_writer *w, const rt_film_area *area, size_t rows, uint64_t number)
+{
+    uint64_t runs = 0;
+    for (size_t first = 0, end; first < rows; first = end + 1) {
+        for (end = first; end < rows && rt_area_has_samples(area, end);)
+            end++;
+        if (end == first)
+            continue;
+        rt_put64(w, number + first);
+        rt_put64(w, end - first);
+        rt_columns_put(w, area->table, (uint8_t *)area->rows + first * area->table->size,
+                       end - first);
+        runs++;
+    }
+    return runs;
+}
+
 size_t rt_film_put_band(uint8_t *out, uint64_t *runs, const rt_film *film, size_t band)
 {
+    /* Packing goes through a few rows many times: memory is read once, in order. */
+    uint64_t rows[RT_COLUMNS_ROWS * RT_AREA_ROW_MOST / sizeof(uint64_t)];
     size_t from = 0;
     const rt_film_area area = area_of(film, band, &from);
-    const size_t left = area.count - from,
+    rt_film_area some = area;
+    const size_t size = area.table->size, left = area.count - from,
                  end = from + (left < RT_FILM_BAND_ROWS ? left : RT_FILM_BAND_ROWS);
     rt_writer w = {out};
+    some.rows = rows;
     *runs = 0;
-    for (size_t first = from; first < end; first++) {
-        size_t count = 0;
-        while (count < RT_COLUMNS_ROWS && first + count < end &&
-               rt_area_has_samples(&area, first + count))
-            count++;
-        if (count == 0)
-            continue;
-        rt_put64(&w, area.first + first);
-        rt_put64(&w, count);
-        rt_columns_put(&w, area.table, (uint8_t *)area.rows + first * area.table->size, count);
-        ++*runs;
-        first += count - 1;
+    for (size_t at = from, count; at < end; at += count) {
+        count = end - at < RT_COLUMNS_ROWS ? end - at : RT_COLUMNS_ROWS;
+        memcpy(rows, (const uint8_t *)area.rows + at * size, count * size);
+        *runs += put_runs(&w, &some, count, area.first + at);
     }
     return (size_t)(w.at - out);
 }

@@ -78,9 +78,13 @@ static void rows_come_back_and_take_no_more_than_is_said(void **state)
             r.at = copy;
             assert_false(rt_columns_get(&r, copy + cut, &table, back, count));
         }
-        copy[0] = 9;
-        r.at = copy;
-        assert_false(rt_columns_get(&r, copy + size, &table, back, count));
+        for (int i = 0; i < 2; i++) {
+            const uint8_t before = copy[i];
+            copy[i] = i == 0 ? 9 : 64;
+            r.at = copy;
+            assert_false(rt_columns_get(&r, copy + size, &table, back, count));
+            copy[i] = before;
+        }
         free(copy);
     }
 }
@@ -99,10 +103,28 @@ static void differences_take_the_bytes_that_they_need(void **state)
     static const struct {
         int64_t value;
         size_t width;
-    } cases[] = {
-        {0, 0},         {1, 1},         {-1, 1},      {127, 1},        {-128, 1},
-        {128, 2},       {-129, 2},      {32767, 2},   {-32768, 2},     {32768, 3},
-        {INT64_MAX, 8}, {INT64_MIN, 8}, {1 << 30, 4}, {-(1 << 30), 4}, {INT64_C(1) << 31, 5}};
+    } cases[] = {{0, 0},
+                 {1, 1},
+                 {-1, 1},
+                 {127, 1},
+                 {-128, 1},
+                 {129, 2},
+                 {128, 1},
+                 {-129, 2},
+                 {32767, 2},
+                 {-32768, 1},
+                 {-32767, 2},
+                 {32768, 1},
+                 {32769, 3},
+                 {INT64_MAX, 8},
+                 {INT64_MIN + 1, 8},
+                 {255, 2},
+                 {254, 1},
+                 {INT64_C(3) << 61, 1},
+                 {INT64_MIN, 1},
+                 {(1 << 30) + 1, 4},
+                 {1 - (1 << 30), 4},
+                 {(INT64_C(1) << 31) + 1, 5}};
     uint8_t bytes[256];
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -131,7 +153,7 @@ static void numbers_out_of_range_are_refused(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const size_t size = pack(bytes, rows, 1);
-        rt_writer w = {bytes + cases[i].column * RT_COLUMN_HEAD + 1};
+        rt_writer w = {bytes + cases[i].column * RT_COLUMN_HEAD + 2};
         rt_reader r = {bytes};
         row back;
         rt_put64(&w, cases[i].first);
