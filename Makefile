@@ -62,11 +62,11 @@ LIB_SRC := \
 	lib/pack/sobol.c \
 	lib/pack/targets.c \
 	lib/pack/touch.c \
-	lib/film/areas.c lib/film/columns.c \
+	lib/film/areas.c lib/film/changed.c lib/film/columns.c \
 	lib/film/coverage.c lib/film/cut_off.c lib/film/film.c lib/film/film_info.c \
 	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
-	lib/film/noise.c lib/film/photon_sums.c lib/film/student_t.c lib/film/units.c \
-	lib/film/write.c \
+	lib/film/noise.c lib/film/photon_sums.c lib/film/saver.c lib/film/student_t.c \
+	lib/film/units.c lib/film/write.c \
 	lib/mode/chunk.c lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/render.c \
 	lib/mode/work.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
@@ -663,8 +663,10 @@ check-gpu-code:
 bench-reference: all
 	RTC=$(B)/rtc tests/bench/make_reference.sh $(SCENES)
 
-bench-checkpoint: $(B)/tests/bench/bench_checkpoint
+bench-checkpoint: $(addprefix $(B)/tests/bench/bench_,checkpoint overhead)
 	cd $(B) && tests/bench/bench_checkpoint ../scenes/cornell.rts
+	cd $(B) && tests/bench/bench_overhead ../scenes/cornell.rts path 64
+	cd $(B) && tests/bench/bench_overhead ../scenes/cornell.rts photon 4
 
 # ---- Dependencies and demonstration -------------------------------------------
 

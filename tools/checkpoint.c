@@ -40,21 +40,52 @@ int checkpoint_resume(command_line *arguments)
                                  : status;
 }
 
+/* Books how a checkpoint went. */
+static void book(checkpoint *c, rt_status status, const rt_error *error)
+{
+    const int failed = status != RT_OK;
+    if (failed && !c->failed) {
+        progress_clear(c->progress);
+        message_warning("no checkpoint, and the render goes on: %s", error->message);
+    }
+    c->failed = failed;
+    c->saved += !failed;
+}
+
+/* Waits for the checkpoint that is being written, if there is one. */
+static void wait_for_last(checkpoint *c)
+{
+    rt_error error;
+    if (c->is_writing)
+        book(c, rt_film_saver_wait(c->saver, &error), &error);
+    c->is_writing = 0;
+}
+
 static void save(void *user, const rt_film *film)
 {
     checkpoint *c = user;
     rt_film_info info;
     rt_error error;
+    rt_status status = RT_OK;
     rt_film_get_info(film, &info);
     if (info.units_done == 0)
         return;
-    const int failed = rt_film_save(film, c->path, &error) != RT_OK;
-    if (failed && !c->failed) {
-        progress_clear(c->progress);
-        message_warning("no checkpoint, and the render goes on: %s", error.message);
-    }
-    c->failed = failed;
-    c->saved += !failed;
+    wait_for_last(c);
+    if (!c->saver)
+        status = rt_film_saver_create(&c->saver, c->path, &error);
+    if (status == RT_OK)
+        status = rt_film_saver_put(c->saver, film, &error);
+    if (status == RT_OK)
+        c->is_writing = 1;
+    else
+        book(c, status, &error);
+}
+
+void checkpoint_finish(checkpoint *c)
+{
+    wait_for_last(c);
+    rt_film_saver_destroy(c->saver);
+    c->saver = NULL;
 }
 
 int checkpoint_check_file(const char *path, const char *extension, const char *resumed,

@@ -10,6 +10,8 @@ typedef struct checkpoint {
     const char *path; /* NULL: none */
     progress_display *progress;
     int is_quiet;
+    rt_film_saver *saver;
+    int is_writing; /* one that saved and failed do not tell of yet */
     uint64_t saved; /* how many were written */
     int failed;     /* the last one was not */
     file_lock lock; /* where --checkpoint names a file of its own; the caller releases it */
@@ -38,5 +40,8 @@ int checkpoint_resume(command_line *arguments);
  * overwritten, unless it is the one to be continued. Returns an exit status.
  */
 int checkpoint_plan(checkpoint *out, rt_render_options *options, const command_line *arguments);
+
+/* After the render: waits until the last checkpoint is on the disk, and tells where it is not. */
+void checkpoint_finish(checkpoint *c);
 
 #endif

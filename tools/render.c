@@ -335,6 +335,7 @@ static int run(render_job *job)
         status = make_film(job);
     if ((status == STATUS_DONE || status == STATUS_INTERRUPTED) && !is_worker(job))
         status = write_images(job, status);
+    checkpoint_finish(&job->checkpoint);
     if (job->checkpoint.failed && (status == STATUS_DONE || status == STATUS_INTERRUPTED))
         status = STATUS_OUTPUT;
     else if (!job->session.quiet && !is_worker(job))

@@ -178,6 +178,20 @@ RT_API rt_status rt_film_save(const rt_film *film, const char *path, rt_error *e
 RT_API rt_status rt_film_load(rt_film **out, const char *path, rt_memory *memory, rt_error *error);
 
 /*
+ * Writes a film to the same file again and again while it is rendered: rt_film_saver_put takes what
+ * it holds now, on all cores, and a thread of the saver writes that as rt_film_save does, while the
+ * caller goes on. Where the file before is still being written, it waits for that first. A failure
+ * to write is told by the next call, which does its own work all the same. Without memory for a
+ * second, packed film, the file is written before the call returns. rt_film_saver_destroy takes
+ * NULL and waits too. The caller owns *out.
+ */
+typedef struct rt_film_saver rt_film_saver;
+RT_API rt_status rt_film_saver_create(rt_film_saver **out, const char *path, rt_error *error);
+RT_API rt_status rt_film_saver_put(rt_film_saver *saver, const rt_film *film, rt_error *error);
+RT_API rt_status rt_film_saver_wait(rt_film_saver *saver, rt_error *error);
+RT_API void rt_film_saver_destroy(rt_film_saver *saver);
+
+/*
  * The same bytes in memory of the caller: *size receives their number, and buffer [capacity] the
  * bytes. Fails with RT_ERROR_USAGE when they do not fit; buffer NULL asks for the size alone.
  */

@@ -39,6 +39,7 @@ static int by_value(const void *a, const void *b)
 /* A film and its bytes. */
 typedef struct subject {
     const rt_film *film;
+    rt_film_saver *saver;
     uint8_t *bytes, *copy;
     size_t size;
 } subject;
@@ -62,6 +63,20 @@ static void save(const subject *s)
 {
     rt_error error;
     must(rt_film_save(s->film, path, &error), &error);
+}
+
+/* What a render waits for a checkpoint, and with the writing beside it. */
+static void put(const subject *s)
+{
+    rt_error error;
+    must(rt_film_saver_put(s->saver, s->film, &error), &error);
+}
+
+static void put_and_write(const subject *s)
+{
+    rt_error error;
+    put(s);
+    must(rt_film_saver_wait(s->saver, &error), &error);
 }
 
 static void check(const subject *s)
@@ -97,6 +112,21 @@ static void measure(const char *name, void (*work)(const subject *), const subje
     printf("  %-12s %7.3f s  %7.3f s of CPU\n", name, seconds[runs / 2], busy[runs / 2]);
 }
 
+/* The part of "saver" that a render waits for: the file before is written. */
+static void measure_after(const subject *s)
+{
+    rt_error error;
+    double seconds[runs];
+    for (int run = 0; run < runs; run++) {
+        const double began = rt_clock();
+        put(s);
+        seconds[run] = rt_clock() - began;
+        must(rt_film_saver_wait(s->saver, &error), &error);
+    }
+    qsort(seconds, runs, sizeof *seconds, by_value);
+    printf("  %-12s %7.3f s\n", "  waited for", seconds[runs / 2]);
+}
+
 static void bench(const char *name, rt_renderer *renderer, const rt_render_options *options)
 {
     rt_film *film = NULL;
@@ -113,6 +143,10 @@ static void bench(const char *name, rt_renderer *renderer, const rt_render_optio
     printf("%s: %.1f MB, %.1f bytes a pixel\n", name, (double)s.size * 1e-6,
            (double)s.size / (options->width * options->height));
     measure("save", save, &s);
+    must(rt_film_saver_create(&s.saver, path, &error), &error);
+    measure("saver", put_and_write, &s);
+    measure_after(&s);
+    rt_film_saver_destroy(s.saver);
     measure("encode", encode, &s);
     measure("decode", decode, &s);
     measure("checksum", check, &s);

@@ -164,6 +164,141 @@ static void lies_with_a_sound_checksum_are_refused(void **state)
     rt_film_destroy(film);
 }
 
+/* One after the other, each longer than the one before, and of other settings in between. */
+static void a_saver_writes_what_save_does(void **state)
+{
+    rt_film_saver *saver = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_film_saver_create(&saver, "film.rtpart", &error), &error);
+    for (size_t i = 0; i < 3 * RENDERS; i++) {
+        rt_film *film = render(renders + i % RENDERS, 1 + (uint32_t)(i / RENDERS) % PARTS);
+        rt_bytes file = {0}, bytes = encode(film);
+        expect_ok(rt_film_saver_put(saver, film, &error), &error);
+        rt_film_destroy(film);
+        expect_ok(rt_film_saver_wait(saver, &error), &error);
+        expect_ok(rt_file_read(&file, "film.rtpart", 1 << 20, &error), &error);
+        expect_same_bytes(&bytes, &file);
+        rt_bytes_free(&file);
+        rt_bytes_free(&bytes);
+    }
+    rt_film_saver_destroy(saver);
+    rt_film_saver_destroy(NULL);
+    assert_int_equal(scratch_count(), 1);
+}
+
+/* A render whose film is saved in the middle of its work, again and again. */
+typedef struct sitting {
+    rt_film_saver *saver;
+    uint64_t at, units; /* handed out so far, and of how many */
+    int saves, is_saved;
+} sitting;
+
+/* Ranges of many lengths, some out of order, and a checkpoint after most of them. */
+static rt_units_answer hand_out(void *user, uint64_t *first, uint64_t *count)
+{
+    sitting *s = user;
+    if (s->at >= s->units)
+        return RT_UNITS_NONE;
+    if (!s->is_saved) {
+        s->is_saved = 1;
+        return RT_UNITS_SAVE;
+    }
+    const uint64_t each = s->units < 100 ? 1 : 1 + s->at * 7919 % 2500, left = s->units - s->at;
+    s->is_saved = s->at % 3 == 0;
+    *first = s->at;
+    *count = each < left ? each : left;
+    s->at += *count;
+    return RT_UNITS_GIVEN;
+}
+
+/* The file has what the film has, whatever was packed before. */
+static void save_and_compare(void *user, const rt_film *film)
+{
+    sitting *s = user;
+    rt_bytes file = {0};
+    rt_error error;
+    expect_ok(rt_film_saver_put(s->saver, film, &error), &error);
+    expect_ok(rt_film_saver_wait(s->saver, &error), &error);
+    rt_bytes bytes = encode(film);
+    expect_ok(rt_file_read(&file, "film.rtpart", 1 << 24, &error), &error);
+    expect_same_bytes(&bytes, &file);
+    rt_bytes_free(&file);
+    rt_bytes_free(&bytes);
+    s->saves++;
+}
+
+/* The picture has several bands of rows, whose ends are not those of tiles or planes. */
+static void a_saver_packs_all_that_changed(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < RENDERS; i++) {
+        rt_render_options o = renders[i];
+        sitting s = {0};
+        rt_film *film = NULL;
+        rt_error error;
+        o.width = 107;
+        o.height = 61;
+        o.next_units = hand_out;
+        o.checkpoint = save_and_compare;
+        o.checkpoint_seconds = 1e6;
+        o.units_user = o.checkpoint_user = &s;
+        const uint32_t blocks = o.passes ? 0 : o.variance ? 8 : 4;
+        s.units = o.passes ? o.passes : (uint64_t)blocks * o.width * o.height;
+        expect_ok(rt_film_saver_create(&s.saver, "film.rtpart", &error), &error);
+        expect_ok(rt_render(&film, renderer(), &o, &error), &error);
+        assert_true(s.saves > 2);
+        rt_film_saver_destroy(s.saver);
+        rt_film_destroy(film);
+    }
+}
+
+/* What it cannot write it tells at the next call, and once. */
+static void a_saver_tells_what_failed(void **state)
+{
+    rt_film_saver *saver = NULL;
+    rt_film *film = render(renders, 1);
+    rt_error error;
+    (void)state;
+    expect_ok(rt_film_saver_create(&saver, "missing/film.rtpart", &error), &error);
+    expect_ok(rt_film_saver_put(saver, film, &error), &error);
+    assert_int_equal(rt_film_saver_put(saver, film, &error), RT_ERROR_OUTPUT);
+    assert_non_null(strstr(error.message, "missing/film.rtpart"));
+    assert_int_equal(rt_film_saver_wait(saver, &error), RT_ERROR_OUTPUT);
+    expect_ok(rt_film_saver_wait(saver, &error), &error);
+    film->scene = 0;
+    assert_int_equal(rt_film_saver_put(saver, film, &error), RT_ERROR_USAGE);
+    rt_film_saver_destroy(saver);
+    rt_film_destroy(film);
+}
+
+/* A film that just fits into memory is written all the same. */
+static void a_saver_needs_no_memory_of_its_own(void **state)
+{
+    rt_film *film = render(renders, 1), *back = NULL;
+    rt_bytes bytes = encode(film), file = {0};
+    rt_film_saver *saver = NULL;
+    rt_memory *memory = NULL;
+    rt_error error;
+    (void)state;
+    expect_ok(rt_memory_create(&memory, 1 << 20, &error), &error);
+    expect_ok(rt_film_decode_in(&back, bytes.data, bytes.size, "film", memory, &error), &error);
+    rt_memory_info info;
+    rt_memory_get_info(memory, &info);
+    expect_ok(rt_memory_take(memory, info.limit - info.used, "the rest", &error), &error);
+    expect_ok(rt_film_saver_create(&saver, "film.rtpart", &error), &error);
+    expect_ok(rt_film_saver_put(saver, back, &error), &error);
+    expect_ok(rt_file_read(&file, "film.rtpart", 1 << 20, &error), &error);
+    expect_same_bytes(&bytes, &file);
+    rt_film_saver_destroy(saver);
+    rt_memory_give(memory, info.limit - info.used);
+    rt_film_destroy(back);
+    rt_memory_destroy(memory);
+    rt_bytes_free(&file);
+    rt_bytes_free(&bytes);
+    rt_film_destroy(film);
+}
+
 /* What a program does with a film that it was given: it all ends, with a result or a reason. */
 static void use(rt_film *film, const rt_film *other, int is_rendered)
 {
@@ -295,6 +430,10 @@ int main(void)
 #define IN_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_enter, scratch_leave)
     const struct CMUnitTest tests[] = {
         IN_SCRATCH(films_come_back_to_the_bit),
+        IN_SCRATCH(a_saver_writes_what_save_does),
+        IN_SCRATCH(a_saver_packs_all_that_changed),
+        IN_SCRATCH(a_saver_tells_what_failed),
+        IN_SCRATCH(a_saver_needs_no_memory_of_its_own),
         cmocka_unit_test(a_buffer_that_is_too_small_is_refused_with_what_it_takes),
         cmocka_unit_test(a_damage_to_any_byte_is_refused),
         cmocka_unit_test(lies_with_a_sound_checksum_are_refused),
