@@ -137,12 +137,10 @@ size_t rt_film_band_of(const rt_film *film, size_t row)
     rt_film_area areas[RT_FILM_AREAS];
     const int count = rt_film_areas(areas, film);
     size_t before = 0;
-    for (int i = 0; i + 1 < count && row >= areas[i + 1].first; i++)
+    int i = 0;
+    for (; i + 1 < count && row >= areas[i + 1].first; i++)
         before += bands_of(areas + i);
-    for (int i = count - 1; i > 0; i--)
-        if (row >= areas[i].first)
-            return before + (row - areas[i].first) / RT_FILM_BAND_ROWS;
-    return row / RT_FILM_BAND_ROWS;
+    return before + (row - areas[i].first) / RT_FILM_BAND_ROWS;
 }
 
 size_t rt_film_band_most(const rt_film *film)
