@@ -9,6 +9,7 @@
 #include "film_note.h"
 #include "inputs.h"
 #include "message.h"
+#include "other_work.h"
 #include "outputs.h"
 #include "recorded.h"
 #include "session.h"
@@ -161,6 +162,8 @@ static int run(merge_job *job)
         status = inputs_check(&job->inputs, job->outputs.paths[i]);
     if (status == STATUS_DONE)
         status = check_complete(job);
+    if (status == STATUS_DONE)
+        status = other_work_check_film(&job->outputs, job->film, arguments);
     return status == STATUS_DONE ? write_outputs(job) : status;
 }
 

@@ -9,6 +9,7 @@
 
 #include "inputs.h"
 #include "message.h"
+#include "other_work.h"
 #include "outputs.h"
 #include "session.h"
 #include "settings.h"
@@ -125,8 +126,11 @@ static int merge(const command_line *arguments)
     for (size_t i = 0; i < count && status == STATUS_DONE; i++)
         status = photons_load(maps + i, arguments->operands[1 + i], arguments);
     if (status == STATUS_DONE &&
-        (rt_photon_map_merge(&whole, (const rt_photon_map *const *)maps, count, &error) != RT_OK ||
-         rt_photon_map_save(whole, path, &error) != RT_OK))
+        rt_photon_map_merge(&whole, (const rt_photon_map *const *)maps, count, &error) != RT_OK)
+        status = session_fail(&error);
+    if (status == STATUS_DONE)
+        status = other_work_check_map(path, whole, arguments);
+    if (status == STATUS_DONE && rt_photon_map_save(whole, path, &error) != RT_OK)
         status = session_fail(&error);
     if (status == STATUS_DONE)
         say_written(arguments, path, whole);

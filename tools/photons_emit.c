@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "message.h"
+#include "other_work.h"
 #include "part.h"
 #include "photons.h"
 #include "photons_keep.h"
@@ -91,6 +92,12 @@ static int emit(emit_job *job)
         options.accel = (rt_accel)accel->choice;
     rt_status result =
         rt_renderer_create(&job->renderer, job->scene, job->device, &options, &error);
+    if (result == RT_OK) {
+        int status = other_work_check_emission(job->map_path, job->renderer, &job->options,
+                                               job->session.arguments);
+        if (status != STATUS_DONE)
+            return status;
+    }
     if (result == RT_OK)
         result = rt_photon_map_emit(&job->map, job->renderer, &job->options, &error);
     progress_clear(&job->session.progress);

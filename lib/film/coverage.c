@@ -85,6 +85,16 @@ int rt_coverage_overlaps(const rt_coverage *a, const rt_coverage *b)
     return 0;
 }
 
+int rt_coverage_includes(const rt_coverage *coverage, const rt_coverage *other)
+{
+    for (size_t i = 0; i < other->count; i++) {
+        const rt_unit_range r = other->ranges[i];
+        if (rt_coverage_gap(coverage, r.first, r.first + r.count).count > 0)
+            return 0;
+    }
+    return 1;
+}
+
 rt_status rt_coverage_prepare(rt_coverage *coverage, const rt_coverage *other, rt_error *error)
 {
     if (rt_coverage_overlaps(coverage, other))

@@ -26,6 +26,9 @@ rt_status rt_coverage_prepare(rt_coverage *coverage, const rt_coverage *other, r
 /* Whether two sets have a unit in common. */
 int rt_coverage_overlaps(const rt_coverage *a, const rt_coverage *b);
 
+/* Whether a set has all units of another. */
+int rt_coverage_includes(const rt_coverage *coverage, const rt_coverage *other);
+
 /* The units of a set. */
 uint64_t rt_coverage_units(const rt_coverage *coverage);
 

@@ -192,13 +192,11 @@ static rt_status compare_base(const rt_film *film, const rt_film *from, rt_error
     if (a != b)
         return rt_fail(error, RT_ERROR_USAGE,
                        "the films raise others, of %u and of %u samples a pixel", a, b);
-    if (a > 0 && !film->lacks_base && !from->lacks_base)
-        return rt_fail(error, RT_ERROR_USAGE,
-                       "both films have the %u samples a pixel of the one that they raise", a);
     return RT_OK;
 }
 
-rt_status rt_film_add(rt_film *film, const rt_film *from, rt_error *error)
+/* Fails where two films are not parts of one picture. */
+static rt_status compare_parts(const rt_film *film, const rt_film *from, rt_error *error)
 {
     if (rt_is_missing(film, "film", error) || rt_is_missing(from, "other", error))
         return RT_ERROR_USAGE;
@@ -210,6 +208,25 @@ rt_status rt_film_add(rt_film *film, const rt_film *from, rt_error *error)
     if (status == RT_OK && film->ledger.count > 0 && from->ledger.count > 0 &&
         !rt_ledger_matches(&film->ledger, &from->ledger))
         status = rt_fail(error, RT_ERROR_USAGE, "the films are of other lights");
+    return status;
+}
+
+rt_status rt_film_covers(const rt_film *film, const rt_film *other, rt_error *error)
+{
+    rt_status status = compare_parts(film, other, error);
+    if (status == RT_OK && ((film->lacks_base && !other->lacks_base) ||
+                            !rt_coverage_includes(&film->done, &other->done)))
+        status = rt_fail(error, RT_ERROR_USAGE, "it has other parts too");
+    return status;
+}
+
+rt_status rt_film_add(rt_film *film, const rt_film *from, rt_error *error)
+{
+    rt_status status = compare_parts(film, from, error);
+    if (status == RT_OK && film->units.base > 0 && !film->lacks_base && !from->lacks_base)
+        status = rt_fail(error, RT_ERROR_USAGE,
+                         "both films have the %u samples a pixel of the one that they raise",
+                         film->units.base);
     /* The film stays as it was where something fails: what is left after the sums cannot. */
     if (status == RT_OK)
         status = rt_coverage_prepare(&film->done, &from->done, error);

@@ -1,4 +1,7 @@
-/* map_continue.c - takes up a photon map that holds part of the paths of an emission. */
+/*
+ * map_continue.c - takes up a photon map that holds part of the paths of an emission, and tells
+ * whether one holds all of another.
+ */
 #include "photon/map_continue.h"
 
 #include <string.h>
@@ -92,6 +95,39 @@ rt_status rt_photon_map_continue(rt_photon_map *map, const rt_photon_map *from,
     for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
         status = copy_kind(map, from, kind, error);
     return status == RT_OK ? rt_ledger_add(&map->ledger, &from->ledger, error) : status;
+}
+
+/* Fails where ranges lack paths of others. Those that touch are one, here as there. */
+static rt_status check_ranges(const rt_path_ranges *here, const rt_path_ranges *there,
+                              rt_error *error)
+{
+    for (size_t i = 0; i < there->count; i++) {
+        const rt_path_range *r = there->ranges + i;
+        size_t j = 0;
+        while (j < here->count &&
+               !(here->ranges[j].seed == r->seed && here->ranges[j].first <= r->first &&
+                 here->ranges[j].first + here->ranges[j].count >= r->first + r->count))
+            j++;
+        if (j == here->count)
+            return rt_fail(error, RT_ERROR_USAGE, "it has paths %llu to %llu of seed %u",
+                           (unsigned long long)r->first,
+                           (unsigned long long)(r->first + r->count - 1), r->seed);
+    }
+    return RT_OK;
+}
+
+rt_status rt_photon_map_covers(const rt_photon_map *map, const rt_photon_map *other,
+                               rt_error *error)
+{
+    if (rt_is_missing(map, "map", error) || rt_is_missing(other, "other", error))
+        return RT_ERROR_USAGE;
+    rt_status status = check_settings(&map->settings, &other->settings, error);
+    if (status == RT_OK && !rt_ledger_matches(&map->ledger, &other->ledger))
+        status =
+            rt_fail(error, RT_ERROR_USAGE, "the photon map was emitted with other light shares");
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++)
+        status = check_ranges(map->ranges + kind, other->ranges + kind, error);
+    return status;
 }
 
 rt_path_range rt_path_ranges_gap(const rt_path_ranges *ranges, uint64_t first, uint64_t end)

@@ -72,14 +72,22 @@ static void set_part(const emission *e, rt_photon_kind kind, uint64_t from, uint
                   fmin((before + (double)to) / all, 1));
 }
 
+/* The paths of this part, of so many. */
+static rt_path_range paths_of_part(const emission *e, uint64_t paths)
+{
+    const uint64_t parts = e->how->parts ? e->how->parts : 1, part = e->how->part;
+    /* part * paths / parts, without overflow. */
+    const uint64_t first = paths / parts * part + paths % parts * part / parts,
+                   end = paths / parts * (part + 1) + paths % parts * (part + 1) / parts;
+    return (rt_path_range){.first = first, .count = end - first, .seed = e->options.seed};
+}
+
 /* Emits what this part of `paths` paths lacks into one of the map's lists. */
 static rt_status emit_part(emission *e, rt_photon_kind kind, uint64_t paths,
                            rt_stage_progress *progress, rt_error *error)
 {
-    uint64_t parts = e->how->parts ? e->how->parts : 1, part = e->how->part;
-    /* part * paths / parts, without overflow. */
-    uint64_t first = paths / parts * part + paths % parts * part / parts;
-    uint64_t end = paths / parts * (part + 1) + paths % parts * (part + 1) / parts;
+    const rt_path_range all = paths_of_part(e, paths);
+    const uint64_t first = all.first, end = all.first + all.count;
     rt_status status = RT_OK;
     for (uint64_t at = first; status == RT_OK;) {
         const rt_path_range gap = rt_path_ranges_gap(e->map->ranges + kind, at, end);
@@ -152,34 +160,69 @@ static rt_status check_parts(const rt_emit_options *how, rt_error *error)
     return RT_OK;
 }
 
+/* Completes the options, makes an empty map and compiles. */
+static rt_status prepare(emission *e, rt_error *error)
+{
+    e->options = e->how->render ? *e->how->render : e->renderer->options;
+    rt_status status = rt_options_check(&e->options, error);
+    if (status == RT_OK)
+        status = check_parts(e->how, error);
+    if (status != RT_OK)
+        return status;
+    e->options.passes = 1;
+    rt_options_complete(&e->options);
+    e->map = calloc(1, sizeof *e->map);
+    if (!e->map)
+        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");
+    rt_photon_map_set_memory(e->map, e->renderer->device->memory);
+    return compile(e, error);
+}
+
+static void release(emission *e)
+{
+    rt_photon_map_destroy(e->map);
+    rt_emitter_destroy(e->emitter);
+    rt_kernel_release(e->kernel);
+}
+
+static const rt_emit_options defaults;
+
 rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
                              const rt_emit_options *options, rt_error *error)
 {
     if (rt_is_missing(renderer, "renderer", error))
         return RT_ERROR_USAGE;
-    static const rt_emit_options defaults;
     emission e = {.renderer = renderer, .how = options ? options : &defaults};
-
-    e.options = e.how->render ? *e.how->render : renderer->options;
-    rt_status status = rt_options_check(&e.options, error);
-    if (status == RT_OK)
-        status = check_parts(e.how, error);
-    if (status != RT_OK)
-        return status;
-    e.options.passes = 1;
-    rt_options_complete(&e.options);
-    e.map = calloc(1, sizeof *e.map);
-    if (!e.map)
-        return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a photon map");
-    rt_photon_map_set_memory(e.map, renderer->device->memory);
-    status = compile(&e, error);
+    rt_status status = prepare(&e, error);
     if (status == RT_OK)
         status = emit(&e, error);
-    if (status == RT_OK)
+    if (status == RT_OK) {
         *out = e.map;
-    else
-        rt_photon_map_destroy(e.map);
-    rt_emitter_destroy(e.emitter);
-    rt_kernel_release(e.kernel);
+        e.map = NULL;
+    }
+    release(&e);
+    return status == RT_CANCELLED ? rt_fail(error, RT_CANCELLED, "cancelled") : status;
+}
+
+rt_status rt_photon_map_emit_covers(rt_renderer *renderer, const rt_emit_options *options,
+                                    const rt_photon_map *other, rt_error *error)
+{
+    if (rt_is_missing(renderer, "renderer", error) || rt_is_missing(other, "other", error))
+        return RT_ERROR_USAGE;
+    rt_emit_options how = options ? *options : defaults;
+    how.resume = NULL;
+    emission e = {.renderer = renderer, .how = &how};
+    rt_status status = prepare(&e, error);
+    if (status == RT_OK)
+        status = begin(&e, error);
+    /* The paths without their photons. */
+    const uint64_t paths[RT_PHOTON_KINDS] = {e.options.photons, e.options.caustic_photons};
+    for (int kind = 0; kind < RT_PHOTON_KINDS && status == RT_OK; kind++) {
+        const rt_path_range range = paths_of_part(&e, paths[kind]);
+        status = rt_path_ranges_add(e.map->ranges + kind, &range, error);
+    }
+    if (status == RT_OK)
+        status = rt_photon_map_covers(e.map, other, error);
+    release(&e);
     return status == RT_CANCELLED ? rt_fail(error, RT_CANCELLED, "cancelled") : status;
 }

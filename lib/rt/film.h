@@ -207,6 +207,12 @@ RT_API rt_status rt_film_decode(rt_film **out, const void *data, size_t size, rt
 RT_API rt_status rt_film_add(rt_film *film, const rt_film *other, rt_error *error);
 
 /*
+ * Fails with RT_ERROR_USAGE, saying what differs, where a film lacks some of the samples of another
+ * or is of another scene or other settings: to write it over the other would lose work.
+ */
+RT_API rt_status rt_film_covers(const rt_film *film, const rt_film *other, rt_error *error);
+
+/*
  * The film of a render without its samples, or with those of options->resume: what other films of
  * the picture are added to. options NULL: the scene's own. The caller owns *out.
  */

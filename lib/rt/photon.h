@@ -61,6 +61,16 @@ RT_API rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
                                     const rt_emit_options *options, rt_error *error);
 RT_API void rt_photon_map_destroy(rt_photon_map *map);
 
+/*
+ * Fails with RT_ERROR_USAGE, saying what differs, where a map, or the one that an emission makes,
+ * lacks some of the photon paths of another or is of another scene or other settings: to write it
+ * over the other would lose work.
+ */
+RT_API rt_status rt_photon_map_covers(const rt_photon_map *map, const rt_photon_map *other,
+                                      rt_error *error);
+RT_API rt_status rt_photon_map_emit_covers(rt_renderer *renderer, const rt_emit_options *options,
+                                           const rt_photon_map *other, rt_error *error);
+
 typedef struct rt_photon_map_info {
     uint64_t paths[2];   /* photon paths emitted, by rt_photon_kind */
     uint64_t photons[2]; /* photons stored */

@@ -57,6 +57,7 @@ static void parts_merge_to_the_bytes_of_one_render(void **state)
             RTC(STATUS_DONE, "s.rts %s --seed 4 --quiet --part %d/3 --out p%d.rtpart", modes[i],
                 part, part);
         }
+        unlink("two.rtpart");
         RTC(STATUS_DONE, "merge p3.rtpart p1.rtpart --out two.rtpart --quiet");
         RTC(STATUS_DONE, "merge p2.rtpart two.rtpart --out merged.exr --out merged.png --quiet");
         expect_same_files("whole.exr", "merged.exr");
@@ -204,6 +205,7 @@ static void a_film_of_other_work_is_not_overwritten(void **state)
     };
     (void)state;
     unlink("o.rtpart");
+    unlink("two.rtpart");
     RTC(STATUS_DONE, "s.rts --spp 4 --part 2/3 --quiet --out o.rtpart");
     RTC(STATUS_DONE, "s.rts --spp 4 --part 2/3 --quiet --out kept.rtpart");
     RTC(STATUS_DONE, "merge o.rtpart --out before.pfm --incomplete --quiet");
@@ -227,6 +229,38 @@ static void a_film_of_other_work_is_not_overwritten(void **state)
     /* What is no whole film any more holds no work. */
     scratch_write("o.rtpart", "half a film");
     RTC(STATUS_DONE, "s.rts --spp 4 --part 1/3 --quiet --out o.rtpart");
+}
+
+/* Fails to write over a file, which keeps its bytes. */
+static void expect_kept(const char *file, const char *why, const char *line)
+{
+    RTC(STATUS_DONE, "merge %s --out before.pfm --incomplete --quiet", file);
+    run refused = run_rtc("%s --out %s", line, file);
+    expect_status(&refused, STATUS_USAGE);
+    expect_err(&refused, "the film that is there is of other work");
+    expect_err(&refused, why);
+    run_free(&refused);
+    RTC(STATUS_DONE, "merge %s --out after.pfm --incomplete --quiet", file);
+    expect_same_files("before.pfm", "after.pfm");
+}
+
+/* Nor to a merge of films that lack some of its samples. */
+static void a_film_is_not_overwritten_by_a_merge_without_it(void **state)
+{
+    (void)state;
+    for (int part = 1; part <= 3; part++)
+        RTC(STATUS_DONE, "s.rts --spp 4 --part %d/3 --quiet --out m%d.rtpart", part, part);
+    RTC(STATUS_DONE, "s.rts --spp 4 --part 3/3 --seed 2 --quiet --out seed.rtpart");
+    unlink("sum.rtpart");
+    expect_kept("m3.rtpart", "it has other parts too", "merge m1.rtpart m2.rtpart");
+    expect_kept("seed.rtpart", "seed is", "merge m1.rtpart m2.rtpart m3.rtpart");
+    /* What has all that is there may take its place. */
+    RTC(STATUS_DONE, "merge m1.rtpart m2.rtpart --quiet --out sum.rtpart");
+    RTC(STATUS_DONE, "merge m2.rtpart m1.rtpart --quiet --out sum.rtpart");
+    RTC(STATUS_DONE, "merge m1.rtpart m2.rtpart m3.rtpart --quiet --out sum.rtpart");
+    expect_kept("sum.rtpart", "it has other parts too", "merge m1.rtpart m2.rtpart");
+    scratch_write("sum.rtpart", "half a film");
+    RTC(STATUS_DONE, "merge m1.rtpart m2.rtpart --quiet --out sum.rtpart");
 }
 
 /* Two processes do not write one checkpoint; what a killed one left is taken over. */
@@ -410,6 +444,7 @@ int main(void)
         cmocka_unit_test(parts_are_those_of_the_job),
         cmocka_unit_test(a_checkpoint_is_gone_on_with_by_its_name_alone),
         cmocka_unit_test(a_film_of_other_work_is_not_overwritten),
+        cmocka_unit_test(a_film_is_not_overwritten_by_a_merge_without_it),
         cmocka_unit_test(a_checkpoint_is_of_one_process),
         cmocka_unit_test(a_time_given_to_a_sitting_is_not_kept),
         cmocka_unit_test(a_render_without_end_tells_its_samples),

@@ -163,6 +163,43 @@ static void what_cannot_be_gone_on_with_is_refused(void **state)
     }
 }
 
+/* A map is not lost to another; one that has all of its paths may take its place. */
+static void a_map_of_other_work_is_not_overwritten(void **state)
+{
+    static const struct {
+        const char *line, *why;
+    } others[] = {
+        {"a.rts --photons 900 --part 1/3", "it has paths 300 to 599 of seed 0"},
+        {"a.rts --photons 500", "it has paths 300 to 599 of seed 0"},
+        {"a.rts --photons 900 --seed 1", "it has paths 300 to 599 of seed 0"},
+        {"a.rts --photons 900 --max-depth 3", "max_depth is 3 here, and 16 in"},
+        {"a.rts --photons 900 --caustic-photons 9", "caustic photons are kept apart here"},
+        {"b.rts --photons 900", "of another scene"},
+        {"merge 1.rtp 3.rtp", "it has paths 300 to 599 of seed 0"},
+    };
+    (void)state;
+    scratch_write("b.rts", SCENE "light point { position 0 0 0.5  power 1 }\n");
+    succeed("photons a.rts --photons 900 --part 1/3 --quiet --out 1.rtp");
+    succeed("photons a.rts --photons 900 --part 2/3 --quiet --out 2.rtp");
+    succeed("photons a.rts --photons 900 --part 2/3 --quiet --out kept.rtp");
+    succeed("photons a.rts --photons 900 --part 3/3 --quiet --out 3.rtp");
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        run refused = run_rtc("photons %s --out kept.rtp", others[i].line);
+        expect_status(&refused, STATUS_USAGE);
+        expect_err(&refused, "--out kept.rtp: the photon map that is there is of other work");
+        expect_err(&refused, others[i].why);
+        expect_same_files("kept.rtp", "2.rtp");
+        run_free(&refused);
+    }
+    succeed("photons a.rts --photons 900 --part 2/3 --quiet --out kept.rtp");
+    succeed("photons merge 1.rtp 2.rtp --quiet --out kept.rtp");
+    succeed("photons a.rts --photons 900 --quiet --resume kept.rtp --out kept.rtp");
+    succeed("photons merge 1.rtp 2.rtp 3.rtp --quiet --out kept.rtp");
+    scratch_write("kept.rtp", "half a map");
+    succeed("photons a.rts --photons 900 --part 2/3 --quiet --out kept.rtp");
+    expect_same_files("kept.rtp", "2.rtp");
+}
+
 static void info_says_what_a_map_holds(void **state)
 {
     (void)state;
@@ -206,6 +243,7 @@ static void diff_tells_equal_maps_from_others(void **state)
     run_free(&same);
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         char line[128];
+        unlink("b.rtp");
         snprintf(line, sizeof line, "photons a.rts %s --quiet --out b.rtp", others[i].options);
         succeed(line);
         run run = run_rtc("photons diff a.rtp b.rtp");
@@ -402,7 +440,7 @@ static void starved_lights_are_told_without_verbose(void **state)
     scratch_write("b.rts", SCENE "light point { position 0 0 0.5  power 1e-9 }\n");
     run loud = run_rtc("photons b.rts --photons 1000 --out b.rtp");
     run quiet = run_rtc("photons b.rts --photons 1000 --quiet --out b.rtp");
-    run shared = run_rtc("photons b.rts --photons 1000 --light-shares 1,1 --stats --out b.rtp");
+    run shared = run_rtc("photons b.rts --photons 1000 --light-shares 1,1 --stats --out c.rtp");
     expect_status(&loud, 0);
     expect_err(
         &loud,
@@ -499,6 +537,7 @@ int main(void)
         IN_SCRATCH(a_checkpoint_is_of_one_process),
         IN_SCRATCH(a_stopped_emission_leaves_its_checkpoint),
         IN_SCRATCH(what_cannot_be_gone_on_with_is_refused),
+        IN_SCRATCH(a_map_of_other_work_is_not_overwritten),
         IN_SCRATCH(info_says_what_a_map_holds),
         IN_SCRATCH(results_are_json_when_asked),
         IN_SCRATCH(diff_tells_equal_maps_from_others),

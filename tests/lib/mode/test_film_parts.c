@@ -312,6 +312,35 @@ static void chunks_have_the_bits_of_a_render_at_once(void **state)
     }
 }
 
+/* A film covers its parts, and not what only another part has. */
+static void a_film_covers_what_it_was_made_of(void **state)
+{
+    rt_render_options o = {.width = 9, .height = 8, .spp = 3, .parts = 3};
+    rt_film *parts[3], *sum;
+    rt_error error;
+    (void)state;
+    for (o.part = 1; o.part <= 3; o.part++)
+        parts[o.part - 1] = render(&o);
+    o.part = 1;
+    sum = render(&o);
+    expect_ok(rt_film_covers(sum, parts[0], &error), &error);
+    assert_int_equal(rt_film_covers(sum, parts[2], &error), RT_ERROR_USAGE);
+    expect_ok(rt_film_add(sum, parts[2], &error), &error);
+    expect_ok(rt_film_covers(sum, parts[0], &error), &error);
+    expect_ok(rt_film_covers(sum, parts[2], &error), &error);
+    assert_int_equal(rt_film_covers(sum, parts[1], &error), RT_ERROR_USAGE);
+    assert_int_equal(rt_film_covers(parts[0], sum, &error), RT_ERROR_USAGE);
+    assert_int_equal(rt_film_covers(sum, NULL, &error), RT_ERROR_USAGE);
+    rt_film_destroy(sum);
+    o.seed = 4;
+    sum = render(&o);
+    assert_int_equal(rt_film_covers(sum, parts[0], &error), RT_ERROR_USAGE);
+    assert_string_equal(error.field, "seed");
+    rt_film_destroy(sum);
+    for (int i = 0; i < 3; i++)
+        rt_film_destroy(parts[i]);
+}
+
 static void what_does_not_fit_is_refused_by_name(void **state)
 {
     static const char other_camera[] = "camera { eye 0 1 3  look_at 0 1 0 }\n";
@@ -371,6 +400,7 @@ int main(void)
         cmocka_unit_test(an_unfinished_film_takes_other_samples_where_its_own_stay),
         cmocka_unit_test(the_light_power_stays),
         cmocka_unit_test(chunks_have_the_bits_of_a_render_at_once),
+        cmocka_unit_test(a_film_covers_what_it_was_made_of),
         cmocka_unit_test(what_does_not_fit_is_refused_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, release);
