@@ -132,6 +132,26 @@ out:
     return rt_at_file(status, path, error);
 }
 
+rt_status rt_file_read_stream(rt_bytes *out, int fd, const char *name, size_t header,
+                              rt_file_size *size_of, rt_error *error)
+{
+    uint64_t announced = 0;
+    rt_bytes bytes = {.memory = out->memory};
+    rt_status status = read_up_to(&bytes, fd, name, header, error);
+    if (status == RT_OK && bytes.size == 0)
+        status = rt_fail(error, RT_ERROR_INPUT, "%.350s ended before anything came", name);
+    if (status == RT_OK)
+        status = size_of(&announced, bytes.data, bytes.size, name, error);
+    if (status == RT_OK)
+        status = read_up_to(&bytes, fd, name,
+                            announced < SIZE_MAX / 2 ? (size_t)announced : SIZE_MAX / 2, error);
+    if (status == RT_OK)
+        *out = bytes;
+    else
+        rt_bytes_free(&bytes);
+    return status;
+}
+
 /* The functions below return 0, or the errno of what failed. */
 
 int rt_file_put(int fd, const void *data, size_t size)

@@ -30,6 +30,13 @@ rt_status rt_file_read_sized(rt_bytes *out, const char *path, size_t header, rt_
                              rt_error *error);
 
 /*
+ * The same from a pipe or socket that is open, called `name` in messages; what follows is left in
+ * it.
+ */
+rt_status rt_file_read_stream(rt_bytes *out, int fd, const char *name, size_t header,
+                              rt_file_size *size_of, rt_error *error);
+
+/*
  * Makes path hold exactly these bytes, or leaves it as it was: they go to a temporary file in the
  * same directory, are synchronised to the disk, the file is renamed, and the directory synchronised
  * where its file system can. A new file has the permissions that open() gives (0666 less the

@@ -313,3 +313,23 @@ rt_status rt_film_load(rt_film **out, const char *path, rt_memory *memory, rt_er
     rt_bytes_free(&bytes);
     return status;
 }
+
+rt_status rt_film_receive(rt_film **film, int from, rt_error *error)
+{
+    rt_bytes bytes = {0};
+    rt_film *part = NULL;
+    if (rt_is_missing(film, "film", error))
+        return RT_ERROR_USAGE;
+    rt_status status =
+        rt_file_read_stream(&bytes, from, "the stream", RT_FILM_HEADER, file_size, error);
+    if (status == RT_OK)
+        status = rt_film_decode_in(&part, bytes.data, bytes.size, "the stream", NULL, error);
+    rt_bytes_free(&bytes);
+    if (status == RT_OK && *film) {
+        status = rt_film_add(*film, part, error);
+        rt_film_destroy(part);
+    } else if (status == RT_OK) {
+        *film = part;
+    }
+    return status;
+}

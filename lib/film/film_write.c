@@ -297,3 +297,15 @@ rt_status rt_film_encode(const rt_film *film, void *buffer, size_t capacity, siz
     file_free(&file);
     return status;
 }
+
+rt_status rt_film_send(const rt_film *film, int to, rt_error *error)
+{
+    film_file file;
+    char cause[RT_CAUSE_SIZE];
+    rt_status status = file_open(&file, film, error);
+    const int code = status == RT_OK ? file_put(&file, NULL, to) : 0;
+    if (code)
+        status = rt_fail(error, RT_ERROR_OUTPUT, "cannot send a film: %s", rt_cause(cause, code));
+    file_free(&file);
+    return status;
+}

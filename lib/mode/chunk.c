@@ -24,6 +24,16 @@ rt_status rt_chunk_count(uint64_t *out, const rt_render_options *options, rt_err
     return status;
 }
 
+/* The units of `count` chunks from `chunk` on. */
+static void join_chunks(uint64_t *first, uint64_t *units, const rt_units *all, uint64_t chunk,
+                        uint64_t count)
+{
+    const rt_unit_range begin = rt_units_chunk(all, chunk),
+                        last = rt_units_chunk(all, chunk + count - 1);
+    *first = begin.first;
+    *units = last.first + last.count - begin.first;
+}
+
 rt_status rt_chunk_units(uint64_t *first, uint64_t *units, const rt_render_options *options,
                          uint64_t chunk, uint64_t count, rt_error *error)
 {
@@ -36,10 +46,27 @@ rt_status rt_chunk_units(uint64_t *first, uint64_t *units, const rt_render_optio
         return rt_fail(error, RT_ERROR_USAGE, "chunks %llu to %llu of %llu",
                        (unsigned long long)chunk, (unsigned long long)(chunk + count - 1),
                        (unsigned long long)chunks);
-    const rt_unit_range begin = rt_units_chunk(&all, chunk),
-                        last = rt_units_chunk(&all, chunk + count - 1);
-    *first = begin.first;
-    *units = last.first + last.count - begin.first;
+    join_chunks(first, units, &all, chunk, count);
+    return RT_OK;
+}
+
+rt_status rt_chunk_task(uint64_t *first, uint64_t *units, const rt_render_options *options,
+                        uint64_t task, uint64_t tasks, rt_error *error)
+{
+    rt_units all;
+    rt_status status = units_of(&all, options, error);
+    if (status != RT_OK)
+        return status;
+    if (task >= tasks)
+        return rt_fail(error, RT_ERROR_USAGE, "task %llu, counted from 0, of %llu",
+                       (unsigned long long)task, (unsigned long long)tasks);
+    /* The first tasks have a chunk more where tasks do not divide the chunks. */
+    const uint64_t chunks = rt_units_chunks(&all), each = chunks / tasks, rest = chunks % tasks;
+    const uint64_t count = each + (task < rest);
+    const uint64_t before = task * each + (task < rest ? task : rest);
+    *first = *units = 0;
+    if (count > 0)
+        join_chunks(first, units, &all, chunks - before - count, count);
     return RT_OK;
 }
 

@@ -200,6 +200,15 @@ RT_API rt_status rt_film_encode(const rt_film *film, void *buffer, size_t capaci
 RT_API rt_status rt_film_decode(rt_film **out, const void *data, size_t size, rt_error *error);
 
 /*
+ * The same bytes through a descriptor, such as a pipe or a socket, one film after another. Sending
+ * fails with RT_ERROR_OUTPUT, and raises SIGPIPE as write() does. Receiving adds what comes to
+ * *film, which becomes it where it is NULL; it fails as rt_film_load and rt_film_add do, and leaves
+ * *film as it was.
+ */
+RT_API rt_status rt_film_send(const rt_film *film, int to, rt_error *error);
+RT_API rt_status rt_film_receive(rt_film **film, int from, rt_error *error);
+
+/*
  * Adds the samples of another film of the same scene and settings; only `time` may differ. The
  * order of additions does not matter. Fails with RT_ERROR_USAGE, saying what differs, and leaves
  * `film` as it was, when they do not fit together or both hold the same part of the work.
@@ -261,6 +270,14 @@ RT_API rt_status rt_chunk_count(uint64_t *out, const rt_render_options *options,
 /* The units of `count` chunks from `chunk` on, as rt_render_options.next_units takes them. */
 RT_API rt_status rt_chunk_units(uint64_t *first, uint64_t *units, const rt_render_options *options,
                                 uint64_t chunk, uint64_t count, rt_error *error);
+
+/*
+ * The units of task `task`, counted from 0, of so many that a picture is divided into: chunks that
+ * follow each other, the last ones in the first task, as they have the most samples. *units is 0
+ * where there are fewer chunks than tasks.
+ */
+RT_API rt_status rt_chunk_task(uint64_t *first, uint64_t *units, const rt_render_options *options,
+                               uint64_t task, uint64_t tasks, rt_error *error);
 
 /*
  * Renders `count` chunks from `chunk` on into a film of their own; rt_film_encode puts it into

@@ -142,14 +142,16 @@ members() {
     pgrep -f "^$rtc_mpi $scene .*--out $1" || :
 }
 
-# One of three processes is killed after a random time; what is left is taken up by other numbers.
+# One of three processes is killed after a random time, until KILLS have struck before the picture
+# was finished; what is left is taken up by other numbers.
 kills() {
     # shellcheck disable=SC2086
     set -- "$scene" $small --quiet
     "$rtc" "$@" --spp 900 --out alone.exr || bad=1
     "$rtc" "$@" --mode photon --passes 30 --photons 10000 --out passes.exr || bad=1
     kill=0
-    while [ "$kill" -lt "${KILLS:-20}" ]; do
+    struck=0
+    while [ "$struck" -lt "${KILLS:-20}" ] && [ "$kill" -lt $((3 * ${KILLS:-20})) ]; do
         kill=$((kill + 1))
         whole=alone.exr
         what='--spp 900'
@@ -171,6 +173,7 @@ kills() {
         left=$(members k.exr | wc -l)
         check "kill_${kill}_ends_all" test "$ended" -ne 124 -a "$left" -eq 0
         if [ "$ended" -ne 0 ]; then
+            struck=$((struck + 1))
             check "kill_${kill}_is_told" grep -q 'ignal 9' log
             resume="--resume k.rtpart"
             [ -e k.rtpart ] || resume="$* $what --out k.exr"
@@ -183,6 +186,7 @@ kills() {
         fi
         check "kill_${kill}_is_taken_up ($([ -e k.rtpart ] && echo checkpoint))" cmp "$whole" k.exr
     done
+    check "${KILLS:-20}_kills_struck" test "$struck" -eq "${KILLS:-20}"
 }
 
 # Machines that are network namespaces: each process is one, beside the runner's. Frames between any

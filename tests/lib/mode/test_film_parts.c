@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "film_renders.h"
 
@@ -312,6 +313,55 @@ static void chunks_have_the_bits_of_a_render_at_once(void **state)
     }
 }
 
+/* Tasks divide the chunks, whatever their number; the films of some pass through a pipe. */
+static void tasks_through_a_pipe_have_the_bits_of_a_render_at_once(void **state)
+{
+    static const uint64_t divisions[] = {1, 3, 1000};
+    const rt_render_options o = film_render_options(film_renders);
+    rt_film *whole = render(&o), *sum = NULL;
+    rt_error error;
+    uint64_t chunks;
+    (void)state;
+    expect_ok(rt_chunk_count(&chunks, &o, &error), &error);
+    for (size_t d = 0; d < 3; d++) {
+        uint64_t end = whole->units.count;
+        for (uint64_t i = 0; i < divisions[d]; i++) {
+            uint64_t first, units;
+            expect_ok(rt_chunk_task(&first, &units, &o, i, divisions[d], &error), &error);
+            assert_int_equal(units > 0, i < chunks);
+            assert_true(units == 0 || first + units == end);
+            end -= units;
+        }
+        assert_int_equal(end, 0);
+    }
+    assert_int_equal(rt_chunk_task(&chunks, &chunks, &o, 3, 3, &error), RT_ERROR_USAGE);
+
+    /* Two films in one pipe, which holds both. */
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    for (uint64_t chunk = 0; chunk < 2; chunk++) {
+        rt_film *film = NULL;
+        const uint64_t split = chunks / 2;
+        expect_ok(rt_chunk_render(&film, renderer(), &o, chunk * split,
+                                  chunk ? chunks - split : split, &error),
+                  &error);
+        expect_ok(rt_film_send(film, ends[1], &error), &error);
+        rt_film_destroy(film);
+    }
+    close(ends[1]);
+    expect_ok(rt_film_receive(&sum, ends[0], &error), &error);
+    expect_ok(rt_film_receive(&sum, ends[0], &error), &error);
+    assert_int_equal(rt_film_receive(&sum, ends[0], &error), RT_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "ended before anything came"));
+    close(ends[0]);
+    assert_int_equal(rt_film_receive(&sum, ends[0], &error), RT_ERROR_INPUT);
+    assert_int_equal(rt_film_send(sum, ends[0], &error), RT_ERROR_OUTPUT);
+    expect_ok(rt_film_resolve(sum, NULL, &error), &error);
+    expect_same_film(whole, sum, "pipe");
+    rt_film_destroy(sum);
+    rt_film_destroy(whole);
+}
+
 /* A film covers its parts, and not what only another part has. */
 static void a_film_covers_what_it_was_made_of(void **state)
 {
@@ -400,6 +450,7 @@ int main(void)
         cmocka_unit_test(an_unfinished_film_takes_other_samples_where_its_own_stay),
         cmocka_unit_test(the_light_power_stays),
         cmocka_unit_test(chunks_have_the_bits_of_a_render_at_once),
+        cmocka_unit_test(tasks_through_a_pipe_have_the_bits_of_a_render_at_once),
         cmocka_unit_test(a_film_covers_what_it_was_made_of),
         cmocka_unit_test(what_does_not_fit_is_refused_by_name),
     };

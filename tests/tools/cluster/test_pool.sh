@@ -46,5 +46,5 @@ kill_one() {
     wait $!
 }
 sed 's/spp 7/spp 3000/' scene.rts >long.rts
-check failed_processes_are_told eval '! kill_one && grep "a process has failed" said'
+check failed_processes_are_told eval '! kill_one && grep "ended before anything came" said'
 exit $bad
