@@ -76,6 +76,7 @@ RT_SIZE(rt_tri_block, 320);
 
 /* ---- Rays and hits ----------------------------------------------------- */
 
+#define RT_TRACE_RAYS 16u /* that a work-item of width 8 traces in turns */
 RT_SIZE(rt_ray, 32);
 RT_SIZE(rt_hit, 32);
 

@@ -69,16 +69,23 @@ static inline void test_all(const struct scene *scene, const struct ray *ray, st
         test_shape(scene, ray, scene->analytic[i], hit);
 }
 
+/* Begins a search with the planes, which are beside the tree; prim is RT_NONE without a hit. */
+INLINE_ALWAYS void begin_at_planes(const struct scene *scene, const struct ray *ray,
+                                   struct hit *hit)
+{
+    hit->t = ray->t_max;
+    hit->prim = RT_NONE;
+    for (uint i = 0; i < scene->header->plane_count; i++)
+        test_shape(scene, ray, scene->planes[i], hit);
+}
+
 /*
  * The nearest hit in [t_min, t_max] of a ray that can be followed; when there is none, returns
  * false and *hit is undefined.
  */
 INLINE_NEVER bool closest_hit(const struct scene *scene, const struct ray *ray, struct hit *hit)
 {
-    hit->t = ray->t_max;
-    hit->prim = RT_NONE;
-    for (uint i = 0; i < scene->header->plane_count; i++)
-        test_shape(scene, ray, scene->planes[i], hit);
+    begin_at_planes(scene, ray, hit);
     if (scene->header->accel == RT_ACCEL_BVH)
         traverse_closest(scene, ray, hit);
     else

@@ -37,16 +37,20 @@ INLINE_ALWAYS void take_block_hits(struct hit *hit, const struct block_hits *fou
 }
 
 /*
- * Lets through hits up to the nearest so far, ties included, and a rounding error beyond:
- * take_block_hits compares exactly.
+ * How far blocks are tested when the nearest hit so far is at t: ties included, and a rounding
+ * error beyond. take_block_hits compares exactly.
  */
+INLINE_ALWAYS float block_reach(float t)
+{
+    return t + fabs(t) * 0x1p-22f;
+}
+
 INLINE_ALWAYS void test_block(const struct scene *scene, const struct ray *ray,
                               const struct ray_frame *frame, uint index, struct hit *hit)
 {
     global const rt_tri_block *block = scene->blocks + index;
-    const float reach = hit->t + fabs(hit->t) * 0x1p-22f;
     struct block_hits found;
-    const uint mask = intersect_block(block, frame, ray->t_min, reach, &found);
+    const uint mask = intersect_block(block, frame, ray->t_min, block_reach(hit->t), &found);
     if (mask)
         take_block_hits(hit, &found, mask, ray->t_min, block, index);
 }
@@ -67,19 +71,18 @@ INLINE_ALWAYS uint start_at(struct stack *stack, uint root)
 
 /* Returns the nearest of the node's children in `mask`, which is not 0, and pushes the others. */
 INLINE_ALWAYS uint push_farther(struct stack *stack, uint *count, global const rt_bvh_node *node,
-                                uint mask, float8 entry)
+                                uint mask, const struct lane_array *distances)
 {
     const uint first = lane_first(mask);
     mask &= mask - 1u;
     if (!mask)
         return node->child[first];
 
-    const struct lane_array distances = lane_array(entry);
     const uint second = lane_first(mask);
-    const float distance = lane_read(&distances, first);
+    const float distance = lane_read(distances, first);
     if (!(mask & (mask - 1u))) {
         const uint a = node->child[first], b = node->child[second];
-        const float other = lane_read(&distances, second);
+        const float other = lane_read(distances, second);
         const bool in_order = distance <= other;
         stack->child[*count] = in_order ? b : a;
         stack->entry[*count] = in_order ? other : distance;
@@ -94,7 +97,7 @@ INLINE_ALWAYS uint push_farther(struct stack *stack, uint *count, global const r
     uint top = base + 1u;
     for (; mask; mask &= mask - 1u) {
         const uint lane = lane_first(mask);
-        const float entered = lane_read(&distances, lane);
+        const float entered = lane_read(distances, lane);
         uint at = top++;
         for (; at > base && stack->entry[at - 1u] < entered; at--) {
             stack->entry[at] = stack->entry[at - 1u];
@@ -135,7 +138,8 @@ INLINE_ALWAYS bool next_leaf(const struct scene *scene, const struct ray_slabs *
             mask = intersect_boxes(node, slabs, t_min, t, &entry);
             if (!mask)
                 break;
-            child = push_farther(stack, count, node, mask, entry);
+            const struct lane_array distances = lane_array(entry);
+            child = push_farther(stack, count, node, mask, &distances);
         }
         if (mask) {
             *leaf = child;

@@ -23,4 +23,7 @@ rt_params rt_params_make(const rt_render_options *options);
 /* Sets up the camera of the scene on the device for a film of the options' size and filter. */
 rt_status rt_renderer_aim(rt_renderer *renderer, const rt_render_options *options, rt_error *error);
 
+/* The work-items that trace so many rays. */
+size_t rt_trace_items(const rt_device *device, rt_trace_kind kind, size_t count);
+
 #endif

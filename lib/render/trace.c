@@ -37,9 +37,15 @@ static rt_status check_ray(const rt_ray *ray, size_t index, rt_error *error)
     return RT_OK;
 }
 
+size_t rt_trace_items(const rt_device *device, rt_trace_kind kind, size_t count)
+{
+    const size_t each = kind == RT_TRACE_CLOSEST && device->width > 1 ? RT_TRACE_RAYS : 1;
+    return (count + each - 1) / each;
+}
+
 /* One batch through buffers of its own size. */
-static rt_status trace_batch(rt_renderer *renderer, cl_kernel kernel, const rt_ray *rays,
-                             size_t count, rt_hit *hits, rt_error *error)
+static rt_status trace_batch(rt_renderer *renderer, cl_kernel kernel, rt_trace_kind kind,
+                             const rt_ray *rays, size_t count, rt_hit *hits, rt_error *error)
 {
     rt_device *device = renderer->device;
     cl_mem in = NULL, out = NULL;
@@ -55,7 +61,7 @@ static rt_status trace_batch(rt_renderer *renderer, cl_kernel kernel, const rt_r
         status = rt_kernel_args(kernel, args, 4, error);
     }
     if (status == RT_OK)
-        status = rt_launch(device, kernel, count, error);
+        status = rt_launch(device, kernel, rt_trace_items(device, kind, count), error);
     if (status == RT_OK)
         status = rt_buffer_read(device, out, 0, count * sizeof *hits, hits, error);
     rt_buffer_release(device, in);
@@ -82,7 +88,7 @@ rt_status rt_trace(rt_renderer *renderer, rt_trace_kind kind, const rt_ray *rays
                              kind == RT_TRACE_ANY ? "trace_any" : "trace_closest", NULL, error);
     for (size_t first = 0; first < count && status == RT_OK; first += rays_per_batch) {
         size_t part = count - first < rays_per_batch ? count - first : rays_per_batch;
-        status = trace_batch(renderer, kernel, rays + first, part, hits + first, error);
+        status = trace_batch(renderer, kernel, kind, rays + first, part, hits + first, error);
     }
     rt_kernel_release(kernel);
     return status;

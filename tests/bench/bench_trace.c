@@ -163,7 +163,9 @@ static double our_trace(const contest *c)
     rt_error error;
     bench_must(rt_kernel_args(c->kernel, args, 4, &error), &error);
     const double begin = rt_clock();
-    bench_must(rt_launch(c->device, c->kernel, ray_count, &error), &error);
+    bench_must(rt_launch(c->device, c->kernel,
+                         rt_trace_items(c->device, RT_TRACE_CLOSEST, ray_count), &error),
+               &error);
     bench_must(rt_device_finish(c->device, &error), &error);
     return rt_clock() - begin;
 }
