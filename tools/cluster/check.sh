@@ -49,8 +49,24 @@ mpi() {
 # Of a picture of one pixel: what mpirun takes to start, beside the start of a process.
 sed 's/^film .*/film { width 1  height 1 }/' scene.rts >pixel.rts
 
+# crowd ROUND: how much longer a sample takes where all cores work, to the figures of a round.
+crowd() {
+    for i in $(seq "$(nproc)"); do
+        "$bin/tools/cluster/measure" scene.rts chunks >"crowd.$i" &
+    done
+    wait
+    sed -n 's/^sample=\([^ ]*\).*/\1/p' "figures.$1" crowd.* | awk '
+        NR == 1 { alone = $1; next }
+        { sum += $1 }
+        END { printf "crowding=%.4g  # by how much a thread is slower where all cores work\n",
+                     sum / (NR - 1) / alone }' >crowding
+    cat crowding >>"figures.$1"
+    rm crowd.*
+}
+
 for round in $(seq "$rounds"); do
     "$bin/tools/cluster/measure" scene.rts >"figures.$round" || exit 2
+    crowd "$round"
     for ranks in 1 2 4; do
         for kind in $kinds; do
             timed "$kind.$ranks" "$kind" "$ranks"
@@ -69,7 +85,7 @@ cat figures
 # predicted KIND RANKS: by the model, for processes on the cores of this machine.
 predicted() {
     case $1 in
-    pool) set -- "$2" schedule=demand tasks=16 guided=0 ;;
+    pool) set -- "$2" schedule=demand tasks=16 guided=0 largest_first=1 ;;
     parts) set -- "$2" schedule=parts pieces=1 ;;
     mpi) set -- "$2" schedule=demand films=tree start="$(median <mpi.start)" ;;
     esac

@@ -2,21 +2,20 @@
  * measure.c - what a scene costs one thread of this machine: the figures that simulate.c starts
  * from, as lines "NAME=VALUE".
  *
- *     measure SCENE.rts
+ *     measure SCENE.rts [chunks]
  *
- * The scene's own size and depth count; its samples and mode do not. It takes about a minute.
+ * The scene's own size and depth count; its samples and mode do not. It takes about a minute, or
+ * ten seconds for the figures of chunks alone.
  */
 #include <math.h>
 #include <rt/rt.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
-/*
- * Chunks of `longest` samples a pixel come last in a render of so many samples; a chunk has so many
- * pixels at most.
- */
-enum { chunk_pixels = 4096, longest = 32, samples = 128, most_chunks = 48, paths = 400000 };
+/* Chunks of `longest` samples a pixel come last in a render of so many samples. */
+enum { longest = 32, samples = 128, most_chunks = 48, paths = 400000 };
 
 /* Ends the program when something fails. */
 static void need(int is_done, const rt_error *error)
@@ -41,6 +40,16 @@ static void say(const char *name, double value, const char *what)
 }
 
 /* ---- Chunks ---------------------------------------------------------------------------------- */
+
+/* The pixels of a chunk, and how many chunks a block of samples of the picture has. */
+static uint64_t bands_of(uint64_t *chunk_pixels, const rt_render_options *options)
+{
+    const uint64_t pixels = (uint64_t)options->width * options->height;
+    uint64_t first;
+    rt_error error;
+    need(rt_chunk_units(&first, chunk_pixels, options, 0, 1, &error) == RT_OK, &error);
+    return (pixels + *chunk_pixels - 1) / *chunk_pixels;
+}
 
 /* Hands out every `step`th of the chunks from `at` on, and notes when. */
 typedef struct dispenser {
@@ -92,22 +101,21 @@ static double mean_of(const dispenser *d, double *deviation)
 
 static void measure_chunks(rt_renderer *renderer, rt_render_options options)
 {
-    const double pixels = (double)options.width * options.height;
-    const uint64_t columns = (uint64_t)ceil(pixels / chunk_pixels);
     rt_error error;
     dispenser d;
-    uint64_t chunks;
+    uint64_t chunks, chunk_pixels;
     double deviation;
 
     options.mode = RT_MODE_PATH;
     options.spp = samples;
+    const uint64_t columns = bands_of(&chunk_pixels, &options);
     need(rt_chunk_count(&chunks, &options, &error) == RT_OK, &error);
     rt_film_destroy(render(&d, renderer, options, 0, columns));
     const double one = mean_of(&d, &deviation);
     rt_film_destroy(render(&d, renderer, options, chunks - columns, chunks));
     const double most = mean_of(&d, &deviation);
     const double each = (most - one) / (longest - 1);
-    say("sample", each / chunk_pixels, "s, one sample of one pixel by one thread");
+    say("sample", each / (double)chunk_pixels, "s, one sample of one pixel by one thread");
     say("chunk", fmax(one - each, 0), "s, what a chunk costs beside its samples");
     say("spread", deviation, "standard deviation of a chunk's time over its mean");
 }
@@ -117,13 +125,12 @@ static void measure_chunks(rt_renderer *renderer, rt_render_options options)
 /* A film of every pixel, by the chunks of a block: 1, the last one, or 2, the one before. */
 static rt_film *film_of(rt_renderer *renderer, rt_render_options options, uint64_t block)
 {
-    const double pixels = (double)options.width * options.height;
-    const uint64_t columns = (uint64_t)ceil(pixels / chunk_pixels);
-    uint64_t chunks;
+    uint64_t chunks, chunk_pixels;
     rt_film *film;
     rt_error error;
     options.mode = RT_MODE_PATH;
     options.spp = samples;
+    const uint64_t columns = bands_of(&chunk_pixels, &options);
     need(rt_chunk_count(&chunks, &options, &error) == RT_OK, &error);
     need(rt_chunk_render(&film, renderer, &options, chunks - block * columns, columns, &error) ==
              RT_OK,
@@ -200,14 +207,15 @@ static void measure_photons(rt_renderer *renderer, rt_render_options options)
 int main(int argc, char **argv)
 {
     const rt_device_options one_thread = {.threads = 1};
-    rt_error error = {.message = "SCENE.rts"};
+    rt_error error = {.message = "SCENE.rts [chunks]"};
     rt_render_options options;
     rt_scene *scene;
     rt_device *device;
     rt_renderer *renderer;
     dispenser d;
 
-    need(argc == 2, &error);
+    const int is_whole = argc == 2;
+    need(is_whole || (argc == 3 && strcmp(argv[2], "chunks") == 0), &error);
     need(rt_scene_load(&scene, argv[1], NULL, &error) == RT_OK, &error);
     rt_scene_get_options(scene, &options);
     options.spp = 1;
@@ -217,8 +225,10 @@ int main(int argc, char **argv)
     rt_film_destroy(render(&d, renderer, options, 0, 1));
     say("start", now() - began, "s, until a process has its first chunk");
     measure_chunks(renderer, options);
-    measure_films(renderer, &options);
-    measure_photons(renderer, options);
+    if (is_whole) {
+        measure_films(renderer, &options);
+        measure_photons(renderer, options);
+    }
     rt_renderer_destroy(renderer);
     rt_device_close(device);
     rt_scene_destroy(scene);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { chunk_pixels = 4096, longest = 32, short_blocks = 12 };
+enum { longest = 32, short_blocks = 12 };
 
 /* A rank as it is simulated. */
 typedef struct rank {
@@ -54,10 +54,16 @@ static double pixels_of(const model *m)
     return m->width * m->height;
 }
 
+/* Pixels of a chunk: a 64th of the picture, but within limits. */
+static double chunk_pixels(const model *m)
+{
+    return fmin(fmax(ceil(pixels_of(m) / 64), 64), 4096);
+}
+
 /* Chunks of one block of samples: bands of the picture. */
 static double bands_of(const model *m)
 {
-    return ceil(pixels_of(m) / chunk_pixels);
+    return ceil(pixels_of(m) / chunk_pixels(m));
 }
 
 /*
@@ -111,9 +117,9 @@ static double work(simulation *s, double samples, double chunks, double bands)
 static void cover(const model *m, rank *r, double chunks, int count)
 {
     const double all = pixels_of(m), band = ceil(bands_of(m) / count) + 2;
-    r->pixels = m->photon_plan == IN_PASSES ? all : r->pixels + chunks * chunk_pixels;
+    r->pixels = m->photon_plan == IN_PASSES ? all : r->pixels + chunks * chunk_pixels(m);
     if (m->reduction == BANDS)
-        r->pixels = fmin(r->pixels, band * chunk_pixels);
+        r->pixels = fmin(r->pixels, band * chunk_pixels(m));
     r->pixels = fmin(r->pixels, all);
 }
 
@@ -225,9 +231,9 @@ static double next_task(simulation *s, double *given, double all, double *count)
     if (m->guided > 0)
         *count = fmin(*count, fmax(floor(left / (m->guided * s->count)), 1));
     *count = fmin(*count, left);
-    const double before = samples_before(m, *given);
+    const double from = m->largest_first ? left - *count : *given;
     *given += *count;
-    return samples_before(m, *given) - before;
+    return samples_before(m, from + *count) - samples_before(m, from);
 }
 
 /* Rank 0 hands out the chunks. */
@@ -290,7 +296,8 @@ static void render_parts(simulation *s)
     const double parts = fmin(m->pieces * s->count, chunks_of(m)), chunks = chunks_of(m) / parts;
     const double samples = m->spp * pixels_of(m) / parts;
     const double own = m->reduction == BANDS ? fmax(bands_of(m) / parts, 1) : chunks;
-    const double bands = fmin(own, bands_of(m)), pixels = fmin(bands * chunk_pixels, pixels_of(m));
+    const double bands = fmin(own, bands_of(m)),
+                 pixels = fmin(bands * chunk_pixels(m), pixels_of(m));
     rank *r = s->ranks;
     qsort(r, (size_t)s->count, sizeof *r, earlier);
     for (double part = 0; part < parts; part++) {
@@ -348,7 +355,9 @@ static void make_ready(simulation *s)
 static double simulate(simulation *s)
 {
     const model *m = s->m;
-    const double shared = m->cores > 0 ? fmin(1, m->cores / s->count) : 1;
+    /* Cores that all work share caches, memory and the power that their clocks have. */
+    const int is_full = m->cores > 0 && s->count >= m->cores;
+    const double shared = is_full ? m->cores / s->count / m->crowding : 1;
     for (int i = 0; i < s->count; i++) {
         const int is_slow = uniform(&s->random) < m->stragglers;
         const double speed = around_one(&s->random, m->speeds) / (is_slow ? m->straggling : 1);

@@ -19,6 +19,7 @@
     X(sample, 2e-6, "s, one sample of one pixel by one thread")                                    \
     X(chunk, 0, "s, what a chunk costs beside its samples")                                        \
     X(spread, 0.4, "standard deviation of a chunk's time over its mean")                           \
+    X(crowding, 1, "by how much a thread is slower where all `cores` work")                        \
     X(pixel_bytes, 64, "bytes, a pixel of a film on its way")                                      \
     X(encode, 1e-7, "s, a pixel")                                                                  \
     X(decode, 1e-7, "s, a pixel")                                                                  \
@@ -48,6 +49,7 @@
     /* what the schedule does */                                                                   \
     X(tasks, 64, "for each rank, of equal size")                                                   \
     X(guided, 2, "a task is at most 1/(guided ranks) of what is left; 0: no limit")                \
+    X(largest_first, 0, "1: the last chunks, which have the most samples, are the first task")     \
     X(pieces, 16, "parts for each rank, of which it takes one after the other")                    \
     X(passes, 0, "progressive passes")                                                             \
     X(seed, 1, "of the simulator")                                                                 \
