@@ -8,6 +8,63 @@
 
 #if RT_WIDTH > 1
 #include "integrate/batch.h"
+
+/* The sample of the film that a path computes. */
+struct sample {
+    uint2 at;   /* pixel */
+    uint index; /* of the pixel in the film */
+    uint number;
+    float weight;
+};
+
+/*
+ * Begins the next sample of the pixel, or the first of the next item in line; false when there is
+ * none.
+ */
+static inline bool next_sample(const struct scene *scene, const rt_params *params, uint *item,
+                               uint end, struct sample *sample, struct path *path)
+{
+    if (++sample->number - params->first_sample >= params->sample_count) {
+        if (*item == end)
+            return false;
+        sample->at = pixel_of_item(params, params->first_item + (*item)++);
+        sample->index = sample->at.y * params->width + sample->at.x;
+        sample->number = params->first_sample;
+    }
+    const struct sampler sampler = sampler_start(scene, params, sample->index, sample->number);
+    const struct ray ray =
+        pixel_ray(&scene->header->camera, params, &sampler, sample->at, &sample->weight);
+    path_begin(path, scene, &sampler, ray);
+    return true;
+}
+
+/* Adds a launch's samples to the pixels of the items from `item` to before `end`. */
+INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *params, uint item,
+                                uint end, global rt_film_pixel *film)
+{
+    struct sample samples[8];
+    struct path paths[8];
+    uint under_way = 0u; /* a bit for each path */
+
+    for (uint i = 0u; i < 8u; i++) {
+        samples[i].number = params->first_sample + params->sample_count - 1u;
+        paths[i].alive = false;
+        if (next_sample(scene, params, &item, end, &samples[i], &paths[i]))
+            under_way |= 1u << i;
+    }
+    while (under_way) {
+        follow_batch(scene, params, paths, FOLLOW_ALL, 0);
+        for (uint i = 0u; i < 8u; i++) {
+            if (paths[i].alive || !(under_way >> i & 1u))
+                continue;
+            rt_film_pixel pixel = film[samples[i].index];
+            film_add(&pixel, paths[i].radiance, samples[i].weight, paths[i].cut_off);
+            film[samples[i].index] = pixel;
+            if (!next_sample(scene, params, &item, end, &samples[i], &paths[i]))
+                under_way ^= 1u << i;
+        }
+    }
+}
 #else
 /*
  * Adds a launch's samples to a pixel. One loop goes over the vertices of all its paths: where a

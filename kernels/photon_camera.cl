@@ -1,12 +1,95 @@
 /*
- * photon_camera.cl - the eye paths of photon mapping: each work-item follows one sample of one
- * pixel to its gather points.
+ * photon_camera.cl - the eye paths of photon mapping: each work-item follows one sample of each of
+ * a few pixels to its gather points.
  */
 #include "camera/camera.h"
 #include "entry.h"
 #include "camera/film.h"
 #include "integrate/path.h"
 #include "photon/gather_point.h"
+#if RT_WIDTH > 1
+#include "integrate/batch.h"
+#endif
+
+/* Begins the path of an item: clears its gather points, and finds its ray. */
+static inline void begin_eye_path(struct path *path, const struct gather *gather,
+                                  const struct scene *scene, const rt_params *params, uint item)
+{
+    const uint2 at = pixel_of_item(params, params->first_item + item);
+    const uint index = at.y * params->width + at.x;
+    const struct sampler sampler = sampler_start(scene, params, index, params->first_sample);
+    float film_weight;
+    const struct ray ray = pixel_ray(&scene->header->camera, params, &sampler, at, &film_weight);
+    clear_gather_point(gather->point, index, params->first_sample, film_weight);
+    for (uint i = 0u; i < params->final_gather; i++)
+        clear_gather_point(gather->caustics + i * gather->stride, index, params->first_sample,
+                           film_weight);
+    path_begin(path, scene, &sampler, ray);
+}
+
+/* Writes what the path collected before its gather points. */
+static inline void end_eye_path(const struct path *path, const struct gather *gather)
+{
+    vstore3(path->radiance, 0, gather->point->radiance);
+    gather->point->cut_off = path->cut_off;
+}
+
+/* The gather points of an item. */
+static inline struct gather gather_of_item(const struct gather *first, uint item)
+{
+    struct gather gather;
+    gather.point = first->point + item;
+    gather.caustics = first->caustics + item;
+    gather.stride = first->stride;
+    return gather;
+}
+
+#if RT_WIDTH > 1
+/* Follows the paths of the items from `item` to before `end`, eight at a time. */
+INLINE_NEVER void follow_eye_paths(const struct scene *scene, const rt_params *params, uint item,
+                                   uint end, const struct gather *first)
+{
+    struct gather gathers[8];
+    struct path paths[8];
+    uint under_way = 0u; /* a bit for each path */
+
+    for (uint i = 0u; i < 8u; i++) {
+        gathers[i] = gather_of_item(first, min(item, end - 1u));
+        paths[i].alive = false;
+        if (item < end) {
+            begin_eye_path(&paths[i], &gathers[i], scene, params, item++);
+            under_way |= 1u << i;
+        }
+    }
+    while (under_way) {
+        follow_batch(scene, params, paths, FOLLOW_TO_GATHER, gathers);
+        for (uint i = 0u; i < 8u; i++) {
+            if (paths[i].alive || !(under_way >> i & 1u))
+                continue;
+            end_eye_path(&paths[i], &gathers[i]);
+            if (item < end) {
+                gathers[i] = gather_of_item(first, item);
+                begin_eye_path(&paths[i], &gathers[i], scene, params, item++);
+            } else
+                under_way ^= 1u << i;
+        }
+    }
+}
+#else
+/* Follows the paths of the items from `item` to before `end`. */
+static inline void follow_eye_paths(const struct scene *scene, const rt_params *params, uint item,
+                                    uint end, const struct gather *first)
+{
+    for (; item < end; item++) {
+        const struct gather gather = gather_of_item(first, item);
+        struct path path;
+        begin_eye_path(&path, &gather, scene, params, item);
+        while (path.alive)
+            path_extend(scene, params, &path, FOLLOW_TO_GATHER, &gather);
+        end_eye_path(&path, &gather);
+    }
+}
+#endif
 
 /*
  * points: [item_count], in the order of items; caustics: [params.final_gather][stride], a row for
@@ -15,26 +98,14 @@
 KERNEL photon_camera(const rt_params params, global const rt_scene_header *header,
                      global rt_gather_point *points, global rt_gather_point *caustics, uint stride)
 {
-    const uint item = (uint)get_global_id(0);
+    const uint item = (uint)get_global_id(0) * params.pixels_an_item;
     if (item >= params.item_count)
         return;
     const struct scene scene = scene_open(header);
-    const uint2 at = pixel_of_item(&params, params.first_item + item);
-    const uint index = at.y * params.width + at.x;
-    const struct sampler sampler = sampler_start(&scene, &params, index, params.first_sample);
-    float film_weight;
-    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &film_weight);
-
-    struct gather gather;
-    gather.point = points + item;
-    gather.caustics = caustics + item;
-    gather.stride = stride;
-    clear_gather_point(gather.point, index, params.first_sample, film_weight);
-    for (uint i = 0u; i < params.final_gather; i++)
-        clear_gather_point(gather.caustics + i * stride, index, params.first_sample, film_weight);
-    float cut_off;
-    const float3 radiance =
-        follow_path(&scene, &params, &sampler, ray, FOLLOW_TO_GATHER, &gather, &cut_off);
-    vstore3(radiance, 0, points[item].radiance);
-    points[item].cut_off = cut_off;
+    struct gather first;
+    first.point = points;
+    first.caustics = caustics;
+    first.stride = stride;
+    follow_eye_paths(&scene, &params, item, min(item + params.pixels_an_item, params.item_count),
+                     &first);
 }

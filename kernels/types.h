@@ -385,7 +385,7 @@ typedef struct rt_params {
     rt_u32 roulette_depth;    /* segments from the eye after which roulette may end a path */
     rt_u32 replicate;         /* each has a sequence of samples scrambled on its own */
     float roulette_threshold; /* throughput below which it may */
-    /* path tracing: pixels that a work-item takes, at least 1; the film is the same for all */
+    /* pixels that a work-item takes, at least 1; the film is the same for all */
     rt_u32 pixels_an_item;
     rt_u32 plane; /* of the film, that the samples are added to */
     rt_u32 reserved;

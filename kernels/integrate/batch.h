@@ -1,6 +1,6 @@
 /*
  * batch.h - a vectorised path integrator: eight paths at a time, whose diffuse vertices are shaded
- * together, one path per lane.
+ * together, one path per lane. In photon mapping, those are the gather points at which paths end.
  *
  * Most vertices of most scenes lie on surfaces that only reflect diffusely, outside of all solids.
  * There path_vertex comes down to a light sample, roulette and a cosine direction. These are done
@@ -10,13 +10,12 @@
  * are evaluated one by one. All other vertices go to path_vertex itself. Lanes are independent, so
  * a path's result does not depend on the other paths; lanes without a path hold undefined values.
  *
- * Only path.cl includes this file, where RT_WIDTH is 8. Without it the scalar integrator serves.
+ * path.cl and photon_camera.cl include this file where RT_WIDTH is 8. Without it the scalar
+ * integrator serves.
  */
 #ifndef RT_KERNELS_INTEGRATE_BATCH_H
 #define RT_KERNELS_INTEGRATE_BATCH_H
 
-#include "camera/camera.h"
-#include "camera/film.h"
 #include "integrate/path.h"
 #include "math/width8.inc.h"
 #include "math/frame.inc.h"
@@ -44,6 +43,16 @@ struct surface_x8 {
     struct vec3_x8 position, normal, shading;
     float8 error;
 };
+
+/*
+ * Whether lanes do what paths of this purpose do at a diffuse vertex: they estimate by MIS, and
+ * gather photons where the path ends alone.
+ */
+static inline bool lanes_serve(const struct path *path, const rt_params *params, const uint purpose)
+{
+    return purpose == FOLLOW_TO_GATHER ? ends_at_gather_point(path, params, purpose)
+                                       : params->estimator == RT_ESTIMATOR_MIS;
+}
 
 /* Collects a path's vertex if it is diffuse. */
 static inline bool collect_diffuse(struct diffuse_batch *batch, uint lane,
@@ -221,19 +230,20 @@ static inline struct light_sample_x8 sample_lights(struct chosen_lights *lights,
     return sample;
 }
 
-/* As connect_light; `weight` is the throughput. */
+/* As connect_light; `weight` is the throughput, `last` holds for all lanes. */
 static inline void connect_lights(const struct scene *scene, const struct surface_x8 *surface,
                                   uint taken, struct vec3_x8 weight, struct vec3_x8 kd,
-                                  const float8 *numbers, struct connection *connections)
+                                  const float8 *numbers, struct connection *connections,
+                                  const bool last)
 {
     struct chosen_lights lights;
     choose_lights(&lights, scene, taken, surface->position, numbers);
     const struct light_sample_x8 sample = sample_lights(&lights, surface->position, numbers);
 
-    /* Weight the light by MIS against BSDF sampling, except that of delta lights. */
+    /* Weight the light by MIS against BSDF sampling, except delta lights, and where paths end. */
     const float8 inv_pdf = sample.inv_pdf / vload8(0, lights.pmf);
     const float8 pdf_w = lambert_density_x8(surface->normal, surface->shading, sample.wi);
-    const float8 ratio = lanes_of(lights.delta) ? (float8)(0.0f) : pdf_w * inv_pdf;
+    const float8 ratio = last || lanes_of(lights.delta) ? (float8)(0.0f) : pdf_w * inv_pdf;
     const float8 share = pdf_w * inv_pdf / power_heuristic_divisor_x8(ratio);
     const struct vec3_x8 radiance = mul_x8(scale_x8(share, weight), mul_x8(kd, sample.radiance));
 
@@ -289,27 +299,65 @@ static inline void scatter_paths(const rt_params *params, const struct surface_x
         }
 }
 
+/* ---- Gather points ---------------------------------------------------------------- */
+
+/* Ends paths at gather points, as add_gather_point; weight: their throughput. */
+static inline void end_paths(const struct scene *scene, const struct diffuse_batch *batch,
+                             const struct surface_x8 *surface, struct vec3_x8 weight,
+                             const struct hit *hits, struct path *paths,
+                             const struct gather *gathers)
+{
+    float3 positions[8], normals[8], shadings[8], weights[8];
+    vec3_x8_rows(surface->position, positions);
+    vec3_x8_rows(surface->normal, normals);
+    vec3_x8_rows(surface->shading, shadings);
+    vec3_x8_rows(weight, weights);
+    for (uint left = batch->taken; left; left &= left - 1u) {
+        const uint i = lane_first(left);
+        const uint material = scene->shapes[scene->prim_shape[hits[i].prim]].material;
+        struct bsdf bsdf;
+        bsdf.kd = batch->kd[i];
+        bsdf.normal = normals[i];
+        bsdf.shading = shadings[i];
+        bsdf.wo = -paths[i].ray.direction;
+        bsdf.diffuse = 1.0f;
+        bsdf.diffuse_lobe = RT_LOBE_LAMBERT;
+        bsdf.roughness = scene->materials[material].roughness;
+        set_gather_point(gathers[i].point, positions[i], &bsdf, material, weights[i]);
+        paths[i].diffuse_events++;
+        paths[i].alive = false;
+    }
+}
+
 /* ---- Paths ----------------------------------------------------------------------- */
 
-/* Shades the collected diffuse vertices and extends their paths. */
+/* Shades the collected diffuse vertices, and extends their paths or ends them at gather points. */
 INLINE_NEVER void diffuse_vertices(const struct scene *scene, const rt_params *params,
                                    struct diffuse_batch *batch, struct path *paths,
                                    const struct hit *hits, const float8 *numbers,
-                                   struct connection *connections)
+                                   struct connection *connections, const uint purpose,
+                                   const struct gather *gathers)
 {
+    const bool last = purpose == FOLLOW_TO_GATHER;
     const struct surface_x8 surface = diffuse_surfaces(batch, paths, hits);
     const struct vec3_x8 beta = VEC3_X8_OF(paths, .beta), kd = VEC3_X8_OF(batch->kd, );
     const struct vec3_x8 weight = scale_x8(LANES_OF(float8, paths, .eta_scale), beta);
-    connect_lights(scene, &surface, batch->taken, weight, kd, numbers, connections);
-    scatter_paths(params, &surface, beta, kd, numbers, batch->taken, paths);
+    if (!(last && params->direct == RT_DIRECT_PHOTONS))
+        connect_lights(scene, &surface, batch->taken, weight, kd, numbers, connections, last);
+    if (last)
+        end_paths(scene, batch, &surface, weight, hits, paths, gathers);
+    else
+        scatter_paths(params, &surface, beta, kd, numbers, batch->taken, paths);
 }
 
 /*
  * Extends eight paths by a vertex each: the steps of follow_path's loop, each for all paths. Within
- * a step paths are independent, so an out-of-order processor overlaps them.
+ * a step paths are independent, so an out-of-order processor overlaps them. gathers [8] serve
+ * FOLLOW_TO_GATHER alone.
  */
 static inline void follow_batch(const struct scene *scene, const rt_params *params,
-                                struct path *paths)
+                                struct path *paths, const uint purpose,
+                                const struct gather *gathers)
 {
     struct hit hits[8];
     float8 numbers[8];
@@ -321,7 +369,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
             continue;
         numbers[i] = path_numbers(&paths[i]);
         if (!closest_hit(scene, &paths[i].ray, &hits[i]))
-            add_environment(&paths[i], scene, params, FOLLOW_ALL);
+            add_environment(&paths[i], scene, params, purpose);
     }
 
     /* Shade diffuse vertices together, the others one by one. */
@@ -331,74 +379,18 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
         connections[i].radiance = (float3)(0.0f);
         if (!paths[i].alive)
             continue;
-        if (params->estimator != RT_ESTIMATOR_MIS ||
+        if (!lanes_serve(&paths[i], params, purpose) ||
             !collect_diffuse(&batch, i, scene, params, &paths[i], &hits[i]))
-            path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], FOLLOW_ALL,
-                        0);
+            path_vertex(scene, params, &paths[i], &hits[i], numbers[i], &connections[i], purpose,
+                        gathers ? gathers + i : 0);
     }
     if (batch.taken)
-        diffuse_vertices(scene, params, &batch, paths, hits, numbers, connections);
+        diffuse_vertices(scene, params, &batch, paths, hits, numbers, connections, purpose,
+                         gathers);
 
     /* Add the direct light that arrives. */
     for (uint i = 0u; i < 8u; i++)
         add_connection(&paths[i], scene, &connections[i]);
-}
-
-/* The sample of the film that a path computes. */
-struct sample {
-    uint2 at;   /* pixel */
-    uint index; /* of the pixel in the film */
-    uint number;
-    float weight;
-};
-
-/*
- * Begins the next sample of the pixel, or the first of the next item in line; false when there is
- * none.
- */
-static inline bool next_sample(const struct scene *scene, const rt_params *params, uint *item,
-                               uint end, struct sample *sample, struct path *path)
-{
-    if (++sample->number - params->first_sample >= params->sample_count) {
-        if (*item == end)
-            return false;
-        sample->at = pixel_of_item(params, params->first_item + (*item)++);
-        sample->index = sample->at.y * params->width + sample->at.x;
-        sample->number = params->first_sample;
-    }
-    const struct sampler sampler = sampler_start(scene, params, sample->index, sample->number);
-    const struct ray ray =
-        pixel_ray(&scene->header->camera, params, &sampler, sample->at, &sample->weight);
-    path_begin(path, scene, &sampler, ray);
-    return true;
-}
-
-/* Adds a launch's samples to the pixels of the items from `item` to before `end`. */
-INLINE_NEVER void sample_pixels(const struct scene *scene, const rt_params *params, uint item,
-                                uint end, global rt_film_pixel *film)
-{
-    struct sample samples[8];
-    struct path paths[8];
-    uint under_way = 0u; /* a bit for each path */
-
-    for (uint i = 0u; i < 8u; i++) {
-        samples[i].number = params->first_sample + params->sample_count - 1u;
-        paths[i].alive = false;
-        if (next_sample(scene, params, &item, end, &samples[i], &paths[i]))
-            under_way |= 1u << i;
-    }
-    while (under_way) {
-        follow_batch(scene, params, paths);
-        for (uint i = 0u; i < 8u; i++) {
-            if (paths[i].alive || !(under_way >> i & 1u))
-                continue;
-            rt_film_pixel pixel = film[samples[i].index];
-            film_add(&pixel, paths[i].radiance, samples[i].weight, paths[i].cut_off);
-            film[samples[i].index] = pixel;
-            if (!next_sample(scene, params, &item, end, &samples[i], &paths[i]))
-                under_way ^= 1u << i;
-        }
-    }
 }
 
 #endif

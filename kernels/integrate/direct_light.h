@@ -33,11 +33,14 @@ static inline void connect_light(struct connection *connection, const struct sce
                                  const struct surface *surface, const struct bsdf *bsdf,
                                  uint beyond, float4 u, bool last)
 {
+    const bool in_photons = last && params->direct == RT_DIRECT_PHOTONS;
     struct light_sample sample;
+    if (in_photons && !bsdf_is_rough(bsdf))
+        return;
     if (!sample_light(scene, surface->position, u, &sample))
         return;
     float3 scattered = (float3)(0.0f);
-    if (!(last && params->direct == RT_DIRECT_PHOTONS))
+    if (!in_photons)
         scattered = mis_weighted_lobe(params, &sample,
                                       bsdf_eval(bsdf, bsdf->diffuse_lobe, sample.wi), last);
     if (bsdf_is_rough(bsdf))

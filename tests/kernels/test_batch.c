@@ -1,6 +1,6 @@
 /*
  * test_batch.c - eight paths at a time have the same radiance, but for rounding, as the scalar
- * integrator computes.
+ * integrator computes: in path tracing, and as eye paths of photon mapping.
  */
 #include "support.h"
 
@@ -106,15 +106,37 @@ static rt_device *device_of_width(uint32_t paths)
     return device;
 }
 
-static void render(float *rgb, const rt_scene *scene, rt_device *device)
+/* How films are rendered: by paths, and by photons with and without a final gather. */
+static const rt_render_options modes[] = {
+    {.mode = RT_MODE_PATH, .spp = spp},
+    {.mode = RT_MODE_PHOTON, .spp = spp, .photons = 2000, .k = RT_K_ALL, .radius = 0.3f},
+    {.mode = RT_MODE_PHOTON,
+     .spp = spp,
+     .photons = 2000,
+     .k = RT_K_ALL,
+     .radius = 0.3f,
+     .direct = RT_DIRECT_PHOTONS},
+    {.mode = RT_MODE_PHOTON,
+     .spp = spp,
+     .photons = 2000,
+     .k = RT_K_ALL,
+     .radius = 0.3f,
+     .caustic_k = RT_K_ALL,
+     .caustic_radius = 0.3f,
+     .final_gather = 1},
+};
+enum { mode_count = sizeof modes / sizeof *modes };
+
+static void render(float *rgb, const rt_scene *scene, rt_device *device,
+                   const rt_render_options *mode)
 {
-    rt_render_options options = {.width = width,
-                                 .height = height,
-                                 .spp = spp,
-                                 .max_depth = 9,
-                                 .seed = 5,
-                                 .roulette_depth = 2,
-                                 .roulette_threshold = 0.5f};
+    rt_render_options options = *mode;
+    options.width = width;
+    options.height = height;
+    options.max_depth = 9;
+    options.seed = 5;
+    options.roulette_depth = 2;
+    options.roulette_threshold = 0.5f;
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
     rt_error error;
@@ -132,16 +154,19 @@ static void render(float *rgb, const rt_scene *scene, rt_device *device)
 static void expect_equal_films(rt_scene *scene, const char *name)
 {
     static float one[values], eight[values];
-    int differ = 0, lit = 0;
-    render(one, scene, device_one);
-    render(eight, scene, device_eight);
-    for (int i = 0; i < values; i++) {
-        differ += fabs((double)one[i] - eight[i]) > 1e-3 * (one[i] + 1e-3);
-        lit += one[i] > 0;
+    for (int mode = 0; mode < mode_count; mode++) {
+        int differ = 0, lit = 0;
+        render(one, scene, device_one, modes + mode);
+        render(eight, scene, device_eight, modes + mode);
+        for (int i = 0; i < values; i++) {
+            differ += fabs((double)one[i] - eight[i]) > 1e-3 * (one[i] + 1e-3);
+            lit += one[i] > 0;
+        }
+        if (differ > values / 100 || lit < values / 50)
+            fail_msg("%s, mode %d: %d of %d values differ, %d are lit", name, mode, differ, values,
+                     lit);
     }
     rt_scene_destroy(scene);
-    if (differ > values / 100 || lit < values / 50)
-        fail_msg("%s: %d of %d values differ, %d are lit", name, differ, values, lit);
 }
 
 static void all_surfaces_under_all_lights(void **state)

@@ -157,6 +157,7 @@ void rt_eye_paths_release(rt_eye_paths *paths)
 static rt_status follow_paths(rt_eye_paths *paths, rt_params *params, rt_error *error)
 {
     const rt_renderer *renderer = paths->job->renderer;
+    const uint32_t each = paths->device->path_pixels;
     rt_u32 stride = (rt_u32)paths->capacity;
     rt_arg args[] = {{sizeof *params, params},
                      RT_ARG(renderer->scene),
@@ -164,10 +165,12 @@ static rt_status follow_paths(rt_eye_paths *paths, rt_params *params, rt_error *
                      RT_ARG(paths->earlier),
                      RT_ARG(stride)};
     params->final_gather = paths->rows;
+    params->pixels_an_item = each;
     rt_status status =
         rt_kernel_args(paths->kernels.camera, args, sizeof args / sizeof *args, error);
     return status == RT_OK
-               ? rt_launch(renderer->device, paths->kernels.camera, params->item_count, error)
+               ? rt_launch(renderer->device, paths->kernels.camera,
+                           (params->item_count + each - 1) / each, error)
                : status;
 }
 
