@@ -19,8 +19,8 @@
 enum { CURVE_BITS = 12 }; /* an axis */
 enum { INDEX_BITS = 28 }; /* beside a key in an item */
 enum { DIGIT_BITS = 12, DIGITS = 3 * CURVE_BITS / DIGIT_BITS, BINS = 1 << DIGIT_BITS };
-/* of the points, each one job: so many, or as few as are worth their bins */
-enum { SHARES = 16, SHARE_POINTS = BINS };
+/* of the points, each one job: at most so many, so many a thread, and as are worth their bins */
+enum { SHARES = 64, SHARES_A_THREAD = 2, SHARE_POINTS = BINS };
 /* points that show where most are: all but one in so many at either end */
 enum { SAMPLE = 2048, FAR_OUT = 20 };
 
@@ -33,6 +33,8 @@ enum { SAMPLE = 2048, FAR_OUT = 20 };
 enum { STATES = 24 };
 typedef struct curve {
     unsigned char place[STATES][8], next[STATES][8];
+    /* the same for two steps at once: the octant of the first step in the upper three bits */
+    unsigned char two_places[STATES][64], after_two[STATES][64];
 } curve;
 
 static unsigned rotate_left(unsigned bits, unsigned by)
@@ -69,17 +71,27 @@ static void make_curve(curve *c)
             c->place[state][octant] = (unsigned char)w;
             c->next[state][octant] = (unsigned char)(3 * to + (turn + direction_within(w)) % 3);
         }
+    for (unsigned state = 0; state < STATES; state++)
+        for (unsigned octants = 0; octants < 64; octants++) {
+            const unsigned first = octants >> 3, then = octants & 7;
+            const unsigned within = c->next[state][first];
+            c->two_places[state][octants] =
+                (unsigned char)(c->place[state][first] << 3 | c->place[within][then]);
+            c->after_two[state][octants] = c->next[within][then];
+        }
 }
 
 static uint64_t hilbert_key(const curve *c, const uint32_t cell[3])
 {
+    /* two bits of an axis, moved apart to where they stand in a pair of octants */
+    static const unsigned char apart[4] = {0, 1, 8, 9};
     uint64_t key = 0;
     unsigned state = 0;
-    for (int bit = CURVE_BITS - 1; bit >= 0; bit--) {
-        unsigned octant =
-            (cell[0] >> bit & 1) | (cell[1] >> bit & 1) << 1 | (cell[2] >> bit & 1) << 2;
-        key = key << 3 | c->place[state][octant];
-        state = c->next[state][octant];
+    for (int bit = CURVE_BITS - 2; bit >= 0; bit -= 2) {
+        unsigned octants = apart[cell[0] >> bit & 3] | apart[cell[1] >> bit & 3] << 1 |
+                           apart[cell[2] >> bit & 3] << 2;
+        key = key << 6 | c->two_places[state][octants];
+        state = c->after_two[state][octants];
     }
     return key;
 }
@@ -96,7 +108,7 @@ typedef struct sorting {
     double middle[3], reach; /* where most photons are: so far from there, along each axis */
     double origin[3], scale; /* of compressed positions, to cells of the curve */
     curve curve;
-    size_t (*bins)[BINS]; /* [shares], counts, then where each share's items of a bin go */
+    uint32_t (*bins)[BINS]; /* [shares], counts, then where each share's items of a bin go */
 } sorting;
 
 static size_t share_begin(const sorting *s, uint32_t share)
@@ -191,7 +203,7 @@ static size_t digit(const sorting *s, uint64_t item)
 static void count_share(void *user, uint32_t share)
 {
     sorting *s = user;
-    size_t *bins = s->bins[share];
+    uint32_t *bins = s->bins[share];
     memset(bins, 0, sizeof s->bins[share]);
     for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++)
         bins[digit(s, s->from[i])]++;
@@ -200,10 +212,10 @@ static void count_share(void *user, uint32_t share)
 /* Counts to places: bins in order, and in each bin the shares in order. */
 static void place_bins(sorting *s)
 {
-    size_t place = 0;
+    uint32_t place = 0;
     for (size_t bin = 0; bin < BINS; bin++)
         for (uint32_t share = 0; share < s->shares; share++) {
-            size_t count = s->bins[share][bin];
+            uint32_t count = s->bins[share][bin];
             s->bins[share][bin] = place;
             place += count;
         }
@@ -212,7 +224,7 @@ static void place_bins(sorting *s)
 static void move_share(void *user, uint32_t share)
 {
     sorting *s = user;
-    size_t *bins = s->bins[share];
+    uint32_t *bins = s->bins[share];
     for (size_t i = share_begin(s, share); i < share_begin(s, share + 1); i++)
         s->to[bins[digit(s, s->from[i])]++] = s->from[i];
 }
@@ -225,7 +237,9 @@ rt_status rt_point_order(uint64_t *items, uint64_t *spare, const float *first, s
     s.positions = (const char *)first;
     s.stride = stride;
     s.count = count;
-    s.shares = count < SHARES * SHARE_POINTS ? 1 + (uint32_t)(count / SHARE_POINTS) : SHARES;
+    s.shares = threads < SHARES / SHARES_A_THREAD ? SHARES_A_THREAD * (threads + !threads) : SHARES;
+    if (count / SHARE_POINTS < s.shares)
+        s.shares = 1 + (uint32_t)(count / SHARE_POINTS);
     /* An odd number of passes ends in the other array than it began with. */
     s.from = DIGITS % 2 ? spare : items;
     s.to = DIGITS % 2 ? items : spare;

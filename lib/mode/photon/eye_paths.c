@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "mode/photon/pass_film.h"
 #include "render/prepare.h"
 
 /* The shortest batch, where there is little memory. */
@@ -168,10 +169,9 @@ static rt_status follow_paths(rt_eye_paths *paths, rt_params *params, rt_error *
     params->pixels_an_item = each;
     rt_status status =
         rt_kernel_args(paths->kernels.camera, args, sizeof args / sizeof *args, error);
-    return status == RT_OK
-               ? rt_launch(renderer->device, paths->kernels.camera,
-                           (params->item_count + each - 1) / each, error)
-               : status;
+    return status == RT_OK ? rt_launch(renderer->device, paths->kernels.camera,
+                                       (params->item_count + each - 1) / each, error)
+                           : status;
 }
 
 /* Counts the query points at ends of paths; caustic: what the caustic query found, or NULL. */
@@ -368,9 +368,7 @@ rt_status rt_eye_paths_begin_pass(rt_eye_paths *paths, rt_error *error)
 {
     const size_t pixels = rt_film_pixels(paths->job->film);
     const size_t bytes = pixels * sizeof *paths->pass_pixels;
-    memset(paths->pass_pixels, 0, bytes);
-    if (paths->pass_sums)
-        memset(paths->pass_sums, 0, pixels * sizeof *paths->pass_sums);
+    rt_pass_film_clear(paths->pass_pixels, paths->pass_sums, pixels, paths->device->threads);
     return rt_mirror_write(paths->device, paths->pixels, bytes, paths->pass_pixels, error);
 }
 
@@ -397,8 +395,7 @@ rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t fi
                        paths->pass_pixels, error);
     if (status != RT_OK)
         return status;
-    rt_film_join_pixels(film->pixels + plane * pixels, paths->pass_pixels, pixels);
-    if (paths->pass_sums)
-        rt_photon_sums_join(film->photon_sums, paths->pass_sums, pixels);
+    rt_pass_film_join(film->pixels + plane * pixels, film->photon_sums, paths->pass_pixels,
+                      paths->pass_sums, pixels, paths->device->threads);
     return add_first_hits(paths, first, error);
 }
