@@ -248,13 +248,18 @@ static rt_film *render_chunk(const rt_render_options *options, uint32_t spp, int
     return through_bytes(film);
 }
 
-/* Of 19 samples the last three are of a block that goes on to 24, in one sequence. */
+/*
+ * Of 19 samples the last three are of a block that goes on to 24, in one sequence. The picture is
+ * small, of four chunks a block, the last of them shorter: it is rendered six times.
+ */
 static void an_unfinished_film_takes_other_samples_where_its_own_stay(void **state)
 {
     (void)state;
     for (size_t i = 0; i < FILM_RENDERS; i++) {
         rt_render_options o = film_render_options(film_renders + i);
         const int is_cut = o.mode != RT_MODE_PHOTON;
+        o.width = 19;
+        o.height = 11;
         if (o.passes > 1)
             continue;
         rt_film *first = render_chunk(&o, 19, 0), *last = render_chunk(&o, 19, -1);

@@ -45,6 +45,6 @@ kill_one() {
     until pkill -KILL -P $!; do sleep 0.1; done
     wait $!
 }
-sed 's/spp 7/spp 3000/' scene.rts >long.rts
+sed 's/spp 7/spp 500/' scene.rts >long.rts
 check failed_processes_are_told eval '! kill_one && grep "ended before anything came" said'
 exit $bad
