@@ -431,11 +431,11 @@ $(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
 $(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/librt.a
 	$(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) $(FUZZ_LINK) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
 
-# Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build. One
-# test more than cores runs at a time, as a test often waits for its device.
+# Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build. Two
+# tests more than cores run at a time, as a test often waits for its device or sleeps.
 JOBS     ?= $(shell nproc 2>/dev/null || echo 1)
 MAKE_JOBS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
-RUN_TESTS = tests/run.sh -j $(shell expr $(JOBS) + 1)
+RUN_TESTS = tests/run.sh -j $(shell expr $(JOBS) + 2)
 
 check-quick: deps
 	+$(MAKE) --no-print-directory $(MAKE_JOBS) run-quick

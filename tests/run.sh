@@ -5,7 +5,7 @@
 #
 # A program is a cmocka binary, or a shell script (*.sh) that prints a line `ok NAME`,
 # `not ok NAME` or `skip NAME: WHY` for each of its tests. They start in the order given, JOBS of
-# them at a time: by default one more than there are cores, as a test often waits for its device.
+# them at a time: by default two more than there are cores, as a test often waits for its device.
 # Name the longest first, or the last one runs alone. Each reports when it ends, in one block. A
 # program that fails is shown whole. One that crashes, runs past its time or runs no test counts as
 # one failure more. The last line is `N passed, N failed`; the status is 0 only when something ran
@@ -73,7 +73,7 @@ fi
 
 # ---- All of them -----------------------------------------------------------------------------
 
-jobs=$(($(nproc 2>/dev/null || echo 1) + 1))
+jobs=$(($(nproc 2>/dev/null || echo 1) + 2))
 if [ "${1:-}" = -j ]; then
     jobs=$2
     shift 2
