@@ -19,7 +19,7 @@ import sys
 
 import rows
 import suite
-from tree import Tree, describe, find_intel, make_inputs
+from tree import Tree, describe, intel_environment, make_inputs
 
 
 def spread(values):
@@ -127,7 +127,7 @@ def main():
     build = os.path.join(top, arguments.build)
     folder = os.path.join(build, "bench")
     if arguments.device and "intel" in arguments.device.lower():
-        find_intel(folder)
+        os.environ.update(intel_environment(folder))
     tree = Tree(top, build, arguments.device)
     make_inputs(tree)
     wanted = arguments.only.split(",") if arguments.only else None

@@ -9,7 +9,7 @@ import shutil
 import time
 from dataclasses import dataclass
 
-from tree import Failed, has_mitsuba, mitsuba, run
+from tree import Failed, Tree, has_mitsuba, intel_environment, mitsuba, run
 
 
 @dataclass
@@ -59,8 +59,17 @@ ROWS = [
         smaller_is_better=True),
     Row("path tracing with 2 threads beside 1", "Msamples/s",
         "threads.two", "threads.one", "1 thread", 1.9),
+    Row("the same beside two renders at once", "Msamples/s",
+        "threads.two", "threads.apart", "2 x 1 thread", 0.95),
     Row("photon passes with 2 threads beside 1", "passes/s",
         "threads.photon.two", "threads.photon.one", "1 thread", 1.9),
+    Row("the same beside two renders at once", "passes/s",
+        "threads.photon.two", "threads.photon.apart", "2 x 1 thread", 0.95),
+    Row("on Intel's runtime: path tracing, the Cornell box of 32 triangles", "Msamples/s",
+        "intel.cornell", "cornell.ours", "PoCL"),
+    Row("the same, closest hit, camera rays", "Mrays/s", "intel.camera", "camera.ours", "PoCL"),
+    Row("the same, closest hit, diffuse rays", "Mrays/s", "intel.diffuse", "diffuse.ours", "PoCL"),
+    Row("the same, progressive photon mapping", "passes/s", "intel.passes", "passes.ours", "PoCL"),
 ]
 
 
@@ -127,16 +136,33 @@ def measure_start(tree):
     return found
 
 
+def pass_rate(stats):
+    return stats["passes"] / (stats["emit_seconds"] + stats["gather_seconds"])
+
+
 def measure_threads(tree):
+    """Two renders at once, of one thread each, show what the machine has for two threads."""
+    path = ("tests/bench/cornell32.rts", "--spp", 16)
+    photon = ("scenes/cornell.rts", "--mode", "photon", "--passes", 6, "--radius", 0.0054)
     found = {}
-    for threads, word in ((1, "one"), (2, "two")):
-        path = tree.render("tests/bench/cornell32.rts", "--spp", 16, "--threads", threads)
-        photon = tree.render("scenes/cornell.rts", "--mode", "photon", "--passes", 6,
-                             "--radius", 0.0054, "--threads", threads)
-        found["threads." + word] = rate(path)
-        seconds = photon["emit_seconds"] + photon["gather_seconds"]
-        found["threads.photon." + word] = 6 / seconds
+    for name, of, work in (("threads.", rate, path), ("threads.photon.", pass_rate, photon)):
+        found[name + "one"] = of(tree.render(*work, "--threads", 1))
+        found[name + "two"] = of(tree.render(*work, "--threads", 2))
+        found[name + "apart"] = sum(map(of, tree.render_twice(*work)))
     return found
+
+
+def measure_intel(tree):
+    """Ours on a second driver, where it is there and is not the one that all rows are taken on."""
+    environment = {} if tree.device else intel_environment(os.path.join(tree.build, "bench"))
+    if not environment:
+        return {}
+    other = Tree(tree.top, tree.build)
+    other.env.update(environment)
+    traced = other.program("bench_trace")
+    return {"intel.cornell": rate(other.render("tests/bench/cornell32.rts")),
+            "intel.camera": traced["camera.ours"], "intel.diffuse": traced["diffuse.ours"],
+            "intel.passes": measure_passes(other)["passes.ours"]}
 
 
 @dataclass
@@ -155,6 +181,7 @@ MEASUREMENTS = [
     Measurement("gather", lambda tree: tree.program("bench_gather")),
     Measurement("start", measure_start),
     Measurement("threads", measure_threads),
+    Measurement("intel", measure_intel),
 ]
 
 

@@ -79,6 +79,12 @@ def threads(tree, count):
     return render(tree, BOX, "--spp", 32, "--threads", count)
 
 
+def threads_apart(tree):
+    """How many times as much two renders at once do, of one thread each, as one alone."""
+    alone = seconds_of(tree.render(BOX, "--spp", 32, "--threads", 1))
+    return sum(alone / seconds_of(stats) for stats in tree.render_twice(BOX, "--spp", 32))
+
+
 # What grows, how far, and the study of one value.
 STUDIES = {
     "triangles": ([200, 2000, 20000, 200000, 1000000, 5000000, 10000000], triangles),
@@ -159,7 +165,8 @@ def main():
                   for what in ("render", "build")}
         if name == "threads":
             one, two = (row["render"] for row in results[name])
-            print(f"     2 threads are {one / two:.2f} times as fast as 1\n")
+            print(f"     2 threads are {one / two:.2f} times as fast as 1; two renders at once, of "
+                  f"one thread each, {threads_apart(tree):.2f} times\n")
             continue
         slopes = ", ".join(f"{what} {slope(curve):.2f}" for what, curve in curves.items())
         print(f"     slopes: {slopes}\n", flush=True)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 
 class Failed(Exception):
@@ -55,6 +56,13 @@ class Tree:
                                          "--json", "--out", out, env=env)
         return {**json.loads(text), "seconds": seconds, "memory": memory}
 
+    def render_twice(self, *arguments):
+        """What two renders at once tell, of one thread each: what the machine has for two."""
+        outs = [os.path.join(self.build, "bench", f"picture{i}.pfm") for i in range(2)]
+        with ThreadPoolExecutor(2) as pool:
+            return list(pool.map(
+                lambda out: self.render(*arguments, "--threads", 1, out=out), outs))
+
     def program(self, name, *arguments):
         command = [os.path.join(self.build, "tests/bench", name), *map(str, arguments)]
         return figures(run(command, self.env, cwd=self.top)[0])
@@ -87,19 +95,20 @@ def make_inputs(tree):
         mitsuba(tree.top, "--sky", sky)
 
 
-def find_intel(folder):
-    """Makes Intel's runtime from PyPI the only driver, where this Python has it."""
-    found = glob.glob(os.path.join(sys.prefix, "lib", "libintelocl.so"))
+def intel_environment(folder):
+    """What makes Intel's runtime from PyPI the only driver, where it is there; else nothing."""
+    prefix = os.environ.get("INTEL_OPENCL", sys.prefix)
+    found = glob.glob(os.path.join(prefix, "lib", "libintelocl.so"))
     if not found:
-        return
+        return {}
     vendors = os.path.join(folder, "vendors")
     shutil.rmtree(vendors, ignore_errors=True)
     os.makedirs(vendors)
     with open(os.path.join(vendors, "intel.icd"), "w", encoding="utf-8") as file:
         file.write(found[0] + "\n")
     libraries = os.path.dirname(found[0])
-    os.environ["OCL_ICD_VENDORS"] = vendors
-    os.environ["LD_LIBRARY_PATH"] = libraries + ":" + os.environ.get("LD_LIBRARY_PATH", "")
+    return {"OCL_ICD_VENDORS": vendors,
+            "LD_LIBRARY_PATH": libraries + ":" + os.environ.get("LD_LIBRARY_PATH", "")}
 
 
 def first_line(command, cwd):

@@ -27,7 +27,7 @@ def start(variant="llvm_ad_rgb"):
     except ImportError:
         sys.exit(f"mitsuba is not installed for {sys.executable}: pip install mitsuba")
     if variant.startswith("llvm") and "DRJIT_LIBLLVM_PATH" not in os.environ:
-        sys.exit("mitsuba finds no LLVM: install Debian's libllvm15, "
+        sys.exit("mitsuba finds no LLVM: install Debian's libllvm19, "
                  "or set DRJIT_LIBLLVM_PATH to a libLLVM.so")
     mitsuba.set_variant(variant)
     return mitsuba
