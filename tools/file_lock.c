@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "message.h"
@@ -72,10 +73,22 @@ static long take(file_lock *out, const char *path)
     return 0;
 }
 
+/* A process that was killed has ended only when the system has taken back its memory. */
+static long take_in_time(file_lock *out, const char *path)
+{
+    const struct timespec rest = {0, 20000000};
+    long holder = take(out, path);
+    for (int i = 0; i < 50 && holder != 0; i++) {
+        nanosleep(&rest, NULL);
+        holder = take(out, path);
+    }
+    return holder;
+}
+
 long file_lock_take(file_lock *out, const char *path)
 {
     *out = (file_lock){.path = lock_path(path)};
-    const long holder = out->path ? take(out, out->path) : 0;
+    const long holder = out->path ? take_in_time(out, out->path) : 0;
     if (!out->is_held)
         file_lock_release(out);
     return holder;

@@ -10,9 +10,13 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "status.h"
+
+/* Seconds in which the same signal is no second one. */
+static const double echo = 0.25;
 
 static const int caught[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
 
@@ -61,15 +65,26 @@ static void die_of(int signal_number)
     raise(signal_number);
 }
 
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
 static void *wait_for_signals(void *data)
 {
     int signal_number, first = 0;
+    double since = 0;
     (void)data;
     while (sigwait(&waited, &signal_number) == 0) {
         if (sigismember(&ignored, signal_number))
             continue;
         /* Impatience is Ctrl-C, or the same again; a service manager may send HUP with TERM. */
         const int is_again = signal_number == first || signal_number == SIGINT || first == SIGINT;
+        /* timeout(1) signals a process and then its group, and mpirun passes on what all hear. */
+        if (get(&pending) && signal_number == first && now() - since < echo)
+            continue;
         if (signal_number == SIGQUIT || (get(&pending) && is_again)) {
             die_of(signal_number);
         } else if (get(&pending)) {
@@ -82,6 +97,7 @@ static void *wait_for_signals(void *data)
         } else {
             set(&pending);
             first = signal_number;
+            since = now();
             say("\nrtc: stopping; interrupt again to stop at once\n",
                 "{\"severity\":\"note\",\"message\":\"stopping; interrupt again to stop at "
                 "once\"}\n");

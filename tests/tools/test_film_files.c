@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -292,6 +293,27 @@ static void a_checkpoint_is_of_one_process(void **state)
     expect_no_file("./link.rtpart.lock");
 }
 
+/* One that was killed may take a moment to end. */
+static void a_checkpoint_of_a_process_that_ends_is_waited_for(void **state)
+{
+    char said[4096];
+    (void)state;
+    running first =
+        start_rtc("s.rts --spp 10000000 --checkpoint ending.rtpart --every 0 --out ending.exr");
+    for (int waits = 0; waits < 3000 && access("ending.rtpart", F_OK) != 0; waits++)
+        nanosleep(&(struct timespec){0, 10000000}, NULL);
+    kill(first.pid, SIGSTOP);
+    const pid_t killer = fork();
+    if (killer == 0) {
+        nanosleep(&(struct timespec){0, 300000000}, NULL);
+        kill(first.pid, SIGKILL);
+        _exit(0);
+    }
+    RTC(STATUS_DONE, "--resume ending.rtpart --time 1e-6 --quiet");
+    assert_int_equal(running_finish(&first, said, sizeof said), 128 + SIGKILL);
+    waitpid(killer, NULL, 0);
+}
+
 /* --time is for one sitting: that of the beginning stays, and what comes later is not kept. */
 static void a_time_given_to_a_sitting_is_not_kept(void **state)
 {
@@ -446,6 +468,7 @@ int main(void)
         cmocka_unit_test(a_film_of_other_work_is_not_overwritten),
         cmocka_unit_test(a_film_is_not_overwritten_by_a_merge_without_it),
         cmocka_unit_test(a_checkpoint_is_of_one_process),
+        cmocka_unit_test(a_checkpoint_of_a_process_that_ends_is_waited_for),
         cmocka_unit_test(a_time_given_to_a_sitting_is_not_kept),
         cmocka_unit_test(a_render_without_end_tells_its_samples),
         cmocka_unit_test(devices_that_share_a_picture_take_the_time_that_passes),

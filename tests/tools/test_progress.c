@@ -496,6 +496,23 @@ static void second_interrupt_kills(void **state)
     expect_no_file("a.pfm");
 }
 
+/* As timeout(1) sends them, to a process and to its group. */
+static void a_signal_that_comes_twice_at_once_is_one(void **state)
+{
+    (void)state;
+    static char said[1 << 20];
+    scratch_write("a.rts", small_scene);
+    said[0] = '\0';
+    running running = start_rtc("a.rts --spp 16000000 --progress json --out a.pfm");
+    assert_int_equal(running_wait_for(&running, "\"render\"", said, sizeof said), 0);
+    kill(running.pid, SIGINT);
+    assert_int_equal(running_wait_for(&running, "stopping", said, sizeof said), 0);
+    kill(running.pid, SIGINT);
+    assert_int_equal(running_finish(&running, said, sizeof said), 130);
+    expect_file("a.pfm");
+    remove("a.pfm");
+}
+
 /* As a service manager sends them: both ask for the same. */
 static void a_hangup_with_a_termination_writes_the_picture(void **state)
 {
@@ -565,6 +582,7 @@ int main(void)
         TEST(interrupted_path_render_writes_its_samples),
         TEST(terminated_path_render_writes_its_samples),
         TEST(interrupted_photon_render_writes_its_samples),
+        TEST(a_signal_that_comes_twice_at_once_is_one),
         TEST(a_lost_connection_writes_the_samples),
         TEST(first_compile_keeps_reporting_and_quit_ends_what_follows),
         TEST(an_interrupt_while_photons_are_emitted_says_what_helps),
