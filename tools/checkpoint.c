@@ -22,7 +22,9 @@ int checkpoint_resume(command_line *arguments)
     const long holder = file_lock_take(&arguments->lock, resume->text);
     if (rt_film_load(&arguments->film, resume->text, arguments->memory, &error) != RT_OK) {
         int status = message_failure(&error);
-        if (access(resume->text, F_OK) != 0)
+        if (strcasecmp(outputs_extension(resume->text), ".rtp") == 0)
+            message_hint("`rtc photons SCENE --resume %s` goes on with a photon map", resume->text);
+        else if (access(resume->text, F_OK) != 0)
             message_hint("a render writes it from its first checkpoint on");
         return status;
     }

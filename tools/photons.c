@@ -18,9 +18,12 @@
 int photons_load(rt_photon_map **out, const char *path, const command_line *arguments)
 {
     rt_error error;
-    return rt_photon_map_load_in(out, path, arguments->memory, &error) == RT_OK
-               ? STATUS_DONE
-               : session_fail(&error);
+    if (rt_photon_map_load_in(out, path, arguments->memory, &error) == RT_OK)
+        return STATUS_DONE;
+    const int status = session_fail(&error);
+    if (outputs_is_film(path))
+        message_hint("a film: `rtc info` tells what it holds, `rtc merge` joins films");
+    return status;
 }
 
 int photons_output(const char **out, const command_line *arguments, const char *what,

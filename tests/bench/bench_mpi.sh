@@ -3,10 +3,11 @@
 #
 #   tests/bench/bench_mpi.sh RUNNER PROGRAM
 #
-# `make bench-mpi` calls it with each MPI that is installed. Renders a picture of SPP (144) samples a
-# pixel in turn, RUNS (default 5) times each, and prints the medians of the seconds from start to end and their ratio: 1 where sharing
-# costs nothing. A second process costs a few tenths of a second to start, however long the picture
-# takes. Run from the top directory, on two cores that nobody else uses.
+# `make bench-mpi` calls it with each MPI that is installed. Renders a picture of SPP (144) samples
+# a pixel in turn, RUNS (default 5) times each, and prints the medians of the seconds from start to
+# end and their ratio: 1 where sharing costs nothing. A second process costs a few tenths of a
+# second to start, however long the picture takes. Run from the top directory, on two cores that
+# nobody else uses.
 set -eu
 
 run=$1 program=$2

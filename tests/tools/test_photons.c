@@ -200,6 +200,21 @@ static void a_map_of_other_work_is_not_overwritten(void **state)
     expect_same_files("kept.rtp", "2.rtp");
 }
 
+/* Films and maps both go on from a checkpoint and are merged, by commands of their own. */
+static void films_and_maps_that_are_confused_are_told(void **state)
+{
+    (void)state;
+    succeed("photons a.rts --photons 10 --quiet --out a.rtp");
+    succeed("a.rts --spp 1 --part 1/1 --quiet --out a.rtpart");
+    run resumed = run_rtc("--resume a.rtp"), merged = run_rtc("photons merge a.rtpart --out b.rtp");
+    assert_int_not_equal(resumed.status, 0);
+    expect_err(&resumed, "`rtc photons SCENE --resume a.rtp` goes on with a photon map");
+    assert_int_not_equal(merged.status, 0);
+    expect_err(&merged, "`rtc merge` joins films");
+    run_free(&resumed);
+    run_free(&merged);
+}
+
 static void info_says_what_a_map_holds(void **state)
 {
     (void)state;
@@ -538,6 +553,7 @@ int main(void)
         IN_SCRATCH(a_stopped_emission_leaves_its_checkpoint),
         IN_SCRATCH(what_cannot_be_gone_on_with_is_refused),
         IN_SCRATCH(a_map_of_other_work_is_not_overwritten),
+        IN_SCRATCH(films_and_maps_that_are_confused_are_told),
         IN_SCRATCH(info_says_what_a_map_holds),
         IN_SCRATCH(results_are_json_when_asked),
         IN_SCRATCH(diff_tells_equal_maps_from_others),
