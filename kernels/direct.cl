@@ -12,7 +12,7 @@ KERNEL direct(const rt_params params, global const rt_scene_header *header,
     const uint item = (uint)get_global_id(0);
     if (item >= params.item_count)
         return;
-    const struct scene scene = scene_open(header);
+    const struct scene scene = scene_open_compensated(header, &params);
     const uint2 at = pixel_of_item(&params, params.first_item + item);
     const uint index = at.y * params.width + at.x;
     global rt_film_pixel *const plane = film_plane(film, &params);

@@ -114,7 +114,7 @@ KERNEL path(const rt_params params, global const rt_scene_header *header,
     const uint item = (uint)get_global_id(0) * params.pixels_an_item;
     if (item >= params.item_count)
         return;
-    const struct scene scene = scene_open(header);
+    const struct scene scene = scene_open_compensated(header, &params);
     sample_pixels(&scene, &params, item, min(item + params.pixels_an_item, params.item_count),
                   film_plane(film, &params));
 }

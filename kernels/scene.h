@@ -4,6 +4,15 @@
  * The host lays the scene out as rt_scene_header describes: a header, then tables, each at
  * a whole number of 64-byte rows from the start. Kernels take the header's address and call
  * scene_open once per work-item; the compiler keeps only the tables that are used.
+ *
+ * The lights have two distributions. Where each point that light sampling may find is found by BSDF
+ * sampling too, the part of the environment that BSDF sampling estimates well is left to it: light
+ * sampling takes the radiance above the mean alone, which for a constant environment is none (MIS
+ * compensation). Elsewhere every light has to be sampled in full.
+ *
+ * References:
+ *   Karlik, Sik, Vevoda, Skrivan, Krivanek: "MIS Compensation: Optimizing Sampling Techniques in
+ *     Multiple Importance Sampling", SIGGRAPH Asia 2019.
  */
 #ifndef RT_SCENE_H
 #define RT_SCENE_H
@@ -21,6 +30,7 @@ struct scene {
     global const rt_material_data *materials;
     global const rt_light_data *lights;
     global const rt_light_node *light_nodes;
+    global const rt_environment_data *environment;
     global const rt_target *targets;
     global const rt_transform_data *transforms;
     global const uint *indices;
@@ -48,6 +58,7 @@ static inline struct scene scene_open(global const rt_scene_header *header)
     scene.lights = (global const rt_light_data *)(base + (size_t)header->lights * RT_SCENE_ROW);
     scene.light_nodes =
         (global const rt_light_node *)(base + (size_t)header->light_nodes * RT_SCENE_ROW);
+    scene.environment = &header->environment;
     scene.targets = (global const rt_target *)(base + (size_t)header->targets * RT_SCENE_ROW);
     scene.transforms =
         (global const rt_transform_data *)(base + (size_t)header->transforms * RT_SCENE_ROW);
@@ -59,6 +70,23 @@ static inline struct scene scene_open(global const rt_scene_header *header)
         (global const rt_texture_data *)(base + (size_t)header->textures * RT_SCENE_ROW);
     scene.texels = base + (size_t)header->texels * RT_SCENE_ROW;
     scene.sobol = (global const uint4 *)(base + (size_t)header->sobol * RT_SCENE_ROW);
+    return scene;
+}
+
+/*
+ * As scene_open, for paths whose every vertex samples its BSDF as well, so that under MIS light
+ * sampling may leave light to that: not for photon maps, whose paths end at gather points.
+ */
+static inline struct scene scene_open_compensated(global const rt_scene_header *header,
+                                                  const rt_params *params)
+{
+    struct scene scene = scene_open(header);
+    if (params->estimator == RT_ESTIMATOR_MIS) {
+        global const uchar *base = (global const uchar *)header;
+        scene.light_nodes =
+            (global const rt_light_node *)(base + (size_t)header->compensated_nodes * RT_SCENE_ROW);
+        scene.environment = &header->compensated;
+    }
     return scene;
 }
 

@@ -361,7 +361,13 @@ typedef struct rt_scene_header {
     /* rt_light_node, twice as many as leaves, which are a power of two */
     rt_u32 light_nodes, light_leaves;
     rt_u32 targets, target_count; /* rt_target */
-    rt_u32 reserved[12];
+    /*
+     * What light sampling uses beside BSDF sampling: the environment's radiance above its mean, and
+     * the tree with the environment at what is left of its weight; see kernels/scene.h.
+     */
+    rt_environment_data compensated;
+    rt_u32 compensated_nodes; /* rt_light_node, as light_nodes */
+    rt_u32 reserved[3];
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 384);
 

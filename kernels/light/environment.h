@@ -8,7 +8,8 @@
  * The sampled density is bilinear as well, between values in proportion to radiance and the sine of
  * the polar angle. Bilinear interpolation is a sum of tents, one a pixel: a pixel is chosen from
  * the tables and a point of its tent taken, so that the density of a point is exactly the
- * interpolation of the pixels' probabilities. Where the radiance is not 0, neither is the density.
+ * interpolation of the pixels' probabilities. Where the radiance is not 0, neither is the density,
+ * unless MIS compensation leaves the direction to BSDF sampling (scene.h).
  * A tent that reaches over a pole is folded back, which is what clamping amounts to.
  */
 #ifndef RT_KERNELS_LIGHT_ENVIRONMENT_H
@@ -24,13 +25,13 @@
 
 static inline float2 environment_point(const struct scene *scene, float3 w)
 {
-    const float u = 0.5f + atan2(w.x, -w.z) * (0.5f * M_1_PI_F) + scene->header->environment.turn;
+    const float u = 0.5f + atan2(w.x, -w.z) * (0.5f * M_1_PI_F) + scene->environment->turn;
     return (float2)(u - floor(u), acos(clamp(w.y, -1.0f, 1.0f)) * M_1_PI_F);
 }
 
 static inline float3 environment_direction(const struct scene *scene, float2 point)
 {
-    const float turn = point.x - 0.5f - scene->header->environment.turn;
+    const float turn = point.x - 0.5f - scene->environment->turn;
     const float2 longitude = sin_cos(2.0f * RT_PI * (turn - floor(turn)));
     const float2 polar = sin_cos(RT_PI * point.y);
     return (float3)(polar.x * longitude.x, polar.y, -polar.x * longitude.y);
@@ -51,7 +52,7 @@ struct environment_cell {
 
 static inline struct environment_cell environment_cell_at(const struct scene *scene, float2 point)
 {
-    global const rt_environment_data *sky = &scene->header->environment;
+    global const rt_environment_data *sky = scene->environment;
     const int width = (int)sky->width, height = (int)sky->height;
     const float2 place = point * (float2)(width, height) - 0.5f;
     const float2 corner = floor(place);
@@ -67,7 +68,7 @@ static inline struct environment_cell environment_cell_at(const struct scene *sc
 
 static inline float3 environment_radiance_at(const struct scene *scene, float2 point)
 {
-    global const rt_environment_data *sky = &scene->header->environment;
+    global const rt_environment_data *sky = scene->environment;
     global const float4 *texels = (global const float4 *)environment_table(scene, sky->texels);
     const struct environment_cell cell = environment_cell_at(scene, point);
     global const float4 *above = texels + (size_t)cell.above * sky->width;
@@ -84,7 +85,7 @@ static inline float3 environment_radiance_at(const struct scene *scene, float2 p
 static inline float environment_row_share(const struct scene *scene,
                                           const struct environment_cell *cell, uint row)
 {
-    global const rt_environment_data *sky = &scene->header->environment;
+    global const rt_environment_data *sky = scene->environment;
     global const float *marginal = environment_table(scene, sky->marginal) + row;
     global const float *conditional =
         environment_table(scene, sky->conditional) + (size_t)row * (sky->width + 1u);
@@ -96,7 +97,7 @@ static inline float environment_row_share(const struct scene *scene,
 /* Density over the unit square. */
 static inline float environment_pdf_uv(const struct scene *scene, float2 point)
 {
-    global const rt_environment_data *sky = &scene->header->environment;
+    global const rt_environment_data *sky = scene->environment;
     const struct environment_cell cell = environment_cell_at(scene, point);
     const float share = mix(environment_row_share(scene, &cell, cell.above),
                             environment_row_share(scene, &cell, cell.below), cell.weight.y);
@@ -121,7 +122,7 @@ static inline uint environment_find(global const float *cdf, uint count, float u
 
 static inline float2 sample_environment_point(const struct scene *scene, float2 u)
 {
-    global const rt_environment_data *sky = &scene->header->environment;
+    global const rt_environment_data *sky = scene->environment;
     float rest_x, rest_y;
     const uint row =
         environment_find(environment_table(scene, sky->marginal), sky->height, u.y, &rest_y);
@@ -137,14 +138,14 @@ static inline float2 sample_environment_point(const struct scene *scene, float2 
 
 static inline bool has_environment(const struct scene *scene)
 {
-    return scene->header->environment.light != RT_NONE;
+    return scene->environment->light != RT_NONE;
 }
 
 /* The radiance that comes from direction w. */
 static inline float3 environment_radiance(const struct scene *scene, float3 w)
 {
-    const float3 emission = row3(scene->lights[scene->header->environment.light].emission);
-    return scene->header->environment.width
+    const float3 emission = row3(scene->lights[scene->environment->light].emission);
+    return scene->environment->width
                ? emission * environment_radiance_at(scene, environment_point(scene, w))
                : emission;
 }
@@ -155,20 +156,21 @@ static inline float3 environment_radiance(const struct scene *scene, float3 w)
  */
 static inline float environment_pdf_w(const struct scene *scene, float3 w)
 {
-    if (!scene->header->environment.width)
+    if (!scene->environment->width)
         return sphere_pdf_w();
     return environment_pdf_uv(scene, environment_point(scene, w)) /
            (2.0f * RT_PI * RT_PI * sqrt(w.x * w.x + w.z * w.z));
 }
 
 /*
- * Samples a direction, in proportion to radiance: writes what comes from there, returns 1 / pdf_w.
+ * Samples a direction, in proportion to radiance: writes what comes from there, returns 1 / pdf_w;
+ * 0: rounding made it a direction that is never sampled.
  */
 static inline float sample_environment(const struct scene *scene, float2 u, float3 *w,
                                        float3 *radiance)
 {
-    const float3 emission = row3(scene->lights[scene->header->environment.light].emission);
-    if (!scene->header->environment.width) {
+    const float3 emission = row3(scene->lights[scene->environment->light].emission);
+    if (!scene->environment->width) {
         *w = sample_sphere(u);
         *radiance = emission;
         return 1.0f / sphere_pdf_w();
@@ -176,8 +178,8 @@ static inline float sample_environment(const struct scene *scene, float2 u, floa
     const float2 point = sample_environment_point(scene, u);
     *w = environment_direction(scene, point);
     *radiance = emission * environment_radiance_at(scene, point);
-    return 2.0f * RT_PI * RT_PI * sqrt(w->x * w->x + w->z * w->z) /
-           environment_pdf_uv(scene, point);
+    const float pdf_uv = environment_pdf_uv(scene, point);
+    return pdf_uv > 0.0f ? 2.0f * RT_PI * RT_PI * sqrt(w->x * w->x + w->z * w->z) / pdf_uv : 0.0f;
 }
 
 #endif

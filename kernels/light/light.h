@@ -45,7 +45,7 @@ static inline float light_pdf_w(const struct scene *scene, global const rt_light
 /* The same for a ray from there that escapes in direction w; there is an environment. */
 static inline float environment_light_pdf_w(const struct scene *scene, float3 from, float3 w)
 {
-    return light_pmf(scene, scene->header->environment.light, from) * environment_pdf_w(scene, w);
+    return light_pmf(scene, scene->environment->light, from) * environment_pdf_w(scene, w);
 }
 
 /* ---- Sampling ---------------------------------------------------------------- */

@@ -55,10 +55,10 @@ static inline uint choose_light(const struct scene *scene, float3 from, float u,
     return scene->light_nodes[node].light;
 }
 
-/* The probability with which a light is chosen for a point. */
+/* The probability with which a light is chosen for a point; 0 for all where none has a weight. */
 static inline float light_pmf(const struct scene *scene, uint light, float3 from)
 {
-    float pmf = 1.0f;
+    float pmf = scene->light_nodes[1].weight > 0.0f ? 1.0f : 0.0f;
     for (uint node = scene->light_nodes[light].leaf; node > 1u; node >>= 1) {
         const float first = first_probability(scene->light_nodes + (node & ~1u), from);
         pmf *= node & 1u ? 1.0f - first : first;

@@ -43,7 +43,7 @@ typedef struct tree_builder {
     const rt_light_data *lights;
     const rt_u32 *prim_shape;
     size_t leaves;
-    double total_weight, least_radius;
+    double environment_share, total_weight, least_radius;
 } tree_builder;
 
 static int is_distant(rt_u32 kind)
@@ -166,8 +166,9 @@ static double weight_of(const tree_builder *p, const rt_light_data *light)
     case RT_LIGHT_SPOT:
         return pi / 3 * ((double)e[0] + e[1] + e[2]);
     case RT_LIGHT_POINT:
-    case RT_LIGHT_ENVIRONMENT:
         return 0.25 * light->power;
+    case RT_LIGHT_ENVIRONMENT:
+        return 0.25 * light->power * p->environment_share;
     case RT_LIGHT_QUAD:
     case RT_LIGHT_TRIANGLE:
     case RT_LIGHT_SPHERE:
@@ -305,13 +306,15 @@ static size_t list_centres(tree_builder *p, light_centre *centres, size_t count)
 
 rt_status rt_light_tree_fill(rt_light_node *nodes, const rt_scene *scene,
                              const rt_scene_header *header, const rt_light_data *lights,
-                             const rt_u32 *prim_shape, rt_memory *memory, rt_error *error)
+                             const rt_u32 *prim_shape, double environment_share, rt_memory *memory,
+                             rt_error *error)
 {
     tree_builder p = {.nodes = nodes,
                       .scene = scene,
                       .header = header,
                       .lights = lights,
-                      .prim_shape = prim_shape};
+                      .prim_shape = prim_shape,
+                      .environment_share = environment_share};
     size_t count = rt_lights_count(scene);
     p.leaves = rt_light_tree_leaves(scene);
     for (size_t i = 0; i < count; i++)

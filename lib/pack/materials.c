@@ -54,11 +54,16 @@ void rt_pack_environment(rt_packing *p)
 {
     const rt_scene_environment *from = &p->scene->environment;
     rt_environment_data *e = &p->header.environment;
+    rt_environment_data *above = &p->header.compensated;
     if (!from->texels)
         return;
     memcpy(rt_packing_table(p, e->texels), from->texels,
            (size_t)from->width * from->height * 4 * sizeof(float));
     e->mean = (float)rt_environment_tabulate(rt_packing_table(p, e->conditional),
                                              rt_packing_table(p, e->marginal), from->texels,
-                                             from->width, from->height);
+                                             from->width, from->height, 0);
+    const double floor = ((double)from->mean[0] + from->mean[1] + from->mean[2]) / 3;
+    above->mean = (float)rt_environment_tabulate(rt_packing_table(p, above->conditional),
+                                                 rt_packing_table(p, above->marginal), from->texels,
+                                                 from->width, from->height, floor);
 }

@@ -42,6 +42,22 @@ static void place_environment(rt_packing *p, size_t *rows)
     place(rows, &e->texels, NULL, width * height, 4 * sizeof(float));
     place(rows, &e->conditional, NULL, width ? height * (width + 1) : 0, sizeof(float));
     place(rows, &e->marginal, NULL, width ? height + 1 : 0, sizeof(float));
+    p->header.compensated = *e;
+    e = &p->header.compensated;
+    place(rows, &e->conditional, NULL, width ? height * (width + 1) : 0, sizeof(float));
+    place(rows, &e->marginal, NULL, width ? height + 1 : 0, sizeof(float));
+}
+
+/* The tree of lights; that of compensated weights is another where there is an environment. */
+static void place_light_trees(rt_packing *p, size_t *rows)
+{
+    rt_scene_header *h = &p->header;
+    h->light_leaves = (rt_u32)rt_light_tree_leaves(p->scene);
+    const size_t nodes = 2 * (size_t)h->light_leaves;
+    place(rows, &h->light_nodes, NULL, nodes, sizeof(rt_light_node));
+    h->compensated_nodes = h->light_nodes;
+    if (p->scene->environment.light != RT_NONE)
+        place(rows, &h->compensated_nodes, NULL, nodes, sizeof(rt_light_node));
 }
 
 /* Returns the number of rows of the buffer. */
@@ -62,8 +78,7 @@ static size_t place_tables(rt_packing *p)
     place(&rows, &h->materials, &h->material_count, scene->material_count,
           sizeof(rt_material_data));
     place(&rows, &h->lights, &h->light_count, p->light_count, sizeof(rt_light_data));
-    h->light_leaves = (rt_u32)rt_light_tree_leaves(scene);
-    place(&rows, &h->light_nodes, NULL, 2 * (size_t)h->light_leaves, sizeof(rt_light_node));
+    place_light_trees(p, &rows);
     place(&rows, &h->targets, &h->target_count, rt_targets_count(scene), sizeof(rt_target));
     place(&rows, &h->transforms, &h->transform_count, p->transform_count,
           sizeof(rt_transform_data));
@@ -96,6 +111,22 @@ static rt_status build(rt_packing *p, uint32_t threads, rt_stage_progress *progr
     return RT_OK;
 }
 
+/* Fills the trees of lights, from the tables of lights and shapes. */
+static rt_status fill_light_trees(rt_packing *p, rt_error *error)
+{
+    const rt_scene_header *h = &p->header;
+    const rt_light_data *lights = rt_packing_table(p, h->lights);
+    const rt_u32 *prim_shape = rt_packing_table(p, h->prim_shape);
+    const rt_environment_data *all = &h->environment, *above = &h->compensated;
+    const double left = all->width && all->mean > 0 ? (double)above->mean / all->mean : 0;
+    rt_status status = rt_light_tree_fill(rt_packing_table(p, h->light_nodes), p->scene, h, lights,
+                                          prim_shape, 1, p->memory, error);
+    if (status == RT_OK && h->compensated_nodes != h->light_nodes)
+        status = rt_light_tree_fill(rt_packing_table(p, h->compensated_nodes), p->scene, h, lights,
+                                    prim_shape, left, p->memory, error);
+    return status;
+}
+
 /* Allocates the buffer and fills its tables; *light_power is that of all lights, W. */
 static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
 {
@@ -126,9 +157,7 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
     rt_pack_environment(p);
     rt_sobol_table(rt_packing_table(p, p->header.sobol));
     memcpy(p->data, &p->header, sizeof p->header);
-    return rt_light_tree_fill(rt_packing_table(p, p->header.light_nodes), p->scene, &p->header,
-                              rt_packing_table(p, p->header.lights),
-                              rt_packing_table(p, p->header.prim_shape), p->memory, error);
+    return fill_light_trees(p, error);
 }
 
 rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel accel,

@@ -53,7 +53,7 @@ static void normalise(float *cdf, uint32_t count, double total)
 }
 
 double rt_environment_tabulate(float *conditional, float *marginal, const float *texels,
-                               uint32_t width, uint32_t height)
+                               uint32_t width, uint32_t height, double floor)
 {
     double total = 0;
     marginal[0] = 0;
@@ -63,7 +63,7 @@ double rt_environment_tabulate(float *conditional, float *marginal, const float 
         double sum = 0;
         row[0] = 0;
         for (uint32_t x = 0; x < width; x++, texel += 4) {
-            sum += ((double)texel[0] + texel[1] + texel[2]) / 3;
+            sum += fmax(((double)texel[0] + texel[1] + texel[2]) / 3 - floor, 0);
             row[x + 1] = (float)sum;
         }
         normalise(row, width, sum);

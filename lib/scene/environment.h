@@ -17,10 +17,11 @@ void rt_environment_mean(float mean[3], const float *texels, uint32_t width, uin
 
 /*
  * Fills conditional[height][width + 1] and marginal[height + 1], as rt_environment_data describes
- * them; each begins with 0 and ends with exactly 1. A row, or an image, without light gets a
- * uniform distribution. Returns the integral of the sampled function over the unit square.
+ * them; each begins with 0 and ends with exactly 1. Radiance counts as far as it exceeds `floor`. A
+ * row, or an image, without such light gets a uniform distribution. Returns the integral of the
+ * sampled function over the unit square.
  */
 double rt_environment_tabulate(float *conditional, float *marginal, const float *texels,
-                               uint32_t width, uint32_t height);
+                               uint32_t width, uint32_t height, double floor);
 
 #endif

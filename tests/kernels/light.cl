@@ -37,6 +37,30 @@ kernel void sample(global const rt_scene_header *header, uint seed, uint count, 
     out[4u * i + 3u] = (float4)(made.at.normal, made.lift);
 }
 
+/*
+ * Light sampling beside BSDF sampling, two rows an item: wi and 1 / pdf_w, 0 without a sample; the
+ * environment's density there, and in a direction uniform over the sphere.
+ */
+kernel void compensated(global const rt_scene_header *header, uint seed, uint count, float4 from,
+                        global float4 *out)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    rt_params params;
+    params.estimator = RT_ESTIMATOR_MIS;
+    const struct scene scene = scene_open_compensated(header, &params);
+    const float4 u = numbers(seed, i);
+    struct light_sample made;
+    made.wi = sample_sphere(u.xy);
+    const float anywhere = environment_light_pdf_w(&scene, from.xyz, made.wi);
+    if (!sample_light(&scene, from.xyz, u, &made))
+        made.inv_pdf = 0.0f;
+    const float again = environment_light_pdf_w(&scene, from.xyz, made.wi);
+    out[2u * i] = (float4)(made.wi, made.inv_pdf);
+    out[2u * i + 1u] = (float4)(again, anywhere, 0.0f, 0.0f);
+}
+
 /* Which light the number i + 1/2 of count chooses, and with which probability. */
 kernel void choose(global const rt_scene_header *header, uint count, float4 from,
                    global float2 *out)

@@ -71,6 +71,21 @@ void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], ligh
     draw_told(renderer, test_seed(seed), from, light_draws, light_draws, out);
 }
 
+void draw_compensated(rt_renderer *renderer, uint32_t seed, const float from[3],
+                      compensated_draw *out)
+{
+    float point[4] = {from[0], from[1], from[2], 0};
+    uint32_t seeded = test_seed(seed), count = light_draws;
+    cl_kernel kernel = test_kernel("light", "compensated");
+    cl_mem made = test_output(count * sizeof *out, out);
+    rt_arg args[] = {RT_ARG(renderer->scene), RT_ARG(seeded), RT_ARG(count), RT_ARG(point),
+                     RT_ARG(made)};
+    test_run(kernel, args, 5, count);
+    test_read(made, count * sizeof *out, out);
+    rt_buffer_release(test_device(), made);
+    rt_kernel_release(kernel);
+}
+
 void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out)
 {
     draw_many_emissions(renderer, test_seed(seed), light_draws, out);

@@ -39,6 +39,17 @@ void draw_many_emissions(rt_renderer *renderer, uint32_t seed, uint32_t count, e
 /* Fills out[light_draws] with samples of the lights seen from a point. */
 void draw_lights(rt_renderer *renderer, uint32_t seed, const float from[3], light_draw *out);
 
+/* Samples of the lights beside BSDF sampling, in a scene whose lights are all distant. */
+typedef struct compensated_draw {
+    float wi[3], inv_pdf;         /* sr; 0: no sample */
+    float again_pdf_w, any_pdf_w; /* of wi, and of a direction uniform over the sphere */
+    float unused[2];
+} compensated_draw;
+
+/* Fills out[light_draws], as draw_lights. */
+void draw_compensated(rt_renderer *renderer, uint32_t seed, const float from[3],
+                      compensated_draw *out);
+
 /* Fills out[light_draws] with starts of light paths. */
 void draw_emissions(rt_renderer *renderer, uint32_t seed, emission_draw *out);
 

@@ -16,6 +16,7 @@
 enum { n = light_draws, width = sky_width, height = sky_height, cells = width * height };
 
 static light_draw samples[n];
+static compensated_draw compensated[n];
 static emission_draw emissions[n];
 static double values[n];
 
@@ -115,6 +116,40 @@ static void an_even_sky_is_sampled_evenly(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* Beside BSDF sampling the density is that of the radiance above the mean. */
+static void beside_the_bsdf_the_sky_counts_above_its_mean(void **state)
+{
+    rt_renderer *renderer = sky(1, 100);
+    const double mean = whole_sky() / (4 * PI);
+    int above = 0, left_out = 0;
+    (void)state;
+    draw_compensated(renderer, 3, origin, compensated);
+    for (int i = 0; i < n; i++) {
+        const compensated_draw *s = compensated + i;
+        double u, v;
+        place(s->wi, 100, &u, &v);
+        assert_true(s->inv_pdf > 0);
+        assert_float_equal(s->again_pdf_w * s->inv_pdf, 1, 2e-3);
+        above += radiance(u, v) > mean;
+        values[i] = 4 * PI * s->any_pdf_w;
+        left_out += s->any_pdf_w == 0;
+    }
+    expect_mean(values, n, 1, 1e-3, "density of the whole sphere");
+    assert_true(above > 0.8 * n && left_out > 0.1 * n);
+    rt_renderer_destroy(renderer);
+}
+
+/* An even sky is left to the BSDF alone. */
+static void beside_the_bsdf_an_even_sky_is_not_sampled(void **state)
+{
+    rt_renderer *renderer = sky(0, 0);
+    (void)state;
+    draw_compensated(renderer, 3, origin, compensated);
+    for (int i = 0; i < n; i++)
+        assert_true(compensated[i].inv_pdf == 0 && compensated[i].any_pdf_w == 0);
+    rt_renderer_destroy(renderer);
+}
+
 /* Flux through a disc of radius 0.1 in the middle of the scene whose normal is y, from above. */
 static void expect_flux(double expected, const char *what)
 {
@@ -205,6 +240,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         statistical_test(samples_bring_the_radiance_of_their_direction),
         statistical_test(an_even_sky_is_sampled_evenly),
+        statistical_test(beside_the_bsdf_the_sky_counts_above_its_mean),
+        cmocka_unit_test(beside_the_bsdf_an_even_sky_is_not_sampled),
         statistical_test(light_paths_of_the_sky_carry_its_irradiance),
         statistical_test(light_paths_of_a_directional_light_carry_its_irradiance),
         cmocka_unit_test(distant_light_starts_beyond_all_planes),

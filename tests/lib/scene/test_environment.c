@@ -25,7 +25,8 @@ static void pixels_are_chosen_by_radiance_and_sine(void **state)
     double weight[height][width], total = 0;
     (void)state;
     make_image(texels);
-    double integral = rt_environment_tabulate(conditional[0], marginal, texels[0], width, height);
+    double integral =
+        rt_environment_tabulate(conditional[0], marginal, texels[0], width, height, 0);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             const float *t = texels[y * width + x];
@@ -50,11 +51,31 @@ static void distributions_run_from_zero_to_one(void **state)
         make_image(texels);
         if (black)
             memset(texels, 0, sizeof texels);
-        rt_environment_tabulate(conditional[0], marginal, texels[0], width, height);
+        rt_environment_tabulate(conditional[0], marginal, texels[0], width, height, 0);
         assert_true(marginal[0] == 0 && marginal[height] == 1);
         for (int y = 0; y < height; y++)
             assert_true(conditional[y][0] == 0 && conditional[y][width] == 1);
     }
+}
+
+/* With a floor, radiance counts above it; below, a pixel is not chosen. */
+static void radiance_counts_above_the_floor(void **state)
+{
+    static float texels[height * width][4], above[height * width][4];
+    static float conditional[2][height][width + 1], marginal[2][height + 1];
+    (void)state;
+    for (int i = 0; i < height * width; i++)
+        for (int c = 0; c < 3; c++) {
+            texels[i][c] = (float)(i % 7);
+            above[i][c] = fmaxf(texels[i][c] - 4, 0);
+        }
+    double a = rt_environment_tabulate(conditional[0][0], marginal[0], texels[0], width, height, 4);
+    double b = rt_environment_tabulate(conditional[1][0], marginal[1], above[0], width, height, 0);
+    assert_true(a == b && a > 0);
+    assert_memory_equal(conditional[0], conditional[1], sizeof conditional[0]);
+    assert_memory_equal(marginal[0], marginal[1], sizeof marginal[0]);
+    assert_true(
+        rt_environment_tabulate(conditional[0][0], marginal[0], texels[0], width, height, 6) == 0);
 }
 
 /* The same radiance from everywhere has itself as its mean; a white upper half has one half. */
@@ -78,6 +99,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_are_chosen_by_radiance_and_sine),
         cmocka_unit_test(distributions_run_from_zero_to_one),
+        cmocka_unit_test(radiance_counts_above_the_floor),
         cmocka_unit_test(the_mean_is_over_the_sphere),
     };
     return cmocka_run_group_tests_name("lib/scene/environment", tests, NULL, NULL);
