@@ -43,8 +43,10 @@ LIB_SRC := \
 	lib/accel/split.c lib/accel/tree.c lib/accel/wide.c \
 	lib/base/bytes.c lib/base/checksum.c lib/base/claim.c lib/base/crc32.c lib/base/error.c \
 	lib/base/exact_sum.c lib/base/file.c lib/base/frame.c lib/base/half.c lib/base/memory.c \
-	lib/base/parallel.c lib/base/progress.c lib/base/version.c \
+	lib/base/parallel.c lib/base/profile.c lib/base/profile_trace.c lib/base/progress.c \
+	lib/base/version.c \
 	lib/device/buffer.c lib/device/compile.c lib/device/compiler.c lib/device/device.c \
+	lib/device/events.c \
 	lib/device/kernel_cache.c \
 	lib/device/kernel_store.c lib/device/program.c lib/device/work_folder.c \
 	lib/image/compare.c lib/image/compare_blocks.c lib/image/difference.c lib/image/display.c \
@@ -105,8 +107,8 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc lib/photon/flann_shim.cc
 
 # The public interface, beside lib/rt.h.
-PUBLIC_H := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h render.h \
-            scene.h setting.h share.h)
+PUBLIC_H := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h profile.h \
+            render.h scene.h setting.h share.h)
 
 DSL_SRC := \
 	dsl/blocks.c dsl/budget.c dsl/build.c dsl/check.c dsl/expression.c dsl/function.c \
@@ -127,7 +129,7 @@ TOOL_SRC := \
 	tools/photons.c tools/photons_emit.c tools/photons_keep.c \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/recorded.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
-	tools/stats.c tools/untrusted.c
+	tools/stats.c tools/timing.c tools/untrusted.c
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
@@ -158,7 +160,7 @@ TESTS_QUICK := \
 	tests/kernels/test_texture.c tests/kernels/test_traverse.c tests/kernels/test_types.c \
 	tests/lib/accel/test_bvh.c \
 	tests/lib/base/test_checksum.c tests/lib/base/test_file.c tests/lib/base/test_half.c \
-	tests/lib/base/test_memory.c \
+	tests/lib/base/test_memory.c tests/lib/base/test_profile.c \
 	tests/lib/device/test_kernel_cache.c \
 	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
 	tests/lib/image/test_display.c \
@@ -219,7 +221,8 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
-	tests/tools/test_film_files.c tests/tools/test_mesh.c tests/tools/test_scenes.c
+	tests/tools/test_film_files.c tests/tools/test_mesh.c tests/tools/test_scenes.c \
+	tests/tools/test_timing.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
 	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c \

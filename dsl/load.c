@@ -30,10 +30,12 @@ static rt_status read_into(rt_scene **out, const char *text, const char *name,
     char cause[128] = "";
     const char *why = cause;
     rt_reader reader;
+    rt_profile *const profile = options ? options->profile : NULL;
     rt_status status = rt_reader_begin(&reader, options ? options : &silent, error);
     if (status != RT_OK)
         return status;
 
+    rt_profile_begin(profile, "load");
     rt_source *source = rt_sources_add(&reader.sources, name, NULL);
     if (!source)
         status = RT_ERROR_MEMORY;
@@ -54,6 +56,7 @@ static rt_status read_into(rt_scene **out, const char *text, const char *name,
     }
     status = rt_reader_finish(&reader, out, error);
     rt_reader_free(&reader);
+    rt_profile_end(profile);
     return status;
 }
 

@@ -476,8 +476,10 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
                         !reader->reports.out_of_memory;
     if (is_good)
         rt_scope_warn(&reader->scope, &all, &reader->reports);
+    rt_profile_begin(reader->options->profile, "check");
     if (is_good && reader->options->check)
         rt_origins_report(&reader->origins, &reader->sources, reader->scene, &reader->reports);
+    rt_profile_end(reader->options->profile);
     if (reader->fatal.status == RT_OK && !rt_reading_end(&reader->progress))
         cancel(reader);
     if (reader->fatal.status == RT_OK)

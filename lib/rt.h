@@ -83,6 +83,7 @@
 #define RT_RT_H
 
 #include "rt/base.h"
+#include "rt/profile.h"
 #include "rt/scene.h"
 #include "rt/device.h"
 #include "rt/field.h"

@@ -20,7 +20,11 @@ int checkpoint_resume(command_line *arguments)
         return STATUS_DONE;
     /* Before it is read, as a process that ends writes it once more. */
     const long holder = file_lock_take(&arguments->lock, resume->text);
-    if (rt_film_load(&arguments->film, resume->text, arguments->memory, &error) != RT_OK) {
+    rt_profile_begin(arguments->profile, "resume");
+    const rt_status loaded =
+        rt_film_load(&arguments->film, resume->text, arguments->memory, &error);
+    rt_profile_end(arguments->profile);
+    if (loaded != RT_OK) {
         int status = message_failure(&error);
         if (strcasecmp(outputs_extension(resume->text), ".rtp") == 0)
             message_hint("`rtc photons SCENE --resume %s` goes on with a photon map", resume->text);

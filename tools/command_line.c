@@ -339,7 +339,9 @@ int arguments_limit_memory(command_line *arguments)
                          ? (uint64_t)UNTRUSTED_MEMORY_MIB << 20
                          : 0;
     rt_error error;
-    return bytes == 0 || rt_memory_create(&arguments->memory, bytes, &error) == RT_OK
+    /* --stats tells how much it was, limit or not. */
+    const int is_counted = bytes > 0 || arguments->options[OPTION_STATS].given;
+    return !is_counted || rt_memory_create(&arguments->memory, bytes, &error) == RT_OK
                ? STATUS_DONE
                : message_failure(&error);
 }
@@ -347,6 +349,7 @@ int arguments_limit_memory(command_line *arguments)
 void arguments_free(command_line *arguments)
 {
     rt_film_destroy(arguments->film);
+    rt_profile_destroy(arguments->profile);
     file_lock_release(&arguments->lock);
     free(arguments->note);
     free(arguments->paths);

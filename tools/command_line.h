@@ -10,7 +10,10 @@
  * arguments_free in either case.
  */
 int arguments_parse(command_line *out, int argc, char **argv);
-/* Makes the count of what --memory limits; what strangers send has a limit in any case. */
+/*
+ * Makes the count of what --memory limits and --stats tells; what strangers send has a limit in
+ * any case.
+ */
 int arguments_limit_memory(command_line *arguments);
 void arguments_free(command_line *arguments);
 

@@ -150,7 +150,7 @@ static const struct {
      "where the signed difference goes; .png .ppm: white where equal, red where A is brighter, "
      "blue where B is; .exr .pfm: A - B as it is; may be repeated"},
     {OPTION_STATS, COMMAND_PHOTONS, "",
-     "print what the map holds on stdout, as `rtc photons info` does"},
+     "print what the map holds on stdout, as `rtc photons info` does, and how long it took"},
     {OPTION_JSON, COMMAND_RENDER, NULL,
      "print --stats as one JSON object; null stands for what is not a finite number"},
     {OPTION_JSON, COMMAND_CHECK, NULL,

@@ -128,7 +128,8 @@ static int show(const char *path, const command_line *arguments)
     if (strcmp(outputs_extension(path), ".rtp") == 0) {
         int status = photons_load(&map, path, arguments);
         if (status == STATUS_DONE)
-            status = json ? photons_print_info_json(path, map) : photons_print_info(path, map);
+            status =
+                json ? photons_print_info_json(path, map, NULL) : photons_print_info(path, map);
         rt_photon_map_destroy(map);
         return status;
     }

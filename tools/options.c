@@ -152,6 +152,10 @@ const option option_table[OPTION_COUNT] = {
                          "lines elsewhere; with json one JSON object per line"},
     [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "print what the render did and how long it took on stdout"},
+    [OPTION_PROFILE] = {"profile", "FILE", KIND_TEXT, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0,
+                        NULL,
+                        "write every stage, kernel launch and transfer with its time to NAME.json, "
+                        "which ui.perfetto.dev opens; of rtc-mpi, those of the first process"},
     [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR | KERNELS,
                         0, 0, NULL, 0, NULL, "log details to stderr"},
     [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | PHOTONS | MERGE, 0, 0,

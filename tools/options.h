@@ -62,6 +62,7 @@ typedef enum option_id {
     OPTION_MEMORY,
     OPTION_PROGRESS,
     OPTION_STATS,
+    OPTION_PROFILE,
     OPTION_VERBOSE,
     OPTION_QUIET,
     OPTION_HELP,
@@ -133,7 +134,8 @@ typedef struct command_line {
     size_t output_count;
     const char **operands;
     size_t operand_count;
-    rt_memory *memory;       /* by --memory, or NULL; owned */
+    rt_memory *memory;       /* by --memory or --stats, or NULL; owned */
+    rt_profile *profile;     /* by --stats or --profile, or NULL; owned */
     rt_film *film;           /* of --resume, or NULL; owned */
     char *note;              /* its text, which options point to; owned */
     char *paths;             /* those that film_place_enter made absolute; owned */

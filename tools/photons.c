@@ -98,7 +98,7 @@ static int info(const command_line *arguments)
         int now = photons_load(&map, arguments->operands[i], arguments);
         if (now == STATUS_DONE)
             now = arguments->options[OPTION_JSON].given
-                      ? photons_print_info_json(arguments->operands[i], map)
+                      ? photons_print_info_json(arguments->operands[i], map, NULL)
                       : photons_print_info(arguments->operands[i], map);
         rt_photon_map_destroy(map);
         status = status == STATUS_DONE ? now : status;

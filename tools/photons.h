@@ -34,7 +34,7 @@ int photons_output(const char **out, const command_line *arguments, const char *
 
 /* Prints what a map holds on stdout, as lines or as JSON. */
 int photons_print_info(const char *path, const rt_photon_map *map);
-int photons_print_info_json(const char *path, const rt_photon_map *map);
+int photons_print_info_json(const char *path, const rt_photon_map *map, const command_line *timed);
 
 /* Prints how two maps differ; *differ is whether they do. */
 int photons_print_difference(const rt_photon_map *a, const rt_photon_map *b, int *differ);

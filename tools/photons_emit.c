@@ -10,6 +10,7 @@
 #include "session.h"
 #include "light_shares.h"
 #include "status.h"
+#include "timing.h"
 #include "untrusted.h"
 
 /* Everything that one emission holds. */
@@ -60,6 +61,8 @@ static int load(emit_job *job)
                                  &job->inputs, &job->session.progress, job->session.arguments);
     if (status == STATUS_DONE)
         status = inputs_check(&job->inputs, job->map_path);
+    if (status == STATUS_DONE && session_value(&job->session, OPTION_PROFILE)->given)
+        status = inputs_check(&job->inputs, session_value(&job->session, OPTION_PROFILE)->text);
     if (status != STATUS_DONE)
         return status;
     rt_scene_get_options(job->scene, &job->render);
@@ -112,7 +115,11 @@ static int save(const emit_job *job)
 {
     rt_photon_map_info info;
     rt_error error;
-    if (rt_photon_map_save(job->map, job->map_path, &error) != RT_OK)
+    rt_profile *const profile = job->session.arguments->profile;
+    rt_profile_begin(profile, "write map");
+    const rt_status saved = rt_photon_map_save(job->map, job->map_path, &error);
+    rt_profile_end(profile);
+    if (saved != RT_OK)
         return session_fail(&error);
     rt_photon_map_get_info(job->map, &info);
     if (!job->session.quiet)
@@ -123,16 +130,24 @@ static int save(const emit_job *job)
             (unsigned long long)(info.paths[RT_PHOTONS_GLOBAL] + info.paths[RT_PHOTONS_CAUSTIC]));
     if (!session_value(&job->session, OPTION_STATS)->given)
         return STATUS_DONE;
-    return session_value(&job->session, OPTION_JSON)->given
-               ? photons_print_info_json(job->map_path, job->map)
-               : photons_print_info(job->map_path, job->map);
+    if (session_value(&job->session, OPTION_JSON)->given)
+        return photons_print_info_json(job->map_path, job->map, job->session.arguments);
+    int status = photons_print_info(job->map_path, job->map);
+    if (status == STATUS_DONE)
+        timing_print(job->session.arguments);
+    return status;
 }
 
 /* With --untrusted, gives up the rights that the emission does not need. */
 static int confine(const emit_job *job)
 {
-    const char *const outputs[] = {job->map_path, job->checkpoint.path};
-    const untrusted_needs needs = {job->scene_path, NULL, outputs, job->checkpoint.path ? 2 : 1, 1};
+    const char *outputs[3] = {job->map_path};
+    size_t count = 1;
+    if (job->checkpoint.path)
+        outputs[count++] = job->checkpoint.path;
+    if (session_value(&job->session, OPTION_PROFILE)->given)
+        outputs[count++] = session_value(&job->session, OPTION_PROFILE)->text;
+    const untrusted_needs needs = {job->scene_path, NULL, outputs, count, 1};
     return session_value(&job->session, OPTION_UNTRUSTED)->given ? untrusted_confine(&needs)
                                                                  : STATUS_DONE;
 }
@@ -157,6 +172,8 @@ int photons_emit(const command_line *arguments)
         status = emit(&job);
     if (status == STATUS_DONE)
         status = save(&job);
+    if (status == STATUS_DONE)
+        status = timing_write(arguments);
     if (status == STATUS_DONE && job.checkpoint.failed)
         status = STATUS_OUTPUT;
     file_lock_release(&job.checkpoint.lock);

@@ -9,6 +9,7 @@
 #include "message.h"
 #include "photons.h"
 #include "status.h"
+#include "timing.h"
 
 static void put_bool(const char *name, int value)
 {
@@ -55,7 +56,7 @@ static void put_list(const char *name, const rt_photon_map *map, const rt_photon
     putchar('}');
 }
 
-int photons_print_info_json(const char *path, const rt_photon_map *map)
+int photons_print_info_json(const char *path, const rt_photon_map *map, const command_line *timed)
 {
     rt_photon_map_info info;
     rt_photon_map_get_info(map, &info);
@@ -72,6 +73,8 @@ int photons_print_info_json(const char *path, const rt_photon_map *map)
     if (info.split)
         put_list("caustic", map, &info, RT_PHOTONS_CAUSTIC);
     ledger_print_json(rows, info.lights);
+    if (timed)
+        timing_print_json(timed);
     puts("}");
     free(rows);
     return STATUS_DONE;

@@ -23,6 +23,7 @@
 #include "scene_file.h"
 #include "session.h"
 #include "stats.h"
+#include "timing.h"
 #include "untrusted.h"
 
 /* Everything that one render holds. */
@@ -67,8 +68,12 @@ static int load_photon_map(render_job *job)
     const char *path = value(job, OPTION_PHOTON_MAP)->text;
     if (!value(job, OPTION_PHOTON_MAP)->given)
         return STATUS_DONE;
-    if (rt_photon_map_load_in(&job->photon_map, path, job->session.arguments->memory, &error) !=
-        RT_OK)
+    rt_profile *const profile = job->session.arguments->profile;
+    rt_profile_begin(profile, "read map");
+    const rt_status loaded =
+        rt_photon_map_load_in(&job->photon_map, path, job->session.arguments->memory, &error);
+    rt_profile_end(profile);
+    if (loaded != RT_OK)
         return session_fail(&error);
     inputs_add(&job->inputs, path);
     rt_photon_map_get_info(job->photon_map, &info);
@@ -108,6 +113,8 @@ static int load(render_job *job)
     status = set_options(job);
     for (size_t i = 0; i < job->outputs.count && status == STATUS_DONE; i++)
         status = inputs_check(&job->inputs, job->outputs.paths[i]);
+    if (status == STATUS_DONE && value(job, OPTION_PROFILE)->given)
+        status = inputs_check(&job->inputs, value(job, OPTION_PROFILE)->text);
     if (status != STATUS_DONE)
         return status;
     if (!job->session.quiet)
@@ -232,7 +239,10 @@ static int write_images(const render_job *job, int status)
                           : RT_TONEMAP_NONE;
     options.scene = job->scene_path;
     options.command = job->command;
+    rt_profile *const profile = job->session.arguments->profile;
+    rt_profile_begin(profile, "write images");
     int written = outputs_write(&job->outputs, job->film, &options);
+    rt_profile_end(profile);
     if (written != STATUS_DONE)
         return written;
     if (!job->session.quiet)
@@ -240,9 +250,11 @@ static int write_images(const render_job *job, int status)
     if (!job->session.quiet)
         say_how_good_it_is(job);
     if (value(job, OPTION_STATS)->given && value(job, OPTION_JSON)->given)
-        stats_print_json(job->scene, job->crew.devices[0], &job->options, job->film);
+        stats_print_json(job->scene, job->crew.devices[0], &job->options, job->film,
+                         job->session.arguments);
     else if (value(job, OPTION_STATS)->given)
-        stats_print(job->scene, job->crew.devices[0], &job->options, job->film);
+        stats_print(job->scene, job->crew.devices[0], &job->options, job->film,
+                    job->session.arguments);
     return status;
 }
 
@@ -252,7 +264,7 @@ static int confine(const render_job *job)
     size_t count = job->outputs.count;
     if (!value(job, OPTION_UNTRUSTED)->given)
         return STATUS_DONE;
-    const char **paths = malloc((count + 1) * sizeof *paths);
+    const char **paths = malloc((count + 2) * sizeof *paths);
     if (!paths) {
         message_error("out of memory");
         return STATUS_DEVICE;
@@ -261,6 +273,8 @@ static int confine(const render_job *job)
         paths[i] = job->outputs.paths[i];
     if (value(job, OPTION_CHECKPOINT)->given)
         paths[count++] = value(job, OPTION_CHECKPOINT)->text;
+    if (value(job, OPTION_PROFILE)->given)
+        paths[count++] = value(job, OPTION_PROFILE)->text;
     const untrusted_needs needs = {job->scene_path, value(job, OPTION_PHOTON_MAP)->text, paths,
                                    count, 1};
     int status = untrusted_confine(&needs);
@@ -335,7 +349,13 @@ static int run(render_job *job)
         status = make_film(job);
     if ((status == STATUS_DONE || status == STATUS_INTERRUPTED) && !is_worker(job))
         status = write_images(job, status);
+    rt_profile_begin(job->session.arguments->profile, "checkpoint");
     checkpoint_finish(&job->checkpoint);
+    rt_profile_end(job->session.arguments->profile);
+    if ((status == STATUS_DONE || status == STATUS_INTERRUPTED) && !is_worker(job)) {
+        const int written = timing_write(job->session.arguments);
+        status = written == STATUS_DONE ? status : written;
+    }
     if (job->checkpoint.failed && (status == STATUS_DONE || status == STATUS_INTERRUPTED))
         status = STATUS_OUTPUT;
     else if (!job->session.quiet && !is_worker(job))

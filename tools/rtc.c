@@ -10,6 +10,7 @@
 #include "message.h"
 #include "rt.h"
 #include "status.h"
+#include "timing.h"
 
 static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_RENDER] = command_render,   [COMMAND_CHECK] = command_check,
@@ -41,6 +42,8 @@ int main(int argc, char **argv)
 
     command_line arguments;
     int status = arguments_parse(&arguments, argc, argv);
+    if (status == STATUS_DONE && !arguments.options[OPTION_HELP].given)
+        status = timing_begin(&arguments);
     if (status == STATUS_DONE)
         status = arguments_limit_memory(&arguments);
     if (status == STATUS_DONE && !arguments.options[OPTION_HELP].given)

@@ -136,7 +136,8 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
                                .file = on_file,
                                .hooks = &hooks,
                                .root = root,
-                               .memory = arguments->memory};
+                               .memory = arguments->memory,
+                               .profile = arguments->profile};
     options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_CHECK_QUIETLY ||
                     purpose == SCENE_TO_RENDER;
     rt_error error;

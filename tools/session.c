@@ -169,8 +169,12 @@ int session_open_device(const session *s, rt_device **out, const char *select)
     options.work_group = (uint32_t)session_value(s, OPTION_WORK_GROUP)->count;
     options.memory = s->arguments->memory;
     options.compiler = own_program(s);
+    options.profile = s->arguments->profile;
     interrupt_defer();
-    if (rt_device_open(out, &options, &error) != RT_OK)
+    rt_profile_begin(options.profile, "open device");
+    const rt_status opened = rt_device_open(out, &options, &error);
+    rt_profile_end(options.profile);
+    if (opened != RT_OK)
         return session_fail(&error);
     if (session_value(s, OPTION_VERBOSE)->given) {
         rt_device_info info;

@@ -8,6 +8,7 @@
 #include "json.h"
 #include "ledger.h"
 #include "message.h"
+#include "timing.h"
 
 static void print_count(const char *name, uint64_t count)
 {
@@ -79,7 +80,7 @@ static void print_error(const rt_film_stats *stats)
 }
 
 void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options,
-                 const rt_film *film)
+                 const rt_film *film, const command_line *arguments)
 {
     rt_device_info info;
     rt_film_stats stats;
@@ -102,12 +103,13 @@ void stats_print(const rt_scene *scene, const rt_device *device, const rt_render
     if (options->mode == RT_MODE_PHOTON) {
         print_photons(&stats);
         print_ledger(film, ledger_print);
-        return;
+    } else {
+        print_seconds("render time", stats.render_seconds);
     }
-    print_seconds("render time", stats.render_seconds);
     if (stats.render_seconds > 0.0)
         printf("speed: %.3f Msamples/s\n",
                1e-6 * stats.spp * width * height / stats.render_seconds);
+    timing_print(arguments);
 }
 
 /* ---- For programs ------------------------------------------------------------- */
@@ -160,7 +162,8 @@ static void put_photons(const rt_film_stats *stats)
 }
 
 void stats_print_json(const rt_scene *scene, const rt_device *device,
-                      const rt_render_options *options, const rt_film *film)
+                      const rt_render_options *options, const rt_film *film,
+                      const command_line *arguments)
 {
     rt_device_info info;
     rt_film_stats stats;
@@ -185,5 +188,6 @@ void stats_print_json(const rt_scene *scene, const rt_device *device,
     } else {
         json_member("render_seconds", stats.render_seconds);
     }
+    timing_print_json(arguments);
     puts("}");
 }

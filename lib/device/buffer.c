@@ -89,9 +89,12 @@ rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t
 {
     if (bytes == 0)
         return RT_OK;
-    return rt_cl_check(
-        clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
+    cl_event event, *const wanted = rt_event_of(device, &event);
+    rt_status status = rt_cl_check(
+        clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, wanted),
         "reading from the device", error);
+    rt_event_transferred(device, event, "read", bytes);
+    return status;
 }
 
 rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_t bytes,
@@ -99,9 +102,12 @@ rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_
 {
     if (bytes == 0)
         return RT_OK;
-    return rt_cl_check(
-        clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, NULL),
+    cl_event event, *const wanted = rt_event_of(device, &event);
+    rt_status status = rt_cl_check(
+        clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, offset, bytes, host, 0, NULL, wanted),
         "writing to the device", error);
+    rt_event_transferred(device, event, "write", bytes);
+    return status;
 }
 
 rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes,
@@ -109,9 +115,12 @@ rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offse
 {
     if (bytes == 0)
         return RT_OK;
-    return rt_cl_check(
-        clEnqueueCopyBuffer(device->queue, from, to, 0, offset, bytes, 0, NULL, NULL),
-        "copying on the device", error);
+    cl_event event, *const wanted = rt_event_of(device, &event);
+    rt_status status =
+        rt_cl_check(clEnqueueCopyBuffer(device->queue, from, to, 0, offset, bytes, 0, NULL, wanted),
+                    "copying on the device", error);
+    rt_event_transferred(device, event, "copy", bytes);
+    return status;
 }
 
 /* What rt_buffer_map and rt_buffer_map_begin fail with. */
@@ -244,9 +253,11 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
         largest > 0 && largest < local)
         local = largest;
     size_t global = (items + local - 1) / local * local;
+    cl_event event, *const wanted = rt_event_of(device, &event);
     rt_status status = rt_cl_check(
-        clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL),
+        clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &global, &local, 0, NULL, wanted),
         "launching a kernel", error);
+    rt_event_launched(device, event, kernel, items);
     if (status == RT_OK)
         status = rt_cl_check(clFlush(device->queue), "launching a kernel", error);
     return status;
@@ -255,6 +266,7 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
 rt_status rt_device_finish(rt_device *device, rt_error *error)
 {
     rt_status status = rt_cl_check(clFinish(device->queue), "waiting for the device", error);
+    rt_events_book(device);
     if (device->has_new_kernels) {
         rt_driver_lock();
         rt_kernel_cache_keep();
@@ -267,4 +279,5 @@ rt_status rt_device_finish(rt_device *device, rt_error *error)
 void rt_device_settle(rt_device *device)
 {
     clFinish(device->queue); /* where that fails, the device is lost and reads nothing any more */
+    rt_events_book(device);
 }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/profile.h"
 #include "device/kernel_cache.h"
 
 enum {
@@ -252,8 +253,13 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
     if ((status = rt_cl_check(code, "creating an OpenCL context", error)) != RT_OK)
         goto out;
-    device->queue = clCreateCommandQueue(device->context, device->id, 0, &code);
+    device->queue = clCreateCommandQueue(device->context, device->id,
+                                         options->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     status = rt_cl_check(code, "creating an OpenCL command queue", error);
+    if (status == RT_OK && options->profile) {
+        device->profile = options->profile;
+        device->track = rt_profile_add_device(options->profile, device->info.name);
+    }
 out:
     rt_driver_unlock();
     if (status == RT_OK)
@@ -267,6 +273,7 @@ void rt_device_close(rt_device *device)
 {
     if (!device)
         return;
+    rt_events_book(device);
     rt_driver_lock();
     rt_kernel_cache_keep();
     for (int i = 0; i < device->program_count; i++)

@@ -13,7 +13,16 @@
 #include "device/kernel_source.h"
 #include "rt.h"
 
-enum { RT_PROGRAMS_MAX = 32, RT_KERNELS_MAX = 16 };
+enum { RT_PROGRAMS_MAX = 32, RT_KERNELS_MAX = 16, RT_PENDING_MAX = 64 };
+
+/* A command that was enqueued, and is to be booked in the profile. */
+typedef struct rt_pending {
+    cl_event event;
+    char name[48];
+    int is_transfer;
+    uint64_t amount; /* work-items, or bytes */
+    double asked;    /* rt_clock() */
+} rt_pending;
 
 struct rt_device {
     rt_memory *memory; /* that what is made on it counts in; NULL: none */
@@ -36,6 +45,12 @@ struct rt_device {
     int program_count;
     /* made for the first time since rt_device_finish: the driver may have compiled them */
     int has_new_kernels;
+    rt_profile *profile; /* of what the device does; NULL: none. The rest serves it alone */
+    uint32_t track;      /* the device's number in there */
+    double asked;        /* when the next command is enqueued, rt_clock() */
+    double last_end;     /* of its commands, likewise */
+    rt_pending pending[RT_PENDING_MAX];
+    uint32_t pending_count;
 };
 
 /* The name of an OpenCL error code; static storage. */
@@ -147,5 +162,17 @@ rt_status rt_device_finish(rt_device *device, rt_error *error);
  * device works in place.
  */
 void rt_device_settle(rt_device *device);
+
+/* ---- Commands in the profile (events.c) --------------------------------------------------- */
+
+/* Where the next command is to leave its event; NULL: nowhere, the device has no profile. */
+cl_event *rt_event_of(rt_device *device, cl_event *event);
+
+/* Notes a kernel or a transfer by that event; NULL: none was left. */
+void rt_event_launched(rt_device *device, cl_event event, cl_kernel kernel, size_t items);
+void rt_event_transferred(rt_device *device, cl_event event, const char *name, size_t bytes);
+
+/* Waits for the commands so far, and books them. */
+void rt_events_book(rt_device *device);
 
 #endif

@@ -64,10 +64,14 @@ static rt_status read_sums(const rt_render_job *job, const rt_pixel_samples *sta
 {
     rt_film *film = job->film;
     rt_status status = RT_OK;
+    rt_profile_begin(job->renderer->device->profile, "read film");
     if (state->kernel)
         status =
             rt_mirror_read(state->device, state->pixels, rt_film_bytes(film), film->pixels, error);
-    return status == RT_OK ? rt_first_hit_layers_read(job->layers, film, error) : status;
+    if (status == RT_OK)
+        status = rt_first_hit_layers_read(job->layers, film, error);
+    rt_profile_end(job->renderer->device->profile);
+    return status;
 }
 
 /* Writes the sums to the device. */
@@ -174,7 +178,10 @@ rt_status rt_pixel_samples_run(const rt_render_job *job, void *state, rt_error *
         return status;
     rt_work work = rt_work_begin(job->film, job->options);
     rt_work_time(&work, &job->film->stats.render_seconds);
+    rt_profile *const profile = work.profile = job->renderer->device->profile;
+    rt_profile_begin(profile, "trace");
     status = sample_film(job, samples, &work, &progress, error);
+    rt_profile_end(profile);
     if (status == RT_OK || status == RT_CANCELLED) {
         rt_status read = read_sums(job, samples, error);
         rt_status end = rt_stage_end(&progress, NULL);

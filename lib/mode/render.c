@@ -130,6 +130,17 @@ rt_status rt_film_resolve(rt_film *film, const rt_hooks *hooks, rt_error *error)
                                                               : status;
 }
 
+/* The checkpoint of all that was rendered. */
+static void save_last(const rt_render_job *job)
+{
+    rt_profile *const profile = job->renderer->device->profile;
+    rt_profile_begin(profile, "checkpoint");
+    job->options->checkpoint(job->options->checkpoint_user, job->film);
+    rt_profile_end(profile);
+    if (job->options->hand_over)
+        rt_film_clear(job->film);
+}
+
 /* Runs the mode. On RT_CANCELLED the film holds the samples so far. */
 static rt_status run(rt_render_job *job, rt_error *error)
 {
@@ -143,16 +154,18 @@ static rt_status run(rt_render_job *job, rt_error *error)
     job->layers = &layers;
     if (rt_mode_shows_light(job->options->mode) && !job->renderer->has_light)
         rt_warn(job->options->hooks, "the scene has no light: its picture is black");
+    rt_profile *const profile = job->renderer->device->profile;
+    rt_profile_begin(profile, "compile");
     status = prepare(mode, job, state, error);
+    rt_profile_end(profile);
     if (status == RT_OK)
         status = mode->run(job, state, error);
-    if ((status == RT_OK || status == RT_CANCELLED) && job->options->checkpoint) {
-        job->options->checkpoint(job->options->checkpoint_user, job->film);
-        if (job->options->hand_over)
-            rt_film_clear(job->film);
-    }
+    if ((status == RT_OK || status == RT_CANCELLED) && job->options->checkpoint)
+        save_last(job);
     if (status == RT_OK || status == RT_CANCELLED) {
+        rt_profile_begin(profile, "resolve");
         rt_status resolved = rt_film_resolve(job->film, job->options->hooks, error);
+        rt_profile_end(profile);
         status = resolved == RT_OK ? status : resolved;
     }
     if (mode->release)
@@ -202,8 +215,11 @@ static rt_status open_job(rt_render_job *job, int is_joined, rt_error *error)
     rt_status status = rt_renderer_aim(job->renderer, o, error);
     if (status == RT_OK)
         status = rt_film_create(&job->film, o, job->renderer->device->memory, error);
-    if (status == RT_OK && is_joined)
+    if (status == RT_OK && is_joined) {
+        rt_profile_begin(job->renderer->device->profile, "fingerprint");
         status = identify(job, error);
+        rt_profile_end(job->renderer->device->profile);
+    }
     if (status == RT_OK && o->resume)
         status = rt_film_continue(job->film, o->resume, error);
     if (status == RT_OK)
@@ -253,6 +269,7 @@ rt_status rt_render(rt_film **out, rt_renderer *renderer, const rt_render_option
         goto out;
     job.film->stats.build_seconds += renderer->build_seconds;
     status = run(&job, error);
+    rt_events_book(renderer->device);
     if (status == RT_CANCELLED) {
         *out = NULL;
         status = rt_fail(error, RT_CANCELLED, "cancelled");

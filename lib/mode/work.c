@@ -146,8 +146,10 @@ int rt_work_test_is_due(const rt_work *work)
 
 void rt_work_test(rt_work *work)
 {
+    rt_profile_begin(work->profile, "error");
     work->enough = rt_noise_test(&work->noise, work->film, length_done(work->film),
                                  work->options->target_error);
+    rt_profile_end(work->profile);
 }
 
 int rt_work_save_is_due(const rt_work *work)
@@ -174,7 +176,9 @@ int rt_work_save(rt_work *work)
 {
     const double began = rt_clock();
     rt_work_end_time(work);
+    rt_profile_begin(work->profile, "checkpoint");
     work->options->checkpoint(work->options->checkpoint_user, work->film);
+    rt_profile_end(work->profile);
     if (work->options->hand_over)
         rt_film_clear(work->film);
     if (work->seconds)

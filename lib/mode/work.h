@@ -24,6 +24,7 @@ typedef struct rt_work {
     int enough;       /* the error asked for is reached */
     int must_save;    /* next_units wants a checkpoint */
     rt_noise noise;
+    rt_profile *profile; /* of tests and checkpoints; set by the caller, or NULL */
 } rt_work;
 
 /* Begins with the units that the film lacks; its sums must be in host memory. */

@@ -24,10 +24,12 @@ typedef struct emission {
 static rt_status compile(emission *e, rt_error *error)
 {
     rt_stage_progress progress;
+    rt_device *device = e->renderer->device;
     rt_status status = rt_stage_begin(&progress, e->options.hooks, RT_STAGE_COMPILE);
+    rt_profile_begin(device->profile, "compile");
     if (status == RT_OK)
-        status = rt_emit_kernel_prepare(&e->kernel, e->renderer->device, e->renderer->scene,
-                                        &progress, error);
+        status = rt_emit_kernel_prepare(&e->kernel, device, e->renderer->scene, &progress, error);
+    rt_profile_end(device->profile);
     return status == RT_OK ? rt_stage_end(&progress, NULL) : status;
 }
 
@@ -39,7 +41,10 @@ static void save(emission *e)
     for (int kind = 0; kind < RT_PHOTON_KINDS; kind++)
         rt_photon_map_settle(e->map, (rt_photon_kind)kind);
     const double began = rt_clock();
+    rt_profile *const profile = e->renderer->device->profile;
+    rt_profile_begin(profile, "checkpoint");
     e->how->checkpoint(e->how->checkpoint_user, e->map);
+    rt_profile_end(profile);
     e->saved = rt_clock();
     e->saving = e->saved - began;
 }
@@ -124,10 +129,13 @@ static rt_status begin(emission *e, rt_error *error)
 {
     const rt_render_options *o = &e->options;
     e->map->settings = rt_photon_settings_of(o);
-    rt_status status = rt_scene_fingerprint(&e->map->settings.scene, e->renderer->device,
-                                            e->renderer->scene, error);
+    rt_device *device = e->renderer->device;
+    rt_profile_begin(device->profile, "fingerprint");
+    rt_status status =
+        rt_scene_fingerprint(&e->map->settings.scene, device, e->renderer->scene, error);
+    rt_profile_end(device->profile);
     if (status == RT_OK)
-        status = rt_emitter_create(&e->emitter, e->renderer->device, e->kernel, e->renderer->scene,
+        status = rt_emitter_create(&e->emitter, device, e->kernel, e->renderer->scene,
                                    o->light_shares, o->light_share_count, error);
     if (status == RT_OK)
         status = rt_emitter_make_ledger(e->emitter, &e->map->ledger, error);
@@ -144,7 +152,10 @@ static rt_status emit(emission *e, rt_error *error)
     e->saved = rt_clock();
     if (e->how->checkpoint)
         rt_emitter_after_batch(e->emitter, save_when_due, e);
+    rt_profile *const profile = e->renderer->device->profile;
+    rt_profile_begin(profile, "emit");
     status = emit_kinds(e, error);
+    rt_profile_end(profile);
     if (e->how->checkpoint &&
         (status == RT_OK || (status == RT_CANCELLED && count_paths(e->map) > 0)))
         save(e);
@@ -196,6 +207,7 @@ rt_status rt_photon_map_emit(rt_photon_map **out, rt_renderer *renderer,
     rt_status status = prepare(&e, error);
     if (status == RT_OK)
         status = emit(&e, error);
+    rt_events_book(renderer->device);
     if (status == RT_OK) {
         *out = e.map;
         e.map = NULL;

@@ -19,12 +19,36 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->options = scene->options;
 }
 
+static rt_status build(rt_renderer *renderer, const rt_scene *scene, rt_accel accel,
+                       rt_stage_progress *progress, rt_error *error)
+{
+    rt_device *device = renderer->device;
+    rt_profile_begin(device->profile, "build");
+    rt_status status =
+        rt_scene_pack(&renderer->image, scene, accel, device->threads, progress, error);
+    rt_profile_end(device->profile);
+    return status;
+}
+
+/* Finds the media around the camera and the lights. */
+static rt_status find_media(rt_renderer *renderer, const rt_scene *scene,
+                            rt_stage_progress *progress, rt_error *error)
+{
+    rt_device *device = renderer->device;
+    rt_profile_begin(device->profile, "media");
+    rt_status status = rt_enclosing_media_find(device, renderer->scene, scene, progress, error);
+    rt_profile_end(device->profile);
+    return status;
+}
+
 /* Gives the device its copy of the scene; a CPU device works on the host's memory. */
 static rt_status upload(rt_renderer *renderer, rt_error *error)
 {
     rt_device *device = renderer->device;
+    rt_profile_begin(device->profile, "upload");
     rt_status status = rt_mirror_create(device, &renderer->scene, renderer->image.bytes,
                                         renderer->image.data, "the scene", error);
+    rt_profile_end(device->profile);
     if (status == RT_OK && !device->info.is_cpu)
         rt_scene_image_free(&renderer->image);
     return status;
@@ -52,12 +76,11 @@ rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt_device
 
     rt_status status = rt_stage_begin(&progress, options->hooks, RT_STAGE_BUILD);
     if (status == RT_OK)
-        status = rt_scene_pack(&renderer->image, scene, options->accel, device->threads, &progress,
-                               error);
+        status = build(renderer, scene, options->accel, &progress, error);
     if (status == RT_OK)
         status = upload(renderer, error);
     if (status == RT_OK && rt_enclosing_media_are_possible(scene))
-        status = rt_enclosing_media_find(device, renderer->scene, scene, &progress, error);
+        status = find_media(renderer, scene, &progress, error);
     if (status == RT_OK)
         status = rt_stage_end(&progress, &renderer->build_seconds);
     if (status == RT_OK)

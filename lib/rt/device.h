@@ -3,6 +3,7 @@
 #define RT_RT_DEVICE_H
 
 #include "base.h"
+#include "profile.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -45,6 +46,7 @@ typedef struct rt_device_options {
      * they are compiled one after the other.
      */
     const char *compiler;
+    rt_profile *profile; /* what is done on the device is timed in it; NULL: nowhere */
 } rt_device_options;
 
 /*

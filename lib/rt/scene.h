@@ -3,6 +3,7 @@
 #define RT_RT_SCENE_H
 
 #include "base.h"
+#include "profile.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -77,7 +78,8 @@ typedef struct rt_load_options {
      * The text's own file is not asked about. No barrier against who changes the folder meanwhile
      */
     const char *root;
-    rt_memory *memory; /* the text counts in it while it is read, and the scene; NULL: nowhere */
+    rt_memory *memory;   /* the text counts in it while it is read, and the scene; NULL: nowhere */
+    rt_profile *profile; /* reading is timed in it; NULL: nowhere */
 } rt_load_options;
 
 /*

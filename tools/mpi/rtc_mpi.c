@@ -18,6 +18,7 @@
 #include "worker.h"
 #include "../status.h"
 #include "../team.h"
+#include "../timing.h"
 
 /* How many of this machine's processes come before this one. */
 static uint32_t number_here(void)
@@ -65,6 +66,8 @@ static int run_lead(lead *l, command_line *arguments)
         printf("rtc %s\n", rt_version());
         return STATUS_DONE;
     }
+    if (status == STATUS_DONE)
+        status = timing_begin(arguments);
     if (status == STATUS_DONE)
         status = arguments_limit_memory(arguments);
     if (status == STATUS_DONE)
@@ -118,7 +121,7 @@ static int run_worker(worker *w, command_line *arguments)
     if (status != STATUS_DONE || given[OPTION_HELP].given || given[OPTION_VERSION].given)
         return status;
     given[OPTION_QUIET].given = 1;
-    given[OPTION_VERBOSE].given = given[OPTION_STATS].given = 0;
+    given[OPTION_VERBOSE].given = given[OPTION_STATS].given = given[OPTION_PROFILE].given = 0;
     given[OPTION_PROGRESS].given = 1;
     given[OPTION_PROGRESS].choice = PROGRESS_NONE;
     char *note = worker_hello();

@@ -36,8 +36,10 @@ rt_status rt_photon_render_emit(rt_photon_render *r, uint32_t pass, rt_stage_pro
                                 rt_error *error)
 {
     const rt_render_options *o = r->job->options;
+    rt_profile *const profile = r->job->renderer->device->profile;
     rt_status status = RT_OK;
 
+    rt_profile_begin(profile, "emit");
     if (r->in_use == &r->map) {
         rt_photon_map_reset(&r->map);
         status = emit_kind(r, RT_PHOTONS_GLOBAL, o->photons, pass, progress, error);
@@ -46,6 +48,7 @@ rt_status rt_photon_render_emit(rt_photon_render *r, uint32_t pass, rt_stage_pro
     }
     if (status == RT_OK && o->final_gather > 0 && !r->in_use->settings.split)
         status = copy_caustics(&r->caustics, r->in_use->lists + RT_PHOTONS_GLOBAL, error);
+    rt_profile_end(profile);
     return status;
 }
 

@@ -286,6 +286,7 @@ static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, rt_u
     params.first_sample = sample;
     params.sample_count = 1;
     params.replicate = paths->replicate;
+    rt_profile_begin(paths->device->profile, "gather");
     for (uint32_t done = 0; done < count && status == RT_OK; done += params.item_count) {
         params.first_item = (uint32_t)items.first + done;
         params.item_count = count - done < batch ? count - done : (uint32_t)batch;
@@ -295,6 +296,7 @@ static rt_status each_batch(rt_eye_paths *paths, const rt_queries *queries, rt_u
         if (status == RT_OK)
             status = rt_stage_update(progress, (double)(done + params.item_count) / count);
     }
+    rt_profile_end(paths->device->profile);
     return status;
 }
 
@@ -390,12 +392,15 @@ rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t fi
 {
     rt_film *film = paths->job->film;
     const size_t pixels = rt_film_pixels(film);
+    rt_profile_begin(paths->device->profile, "gather");
     rt_status status =
         rt_mirror_read(paths->device, paths->pixels, pixels * sizeof *paths->pass_pixels,
                        paths->pass_pixels, error);
-    if (status != RT_OK)
-        return status;
-    rt_pass_film_join(film->pixels + plane * pixels, film->photon_sums, paths->pass_pixels,
-                      paths->pass_sums, pixels, paths->device->threads);
-    return add_first_hits(paths, first, error);
+    if (status == RT_OK) {
+        rt_pass_film_join(film->pixels + plane * pixels, film->photon_sums, paths->pass_pixels,
+                          paths->pass_sums, pixels, paths->device->threads);
+        status = add_first_hits(paths, first, error);
+    }
+    rt_profile_end(paths->device->profile);
+    return status;
 }

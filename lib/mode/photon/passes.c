@@ -46,9 +46,11 @@ static rt_status open_query(rt_photon_render *r, rt_query query, double squared_
     rt_gather_options within = r->options[query];
     within.k = 0;
     within.max_radius = (float)(r->first_radius[query] * sqrt(squared_factor));
+    rt_profile_begin(r->work.profile, "structure");
     rt_status status = rt_photon_render_open(r, query, &within, error);
     if (status == RT_OK)
         status = rt_photon_render_open_finer(r, query, &within, error);
+    rt_profile_end(r->work.profile);
     if (status == RT_OK && r->first_radii[query])
         limit_pixels(r, query, (float)squared_factor);
     return status;

@@ -153,8 +153,11 @@ static rt_status gather(rt_photon_render *r, rt_error *error)
     rt_stage_progress progress;
     rt_status status = rt_stage_begin(&progress, r->job->options->hooks, RT_STAGE_GATHER);
     rt_work_time(&r->work, &r->job->film->stats.gather_seconds);
+    rt_profile *const profile = r->job->renderer->device->profile;
+    rt_profile_begin(profile, "structure");
     if (status == RT_OK)
         status = rt_stage_run(&progress, open_queries, r);
+    rt_profile_end(profile);
     if (status != RT_OK) {
         if (status != RT_CANCELLED && error)
             *error = r->error;
@@ -219,8 +222,10 @@ static rt_status run(const rt_render_job *job, void *state, rt_error *error)
     if (status == RT_OK)
         warn(r);
     if (status == RT_OK || status == RT_CANCELLED) {
+        rt_profile_begin(r->work.profile, "read film");
         rt_status read = r->in_passes ? rt_first_hit_layers_read(job->layers, job->film, error)
                                       : rt_eye_paths_read(&r->eye_paths, error);
+        rt_profile_end(r->work.profile);
         status = read == RT_OK ? status : read;
     }
     return status;

@@ -35,6 +35,7 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
         status = rt_emitter_create(&r->emitter, renderer->device, r->emit, renderer->scene,
                                    o->light_shares, o->light_share_count, error);
     r->work = rt_work_begin(r->job->film, o);
+    r->work.profile = renderer->device->profile;
     return status;
 }
 

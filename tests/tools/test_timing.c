@@ -1,0 +1,161 @@
+/* test_timing.c - --stats and --profile: where the time of a render goes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "small_scene.h"
+#include "spawn.h"
+
+/* A number of a row of the tables: column 0 is behind the name. */
+static double cell(const run *run, const char *row, int column)
+{
+    char start[64];
+    snprintf(start, sizeof start, "\n  %s ", row);
+    char *at = strstr(run->out, start);
+    double value = -1;
+    if (!at)
+        fail_msg("no row '%s' in:\n%s", row, run->out);
+    at += strlen(start);
+    for (int i = 0; i <= column; i++)
+        value = strtod(at, &at);
+    return value;
+}
+
+static void stages_account_for_the_time(void **state)
+{
+    static const struct {
+        const char *options, *stage, *kernel;
+    } modes[] = {{"--mode path --spp 4096", "trace", "path"},
+                 {"--mode direct --spp 1024", "trace", "direct"},
+                 {"--mode normals --spp 1024", "trace", "first_hit"},
+                 {"--mode photon --spp 64 --photons 2e5", "emit", "photon_emit"},
+                 {"--mode photon --spp 64 --photons 2e5", "structure", "photon_camera"},
+                 {"--mode photon --spp 4 --passes 40 --photons 2e4", "gather", "gather_tree"}};
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        run run = run_rtc("a.rts --quiet --stats %s --out a.pfm", modes[i].options);
+        expect_status(&run, 0);
+        assert_true(cell(&run, "all", 1) == 100);
+        assert_true(cell(&run, modes[i].stage, 0) > 0);
+        assert_true(cell(&run, "other", 1) < 5);
+        /* A kernel is launched within the stages, and not longer than they take. */
+        assert_true(cell(&run, modes[i].kernel, 2) >= 1);
+        assert_true(cell(&run, modes[i].kernel, 0) <= cell(&run, "all", 0));
+        assert_true(stats_number(&run, "memory counted") > 0);
+        assert_true(stats_number(&run, "memory of the process") > 0);
+        run_free(&run);
+    }
+}
+
+static void timing_changes_no_byte(void **state)
+{
+    static const char *const modes[] = {"--spp 9", "--mode photon --photons 1e4",
+                                        "--mode photon --passes 3 --photons 1e4"};
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        run plain = run_rtc("a.rts --quiet %s --out a.pfm", modes[i]);
+        run timed = run_rtc("a.rts --quiet %s --stats --profile t.json --out b.pfm", modes[i]);
+        expect_status(&plain, 0);
+        expect_status(&timed, 0);
+        expect_same_files("a.pfm", "b.pfm");
+        expect_file("t.json");
+        run_free(&plain);
+        run_free(&timed);
+    }
+}
+
+/* An event of a trace. */
+typedef struct event {
+    double began, seconds;
+    int process, track;
+} event;
+
+/* Reads the events of a trace, one a line; returns how many. */
+static size_t read_trace(const char *path, event *out, size_t room)
+{
+    char line[512], *at;
+    size_t count = 0;
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    while (count < room && fgets(line, sizeof line, file))
+        if ((at = strstr(line, "\"ts\":")) &&
+            sscanf(at, "\"ts\":%lf,\"dur\":%lf,\"pid\":%d,\"tid\":%d", &out[count].began,
+                   &out[count].seconds, &out[count].process, &out[count].track) == 4)
+            count++;
+    fclose(file);
+    return count;
+}
+
+/* Whether two events of a track are apart, or one is within the other; times have three digits. */
+static int are_nested(const event *a, const event *b)
+{
+    const double a_end = a->began + a->seconds, b_end = b->began + b->seconds, unit = 0.002;
+    return a_end <= b->began + unit || b_end <= a->began + unit ||
+           (a->began <= b->began + unit && b_end <= a_end + unit) ||
+           (b->began <= a->began + unit && a_end <= b_end + unit);
+}
+
+static void events_of_a_trace_are_nested(void **state)
+{
+    static event events[2048];
+    size_t stages = 0;
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run run = run_rtc("a.rts --quiet --mode photon --passes 9 --photons 1e4 --profile t.json "
+                      "--out a.pfm");
+    expect_status(&run, 0);
+    const size_t count = read_trace("t.json", events, 2048);
+    for (size_t i = 0; i < count; i++) {
+        stages += events[i].process == 1;
+        assert_true(events[i].began >= 0 && events[i].seconds >= 0);
+        for (size_t j = 0; j < i; j++)
+            if (events[i].process == events[j].process && events[i].track == events[j].track)
+                assert_true(are_nested(events + i, events + j));
+    }
+    /* Passes emit, build and gather; each launches three kernels or more. */
+    assert_true(stages >= 9 * 3 && count - stages >= 9 * 4);
+    run_free(&run);
+}
+
+static void an_emission_is_timed_too(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    run text = run_rtc("photons a.rts --quiet --photons 1e5 --stats --profile t.json --out a.rtp");
+    expect_status(&text, 0);
+    assert_true(cell(&text, "emit", 0) > 0 && cell(&text, "write map", 0) > 0);
+    /* The first launch is that which compiles; the others are all there, too. */
+    assert_true(cell(&text, "photon_emit", 2) > 1);
+    assert_true(cell(&text, "photon_emit", 0) > 0.2 * cell(&text, "emit", 0));
+    expect_file("t.json");
+    run json = run_rtc("photons a.rts --quiet --photons 1e4 --stats --json --out b.rtp");
+    expect_status(&json, 0);
+    expect_out(&json, ",\"wall_seconds\":");
+    expect_out(&json, "{\"name\":\"emit\",\"count\":1,\"seconds\":");
+    expect_out(&json, "{\"name\":\"photon_emit\",\"count\":");
+    run_free(&text);
+    run_free(&json);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(stages_account_for_the_time),
+        TEST(timing_changes_no_byte),
+        TEST(events_of_a_trace_are_nested),
+        TEST(an_emission_is_timed_too),
+    };
+    return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+}
