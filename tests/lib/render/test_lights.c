@@ -38,15 +38,15 @@ static rt_scene *floor_scene(float width)
 }
 
 /* The mean over the film, which is half the irradiance over pi. */
-static double irradiance(rt_scene *scene, rt_mode mode)
+static double irradiance(rt_scene *scene, rt_mode mode, rt_direct direct)
 {
     rt_render_options options = {.width = side,
                                  .height = side,
                                  .mode = mode,
-                                 .spp = mode == RT_MODE_PHOTON ? 4 : 64,
-                                 .photons = 400000,
+                                 .spp = mode == RT_MODE_PHOTON && direct ? 4 : 64,
+                                 .photons = direct ? 400000 : 1000,
                                  .k = 400,
-                                 .direct = RT_DIRECT_PHOTONS,
+                                 .direct = direct,
                                  .seed = test_seed(3)};
     rt_renderer *renderer = NULL;
     rt_film *film = NULL;
@@ -63,13 +63,18 @@ static double irradiance(rt_scene *scene, rt_mode mode)
 
 /*
  * Path tracing to `close` of the exact value; the map, of which the film sees about 10^4 photons,
- * to 3 %.
+ * to 3 %, and so the shadow rays of gather points, which light sampling alone aims.
  */
 static void expect_irradiance(rt_scene *(*make)(void), double exact, double close)
 {
-    expect_close(irradiance(make(), RT_MODE_PATH), exact, close * exact, "irradiance");
-    expect_close(irradiance(make(), RT_MODE_DIRECT), exact, close * exact, "irradiance");
-    expect_close(irradiance(make(), RT_MODE_PHOTON), exact, 0.03 * exact, "irradiance");
+    expect_close(irradiance(make(), RT_MODE_PATH, RT_DIRECT_NEE), exact, close * exact,
+                 "irradiance");
+    expect_close(irradiance(make(), RT_MODE_DIRECT, RT_DIRECT_NEE), exact, close * exact,
+                 "irradiance");
+    expect_close(irradiance(make(), RT_MODE_PHOTON, RT_DIRECT_PHOTONS), exact, 0.03 * exact,
+                 "irradiance");
+    expect_close(irradiance(make(), RT_MODE_PHOTON, RT_DIRECT_NEE), exact, 0.03 * exact,
+                 "irradiance");
 }
 
 /* Seen 0.4 m wide, so that the light is nearly even there. */
@@ -173,9 +178,10 @@ static rt_scene *sky_behind_pane(void)
 static void distant_light_comes_through_clear_planes(void **state)
 {
     (void)state;
-    expect_close(irradiance(sky_behind_pane(), RT_MODE_PATH), 2 * pi, 5e-3 * 2 * pi, "irradiance");
-    expect_close(irradiance(sky_behind_pane(), RT_MODE_PHOTON), 2 * pi, 0.03 * 2 * pi,
+    expect_close(irradiance(sky_behind_pane(), RT_MODE_PATH, RT_DIRECT_NEE), 2 * pi, 5e-3 * 2 * pi,
                  "irradiance");
+    expect_close(irradiance(sky_behind_pane(), RT_MODE_PHOTON, RT_DIRECT_PHOTONS), 2 * pi,
+                 0.03 * 2 * pi, "irradiance");
 }
 
 /* A black disc over the middle of the floor, which emits downwards when it has radiance. */
@@ -215,8 +221,8 @@ static rt_scene *disc_light(void)
 static void discs_by_their_form_factor(void **state)
 {
     (void)state;
-    expect_close(irradiance(disc_light(), RT_MODE_PATH), pi * 4 * 0.25 / 1.25, 3e-3 * pi * 0.8,
-                 "irradiance");
+    expect_close(irradiance(disc_light(), RT_MODE_PATH, RT_DIRECT_NEE), pi * 4 * 0.25 / 1.25,
+                 3e-3 * pi * 0.8, "irradiance");
 }
 
 /*
@@ -232,7 +238,7 @@ static double past_disc(int is_point, float height)
         expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
     else
         add_disc(scene, 1, 0.1f, 100);
-    return irradiance(scene, RT_MODE_DIRECT);
+    return irradiance(scene, RT_MODE_DIRECT, RT_DIRECT_NEE);
 }
 
 static void shadows_are_cast_by_what_is_before_the_light(void **state)
@@ -258,7 +264,8 @@ static void point_lights_add_up(void **state)
         expect_ok(rt_scene_add_point_light(scene, &point, &error), &error);
         whole += intensities[i] / (heights[i] * heights[i]);
     }
-    expect_close(irradiance(scene, RT_MODE_DIRECT), whole, 0.03 * whole, "irradiance");
+    expect_close(irradiance(scene, RT_MODE_DIRECT, RT_DIRECT_NEE), whole, 0.03 * whole,
+                 "irradiance");
 }
 
 /* What the camera, a mirror and a clear pane show of an environment is the environment. */
