@@ -204,6 +204,9 @@ static void each_call_of_a_command(void **state)
         inject_tally sum = {0, 0, 0};
         if (getenv("RT_FAULT_JOB") && !strstr(commands[i].line, getenv("RT_FAULT_JOB")))
             continue;
+        /* What an earlier command wrote may be kept from this one. */
+        for (size_t o = 0; commands[i].outputs[o]; o++)
+            unlink(commands[i].outputs[o]);
         run_line(&right, commands[i].line);
         inject_all(&task, inject_step(11), &sum);
         print_message("%s (%d): %ld calls failed: %ld errors, %ld right results\n",
