@@ -89,7 +89,7 @@ LIB_SRC := \
 	lib/photon/photon_tree.c \
 	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
 	lib/render/compile.c lib/render/enclosing_media.c \
-	lib/render/prepare.c lib/render/renderer.c lib/render/trace.c \
+	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
 	lib/scene/camera.c lib/scene/environment.c lib/scene/find_lights.c \
 	lib/scene/find_nests.c lib/scene/find_solids.c lib/scene/findings.c \
 	lib/scene/inside.c lib/scene/light.c lib/scene/material.c lib/scene/mesh.c \
@@ -127,7 +127,7 @@ TOOL_SRC := \
 	tools/no_effect.c tools/number.c tools/options.c tools/other_work.c tools/outputs.c \
 	tools/part.c \
 	tools/photons.c tools/photons_emit.c tools/photons_keep.c \
-	tools/photons_info.c tools/photons_json.c tools/progress.c tools/recorded.c \
+	tools/photons_info.c tools/photons_json.c tools/progress.c tools/rays.c tools/recorded.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
 	tools/stats.c tools/timing.c tools/untrusted.c
 

@@ -4,6 +4,7 @@
  */
 #include "bsdf/bsdf.h"
 #include "camera/camera.h"
+#include "count.h"
 #include "entry.h"
 #include "camera/film.h"
 #include "accel/traverse.h"
@@ -100,6 +101,7 @@ KERNEL first_hit(const rt_params params, global const rt_scene_header *header,
         float weight;
         const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
         struct hit hit;
+        COUNT(&scene, RT_COUNTER_CAMERA, ray.direction.x);
         if (can_follow(&ray) && closest_hit(&scene, &ray, &hit)) {
             const struct first_hit first = first_hit_at(&scene, &ray, &hit);
             if (!add_hit(&sums, &first, weight))

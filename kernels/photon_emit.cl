@@ -17,6 +17,7 @@
  *   Jensen: "Global Illumination using Photon Maps", EGWR 1996.
  */
 #include "accel/traverse.h"
+#include "count.h"
 #include "entry.h"
 #include "material/contact.h"
 #include "photon/light_path.h"
@@ -29,6 +30,7 @@ static inline bool reach_surface(struct light_path *path, const struct scene *sc
                                  struct surface *surface, uint *end)
 {
     struct hit hit;
+    COUNT(scene, RT_COUNTER_PHOTON, path->ray.direction.x);
     if (!closest_hit(scene, &path->ray, &hit)) {
         *end = RT_END_ESCAPED;
         return false;

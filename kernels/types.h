@@ -327,6 +327,21 @@ RT_SIZE(rt_camera_data, 112);
  * 64-byte rows from the start of the buffer.
  */
 #define RT_SCENE_ROW 64u
+enum { RT_COUNTER_SLOTS = 64 }; /* rows; a power of two */
+
+/* What is counted, where kernels are built for it. */
+enum {
+    RT_COUNTER_CAMERA,       /* rays of camera paths: their first, */
+    RT_COUNTER_BOUNCE,       /* and those after it */
+    RT_COUNTER_SHADOW,       /* rays to sampled lights */
+    RT_COUNTER_PHOTON,       /* rays of light paths */
+    RT_COUNTER_NODES,        /* nodes of the hierarchy visited for nearest hits, */
+    RT_COUNTER_LEAVES,       /* and leaves */
+    RT_COUNTER_SHADOW_NODES, /* the same for any hit */
+    RT_COUNTER_SHADOW_LEAVES,
+    RT_COUNTERS
+};
+
 typedef struct rt_scene_header {
     /* rt_bvh_node; node 0 is the root, the trees of meshes follow */
     rt_u32 nodes, node_count;
@@ -367,7 +382,8 @@ typedef struct rt_scene_header {
      */
     rt_environment_data compensated;
     rt_u32 compensated_nodes; /* rt_light_node, as light_nodes */
-    rt_u32 reserved[3];
+    rt_u32 counters; /* rows of RT_COUNTERS counters of 64 bits, low word first; see count.h */
+    rt_u32 reserved[2];
 } rt_scene_header;
 RT_SIZE(rt_scene_header, 384);
 

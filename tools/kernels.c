@@ -13,7 +13,8 @@ int command_kernels(const command_line *arguments)
     const rt_hooks hooks = {.log = values[OPTION_VERBOSE].given ? message_of_log : NULL,
                             .warning = message_of_warning};
     const rt_device_options options = {.select = values[OPTION_DEVICE].text,
-                                       .work_group = (uint32_t)values[OPTION_WORK_GROUP].count};
+                                       .work_group = (uint32_t)values[OPTION_WORK_GROUP].count,
+                                       .count_rays = values[OPTION_COUNT_RAYS].given};
     rt_device *device = NULL;
     rt_error error;
     rt_status status = rt_device_open(&device, &options, &error);

@@ -93,5 +93,7 @@ void no_effect_warn(const command_line *arguments, const rt_render_options *opti
     warn_emission(arguments, options);
     if (is_given(arguments, OPTION_JSON) && !is_given(arguments, OPTION_STATS))
         message_warning("--json has no effect without --stats");
+    if (is_given(arguments, OPTION_COUNT_RAYS) && !is_given(arguments, OPTION_STATS))
+        message_warning("--count-rays has no effect without --stats, but on the time");
     warn_outputs(arguments, options, outputs);
 }

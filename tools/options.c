@@ -152,6 +152,10 @@ const option option_table[OPTION_COUNT] = {
                          "lines elsewhere; with json one JSON object per line"},
     [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
                       "print what the render did and how long it took on stdout"},
+    [OPTION_COUNT_RAYS] = {"count-rays", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | KERNELS, 0,
+                           0, NULL, 0, NULL,
+                           "build kernels that count rays by kind and what they visit, for "
+                           "--stats: the same picture, more slowly"},
     [OPTION_PROFILE] = {"profile", "FILE", KIND_TEXT, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0,
                         NULL,
                         "write every stage, kernel launch and transfer with its time to NAME.json, "

@@ -6,6 +6,7 @@
 #include "part.h"
 #include "photons.h"
 #include "photons_keep.h"
+#include "rays.h"
 #include "scene_file.h"
 #include "session.h"
 #include "light_shares.h"
@@ -133,8 +134,10 @@ static int save(const emit_job *job)
     if (session_value(&job->session, OPTION_JSON)->given)
         return photons_print_info_json(job->map_path, job->map, job->session.arguments);
     int status = photons_print_info(job->map_path, job->map);
-    if (status == STATUS_DONE)
+    if (status == STATUS_DONE) {
+        rays_print(job->session.arguments, &job->renderer, 1);
         timing_print(job->session.arguments);
+    }
     return status;
 }
 

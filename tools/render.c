@@ -250,10 +250,10 @@ static int write_images(const render_job *job, int status)
     if (!job->session.quiet)
         say_how_good_it_is(job);
     if (value(job, OPTION_STATS)->given && value(job, OPTION_JSON)->given)
-        stats_print_json(job->scene, job->crew.devices[0], &job->options, job->film,
+        stats_print_json(job->scene, job->crew.devices[0], &job->options, job->film, &job->crew,
                          job->session.arguments);
     else if (value(job, OPTION_STATS)->given)
-        stats_print(job->scene, job->crew.devices[0], &job->options, job->film,
+        stats_print(job->scene, job->crew.devices[0], &job->options, job->film, &job->crew,
                     job->session.arguments);
     return status;
 }

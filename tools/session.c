@@ -170,6 +170,7 @@ int session_open_device(const session *s, rt_device **out, const char *select)
     options.memory = s->arguments->memory;
     options.compiler = own_program(s);
     options.profile = s->arguments->profile;
+    options.count_rays = session_value(s, OPTION_COUNT_RAYS)->given;
     interrupt_defer();
     rt_profile_begin(options.profile, "open device");
     const rt_status opened = rt_device_open(out, &options, &error);

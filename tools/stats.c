@@ -8,6 +8,7 @@
 #include "json.h"
 #include "ledger.h"
 #include "message.h"
+#include "rays.h"
 #include "timing.h"
 
 static void print_count(const char *name, uint64_t count)
@@ -80,7 +81,7 @@ static void print_error(const rt_film_stats *stats)
 }
 
 void stats_print(const rt_scene *scene, const rt_device *device, const rt_render_options *options,
-                 const rt_film *film, const command_line *arguments)
+                 const rt_film *film, const crew *crew, const command_line *arguments)
 {
     rt_device_info info;
     rt_film_stats stats;
@@ -109,6 +110,7 @@ void stats_print(const rt_scene *scene, const rt_device *device, const rt_render
     if (stats.render_seconds > 0.0)
         printf("speed: %.3f Msamples/s\n",
                1e-6 * stats.spp * width * height / stats.render_seconds);
+    rays_print(arguments, crew->renderers, crew->count);
     timing_print(arguments);
 }
 
@@ -162,7 +164,7 @@ static void put_photons(const rt_film_stats *stats)
 }
 
 void stats_print_json(const rt_scene *scene, const rt_device *device,
-                      const rt_render_options *options, const rt_film *film,
+                      const rt_render_options *options, const rt_film *film, const crew *crew,
                       const command_line *arguments)
 {
     rt_device_info info;
@@ -188,6 +190,7 @@ void stats_print_json(const rt_scene *scene, const rt_device *device,
     } else {
         json_member("render_seconds", stats.render_seconds);
     }
+    rays_print_json(arguments, crew->renderers, crew->count);
     timing_print_json(arguments);
     puts("}");
 }

@@ -7,6 +7,7 @@
 
 #include "accel/boxes.h"
 #include "accel/intersect.h"
+#include "count.h"
 #include "math/lanes.h"
 #include "math/ray.h"
 #include "scene.h"
@@ -133,6 +134,7 @@ INLINE_ALWAYS bool next_leaf(const struct scene *scene, const struct ray_slabs *
     while (pop_nearer(stack, count, t, &child)) {
         uint mask = 1u;
         while (!(child & RT_CHILD_LEAF)) {
+            COUNT(scene, RT_COUNTER_NODES, slabs->near_shift.x);
             global const rt_bvh_node *node = scene->nodes + child;
             float8 entry;
             mask = intersect_boxes(node, slabs, t_min, t, &entry);
@@ -142,6 +144,7 @@ INLINE_ALWAYS bool next_leaf(const struct scene *scene, const struct ray_slabs *
             child = push_farther(stack, count, node, mask, &distances);
         }
         if (mask) {
+            COUNT(scene, RT_COUNTER_LEAVES, slabs->near_shift.x);
             *leaf = child;
             return true;
         }
@@ -173,6 +176,7 @@ INLINE_ALWAYS bool next_leaf_any(const struct scene *scene, const struct ray_sla
         uint child = stack[--(*count)];
         uint mask = 1u;
         while (!(child & RT_CHILD_LEAF)) {
+            COUNT(scene, RT_COUNTER_SHADOW_NODES, slabs->near_shift.x);
             global const rt_bvh_node *node = scene->nodes + child;
             float8 entry;
             mask = intersect_boxes(node, slabs, ray->t_min, ray->t_max, &entry);
@@ -181,6 +185,7 @@ INLINE_ALWAYS bool next_leaf_any(const struct scene *scene, const struct ray_sla
             child = push_later(stack, count, node, mask);
         }
         if (mask) {
+            COUNT(scene, RT_COUNTER_SHADOW_LEAVES, slabs->near_shift.x);
             *leaf = child;
             return true;
         }

@@ -368,6 +368,7 @@ static inline void follow_batch(const struct scene *scene, const rt_params *para
         if (!paths[i].alive)
             continue;
         numbers[i] = path_numbers(&paths[i]);
+        count_path_ray(scene, &paths[i]);
         if (!closest_hit(scene, &paths[i].ray, &hits[i]))
             add_environment(&paths[i], scene, params, purpose);
     }

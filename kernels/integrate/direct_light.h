@@ -61,7 +61,10 @@ static inline void add_connection(struct path *path, const struct scene *scene,
                                   const struct connection *connection)
 {
     const struct ray ray = connection->ray; /* a copy, as in path_extend */
-    if (largest3(connection->radiance) > 0.0f && !occluded(scene, &ray))
+    if (!(largest3(connection->radiance) > 0.0f))
+        return;
+    COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
+    if (!occluded(scene, &ray))
         path->radiance += connection->radiance;
 }
 

@@ -93,6 +93,7 @@ static inline void path_extend(const struct scene *scene, const rt_params *param
      */
     const struct ray ray = path->ray;
     struct hit hit;
+    count_path_ray(scene, path);
     if (!closest_hit(scene, &ray, &hit)) {
         add_environment(path, scene, params, purpose);
         path->alive = false;

@@ -4,6 +4,7 @@
 
 #include "accel/boxes.h"
 #include "bsdf/bsdf.h"
+#include "count.h"
 #include "math/ray.h"
 #include "sample/rng.h"
 #include "scene.h"
@@ -38,6 +39,12 @@ struct path {
     bool scattered;      /* by an event other than a delta one */
     bool rough;          /* by a rough event since the last diffuse one */
 };
+
+/* Counts the ray that the path is about to follow. */
+static inline void count_path_ray(const struct scene *scene, const struct path *path)
+{
+    COUNT(scene, path->depth == 1u ? RT_COUNTER_CAMERA : RT_COUNTER_BOUNCE, path->ray.direction.x);
+}
 
 /* A vertex joined with a sampled point of a light, before visibility is tested. */
 struct connection {

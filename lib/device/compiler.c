@@ -42,8 +42,15 @@ pid_t rt_compiler_begin(const rt_device *device, const char *program)
     snprintf(name, sizeof name, "%s", program);
     snprintf(number, sizeof number, "%" PRIu32, device->number);
     snprintf(group, sizeof group, "%" PRIu32, device->work_group);
-    char *const argv[] = {device->compiler, "kernels",      name,  "--device",
-                          number,           "--work-group", group, NULL};
+    char *const argv[] = {device->compiler,
+                          "kernels",
+                          name,
+                          "--device",
+                          number,
+                          "--work-group",
+                          group,
+                          device->count_rays ? "--count-rays" : NULL,
+                          NULL};
     return begin_silent(&process, argv) == 0 ? process : -1;
 }
 

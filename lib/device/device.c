@@ -236,6 +236,7 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
     if (!device)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a device");
     device->memory = options->memory;
+    device->count_rays = options->count_rays;
     if (options->compiler && !(device->compiler = copy_text(options->compiler))) {
         rt_device_close(device);
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a device");

@@ -45,6 +45,7 @@ struct rt_device {
     int program_count;
     /* made for the first time since rt_device_finish: the driver may have compiled them */
     int has_new_kernels;
+    int count_rays;      /* as in rt_device_options */
     rt_profile *profile; /* of what the device does; NULL: none. The rest serves it alone */
     uint32_t track;      /* the device's number in there */
     double asked;        /* when the next command is enqueued, rt_clock() */

@@ -76,7 +76,8 @@ static rt_status build_options(char *options, size_t size, const rt_device *devi
                     "asking the device how it rounds", error);
     if (status != RT_OK)
         return status;
-    snprintf(options, size, "-cl-std=CL1.2 -D RT_WIDTH=%u%s%s", device->width,
+    snprintf(options, size, "-cl-std=CL1.2 -D RT_WIDTH=%u%s%s%s", device->width,
+             device->count_rays ? " -D RT_COUNT_RAYS" : "",
              can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt"
                                                        : "",
              has_extension(device, "cl_nv_compiler_options") ? " -cl-nv-maxrregcount=128" : "");

@@ -91,6 +91,7 @@ static size_t place_tables(rt_packing *p)
     h->texel_rows = (rt_u32)rows - h->texels;
     place_environment(p, &rows);
     place(&rows, &h->sobol, &h->sobol_count, sobol_entries, 4 * sizeof(rt_u32));
+    place(&rows, &h->counters, NULL, RT_COUNTER_SLOTS, RT_SCENE_ROW);
     return rows;
 }
 

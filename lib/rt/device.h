@@ -46,6 +46,11 @@ typedef struct rt_device_options {
      * they are compiled one after the other.
      */
     const char *compiler;
+    /*
+     * 1: kernels are built that count rays, for rt_renderer_get_rays: slower ones, which give the
+     * same pictures
+     */
+    int count_rays;
     rt_profile *profile; /* what is done on the device is timed in it; NULL: nowhere */
 } rt_device_options;
 

@@ -228,6 +228,26 @@ RT_API rt_status rt_renderer_create(rt_renderer **out, const rt_scene *scene, rt
                                     const rt_renderer_options *options, rt_error *error);
 RT_API void rt_renderer_destroy(rt_renderer *renderer);
 
+/* Rays that were followed from a renderer's scene, each from its origin to its nearest hit. */
+typedef struct rt_ray_counts {
+    /*
+     * the first rays of camera paths, and their others; those of the layers of the first hit are
+     * camera rays too
+     */
+    uint64_t camera, bounce;
+    uint64_t shadow;        /* to sampled lights; those that carry no light are not followed */
+    uint64_t photon;        /* of light paths */
+    uint64_t nodes, leaves; /* of the hierarchy that camera, bounce and photon rays visited */
+    uint64_t shadow_nodes, shadow_leaves; /* that shadow rays did, and tests for what touches */
+} rt_ray_counts;
+
+/*
+ * All renders and emissions so far, whatever became of them. Fails with RT_ERROR_USAGE where the
+ * device counts no rays, see rt_device_options.
+ */
+RT_API rt_status rt_renderer_get_rays(const rt_renderer *renderer, rt_ray_counts *out,
+                                      rt_error *error);
+
 typedef enum rt_trace_kind {
     RT_TRACE_CLOSEST, /* the nearest hit */
     RT_TRACE_ANY      /* whether anything is hit: of rt_hit, only shape != RT_NONE is meaningful */

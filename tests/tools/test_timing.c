@@ -147,14 +147,83 @@ static void an_emission_is_timed_too(void **state)
     run_free(&json);
 }
 
+/* All of a wall fills the view; the light, which reflects nothing, is behind the camera. */
+static const char wall[] =
+    "camera { eye 0 0 0  look_at 0 0 1  fov 60 }\n"
+    "film { width 24  height 16 }\n"
+    "material white { kd 0.7 }\n"
+    "material black { kd 0 }\n"
+    "quad { corner -9 -9 2  edge1 0 18 0  edge2 18 0 0  material white }\n"
+    "quad { corner -1 -1 -1  edge1 2 0 0  edge2 0 2 0  material black  radiance 8 }\n";
+
+/*
+ * Every camera ray meets the wall, where it samples the light once; with paths of two rays, one
+ * bounce follows, that roulette does not end yet.
+ */
+static void rays_are_as_many_as_paths_have(void **state)
+{
+    const double paths = 24 * 16 * 8;
+    (void)state;
+    scratch_write("a.rts", wall);
+    for (int depth = 1; depth <= 2; depth++) {
+        run run = run_rtc("a.rts --quiet --spp 8 --max-depth %d --roulette-depth 4 --stats "
+                          "--count-rays --out a.pfm",
+                          depth);
+        expect_status(&run, 0);
+        assert_true(stats_number(&run, "camera rays") == paths);
+        assert_true(stats_number(&run, "bounce rays") == (depth - 1) * paths);
+        assert_true(stats_number(&run, "shadow rays") == (depth - 1) * paths);
+        assert_true(stats_number(&run, "photon rays") == 0);
+        assert_true(stats_number(&run, "mean length of a camera path") == depth);
+        run_free(&run);
+    }
+    run run =
+        run_rtc("a.rts --quiet --spp 8 --max-depth 2 --stats --json --count-rays --out b.pfm");
+    expect_status(&run, 0);
+    expect_out(&run, ",\"rays\":{\"camera\":3072,\"bounce\":3072,\"shadow\":3072,\"photon\":0,");
+    run_free(&run);
+}
+
+/* A light path of two segments ends where its only ray does. */
+static void rays_of_photons_are_counted(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", wall);
+    run run = run_rtc("photons a.rts --quiet --photons 5000 --max-depth 2 --stats --count-rays "
+                      "--out a.rtp");
+    expect_status(&run, 0);
+    assert_true(stats_number(&run, "photon rays") == 5000);
+    assert_true(stats_number(&run, "camera rays") == 0);
+    run_free(&run);
+}
+
+static void counting_changes_no_byte(void **state)
+{
+    static const char *const modes[] = {"--spp 9", "--mode direct --spp 9",
+                                        "--mode normals --spp 4",
+                                        "--mode photon --passes 3 --photons 1e4"};
+    (void)state;
+    scratch_write("a.rts", small_scene);
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        run plain = run_rtc("a.rts --quiet %s --out a.pfm", modes[i]);
+        run counted = run_rtc("a.rts --quiet %s --stats --count-rays --out b.pfm", modes[i]);
+        expect_status(&plain, 0);
+        expect_status(&counted, 0);
+        expect_same_files("a.pfm", "b.pfm");
+        assert_true(stats_number(&counted, "camera rays") > 0);
+        run_free(&plain);
+        run_free(&counted);
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(stages_account_for_the_time),
-        TEST(timing_changes_no_byte),
-        TEST(events_of_a_trace_are_nested),
+        TEST(stages_account_for_the_time),    TEST(timing_changes_no_byte),
+        TEST(rays_are_as_many_as_paths_have), TEST(rays_of_photons_are_counted),
+        TEST(counting_changes_no_byte),       TEST(events_of_a_trace_are_nested),
         TEST(an_emission_is_timed_too),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
