@@ -45,6 +45,7 @@ cat >"$work/expected" <<'END'
 ./usr/local/include/rt/film.h
 ./usr/local/include/rt/image.h
 ./usr/local/include/rt/photon.h
+./usr/local/include/rt/profile.h
 ./usr/local/include/rt/render.h
 ./usr/local/include/rt/rt.h
 ./usr/local/include/rt/scene.h
