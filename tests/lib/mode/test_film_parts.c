@@ -177,11 +177,20 @@ static void a_film_that_reached_its_error_stays_as_it_is(void **state)
     }
 }
 
+/* Of a small picture, still of four chunks a block, the last of them shorter. */
+static rt_render_options small_options(const film_render *r)
+{
+    rt_render_options o = film_render_options(r);
+    o.width = 19;
+    o.height = 11;
+    return o;
+}
+
 static void more_samples_or_passes_continue_a_finished_film(void **state)
 {
     (void)state;
     for (size_t i = 0; i < FILM_RENDERS; i++) {
-        rt_render_options o = film_render_options(film_renders + i);
+        rt_render_options o = small_options(film_renders + i);
         const int in_passes = o.passes > 1;
         rt_film *less = through_bytes(render(&o));
         rt_error error;
@@ -248,18 +257,13 @@ static rt_film *render_chunk(const rt_render_options *options, uint32_t spp, int
     return through_bytes(film);
 }
 
-/*
- * Of 19 samples the last three are of a block that goes on to 24, in one sequence. The picture is
- * small, of four chunks a block, the last of them shorter: it is rendered six times.
- */
+/* Of 19 samples the last three are of a block that goes on to 24, in one sequence. */
 static void an_unfinished_film_takes_other_samples_where_its_own_stay(void **state)
 {
     (void)state;
     for (size_t i = 0; i < FILM_RENDERS; i++) {
-        rt_render_options o = film_render_options(film_renders + i);
+        rt_render_options o = small_options(film_renders + i);
         const int is_cut = o.mode != RT_MODE_PHOTON;
-        o.width = 19;
-        o.height = 11;
         if (o.passes > 1)
             continue;
         rt_film *first = render_chunk(&o, 19, 0), *last = render_chunk(&o, 19, -1);
@@ -295,7 +299,7 @@ static void chunks_have_the_bits_of_a_render_at_once(void **state)
 {
     (void)state;
     for (size_t i = 0; i < FILM_RENDERS; i++) {
-        rt_render_options o = film_render_options(film_renders + i);
+        rt_render_options o = small_options(film_renders + i);
         rt_film *whole = render(&o), *joined = NULL;
         rt_error error;
         uint64_t chunks;
