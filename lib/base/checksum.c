@@ -30,6 +30,8 @@ void rt_checksum_add(rt_checksum *sum, const void *data, size_t size)
 {
     const uint8_t *at = data;
     const size_t held = (size_t)(sum->bytes % STEP);
+    if (size == 0) /* data may be NULL */
+        return;
     sum->bytes += size;
     if (held > 0) {
         const size_t some = size < STEP - held ? size : STEP - held;

@@ -59,7 +59,8 @@ static rt_status keep(band *b, const uint8_t *bytes, size_t size, rt_memory *mem
         b->data = data;
         b->room = room;
     }
-    memcpy(b->data, bytes, size);
+    if (size > 0)
+        memcpy(b->data, bytes, size);
     b->size = size;
     return RT_OK;
 }
