@@ -105,7 +105,7 @@ static void report(const char *what, const double *without, const double *with, 
 
 static void bench(rt_renderer *renderer, const rt_render_options *o, int pairs)
 {
-    double wall[2][pairs_max], cpu[2][pairs_max];
+    double wall[2][pairs_max] = {{0}}, cpu[2][pairs_max] = {{0}};
     keeper k = {0};
     struct stat file;
     rt_render_options warm = *o;

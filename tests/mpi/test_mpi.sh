@@ -95,12 +95,12 @@ raises() {
     for ranks in 1 3 4; do
         for what in --mode=path --variance '--mode photon --photons 5000'; do
             rm -f ./*.exr r.rtpart
-            what=$(echo "$what" | tr = ' ')
+            what=$(echo "$what" | tr '=' ' ')
             # shellcheck disable=SC2086
             set -- "$scene" --quiet $small $what
             "$rtc" "$@" --spp 29 --out alone.exr || bad=1
             together $((5 - ranks)) "$@" --spp 13 --out r.exr --checkpoint r.rtpart
-            together $ranks --resume r.rtpart --quiet --spp 29
+            together "$ranks" --resume r.rtpart --quiet --spp 29
             check "raised_by_$ranks ($what)" cmp alone.exr r.exr
         done
     done
