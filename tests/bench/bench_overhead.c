@@ -94,7 +94,7 @@ static double median(const double *values, int count)
 static void report(const char *what, const double *without, const double *with, int pairs,
                    double seconds)
 {
-    double more[pairs_max];
+    double more[pairs_max] = {0};
     for (int i = 0; i < pairs; i++)
         more[i] = with[i] / without[i] - 1;
     const double overhead = 100 * median(more, pairs);
