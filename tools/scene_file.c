@@ -98,11 +98,12 @@ static int parse_stdin(rt_scene **out, const rt_load_options *options, rt_status
     char *text = read_stdin(&status);
     if (!text)
         return status;
+    static const char what[] = "the text of the scene";
     const size_t size = strlen(text);
-    *result = rt_memory_take(options->memory, size, "the text of the scene", error);
+    *result = rt_memory_take(options->memory, size, what, error);
     if (*result == RT_OK) {
         *result = rt_scene_parse(out, text, scene_file_name("-"), options, error);
-        rt_memory_give(options->memory, size);
+        rt_memory_give(options->memory, size, what);
     }
     free(text);
     return STATUS_DONE;

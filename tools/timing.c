@@ -13,13 +13,14 @@
 #include "outputs.h"
 #include "status.h"
 
-enum { STAGES_MAX = 64, COMMANDS_MAX = 64 };
+enum { STAGES_MAX = 64, COMMANDS_MAX = 64, OWNERS_MAX = 64 };
 
 /* What is printed, read from a profile at one moment. */
 typedef struct timing {
     rt_profile_stage stages[STAGES_MAX]; /* the last: what no stage accounts for */
     rt_profile_command commands[COMMANDS_MAX];
-    size_t stage_count, command_count;
+    rt_memory_owner owners[OWNERS_MAX];
+    size_t stage_count, command_count, owner_count;
     double seconds;
     uint64_t counted, process; /* bytes, at most */
 } timing;
@@ -60,8 +61,12 @@ static void read_timing(timing *out, const command_line *arguments)
 {
     const rt_profile *profile = arguments->profile;
     rt_memory_info memory = {0};
-    if (arguments->memory)
+    out->owner_count = 0;
+    if (arguments->memory) {
         rt_memory_get_info(arguments->memory, &memory);
+        out->owner_count =
+            least(rt_memory_get_owners(arguments->memory, out->owners, OWNERS_MAX), OWNERS_MAX);
+    }
     out->counted = memory.most;
     out->process = process_memory();
     out->stage_count =
@@ -125,6 +130,33 @@ static void print_commands(const timing *t, int is_transfer, const char *title)
     }
 }
 
+static void print_owner(const timing *t, const rt_memory_owner *o)
+{
+    printf("  %-40s %9.1f  %6.1f  %13.1f\n", o->what, (double)o->at_most / (1 << 20),
+           100 * (double)o->at_most / (double)t->counted, (double)o->most / (1 << 20));
+}
+
+/*
+ * What was taken when all together took the most, and the most that each took at any time; those
+ * that never took a thousandth of it as one.
+ */
+static void print_owners(const timing *t)
+{
+    if (t->counted == 0)
+        return;
+    rt_memory_owner rest = {.what = "the rest"};
+    printf("%-42s %9s  %6s  %13s\n", "memory at its most", "MiB", "%", "own most, MiB");
+    for (size_t i = 0; i < t->owner_count; i++) {
+        if (t->owners[i].most >= t->counted / 1000) {
+            print_owner(t, t->owners + i);
+            continue;
+        }
+        rest.at_most += t->owners[i].at_most;
+        rest.most += t->owners[i].most;
+    }
+    print_owner(t, &rest);
+}
+
 void timing_print(const command_line *arguments)
 {
     timing t;
@@ -136,6 +168,7 @@ void timing_print(const command_line *arguments)
                    "time in kernels        seconds       %  launches   work-items       per s");
     print_commands(&t, 1,
                    "time in transfers      seconds       %     times        bytes       per s");
+    print_owners(&t);
     printf("memory counted: %.1f MiB at most\n", (double)t.counted / (1 << 20));
     printf("memory of the process: %.1f MiB at most\n", (double)t.process / (1 << 20));
 }
@@ -182,6 +215,13 @@ void timing_print_json(const command_line *arguments)
         if (i > 0)
             putchar(',');
         put_command(t.commands + i);
+    }
+    fputs("],\"memory\":[", stdout);
+    for (size_t i = 0; i < t.owner_count; i++) {
+        fputs(i > 0 ? ",{\"name\":" : "{\"name\":", stdout);
+        json_string(t.owners[i].what);
+        printf(",\"bytes\":%" PRIu64 ",\"most\":%" PRIu64 "}", t.owners[i].at_most,
+               t.owners[i].most);
     }
     printf("],\"memory_counted\":%" PRIu64 ",\"memory_process\":%" PRIu64, t.counted, t.process);
 }

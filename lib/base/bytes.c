@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char rt_bytes_owner[] = "a file";
+
 static rt_status reserve(rt_bytes *bytes, size_t capacity, rt_error *error)
 {
     if (capacity <= bytes->capacity)
@@ -11,14 +13,15 @@ static rt_status reserve(rt_bytes *bytes, size_t capacity, rt_error *error)
     /* Grow by at least a half, so that appending stays linear in time. */
     size_t grown = bytes->capacity + bytes->capacity / 2;
     if (grown < capacity || rt_memory_foresee(bytes->memory, (double)(grown - bytes->capacity),
-                                              "a file", NULL) != RT_OK)
+                                              rt_bytes_owner, NULL) != RT_OK)
         grown = capacity;
-    rt_status status = rt_memory_retake(bytes->memory, bytes->capacity, grown, "a file", error);
+    rt_status status =
+        rt_memory_retake(bytes->memory, bytes->capacity, grown, rt_bytes_owner, error);
     if (status != RT_OK)
         return status;
     uint8_t *data = realloc(bytes->data, grown);
     if (!data) {
-        rt_memory_give(bytes->memory, grown - bytes->capacity);
+        rt_memory_give(bytes->memory, grown - bytes->capacity, rt_bytes_owner);
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %zu bytes for a file", grown);
     }
     bytes->data = data;
@@ -49,6 +52,6 @@ rt_status rt_bytes_put(rt_bytes *bytes, uint64_t offset, const void *source, siz
 void rt_bytes_free(rt_bytes *bytes)
 {
     free(bytes->data);
-    rt_memory_give(bytes->memory, bytes->capacity);
+    rt_memory_give(bytes->memory, bytes->capacity, rt_bytes_owner);
     memset(bytes, 0, sizeof *bytes);
 }

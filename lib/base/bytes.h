@@ -7,6 +7,9 @@
 
 #include "base/memory.h"
 
+/* The owner under which they count. */
+extern const char rt_bytes_owner[];
+
 /* All zero is the empty array. */
 typedef struct rt_bytes {
     uint8_t *data;

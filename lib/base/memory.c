@@ -6,9 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* NAMED: no place, but a name says which owner it is */
+enum { OWNERS_MAX = 64, NAMED = OWNERS_MAX };
+
 struct rt_memory {
     pthread_mutex_t lock; /* of the following */
     rt_memory_info info;
+    rt_memory_owner owners[OWNERS_MAX];
+    uint32_t owner_count;
     int is_abandoned; /* destroyed by its owner, and still in use */
 };
 
@@ -17,6 +22,7 @@ typedef union header {
     struct {
         rt_memory *memory; /* NULL: it counts nowhere */
         size_t bytes;
+        uint32_t owner; /* its place among those of the memory */
     } of;
     long double alignment;
 } header;
@@ -59,6 +65,49 @@ void rt_memory_get_info(const rt_memory *memory, rt_memory_info *out)
     pthread_mutex_lock(lock);
     *out = memory->info;
     pthread_mutex_unlock(lock);
+}
+
+size_t rt_memory_get_owners(const rt_memory *memory, rt_memory_owner *out, size_t room)
+{
+    pthread_mutex_t *lock = (pthread_mutex_t *)&memory->lock;
+    pthread_mutex_lock(lock);
+    const size_t count = memory->owner_count;
+    memcpy(out, memory->owners, (count < room ? count : room) * sizeof *out);
+    pthread_mutex_unlock(lock);
+    return count;
+}
+
+/* The place of an owner, which may be new; those that find no room are one. */
+static uint32_t find_owner(rt_memory *memory, const char *what)
+{
+    uint32_t i = 0;
+    for (; i < memory->owner_count; i++)
+        if (strncmp(memory->owners[i].what, what, sizeof memory->owners[i].what - 1) == 0)
+            return i;
+    if (i == OWNERS_MAX)
+        return i - 1;
+    snprintf(memory->owners[i].what, sizeof memory->owners[i].what, "%s",
+             i + 1 < OWNERS_MAX ? what : "others");
+    return memory->owner_count++;
+}
+
+static uint64_t larger(uint64_t a, uint64_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Counts what was found to have room. */
+static void count_more(rt_memory *memory, uint32_t owner, uint64_t more)
+{
+    rt_memory_owner *o = memory->owners + owner;
+    memory->info.used += more;
+    o->used += more;
+    o->most = larger(o->most, o->used);
+    if (memory->info.used <= memory->info.most)
+        return;
+    memory->info.most = memory->info.used;
+    for (uint32_t i = 0; i < memory->owner_count; i++)
+        memory->owners[i].at_most = memory->owners[i].used;
 }
 
 /* "3.2 GiB", "512 bytes": a size in the unit that suits it. Returns out. */
@@ -108,27 +157,30 @@ rt_status rt_memory_take(rt_memory *memory, uint64_t bytes, const char *what, rt
     return rt_memory_retake(memory, 0, bytes, what, error);
 }
 
-rt_status rt_memory_retake(rt_memory *memory, uint64_t before, uint64_t after, const char *what,
-                           rt_error *error)
+/* For the owner at `place`, or that of the name `what` for NAMED; what stands in the message. */
+static rt_status retake(rt_memory *memory, uint64_t before, uint64_t after, uint32_t place,
+                        const char *what, rt_error *error)
 {
     rt_memory_info info;
+    const uint64_t more = after - before;
     if (!memory)
         return RT_OK;
-    if (after < before) {
-        rt_memory_give(memory, before - after);
-        return RT_OK;
-    }
-    const uint64_t more = after - before;
     pthread_mutex_lock(&memory->lock);
     const int has = has_room(memory, (double)more, &info);
-    if (has) {
-        memory->info.used += more;
-        if (memory->info.most < memory->info.used)
-            memory->info.most = memory->info.used;
-    }
+    if (has && more > 0)
+        count_more(memory, place == NAMED ? find_owner(memory, what) : place, more);
     pthread_mutex_unlock(&memory->lock);
     info.used -= before < info.used ? before : info.used;
     return has ? RT_OK : fail_limit(&info, (double)after, what, error);
+}
+
+rt_status rt_memory_retake(rt_memory *memory, uint64_t before, uint64_t after, const char *what,
+                           rt_error *error)
+{
+    if (after >= before)
+        return retake(memory, before, after, NAMED, what, error);
+    rt_memory_give(memory, before - after, what);
+    return RT_OK;
 }
 
 rt_status rt_memory_foresee(rt_memory *memory, double bytes, const char *what, rt_error *error)
@@ -142,16 +194,23 @@ rt_status rt_memory_foresee(rt_memory *memory, double bytes, const char *what, r
     return has ? RT_OK : fail_limit(&info, bytes, what, error);
 }
 
-void rt_memory_give(rt_memory *memory, uint64_t bytes)
+/* Gives back what an owner took: that at `place`, or that of the name `what` for NAMED. */
+static void give(rt_memory *memory, uint64_t bytes, uint32_t place, const char *what)
 {
-    if (!memory)
+    if (!memory || bytes == 0)
         return;
     pthread_mutex_lock(&memory->lock);
     memory->info.used -= bytes;
+    memory->owners[place == NAMED ? find_owner(memory, what) : place].used -= bytes;
     const int is_last = memory->is_abandoned && memory->info.used == 0;
     pthread_mutex_unlock(&memory->lock);
     if (is_last)
         release(memory);
+}
+
+void rt_memory_give(rt_memory *memory, uint64_t bytes, const char *what)
+{
+    give(memory, bytes, NAMED, what);
 }
 
 /* ---- Blocks ------------------------------------------------------------------ */
@@ -164,6 +223,16 @@ static size_t bytes_of(size_t count, size_t size)
         return 0;
     const size_t bytes = count * size;
     return sizeof(header) + (bytes > 0 ? bytes : 1);
+}
+
+static uint32_t owner_of(rt_memory *memory, const char *what)
+{
+    if (!memory)
+        return 0;
+    pthread_mutex_lock(&memory->lock);
+    const uint32_t owner = find_owner(memory, what);
+    pthread_mutex_unlock(&memory->lock);
+    return owner;
 }
 
 static void *allocate(rt_memory *memory, size_t count, size_t size, int is_zero, const char *what,
@@ -181,12 +250,13 @@ static void *allocate(rt_memory *memory, size_t count, size_t size, int is_zero,
         return NULL;
     header *block = is_zero ? calloc(1, bytes) : malloc(bytes);
     if (!block) {
-        rt_memory_give(memory, bytes);
+        rt_memory_give(memory, bytes, what);
         fail_exhausted(wanted, what, error);
         return NULL;
     }
     block->of.memory = memory;
     block->of.bytes = bytes;
+    block->of.owner = owner_of(memory, what);
     return block + 1;
 }
 
@@ -209,8 +279,9 @@ void rt_memory_free(void *block)
     header *head = (header *)block - 1;
     rt_memory *memory = head->of.memory;
     const size_t bytes = head->of.bytes;
+    const uint32_t owner = head->of.owner;
     free(head);
-    rt_memory_give(memory, bytes);
+    give(memory, bytes, owner, NULL);
 }
 
 void *rt_memory_resize(rt_memory *memory, void *block, size_t count, size_t size, const char *what,
@@ -226,17 +297,18 @@ void *rt_memory_resize(rt_memory *memory, void *block, size_t count, size_t size
         fail_exhausted(wanted, what, error);
         return NULL;
     }
-    if (bytes > before && rt_memory_retake(memory, before, bytes, what, error) != RT_OK)
+    const uint32_t owner = head->of.owner;
+    if (bytes > before && retake(memory, before, bytes, owner, what, error) != RT_OK)
         return NULL;
     head = realloc(head, bytes);
     if (!head) {
         if (bytes > before)
-            rt_memory_give(memory, bytes - before);
+            give(memory, bytes - before, owner, NULL);
         fail_exhausted(wanted, what, error);
         return NULL;
     }
     if (bytes < before)
-        rt_memory_give(memory, before - bytes);
+        give(memory, before - bytes, owner, NULL);
     head->of.bytes = bytes;
     return head + 1;
 }

@@ -60,6 +60,35 @@ static int has_memory(cl_mem_flags flags)
     return !(flags & CL_MEM_USE_HOST_PTR);
 }
 
+/* Takes the memory of a buffer, and makes room to note it. */
+static rt_status begin_count(rt_device *device, size_t bytes, const char *what, rt_error *error)
+{
+    if (!device->memory || bytes == 0)
+        return RT_OK;
+    rt_status status = rt_memory_grow(NULL, (void **)&device->counted, &device->counted_room,
+                                      device->counted_count + 1, sizeof *device->counted,
+                                      "the list of buffers", error);
+    return status == RT_OK ? rt_memory_take(device->memory, bytes, what, error) : status;
+}
+
+static void note_count(rt_device *device, cl_mem buffer, size_t bytes, const char *what)
+{
+    rt_counted_buffer *counted = device->counted + device->counted_count++;
+    counted->buffer = buffer;
+    counted->bytes = bytes;
+    snprintf(counted->what, sizeof counted->what, "%s", what);
+}
+
+static void end_count(rt_device *device, cl_mem buffer)
+{
+    for (size_t i = device->counted_count; i-- > 0;)
+        if (device->counted[i].buffer == buffer) {
+            rt_memory_give(device->memory, device->counted[i].bytes, device->counted[i].what);
+            device->counted[i] = device->counted[--device->counted_count];
+            return;
+        }
+}
+
 rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
                            void *host, const char *what, rt_error *error)
 {
@@ -70,18 +99,21 @@ rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, s
                        "%s takes %zu bytes, more than the %llu of a buffer on %s", what, bytes,
                        (unsigned long long)device->info.largest_buffer, device->info.name);
     const size_t size = bytes ? bytes : 1, counted = has_memory(flags) ? size : 0;
-    rt_status status = rt_memory_take(device->memory, counted, what, error);
+    rt_status status = begin_count(device, counted, what, error);
     if (status != RT_OK)
         return status;
     if (host && has_memory(flags))
         flags |= CL_MEM_COPY_HOST_PTR;
     cl_mem buffer = clCreateBuffer(device->context, flags, size, bytes ? host : NULL, &code);
     status = rt_cl_check(code, what, error);
-    if (status == RT_OK)
-        *out = buffer;
-    else
-        rt_memory_give(device->memory, counted);
-    return status;
+    if (status != RT_OK) {
+        rt_memory_give(device->memory, counted, what);
+        return status;
+    }
+    if (device->memory && counted > 0)
+        note_count(device, buffer, counted, what);
+    *out = buffer;
+    return RT_OK;
 }
 
 rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host,
@@ -211,15 +243,9 @@ rt_status rt_mirror_write(rt_device *device, cl_mem buffer, size_t bytes, const 
 
 void rt_buffer_release(rt_device *device, cl_mem buffer)
 {
-    cl_mem_flags flags = 0;
-    size_t size = 0;
     if (!buffer)
         return;
-    if (device->memory &&
-        clGetMemObjectInfo(buffer, CL_MEM_FLAGS, sizeof flags, &flags, NULL) == CL_SUCCESS &&
-        clGetMemObjectInfo(buffer, CL_MEM_SIZE, sizeof size, &size, NULL) == CL_SUCCESS &&
-        has_memory(flags))
-        rt_memory_give(device->memory, size);
+    end_count(device, buffer);
     clReleaseMemObject(buffer);
 }
 

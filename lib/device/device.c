@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/profile.h"
 #include "device/kernel_cache.h"
 
@@ -284,6 +285,7 @@ void rt_device_close(rt_device *device)
     if (device->context)
         clReleaseContext(device->context);
     rt_driver_unlock();
+    rt_memory_free(device->counted);
     free(device->compiler);
     free(device);
 }

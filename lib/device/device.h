@@ -24,8 +24,17 @@ typedef struct rt_pending {
     double asked;    /* rt_clock() */
 } rt_pending;
 
+/* A buffer that counts, and for what. */
+typedef struct rt_counted_buffer {
+    cl_mem buffer;
+    size_t bytes;
+    char what[48];
+} rt_counted_buffer;
+
 struct rt_device {
-    rt_memory *memory; /* that what is made on it counts in; NULL: none */
+    rt_memory *memory;          /* that what is made on it counts in; NULL: none */
+    rt_counted_buffer *counted; /* [counted_count] */
+    size_t counted_count, counted_room;
     cl_platform_id platform;
     cl_device_id id;
     cl_context context;

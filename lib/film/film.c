@@ -78,10 +78,11 @@ rt_status rt_film_make_first_hits(rt_film *film, rt_error *error)
     return RT_OK;
 }
 
+static const char what[] = "the film";
+
 /* Makes room for the sums and means. */
 static rt_status create_sums(rt_film *film, rt_error *error)
 {
-    static const char what[] = "the film";
     const rt_render_options *o = &film->options;
     const size_t count = rt_film_pixels(film), planes = film->units.replicates;
     const uint64_t reserved = bytes_reserved(o);
@@ -141,7 +142,7 @@ void rt_film_destroy(rt_film *film)
     rt_memory_free(film->rgb);
     free(film->hit_memory);
     rt_film_layers_free(&film->layers);
-    rt_memory_give(film->memory, film->reserved);
+    rt_memory_give(film->memory, film->reserved, what);
     free(film);
 }
 

@@ -195,6 +195,8 @@ static uint64_t chunk_bytes(const reader *r, exr_storage_t storage)
     return (uint64_t)width * (uint64_t)lines * r->image->channel_count * sizeof(float);
 }
 
+static const char decoding[] = "the decoding of an image";
+
 static rt_status read_image(reader *r, const source *s, rt_error *error)
 {
     exr_storage_t storage;
@@ -206,14 +208,14 @@ static rt_status read_image(reader *r, const source *s, rt_error *error)
     if (status != RT_OK)
         return status;
     const uint64_t buffers = 2 * chunk_bytes(r, storage);
-    status = rt_memory_take(s->file->memory, buffers, "the decoding of an image", error);
+    status = rt_memory_take(s->file->memory, buffers, decoding, error);
     if (status != RT_OK)
         return status;
     exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_result_t code =
         storage == EXR_STORAGE_TILED ? read_tiles(r, &pipeline) : read_scanlines(r, &pipeline);
     exr_decoding_destroy(r->context, &pipeline);
-    rt_memory_give(s->file->memory, buffers);
+    rt_memory_give(s->file->memory, buffers, decoding);
     if (code == EXR_ERR_SUCCESS)
         return RT_OK;
     return fail_input(r, rt_exr_reason(&s->message, code), error);

@@ -128,6 +128,8 @@ static rt_status fill_light_trees(rt_packing *p, rt_error *error)
     return status;
 }
 
+static const char what[] = "the scene";
+
 /* Allocates the buffer and fills its tables; *light_power is that of all lights, W. */
 static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
 {
@@ -136,12 +138,12 @@ static rt_status fill(rt_packing *p, double *light_power, rt_error *error)
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu rows of %u bytes",
                        rows, RT_SCENE_ROW);
     p->bytes = rows * RT_SCENE_ROW;
-    rt_status status = rt_memory_take(p->memory, p->bytes, "the scene", error);
+    rt_status status = rt_memory_take(p->memory, p->bytes, what, error);
     if (status != RT_OK)
         return status;
     if (posix_memalign(&p->data, buffer_alignment, p->bytes)) {
         p->data = NULL;
-        rt_memory_give(p->memory, p->bytes);
+        rt_memory_give(p->memory, p->bytes, what);
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory for a scene of %zu bytes", p->bytes);
     }
     memset(p->data, 0, p->bytes);
@@ -186,7 +188,7 @@ rt_status rt_scene_pack(rt_scene_image *out, const rt_scene *scene, rt_accel acc
     p.data = NULL;
 out:
     if (p.data)
-        rt_memory_give(p.memory, p.bytes);
+        rt_memory_give(p.memory, p.bytes, what);
     free(p.data);
     rt_hierarchy_free(&p.hierarchy);
     rt_memory_free(p.first_prim);
@@ -199,7 +201,7 @@ out:
 void rt_scene_image_free(rt_scene_image *image)
 {
     free(image->data);
-    rt_memory_give(image->memory, image->bytes);
+    rt_memory_give(image->memory, image->bytes, what);
     image->data = NULL;
     image->bytes = 0;
 }

@@ -39,7 +39,7 @@ static rt_status build(rt_flann_index *index, rt_error *error)
                        "the search tree of %zu photons could not be built: %s", index->count, why);
     const uint64_t used = rt_flann_bytes(index->tree);
     if (used < most) {
-        rt_memory_give(index->memory, most - used);
+        rt_memory_give(index->memory, most - used, what);
         index->taken = used;
     }
     return RT_OK;
@@ -78,7 +78,7 @@ void rt_flann_index_destroy(rt_flann_index *index)
     if (!index)
         return;
     rt_flann_free(index->tree);
-    rt_memory_give(index->memory, index->taken);
+    rt_memory_give(index->memory, index->taken, what);
     rt_memory_free(index->positions);
     rt_memory_free(index);
 }

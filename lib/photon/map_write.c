@@ -68,13 +68,15 @@ rt_status rt_photon_map_encode_in(rt_bytes *out, const rt_photon_map *map, rt_er
 {
     rt_memory *memory = map->lists[RT_PHOTONS_GLOBAL].memory;
     size_t size = file_size_of(map);
-    rt_status status = rt_memory_take(memory, size, "the file of the photon map", error);
+    rt_status status = rt_memory_foresee(memory, (double)size, "the file of the photon map", error);
+    if (status == RT_OK)
+        status = rt_memory_take(memory, size, rt_bytes_owner, error);
     if (status != RT_OK)
         return status;
     uint8_t *data = malloc(size);
     rt_writer w = {data};
     if (!data) {
-        rt_memory_give(memory, size);
+        rt_memory_give(memory, size, rt_bytes_owner);
         return rt_fail(error, RT_ERROR_MEMORY, "out of memory: %zu bytes for a file", size);
     }
     put_header(&w, map, size);

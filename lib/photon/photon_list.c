@@ -33,7 +33,7 @@ rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *er
         return status;
     rt_photon *photons = realloc(list->photons, capacity * sizeof *photons);
     if (!photons) {
-        rt_memory_give(list->memory, bytes);
+        rt_memory_give(list->memory, bytes, what);
         return rt_fail(error, RT_ERROR_MEMORY, "no memory for a map of %zu photons", needed);
     }
     list->photons = photons;
@@ -132,6 +132,6 @@ void rt_photon_list_reset(rt_photon_list *list)
 void rt_photon_list_clear(rt_photon_list *list)
 {
     free(list->photons);
-    rt_memory_give(list->memory, list->capacity * sizeof *list->photons);
+    rt_memory_give(list->memory, list->capacity * sizeof *list->photons, what);
     *list = (rt_photon_list){.memory = list->memory};
 }

@@ -180,6 +180,6 @@ rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *l
 void rt_photon_tree_free(rt_photon_tree_data *tree)
 {
     free(tree->block);
-    rt_memory_give(tree->memory, tree->bytes);
+    rt_memory_give(tree->memory, tree->bytes, what);
     *tree = (rt_photon_tree_data){0};
 }

@@ -62,10 +62,23 @@ typedef struct rt_memory_info {
     uint64_t used, most; /* bytes now, and the most at any time */
 } rt_memory_info;
 
+/* What takes memory, by the word under which it counts. */
+typedef struct rt_memory_owner {
+    char what[48];       /* as in rt_memory_take, cut off at the end; "others" is the last */
+    uint64_t used, most; /* bytes now, and the most of this owner at any time */
+    uint64_t at_most;    /* bytes when all took the most: over all owners, rt_memory_info.most */
+} rt_memory_owner;
+
 /* limit: bytes, 0 for none. The caller owns *out. */
 RT_API rt_status rt_memory_create(rt_memory **out, uint64_t limit, rt_error *error);
 RT_API void rt_memory_destroy(rt_memory *memory);
 RT_API void rt_memory_get_info(const rt_memory *memory, rt_memory_info *out);
+
+/*
+ * Writes up to `room` owners to out, in the order in which they first took memory. Returns how many
+ * there are, at most 64.
+ */
+RT_API size_t rt_memory_get_owners(const rt_memory *memory, rt_memory_owner *out, size_t room);
 
 /*
  * Counts memory of the caller's own, and gives it back; `what` needs it, as in "the window", in the
@@ -73,7 +86,7 @@ RT_API void rt_memory_get_info(const rt_memory *memory, rt_memory_info *out);
  */
 RT_API rt_status rt_memory_take(rt_memory *memory, uint64_t bytes, const char *what,
                                 rt_error *error);
-RT_API void rt_memory_give(rt_memory *memory, uint64_t bytes);
+RT_API void rt_memory_give(rt_memory *memory, uint64_t bytes, const char *what);
 
 /* ---- Progress and log ------------------------------------------------------------------------ */
 

@@ -1,4 +1,5 @@
 /* test_timing.c - --stats and --profile: where the time of a render goes. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,6 +30,20 @@ static double cell(const run *run, const char *row, int column)
     return value;
 }
 
+/* The sum of the percents of the owners of memory; their names have no digits. */
+static double shares_of_memory(const run *run)
+{
+    const char *line = strstr(run->out, "\nmemory at its most");
+    double sum = 0;
+    assert_non_null(line);
+    while ((line = strchr(line + 1, '\n')) && strncmp(line, "\n  ", 3) == 0) {
+        char *at = NULL;
+        strtod(line + strcspn(line, "0123456789"), &at);
+        sum += strtod(at, NULL);
+    }
+    return sum;
+}
+
 static void stages_account_for_the_time(void **state)
 {
     static const struct {
@@ -52,6 +67,7 @@ static void stages_account_for_the_time(void **state)
         assert_true(cell(&run, modes[i].kernel, 0) <= cell(&run, "all", 0));
         assert_true(stats_number(&run, "memory counted") > 0);
         assert_true(stats_number(&run, "memory of the process") > 0);
+        assert_true(fabs(shares_of_memory(&run) - 100) < 1);
         run_free(&run);
     }
 }

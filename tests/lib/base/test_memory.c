@@ -49,11 +49,11 @@ static void what_exceeds_the_limit_is_refused_and_told(void **state)
     expect_ok(rt_memory_take(memory, (UINT64_C(2) << 30) - 429496730, "the rest", &error), &error);
     expect_refused(rt_memory_take(memory, 1, "a byte", &error), &error,
                    "a byte needs 1 byte, more than the limit of 2 GiB with 2 GiB in use");
-    rt_memory_give(memory, 429496730);
+    rt_memory_give(memory, 429496730, "the scene");
     rt_memory_get_info(memory, &info);
     assert_true(info.used == (UINT64_C(2) << 30) - 429496730 && info.most == UINT64_C(2) << 30 &&
                 info.limit == UINT64_C(2) << 30);
-    rt_memory_give(memory, info.used);
+    rt_memory_give(memory, info.used, "the rest");
     rt_memory_destroy(memory);
 }
 
@@ -64,10 +64,10 @@ static void without_a_limit_all_is_counted_and_nothing_refused(void **state)
     (void)state;
     expect_ok(rt_memory_take(memory, UINT64_C(1) << 60, "much", &error), &error);
     assert_true(used(memory) == UINT64_C(1) << 60);
-    rt_memory_give(memory, UINT64_C(1) << 60);
+    rt_memory_give(memory, UINT64_C(1) << 60, "much");
     rt_memory_destroy(memory);
     expect_ok(rt_memory_take(NULL, UINT64_MAX, "nowhere", &error), &error);
-    rt_memory_give(NULL, UINT64_MAX);
+    rt_memory_give(NULL, UINT64_MAX, "nothing");
     rt_memory_destroy(NULL);
 }
 
@@ -84,7 +84,7 @@ static void blocks_count_until_they_are_freed(void **state)
     memset(block, 7, 1000);
     assert_null(rt_memory_resize(memory, block, 9000, 1, "a block", &error));
     expect_refused(error.status, &error,
-                   "a block needs 8.8 KiB, more than the limit of 9.77 KiB with 1.97 KiB in use");
+                   "a block needs 8.82 KiB, more than the limit of 9.77 KiB with 1.98 KiB in use");
     block = rt_memory_resize(memory, block, 5000, 1, "a block", &error);
     assert_true(block && block[999] == 7 && used(memory) >= 7000);
     block = rt_memory_resize(memory, block, 1, 1, "a block", &error);
@@ -146,7 +146,57 @@ static void it_may_be_destroyed_before_all_is_given_back(void **state)
     expect_ok(rt_memory_take(memory, 5, "a bit", &error), &error);
     rt_memory_destroy(memory);
     rt_memory_free(block);
-    rt_memory_give(memory, 5);
+    rt_memory_give(memory, 5, "a bit");
+}
+
+/* Each by its name; the shares of the peak are those of the moment, not the owners' own peaks. */
+static void owners_are_told_apart(void **state)
+{
+    rt_memory *memory = new_memory(0);
+    rt_memory_owner owners[3];
+    rt_error error;
+    (void)state;
+    expect_ok(rt_memory_take(memory, 100, "the scene", &error), &error);
+    expect_ok(rt_memory_take(memory, 300, "the film", &error), &error);
+    rt_memory_give(memory, 60, "the scene");
+    void *block = rt_memory_alloc(memory, 500, 1, "the photon map", &error);
+    rt_memory_give(memory, 300, "the film");
+    assert_int_equal(rt_memory_get_owners(memory, NULL, 0), 3);
+    assert_int_equal(rt_memory_get_owners(memory, owners, 3), 3);
+    assert_string_equal(owners[0].what, "the scene");
+    assert_true(owners[0].used == 40 && owners[0].most == 100 && owners[0].at_most == 40);
+    assert_string_equal(owners[1].what, "the film");
+    assert_true(owners[1].used == 0 && owners[1].most == 300 && owners[1].at_most == 300);
+    assert_string_equal(owners[2].what, "the photon map");
+    assert_true(owners[2].used >= 500 && owners[2].at_most == owners[2].used);
+    rt_memory_free(block);
+    rt_memory_give(memory, 40, "the scene");
+    rt_memory_destroy(memory);
+}
+
+/* Those beyond the 64th count as one, and no byte is lost. */
+static void very_many_owners_share_a_place(void **state)
+{
+    rt_memory *memory = new_memory(0);
+    rt_memory_owner owners[65];
+    rt_error error;
+    char name[16];
+    (void)state;
+    for (int i = 0; i < 100; i++) {
+        snprintf(name, sizeof name, "owner %d", i);
+        expect_ok(rt_memory_take(memory, 10, name, &error), &error);
+    }
+    assert_int_equal(rt_memory_get_owners(memory, owners, 65), 64);
+    assert_string_equal(owners[62].what, "owner 62");
+    assert_string_equal(owners[63].what, "others");
+    assert_true(owners[63].used == 370 && used(memory) == 1000);
+    for (int i = 0; i < 100; i++) {
+        snprintf(name, sizeof name, "owner %d", i);
+        rt_memory_give(memory, 10, name);
+    }
+    rt_memory_get_owners(memory, owners, 64);
+    assert_true(owners[0].used == 0 && owners[63].used == 0 && used(memory) == 0);
+    rt_memory_destroy(memory);
 }
 
 static void take_and_give(void *user, uint32_t index)
@@ -178,6 +228,8 @@ int main(void)
         cmocka_unit_test(blocks_count_until_they_are_freed),
         cmocka_unit_test(requests_beyond_all_memory_are_refused),
         cmocka_unit_test(an_array_grows_up_to_the_limit),
+        cmocka_unit_test(owners_are_told_apart),
+        cmocka_unit_test(very_many_owners_share_a_place),
         cmocka_unit_test(it_may_be_destroyed_before_all_is_given_back),
         cmocka_unit_test(threads_share_it),
     };

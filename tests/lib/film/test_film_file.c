@@ -291,7 +291,7 @@ static void a_saver_needs_no_memory_of_its_own(void **state)
     expect_ok(rt_file_read(&file, "film.rtpart", 1 << 20, &error), &error);
     expect_same_bytes(&bytes, &file);
     rt_film_saver_destroy(saver);
-    rt_memory_give(memory, info.limit - info.used);
+    rt_memory_give(memory, info.limit - info.used, "the rest");
     rt_film_destroy(back);
     rt_memory_destroy(memory);
     rt_bytes_free(&file);

@@ -135,6 +135,21 @@ static void begin(attempt *a, uint64_t limit)
     test_device()->memory = a->memory;
 }
 
+/* Each owner gave back what it took, no more; at the peak they had all of it. */
+static void expect_all_given_back(const rt_memory *memory, uint64_t most)
+{
+    rt_memory_owner owners[64];
+    const size_t count = rt_memory_get_owners(memory, owners, 64);
+    for (size_t i = 0; i < count; i++) {
+        if (owners[i].used != 0 || owners[i].at_most > owners[i].most)
+            fail_msg("%s has %llu bytes left, and had %llu of its %llu at most", owners[i].what,
+                     (unsigned long long)owners[i].used, (unsigned long long)owners[i].at_most,
+                     (unsigned long long)owners[i].most);
+        most -= owners[i].at_most;
+    }
+    assert_true(most == 0);
+}
+
 /* Frees all, of which nothing may be counted any more; returns the most that was. */
 static uint64_t end(attempt *a)
 {
@@ -146,6 +161,7 @@ static uint64_t end(attempt *a)
     test_device()->memory = NULL;
     rt_memory_get_info(a->memory, &info);
     assert_int_equal(info.used, 0);
+    expect_all_given_back(a->memory, info.most);
     assert_true(info.limit == 0 || info.most <= info.limit);
     rt_memory_destroy(a->memory);
     return info.most;
@@ -333,7 +349,7 @@ static void maps_keep_every_limit(void **state)
     expect_ok(rt_memory_take(a.memory, rest, "the test", &a.error), &a.error);
     assert_int_equal(rt_photon_map_save(map, "map2.rtp", &a.error), RT_ERROR_MEMORY);
     note(&refused, &a);
-    rt_memory_give(a.memory, rest);
+    rt_memory_give(a.memory, rest, "the test");
     expect_ok(rt_photon_map_save(map, "map2.rtp", &a.error), &a.error);
     rt_photon_map_destroy(map);
     end(&a);
