@@ -86,7 +86,8 @@ LIB_SRC := \
 	lib/photon/neighbour_search.c \
 	lib/photon/photon_boxes.c \
 	lib/photon/photon_list.c lib/photon/photon_map.c lib/photon/photon_packer.c \
-	lib/photon/photon_tree.c \
+	lib/photon/path_sums.c lib/photon/photon_sorter.c lib/photon/photon_tree.c \
+	lib/photon/prefix_sum.c lib/photon/tree_builder.c \
 	lib/photon/point_order.c lib/photon/light_sources.c lib/photon/gather_tree.c \
 	lib/render/compile.c lib/render/enclosing_media.c \
 	lib/render/prepare.c lib/render/rays.c lib/render/renderer.c lib/render/trace.c \
@@ -134,7 +135,9 @@ TOOL_SRC := \
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
 	kernels/photon_camera.cl \
-	kernels/photon_emit.cl kernels/photon_film.cl kernels/photon_pack.cl \
+	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_film.cl \
+	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \
+	kernels/prefix_sum.cl \
 	kernels/gather_neighbours.cl \
 	kernels/gather_tree.cl \
 	kernels/trace.cl
@@ -173,7 +176,8 @@ TESTS_QUICK := \
 	tests/lib/mesh/test_off.c tests/lib/mesh/test_openmesh.c tests/lib/mesh/test_ply.c \
 	tests/lib/mesh/test_ply_bad.c tests/lib/mesh/test_stl.c tests/lib/mesh/test_text.c \
 	tests/lib/pack/test_pack.c \
-	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_emit.c \
+	tests/lib/photon/test_gather_tree.c tests/lib/photon/test_tree_builder.c \
+	tests/lib/photon/test_emit.c \
 	tests/lib/photon/test_fingerprint.c \
 	tests/lib/photon/test_flann_index.c tests/lib/photon/test_gather.c \
 	tests/lib/photon/test_ledger.c \
@@ -208,6 +212,7 @@ TESTS_PROOF := \
 TESTS_FULL  := \
 	tests/statistics/test_chi_square.c tests/lib/mode/test_progressive.c \
 	tests/lib/mode/test_photon_mode.c tests/lib/mode/test_film_parts.c \
+	tests/lib/mode/test_kept_photons.c \
 	tests/lib/share/test_share.c \
 	tests/lib/photon/test_unbiased.c \
 	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \

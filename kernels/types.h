@@ -593,6 +593,25 @@ typedef struct rt_photon_block {
 } rt_photon_block;
 RT_SIZE(rt_photon_block, 384);
 
+/* The work of a work-item where photons are counted and sorted. */
+#define RT_SUM_RUN 64u    /* numbers that a work-item adds */
+#define RT_SORT_SHARE 32u /* photons that a work-item sorts */
+
+/* The order of photons along Hilbert's curve: a key of three times so many bits, and an index. */
+#define RT_CURVE_BITS 12
+#define RT_CURVE_STATES 24u
+#define RT_INDEX_BITS 28
+#define RT_INDEX_MASK 0x0fffffffu
+
+/*
+ * Sums over the accounts of photon paths: rows of so many rt_i64. Row 0 holds totals, the others
+ * the columns of a light's ledger, three channels each, and its number of paths.
+ */
+#define RT_SUMS_A_ROW 16u
+#define RT_TOTAL_PHOTONS 0u  /* stored, */
+#define RT_TOTAL_REJECTED 1u /* and left out */
+#define RT_TOTAL_UNSOUND 2u  /* accounts that are not finite */
+
 typedef struct rt_photon_tree {
     rt_u32 levels; /* 0 for an empty map */
     rt_u32 photon_count;

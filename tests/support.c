@@ -26,6 +26,8 @@ rt_device *test_device_open(uint32_t threads, uint32_t work_group)
     rt_device *opened = NULL;
     rt_error error;
     expect_ok(rt_device_open(&opened, &options, &error), &error);
+    if (getenv("RT_TEST_KEEP"))
+        opened->keeps_photons = 1;
     return opened;
 }
 

@@ -24,7 +24,8 @@ void expect_ok(rt_status status, const rt_error *error);
 /*
  * The OpenCL device that the environment variable RT_TEST_DEVICE names as rtc's --device does, else
  * the first, with default options; opened once a test program and closed at its end. Where the
- * environment variable RT_TEST_BATCH is set, it is the width of this device and the next: 1 or 8.
+ * environment variable RT_TEST_BATCH is set, it is the width of this device and the next: 1 or 8;
+ * where RT_TEST_KEEP is, photons of renders stay on both.
  */
 rt_device *test_device(void);
 

@@ -116,6 +116,26 @@ rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, s
     return RT_OK;
 }
 
+rt_status rt_buffer_reserve(rt_device *device, cl_mem *buffer, size_t bytes, const char *what,
+                            rt_error *error)
+{
+    size_t size = 0;
+    if (*buffer) {
+        rt_status status =
+            rt_cl_check(clGetMemObjectInfo(*buffer, CL_MEM_SIZE, sizeof size, &size, NULL),
+                        "asking for the size of a buffer", error);
+        if (status != RT_OK || size >= bytes)
+            return status;
+    }
+    rt_buffer_release(device, *buffer);
+    *buffer = NULL;
+    rt_status status =
+        rt_buffer_create(device, buffer, CL_MEM_READ_WRITE, bytes + bytes / 8, NULL, what, error);
+    return status == RT_ERROR_MEMORY
+               ? rt_buffer_create(device, buffer, CL_MEM_READ_WRITE, bytes, NULL, what, error)
+               : status;
+}
+
 rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host,
                          rt_error *error)
 {
@@ -287,6 +307,13 @@ rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error 
     if (status == RT_OK)
         status = rt_cl_check(clFlush(device->queue), "launching a kernel", error);
     return status;
+}
+
+rt_status rt_run(rt_device *device, cl_kernel kernel, const rt_arg *args, cl_uint count,
+                 size_t items, rt_error *error)
+{
+    rt_status status = rt_kernel_args(kernel, args, count, error);
+    return status == RT_OK ? rt_launch(device, kernel, items, error) : status;
 }
 
 rt_status rt_device_finish(rt_device *device, rt_error *error)

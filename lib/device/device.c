@@ -219,6 +219,15 @@ static rt_status choose_width(rt_device *device, uint32_t asked, rt_error *error
     return RT_OK;
 }
 
+static void choose_memory(rt_device *device)
+{
+    cl_device_fp_config doubles = 0;
+    if (clGetDeviceInfo(device->id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof doubles, &doubles, NULL) !=
+        CL_SUCCESS)
+        doubles = 0;
+    device->keeps_photons = !device->info.is_cpu && doubles != 0;
+}
+
 static char *copy_text(const char *text)
 {
     char *copy = malloc(strlen(text) + 1);
@@ -252,6 +261,7 @@ rt_status rt_device_open(rt_device **out, const rt_device_options *options, rt_e
         (status = choose_work_group(device, options->work_group, error)) != RT_OK ||
         (status = choose_width(device, options->width, error)) != RT_OK)
         goto out;
+    choose_memory(device);
     device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
     if ((status = rt_cl_check(code, "creating an OpenCL context", error)) != RT_OK)
         goto out;

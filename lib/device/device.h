@@ -46,6 +46,11 @@ struct rt_device {
     uint32_t work_group;  /* work-items per work-group, at least 1 */
     uint32_t width;       /* paths that a work-item follows at a time, 1 or 8 */
     uint32_t path_pixels; /* pixels that a work-item of path tracing takes, at least 1 */
+    /*
+     * photons of a render stay in its memory, where their tree is built: on one that is no CPU and
+     * has double precision. A test may set it for any that has.
+     */
+    int keeps_photons;
     struct {
         const rt_kernel_source *source;
         cl_program program;
@@ -103,6 +108,13 @@ rt_status rt_device_kernel_from(rt_device *device, cl_kernel *out, const rt_kern
  */
 rt_status rt_buffer_create(rt_device *device, cl_mem *out, cl_mem_flags flags, size_t bytes,
                            void *host, const char *what, rt_error *error);
+
+/*
+ * Makes a buffer that is written and read by the device hold at least `bytes`, with some to spare
+ * where it has to be made again: its content is lost then. It may be NULL.
+ */
+rt_status rt_buffer_reserve(rt_device *device, cl_mem *buffer, size_t bytes, const char *what,
+                            rt_error *error);
 
 /* Blocking copies between host memory and a buffer. */
 rt_status rt_buffer_read(rt_device *device, cl_mem buffer, size_t offset, size_t bytes, void *host,
@@ -164,6 +176,9 @@ rt_status rt_kernel_args(cl_kernel kernel, const rt_arg *args, cl_uint count, rt
  * the true number and ignores the rest. Does not wait; rt_device_finish does.
  */
 rt_status rt_launch(rt_device *device, cl_kernel kernel, size_t items, rt_error *error);
+/* rt_kernel_args and rt_launch. */
+rt_status rt_run(rt_device *device, cl_kernel kernel, const rt_arg *args, cl_uint count,
+                 size_t items, rt_error *error);
 /* Waits for what was enqueued; stores the kernels that it made the driver compile. */
 rt_status rt_device_finish(rt_device *device, rt_error *error);
 

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "photon/forecast.h"
+#include "photon/path_sums.h"
 #include "photon/photon_packer.h"
 #include "render/prepare.h"
 
@@ -34,7 +35,7 @@ typedef struct emission_batch {
     rt_params params;
     const void *mapped_photons; /* NULL where the device packs them */
     const void *mapped_accounts;
-    cl_event ready; /* complete when both are mapped */
+    cl_event ready; /* complete when both are mapped; NULL where they stay on the device */
 } emission_batch;
 
 struct rt_emitter {
@@ -47,7 +48,9 @@ struct rt_emitter {
     size_t paths;  /* a batch, at most */
     emission_batch batches[BATCHES];
     int packs; /* the device packs photons before they are read */
+    int keeps; /* it packs them, and they stay there */
     rt_photon_packer packer;
+    rt_path_sums sums;         /* of a batch that stays there */
     uint64_t memory;           /* bytes that the photons of a map must fit into; 0: any */
     void (*after)(void *user); /* each batch; NULL: nothing */
     void *after_user;
@@ -99,6 +102,7 @@ static void release_batches(rt_emitter *e)
     for (int i = 0; i < BATCHES; i++)
         release_buffers(e, e->batches + i);
     rt_photon_packer_release(&e->packer);
+    rt_path_sums_release(&e->sums);
     e->slots = 0;
 }
 
@@ -116,6 +120,12 @@ void rt_emitter_pack(rt_emitter *e)
 {
     release_batches(e);
     e->packs = 1;
+}
+
+void rt_emitter_keep(rt_emitter *e)
+{
+    rt_emitter_pack(e);
+    e->keeps = 1;
 }
 
 void rt_emitter_limit_memory(rt_emitter *e, uint64_t bytes)
@@ -167,6 +177,8 @@ static rt_status create_batch(rt_emitter *e, size_t slots, size_t paths, rt_erro
     rt_status status = create_buffers(e, e->batches, slots, paths, error);
     if (status == RT_OK && e->packs)
         status = rt_photon_packer_create(&e->packer, e->device, paths, slots, error);
+    if (status == RT_OK && e->keeps)
+        status = rt_path_sums_create(&e->sums, e->device, &e->lights, paths, error);
     if (status != RT_OK)
         release_batches(e);
     return status;
@@ -231,13 +243,12 @@ static rt_status begin_batch(const rt_emitter *e, emission_batch *b, rt_error *e
     const size_t photons = e->paths * e->slots * sizeof(rt_photon);
     rt_arg args[EMIT_ARGUMENTS] = {RT_ARG(b->params), RT_ARG(e->scene), RT_ARG(e->shares),
                                    RT_ARG(b->photons), RT_ARG(b->accounts)};
-    rt_status status = rt_kernel_args(e->kernel, args, EMIT_ARGUMENTS, error);
-    if (status == RT_OK)
-        status = rt_launch(e->device, e->kernel, paths, error);
+    b->ready = NULL;
+    rt_status status = rt_run(e->device, e->kernel, args, EMIT_ARGUMENTS, paths, error);
     if (status == RT_OK && !e->packs)
         status = rt_buffer_map_begin(e->device, b->photons, photons, &b->mapped_photons, NULL,
                                      "photons", error);
-    if (status == RT_OK)
+    if (status == RT_OK && !e->keeps)
         status = rt_buffer_map_begin(e->device, b->accounts, paths * sizeof(rt_path_account),
                                      &b->mapped_accounts, &b->ready, "the accounts of photon paths",
                                      error);
@@ -246,32 +257,100 @@ static rt_status begin_batch(const rt_emitter *e, emission_batch *b, rt_error *e
     return status;
 }
 
-/* Appends the photons of a batch to the map, and books its accounts. */
+/* Books the accounts of a batch, which the host has. */
+static rt_status book_batch(const rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
+                            const rt_path_account *accounts, size_t paths, rt_error *error)
+{
+    return kind == RT_PHOTONS_GLOBAL ? rt_ledger_book(&map->ledger, &e->lights, accounts, paths,
+                                                      e->device->threads, error)
+                                     : RT_OK;
+}
+
+/* Books the accounts of a batch that stays on the device by their sums, which are its rows. */
+static rt_status book_kept(const rt_emitter *e, rt_photon_map *map, const emission_batch *b,
+                           const rt_i64 *rows, rt_error *error)
+{
+    const size_t paths = b->params.item_count;
+    const void *accounts = NULL;
+    if (e->sums.sources > 0 || map->ledger.count == 0) {
+        rt_ledger_book_sums(&map->ledger, rows, paths);
+        return RT_OK;
+    }
+    rt_status status = rt_buffer_map(e->device, b->accounts, paths * sizeof(rt_path_account),
+                                     &accounts, "the accounts of photon paths", error);
+    if (status == RT_OK)
+        status = book_batch(e, map, RT_PHOTONS_GLOBAL, accounts, paths, error);
+    rt_status unmapped =
+        rt_buffer_unmap(e->device, b->accounts, accounts, status == RT_OK ? error : NULL);
+    return status == RT_OK ? unmapped : status;
+}
+
+/* Appends the photons of a batch to a list on the host, and books its accounts. */
 static rt_status take_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
                             const emission_batch *b, rt_error *error)
 {
     const rt_path_account *accounts = b->mapped_accounts;
     const size_t paths = b->params.item_count;
     rt_photon_list *list = map->lists + kind;
-    rt_status status = e->packs ? rt_photon_packer_append(&e->packer, list, b->photons, e->paths,
-                                                          accounts, paths, error)
-                                : rt_photon_list_append(list, b->mapped_photons, e->paths, accounts,
-                                                        paths, e->device->threads, error);
-    return status == RT_OK && kind == RT_PHOTONS_GLOBAL
-               ? rt_ledger_book(&map->ledger, &e->lights, accounts, paths, e->device->threads,
-                                error)
-               : status;
+    rt_status status = list->buffer ? rt_photon_list_fetch(list, error) : RT_OK;
+    if (status == RT_OK)
+        status = e->packs ? rt_photon_packer_append(&e->packer, list, b->photons, e->paths,
+                                                    accounts, paths, error)
+                          : rt_photon_list_append(list, b->mapped_photons, e->paths, accounts,
+                                                  paths, e->device->threads, error);
+    return status == RT_OK ? book_batch(e, map, kind, accounts, paths, error) : status;
+}
+
+/* Takes a batch to the host for which the device has no room, as it will later ones. */
+static rt_status leave_device(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
+                              emission_batch *b, const rt_hooks *hooks, rt_error *error)
+{
+    rt_log(hooks, "photons are taken to the host: the device has no room for them");
+    e->keeps = 0;
+    rt_status status =
+        rt_buffer_map(e->device, b->accounts, b->params.item_count * sizeof(rt_path_account),
+                      &b->mapped_accounts, "the accounts of photon paths", error);
+    return status == RT_OK ? take_batch(e, map, kind, b, error) : status;
+}
+
+/* Appends the photons of a batch to a list on the device, and books its accounts. */
+static rt_status keep_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
+                            emission_batch *b, const rt_hooks *hooks, rt_error *error)
+{
+    const size_t paths = b->params.item_count;
+    const int books = kind == RT_PHOTONS_GLOBAL;
+    rt_photon_list *list = map->lists + kind;
+    const rt_i64 *rows = NULL;
+    rt_status status = rt_path_sums_run(&e->sums, &rows, b->accounts, paths, books, error);
+    if (status != RT_OK)
+        return status;
+    const size_t photons = (size_t)rows[RT_TOTAL_PHOTONS];
+    status = rt_photon_list_reserve_on(list, e->device, photons, error);
+    if (status == RT_ERROR_MEMORY)
+        return leave_device(e, map, kind, b, hooks, error);
+    if (status == RT_OK)
+        status = rt_photon_packer_keep(&e->packer, list, b->photons, e->paths, b->accounts, paths,
+                                       error);
+    if (status == RT_OK && books)
+        status = book_kept(e, map, b, rows, error);
+    if (status == RT_OK) {
+        list->count += photons;
+        list->emitted += paths;
+        list->rejected += (uint64_t)rows[RT_TOTAL_REJECTED];
+    }
+    return status;
 }
 
 /* Waits for a batch, and takes its photons, accounts and range into the map. */
 static rt_status end_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kind,
-                           emission_batch *b, rt_error *error)
+                           emission_batch *b, const rt_hooks *hooks, rt_error *error)
 {
     const rt_photon_list *list = map->lists + kind;
     const size_t before = list->count;
-    rt_status status = rt_buffer_map_wait(b->ready, "photons", error);
+    rt_status status = b->ready ? rt_buffer_map_wait(b->ready, "photons", error) : RT_OK;
     if (status == RT_OK)
-        status = take_batch(e, map, kind, b, error);
+        status = b->ready ? take_batch(e, map, kind, b, error)
+                          : keep_batch(e, map, kind, b, hooks, error);
     rt_status unmapped = unmap_batch(e, b, status == RT_OK ? error : NULL);
     status = status == RT_OK ? unmapped : status;
     if (status != RT_OK)
@@ -284,7 +363,8 @@ static rt_status end_batch(rt_emitter *e, rt_photon_map *map, rt_photon_kind kin
 /* Waits for a batch that is not wanted any more. */
 static void drop_batch(const rt_emitter *e, emission_batch *b)
 {
-    rt_buffer_map_wait(b->ready, "photons", NULL);
+    if (b->ready)
+        rt_buffer_map_wait(b->ready, "photons", NULL);
     unmap_batch(e, b, NULL);
 }
 
@@ -356,7 +436,7 @@ static rt_status emit_batches(rt_emitter *e, rt_photon_map *map, rt_photon_kind 
             continue;
         }
         b = e->batches + ended++ % ring;
-        status = end_batch(e, map, kind, b, error);
+        status = end_batch(e, map, kind, b, progress->hooks, error);
         done += b->params.item_count;
         if (status == RT_OK)
             status = note_batch(e, list, before, others, done, count, progress, error);

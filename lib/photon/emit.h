@@ -33,6 +33,12 @@ void rt_emitter_limit_memory(rt_emitter *emitter, uint64_t bytes);
 void rt_emitter_pack(rt_emitter *emitter);
 
 /*
+ * Leaves photons on the device: the lists of a map then hold a buffer, for those that gather from
+ * it. A list for which the device has no room moves to the host, as the log then tells.
+ */
+void rt_emitter_keep(rt_emitter *emitter);
+
+/*
  * Warns of light that photon paths leave out: that of the environment and of directional lights on
  * far parts of planes.
  */

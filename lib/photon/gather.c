@@ -62,7 +62,7 @@ rt_status rt_gather_kernel_prepare(cl_kernel *out, rt_device *device, rt_photon_
 
 rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel,
                              const rt_photon_list *list, const rt_gather_options *options,
-                             rt_error *error)
+                             rt_tree_place *place, rt_error *error)
 {
     float max_radius = options->max_radius > 0 ? options->max_radius : HUGE_VALF;
     rt_density_params estimate;
@@ -83,7 +83,8 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
     g->search = options->search;
     g->capacity = rt_gather_points_max(device);
     if (g->search == RT_SEARCH_TREE) {
-        status = rt_tree_gather_prepare(&g->tree, device, list, &estimate, &g->capacity, error);
+        status =
+            rt_tree_gather_prepare(&g->tree, device, list, &estimate, place, &g->capacity, error);
     } else {
         status = rt_neighbour_gather_prepare(&g->neighbours, device, list, &estimate, max_radius,
                                              options->skip_empty, g->capacity, error);

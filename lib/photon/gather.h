@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "device/device.h"
 #include "photon/photon_list.h"
+#include "photon/tree_builder.h"
 #include "types.h"
 
 typedef struct rt_gatherer rt_gatherer;
@@ -54,11 +55,12 @@ rt_status rt_gather_kernel_prepare(cl_kernel *out, rt_device *device, rt_photon_
 /*
  * Makes a list ready: builds the search tree and uploads the photons. The list must outlive the
  * gatherer unchanged, as must the device and, on it, the kernel, which is that of the search. The
- * caller owns *out.
+ * caller owns *out. place: the caller's memory for the tree of a list on the device, which serves
+ * one gatherer at a time; NULL where the list lies on the host.
  */
 rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel kernel,
                              const rt_photon_list *list, const rt_gather_options *options,
-                             rt_error *error);
+                             rt_tree_place *place, rt_error *error);
 void rt_gatherer_destroy(rt_gatherer *gatherer);
 
 /*

@@ -26,42 +26,131 @@ static size_t distances(rt_u32 k)
     return k == 0 ? 0 : ((size_t)2 * k + 64) / 8 * 8;
 }
 
+static size_t items_of(const rt_tree_gather *g, size_t capacity)
+{
+    return (capacity + g->estimate.points_an_item - 1) / g->estimate.points_an_item;
+}
+
+static const char tree[] = "the photon tree", distance_list[] = "the buffer of distances",
+                  disc_list[] = "the buffer of gather discs";
+
 static rt_status create_buffers(rt_tree_gather *g, rt_device *device, size_t capacity,
                                 rt_error *error)
 {
-    size_t items = (capacity + g->estimate.points_an_item - 1) / g->estimate.points_an_item;
     /* A CPU device works on the host's memory; another gets its copy. */
     cl_mem_flags flags = CL_MEM_READ_ONLY | (device->info.is_cpu ? CL_MEM_USE_HOST_PTR : 0);
     size_t nodes = g->tree.node_count * sizeof *g->tree.nodes;
     size_t blocks = g->tree.shape.block_count * sizeof *g->tree.blocks;
     rt_status status = rt_buffer_create(device, &g->nodes, nodes ? flags : CL_MEM_READ_ONLY, nodes,
-                                        nodes ? g->tree.nodes : NULL, "the photon tree", error);
+                                        nodes ? g->tree.nodes : NULL, tree, error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &g->blocks, blocks ? flags : CL_MEM_READ_ONLY, blocks,
-                                  blocks ? g->tree.blocks : NULL, "the photon tree", error);
+                                  blocks ? g->tree.blocks : NULL, tree, error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &g->scratch, CL_MEM_READ_WRITE,
-                                  items * g->estimate.stride * sizeof(float), NULL,
-                                  "the buffer of distances", error);
+                                  items_of(g, capacity) * g->estimate.stride * sizeof(float), NULL,
+                                  distance_list, error);
     if (status == RT_OK)
         status = rt_buffer_create(device, &g->discs, CL_MEM_READ_WRITE,
-                                  capacity * sizeof(rt_gather_disc), NULL,
-                                  "the buffer of gather discs", error);
+                                  capacity * sizeof(rt_gather_disc), NULL, disc_list, error);
+    return status;
+}
+
+/* The same in the memory of a place. */
+static rt_status reserve_buffers(rt_tree_gather *g, rt_device *device, size_t capacity,
+                                 rt_error *error)
+{
+    rt_tree_place *place = g->place;
+    rt_status status = rt_buffer_reserve(device, &place->nodes,
+                                         g->tree.node_count * sizeof *g->tree.nodes, tree, error);
+    if (status == RT_OK)
+        status = rt_buffer_reserve(device, &place->blocks,
+                                   g->tree.shape.block_count * sizeof *g->tree.blocks, tree, error);
+    if (status == RT_OK)
+        status = rt_buffer_reserve(device, &place->scratch,
+                                   items_of(g, capacity) * g->estimate.stride * sizeof(float),
+                                   distance_list, error);
+    if (status == RT_OK)
+        status = rt_buffer_reserve(device, &place->discs, capacity * sizeof(rt_gather_disc),
+                                   disc_list, error);
+    g->nodes = place->nodes;
+    g->blocks = place->blocks;
+    g->scratch = place->scratch;
+    g->discs = place->discs;
     return status;
 }
 
 static void release_buffers(rt_tree_gather *g, rt_device *device)
 {
-    rt_buffer_release(device, g->nodes);
-    rt_buffer_release(device, g->blocks);
-    rt_buffer_release(device, g->scratch);
-    rt_buffer_release(device, g->discs);
+    if (!g->place) {
+        rt_buffer_release(device, g->nodes);
+        rt_buffer_release(device, g->blocks);
+        rt_buffer_release(device, g->scratch);
+        rt_buffer_release(device, g->discs);
+    }
     g->nodes = g->blocks = g->scratch = g->discs = NULL;
 }
 
+/* Makes the buffers for fewer points at a time where there is not enough memory. */
+static rt_status create_for(rt_tree_gather *g, rt_device *device, size_t *capacity, rt_error *error)
+{
+    rt_status status = g->place ? reserve_buffers(g, device, *capacity, error)
+                                : create_buffers(g, device, *capacity, error);
+    while (status == RT_ERROR_MEMORY && *capacity > LEAST_BATCH) {
+        release_buffers(g, device);
+        *capacity /= 2;
+        status = g->place ? reserve_buffers(g, device, *capacity, error)
+                          : create_buffers(g, device, *capacity, error);
+    }
+    return status;
+}
+
+/* Builds the tree on the host, where the list lies. */
+static rt_status build_on_host(rt_tree_gather *g, rt_device *device, const rt_photon_list *list,
+                               size_t *capacity, rt_error *error)
+{
+    rt_status status = rt_photon_tree_build(&g->tree, list, device->threads, device->memory, error);
+    if (status == RT_OK)
+        status = create_for(g, device, capacity, error);
+    if (status == RT_OK && !device->info.is_cpu) {
+        rt_photon_tree shape = g->tree.shape;
+        rt_photon_tree_free(&g->tree);
+        g->tree.shape = shape;
+    }
+    return status;
+}
+
+/* Builds it on the device, where the list lies; where there is no room for that, on the host. */
+static rt_status build_on_device(rt_tree_gather *g, rt_device *device, const rt_photon_list *list,
+                                 rt_tree_place *place, size_t *capacity, rt_error *error)
+{
+    const size_t asked = *capacity;
+    g->place = place;
+    rt_status status =
+        rt_photon_tree_lay_out(&g->tree.shape, &g->tree.node_count, list->count, error);
+    if (status == RT_OK)
+        status = create_for(g, device, capacity, error);
+    if (status == RT_OK)
+        status = rt_tree_builder_run(place->builder, list->buffer, &g->tree.shape,
+                                     g->tree.node_count, g->nodes, g->blocks, error);
+    if (status != RT_ERROR_MEMORY)
+        return status;
+    rt_photon_list host = {.memory = list->memory};
+    rt_device_settle(device);
+    release_buffers(g, device);
+    rt_tree_place_release(place, device);
+    g->place = NULL;
+    *capacity = asked;
+    status = rt_photon_list_read(&host, list, error);
+    if (status == RT_OK)
+        status = build_on_host(g, device, &host, capacity, error);
+    rt_photon_list_clear(&host);
+    return status;
+}
+
 rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_photon_list *list,
-                                 const rt_density_params *estimate, size_t *capacity,
-                                 rt_error *error)
+                                 const rt_density_params *estimate, rt_tree_place *place,
+                                 size_t *capacity, rt_error *error)
 {
     size_t stride = distances(estimate->k),
            most = device->info.is_cpu ? SCRATCH_MAX_CPU : SCRATCH_MAX_GPU,
@@ -72,21 +161,8 @@ rt_status rt_tree_gather_prepare(rt_tree_gather *g, rt_device *device, const rt_
     g->estimate.stride = (rt_u32)stride;
     g->estimate.max_candidates = RT_CANDIDATES_MAX * estimate->k;
     g->estimate.points_an_item = (rt_u32)(least > usual ? least : usual);
-
-    rt_status status = rt_photon_tree_build(&g->tree, list, device->threads, device->memory, error);
-    if (status == RT_OK)
-        status = create_buffers(g, device, *capacity, error);
-    while (status == RT_ERROR_MEMORY && g->tree.nodes && *capacity > LEAST_BATCH) {
-        release_buffers(g, device);
-        *capacity /= 2;
-        status = create_buffers(g, device, *capacity, error);
-    }
-    if (status == RT_OK && !device->info.is_cpu) {
-        rt_photon_tree shape = g->tree.shape;
-        rt_photon_tree_free(&g->tree);
-        g->tree.shape = shape;
-    }
-    return status;
+    return list->buffer ? build_on_device(g, device, list, place, capacity, error)
+                        : build_on_host(g, device, list, capacity, error);
 }
 
 void rt_tree_gather_release(rt_tree_gather *g, rt_device *device)

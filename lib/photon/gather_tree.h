@@ -4,24 +4,27 @@
 
 #include "device/device.h"
 #include "photon/photon_tree.h"
+#include "photon/tree_builder.h"
 
 typedef struct rt_tree_gather {
     rt_photon_tree_data tree; /* on the host; freed when the device has its copy */
     cl_mem nodes, blocks;
-    cl_mem scratch;    /* float [items][stride] */
-    cl_mem discs;      /* rt_gather_disc [capacity] */
-    cl_mem own_limits; /* the caller's, see estimate.own_limits; NULL without */
+    cl_mem scratch;       /* float [items][stride] */
+    cl_mem discs;         /* rt_gather_disc [capacity] */
+    rt_tree_place *place; /* that keeps these buffers; NULL: they are the gather's own */
+    cl_mem own_limits;    /* the caller's, see estimate.own_limits; NULL without */
     rt_density_params estimate;
 } rt_tree_gather;
 
 /*
- * Builds and uploads the tree of a list, for gathers of up to *capacity points, fewer where there
- * is not enough memory; estimate: density, cone_k, k, squared_limit and scale.
- * rt_tree_gather_release undoes it, also after a failure.
+ * Builds the tree of a list where the list lies, and uploads it where that is the host, for gathers
+ * of up to *capacity points, fewer where there is not enough memory; estimate: density, cone_k, k,
+ * squared_limit and scale; place: as rt_gatherer_create has it. Where the device has no room to
+ * build a tree, the host does. rt_tree_gather_release undoes it, also after a failure.
  */
 rt_status rt_tree_gather_prepare(rt_tree_gather *out, rt_device *device, const rt_photon_list *list,
-                                 const rt_density_params *estimate, size_t *capacity,
-                                 rt_error *error);
+                                 const rt_density_params *estimate, rt_tree_place *place,
+                                 size_t *capacity, rt_error *error);
 void rt_tree_gather_release(rt_tree_gather *gather, rt_device *device);
 
 /*

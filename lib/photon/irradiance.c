@@ -43,7 +43,7 @@ static rt_status make_gatherer(irradiance *a, const rt_photon_map *map, rt_photo
     if (how.k == RT_K_ALL)
         how.k = 0;
     rt_status status = rt_gatherer_create(a->gatherers + kind, a->device, a->kernel,
-                                          map->lists + kind, &how, error);
+                                          map->lists + kind, &how, NULL, error);
     if (status == RT_OK && rt_gatherer_capacity(a->gatherers[kind]) < a->capacity)
         a->capacity = rt_gatherer_capacity(a->gatherers[kind]);
     return status;

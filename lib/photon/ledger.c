@@ -15,7 +15,7 @@
 enum { UNIT_BITS = 26 };
 
 /* A path carries the power of its light over the light's share. */
-static int32_t unit_exponent(const rt_light_source *source)
+int32_t rt_ledger_exponent(const rt_light_source *source)
 {
     double largest = fmax(source->power[0], fmax(source->power[1], source->power[2]));
     int exponent;
@@ -35,7 +35,7 @@ rt_status rt_ledger_create(rt_ledger *out, const rt_light_sources *lights, rt_er
     for (size_t i = 0; i < l.count; i++) {
         const rt_light_source *source = lights->sources + i;
         l.rows[i].shape = source->shape;
-        l.rows[i].exponent = unit_exponent(source);
+        l.rows[i].exponent = rt_ledger_exponent(source);
         l.rows[i].share = source->share;
         memcpy(l.rows[i].power, source->power, sizeof l.rows[i].power);
     }
@@ -152,6 +152,20 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights,
     rt_memory_free(b.rows);
     rt_memory_free(b.rejected);
     return failed ? RT_ERROR_MEMORY : RT_OK;
+}
+
+void rt_ledger_book_sums(rt_ledger *ledger, const rt_i64 *rows, uint64_t paths)
+{
+    ledger->rejected += (uint64_t)rows[RT_TOTAL_UNSOUND];
+    ledger->paths += paths;
+    for (size_t i = 0; i < ledger->count; i++) {
+        const rt_i64 *row = rows + (1 + i) * RT_SUMS_A_ROW;
+        rt_ledger_row sums = {.paths = (uint64_t)row[RT_SUMS_A_ROW - 1]};
+        for (int column = 0; column < RT_LEDGER_COLUMNS; column++)
+            for (int c = 0; c < 3; c++)
+                sums.sums[column][c] = row[3 * column + c];
+        add_row(ledger->rows + i, &sums);
+    }
 }
 
 int rt_ledger_matches(const rt_ledger *a, const rt_ledger *b)

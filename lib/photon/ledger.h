@@ -56,6 +56,15 @@ rt_status rt_ledger_book(rt_ledger *ledger, const rt_light_sources *lights,
                          const rt_path_account *accounts, size_t count, uint32_t threads,
                          rt_error *error);
 
+/* The exponent of a light's unit, as rt_ledger_row has it. */
+int32_t rt_ledger_exponent(const rt_light_source *source);
+
+/*
+ * Books sums that the device has taken over the accounts of so many paths: rows [1 + count] of
+ * RT_SUMS_A_ROW, as path_sums.cl makes them.
+ */
+void rt_ledger_book_sums(rt_ledger *ledger, const rt_i64 *rows, uint64_t paths);
+
 /* Whether both are of the same lights with the same shares, so that they can be added. */
 int rt_ledger_matches(const rt_ledger *a, const rt_ledger *b);
 

@@ -41,6 +41,64 @@ rt_status rt_photon_list_reserve(rt_photon_list *list, size_t more, rt_error *er
     return RT_OK;
 }
 
+/* Makes a buffer for so many photons and copies those of the list into it. */
+static rt_status move_to_buffer(rt_photon_list *list, rt_device *device, size_t capacity,
+                                rt_error *error)
+{
+    cl_mem buffer = NULL;
+    rt_status status = rt_buffer_create(device, &buffer, CL_MEM_READ_WRITE,
+                                        capacity * sizeof(rt_photon), NULL, what, error);
+    if (status == RT_OK)
+        status =
+            rt_buffer_copy(device, list->buffer, buffer, 0, list->count * sizeof(rt_photon), error);
+    if (status != RT_OK) {
+        rt_buffer_release(device, buffer);
+        return status;
+    }
+    rt_buffer_release(device, list->buffer);
+    list->buffer = buffer;
+    list->device = device;
+    list->capacity = capacity;
+    return RT_OK;
+}
+
+rt_status rt_photon_list_reserve_on(rt_photon_list *list, rt_device *device, size_t more,
+                                    rt_error *error)
+{
+    /* Kernels take the place of a photon as 32 bits. */
+    if (more > UINT32_MAX - list->count)
+        return rt_fail(error, RT_ERROR_MEMORY, "no memory for a map of so many photons");
+    const size_t needed = list->count + more;
+    if (list->buffer && needed <= list->capacity)
+        return RT_OK;
+    rt_status status = move_to_buffer(list, device, needed + needed / 4, error);
+    return status == RT_ERROR_MEMORY ? move_to_buffer(list, device, needed, error) : status;
+}
+
+rt_status rt_photon_list_read(rt_photon_list *out, const rt_photon_list *list, rt_error *error)
+{
+    rt_status status = rt_photon_list_reserve(out, list->count, error);
+    if (status == RT_OK)
+        status = rt_buffer_read(list->device, list->buffer, 0, list->count * sizeof(rt_photon),
+                                out->photons, error);
+    if (status == RT_OK) {
+        out->count = list->count;
+        out->emitted = list->emitted;
+        out->rejected = list->rejected;
+    }
+    return status;
+}
+
+rt_status rt_photon_list_fetch(rt_photon_list *list, rt_error *error)
+{
+    rt_photon_list host = {.memory = list->memory};
+    rt_status status = rt_photon_list_read(&host, list, error);
+    rt_photon_list_clear(status == RT_OK ? list : &host);
+    if (status == RT_OK)
+        *list = host;
+    return status;
+}
+
 static int finite3(const float v[3])
 {
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
@@ -132,6 +190,9 @@ void rt_photon_list_reset(rt_photon_list *list)
 void rt_photon_list_clear(rt_photon_list *list)
 {
     free(list->photons);
-    rt_memory_give(list->memory, list->capacity * sizeof *list->photons, what);
+    if (list->buffer)
+        rt_buffer_release(list->device, list->buffer);
+    else
+        rt_memory_give(list->memory, list->capacity * sizeof *list->photons, what);
     *list = (rt_photon_list){.memory = list->memory};
 }

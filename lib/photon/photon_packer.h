@@ -8,14 +8,17 @@
 
 #include "device/device.h"
 #include "photon/photon_list.h"
+#include "photon/prefix_sum.h"
 #include "types.h"
 
 typedef struct rt_photon_packer {
     rt_device *device;
     cl_kernel kernel; /* NULL: there is none */
-    cl_mem places;    /* rt_u32 [paths + 1] */
-    cl_mem packed;    /* rt_photon [room] */
-    rt_u32 *host;     /* of the places */
+    cl_kernel counts;
+    rt_prefix_sum prefix;
+    cl_mem places; /* rt_u32 [paths + 1], with room for their sums */
+    cl_mem packed; /* rt_photon [room] */
+    rt_u32 *host;  /* of the places */
     size_t room;
 } rt_photon_packer;
 
@@ -31,5 +34,12 @@ void rt_photon_packer_release(rt_photon_packer *packer);
 rt_status rt_photon_packer_append(rt_photon_packer *packer, rt_photon_list *list, cl_mem slots,
                                   size_t row, const rt_path_account *accounts, size_t path_count,
                                   rt_error *error);
+
+/*
+ * Packs the photons of such paths to the end of a list on the device, which has
+ * room for them; the accounts lie there too. The list's counts stay as they are.
+ */
+rt_status rt_photon_packer_keep(rt_photon_packer *packer, const rt_photon_list *list, cl_mem slots,
+                                size_t row, cl_mem accounts, size_t path_count, rt_error *error);
 
 #endif

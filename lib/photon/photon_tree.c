@@ -12,10 +12,13 @@
 /* AHEAD: how many photons before they are needed, they are fetched */
 enum { NODES_A_JOB = 256, AHEAD = 24 };
 
-/* Sizes and places of all levels, from the number of photons. */
-static size_t lay_out(rt_photon_tree *shape, size_t photons)
+rt_status rt_photon_tree_lay_out(rt_photon_tree *shape, size_t *node_count, size_t photons,
+                                 rt_error *error)
 {
     size_t nodes = 0, children = (photons + 7) / 8;
+    if (photons > RT_PHOTON_TREE_MAX)
+        return rt_fail(error, RT_ERROR_MEMORY, "%zu photons are more than the %d a tree can hold",
+                       photons, RT_PHOTON_TREE_MAX);
     memset(shape, 0, sizeof *shape);
     shape->photon_count = (rt_u32)photons;
     shape->block_count = (rt_u32)children;
@@ -24,7 +27,8 @@ static size_t lay_out(rt_photon_tree *shape, size_t photons)
         shape->first_node[shape->levels++] = (rt_u32)nodes;
         nodes += children;
     }
-    return nodes;
+    *node_count = nodes;
+    return RT_OK;
 }
 
 static size_t level_size(const rt_photon_tree_data *tree, rt_u32 level)
@@ -131,7 +135,6 @@ static const char what[] = "the tree of the photon map";
 
 static rt_status allocate(rt_photon_tree_data *tree, size_t photons, rt_error *error)
 {
-    tree->node_count = lay_out(&tree->shape, photons);
     size_t node_bytes = (tree->node_count * sizeof *tree->nodes + 63) / 64 * 64;
     size_t bytes = node_bytes + tree->shape.block_count * sizeof *tree->blocks;
     rt_status status = rt_memory_take(tree->memory, bytes, what, error);
@@ -151,14 +154,14 @@ rt_status rt_photon_tree_build(rt_photon_tree_data *out, const rt_photon_list *l
                                uint32_t threads, rt_memory *memory, rt_error *error)
 {
     rt_photon_tree_data tree = {.memory = memory};
-    if (list->count > RT_PHOTON_TREE_MAX)
-        return rt_fail(error, RT_ERROR_MEMORY, "%zu photons are more than the %d a tree can hold",
-                       list->count, RT_PHOTON_TREE_MAX);
+    rt_status status = rt_photon_tree_lay_out(&tree.shape, &tree.node_count, list->count, error);
+    if (status != RT_OK)
+        return status;
     uint64_t *items = rt_memory_alloc(memory, list->count, 2 * sizeof *items, what, error);
     if (!items)
         return RT_ERROR_MEMORY;
 
-    rt_status status = allocate(&tree, list->count, error);
+    status = allocate(&tree, list->count, error);
     if (status == RT_OK && list->count > 0)
         status = rt_point_order(items, items + list->count, list->photons->position,
                                 sizeof *list->photons, list->count, threads, error);

@@ -26,6 +26,13 @@ typedef struct rt_photon_tree_data {
 enum { RT_PHOTON_TREE_MAX = 1 << 28 };
 
 /*
+ * Sizes and places of all levels of the tree of so many photons; *node_count: its nodes. Fails with
+ * RT_ERROR_MEMORY where there are more photons than a tree can hold.
+ */
+rt_status rt_photon_tree_lay_out(rt_photon_tree *shape, size_t *node_count, size_t photons,
+                                 rt_error *error);
+
+/*
  * Builds the tree of a list, which is not referred to afterwards, on `threads` threads. It counts
  * in `memory`.
  */

@@ -16,13 +16,11 @@
 #include "base/error.h"
 #include "base/parallel.h"
 
-enum { CURVE_BITS = 12 }; /* an axis */
-enum { INDEX_BITS = 28 }; /* beside a key in an item */
+enum { CURVE_BITS = RT_CURVE_BITS, INDEX_BITS = RT_INDEX_BITS };
 enum { DIGIT_BITS = 12, DIGITS = 3 * CURVE_BITS / DIGIT_BITS, BINS = 1 << DIGIT_BITS };
 /* of the points, each one job: at most so many, so many a thread, and as are worth their bins */
 enum { SHARES = 64, SHARES_A_THREAD = 2, SHARE_POINTS = BINS };
-/* points that show where most are: all but one in so many at either end */
-enum { SAMPLE = 2048, FAR_OUT = 20 };
+enum { SAMPLE = RT_ORDER_SAMPLE, FAR_OUT = RT_ORDER_FAR_OUT };
 
 /* ---- The curve ----------------------------------------------------------------- */
 
@@ -30,7 +28,7 @@ enum { SAMPLE = 2048, FAR_OUT = 20 };
  * Hilbert's curve as a machine: in each of 24 states, an entry corner of the cube (3 bits) and a
  * direction, an octant is passed in some place, and is entered in another state.
  */
-enum { STATES = 24 };
+enum { STATES = RT_CURVE_STATES };
 typedef struct curve {
     unsigned char place[STATES][8], next[STATES][8];
     /* the same for two steps at once: the octant of the first step in the upper three bits */
@@ -79,6 +77,14 @@ static void make_curve(curve *c)
                 (unsigned char)(c->place[state][first] << 3 | c->place[within][then]);
             c->after_two[state][octants] = c->next[within][then];
         }
+}
+
+void rt_point_order_curve(unsigned char table[RT_CURVE_BYTES])
+{
+    curve c;
+    make_curve(&c);
+    memcpy(table, c.two_places, sizeof c.two_places);
+    memcpy(table + sizeof c.two_places, c.after_two, sizeof c.after_two);
 }
 
 static uint64_t hilbert_key(const curve *c, const uint32_t cell[3])

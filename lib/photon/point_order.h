@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "rt.h"
+#include "types.h"
 
 /*
  * Sorts `count` points, at most 2^28, along Hilbert's curve through their bounding box; `first` is
@@ -19,6 +20,16 @@
 rt_status rt_point_order(uint64_t *items, uint64_t *spare, const float *first, size_t stride,
                          size_t count, uint32_t threads, rt_error *error);
 
-#define RT_POINT_ORDER_INDEX 0x0fffffffu
+#define RT_POINT_ORDER_INDEX RT_INDEX_MASK
+
+/* Photons that show where most are: at most so many, all but one in so many at either end. */
+enum { RT_ORDER_SAMPLE = 2048, RT_ORDER_FAR_OUT = 20 };
+
+/*
+ * The curve as a table for the device: of each state and each pair of octants, their places, and
+ * behind all of those the state that follows.
+ */
+enum { RT_CURVE_BYTES = 2 * RT_CURVE_STATES * 64 };
+void rt_point_order_curve(unsigned char table[RT_CURVE_BYTES]);
 
 #endif

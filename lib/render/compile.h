@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "device/device.h"
 
-enum { RT_PROGRAMS_OF_RENDER = 8 };
+enum { RT_PROGRAMS_OF_RENDER = 12 };
 
 /* Names of programs of the library. */
 typedef struct rt_program_list {

@@ -81,6 +81,8 @@ rt_status rt_photon_render_choose_radius(rt_photon_render *r, rt_query query, ui
             rt_eye_paths_radii(&r->eye_paths, &r->queries, query, sample, squared, progress, error);
     rt_gatherer_destroy(r->queries.gatherers[query]);
     r->queries.gatherers[query] = NULL;
+    /* The distances of the k nearest take much room, and passes need none. */
+    rt_tree_place_release(&r->places[query][0], r->job->renderer->device);
 
     /* Keep the mean, and the radii of the pixels where these are meaningful. */
     const double mean = mean_distance(squared, pixels);

@@ -62,8 +62,13 @@ static rt_photon_search search_of(const rt_render_job *job)
 
 static void programs(rt_program_list *list, const rt_render_job *job)
 {
+    static const char *const keeping[] = {"photon_pack", "prefix_sum", "path_sums", "photon_order",
+                                          "photon_tree"};
+    const size_t keep = rt_photon_render_keeps(job, search_of(job)) ? 5 : 0;
     if (!job->options->photon_map)
         rt_program_list_add(list, "photon_emit");
+    for (size_t i = 0; i < keep; i++)
+        rt_program_list_add(list, keeping[i]);
     rt_program_list_add(list, "photon_camera");
     rt_program_list_add(list, rt_gather_kernel_name(search_of(job)));
     rt_program_list_add(list, "photon_film");
@@ -79,6 +84,7 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
     r->job = job;
     r->in_passes = o->passes > 1;
     r->search = search_of(job);
+    r->keeps = rt_photon_render_keeps(job, r->search);
     r->in_use = o->photon_map ? o->photon_map : &r->map;
     if (o->photon_map)
         status = rt_photon_map_check(o->photon_map, job->renderer, o, error);

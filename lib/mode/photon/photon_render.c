@@ -22,6 +22,24 @@ static void set_gather_options(rt_photon_render *r)
     }
 }
 
+int rt_photon_render_keeps(const rt_render_job *job, rt_photon_search search)
+{
+    const rt_render_options *o = job->options;
+    /* The caustic photons of a list that holds all kinds are picked out by the host. */
+    const int picks = o->final_gather > 0 && !rt_photon_settings_of(o).split;
+    return job->renderer->device->keeps_photons && search == RT_SEARCH_TREE && !o->photon_map &&
+           !picks;
+}
+
+/* Has the emitter leave the photons on the device, and makes what builds their trees. */
+static rt_status keep_photons(rt_photon_render *r, rt_error *error)
+{
+    rt_emitter_keep(r->emitter);
+    for (rt_query query = 0; query < RT_QUERIES; query++)
+        r->places[query][0].builder = r->places[query][1].builder = &r->builder;
+    return rt_tree_builder_create(&r->builder, r->job->renderer->device, error);
+}
+
 rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
 {
     const rt_render_options *o = r->job->options;
@@ -34,6 +52,8 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
     if (status == RT_OK && !o->photon_map)
         status = rt_emitter_create(&r->emitter, renderer->device, r->emit, renderer->scene,
                                    o->light_shares, o->light_share_count, error);
+    if (status == RT_OK && r->keeps)
+        status = keep_photons(r, error);
     r->work = rt_work_begin(r->job->film, o);
     r->work.profile = renderer->device->profile;
     return status;
@@ -42,8 +62,12 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
 void rt_photon_render_free(rt_photon_render *r)
 {
     rt_queries_close(&r->queries);
-    for (int i = 0; i < RT_QUERIES && r->job; i++)
+    for (int i = 0; i < RT_QUERIES && r->job; i++) {
         rt_buffer_release(r->job->renderer->device, r->first_radii[i]);
+        rt_tree_place_release(&r->places[i][0], r->job->renderer->device);
+        rt_tree_place_release(&r->places[i][1], r->job->renderer->device);
+    }
+    rt_tree_builder_release(&r->builder);
     rt_eye_paths_release(&r->eye_paths);
     rt_emitter_destroy(r->emitter);
     rt_photon_list_clear(&r->caustics);
@@ -77,12 +101,20 @@ const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_query 
     return NULL;
 }
 
+/* Makes a gatherer of a query: the finer one, or the other. */
+static rt_status open_one(rt_photon_render *r, rt_query query, int finer,
+                          const rt_gather_options *options, rt_error *error)
+{
+    const rt_photon_list *list = rt_photon_render_list(r, query);
+    rt_gatherer **out = finer ? &r->queries.finer[query].gatherer : r->queries.gatherers + query;
+    return rt_gatherer_create(out, r->job->renderer->device, r->eye_kernels.gather, list, options,
+                              list->buffer ? &r->places[query][finer] : NULL, error);
+}
+
 rt_status rt_photon_render_open(rt_photon_render *r, rt_query query,
                                 const rt_gather_options *options, rt_error *error)
 {
-    return rt_gatherer_create(r->queries.gatherers + query, r->job->renderer->device,
-                              r->eye_kernels.gather, rt_photon_render_list(r, query), options,
-                              error);
+    return open_one(r, query, 0, options, error);
 }
 
 rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_query query,
@@ -92,8 +124,7 @@ rt_status rt_photon_render_open_finer(rt_photon_render *r, rt_query query,
     rt_gather_options fine;
     if (!r->job->options->photon_layers || !rt_photon_bias_finer(&fine, &finer->factor, options))
         return RT_OK;
-    return rt_gatherer_create(&finer->gatherer, r->job->renderer->device, r->eye_kernels.gather,
-                              rt_photon_render_list(r, query), &fine, error);
+    return open_one(r, query, 1, &fine, error);
 }
 
 rt_status rt_photon_render_sample(rt_photon_render *r, uint32_t first, rt_stage_progress *progress,

@@ -14,6 +14,7 @@ typedef struct rt_photon_render {
     const rt_render_job *job;
     int in_passes;
     rt_photon_search search;
+    int keeps; /* the photons that it emits stay on the device */
     cl_kernel emit;
     rt_eye_kernels eye_kernels;
     rt_emitter *emitter;
@@ -25,6 +26,9 @@ typedef struct rt_photon_render {
     /* how each query gathers without passes; each pass has a radius of its own */
     rt_gather_options options[RT_QUERIES];
     rt_queries queries;
+    rt_tree_builder builder; /* where photons stay on the device, as are: */
+    /* the trees of each query's gatherer and of the finer one, kept from pass to pass */
+    rt_tree_place places[RT_QUERIES][2];
     double first_radius[RT_QUERIES]; /* of the passes, the largest; 0 while unknown */
     uint32_t passes_tried;           /* for first radii: passes 0 to this one, without it */
     uint32_t pass;                   /* whose squared_factor this is: */
@@ -34,6 +38,12 @@ typedef struct rt_photon_render {
     rt_work work;   /* begun when emission begins, for options->time */
     rt_error error; /* of the thread that builds search trees */
 } rt_photon_render;
+
+/*
+ * Whether the photons of a render stay on the device, where their tree is built: those of a map
+ * that is given, or that neighbour lists are made of, lie on the host.
+ */
+int rt_photon_render_keeps(const rt_render_job *job, rt_photon_search search);
 
 /* Starts the clock, and makes the emitter and the memory for eye paths. */
 rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error);

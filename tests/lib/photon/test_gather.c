@@ -16,8 +16,10 @@ enum { photon_count = 2000, point_count = 300, emitted = 4 };
 
 static rt_photon_list make_map(void)
 {
-    rt_photon_list map = {
-        calloc(photon_count, sizeof *map.photons), photon_count, photon_count, emitted, 0, NULL};
+    rt_photon_list map = {.photons = calloc(photon_count, sizeof *map.photons),
+                          .count = photon_count,
+                          .capacity = photon_count,
+                          .emitted = emitted};
     points_stream stream = {5};
     assert_non_null(map.photons);
     for (size_t i = 0; i < map.count; i++) {
@@ -86,7 +88,8 @@ static void gather(const rt_photon_list *map, rt_gather_options options, size_t 
     rt_error error;
 
     expect_ok(rt_device_kernel(test_device(), &kernel, program, program, NULL, &error), &error);
-    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, map, &options, &error), &error);
+    expect_ok(rt_gatherer_create(&gatherer, test_device(), kernel, map, &options, NULL, &error),
+              &error);
     assert_true(rt_gatherer_capacity(gatherer) >= point_count);
     for (int time = 0; time < 2; time++)
         expect_ok(rt_gatherer_add(gatherer, buffer, before, point_count, discs, &error), &error);

@@ -24,8 +24,10 @@ enum { ENTRIES = 1 << 20 };
 
 static rt_photon_list make_list(size_t count)
 {
-    rt_photon_list list = {
-        calloc(count ? count : 1, sizeof(rt_photon)), count, count, count, 0, NULL};
+    rt_photon_list list = {.photons = calloc(count ? count : 1, sizeof(rt_photon)),
+                           .count = count,
+                           .capacity = count,
+                           .emitted = count};
     points_stream stream = {17};
     assert_non_null(list.photons);
     for (size_t i = 0; i < count; i++) {
@@ -237,7 +239,7 @@ static void compete(const problem *p, size_t brute)
     answers theirs = make_answers(part, stride), ours = make_answers(part, stride);
     uint64_t *order = order_of(&p->list);
 
-    expect_ok(rt_tree_gather_prepare(&on, test_device(), &p->list, &estimate, &part, &error),
+    expect_ok(rt_tree_gather_prepare(&on, test_device(), &p->list, &estimate, NULL, &part, &error),
               &error);
     if (p->k)
         expect_ok(rt_neighbour_search_create(&search, &p->list, p->k, limit, 0,

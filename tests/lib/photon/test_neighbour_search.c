@@ -40,7 +40,7 @@ static rt_gather_point point_at(float x, float z)
 static rt_gather_disc ask(rt_photon *photons, size_t count, uint32_t k, float max_radius,
                           rt_gather_point point, rt_u32 *list)
 {
-    rt_photon_list map = {photons, count, count, count, 0, NULL};
+    rt_photon_list map = {.photons = photons, .count = count, .capacity = count, .emitted = count};
     rt_neighbour_search *search = NULL;
     rt_gather_disc disc;
     rt_error error;
@@ -147,7 +147,7 @@ static void points_without_weight_or_place_are_not_asked(void **state)
     rt_photon photons[20];
     rt_gather_point points[3] = {point_at(0, 0), point_at(0, 0), point_at(NAN, 0)};
     rt_gather_disc discs[3];
-    rt_photon_list map = {photons, 20, 20, 20, 0, NULL};
+    rt_photon_list map = {.photons = photons, .count = 20, .capacity = 20, .emitted = 20};
     rt_neighbour_search *search = NULL;
     rt_u32 lists[3 * 5];
     rt_error error;
@@ -173,7 +173,7 @@ static void many_points_at_once_find_what_one_finds(void **state)
     static rt_gather_disc discs[asked];
     static rt_u32 lists[asked * k], list[k];
     points_stream stream = {3};
-    rt_photon_list map = {photons, count, count, count, 0, NULL};
+    rt_photon_list map = {.photons = photons, .count = count, .capacity = count, .emitted = count};
     rt_neighbour_search *search = NULL;
     rt_error error;
     (void)state;
@@ -207,7 +207,7 @@ static void skipping_empty_discs_changes_no_other(void **state)
     static rt_u32 lists[2][asked * k];
     const float *const normals[] = {up, down, sideways};
     points_stream stream = {5};
-    rt_photon_list map = {photons, count, count, count, 0, NULL};
+    rt_photon_list map = {.photons = photons, .count = count, .capacity = count, .emitted = count};
     rt_error error;
     size_t empty = 0;
     (void)state;
@@ -249,7 +249,8 @@ static void an_empty_disc_is_known_without_a_search(void **state)
     enum { spot = 1024, wall = 1024, reach = 320 };
     static rt_photon photons[spot + wall];
     points_stream stream = {7};
-    rt_photon_list map = {photons, spot + wall, spot + wall, spot + wall, 0, NULL};
+    rt_photon_list map = {
+        .photons = photons, .count = spot + wall, .capacity = spot + wall, .emitted = spot + wall};
     const float near_spot[3] = {0.2f, 0.1f, 0}, at_wall[3] = {8.9f, 9, 9};
     rt_photon_boxes *boxes = NULL;
     rt_error error;
@@ -312,7 +313,8 @@ static void each_failure_of_memory_in_any_thread_is_an_error(void **state)
     static rt_gather_point points[asked];
     static rt_u32 lists[asked * in_disc];
     static rt_gather_disc discs[asked];
-    const rt_photon_list map = {photons, in_row, in_row, in_row, 0, NULL};
+    const rt_photon_list map = {
+        .photons = photons, .count = in_row, .capacity = in_row, .emitted = in_row};
     const long before = failing_new_blocks();
     unsigned failing = 0, is_over = 0;
     rt_error error;

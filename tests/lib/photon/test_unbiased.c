@@ -108,9 +108,9 @@ static void prepare(prepared *p, const field_map *map, const rt_gather_options *
     rt_error error;
     *p = (prepared){.map = map, .points = points};
     expect_ok(rt_device_kernel(test_device(), &p->kernel, program, program, NULL, &error), &error);
-    expect_ok(
-        rt_gatherer_create(&p->gatherer, test_device(), p->kernel, &map->photons, options, &error),
-        &error);
+    expect_ok(rt_gatherer_create(&p->gatherer, test_device(), p->kernel, &map->photons, options,
+                                 NULL, &error),
+              &error);
 }
 
 static void release(prepared *p)
