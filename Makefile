@@ -74,7 +74,7 @@ LIB_SRC := \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
 	lib/mode/path/path.c \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
-	lib/mode/photon/first_radius.c lib/mode/photon/layers.c lib/mode/photon/pass_film.c \
+	lib/mode/photon/first_radius.c lib/mode/photon/layers.c lib/mode/photon/pass_sums.c \
 	lib/mode/photon/passes.c \
 	lib/mode/photon/photon.c lib/mode/photon/photon_render.c lib/mode/photon/queries.c \
 	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \

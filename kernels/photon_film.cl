@@ -1,4 +1,7 @@
-/* photon_film.cl - adds gather points to the film, each as one sample of its pixel. */
+/*
+ * photon_film.cl - adds gather points to the film, each as one sample of its pixel; adds the film
+ * of a pass to that of the render; and counts queries.
+ */
 #include "entry.h"
 #include "camera/film.h"
 #include "math/frame.h"
@@ -30,4 +33,44 @@ KERNEL photon_film(const rt_params params, global const rt_gather_point *points,
     rt_film_pixel pixel = plane[index];
     film_add(&pixel, radiance, points[item].film_weight, points[item].cut_off);
     plane[index] = pixel;
+}
+
+/*
+ * Adds the film of a whole pass to a plane of the render's, so that this never holds a part of one,
+ * and clears it for the next pass.
+ */
+KERNEL photon_join(uint pixels, uint plane, global rt_film_pixel *pass, global rt_film_pixel *film)
+{
+    const rt_film_pixel none = {{0, 0, 0}, {0, 0, 0}, 0u, 0, 0u, 0u};
+    const uint item = (uint)get_global_id(0);
+    if (item >= pixels)
+        return;
+    global rt_film_pixel *out = film + (size_t)plane * pixels + item;
+    const rt_film_pixel more = pass[item];
+    rt_film_pixel pixel = *out;
+    film_join(&pixel, &more);
+    *out = pixel;
+    pass[item] = none;
+}
+
+/*
+ * Each work-item counts, of a run of discs, the queries, and those that found no photon: neither
+ * here nor, with_others, in the other disc of the point. counts: two a run
+ */
+KERNEL count_queries(uint count, uint with_others, global const rt_gather_disc *discs,
+                     global const rt_gather_disc *others, global uint *counts)
+{
+    const uint run = (uint)get_global_id(0);
+    const uint begin = run * RT_SUM_RUN;
+    if (begin >= count)
+        return;
+    const uint end = min(begin + RT_SUM_RUN, count);
+    uint queries = 0u, empty = 0u;
+    for (uint i = begin; i < end; i++) {
+        const bool found = discs[i].count > 0u || (with_others && others[i].count > 0u);
+        queries += discs[i].is_query;
+        empty += discs[i].is_query && !found;
+    }
+    counts[2u * run] = queries;
+    counts[2u * run + 1u] = empty;
 }

@@ -595,6 +595,7 @@ RT_SIZE(rt_photon_block, 384);
 
 /* The work of a work-item where photons are counted and sorted. */
 #define RT_SUM_RUN 64u    /* numbers that a work-item adds */
+#define RT_PATH_SHARE 16u /* accounts of paths that it sums */
 #define RT_SORT_SHARE 32u /* photons that a work-item sorts */
 
 /* The order of photons along Hilbert's curve: a key of three times so many bits, and an index. */

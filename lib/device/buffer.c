@@ -162,6 +162,19 @@ rt_status rt_buffer_write(rt_device *device, cl_mem buffer, size_t offset, size_
     return status;
 }
 
+rt_status rt_buffer_clear(rt_device *device, cl_mem buffer, size_t bytes, rt_error *error)
+{
+    static const unsigned char zeros[16];
+    if (bytes == 0)
+        return RT_OK;
+    cl_event event, *const wanted = rt_event_of(device, &event);
+    rt_status status = rt_cl_check(
+        clEnqueueFillBuffer(device->queue, buffer, zeros, sizeof zeros, 0, bytes, 0, NULL, wanted),
+        "clearing memory of the device", error);
+    rt_event_transferred(device, event, "clear", bytes);
+    return status;
+}
+
 rt_status rt_buffer_copy(rt_device *device, cl_mem from, cl_mem to, size_t offset, size_t bytes,
                          rt_error *error)
 {

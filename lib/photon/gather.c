@@ -127,6 +127,11 @@ size_t rt_gatherer_capacity(const rt_gatherer *g)
     return g->capacity;
 }
 
+cl_mem rt_gatherer_discs(const rt_gatherer *g)
+{
+    return g->search == RT_SEARCH_TREE ? g->tree.discs : NULL;
+}
+
 rt_status rt_gatherer_add(rt_gatherer *g, cl_mem points, size_t first, size_t count,
                           rt_gather_disc *discs, rt_error *error)
 {

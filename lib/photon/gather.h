@@ -77,6 +77,12 @@ void rt_gatherer_set_density(rt_gatherer *gatherer, rt_density density, float co
 size_t rt_gatherer_capacity(const rt_gatherer *gatherer);
 
 /*
+ * What the last call of rt_gatherer_add found, rt_gather_disc [count] on the device; NULL where it
+ * is the host that finds photons.
+ */
+cl_mem rt_gatherer_discs(const rt_gatherer *gatherer);
+
+/*
  * Adds to the radiance of points first .. first + count - 1 of a buffer of rt_gather_point their
  * weight times the radiance that the material reflects of the photons around them. discs [count],
  * if not NULL, is what was found.

@@ -7,10 +7,9 @@
 
 static const char what[] = "the sums of photon paths";
 
-/* How many sums are taken of so many things, at least 1. */
-static size_t runs_of(size_t count)
+static size_t runs_of(size_t rows)
 {
-    return count ? (count + RT_SUM_RUN - 1) / RT_SUM_RUN : 1;
+    return (rows + RT_SUM_RUN - 1) / RT_SUM_RUN;
 }
 
 static size_t numbers_of(size_t sources)
@@ -18,10 +17,16 @@ static size_t numbers_of(size_t sources)
     return (1 + sources) * RT_SUMS_A_ROW;
 }
 
+/* How many work-items sum the accounts of so many paths. */
+static size_t items_of(size_t paths)
+{
+    return (paths + RT_PATH_SHARE - 1) / RT_PATH_SHARE;
+}
+
 /* How many rows all tables have together. */
 static size_t room_of(size_t paths)
 {
-    size_t level = runs_of(paths), room = level;
+    size_t level = items_of(paths), room = level;
     for (; level > 1; room += level)
         level = runs_of(level);
     return room;
@@ -98,7 +103,7 @@ static rt_status join(const rt_path_sums *s, rt_u32 *at, size_t count, rt_u32 nu
 rt_status rt_path_sums_run(rt_path_sums *s, const rt_i64 **out, cl_mem accounts, size_t paths,
                            int with_sources, rt_error *error)
 {
-    rt_u32 count = (rt_u32)paths, items = (rt_u32)runs_of(paths), at = 0;
+    rt_u32 count = (rt_u32)paths, items = (rt_u32)items_of(paths), at = 0;
     rt_u32 rows = with_sources ? 1 + (rt_u32)s->sources : 1, numbers = rows * RT_SUMS_A_ROW;
     rt_arg args[] = {RT_ARG(count),       RT_ARG(items),        RT_ARG(rows),   RT_ARG(accounts),
                      RT_ARG(s->of_light), RT_ARG(s->exponents), RT_ARG(s->rows)};

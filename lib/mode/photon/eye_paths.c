@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "mode/photon/pass_film.h"
+#include "mode/photon/pass_sums.h"
 #include "render/prepare.h"
 
 /* The shortest batch, where there is little memory. */
@@ -33,6 +33,10 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *rendere
     if (status == RT_OK)
         status = rt_kernel_prepare(device, &out->film, "photon_film", "photon_film", film, 5,
                                    progress, error);
+    if (status == RT_OK)
+        status = rt_device_kernel(device, &out->join, "photon_film", "photon_join", NULL, error);
+    if (status == RT_OK)
+        status = rt_device_kernel(device, &out->count, "photon_film", "count_queries", NULL, error);
     return status;
 }
 
@@ -41,6 +45,8 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels)
     rt_kernel_release(kernels->camera);
     rt_kernel_release(kernels->gather);
     rt_kernel_release(kernels->film);
+    rt_kernel_release(kernels->join);
+    rt_kernel_release(kernels->count);
     memset(kernels, 0, sizeof *kernels);
 }
 
@@ -59,27 +65,32 @@ static rt_status create_layers(rt_eye_paths *paths, rt_error *error)
     return rt_photon_bias_create(&paths->bias, device, paths->capacity, paths->rows, error);
 }
 
-/* In passes, each begins with an empty film of one plane; else the film goes on. */
+/* In passes, the samples of one go to an empty film of one plane; else straight to the film. */
 static rt_status create_film(rt_eye_paths *paths, rt_error *error)
 {
     rt_film *film = paths->job->film;
-    const size_t pixels = rt_film_pixels(film);
-    rt_memory *memory = paths->device->memory;
+    const size_t pixels = rt_film_pixels(film), bytes = pixels * sizeof *film->pixels;
     static const char pass[] = "the film of a pass";
-    if (film->units.in_passes) {
-        paths->pass_pixels =
-            rt_memory_zeroed(memory, pixels, sizeof *paths->pass_pixels, pass, error);
-        if (!paths->pass_pixels)
-            return RT_ERROR_MEMORY;
-    }
-    if (film->units.in_passes && film->photon_sums) {
-        paths->pass_sums = rt_memory_zeroed(memory, pixels, sizeof *paths->pass_sums, pass, error);
+    rt_status status = rt_mirror_create(paths->device, &paths->film, rt_film_bytes(film),
+                                        film->pixels, "the film", error);
+    paths->pixels = paths->film;
+    if (status != RT_OK || !film->units.in_passes)
+        return status;
+    paths->pixels = NULL;
+    if (film->photon_sums) {
+        paths->pass_sums =
+            rt_memory_zeroed(paths->device->memory, pixels, sizeof *paths->pass_sums, pass, error);
         if (!paths->pass_sums)
             return RT_ERROR_MEMORY;
     }
-    return rt_mirror_create(paths->device, &paths->pixels, pixels * sizeof *film->pixels,
-                            film->units.in_passes ? paths->pass_pixels : film->pixels, "the film",
-                            error);
+    status = rt_buffer_create(paths->device, &paths->pixels, CL_MEM_READ_WRITE, bytes, NULL, pass,
+                              error);
+    return status == RT_OK ? rt_buffer_clear(paths->device, paths->pixels, bytes, error) : status;
+}
+
+static size_t runs_of(size_t points)
+{
+    return (points + RT_SUM_RUN - 1) / RT_SUM_RUN;
 }
 
 static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
@@ -92,6 +103,10 @@ static rt_status create_buffers(rt_eye_paths *paths, rt_error *error)
         status = rt_buffer_create(device, &paths->earlier, CL_MEM_READ_WRITE, paths->rows * bytes,
                                   NULL, "the buffer of caustic gather points", error);
     if (status == RT_OK)
+        status = rt_buffer_create(device, &paths->counts, CL_MEM_READ_WRITE,
+                                  2 * runs_of(paths->capacity) * sizeof *paths->host_counts, NULL,
+                                  "the counts of queries", error);
+    if (status == RT_OK)
         status = create_film(paths, error);
     return status == RT_OK ? create_layers(paths, error) : status;
 }
@@ -103,6 +118,10 @@ static rt_status create_memory(rt_eye_paths *paths, rt_error *error)
     if (!paths->discs)
         return RT_ERROR_MEMORY;
     paths->more_discs = paths->discs + paths->capacity;
+    paths->host_counts = rt_memory_alloc(paths->device->memory, runs_of(paths->capacity),
+                                         2 * sizeof *paths->host_counts, what, error);
+    if (!paths->host_counts)
+        return RT_ERROR_MEMORY;
     return create_buffers(paths, error);
 }
 
@@ -110,15 +129,18 @@ static void release_memory(rt_eye_paths *paths)
 {
     rt_buffer_release(paths->device, paths->points);
     rt_buffer_release(paths->device, paths->earlier);
-    rt_buffer_release(paths->device, paths->pixels);
-    paths->points = paths->earlier = paths->pixels = NULL;
+    if (paths->pixels != paths->film)
+        rt_buffer_release(paths->device, paths->pixels);
+    rt_buffer_release(paths->device, paths->film);
+    rt_buffer_release(paths->device, paths->counts);
+    paths->points = paths->earlier = paths->pixels = paths->film = paths->counts = NULL;
     rt_memory_free(paths->discs);
+    rt_memory_free(paths->host_counts);
     rt_memory_free(paths->pass_sums);
-    rt_memory_free(paths->pass_pixels);
     rt_memory_free(paths->host_points);
     paths->discs = paths->more_discs = NULL;
     paths->sums = paths->pass_sums = NULL;
-    paths->pass_pixels = NULL;
+    paths->host_counts = NULL;
     paths->host_points = NULL;
     rt_photon_bias_release(&paths->bias);
 }
@@ -148,6 +170,8 @@ rt_status rt_eye_paths_create(rt_eye_paths *paths, const rt_render_job *job,
 
 void rt_eye_paths_release(rt_eye_paths *paths)
 {
+    if (paths->device)
+        rt_device_settle(paths->device); /* it may work on the film in place */
     release_memory(paths);
     memset(paths, 0, sizeof *paths);
 }
@@ -174,22 +198,49 @@ static rt_status follow_paths(rt_eye_paths *paths, rt_params *params, rt_error *
                            : status;
 }
 
-/* Counts the query points at ends of paths; caustic: what the caustic query found, or NULL. */
-static void count_ends(const rt_gather_disc *discs, const rt_gather_disc *caustic, size_t count,
-                       rt_film_stats *stats)
+/* Counts the query points of discs on the host. others: as in count, or NULL. */
+static void count_here(rt_u32 out[2], const rt_gather_disc *discs, const rt_gather_disc *others,
+                       size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        stats->gathers += discs[i].is_query;
-        stats->gathers_at_ends += discs[i].is_query;
-        stats->gathers_empty +=
-            discs[i].is_query && discs[i].count == 0 && !(caustic && caustic[i].count > 0);
+        out[0] += discs[i].is_query;
+        out[1] += discs[i].is_query && discs[i].count == 0 && !(others && others[i].count > 0);
     }
 }
 
-static void count_earlier(const rt_gather_disc *discs, size_t count, rt_film_stats *stats)
+/* The same on the device, where the discs lie. */
+static rt_status count_there(rt_u32 out[2], const rt_eye_paths *paths, cl_mem discs, cl_mem others,
+                             size_t count, rt_error *error)
 {
-    for (size_t i = 0; i < count; i++)
-        stats->gathers += discs[i].is_query;
+    const size_t runs = runs_of(count);
+    rt_u32 points = (rt_u32)count, with_others = others != NULL;
+    rt_arg args[] = {RT_ARG(points), RT_ARG(with_others), RT_ARG(discs),
+                     others ? (rt_arg)RT_ARG(others) : (rt_arg)RT_ARG(discs),
+                     RT_ARG(paths->counts)};
+    rt_status status = rt_run(paths->device, paths->kernels.count, args, 5, runs, error);
+    if (status == RT_OK)
+        status = rt_buffer_read(paths->device, paths->counts, 0,
+                                2 * runs * sizeof *paths->host_counts, paths->host_counts, error);
+    for (size_t i = 0; i < 2 * runs && status == RT_OK; i++)
+        out[i % 2] += paths->host_counts[i];
+    return status;
+}
+
+/*
+ * Counts the points that made a query, and of these those that found no photon, neither by it nor
+ * by the other query of the point, which may be NULL.
+ */
+static rt_status count_queries(rt_u32 out[2], const rt_eye_paths *paths, const rt_gatherer *query,
+                               const rt_gatherer *other, const rt_gather_disc *discs, size_t count,
+                               rt_error *error)
+{
+    cl_mem there = rt_gatherer_discs(query);
+    out[0] = out[1] = 0;
+    if (there && !paths->sums)
+        return count_there(out, paths, there, other ? rt_gatherer_discs(other) : NULL, count,
+                           error);
+    count_here(out, discs, other ? paths->more_discs : NULL, count);
+    return RT_OK;
 }
 
 /* Makes one query at the points of a row, and for the layers the finer one as well. */
@@ -200,6 +251,9 @@ static rt_status gather(rt_eye_paths *paths, const rt_queries *queries, rt_query
     cl_mem points = row == 0 ? paths->points : paths->earlier;
     size_t first = row == 0 ? 0 : (row - 1) * paths->capacity;
     rt_gather_disc *discs = query == RT_QUERY_GLOBAL ? paths->discs : paths->more_discs;
+    /* Unless layers show what was found, it is only counted, where it lies. */
+    if (!paths->sums && rt_gatherer_discs(gatherer))
+        discs = NULL;
     if (paths->sums)
         return rt_photon_bias_add(&paths->bias, gatherer, queries->finer + query, points, first,
                                   row, count, discs, error);
@@ -211,8 +265,10 @@ static rt_status gather_all(rt_eye_paths *paths, const rt_queries *queries, size
                             rt_error *error)
 {
     rt_film_stats *stats = &paths->job->film->stats;
-    int global = queries->gatherers[RT_QUERY_GLOBAL] != NULL;
-    int caustic = queries->gatherers[RT_QUERY_CAUSTIC] != NULL;
+    const rt_gatherer *global = queries->gatherers[RT_QUERY_GLOBAL],
+                      *caustic = queries->gatherers[RT_QUERY_CAUSTIC],
+                      *earlier = queries->gatherers[RT_QUERY_EARLIER];
+    rt_u32 counts[2];
     rt_status status = RT_OK;
     if (paths->sums)
         status = rt_photon_bias_begin(&paths->bias, paths->points, paths->earlier, count, error);
@@ -221,13 +277,17 @@ static rt_status gather_all(rt_eye_paths *paths, const rt_queries *queries, size
     if (status == RT_OK && caustic)
         status = gather(paths, queries, RT_QUERY_CAUSTIC, 0, count, error);
     if (status == RT_OK && global)
-        count_ends(paths->discs, caustic ? paths->more_discs : NULL, count, stats);
-    if (!queries->gatherers[RT_QUERY_EARLIER])
-        return status;
-    for (rt_u32 row = 1; row <= paths->rows && status == RT_OK; row++) {
+        status = count_queries(counts, paths, global, caustic, paths->discs, count, error);
+    if (status == RT_OK && global) {
+        stats->gathers += counts[0];
+        stats->gathers_at_ends += counts[0];
+        stats->gathers_empty += counts[1];
+    }
+    for (rt_u32 row = 1; earlier && row <= paths->rows && status == RT_OK; row++) {
         status = gather(paths, queries, RT_QUERY_EARLIER, row, count, error);
         if (status == RT_OK)
-            count_earlier(paths->more_discs, count, stats);
+            status = count_queries(counts, paths, earlier, NULL, paths->more_discs, count, error);
+        stats->gathers += status == RT_OK ? counts[0] : 0;
     }
     return status;
 }
@@ -354,7 +414,7 @@ rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error)
 {
     rt_film *film = paths->job->film;
     rt_status status =
-        rt_mirror_read(paths->device, paths->pixels, rt_film_bytes(film), film->pixels, error);
+        rt_mirror_read(paths->device, paths->film, rt_film_bytes(film), film->pixels, error);
     return status == RT_OK ? rt_first_hit_layers_read(paths->job->layers, film, error) : status;
 }
 
@@ -362,16 +422,15 @@ rt_status rt_eye_paths_write(const rt_eye_paths *paths, rt_error *error)
 {
     const rt_film *film = paths->job->film;
     rt_status status =
-        rt_mirror_write(paths->device, paths->pixels, rt_film_bytes(film), film->pixels, error);
+        rt_mirror_write(paths->device, paths->film, rt_film_bytes(film), film->pixels, error);
     return status == RT_OK ? rt_first_hit_layers_write(paths->job->layers, film, error) : status;
 }
 
-rt_status rt_eye_paths_begin_pass(rt_eye_paths *paths, rt_error *error)
+void rt_eye_paths_begin_pass(rt_eye_paths *paths)
 {
-    const size_t pixels = rt_film_pixels(paths->job->film);
-    const size_t bytes = pixels * sizeof *paths->pass_pixels;
-    rt_pass_film_clear(paths->pass_pixels, paths->pass_sums, pixels, paths->device->threads);
-    return rt_mirror_write(paths->device, paths->pixels, bytes, paths->pass_pixels, error);
+    if (paths->pass_sums)
+        rt_pass_sums_clear(paths->pass_sums, rt_film_pixels(paths->job->film),
+                           paths->device->threads);
 }
 
 /* The layers of the first hit get the samples of a pass once it is whole. */
@@ -392,15 +451,14 @@ rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t fi
 {
     rt_film *film = paths->job->film;
     const size_t pixels = rt_film_pixels(film);
+    rt_u32 count = (rt_u32)pixels;
+    rt_arg args[] = {RT_ARG(count), RT_ARG(plane), RT_ARG(paths->pixels), RT_ARG(paths->film)};
     rt_profile_begin(paths->device->profile, "gather");
-    rt_status status =
-        rt_mirror_read(paths->device, paths->pixels, pixels * sizeof *paths->pass_pixels,
-                       paths->pass_pixels, error);
-    if (status == RT_OK) {
-        rt_pass_film_join(film->pixels + plane * pixels, film->photon_sums, paths->pass_pixels,
-                          paths->pass_sums, pixels, paths->device->threads);
+    rt_status status = rt_run(paths->device, paths->kernels.join, args, 4, pixels, error);
+    if (status == RT_OK && paths->pass_sums)
+        rt_pass_sums_join(film->photon_sums, paths->pass_sums, pixels, paths->device->threads);
+    if (status == RT_OK)
         status = add_first_hits(paths, first, error);
-    }
     rt_profile_end(paths->device->profile);
     return status;
 }

@@ -13,7 +13,8 @@
 typedef struct rt_eye_kernels {
     cl_kernel camera; /* photon_camera */
     cl_kernel gather; /* that of rt_gather_kernel_prepare */
-    cl_kernel film;   /* photon_film */
+    cl_kernel film;   /* photon_film, and the others of its program: */
+    cl_kernel join, count;
 } rt_eye_kernels;
 
 /* Eye paths under way, a batch at a time. */
@@ -26,12 +27,14 @@ typedef struct rt_eye_paths {
     size_t capacity;    /* paths a batch */
     cl_mem points;      /* rt_gather_point [capacity], the ends of paths */
     cl_mem earlier;     /* rt_gather_point [rows][capacity] */
-    cl_mem pixels;      /* rt_film_pixel, the film on the device; in passes, that of one pass */
+    cl_mem film;        /* rt_film_pixel, the film on the device */
+    cl_mem pixels;      /* what samples are added to: the film, or in passes that of one pass */
+    cl_mem counts;      /* of queries, two rt_u32 a run of them */
+    rt_u32 *host_counts;
     rt_gather_disc *discs;        /* [capacity], what the global query found */
     rt_gather_disc *more_discs;   /* [capacity], what the caustic or an earlier query found */
     rt_photon_sums *sums;         /* the film's, or in passes those of one; NULL: no layers */
     rt_photon_sums *pass_sums;    /* in passes: what sums is */
-    rt_film_pixel *pass_pixels;   /* in passes: to read the film of one */
     rt_gather_point *host_points; /* for the layers: [1 + rows][capacity] points */
     rt_photon_bias bias;          /* likewise */
 } rt_eye_paths;
@@ -64,15 +67,15 @@ rt_status rt_eye_paths_radii(rt_eye_paths *paths, const rt_queries *queries, rt_
                              uint32_t sample, float *squared, rt_stage_progress *progress,
                              rt_error *error);
 
-/* Reads the film from the device, and the layers of the first hit; writes them. Not in passes. */
+/* Reads the film from the device, and the layers of the first hit; writes them. */
 rt_status rt_eye_paths_read(const rt_eye_paths *paths, rt_error *error);
 rt_status rt_eye_paths_write(const rt_eye_paths *paths, rt_error *error);
 
 /*
- * In passes: an empty film for the next one; and the samples of one, from `first` on, added to this
- * plane of the film, so that it never holds a part of a pass.
+ * In passes: empty layers for the next one; and the samples of one, from `first` on, added to this
+ * plane of the film, so that it never holds a part of a pass. The film of a pass is empty then.
  */
-rt_status rt_eye_paths_begin_pass(rt_eye_paths *paths, rt_error *error);
+void rt_eye_paths_begin_pass(rt_eye_paths *paths);
 rt_status rt_eye_paths_end_pass(rt_eye_paths *paths, uint32_t plane, uint32_t first,
                                 rt_error *error);
 

@@ -154,8 +154,7 @@ static rt_status render_pass(rt_photon_render *r, uint32_t pass, rt_stage_progre
     double t1 = rt_clock();
     rt_stage_part(progress, from + 0.4 * (to - from), to);
     const uint32_t first = aim_at_pass(r, pass);
-    if (status == RT_OK)
-        status = rt_eye_paths_begin_pass(&r->eye_paths, error);
+    rt_eye_paths_begin_pass(&r->eye_paths);
     if (status == RT_OK)
         status = open_queries(r, pass, progress, error);
     if (status == RT_OK)
@@ -179,12 +178,11 @@ static rt_status render_pass(rt_photon_render *r, uint32_t pass, rt_stage_progre
 /* Makes a checkpoint where it is due. */
 static rt_status save(rt_photon_render *r, rt_error *error)
 {
-    const rt_render_job *job = r->job;
     if (!rt_work_save_is_due(&r->work))
         return RT_OK;
-    rt_status status = rt_first_hit_layers_read(job->layers, job->film, error);
+    rt_status status = rt_eye_paths_read(&r->eye_paths, error);
     if (status == RT_OK && rt_work_save(&r->work))
-        status = rt_first_hit_layers_write(job->layers, job->film, error);
+        status = rt_eye_paths_write(&r->eye_paths, error);
     return status;
 }
 
@@ -195,8 +193,11 @@ static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress 
     rt_film *film = r->job->film;
     rt_status status = rt_work_done(&r->work, (rt_unit_range){pass, 1}, error);
     film->stats.passes++;
-    if (status == RT_OK && rt_work_test_is_due(&r->work))
-        rt_work_test(&r->work);
+    if (status == RT_OK && rt_work_test_is_due(&r->work)) {
+        status = rt_eye_paths_read(&r->eye_paths, error);
+        if (status == RT_OK)
+            rt_work_test(&r->work);
+    }
     if (status == RT_OK)
         status = save(r, error);
     progress->error = rt_noise_last(&r->work.noise);

@@ -221,6 +221,7 @@ static void warn(const rt_photon_render *r)
 static rt_status run(const rt_render_job *job, void *state, rt_error *error)
 {
     rt_photon_render *r = state;
+    (void)job;
     rt_status status = rt_photon_render_begin(r, error);
     if (status != RT_OK)
         return status;
@@ -229,8 +230,7 @@ static rt_status run(const rt_render_job *job, void *state, rt_error *error)
         warn(r);
     if (status == RT_OK || status == RT_CANCELLED) {
         rt_profile_begin(r->work.profile, "read film");
-        rt_status read = r->in_passes ? rt_first_hit_layers_read(job->layers, job->film, error)
-                                      : rt_eye_paths_read(&r->eye_paths, error);
+        rt_status read = rt_eye_paths_read(&r->eye_paths, error);
         rt_profile_end(r->work.profile);
         status = read == RT_OK ? status : read;
     }

@@ -65,6 +65,7 @@ static const rt_film *progression_after(progression *p, uint32_t passes)
     p->job.film->units = rt_units_of(&p->options, 0);
     p->render.work = rt_work_begin(p->job.film, &p->options);
     expect_ok(rt_photon_render_passes(&p->render, &error), &error);
+    expect_ok(rt_eye_paths_read(&p->render.eye_paths, &error), &error);
     rt_film_make_means(p->job.film);
     return p->job.film;
 }
