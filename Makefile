@@ -74,8 +74,8 @@ LIB_SRC := \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
 	lib/mode/path/path.c \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
-	lib/mode/photon/first_radius.c lib/mode/photon/layers.c lib/mode/photon/pass_sums.c \
-	lib/mode/photon/passes.c \
+	lib/mode/photon/first_radius.c lib/mode/photon/irradiance_points.c \
+	lib/mode/photon/layers.c lib/mode/photon/pass_sums.c lib/mode/photon/passes.c \
 	lib/mode/photon/photon.c lib/mode/photon/photon_render.c lib/mode/photon/queries.c \
 	lib/photon/emit.c lib/photon/fingerprint.c lib/photon/flann_index.c lib/photon/forecast.c \
 	lib/photon/gather.c lib/photon/irradiance.c lib/photon/ledger.c lib/photon/ledger_file.c \
@@ -139,7 +139,7 @@ KERNEL_SRC := \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \
 	kernels/prefix_sum.cl \
 	kernels/gather_neighbours.cl \
-	kernels/gather_tree.cl \
+	kernels/gather_tree.cl kernels/gather_irradiance.cl \
 	kernels/trace.cl
 
 # Headers and sources that only kernels include: embedding depends on them.
@@ -188,6 +188,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_each_shape.c tests/lib/render/test_enclosing_media.c \
 	tests/lib/render/test_estimators.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
+	tests/lib/mode/test_irradiance.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_memory_limit.c \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \

@@ -38,7 +38,15 @@ size_t rt_gather_points_max(const rt_device *device)
 
 const char *rt_gather_kernel_name(rt_photon_search search)
 {
-    return search == RT_SEARCH_TREE ? "gather_tree" : "gather_neighbours";
+    switch (search) {
+    case RT_SEARCH_NEIGHBOURS:
+        return "gather_neighbours";
+    case RT_SEARCH_TREE:
+        return "gather_tree";
+    case RT_SEARCH_IRRADIANCE:
+        return "gather_irradiance";
+    }
+    return NULL;
 }
 
 rt_status rt_gather_kernel_prepare(cl_kernel *out, rt_device *device, rt_photon_search search,
@@ -55,7 +63,7 @@ rt_status rt_gather_kernel_prepare(cl_kernel *out, rt_device *device, rt_photon_
                           RT_ARG(any),    RT_ARG(any),      RT_ARG(any)};
     rt_arg tree_args[] = {RT_ARG(params), RT_ARG(estimate), RT_ARG(any), RT_ARG(any), RT_ARG(tree),
                           RT_ARG(any),    RT_ARG(any),      RT_ARG(any), RT_ARG(any)};
-    if (search == RT_SEARCH_TREE)
+    if (search != RT_SEARCH_NEIGHBOURS)
         return rt_kernel_prepare(device, out, name, name, tree_args, 9, progress, error);
     return rt_kernel_prepare(device, out, name, name, list_args, 6, progress, error);
 }
@@ -82,7 +90,7 @@ rt_status rt_gatherer_create(rt_gatherer **out, rt_device *device, cl_kernel ker
     g->kernel = kernel;
     g->search = options->search;
     g->capacity = rt_gather_points_max(device);
-    if (g->search == RT_SEARCH_TREE) {
+    if (g->search != RT_SEARCH_NEIGHBOURS) {
         status =
             rt_tree_gather_prepare(&g->tree, device, list, &estimate, place, &g->capacity, error);
     } else {
@@ -117,7 +125,7 @@ void rt_gatherer_limit_pixels(rt_gatherer *g, cl_mem squared, float factor)
 void rt_gatherer_set_density(rt_gatherer *g, rt_density density, float cone_k)
 {
     rt_density_params *estimate =
-        g->search == RT_SEARCH_TREE ? &g->tree.estimate : &g->neighbours.estimate;
+        g->search != RT_SEARCH_NEIGHBOURS ? &g->tree.estimate : &g->neighbours.estimate;
     estimate->density = density;
     estimate->cone_k = cone_k;
 }
@@ -137,7 +145,7 @@ rt_status rt_gatherer_add(rt_gatherer *g, cl_mem points, size_t first, size_t co
 {
     rt_device *device = g->device;
     rt_status status;
-    if (g->search == RT_SEARCH_TREE) {
+    if (g->search != RT_SEARCH_NEIGHBOURS) {
         status = rt_tree_gather_launch(&g->tree, device, g->kernel, points, first, count, error);
         if (status == RT_OK && discs)
             status = rt_buffer_read(device, g->tree.discs, 0, count * sizeof *discs, discs, error);
@@ -151,7 +159,7 @@ rt_status rt_gatherer_add(rt_gatherer *g, cl_mem points, size_t first, size_t co
 rt_status rt_gatherer_add_again(rt_gatherer *g, cl_mem points, size_t first, size_t count,
                                 rt_error *error)
 {
-    if (g->search == RT_SEARCH_TREE)
+    if (g->search != RT_SEARCH_NEIGHBOURS)
         return rt_gatherer_add(g, points, first, count, NULL, error);
     rt_status status =
         rt_neighbour_gather_sum(&g->neighbours, g->device, g->kernel, points, first, count, error);

@@ -2,7 +2,8 @@
  * gather.h - the light that gather points reflect, estimated from a list of photons.
  *
  * There are two searches for the photons near a point: neighbour lists, made on the host by FLANN
- * and sent to the device, and a tree that the device traverses itself. The sum over the photons,
+ * and sent to the device, and a tree that the device traverses itself; a third finds the nearest
+ * point at which the irradiance is known. The sum over the photons,
  * with the material, is taken on the device either way, so shading exists once.
  */
 #ifndef RT_LIB_PHOTON_GATHER_H
@@ -18,7 +19,12 @@ typedef struct rt_gatherer rt_gatherer;
 
 typedef enum rt_photon_search {
     RT_SEARCH_NEIGHBOURS, /* neighbour lists from the host, by FLANN: k nearest only */
-    RT_SEARCH_TREE        /* a tree on the device */
+    RT_SEARCH_TREE,       /* a tree on the device */
+    /*
+     * a tree of points of known irradiance: photons with the irradiance in place of flux, emitted
+     * by 1 path. The nearest within max_radius alone, and Lambert's lobe
+     */
+    RT_SEARCH_IRRADIANCE
 } rt_photon_search;
 
 /*

@@ -6,8 +6,18 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "bsdf/lobes.h"
 #include "render/enclosing_media.h"
 #include "scene/view.h"
+
+static int has_rough_diffuse(const rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->shape_count; i++)
+        if (rt_material_diffuse_lobe(scene->materials + scene->shapes[i].material) !=
+            RT_LOBE_LAMBERT)
+            return 1;
+    return 0;
+}
 
 /* Keeps what later calls need of the scene. */
 static void note_scene(rt_renderer *renderer, const rt_scene *scene)
@@ -16,6 +26,7 @@ static void note_scene(rt_renderer *renderer, const rt_scene *scene)
     renderer->has_camera = scene->has_camera;
     renderer->has_light = rt_scene_has_light(scene);
     renderer->casts_hidden_caustics = rt_scene_casts_hidden_caustics(scene);
+    renderer->has_rough_diffuse = has_rough_diffuse(scene);
     renderer->options = scene->options;
 }
 

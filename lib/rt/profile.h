@@ -27,7 +27,7 @@ extern "C" {
  *     compile       kernels, by the driver or out of the cache
  *     trace         camera paths, in modes other than photon
  *     emit          photon emission
- *     structure     the search structure of a photon map
+ *     structure     the search structure of a photon map, and irradiance at its photons
  *     gather        camera paths in photon mode, density estimation, and the sums of the film
  *     read film     sums from the device to the host
  *     error         the estimate of the error

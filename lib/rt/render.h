@@ -131,6 +131,12 @@ typedef struct rt_render_options {
     /* diffuse bounces before photons are gathered; 0: gather at the first diffuse surface */
     uint32_t final_gather;
     /*
+     * the final gather takes the irradiance of the nearest of every so many-th photon, at which it
+     * is estimated once (Christensen 1999), instead of gathering photons at every point; 0: it
+     * gathers. For Lambert's lobe, without passes and photon_layers
+     */
+    uint32_t irradiance_step;
+    /*
      * keep caustic photons in a map of their own, filled by this many additional paths, aimed at
      * specular shapes; 0: one map for all
      */

@@ -86,6 +86,8 @@ static const rt_setting_need filter_radius_needs[] = {
     {{IS_NOT("filter", RT_FILTER_BOX), IS("filter_radius", 0)}, "with `filter` box"}, END};
 static const rt_setting_need light_needs[] = {LIGHT_IS_SHOWN, END};
 static const rt_setting_need photon_needs[] = {PHOTON_MODE, END};
+static const rt_setting_need irradiance_needs[] = {
+    PHOTON_MODE, {{ABOVE("final_gather", 0)}, "without `final_gather`"}, END};
 static const rt_setting_need pass_needs[] = {
     PHOTON_MODE, {{ABOVE("passes", 1)}, "without `passes`"}, END};
 /* Passes gather within a radius; k only chooses the first one where no radius is given. */
@@ -218,6 +220,11 @@ static const rt_setting settings[] = {
     {WHOLE(final_gather, 0, 4096, "bounces", "0",
            "gather after this many diffuse bounces instead of at the first diffuse surface"),
      RT_TOPIC_PHOTON, 0, photon_needs},
+    {WHOLE(irradiance_step, 0, 1000000, "photons", "0, none",
+           "estimate the irradiance at every so many-th photon once, by `k`, and let the final "
+           "gather take that of the nearest: many times as fast as gathering at each point. 4 is "
+           "usual. Not with `passes`, `photon_layers` or rough diffuse materials"),
+     RT_TOPIC_PHOTON, 0, irradiance_needs},
     {WHOLE(caustic_photons, 0, 4e9, "", "0",
            "keep caustic photons (light, mirrors or glass, diffuse surface) in a map of their own, "
            "filled by this many additional photon paths, aimed at specular shapes; 0: one map for "

@@ -55,14 +55,17 @@ static void expect_sphere(const char *by, const rt_render_options *options)
 
 static void integrating_spheres(void **state)
 {
-    rt_render_options nee = map, gathered = map;
+    rt_render_options nee = map, gathered = map, irradiance;
     (void)state;
     nee.direct = gathered.direct = RT_DIRECT_NEE;
     gathered.final_gather = 1;
+    irradiance = gathered;
+    irradiance.irradiance_step = 3;
     expect_sphere("path", &path);
     expect_sphere("photons", &map);
     expect_sphere("photons and shadow rays", &nee);
     expect_sphere("photons, final gather", &gathered);
+    expect_sphere("photons, irradiance", &irradiance);
 }
 
 static void depth_by_depth(void **state)

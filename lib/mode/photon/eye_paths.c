@@ -13,10 +13,16 @@ enum { LEAST_BATCH = 64 };
 
 /* ---- Kernels and memory ----------------------------------------------------- */
 
-rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *renderer,
+int rt_eye_paths_take_irradiance(const rt_render_options *options)
+{
+    return options->final_gather > 0 && options->irradiance_step > 0;
+}
+
+rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
                                  rt_photon_search search, rt_stage_progress *progress,
                                  rt_error *error)
 {
+    const rt_renderer *renderer = job->renderer;
     rt_device *device = renderer->device;
     cl_mem any = renderer->scene; /* stands for all buffers that are not touched yet */
     rt_params params;
@@ -30,6 +36,9 @@ rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *rendere
                                          camera, 5, progress, error);
     if (status == RT_OK)
         status = rt_gather_kernel_prepare(&out->gather, device, search, any, progress, error);
+    if (status == RT_OK && rt_eye_paths_take_irradiance(job->options))
+        status = rt_gather_kernel_prepare(&out->irradiance, device, RT_SEARCH_IRRADIANCE, any,
+                                          progress, error);
     if (status == RT_OK)
         status = rt_kernel_prepare(device, &out->film, "photon_film", "photon_film", film, 5,
                                    progress, error);
@@ -44,6 +53,7 @@ void rt_eye_kernels_release(rt_eye_kernels *kernels)
 {
     rt_kernel_release(kernels->camera);
     rt_kernel_release(kernels->gather);
+    rt_kernel_release(kernels->irradiance);
     rt_kernel_release(kernels->film);
     rt_kernel_release(kernels->join);
     rt_kernel_release(kernels->count);

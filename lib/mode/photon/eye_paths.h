@@ -11,9 +11,10 @@
 
 /* The kernels of the camera's half. */
 typedef struct rt_eye_kernels {
-    cl_kernel camera; /* photon_camera */
-    cl_kernel gather; /* that of rt_gather_kernel_prepare */
-    cl_kernel film;   /* photon_film, and the others of its program: */
+    cl_kernel camera;     /* photon_camera */
+    cl_kernel gather;     /* that of rt_gather_kernel_prepare */
+    cl_kernel irradiance; /* likewise, where rt_eye_paths_take_irradiance; else NULL */
+    cl_kernel film;       /* photon_film, and the others of its program: */
     cl_kernel join, count;
 } rt_eye_kernels;
 
@@ -39,8 +40,11 @@ typedef struct rt_eye_paths {
     rt_photon_bias bias;          /* likewise */
 } rt_eye_paths;
 
+/* Whether the final gather takes precomputed irradiance. */
+int rt_eye_paths_take_irradiance(const rt_render_options *options);
+
 /* Builds the kernels, as part of the stage `compile`. Release with rt_eye_kernels_release. */
-rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_renderer *renderer,
+rt_status rt_eye_kernels_prepare(rt_eye_kernels *out, const rt_render_job *job,
                                  rt_photon_search search, rt_stage_progress *progress,
                                  rt_error *error);
 void rt_eye_kernels_release(rt_eye_kernels *kernels);

@@ -42,6 +42,10 @@ static rt_status check(const rt_render_options *o, rt_error *error)
     rt_status status = check_gather(o, error);
     if (status != RT_OK)
         return status;
+    if (o->irradiance_step > 0 && o->final_gather > 0 && (o->passes > 1 || o->photon_layers))
+        return rt_fail_field(error, RT_ERROR_USAGE, "irradiance_step",
+                             "the irradiance at photons is for one photon map without %s",
+                             o->passes > 1 ? "passes" : "photon_layers, which tell of gathering");
     if ((uint64_t)o->passes * o->spp > INT32_MAX)
         return rt_fail_field(error, RT_ERROR_USAGE, "passes",
                              "%u passes of %u samples are more than the %lu possible", o->passes,
@@ -72,6 +76,18 @@ static void programs(rt_program_list *list, const rt_render_job *job)
     rt_program_list_add(list, "photon_camera");
     rt_program_list_add(list, rt_gather_kernel_name(search_of(job)));
     rt_program_list_add(list, "photon_film");
+    if (rt_eye_paths_take_irradiance(job->options))
+        rt_program_list_add(list, rt_gather_kernel_name(RT_SEARCH_IRRADIANCE));
+}
+
+/* Irradiance does not tell where the light comes from, which a rough lobe must know. */
+static rt_status check_lobes(const rt_renderer *renderer, rt_error *error)
+{
+    return renderer->has_rough_diffuse
+               ? rt_fail_field(error, RT_ERROR_USAGE, "irradiance_step",
+                               "the irradiance at photons is for diffuse materials without "
+                               "roughness, and the scene has a rough one")
+               : RT_OK;
 }
 
 static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progress *progress,
@@ -86,13 +102,17 @@ static rt_status prepare(const rt_render_job *job, void *state, rt_stage_progres
     r->search = search_of(job);
     r->keeps = rt_photon_render_keeps(job, r->search);
     r->in_use = o->photon_map ? o->photon_map : &r->map;
+    if (rt_eye_paths_take_irradiance(o))
+        status = check_lobes(job->renderer, error);
+    if (status != RT_OK)
+        return status;
     if (o->photon_map)
         status = rt_photon_map_check(o->photon_map, job->renderer, o, error);
     else
         status = rt_emit_kernel_prepare(&r->emit, job->renderer->device, job->renderer->scene,
                                         progress, error);
     return status == RT_OK
-               ? rt_eye_kernels_prepare(&r->eye_kernels, job->renderer, r->search, progress, error)
+               ? rt_eye_kernels_prepare(&r->eye_kernels, job, r->search, progress, error)
                : status;
 }
 

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "mode/photon/irradiance_points.h"
+
 /* How each query gathers by the options of the render. */
 static void set_gather_options(rt_photon_render *r)
 {
@@ -25,8 +27,12 @@ static void set_gather_options(rt_photon_render *r)
 int rt_photon_render_keeps(const rt_render_job *job, rt_photon_search search)
 {
     const rt_render_options *o = job->options;
-    /* The caustic photons of a list that holds all kinds are picked out by the host. */
-    const int picks = o->final_gather > 0 && !rt_photon_settings_of(o).split;
+    /*
+     * The caustic photons of a list that holds all kinds, and those at which the irradiance is
+     * estimated, are picked out by the host.
+     */
+    const int picks =
+        o->final_gather > 0 && (!rt_photon_settings_of(o).split || rt_eye_paths_take_irradiance(o));
     return job->renderer->device->keeps_photons && search == RT_SEARCH_TREE && !o->photon_map &&
            !picks;
 }
@@ -46,7 +52,7 @@ rt_status rt_photon_render_begin(rt_photon_render *r, rt_error *error)
     const rt_renderer *renderer = r->job->renderer;
     r->map.settings = rt_photon_settings_of(o);
     rt_photon_map_set_memory(&r->map, renderer->device->memory);
-    r->caustics.memory = renderer->device->memory;
+    r->caustics.memory = r->irradiances.memory = renderer->device->memory;
     set_gather_options(r);
     rt_status status = rt_eye_paths_create(&r->eye_paths, r->job, &r->eye_kernels, error);
     if (status == RT_OK && !o->photon_map)
@@ -71,6 +77,7 @@ void rt_photon_render_free(rt_photon_render *r)
     rt_eye_paths_release(&r->eye_paths);
     rt_emitter_destroy(r->emitter);
     rt_photon_list_clear(&r->caustics);
+    rt_photon_list_clear(&r->irradiances);
     rt_photon_map_free(&r->map);
     rt_eye_kernels_release(&r->eye_kernels);
     rt_kernel_release(r->emit);
@@ -90,7 +97,9 @@ const rt_photon_list *rt_photon_render_list(const rt_photon_render *r, rt_query 
     case RT_QUERY_GLOBAL:
         return lists + RT_PHOTONS_GLOBAL;
     case RT_QUERY_CAUSTIC:
-        return split ? lists + RT_PHOTONS_CAUSTIC : NULL;
+        /* The irradiance is that of all photons. */
+        return split && !rt_eye_paths_take_irradiance(r->job->options) ? lists + RT_PHOTONS_CAUSTIC
+                                                                       : NULL;
     case RT_QUERY_EARLIER:
         if (r->job->options->final_gather == 0)
             return NULL;
@@ -111,9 +120,26 @@ static rt_status open_one(rt_photon_render *r, rt_query query, int finer,
                               list->buffer ? &r->places[query][finer] : NULL, error);
 }
 
+/* The final gather's, of the nearest point of known irradiance. */
+static rt_status open_irradiance(rt_photon_render *r, rt_error *error)
+{
+    rt_device *device = r->job->renderer->device;
+    const rt_gather_options nearest = {.max_radius = r->job->options->radius,
+                                       .search = RT_SEARCH_IRRADIANCE};
+    rt_photon_list_reset(&r->irradiances);
+    rt_status status =
+        rt_irradiance_points_make(&r->irradiances, r->in_use, device, r->job->options, error);
+    return status == RT_OK ? rt_gatherer_create(r->queries.gatherers + RT_QUERY_GLOBAL, device,
+                                                r->eye_kernels.irradiance, &r->irradiances,
+                                                &nearest, NULL, error)
+                           : status;
+}
+
 rt_status rt_photon_render_open(rt_photon_render *r, rt_query query,
                                 const rt_gather_options *options, rt_error *error)
 {
+    if (query == RT_QUERY_GLOBAL && rt_eye_paths_take_irradiance(r->job->options))
+        return open_irradiance(r, error);
     return open_one(r, query, 0, options, error);
 }
 

@@ -22,6 +22,7 @@ typedef struct rt_photon_render {
     const rt_photon_map *in_use; /* that map, or the one of the options */
     /* for the final gather, copies out of the global list where there is no caustic list */
     rt_photon_list caustics;
+    rt_photon_list irradiances; /* by rt_irradiance_points_make; empty where photons are gathered */
     rt_eye_paths eye_paths;
     /* how each query gathers without passes; each pass has a radius of its own */
     rt_gather_options options[RT_QUERIES];

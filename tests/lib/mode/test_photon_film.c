@@ -41,6 +41,8 @@ static void films_do_not_depend_on_threads_and_work_groups(void **state)
     options.final_gather = 1;
     options.gather = RT_GATHER_DEVICE;
     films_are_the_same(&options);
+    options.irradiance_step = 4;
+    films_are_the_same(&options);
     options.passes = 3;
     options.final_gather = 0;
     films_are_the_same(&options);
