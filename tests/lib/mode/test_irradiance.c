@@ -169,6 +169,39 @@ static void the_picture_is_that_of_gathering(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/* A lamp of glass: all light on the walls is a caustic, or comes from one. */
+static rt_renderer *lamp_renderer(void)
+{
+    static const char text[] =
+        "camera { eye 0 1 3  look_at 0 1 0  fov 50 }\n"
+        "material white { kd 0.6 }\nmaterial glass { kt 1  ior 1.5  fresnel dielectric }\n"
+        "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material white }\n"
+        "quad { corner -1 0 -1  edge1 2 0 0  edge2 0 2 0  material white }\n"
+        "quad { corner -1 0 -1  edge1 0 2 0  edge2 0 0 2  material white }\n"
+        "sphere { centre 0 1 0  radius 0.1  material glass }\n"
+        "light point { position 0 1 0  power 1 }\n";
+    const rt_load_options load = {0};
+    rt_renderer *renderer = NULL;
+    rt_scene *scene = NULL;
+    rt_error error;
+    expect_ok(rt_scene_parse(&scene, text, NULL, &load, &error), &error);
+    expect_ok(rt_renderer_create(&renderer, scene, test_device(), NULL, &error), &error);
+    rt_scene_destroy(scene);
+    return renderer;
+}
+
+/* The irradiance is that of both maps, and caustics seen directly are gathered as ever. */
+static void caustics_count_once(void **state)
+{
+    (void)state;
+    rt_renderer *renderer = lamp_renderer();
+    rt_render_options gather = options_of(0), irradiance = options_of(2);
+    gather.caustic_photons = irradiance.caustic_photons = 40000;
+    const double expected = mean_of(renderer, &gather);
+    assert_float_equal(mean_of(renderer, &irradiance), expected, 0.02 * expected);
+    rt_renderer_destroy(renderer);
+}
+
 /* With fewer photons than a step there is one point, and its irradiance is everywhere. */
 static void few_photons_are_enough(void **state)
 {
@@ -243,6 +276,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_nearest_is_that_of_brute_force),
         cmocka_unit_test(the_picture_is_that_of_gathering),
+        cmocka_unit_test(caustics_count_once),
         cmocka_unit_test(few_photons_are_enough),
         cmocka_unit_test(what_needs_the_photons_is_refused),
         cmocka_unit_test(a_rough_lobe_is_refused_where_a_shape_has_it),
