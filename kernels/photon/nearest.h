@@ -7,7 +7,7 @@
 #include "photon/knn.h"
 
 /* Photons of any kind, in blocks that come near, among which one must be accepted. */
-#define NEAREST_CANDIDATES 1024u
+#define NEAREST_CANDIDATES 16384u
 
 /* A photon in the tree. */
 struct nearest_photon {

