@@ -31,12 +31,13 @@ typedef struct rt_hit {
     unsigned int shape; /* index, as rt_scene_add_* returned it */
 } rt_hit;
 
+/* flag: came from the light through specular reflections and refractions only */
+#define RT_PHOTON_CAUSTIC 1u
+
 /*
  * A photon: flux that a path from a light brought to a surface. To get the flux in watts that a
  * map's photons stand for, divide by the number of paths that were emitted for it.
  */
-/* flag: came from the light through specular reflections and refractions only */
-#define RT_PHOTON_CAUSTIC 1u
 typedef struct rt_photon {
     float position[3];  /* metres */
     unsigned int path;  /* index of the photon path that left it */

@@ -260,6 +260,14 @@ const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *chan
     return NULL;
 }
 
+const char *rt_film_layer_name(const rt_film *film, size_t index)
+{
+    for (int i = 0; i < RT_FILM_LAYER_COUNT; i++)
+        if (film->layers.data[i] && index-- == 0)
+            return rt_layer_infos[i].name;
+    return NULL;
+}
+
 void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *height)
 {
     *width = film->options.width;

@@ -13,6 +13,7 @@ extern "C" {
 
 typedef struct rt_device rt_device;
 
+/* What an OpenCL device is, as its driver tells. */
 typedef struct rt_device_info {
     char name[128], platform[128], version[128], driver[128];
     uint32_t compute_units;
@@ -32,6 +33,7 @@ typedef struct rt_device_info {
 RT_API rt_status rt_devices_list(rt_device_info **out, size_t *count, rt_error *error);
 RT_API void rt_devices_free(rt_device_info *devices);
 
+/* Which device is opened, and how it is used. */
 typedef struct rt_device_options {
     /* a device's number in rt_devices_list, or part of its name or platform; NULL: the first */
     const char *select;
@@ -81,7 +83,10 @@ RT_API rt_status rt_device_folders(char *work, char *kept, size_t size, rt_error
 RT_API rt_status rt_device_compile(rt_device *device, const char *program, const rt_hooks *hooks,
                                    rt_error *error);
 
+/* Closes a device, of which nothing that was made on it may be left. */
 RT_API void rt_device_close(rt_device *device);
+
+/* What the device is. */
 RT_API void rt_device_get_info(const rt_device *device, rt_device_info *out);
 
 #ifdef __cplusplus

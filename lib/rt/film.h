@@ -88,6 +88,9 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  */
 RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_t *channels);
 
+/* The names of the layers that a film has, counted from 0; NULL after the last. */
+RT_API const char *rt_film_layer_name(const rt_film *film, size_t index);
+
 /* Statistics of a render. */
 typedef struct rt_film_stats {
     uint32_t spp;      /* samples that every pixel has */

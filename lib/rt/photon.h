@@ -71,6 +71,7 @@ RT_API rt_status rt_photon_map_covers(const rt_photon_map *map, const rt_photon_
 RT_API rt_status rt_photon_map_emit_covers(rt_renderer *renderer, const rt_emit_options *options,
                                            const rt_photon_map *other, rt_error *error);
 
+/* What a photon map holds, and how it was made. */
 typedef struct rt_photon_map_info {
     uint64_t paths[2];   /* photon paths emitted, by rt_photon_kind */
     uint64_t photons[2]; /* photons stored */
@@ -82,6 +83,8 @@ typedef struct rt_photon_map_info {
     uint32_t max_depth;
     size_t lights; /* in the ledger */
 } rt_photon_map_info;
+
+/* What the map holds. */
 RT_API void rt_photon_map_get_info(const rt_photon_map *map, rt_photon_map_info *out);
 
 /* Paths first .. first + count - 1 of a seed, which left so many photons. */

@@ -1,0 +1,309 @@
+"""test_python.py - the Python package against the C interface, closed forms and rt.h."""
+import gc
+import inspect
+import os
+import tempfile
+import threading
+import unittest
+import warnings
+
+import librt_render as rt
+import numpy as np
+from librt_render import _interface, _library
+
+SCENE = """
+camera { eye 0 1 -4  look_at 0 1 0  fov 40 }
+film { width 32  height 24 }
+material white { kd 0.7 }
+plane { point 0 0 0  normal 0 1 0  material white }
+sphere { centre 0 1 0  radius 1  material white }
+light point { position 2 4 -3  intensity 20 }
+"""
+
+
+def built():
+    """The same scene by calls."""
+    scene = rt.Scene()
+    scene.camera((0, 1, -4), (0, 1, 0), fov=40)
+    scene.options = rt.Options(width=32, height=24)
+    white = scene.material("white", kd=0.7)
+    scene.plane((0, 0, 0), (0, 1, 0), material=white)
+    scene.sphere((0, 1, 0), 1, material=white)
+    scene.point_light((2, 4, -3), intensity=20)
+    return scene
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.device = rt.Device()
+        cls.scene = rt.Scene.parse(SCENE)
+        cls.renderer = rt.Renderer(cls.scene, cls.device)
+        cls.film = cls.renderer.render(spp=4, aov=True)
+
+
+class Interface(unittest.TestCase):
+    def test_every_call_that_fills_a_scene_is_a_method_with_its_parameters(self):
+        # Parameters that are structs, whose members are the method's.
+        struct = {"material", "texture", "mesh", "light", "environment", "camera"}
+        for function, names in _interface.PARAMETERS.items():
+            for prefix in ("rt_scene_add_", "rt_scene_set_"):
+                if not function.startswith(prefix) or function == "rt_scene_set_memory":
+                    continue
+                name = function[len(prefix):]
+                if name == "options":
+                    self.assertIsInstance(rt.Scene.options, property)
+                    continue
+                method = getattr(rt.Scene, name)
+                wanted = [n for n in names if n not in ("scene", "out", "error", "surface")]
+                wanted = [n for n in wanted if not n.endswith("_count") and n != "info"]
+                given = list(inspect.signature(method).parameters)[1:]
+                if wanted[-1] in struct:
+                    wanted.pop()
+                self.assertEqual(given[:len(wanted)], wanted, function)
+                self.assertIn(_interface.DOCS[function], method.__doc__)
+
+    def test_every_function_of_the_library_has_documentation(self):
+        self.assertEqual([f for f in _interface.PARAMETERS if f not in _interface.DOCS], [])
+
+    def test_structs_have_the_layout_of_the_interface(self):
+        photon = _library.dtype("rt_photon")
+        self.assertEqual(photon.itemsize, 64)
+        self.assertEqual(photon.fields["flux"][1], 32)
+
+
+class Scenes(Case):
+    def test_text_and_calls_make_the_same_picture(self):
+        other = rt.Renderer(built(), self.device).render(spp=4)
+        self.assertTrue(np.array_equal(other.rgb, self.film.rgb))
+        self.assertGreater(self.film.rgb.mean(), 0.01)
+
+    def test_a_wrong_text_is_told_with_all_its_places(self):
+        with self.assertRaises(rt.InputError) as caught:
+            rt.Scene.parse("camera { eye 0 }\nspher { }\n", name="wrong.rts")
+        self.assertEqual((caught.exception.file, caught.exception.line), ("wrong.rts", 1))
+        self.assertGreater(len(caught.exception.diagnostics), 1)
+        self.assertTrue(str(caught.exception).startswith("wrong.rts:1:"))
+
+    def test_a_probable_mistake_is_a_warning(self):
+        with self.assertWarns(rt.RenderWarning):
+            rt.Scene.parse(SCENE.replace("light point", "# light"))
+
+    def test_wrong_arguments_are_refused(self):
+        scene = rt.Scene()
+        for wrong in (lambda: scene.sphere((0, 0), 1), lambda: scene.sphere((0, 0, 0), -1),
+                      lambda: scene.sphere((0, 0, 0), 1, material=7),
+                      lambda: scene.material(kd=(1, 2)), lambda: scene.material(fresnel="glass"),
+                      lambda: scene.sphere((0, 0, 0), float("nan")),
+                      lambda: scene.mesh([[0, 0, 0]], [[0, 0, -1]]),
+                      lambda: scene.mesh([[0, 0, 0]], [[0, 0, 1]])):
+            with self.assertRaises(ValueError):
+                wrong()
+        for wrong in (lambda: scene.sphere((0, 0, 0), 1, colour=1), lambda: scene.material(kx=1)):
+            with self.assertRaises(TypeError):
+                wrong()
+
+    def test_a_mesh_of_arrays_is_hit_where_it_lies(self):
+        scene = rt.Scene()
+        white = scene.material(kd=0.5)
+        mesh = scene.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        scene.instance(mesh, material=white, transform=[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 5]])
+        hits = rt.Renderer(scene, self.device).trace(
+            [[0.25, 0.25, 0], [0.75, 0.75, 0]], [[0, 0, 1], [0, 0, 1]])
+        self.assertAlmostEqual(hits["t"][0], 5, places=5)
+        self.assertTrue(np.isinf(hits["t"][1]))
+
+
+class Settings(Case):
+    def test_settings_are_those_of_the_table(self):
+        options = rt.Options(mode="photon", k=50, radius=0.25, aov=True)
+        self.assertEqual((options["mode"], options["k"], options["radius"], options["aov"]),
+                         ("photon", 50, 0.25, True))
+        self.assertIn("nearest photons", rt.Options.help("k"))
+        self.assertEqual(rt.Options(k="all")["k"], "all")
+
+    def test_an_unknown_setting_names_the_near_one(self):
+        with self.assertRaisesRegex(TypeError, "did you mean 'spp'"):
+            self.renderer.render(ssp=4)
+
+    def test_a_value_out_of_range_names_its_setting(self):
+        with self.assertRaises(rt.UsageError) as caught:
+            self.renderer.render(spp=-1)
+        self.assertEqual(caught.exception.field, "spp")
+
+
+class Films(Case):
+    def test_arrays_are_the_film_s_memory_and_keep_it(self):
+        film = self.renderer.render(spp=1)
+        address = film.rgb.__array_interface__["data"][0]
+        self.assertEqual(address, film.rgb.__array_interface__["data"][0])
+        self.assertFalse(film.rgb.flags.writeable)
+        rgb, copy = film.rgb, film.rgb.copy()
+        del film
+        gc.collect()
+        others = [self.renderer.render(spp=1) for _ in range(3)]
+        self.assertTrue(np.array_equal(rgb, copy))
+        del others
+
+    def test_layers_have_their_names_and_shapes(self):
+        self.assertEqual(self.film["depth"].shape, (24, 32))
+        self.assertEqual(self.film["albedo"].shape, (24, 32, 3))
+        self.assertAlmostEqual(float(self.film["albedo"].max()), 0.7, places=5)
+        with self.assertRaisesRegex(KeyError, "albedo"):
+            self.film["albdo"]
+
+    def test_parts_joined_have_the_bits_of_the_whole(self):
+        whole = self.renderer.render(spp=8, part=(1, 1))
+        parts = [self.renderer.render(spp=8, part=(i, 3)) for i in (3, 1, 2)]
+        self.assertTrue(np.array_equal(rt.Film.join(parts).rgb, whole.rgb))
+        with self.assertRaises(rt.UsageError):
+            rt.Film.join([parts[0], parts[0]])
+
+    def test_chunks_add_up_to_the_picture(self):
+        count = self.renderer.chunk_count(spp=8)
+        whole = self.renderer.render(spp=8, part=(1, 1))
+        films = [self.renderer.render_chunks(i, spp=8) for i in range(count)]
+        films = [rt.Film.from_bytes(each.to_bytes()) for each in films]
+        self.assertTrue(np.array_equal(rt.Film.join(films).rgb, whole.rgb))
+
+    def test_a_film_goes_through_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "film.rtpart")
+            film = self.renderer.render(spp=2, part=(1, 1))
+            film.save(path)
+            self.assertTrue(np.array_equal(rt.Film.load(path).rgb, film.rgb))
+            more = self.renderer.render(spp=4, resume=rt.Film.load(path))
+            self.assertEqual(more.stats.spp, 4)
+            for name in ("a.exr", "a.pfm"):
+                film.write(os.path.join(folder, name))
+                image = rt.Image.read(os.path.join(folder, name))
+                self.assertTrue(np.array_equal(image.rgb(), film.rgb))
+            with self.assertRaises(rt.OutputError):
+                film.write(os.path.join(folder, "none", "a.exr"))
+
+    def test_notebooks_show_pictures(self):
+        for picture in (self.film, rt.Image.from_array(self.film.rgb),
+                        rt.compare(self.film, self.film.rgb * 1.1)):
+            self.assertTrue(picture._repr_png_().startswith(b"\x89PNG"))
+
+    def test_comparison_of_equal_pictures_finds_nothing(self):
+        found = rt.compare(self.film, self.film.rgb)
+        self.assertEqual((found.mse, found.off, found.ratio), (0, 0, 1))
+        brighter = rt.compare(self.film.rgb * 1.25, self.film)
+        self.assertAlmostEqual(brighter.ratio, 1.25, places=5)
+        self.assertEqual(len(brighter.blocks_array), brighter.blocks)
+
+
+class Photons(Case):
+    def test_photons_are_a_structured_array_of_the_map_s_memory(self):
+        photons = self.renderer.emit(photons=2000, direct="photons").photons()
+        self.assertEqual(photons.dtype.names[0], "position")
+        self.assertFalse(photons.flags.writeable)
+        self.assertTrue(np.allclose(np.linalg.norm(photons["wi"], axis=1), 1, atol=1e-5))
+
+    def test_the_ledger_closes(self):
+        row = self.renderer.emit(photons=20000, direct="photons").ledger[0]
+        spent = row["absorbed"] + row["escaped"] + row["cut_off"] + row["roulette"]
+        self.assertTrue(np.allclose(row["emitted"], spent, rtol=1e-6))
+
+    def test_irradiance_is_that_of_the_closed_form(self):
+        scene = rt.Scene()
+        scene.plane((0, 0, 0), (0, 1, 0), material=scene.material(kd=0.5))
+        scene.point_light((0, 1, 0), intensity=1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = rt.Renderer(scene, self.device).emit(photons=200000, direct="photons")
+        value = found.irradiance(self.device, [[0, 0, 0]], [[0, 1, 0]], k=2000)[0, 0]
+        self.assertAlmostEqual(value, 1, delta=0.08)  # E = I / r^2; four standard deviations
+
+    def test_parts_merged_are_the_map(self):
+        whole = self.renderer.emit(photons=20000)
+        parts = [self.renderer.emit(photons=20000, part=(i, 2)) for i in (2, 1)]
+        merged = rt.PhotonMap.merge(parts)
+        self.assertEqual(merged.photons().tobytes(), whole.photons().tobytes())
+
+
+class Calls(Case):
+    def test_a_cancelled_render_has_its_film_and_frees_all(self):
+        memory = rt.Memory()
+        device = rt.Device(memory=memory)
+        renderer = rt.Renderer(self.scene, device)
+        before = memory.info.used
+        with self.assertRaises(rt.Cancelled) as caught:
+            renderer.render(spp=1000000, progress=lambda p: p.stage == "render" and p.fraction > 0)
+        self.assertGreater(caught.exception.film.stats.spp, 0)
+        self.assertGreater(memory.info.used, before)
+        caught.exception.film = None
+        del caught
+        gc.collect()
+        self.assertEqual(memory.info.used, before)
+        del renderer, device
+        gc.collect()
+        self.assertEqual(memory.info.used, 0)
+
+    def test_what_a_callback_raises_comes_out(self):
+        def fail(_progress):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            self.renderer.render(progress=fail)
+
+    def test_a_callback_cannot_use_the_device_that_calls_it(self):
+        with self.assertRaises(RuntimeError):
+            self.renderer.render(progress=lambda _: self.renderer.render() and False)
+
+    def test_a_limit_on_memory_holds(self):
+        with self.assertRaises(MemoryError):
+            device = rt.Device(memory=rt.Memory(1 << 20))
+            rt.Renderer(self.scene, device).render(width=4096, height=4096)
+
+    def test_ten_threads_render_ten_scenes(self):
+        films = [None] * 10
+
+        def work(i):
+            scene = rt.Scene.parse(SCENE.replace("radius 1", f"radius {0.5 + i / 20}"))
+            films[i] = rt.render(scene, rt.Device(threads=1), spp=2)
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(10)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for i, film in enumerate(films):
+            scene = rt.Scene.parse(SCENE.replace("radius 1", f"radius {0.5 + i / 20}"))
+            alone = rt.render(scene, self.device, spp=2)
+            self.assertTrue(np.array_equal(film.rgb, alone.rgb), i)
+
+    def test_one_device_serves_many_threads_in_turn(self):
+        films = [None] * 6
+
+        def work(i):
+            films[i] = self.renderer.render(spp=2, seed=i)
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for i, film in enumerate(films):
+            self.assertTrue(np.array_equal(film.rgb, self.renderer.render(spp=2, seed=i).rgb))
+
+
+class Lines(unittest.TextTestResult):
+    """Prints what tests/run.sh reads."""
+
+    def addSuccess(self, test):
+        print(f"ok {test._testMethodName[5:]}", flush=True)
+
+    def addFailure(self, test, err):
+        print(f"not ok {test._testMethodName[5:]}\n{self._exc_info_to_string(err, test)}",
+              flush=True)
+        super().addFailure(test, err)
+
+    addError = addFailure
+
+
+if __name__ == "__main__":
+    runner = unittest.TextTestRunner(resultclass=Lines, stream=open(os.devnull, "w"))
+    outcome = unittest.main(testRunner=runner, exit=False, argv=["test_python"]).result
+    raise SystemExit(not outcome.wasSuccessful())

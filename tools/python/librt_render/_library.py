@@ -1,0 +1,357 @@
+"""The shared library: loading, calls that fail, callbacks, and C data as Python's and NumPy's."""
+from __future__ import annotations
+
+import logging
+import os
+import threading
+import warnings
+from types import SimpleNamespace
+from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _interface
+from ._api import ffi as ffi
+
+CONSTANTS = _interface.CONSTANTS
+WORDS = _interface.WORDS
+
+_log = logging.getLogger("librt")
+_major, _minor = _interface.VERSION.split(".")[:2]
+_SONAME = f"librt-render.so.{_major}"
+
+
+def _open() -> Any:
+    path = os.environ.get("LIBRT_LIBRARY", _SONAME)
+    try:
+        found = ffi.dlopen(path)
+    except OSError as error:
+        raise ImportError(
+            f"{path} cannot be loaded ({error}); install librt with `make install`, or set "
+            f"LIBRT_LIBRARY to the path of {_SONAME}") from None
+    version = ffi.string(found.rt_version()).decode()
+    if version.split(".")[:2] != [_major, _minor]:
+        raise ImportError(f"{path} is version {version}; this package is for {_interface.VERSION}")
+    return found
+
+
+lib: Any = _open()
+
+# ---- Documentation ------------------------------------------------------------------------------
+
+Documented = TypeVar("Documented", bound=Callable[..., Any])
+
+
+def documented(*names: str) -> Callable[[Documented], Documented]:
+    """Adds what the C header says of these functions and types to a docstring."""
+
+    def add(thing: Documented) -> Documented:
+        parts = [thing.__doc__.strip()] if thing.__doc__ else []
+        parts += [f"{name}:\n{_interface.DOCS[name]}" for name in names]
+        thing.__doc__ = "\n\n".join(parts)
+        return thing
+
+    return add
+
+
+# ---- Errors -------------------------------------------------------------------------------------
+
+
+class Error(Exception):
+    """What a call of the library could not do.
+
+    file, line, column: where, from 1; line 0 without a place. field: the setting or parameter at
+    fault, or "".
+    """
+
+    def __init__(self, message: str, file: str = "", line: int = 0, column: int = 0,
+                 field: str = "") -> None:
+        super().__init__(message)
+        self.message, self.file, self.line, self.column = message, file, line, column
+        self.field = field
+        self.diagnostics: list[SimpleNamespace] = []  # all errors and warnings of a scene text
+
+    def __str__(self) -> str:
+        if self.line > 0:
+            return f"{self.file}:{self.line}:{self.column}: {self.message}"
+        return self.message
+
+
+class InputError(Error, ValueError):
+    """A scene or a file is wrong."""
+
+
+class UsageError(Error, ValueError):
+    """An argument or a setting is out of its range."""
+
+
+class DeviceError(Error, RuntimeError):
+    """No OpenCL device, a kernel does not build, or a launch fails."""
+
+
+class OutputError(Error):
+    """A file could not be written."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """Memory of the host or the device is exhausted, or a limit on it reached."""
+
+
+class Cancelled(Error):
+    """A progress callback asked to stop. film: what was rendered until then, or None."""
+
+    film: Any = None
+
+
+_ERRORS = {
+    "RT_ERROR_INPUT": InputError,
+    "RT_ERROR_USAGE": UsageError,
+    "RT_ERROR_DEVICE": DeviceError,
+    "RT_ERROR_OUTPUT": OutputError,
+    "RT_ERROR_MEMORY": OutOfMemoryError,
+    "RT_CANCELLED": Cancelled,
+}
+
+
+class RenderWarning(UserWarning):
+    """A probable mistake that the library tells of."""
+
+
+def text(pointer: Any) -> str:
+    """A C string; "" for NULL."""
+    return ffi.string(pointer).decode(errors="replace") if pointer else ""
+
+
+def call(function: Any, *arguments: Any) -> None:
+    """Calls what returns rt_status and takes an rt_error last; raises what it fails with."""
+    error = ffi.new("rt_error *")
+    status = function(*arguments, error)
+    if status != lib.RT_OK:
+        kind = _ERRORS[ffi.typeof("rt_status").elements[status]]
+        raise kind(text(error.message) or "cancelled", text(error.file), error.line, error.column,
+                   text(error.field))
+
+
+def make(type_name: str, destroy: Any, function: Any, *arguments: Any, keep: Any = None) -> Any:
+    """The object that a call writes to *out; `keep` outlives it."""
+    out = ffi.new(f"{type_name} **")
+    call(function, out, *arguments)
+    return own(out[0], destroy, keep)
+
+
+def own(pointer: Any, destroy: Any, keep: Any = None) -> Any:
+    """A pointer that is destroyed with its last user, and before `keep`."""
+
+    def end(p: Any, _keep: Any = keep) -> None:
+        destroy(p)
+
+    return ffi.gc(pointer, end)
+
+
+class Exclusive:
+    """A lock on an object of the library, which serves one thread at a time."""
+
+    def __init__(self, what: str) -> None:
+        self._lock, self._what = threading.Lock(), what
+        self._owner: Optional[int] = None
+
+    def __enter__(self) -> None:
+        if self._owner == threading.get_ident():
+            raise RuntimeError(f"a callback of a call cannot use its {self._what}")
+        self._lock.acquire()
+        self._owner = threading.get_ident()
+
+    def __exit__(self, *_: Any) -> None:
+        self._owner = None
+        self._lock.release()
+
+
+# ---- Callbacks ----------------------------------------------------------------------------------
+
+Progress = Callable[[SimpleNamespace], Optional[bool]]
+
+
+@ffi.callback("int(void *, const rt_progress *)")
+def _on_progress(user: Any, progress: Any) -> int:
+    hooks = ffi.from_handle(user)
+    try:
+        stop = hooks.progress(hooks.describe(progress)) if hooks.progress else False
+    except BaseException as error:  # raised again by the call that this one belongs to
+        hooks.raised, stop = error, True
+    return 1 if stop else 0
+
+
+@ffi.callback("void(void *, const char *)")
+def _on_log(_user: Any, line: Any) -> None:
+    _log.info("%s", text(line))
+
+
+@ffi.callback("void(void *, const char *)")
+def _on_warning(user: Any, line: Any) -> None:
+    ffi.from_handle(user).warnings.append(text(line))
+
+
+class Hooks:
+    """The callbacks of one call: `with Hooks(progress) as hooks: call(..., hooks.pointer, ...)`.
+
+    There is a progress callback always, so that Ctrl-C is noticed within a second. What a callback
+    raises ends the call and is raised by it; warnings are Python's.
+    """
+
+    def __init__(self, progress: Optional[Progress], stacklevel: int = 3) -> None:
+        self.progress, self.raised = progress, None
+        self.warnings: list[str] = []
+        self._level = stacklevel
+        self._handle = ffi.new_handle(self)
+        self.pointer = ffi.new("rt_hooks *", {
+            "progress": _on_progress, "log": _on_log, "warning": _on_warning,
+            "user": self._handle})
+
+    @staticmethod
+    def describe(progress: Any) -> SimpleNamespace:
+        """An rt_progress; what is unknown is None."""
+        seen = record(progress)
+        seen.stage = text(lib.rt_stage_name(progress.stage))
+        seen.remaining = seen.remaining if seen.remaining >= 0 else None
+        seen.error = seen.error if seen.error >= 0 else None
+        return seen
+
+    def __enter__(self) -> "Hooks":
+        return self
+
+    def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
+        for line in self.warnings:
+            warnings.warn(line, RenderWarning, stacklevel=self._level)
+        if self.raised is not None:
+            raise self.raised from None
+
+
+# ---- Data ---------------------------------------------------------------------------------------
+
+Numbers = Union[float, Sequence[float], NDArray[Any]]
+
+_COLOURS = frozenset("kd ks kt emission eta k absorption radiance power intensity irradiance a b"
+                     .split())
+
+
+def fill(struct: Any, values: Mapping[str, Any], what: str) -> list[Any]:
+    """Sets members of a struct by name; returns what has to live as long as it.
+
+    An enum takes the words of the scene language, a colour one number for grey.
+    """
+    members = dict(ffi.typeof(struct).item.fields)
+    kept: list[Any] = []
+    for name, value in values.items():
+        if name not in members:
+            raise TypeError(f"{what} has no '{name}', but {', '.join(members)}")
+        if value is None:
+            continue
+        kind = members[name].type
+        if kind.kind == "array":
+            numbers = np.asarray(value, dtype=np.float64)
+            if numbers.ndim == 0 and name in _COLOURS:
+                numbers = np.full(kind.length, numbers)
+            if numbers.shape != (kind.length,):
+                raise ValueError(f"{name} of {what} takes {kind.length} numbers")
+            setattr(struct, name, numbers.tolist())
+        elif _enum_of(kind) in WORDS:
+            setattr(struct, name, word_value(_enum_of(kind), value, name))
+        elif kind.kind == "pointer" and isinstance(value, (str, os.PathLike)):
+            kept.append(ffi.new("char[]", os.fsencode(value)))
+            setattr(struct, name, kept[-1])
+        else:
+            setattr(struct, name, value)
+    return kept
+
+
+def _enum_of(kind: Any) -> str:
+    return kind.cname.replace("enum ", "")
+
+
+def word_value(enum: str, word: str, name: str) -> int:
+    """The value of an enum's word."""
+    words = WORDS[enum]
+    if word not in words:
+        raise ValueError(f"{name} is one of {', '.join(words)}, not {word!r}")
+    return getattr(lib, words[word])
+
+
+def _python(value: Any, kind: Any) -> Any:
+    if kind.kind == "enum":
+        for word, constant in WORDS.get(_enum_of(kind), {}).items():
+            if kind.relements.get(constant) == value:
+                return word
+        return value
+    if kind.kind == "struct":
+        return record(value)
+    if kind.kind == "pointer":
+        return text(value) if kind.item.cname == "char" else None
+    if kind.kind == "array":
+        return text(value) if kind.item.cname == "char" else np.array(list(value))
+    return value
+
+
+def record(struct: Any) -> SimpleNamespace:
+    """A struct by value: its members with their names in C; enums by their words."""
+    kind = ffi.typeof(struct)
+    kind = kind.item if kind.kind == "pointer" else kind
+    return SimpleNamespace(
+        **{name: _python(getattr(struct, name), member.type) for name, member in kind.fields})
+
+
+def dtype(type_name: str) -> np.dtype[Any]:
+    """The NumPy type with the layout of a struct."""
+    return _dtype_of(ffi.typeof(type_name))
+
+
+def _dtype_of(kind: Any) -> np.dtype[Any]:
+    if kind.kind == "struct":
+        members = kind.fields
+        return np.dtype({
+            "names": [name for name, _ in members],
+            "formats": [_dtype_of(member.type) for _, member in members],
+            "offsets": [member.offset for _, member in members],
+            "itemsize": ffi.sizeof(kind)})
+    if kind.kind == "array":
+        return np.dtype((_dtype_of(kind.item), (kind.length,)))
+    letter = "f" if kind.cname in ("float", "double") else "i" if (
+        kind.kind == "enum" or kind.cname.startswith("int")) else "u"
+    return np.dtype(f"{letter}{ffi.sizeof(kind)}")
+
+
+class _Memory:
+    """Memory of an owner, for NumPy: an array over it keeps the owner alive."""
+
+    def __init__(self, owner: Any, pointer: Any, shape: tuple[int, ...], kind: np.dtype[Any]):
+        self.owner = owner
+        self.__array_interface__ = {
+            "version": 3, "shape": shape, "typestr": kind.str, "descr": kind.descr,
+            "data": (int(ffi.cast("uintptr_t", pointer)), True)}
+
+
+def view(owner: Any, pointer: Any, shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
+    """Memory of the library as an array that cannot be written to, without a copy."""
+    kind = np.dtype(kind)
+    if 0 in shape:
+        return np.zeros(shape, kind)
+    plain = kind if kind.names is None else np.dtype(f"V{kind.itemsize}")
+    return np.asarray(_Memory(owner, pointer, shape, plain)).view(kind)
+
+
+def floats(values: ArrayLike, columns: int, name: str) -> NDArray[np.float32]:
+    """An array [n][columns] of floats, copied only where it is none."""
+    array = np.ascontiguousarray(values, dtype=np.float32)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f"{name} is an array of shape (n, {columns}), not {array.shape}")
+    return array
+
+
+def pointer(array: Optional[NDArray[Any]], kind: str = "float *") -> Any:
+    """A pointer to an array's memory; NULL for None."""
+    return ffi.NULL if array is None else ffi.cast(kind, ffi.from_buffer(array))
+
+
+def path_bytes(path: Union[str, os.PathLike[str]]) -> bytes:
+    """A path as C takes it."""
+    return os.fsencode(path)

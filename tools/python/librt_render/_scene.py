@@ -1,0 +1,325 @@
+"""Scenes, from the language or by calls."""
+from __future__ import annotations
+
+import os
+import warnings
+from types import SimpleNamespace
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._library import (CONSTANTS, Hooks, InputError, Numbers, Progress, RenderWarning, call,
+                       documented, ffi, fill, floats, lib, make, path_bytes, pointer, record,
+                       text, word_value)
+from ._options import Options
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+@documented("rt_memory")
+class Memory:
+    """A limit on memory, in bytes; 0 for none, to count alone."""
+
+    def __init__(self, limit: int = 0) -> None:
+        self._c = make("rt_memory", lib.rt_memory_destroy, lib.rt_memory_create, limit)
+
+    @property
+    def info(self) -> SimpleNamespace:
+        """limit, used and most, bytes."""
+        out = ffi.new("rt_memory_info *")
+        lib.rt_memory_get_info(self._c, out)
+        return record(out)
+
+
+def memory_pointer(memory: Optional[Memory]) -> Any:
+    return ffi.NULL if memory is None else memory._c
+
+
+@ffi.callback("void(void *, const rt_diagnostic *)")
+def _on_diagnostic(user: Any, diagnostic: Any) -> None:
+    seen = record(diagnostic)
+    seen.severity = ("error", "warning", "note")[diagnostic.severity]
+    ffi.from_handle(user).append(seen)
+
+
+@ffi.callback("void(void *, const rt_finding *)")
+def _on_finding(user: Any, finding: Any) -> None:
+    seen = record(finding)
+    seen.severity = ("error", "warning", "note")[finding.severity]
+    seen.solids = [finding.solids[i] for i in range(finding.solid_count)]
+    for name in ("shape", "other", "emitter", "light"):
+        if getattr(seen, name) == CONSTANTS["RT_NONE"]:
+            setattr(seen, name, None)
+    ffi.from_handle(user).append(seen)
+
+
+class Scene:
+    """A scene: Scene.load(path), Scene.parse(text), or an empty one to be filled by calls.
+
+    Each call that adds something returns its index or handle. Shapes take, beside their own
+    parameters, `material` (the index of one), `radiance` or `power` where they emit, `texture` and
+    `transform`, an array of shape (3, 4) or (4, 4).
+    """
+
+    @documented("rt_scene_create")
+    def __init__(self, memory: Optional[Memory] = None) -> None:
+        self._c = make("rt_scene", lib.rt_scene_destroy, lib.rt_scene_create, keep=memory)
+        self._memory = memory
+        lib.rt_scene_set_memory(self._c, memory_pointer(memory))
+
+    # ---- From the language ----------------------------------------------------------------------
+
+    @classmethod
+    @documented("rt_scene_load")
+    def load(cls, path: Path, *, check: bool = True, root: Optional[Path] = None,
+             memory: Optional[Memory] = None, progress: Optional[Progress] = None) -> "Scene":
+        """Reads a scene from a .rts file.
+
+        check: also warn of what rt_scene_check finds. root: a folder that the text may name files
+        in, and nowhere else. InputError.diagnostics has all errors of the text.
+        """
+        return cls._read(lib.rt_scene_load, (path_bytes(path),), check, root, memory, progress)
+
+    @classmethod
+    @documented("rt_scene_parse")
+    def parse(cls, source: str, *, name: str = "text", check: bool = True,
+              root: Optional[Path] = None, memory: Optional[Memory] = None,
+              progress: Optional[Progress] = None) -> "Scene":
+        """Reads a scene from a string; `name` stands for its file in messages."""
+        return cls._read(lib.rt_scene_parse, (source.encode(), name.encode()), check, root, memory,
+                         progress)
+
+    @classmethod
+    def _read(cls, function: Any, what: tuple[Any, ...], check: bool, root: Optional[Path],
+              memory: Optional[Memory], progress: Optional[Progress]) -> "Scene":
+        found: list[SimpleNamespace] = []
+        handle = ffi.new_handle(found)
+        folder = ffi.NULL if root is None else ffi.new("char[]", path_bytes(root))
+        scene = cls.__new__(cls)
+        scene._memory = memory
+        with Hooks(progress, stacklevel=4) as hooks:
+            options = ffi.new("rt_load_options *", {
+                "diagnostic": _on_diagnostic, "user": handle, "check": check, "root": folder,
+                "hooks": hooks.pointer, "memory": memory_pointer(memory)})
+            try:
+                scene._c = make("rt_scene", lib.rt_scene_destroy, function, *what, options,
+                                keep=memory)
+            except InputError as error:
+                error.diagnostics = found
+                raise
+        for each in found:
+            if each.severity == "warning":
+                warnings.warn(f"{each.file}:{each.line}:{each.column}: {each.message}",
+                              RenderWarning, stacklevel=3)
+        return scene
+
+    # ---- Options and facts ----------------------------------------------------------------------
+
+    @property
+    def options(self) -> Options:
+        """A copy of the scene's own options; assign Options to change them."""
+        options = Options()
+        lib.rt_scene_get_options(self._c, options._c)
+        return options
+
+    @options.setter
+    def options(self, options: Options) -> None:
+        call(lib.rt_scene_set_options, self._c, options._c)
+
+    @property
+    def info(self) -> SimpleNamespace:
+        """How much it holds: shapes, primitives, triangles, materials, lights, has_camera."""
+        out = ffi.new("rt_scene_info *")
+        lib.rt_scene_get_info(self._c, out)
+        return record(out)
+
+    @documented("rt_scene_check")
+    def check(self) -> list[SimpleNamespace]:
+        """What is probably a mistake; an empty list is good."""
+        found: list[SimpleNamespace] = []
+        handle = ffi.new_handle(found)
+        lib.rt_scene_check(self._c, _on_finding, handle)
+        return found
+
+    # ---- Materials and textures -----------------------------------------------------------------
+
+    def _add(self, function: Any, *arguments: Any) -> int:
+        out = ffi.new("uint32_t *")
+        call(function, self._c, out, *arguments)
+        return int(out[0])
+
+    @documented("rt_scene_add_material", "rt_material")
+    def material(self, name: Optional[str] = None, **members: Any) -> int:
+        """Adds a material: material("red glass", kt=(1, 0.2, 0.2), fresnel="dielectric")."""
+        material = ffi.new("rt_material *")
+        kept = fill(material, members, "a material")
+        index = self._add(lib.rt_scene_add_material,
+                          ffi.NULL if name is None else name.encode(), material)
+        del kept
+        return index
+
+    @documented("rt_scene_add_texture", "rt_texture")
+    def texture(self, kind: str = "image", **members: Any) -> int:
+        """Adds a texture: texture(path="wood.png"), texture("checker", a=0.2, b=0.8)."""
+        texture = ffi.new("rt_texture *")
+        kept = fill(texture, {"kind": kind, **members}, "a texture")
+        handle = self._add(lib.rt_scene_add_texture, texture)
+        del kept
+        return handle
+
+    # ---- Shapes ---------------------------------------------------------------------------------
+
+    @documented("rt_scene_add_plane")
+    def plane(self, point: ArrayLike, normal: ArrayLike, **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_plane, (point, normal), surface)
+
+    @documented("rt_scene_add_sphere")
+    def sphere(self, centre: ArrayLike, radius: float, **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_sphere, (centre, radius), surface)
+
+    @documented("rt_scene_add_ellipsoid")
+    def ellipsoid(self, centre: ArrayLike, radii: ArrayLike, **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_ellipsoid, (centre, radii), surface)
+
+    @documented("rt_scene_add_quad")
+    def quad(self, corner: ArrayLike, edge1: ArrayLike, edge2: ArrayLike, **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_quad, (corner, edge1, edge2), surface)
+
+    @documented("rt_scene_add_disc")
+    def disc(self, centre: ArrayLike, normal: ArrayLike, radius: float, inner_radius: float = 0.0,
+             **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_disc, (centre, normal, radius, inner_radius), surface)
+
+    @documented("rt_scene_add_cylinder")
+    def cylinder(self, a: ArrayLike, b: ArrayLike, radius: float, caps: bool = True,
+                 **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_cylinder, (a, b, radius, caps), surface)
+
+    @documented("rt_scene_add_cone")
+    def cone(self, base: ArrayLike, apex: ArrayLike, radius: float, apex_radius: float = 0.0,
+             caps: bool = True, **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_cone, (base, apex, radius, apex_radius, caps), surface)
+
+    @documented("rt_scene_add_torus")
+    def torus(self, centre: ArrayLike, axis: ArrayLike, major_radius: float, minor_radius: float,
+              **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_torus, (centre, axis, major_radius, minor_radius),
+                           surface)
+
+    @documented("rt_scene_add_box")
+    def box(self, centre: ArrayLike, size: ArrayLike, **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_box, (centre, size), surface)
+
+    def _shape(self, function: Any, parameters: tuple[Any, ...], surface: dict[str, Any]) -> int:
+        return self._add(function, *(_argument(p) for p in parameters), _surface(**surface))
+
+    @documented("rt_scene_add_mesh", "rt_mesh_data")
+    def mesh(self, positions: ArrayLike, indices: ArrayLike, normals: Optional[ArrayLike] = None,
+             uv: Optional[ArrayLike] = None, colours: Optional[ArrayLike] = None) -> int:
+        """Adds a mesh from arrays; it is seen where `instance` places it."""
+        arrays = {"positions": floats(positions, 3, "positions")}
+        for name, given, columns in (("normals", normals, 3), ("uv", uv, 2),
+                                     ("colours", colours, 3)):
+            if given is not None:
+                arrays[name] = floats(given, columns, name)
+                if len(arrays[name]) != len(arrays["positions"]):
+                    raise ValueError(f"{name} has {len(arrays[name])} rows for "
+                                     f"{len(arrays['positions'])} vertices")
+        faces = _indices(indices)
+        data = ffi.new("rt_mesh_data *", {name: pointer(a) for name, a in arrays.items()})
+        data.indices = pointer(faces, "uint32_t *")
+        data.vertex_count, data.triangle_count = len(arrays["positions"]), len(faces)
+        return self._add(lib.rt_scene_add_mesh, data)
+
+    @documented("rt_scene_load_mesh")
+    def load_mesh(self, path: Path, shading: str = "file") -> tuple[int, SimpleNamespace]:
+        """Reads a mesh; returns its handle and what the file held."""
+        info = ffi.new("rt_mesh_info *")
+        handle = self._add(lib.rt_scene_load_mesh, path_bytes(path),
+                           word_value("rt_shading", shading, "shading"), info)
+        return handle, record(info)
+
+    @documented("rt_scene_add_instance")
+    def instance(self, mesh: int, **surface: Any) -> int:
+        return self._shape(lib.rt_scene_add_instance, (mesh,), surface)
+
+    @documented("rt_scene_add_triangles")
+    def triangles(self, positions: ArrayLike, indices: ArrayLike,
+                  normals: Optional[ArrayLike] = None, **surface: Any) -> int:
+        return self.instance(self.mesh(positions, indices, normals), **surface)
+
+    # ---- Lights and camera ----------------------------------------------------------------------
+
+    def _set(self, function: Any, type_name: str, what: str, members: dict[str, Any]) -> None:
+        struct = ffi.new(f"{type_name} *")
+        kept = fill(struct, members, what)
+        call(function, self._c, struct)
+        del kept
+
+    @documented("rt_scene_add_point_light", "rt_point_light")
+    def point_light(self, position: ArrayLike, *, intensity: Optional[Numbers] = None,
+                    power: Optional[Numbers] = None) -> None:
+        self._set(lib.rt_scene_add_point_light, "rt_point_light", "a point light",
+                  {"position": position, "intensity": intensity, "power": power})
+
+    @documented("rt_scene_add_spot_light", "rt_spot_light")
+    def spot_light(self, position: ArrayLike, target: ArrayLike, intensity: Numbers,
+                   outer: float = 0.0, inner: float = 0.0) -> None:
+        self._set(lib.rt_scene_add_spot_light, "rt_spot_light", "a spot light",
+                  {"position": position, "target": target, "intensity": intensity,
+                   "inner": inner, "outer": outer})
+
+    @documented("rt_scene_add_directional_light", "rt_directional_light")
+    def directional_light(self, direction: ArrayLike, irradiance: Numbers) -> None:
+        self._set(lib.rt_scene_add_directional_light, "rt_directional_light",
+                  "a directional light", {"direction": direction, "irradiance": irradiance})
+
+    @documented("rt_scene_set_environment", "rt_environment")
+    def environment(self, radiance: Optional[Numbers] = None, path: Optional[Path] = None,
+                    rotation: float = 0.0) -> None:
+        self._set(lib.rt_scene_set_environment, "rt_environment", "an environment",
+                  {"radiance": radiance, "path": path, "rotation": rotation})
+
+    @documented("rt_scene_set_camera", "rt_camera")
+    def camera(self, eye: ArrayLike, look_at: ArrayLike, kind: str = "perspective",
+               **members: Any) -> None:
+        """Sets the camera: camera((0, 1, -4), (0, 1, 0), fov=40)."""
+        self._set(lib.rt_scene_set_camera, "rt_camera", "a camera",
+                  {"kind": kind, "eye": eye, "look_at": look_at, **members})
+
+
+def _argument(value: Any) -> Any:
+    """A parameter of a shape: a number as it is, a vector as float[3]."""
+    if isinstance(value, (bool, int, float, np.number)):
+        return value
+    numbers = np.asarray(value, dtype=np.float64)
+    if numbers.shape != (3,):
+        raise ValueError(f"three numbers are expected, not an array of shape {numbers.shape}")
+    return ffi.new("float[3]", numbers.tolist())
+
+
+def _surface(material: int = 0, radiance: Optional[Numbers] = None,
+             power: Optional[Numbers] = None, texture: int = 0,
+             transform: Optional[ArrayLike] = None) -> Any:
+    """What every shape has, as an rt_surface."""
+    surface = ffi.new("rt_surface *")
+    fill(surface, {"material": material, "radiance": radiance, "power": power, "texture": texture},
+         "a shape")
+    if transform is not None:
+        rows = np.asarray(transform, dtype=np.float64)
+        if rows.shape not in ((3, 4), (4, 4)):
+            raise ValueError(f"transform has shape (3, 4) or (4, 4), not {rows.shape}")
+        if rows.shape == (4, 4) and not np.array_equal(rows[3], (0, 0, 0, 1)):
+            raise ValueError("the last row of transform is not 0 0 0 1")
+        surface.transform.m = rows[:3].tolist()
+    return surface
+
+
+def _indices(indices: ArrayLike) -> Any:
+    given = np.asarray(indices)
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu":
+        raise ValueError("indices is an array of integers of shape (n, 3)")
+    if given.size and (given.min() < 0 or given.max() > 0xffffffff):
+        raise ValueError("indices has values outside of 32 bits")
+    return np.ascontiguousarray(given, dtype=np.uint32)
