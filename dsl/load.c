@@ -48,7 +48,9 @@ static rt_status read_into(rt_scene **out, const char *text, const char *name,
     if (status == RT_OK) {
         if (source->is_file)
             rt_reader_tell_file(&reader, source->path);
+        rt_reader_read_definitions(&reader);
         read_scene(&reader, source);
+        rt_reader_report_unmet(&reader);
     } else if (status == RT_ERROR_INPUT) {
         report_unreadable(&reader, source, why);
     } else {

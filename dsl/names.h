@@ -16,6 +16,7 @@ typedef struct rt_name {
     rt_place place; /* where it is defined */
     int is_used;
     int is_broken;    /* its definition is wrong; already reported, so its uses are not */
+    int is_awaited;   /* of a constant: the caller has set it, and its `let` is still to come */
     int has_kd;       /* of a material: it reflects diffusely */
     rt_value value;   /* of a constant */
     uint32_t index;   /* of a material, texture or mesh: what rt.h calls it by */

@@ -86,6 +86,25 @@ static rt_name *define(rt_reader *reader, rt_names *names, rt_place place, const
     return name;
 }
 
+/*
+ * Whether the caller has set the constant of a `let`, which is then met; in a repeat it is met again
+ * and again.
+ */
+static int is_set_by_caller(rt_reader *reader, rt_place place)
+{
+    const rt_names *constants = &reader->scope.constants;
+    const size_t found = rt_names_find(constants, rt_place_text(&place));
+    if (reader->is_defining || found == RT_NAME_NONE)
+        return 0;
+    rt_name *name = &constants->items[found];
+    const int is_again = name->place.source == place.source && name->place.offset == place.offset;
+    if (!name->is_awaited && !is_again)
+        return 0;
+    name->is_awaited = 0;
+    name->place = place;
+    return 1;
+}
+
 static void read_let(rt_reader *reader, const rt_statement *statement,
                      const rt_operations *operations)
 {
@@ -93,10 +112,13 @@ static void read_let(rt_reader *reader, const rt_statement *statement,
     int is_good =
         !statement->is_broken && rt_expression_evaluate(&value, &statement->value, operations,
                                                         &reader->scope.constants, &reader->reports);
+    if (is_set_by_caller(reader, statement->name))
+        return;
     rt_name *name = define(reader, &reader->scope.constants, statement->name, "constant");
     if (name) {
         name->value = value;
         name->is_broken = !is_good;
+        name->is_awaited = reader->is_defining;
     }
 }
 

@@ -27,6 +27,7 @@ typedef struct rt_reader {
     size_t blocks;     /* blocks so far */
     size_t iterations; /* of all repeats so far */
     int repeats;       /* inside each other */
+    int is_defining;   /* the text is a definition of the caller's */
     /* the text was read before, in an earlier iteration of a repeat around it */
     int is_further_iteration;
     /* a failure that is no fault of the text; status RT_OK while there is none */
@@ -42,6 +43,10 @@ void rt_reader_free(rt_reader *reader);
 
 /* Reads one text and all that it includes. Errors are collected. */
 void rt_reader_read(rt_reader *reader, const rt_source *source);
+
+/* Reads the caller's definitions, before the text; and reports those that it had no `let` for. */
+void rt_reader_read_definitions(rt_reader *reader);
+void rt_reader_report_unmet(rt_reader *reader);
 
 /* Hands the errors and warnings on, and the scene when there are no errors. */
 rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error);

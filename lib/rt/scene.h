@@ -57,6 +57,14 @@ typedef struct rt_diagnostic {
     const char *source_line; /* the whole line, without newline */
 } rt_diagnostic;
 
+/*
+ * The value of a constant in place of what its `let` gives it: a number, a vector in brackets or
+ * arithmetic with them, as "0.3", "[0 1 0]" or "2 * pi", in one line.
+ */
+typedef struct rt_definition {
+    const char *name, *value;
+} rt_definition;
+
 typedef struct rt_load_options {
     /* called for every error and warning */
     void (*diagnostic)(void *user, const rt_diagnostic *diagnostic);
@@ -80,6 +88,13 @@ typedef struct rt_load_options {
     const char *root;
     rt_memory *memory;   /* the text counts in it while it is read, and the scene; NULL: nowhere */
     rt_profile *profile; /* reading is timed in it; NULL: nowhere */
+    rt_memory *memory; /* the text counts in it while it is read, and the scene; NULL: nowhere */
+    /*
+     * [definition_count]; one that no `let` of the text or of what it includes asks for is an error.
+     * Diagnostics about them have the file name "definition"
+     */
+    const rt_definition *definitions;
+    size_t definition_count;
 } rt_load_options;
 
 /*

@@ -560,6 +560,95 @@ static void without_callback_or_error_it_still_works(void **state)
     rt_scene_destroy(scene);
 }
 
+/* The radius of the sphere of a text whose constants are set, or -1 with the message in *error. */
+static float radius_with(const char *text, const rt_definition *definitions, size_t count,
+                         rt_error *error)
+{
+    rt_scene *scene = NULL;
+    const rt_load_options options = {.definitions = definitions, .definition_count = count};
+    if (rt_scene_parse(&scene, text, NULL, &options, error) != RT_OK)
+        return -1;
+    const float radius = scene->shapes[0].p[3];
+    rt_scene_destroy(scene);
+    return radius;
+}
+
+static void a_definition_stands_for_the_value_of_a_let(void **state)
+{
+    static const char text[] = "let base = 1\n"
+                               "let size = 2 * base\n"
+                               "material m { kd 0.5 }\n"
+                               "sphere { centre 0 0 0  radius size  material m }\n";
+    static const rt_definition number = {"size", "0.25"}, sum = {"base", "(1 + 2) * pi"};
+    const rt_definition both[] = {number, sum};
+    rt_error error;
+    (void)state;
+    assert_float_equal(radius_with(text, NULL, 0, &error), 2, 0);
+    assert_float_equal(radius_with(text, &number, 1, &error), 0.25, 0);
+    assert_float_equal(radius_with(text, &sum, 1, &error), 18.849556f, 1e-5);
+    assert_float_equal(radius_with(text, both, 2, &error), 0.25, 0);
+}
+
+static void a_definition_holds_in_every_turn_of_a_repeat(void **state)
+{
+    static const char text[] = "material m { kd 0.5 }\n"
+                               "repeat i from 0 to 2 {\n"
+                               "    let size = 2 + i\n"
+                               "    sphere { centre i 0 0  radius size  material m }\n"
+                               "}\n";
+    static const rt_definition set = {"size", "0.25"};
+    rt_scene *scene = NULL;
+    rt_error error;
+    const rt_load_options options = {.definitions = &set, .definition_count = 1};
+    (void)state;
+    assert_int_equal(rt_scene_parse(&scene, text, NULL, &options, &error), RT_OK);
+    assert_int_equal(scene->shape_count, 3);
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(scene->shapes[i].p[3], 0.25, 0);
+    rt_scene_destroy(scene);
+}
+
+static void a_wrong_definition_says_what_is_wrong(void **state)
+{
+    static const char text[] = "let size = 1\n"
+                               "material m { kd 0.5 }\n"
+                               "sphere { centre 0 0 0  radius size  material m }\n";
+    static const char twice[] = "let size = 1\n"
+                                "let size = 2\n"
+                                "material m { kd 0.5 }\n"
+                                "sphere { centre 0 0 0  radius size  material m }\n";
+    static const struct {
+        rt_definition set;
+        const char *message;
+    } wrong[] = {
+        {{"sise", "1"}, "the scene has no constant 'sise'"},
+        {{"m", "1"}, "the scene has no constant 'm'"},
+        {{"size", "1 2"}, "unexpected"},
+        {{"size", "abc"}, "abc"},
+        {{"size", "1 / 0"}, "zero"},
+        {{"size", "1\nsphere { }"}, "more than one line"},
+        {{"size", ""}, "expected"},
+        {{"", "1"}, "expected a name"},
+        {{"a b", "1"}, "expected '='"},
+        {{"pi", "3"}, "'pi' is already defined"},
+        {{"size", "\xff"}, "UTF-8"},
+    };
+    rt_error error;
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_float_equal(radius_with(text, &wrong[i].set, 1, &error), -1, 0);
+        if (!strstr(error.message, wrong[i].message))
+            fail_msg("%s = %s: %s", wrong[i].set.name, wrong[i].set.value, error.message);
+        assert_string_equal(error.file, "definition");
+    }
+    const rt_definition again[] = {{"size", "1"}, {"size", "2"}}, once = {"size", "3"};
+    assert_float_equal(radius_with(text, again, 2, &error), -1, 0);
+    assert_non_null(strstr(error.message, "defined twice"));
+    assert_float_equal(radius_with(twice, &once, 1, &error), -1, 0);
+    assert_non_null(strstr(error.message, "defined twice"));
+    assert_int_equal(error.line, 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -583,6 +672,9 @@ int main(void)
         cmocka_unit_test(reading_ends_at_what_is_no_text),
         cmocka_unit_test(all_stands_for_a_number_of_photons),
         cmocka_unit_test(without_callback_or_error_it_still_works),
+        cmocka_unit_test(a_definition_stands_for_the_value_of_a_let),
+        cmocka_unit_test(a_definition_holds_in_every_turn_of_a_repeat),
+        cmocka_unit_test(a_wrong_definition_says_what_is_wrong),
     };
     return cmocka_run_group_tests_name("load", tests, NULL, NULL);
 }
