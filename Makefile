@@ -114,9 +114,9 @@ PUBLIC_H := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h 
 DSL_SRC := \
 	dsl/blocks.c dsl/budget.c dsl/build.c dsl/check.c dsl/definition.c dsl/expression.c \
 	dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/no_effect.c dsl/origin.c \
-	dsl/parse_block.c dsl/parse_entry.c dsl/parse_expression.c dsl/parse_statement.c dsl/parser.c \
-	dsl/progress.c dsl/reader.c dsl/report.c dsl/schema.c dsl/scope.c dsl/shapes.c \
-	dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c
+	dsl/parse_block.c dsl/parse_entry.c dsl/parse_expression.c dsl/parse_statement.c \
+	dsl/parser.c dsl/progress.c dsl/reader.c dsl/report.c dsl/schema.c dsl/scope.c \
+	dsl/shapes.c dsl/source.c dsl/statement.c dsl/suggest.c dsl/transform.c
 
 TOOL_SRC := \
 	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \

@@ -87,8 +87,8 @@ static rt_name *define(rt_reader *reader, rt_names *names, rt_place place, const
 }
 
 /*
- * Whether the caller has set the constant of a `let`, which is then met; in a repeat it is met again
- * and again.
+ * Whether the caller has set the constant of a `let`, which is then met; in a repeat it is met
+ * again and again.
  */
 static int is_set_by_caller(rt_reader *reader, rt_place place)
 {

@@ -159,6 +159,47 @@ static int read_size(option_value *value, const option *option, const char *text
     return STATUS_USAGE;
 }
 
+/* The definition of a name, or NULL. */
+static rt_definition *find_definition(const command_line *arguments, const char *name,
+                                      size_t length)
+{
+    for (size_t i = 0; i < arguments->definition_count; i++) {
+        const char *known = arguments->definitions[i].name;
+        if (strlen(known) == length && memcmp(known, name, length) == 0)
+            return &arguments->definitions[i];
+    }
+    return NULL;
+}
+
+/* Reads NAME=VALUE; text must outlive *out. */
+static int read_definition(command_line *out, const char *text)
+{
+    const char *equals = strchr(text, '=');
+    if (!equals || equals == text || !equals[1]) {
+        message_error("--set takes NAME=VALUE; not '%s'", text);
+        return STATUS_USAGE;
+    }
+    const size_t length = (size_t)(equals - text);
+    rt_definition *known = find_definition(out, text, length);
+    if (known) {
+        known->value = equals + 1;
+        return STATUS_DONE;
+    }
+    rt_definition *more =
+        realloc(out->definitions, (out->definition_count + 1) * sizeof *out->definitions);
+    char *name = malloc(length + 1);
+    out->definitions = more ? more : out->definitions;
+    if (!more || !name) {
+        free(name);
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    memcpy(name, text, length);
+    name[length] = '\0';
+    more[out->definition_count++] = (rt_definition){name, equals + 1};
+    return STATUS_DONE;
+}
+
 /* Reads text, NULL for none, as the value of an option of the table. */
 static int read_option_value(command_line *out, const option *option, const char *text)
 {
@@ -181,6 +222,8 @@ static int read_option_value(command_line *out, const option *option, const char
     }
     value->given = 1;
     value->text = text;
+    if (option == &option_table[OPTION_SET])
+        status = read_definition(out, text);
     if (option == &option_table[OPTION_OUT])
         out->outputs[out->output_count++] = text;
     return status;
@@ -281,6 +324,9 @@ int arguments_give(command_line *out, const char *name, const char *text)
         int status = reserve_output(out);
         if (status != STATUS_DONE)
             return status;
+    } else if (meaning.option == &option_table[OPTION_SET]) {
+        if (find_definition(out, text, strcspn(text, "=")))
+            return STATUS_DONE;
     } else if (meaning.option && out->options[meaning.option - option_table].given) {
         return STATUS_DONE;
     }
@@ -355,5 +401,8 @@ void arguments_free(command_line *arguments)
     free(arguments->paths);
     free(arguments->settings);
     free(arguments->outputs);
+    for (size_t i = 0; i < arguments->definition_count; i++)
+        free((char *)arguments->definitions[i].name);
+    free(arguments->definitions);
     free(arguments->operands);
 }

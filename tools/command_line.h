@@ -18,7 +18,8 @@ int arguments_limit_memory(command_line *arguments);
 void arguments_free(command_line *arguments);
 
 /*
- * Gives an option or setting by its name without dashes, where it is not given yet; outputs add up.
+ * Gives an option or setting by its name without dashes, where it is not given yet; outputs add up,
+ * and so do definitions of several names.
  * What the command does not take is passed over. text must outlive *out. Returns an exit status.
  */
 int arguments_give(command_line *out, const char *name, const char *text);

@@ -41,6 +41,19 @@ static void add_line(text *out, const char *word, const char *name, const char *
                                   name[0] ? " " : "", value);
 }
 
+/* Adds a definition as --set takes it. */
+static void add_definition(text *out, const rt_definition *definition)
+{
+    const size_t size = strlen(definition->name) + strlen(definition->value) + 2;
+    char *both = malloc(size);
+    if (both) {
+        snprintf(both, size, "%s=%s", definition->name, definition->value);
+        add_line(out, "given", option_table[OPTION_SET].name, both);
+    }
+    out->failed |= !both;
+    free(both);
+}
+
 /*
  * --time is for one sitting: a film keeps what it was begun with, and nothing that was given when
  * it was continued.
@@ -85,6 +98,8 @@ char *film_note_make(const command_line *arguments, const char *scene)
         if (arguments->options[id].given)
             add_line(&note, "given", option_table[id].name, arguments->options[id].text);
     }
+    for (size_t i = 0; i < arguments->definition_count; i++)
+        add_definition(&note, &arguments->definitions[i]);
     for (size_t i = 0; i < arguments->output_count; i++)
         add_line(&note, "given", "out", arguments->outputs[i]);
     if (note.failed) {

@@ -28,6 +28,7 @@ typedef enum command_id {
 
 /* The options that are no settings, in the order of their table and of the help. */
 typedef enum option_id {
+    OPTION_SET,
     OPTION_ACCEL,
     OPTION_PHOTON_MAP,
     OPTION_LIGHT_SHARES,
@@ -133,6 +134,8 @@ typedef struct command_line {
     const char **settings; /* what is given of each of rt_settings, as typed, or NULL */
     const char **outputs;  /* all values of --out */
     size_t output_count;
+    rt_definition *definitions; /* of --set; the names are owned */
+    size_t definition_count;
     const char **operands;
     size_t operand_count;
     rt_memory *memory;       /* by --memory or --stats, or NULL; owned */

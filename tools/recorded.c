@@ -35,6 +35,9 @@ static size_t write_line(char *out, size_t size, const command_line *arguments, 
             used +=
                 write_setting(out ? out + used : NULL, out ? size - used : 0, &settings[i], text);
     }
+    for (size_t i = 0; i < arguments->definition_count; i++)
+        used += (size_t)snprintf(out ? out + used : NULL, out ? size - used : 0, " --set '%s=%s'",
+                                 arguments->definitions[i].name, arguments->definitions[i].value);
     for (int i = 0; i < OPTION_COUNT; i++)
         if (option_table[i].decides_pixels && arguments->options[i].given)
             used += write_option(out ? out + used : NULL, out ? size - used : 0, &option_table[i],

@@ -138,7 +138,9 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
                                .hooks = &hooks,
                                .root = root,
                                .memory = arguments->memory,
-                               .profile = arguments->profile};
+                               .profile = arguments->profile,
+                               .definitions = arguments->definitions,
+                               .definition_count = arguments->definition_count};
     options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_CHECK_QUIETLY ||
                     purpose == SCENE_TO_RENDER;
     rt_error error;

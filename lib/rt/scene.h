@@ -88,10 +88,9 @@ typedef struct rt_load_options {
     const char *root;
     rt_memory *memory;   /* the text counts in it while it is read, and the scene; NULL: nowhere */
     rt_profile *profile; /* reading is timed in it; NULL: nowhere */
-    rt_memory *memory; /* the text counts in it while it is read, and the scene; NULL: nowhere */
     /*
-     * [definition_count]; one that no `let` of the text or of what it includes asks for is an error.
-     * Diagnostics about them have the file name "definition"
+     * [definition_count]; one that no `let` of the text or of what it includes asks for is an
+     * error. Diagnostics about them have the file name "definition"
      */
     const rt_definition *definitions;
     size_t definition_count;

@@ -16,7 +16,7 @@ static const char *const others[] = {
     "help", "render", "info",  "merge",  "diff",   "export",  "sphere", "torus",
     "knot", "o.ply",  "o.rtp", "o.png",  "o.exr",  "terrain", "1/4",    "2/2",
     "1,2",  "0,1",    "all",   "none.x", "albedo", "--",      "-h",     "\303\244\033[1m",
-    "\"\\", NULL};
+    "\"\\", "size=1", NULL};
 
 static const char *const numbers[] = {"0",    "1",    "2",  "16",        "-1",  "0.5",
                                       "1e6",  "1e9",  "4G", "100k",      "nan", "inf",

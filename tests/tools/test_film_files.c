@@ -422,6 +422,35 @@ static void an_untrusted_film_names_no_file_elsewhere(void **state)
     assert_int_equal(rmdir("in"), 0);
 }
 
+static void constants_that_are_set_belong_to_the_film(void **state)
+{
+    static const char text[] = "let size = 1\nlet tint = 0.5\n"
+                               "camera { eye 0 1 -4  look_at 0 0 0 }\nfilm { width 16 height 12 }\n"
+                               "material m { kd tint }\n"
+                               "sphere { centre 0 0 0  radius size  material m }\n"
+                               "light point { position 0 3 -3  intensity 30 }\n";
+    static const char same[] = "let size = 0.5\nlet tint = 0.25\n";
+    char *other = malloc(sizeof text + sizeof same);
+    (void)state;
+    scratch_write("let.rts", text);
+    strcpy(other, same);
+    strcat(other, strchr(strchr(text, '\n') + 1, '\n') + 1);
+    scratch_write("other.rts", other);
+    free(other);
+    RTC(STATUS_DONE, "other.rts --spp 4 --quiet --out other.pfm");
+    RTC(STATUS_DONE, "let.rts --set size=9 --set size=0.5 --set tint=0.25 --spp 2 --quiet "
+                     "--out let.pfm --checkpoint let.rtpart");
+    RTC(STATUS_DONE, "--resume let.rtpart --spp 4 --quiet");
+    expect_same_files("let.pfm", "other.pfm");
+    RTC(STATUS_DONE, "check let.rts --set size=0.5");
+    RTC(STATUS_USAGE, "--resume let.rtpart --set size=2 --spp 8");
+    run unknown = run_rtc("let.rts --set sise=1");
+    expect_status(&unknown, STATUS_INPUT);
+    expect_err(&unknown, "the scene has no constant 'sise'");
+    expect_err(&unknown, "did you mean 'size'?");
+    run_free(&unknown);
+}
+
 /* What a film says of outputs is not done for a stranger. */
 static void an_untrusted_film_names_no_outputs(void **state)
 {
@@ -473,6 +502,7 @@ int main(void)
         cmocka_unit_test(a_render_without_end_tells_its_samples),
         cmocka_unit_test(devices_that_share_a_picture_take_the_time_that_passes),
         cmocka_unit_test(a_render_is_gone_on_with_from_another_folder),
+        cmocka_unit_test(constants_that_are_set_belong_to_the_film),
         cmocka_unit_test(an_untrusted_film_names_no_outputs),
         cmocka_unit_test(an_untrusted_film_names_no_file_elsewhere),
         cmocka_unit_test(no_film_is_refused_with_its_name),

@@ -137,6 +137,9 @@ static const struct {
     {"photons a.rts --out m.rtp --part 0/0", "--part takes"},
     {"photons a.rts --out m.rtp --part 1", "--part takes"},
     {"photons a.rts --out m.rtp --part 1/x", "--part takes"},
+    {"a.rts --set radius", "--set takes NAME=VALUE; not 'radius'"},
+    {"a.rts --set =3", "--set takes NAME=VALUE; not '=3'"},
+    {"a.rts --set radius=", "--set takes NAME=VALUE; not 'radius='"},
     {"photons a.rts --out m.rtp --light-shares 1,,2",
      "--light-shares takes a number from 0 to 1e+15 for each light, with commas between them, as "
      "in 1,0.5,2; not "

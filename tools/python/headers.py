@@ -106,9 +106,10 @@ def _read_docs(interface: Interface, text: str) -> None:
                 _note(interface, re.search(r"(\w+)\s*;$", match["plain"]).group(1), comment)
             else:
                 _note(interface, function.group(1), comment)
+                plain = re.sub(r"\(\*(\w+)\)\([^)]*\)", r" \1", function.group(2))  # callbacks
                 interface.parameters[function.group(1)] = [
                     re.search(r"(\w+)(?:\[\d*\])?\s*$", part).group(1)
-                    for part in re.sub(r"\(\*(\w+)\)\([^)]*\)", r" \1", function.group(2)).split(",")
+                    for part in plain.split(",")
                     if part.strip() != "void"]
 
 

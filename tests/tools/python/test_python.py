@@ -103,6 +103,17 @@ class Scenes(Case):
             with self.assertRaises(TypeError):
                 wrong()
 
+    def test_constants_of_a_text_are_set(self):
+        text = SCENE.replace("radius 1", "radius size").replace("kd 0.7", "kd tint")
+        text = "let size = 1\nlet tint = 0.7\n" + text
+        plain = rt.render(rt.Scene.parse(text), self.device, spp=4)
+        self.assertTrue(np.array_equal(plain.rgb, self.film.rgb))
+        scene = rt.Scene.parse(text, constants={"size": 0.5, "tint": (0.7, 0, 0)})
+        film = rt.render(scene, self.device, spp=4)
+        self.assertEqual(film.rgb[:, :, 1].max(), 0)
+        with self.assertRaisesRegex(rt.InputError, "no constant 'sise'"):
+            rt.Scene.parse(text, constants={"sise": 1})
+
     def test_a_mesh_of_arrays_is_hit_where_it_lies(self):
         scene = rt.Scene()
         white = scene.material(kd=0.5)

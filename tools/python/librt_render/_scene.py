@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import warnings
 from types import SimpleNamespace
-from typing import Any, Optional, Union
+from typing import Any, Mapping, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -73,41 +73,49 @@ class Scene:
     @classmethod
     @documented("rt_scene_load")
     def load(cls, path: Path, *, check: bool = True, root: Optional[Path] = None,
-             memory: Optional[Memory] = None, progress: Optional[Progress] = None) -> "Scene":
+             constants: Optional[Mapping[str, Any]] = None, memory: Optional[Memory] = None,
+             progress: Optional[Progress] = None) -> "Scene":
         """Reads a scene from a .rts file.
 
         check: also warn of what rt_scene_check finds. root: a folder that the text may name files
-        in, and nowhere else. InputError.diagnostics has all errors of the text.
+        in, and nowhere else. constants: values in place of those that the text's `let` gives, as
+        {"radius": 0.3, "tint": (1, 0.5, 0)}. InputError.diagnostics has all errors of the text.
         """
-        return cls._read(lib.rt_scene_load, (path_bytes(path),), check, root, memory, progress)
+        return cls._read(lib.rt_scene_load, (path_bytes(path),), check, root, constants,
+                         memory, progress)
 
     @classmethod
     @documented("rt_scene_parse")
     def parse(cls, source: str, *, name: str = "text", check: bool = True,
-              root: Optional[Path] = None, memory: Optional[Memory] = None,
+              root: Optional[Path] = None, constants: Optional[Mapping[str, Any]] = None,
+              memory: Optional[Memory] = None,
               progress: Optional[Progress] = None) -> "Scene":
         """Reads a scene from a string; `name` stands for its file in messages."""
-        return cls._read(lib.rt_scene_parse, (source.encode(), name.encode()), check, root, memory,
-                         progress)
+        return cls._read(lib.rt_scene_parse, (source.encode(), name.encode()), check, root,
+                         constants, memory, progress)
 
     @classmethod
     def _read(cls, function: Any, what: tuple[Any, ...], check: bool, root: Optional[Path],
-              memory: Optional[Memory], progress: Optional[Progress]) -> "Scene":
+              constants: Optional[Mapping[str, Any]], memory: Optional[Memory],
+              progress: Optional[Progress]) -> "Scene":
         found: list[SimpleNamespace] = []
         handle = ffi.new_handle(found)
         folder = ffi.NULL if root is None else ffi.new("char[]", path_bytes(root))
+        texts, definitions = _definitions(constants or {})
         scene = cls.__new__(cls)
         scene._memory = memory
         with Hooks(progress, stacklevel=4) as hooks:
             options = ffi.new("rt_load_options *", {
                 "diagnostic": _on_diagnostic, "user": handle, "check": check, "root": folder,
-                "hooks": hooks.pointer, "memory": memory_pointer(memory)})
+                "hooks": hooks.pointer, "memory": memory_pointer(memory),
+                "definitions": definitions, "definition_count": len(constants or {})})
             try:
                 scene._c = make("rt_scene", lib.rt_scene_destroy, function, *what, options,
                                 keep=memory)
             except InputError as error:
                 error.diagnostics = found
                 raise
+        del texts
         for each in found:
             if each.severity == "warning":
                 warnings.warn(f"{each.file}:{each.line}:{each.column}: {each.message}",
@@ -314,6 +322,18 @@ def _surface(material: int = 0, radiance: Optional[Numbers] = None,
             raise ValueError("the last row of transform is not 0 0 0 1")
         surface.transform.m = rows[:3].tolist()
     return surface
+
+
+def _definitions(constants: Mapping[str, Any]) -> tuple[list[Any], Any]:
+    """rt_definition[] of constants, and the texts that it points to."""
+    texts = []
+    for name, value in constants.items():
+        if not isinstance(value, str):
+            numbers = np.asarray(value, dtype=np.float64)
+            shown = " ".join(repr(float(number)) for number in numbers.ravel())
+            value = f"[{shown}]" if numbers.ndim else shown
+        texts.append([ffi.new("char[]", name.encode()), ffi.new("char[]", value.encode())])
+    return texts, ffi.new("rt_definition[]", texts)
 
 
 def _indices(indices: ArrayLike) -> Any:
