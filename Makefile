@@ -130,7 +130,9 @@ TOOL_SRC := \
 	tools/photons.c tools/photons_emit.c tools/photons_keep.c \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/rays.c tools/recorded.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
-	tools/stats.c tools/timing.c tools/untrusted.c
+	tools/stats.c tools/study/cell.c tools/study/command.c tools/study/list.c \
+	tools/study/page.c tools/study/study.c tools/study/sweep.c tools/timing.c \
+	tools/untrusted.c
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
@@ -290,7 +292,7 @@ TEST_KERNEL_SRC  := \
 # The C++ file first, which takes the longest.
 LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
             $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(B)/kernels.o
-TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC))
+TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC)) $(B)/page_source.o
 SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench bench-checkpoint bench-compare bench-mpi bench-reference bench-scaling \
@@ -331,6 +333,12 @@ $(B)/kernels.c: $(B)/embed $(KERNEL_DEPS) Makefile
 	$(B)/embed $@ rt_kernel_sources -I kernels $(KERNEL_SRC)
 
 $(B)/kernels.o: $(B)/kernels.c
+	$(CC) $(ALL_CFLAGS) -c -o $@ $<
+
+$(B)/page_source.c: $(B)/embed tools/study/page.html
+	$(B)/embed $@ page_source --bytes tools/study/page.html
+
+$(B)/page_source.o: $(B)/page_source.c
 	$(CC) $(ALL_CFLAGS) -c -o $@ $<
 
 $(B)/librt.a: $(LIB_OBJ)

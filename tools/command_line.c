@@ -15,7 +15,7 @@ static const char *const command_names[COMMAND_COUNT] = {
     [COMMAND_RENDER] = "",         [COMMAND_CHECK] = "check",   [COMMAND_MESH] = "mesh",
     [COMMAND_DEVICES] = "devices", [COMMAND_DOCTOR] = "doctor", [COMMAND_PHOTONS] = "photons",
     [COMMAND_COMPARE] = "compare", [COMMAND_MERGE] = "merge",   [COMMAND_INFO] = "info",
-    [COMMAND_KERNELS] = "kernels",
+    [COMMAND_KERNELS] = "kernels", [COMMAND_STUDY] = "study",
 };
 
 const char *command_name(command_id command)
@@ -200,6 +200,18 @@ static int read_definition(command_line *out, const char *text)
     return STATUS_DONE;
 }
 
+static int add_sweep(command_line *out, const char *text)
+{
+    const char **more = realloc(out->sweeps, (out->sweep_count + 1) * sizeof *more);
+    if (!more) {
+        message_error("out of memory");
+        return STATUS_DEVICE;
+    }
+    out->sweeps = more;
+    more[out->sweep_count++] = text;
+    return STATUS_DONE;
+}
+
 /* Reads text, NULL for none, as the value of an option of the table. */
 static int read_option_value(command_line *out, const option *option, const char *text)
 {
@@ -224,6 +236,8 @@ static int read_option_value(command_line *out, const option *option, const char
     value->text = text;
     if (option == &option_table[OPTION_SET])
         status = read_definition(out, text);
+    if (option == &option_table[OPTION_SWEEP])
+        status = add_sweep(out, text);
     if (option == &option_table[OPTION_OUT])
         out->outputs[out->output_count++] = text;
     return status;
@@ -404,5 +418,6 @@ void arguments_free(command_line *arguments)
     for (size_t i = 0; i < arguments->definition_count; i++)
         free((char *)arguments->definitions[i].name);
     free(arguments->definitions);
+    free(arguments->sweeps);
     free(arguments->operands);
 }

@@ -95,9 +95,35 @@ static void embed_file(FILE *out, const char *path, included *seen)
     fclose(in);
 }
 
+/* Writes a file as it is, as an array of bytes and their number. */
+static void embed_bytes(const char *path, const char *symbol, const char *from)
+{
+    char line[max_line];
+    FILE *out = fopen(path, "w"), *in = fopen(from, "r");
+    if (!in)
+        fail("cannot be read", from);
+    if (!out)
+        fail("cannot be written", path);
+    fprintf(out,
+            "/* Made by tools/embed.c. */\n#include <stddef.h>\n"
+            "extern const unsigned char %s[];\nextern const size_t %s_size;\n"
+            "const unsigned char %s[] = {\n",
+            symbol, symbol, symbol);
+    while (fgets(line, sizeof line, in))
+        put_bytes(out, line);
+    fprintf(out, "};\nconst size_t %s_size = sizeof %s;\n", symbol, symbol);
+    fclose(in);
+    if (fclose(out))
+        fail("cannot be written", path);
+}
+
 int main(int argc, char **argv)
 {
     int first = 3;
+    if (argc == 5 && strcmp(argv[3], "--bytes") == 0) {
+        embed_bytes(argv[1], argv[2], argv[4]);
+        return 0;
+    }
     if (argc < 4) {
         fprintf(stderr, "usage: embed OUT.c SYMBOL [-I DIR]... KERNEL.cl...\n");
         return 2;

@@ -16,6 +16,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "       rtc devices                 list the OpenCL devices\n"
         "       rtc doctor [OPTION]...      check that everything works here\n"
         "       rtc kernels [PROGRAM]...    compile the kernels ahead of the first render\n"
+        "       rtc study SCENE --sweep ... compare settings on a page of pictures and plots\n"
         "       rtc photons ...             emit, merge, inspect and export photon maps\n"
         "       rtc compare A... B [OPTION]... measure how images differ from a reference\n"
         "       rtc merge FILM... --out FILE   join the parts of a picture\n"
@@ -55,6 +56,13 @@ static const char *const usages[COMMAND_COUNT] = {
         "\n"
         "Compiles all kernels, or those of the programs named, so that no render has to\n"
         "wait for them: after installation, or into the image of a container.\n",
+    [COMMAND_STUDY] =
+        "usage: rtc study SCENE.rts --sweep NAME=A,B,... [OPTION]...\n"
+        "\n"
+        "Renders a scene with every combination of the values that are swept, measures\n"
+        "each picture against a reference, and writes NAME.html, a page of pictures and\n"
+        "plots that needs no other file, and NAME.csv. What stands in NAME.films is not\n"
+        "rendered again.\n",
     [COMMAND_PHOTONS] =
         "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
         "       rtc photons info MAP...                          what maps hold\n"

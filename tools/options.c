@@ -7,6 +7,7 @@
 #define CHECK (1u << COMMAND_CHECK)
 #define MESH (1u << COMMAND_MESH)
 #define DOCTOR (1u << COMMAND_DOCTOR)
+#define STUDY (1u << COMMAND_STUDY)
 #define KERNELS (1u << COMMAND_KERNELS)
 #define PHOTONS (1u << COMMAND_PHOTONS)
 #define COMPARE (1u << COMMAND_COMPARE)
@@ -15,6 +16,7 @@
 #define ALL ((1u << COMMAND_COUNT) - 1u)
 
 static const rt_word accels[] = {RT_ACCELS(RT_WORD) RT_WORD_END};
+static const rt_word equals[] = {{"samples", 0, ""}, {"time", 1, ""}, RT_WORD_END};
 static const rt_word tonemaps[] = {{"none", RT_TONEMAP_NONE, ""},
                                    {"reinhard", RT_TONEMAP_REINHARD, ""},
                                    {"aces", RT_TONEMAP_ACES, ""},
@@ -30,6 +32,7 @@ const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_PHOTON] = "Photon mode (each overrides the scene's own setting)",
     [GROUP_KEEP] = "Interrupts and several machines",
     [GROUP_OUTPUT] = "Output",
+    [GROUP_STUDY] = "The study",
     [GROUP_MESH] = "The mesh",
     [GROUP_COMPARE] = "The comparison",
     [GROUP_LIMIT] = "Limits (the exit status is 1 when one is not kept)",
@@ -39,12 +42,13 @@ const char *const option_group_titles[GROUP_COUNT] = {
 
 const option option_table[OPTION_COUNT] = {
     [OPTION_SET] =
-        {"set", "NAME=VALUE", KIND_TEXT, GROUP_RENDER, RENDER | CHECK | PHOTONS, 0, 0, NULL, 0,
-         NULL,
+        {"set", "NAME=VALUE", KIND_TEXT, GROUP_RENDER, RENDER | CHECK | PHOTONS | STUDY, 0, 0, NULL,
+         0, NULL,
          "the value of a constant that the scene defines by `let`, as in --set radius=0.3 "
          "or --set 'tint=[1 0.5 0]'; may be repeated"},
-    [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS, 0, 0, accels, 1,
-                      "bvh", "a bounding volume hierarchy, or none: every primitive is tested"},
+    [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS | STUDY, 0, 0,
+                      accels, 1, "bvh",
+                      "a bounding volume hierarchy, or none: every primitive is tested"},
     [OPTION_PHOTON_MAP] =
         {"photon-map", "FILE", KIND_TEXT, GROUP_PHOTON, RENDER, 0, 0, NULL, 1, NULL,
          "render with the photons of a map that `rtc photons` made of this scene, and emit none"},
@@ -74,10 +78,24 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_INCOMPLETE] = {"incomplete", NULL, KIND_FLAG, GROUP_KEEP, MERGE, 0, 0, NULL, 0, NULL,
                            "write images of a film although parts of it are missing"},
 
-    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | PHOTONS | COMPARE | MERGE, 0,
-                    0, NULL, 0, "NAME.png and NAME.exr in the current directory for NAME.rts",
+    [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT,
+                    RENDER | PHOTONS | COMPARE | MERGE | STUDY, 0, 0, NULL, 0,
+                    "NAME.png and NAME.exr in the current directory for NAME.rts",
                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB), or .rtpart, the "
                     "film itself, to be continued or merged; may be repeated"},
+    [OPTION_SWEEP] = {"sweep", "NAME=A,B,...", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
+                      "the values that a setting takes, or all for every word of one; also of "
+                      "accel, of scene, whose values are files, and of a constant that the scene "
+                      "defines by `let`; may be repeated: every combination is rendered"},
+    [OPTION_LIST] =
+        {"list", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
+         "make one page of all studies in a file; settings given here go before theirs"},
+    [OPTION_REFERENCE] = {"reference", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
+                          "the image that errors are measured against; auto path traces one, to a "
+                          "relative error below 0.5 % or with 16384 samples a pixel"},
+    [OPTION_EQUAL] = {"equal", "WHAT", KIND_CHOICE, GROUP_STUDY, STUDY, 0, 0, equals, 0, "samples",
+                      "what all pictures have in common: the samples that their settings say, or "
+                      "the time of the first one"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER | MERGE, -126, 126, NULL,
                          1, "0", "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER | MERGE, 0, 0,
@@ -135,23 +153,23 @@ const option option_table[OPTION_COUNT] = {
          "for a scene by a stranger: read files in its folder only, give up the rights to do other "
          "than to write the outputs, and limit CPU time and memory (Linux)"},
     [OPTION_DEVICE] =
-        {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR | KERNELS, 0, 0, NULL, 0,
-         "0",
+        {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR | KERNELS | STUDY, 0, 0,
+         NULL, 0, "0",
          "a number of `rtc devices`, or part of a device's or platform's name; a render takes "
          "several too, as in 0,1, or all, which share the picture"},
-    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR, 1,
-                        UINT32_MAX, NULL, 0, "all",
+    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR | STUDY,
+                        1, UINT32_MAX, NULL, 0, "all",
                         "host threads, and compute units used of a CPU device"},
     [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE,
-                           RENDER | PHOTONS | DOCTOR | KERNELS, 1, UINT32_MAX, NULL, 0,
+                           RENDER | PHOTONS | DOCTOR | KERNELS | STUDY, 1, UINT32_MAX, NULL, 0,
                            "chosen for the device", "work-items per work-group"},
     [OPTION_MEMORY] =
-        {"memory", "LIMIT", KIND_SIZE, GROUP_DEVICE, RENDER | CHECK | PHOTONS | MERGE | INFO,
-         1, 0x1p60, NULL, 0, "no limit",
+        {"memory", "LIMIT", KIND_SIZE, GROUP_DEVICE,
+         RENDER | CHECK | PHOTONS | MERGE | INFO | STUDY, 1, 0x1p60, NULL, 0, "no limit",
          "take no more memory than this for the scene, its hierarchy, photon maps and the film, "
          "device buffers among them; in bytes, or with K, M, G or T, powers of 1024, as in 4G"},
 
-    [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS, 0, 0,
+    [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS | STUDY, 0, 0,
                          progress_styles, 0, "auto",
                          "progress on stderr; auto is one redrawn line on a terminal and plain "
                          "lines elsewhere; with json one JSON object per line"},
@@ -165,10 +183,11 @@ const option option_table[OPTION_COUNT] = {
                         NULL,
                         "write every stage, kernel launch and transfer with its time to NAME.json, "
                         "which ui.perfetto.dev opens; of rtc-mpi, those of the first process"},
-    [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS | DOCTOR | KERNELS,
-                        0, 0, NULL, 0, NULL, "log details to stderr"},
-    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK, RENDER | CHECK | PHOTONS | MERGE, 0, 0,
-                      NULL, 0, NULL,
+    [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK,
+                        RENDER | PHOTONS | DOCTOR | KERNELS | STUDY, 0, 0, NULL, 0, NULL,
+                        "log details to stderr"},
+    [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK,
+                      RENDER | CHECK | PHOTONS | MERGE | STUDY, 0, 0, NULL, 0, NULL,
                       "say nothing but errors; progress only where --progress asks for it"},
     [OPTION_HELP] = {"help", NULL, KIND_FLAG, GROUP_TALK, ALL, 0, 0, NULL, 0, NULL,
                      "print this and stop"},

@@ -19,6 +19,7 @@ typedef enum command_id {
     COMMAND_DEVICES,
     COMMAND_DOCTOR,
     COMMAND_KERNELS,
+    COMMAND_STUDY,
     COMMAND_PHOTONS,
     COMMAND_COMPARE,
     COMMAND_MERGE,
@@ -38,6 +39,10 @@ typedef enum option_id {
     OPTION_PART,
     OPTION_INCOMPLETE,
     OPTION_OUT,
+    OPTION_SWEEP,
+    OPTION_LIST,
+    OPTION_REFERENCE,
+    OPTION_EQUAL,
     OPTION_EXPOSURE,
     OPTION_TONEMAP,
     OPTION_TRIANGLES,
@@ -87,6 +92,7 @@ typedef enum option_group {
     GROUP_PHOTON,
     GROUP_KEEP,
     GROUP_OUTPUT,
+    GROUP_STUDY,
     GROUP_MESH,
     GROUP_COMPARE,
     GROUP_LIMIT,
@@ -136,6 +142,8 @@ typedef struct command_line {
     size_t output_count;
     rt_definition *definitions; /* of --set; the names are owned */
     size_t definition_count;
+    const char **sweeps; /* all values of --sweep */
+    size_t sweep_count;
     const char **operands;
     size_t operand_count;
     rt_memory *memory;       /* by --memory or --stats, or NULL; owned */

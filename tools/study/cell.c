@@ -1,0 +1,233 @@
+/* cell.c - renders the pictures of a study. */
+#include "cell.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../message.h"
+#include "../scene_file.h"
+#include "../settings.h"
+#include "../status.h"
+
+static const rt_word accels[] = {RT_ACCELS(RT_WORD) RT_WORD_END};
+
+static int fail_memory(void)
+{
+    message_error("out of memory");
+    return STATUS_DEVICE;
+}
+
+/* ---- Pictures ------------------------------------------------------------------- */
+
+/* Puts a value of an axis into the command line. */
+static void put_value(study_picture *picture, const sweep_axis *axis, const char *value)
+{
+    switch (axis->kind) {
+    case SWEEP_SETTING:
+        study_picture_set(picture, axis->setting->field.name, value);
+        break;
+    case SWEEP_SCENE:
+        picture->scene = value;
+        break;
+    case SWEEP_ACCEL:
+        picture->line.options[OPTION_ACCEL] = (option_value){
+            .given = 1, .text = value, .choice = rt_word_find(accels, value, strlen(value))->value};
+        break;
+    case SWEEP_CONSTANT:
+        picture->line.definitions[picture->line.definition_count++] =
+            (rt_definition){axis->name, value};
+        break;
+    }
+}
+
+/* "k=50,kernel=box", of letters that any file system takes. */
+static char *make_label(const sweep *sweep, size_t cell)
+{
+    size_t size = 1;
+    for (size_t i = 0; i < sweep->count; i++)
+        size += strlen(sweep->axes[i].name) + strlen(sweep_value(sweep, cell, i)) + 2;
+    char *label = malloc(size + sizeof "reference"), *at = label;
+    if (!label)
+        return NULL;
+    strcpy(label, sweep->count > 0 ? "" : "reference");
+    for (size_t i = 0; i < sweep->count; i++)
+        at += sprintf(at, "%s%s=%s", i > 0 ? "," : "", sweep->axes[i].name,
+                      sweep_value(sweep, cell, i));
+    for (at = label; *at; at++)
+        if (!isalnum((unsigned char)*at) && !strchr("=,.-+_", *at))
+            *at = '_';
+    return label;
+}
+
+int study_picture_make(study_picture *out, const command_line *arguments, const sweep *sweep,
+                       size_t cell, const char *scene)
+{
+    size_t settings;
+    rt_settings(&settings);
+    *out = (study_picture){.line = *arguments, .scene = scene};
+    command_line *line = &out->line;
+    line->settings = malloc(settings * sizeof *line->settings);
+    line->definitions = malloc((line->definition_count + SWEEP_AXES) * sizeof *line->definitions);
+    out->label = make_label(sweep, cell);
+    if (!line->settings || !line->definitions || !out->label)
+        return fail_memory();
+    memcpy(line->settings, arguments->settings, settings * sizeof *line->settings);
+    if (line->definition_count > 0)
+        memcpy(line->definitions, arguments->definitions,
+               line->definition_count * sizeof *line->definitions);
+    for (size_t i = 0; i < sweep->count; i++)
+        put_value(out, &sweep->axes[i], sweep_value(sweep, cell, i));
+    return STATUS_DONE;
+}
+
+void study_picture_free(study_picture *picture)
+{
+    free(picture->line.settings);
+    free(picture->line.definitions);
+    free(picture->label);
+}
+
+void study_picture_set(study_picture *picture, const char *setting, const char *text)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    picture->line.settings[rt_setting_find(setting) - settings] = text;
+}
+
+/* ---- Scenes --------------------------------------------------------------------- */
+
+static void forget_scene(study_scene *ready)
+{
+    rt_renderer_destroy(ready->renderer);
+    rt_scene_destroy(ready->scene);
+    free(ready->key);
+    *ready = (study_scene){0};
+}
+
+/* What tells a scene from others. */
+static char *make_key(const study_picture *picture)
+{
+    const command_line *line = &picture->line;
+    size_t size = strlen(picture->scene) + 32;
+    for (size_t i = 0; i < line->definition_count; i++)
+        size += strlen(line->definitions[i].name) + strlen(line->definitions[i].value) + 2;
+    char *key = malloc(size), *at = key;
+    if (!key)
+        return NULL;
+    at += sprintf(at, "%s\n%d", picture->scene, line->options[OPTION_ACCEL].choice);
+    for (size_t i = 0; i < line->definition_count; i++)
+        at += sprintf(at, "\n%s=%s", line->definitions[i].name, line->definitions[i].value);
+    return key;
+}
+
+/* Makes the scene of a picture ready, unless it is. */
+static int prepare(study_renderer *renderer, const study_picture *picture)
+{
+    study_scene *ready = &renderer->ready;
+    const session *session = renderer->session;
+    rt_renderer_options options = {.hooks = &session->hooks};
+    rt_error error;
+    char *key = make_key(picture);
+    if (key && ready->key && strcmp(key, ready->key) == 0) {
+        free(key);
+        return STATUS_DONE;
+    }
+    forget_scene(ready);
+    if (!key)
+        return fail_memory();
+    int status = scene_file_load(&ready->scene, picture->scene,
+                                 session->quiet ? SCENE_QUIETLY : SCENE_TO_RENDER, NULL, NULL,
+                                 &renderer->session->progress, &picture->line);
+    if (picture->line.options[OPTION_ACCEL].given)
+        options.accel = (rt_accel)picture->line.options[OPTION_ACCEL].choice;
+    if (status == STATUS_DONE && rt_renderer_create(&ready->renderer, ready->scene,
+                                                    renderer->device, &options, &error) != RT_OK)
+        status = session_fail(&error);
+    if (status == STATUS_DONE) {
+        ready->key = key;
+        return STATUS_DONE;
+    }
+    free(key);
+    forget_scene(ready);
+    return status;
+}
+
+/* ---- Films ---------------------------------------------------------------------- */
+
+static char *film_path(const study_renderer *renderer, const study_picture *picture)
+{
+    const size_t size = strlen(renderer->folder) + strlen(picture->label) + sizeof ".rtpart";
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s%s.rtpart", renderer->folder, picture->label);
+    return path;
+}
+
+/* The film that is kept at path, if it is of these options and finished; or NULL. */
+static rt_film *recall(const char *path, rt_renderer *renderer, const rt_render_options *options)
+{
+    rt_film *kept = NULL, *film = NULL;
+    rt_film_info info;
+    if (rt_film_load(&kept, path, NULL, NULL) != RT_OK)
+        return NULL;
+    rt_status status = rt_film_begin(&film, renderer, options, NULL);
+    if (status == RT_OK)
+        status = rt_film_add(film, kept, NULL);
+    if (status == RT_OK) {
+        rt_film_get_info(film, &info);
+        const int is_whole = options->time > 0 ? info.seconds >= options->time : info.done >= 1;
+        status = is_whole ? rt_film_resolve(film, NULL, NULL) : RT_ERROR_USAGE;
+    }
+    rt_film_destroy(kept);
+    if (status == RT_OK)
+        return film;
+    rt_film_destroy(film);
+    return NULL;
+}
+
+/* Renders and keeps the film. */
+static int render_new(rt_film **out, study_renderer *renderer, const char *path,
+                      const rt_render_options *options)
+{
+    rt_error error;
+    rt_status result = rt_render(out, renderer->ready.renderer, options, &error);
+    progress_clear(&renderer->session->progress);
+    if (result == RT_OK && rt_film_save(*out, path, &error) == RT_OK)
+        return STATUS_DONE;
+    rt_film_destroy(*out);
+    *out = NULL;
+    if (session_was_interrupted(result))
+        return STATUS_INTERRUPTED;
+    return session_fail(&error);
+}
+
+int study_render(rt_film **out, study_renderer *renderer, const study_picture *picture)
+{
+    session *session = renderer->session;
+    rt_render_options own, options;
+    session->arguments = &picture->line;
+    int status = prepare(renderer, picture);
+    if (status != STATUS_DONE)
+        return status;
+    rt_scene_get_options(renderer->ready.scene, &own);
+    options = own;
+    session_merge_options(session, &options);
+    options.part = options.parts = 1;
+    status = session_check_options(session, &own, &options);
+    char *path = film_path(renderer, picture);
+    if (status == STATUS_DONE && !path)
+        status = fail_memory();
+    if (status == STATUS_DONE && !(*out = recall(path, renderer->ready.renderer, &options)))
+        status = render_new(out, renderer, path, &options);
+    free(path);
+    return status;
+}
+
+void study_renderer_free(study_renderer *renderer)
+{
+    forget_scene(&renderer->ready);
+    rt_device_close(renderer->device);
+    free(renderer->folder);
+}

@@ -1,0 +1,45 @@
+/* cell.h - the pictures of a study: each rendered, or taken from the folder that keeps them. */
+#ifndef RTC_STUDY_CELL_H
+#define RTC_STUDY_CELL_H
+
+#include "../session.h"
+#include "sweep.h"
+
+/* The scene of the latest picture, ready on the device. All zero: none. */
+typedef struct study_scene {
+    char *key; /* its path, constants and structure; NULL: none */
+    rt_scene *scene;
+    rt_renderer *renderer;
+} study_scene;
+
+typedef struct study_renderer {
+    session *session; /* its arguments are those of each picture in turn */
+    rt_device *device;
+    study_scene ready;
+    char *folder; /* where films are kept, with its slash */
+} study_renderer;
+
+/* What makes one picture: the command line with its values put in, and the scene's path. */
+typedef struct study_picture {
+    command_line line; /* a copy, whose arrays are its own; see study_picture_free */
+    const char *scene;
+    char *label; /* "k=50,kernel=box": the name of its film; "reference" without a sweep */
+} study_picture;
+
+/* A combination of a sweep. Returns an exit status; free in either case. */
+int study_picture_make(study_picture *out, const command_line *arguments, const sweep *sweep,
+                       size_t cell, const char *scene);
+void study_picture_free(study_picture *picture);
+
+/* Sets a setting of a picture, by its name in the language; text must outlive it. */
+void study_picture_set(study_picture *picture, const char *setting, const char *text);
+
+/*
+ * Renders it, or takes it from the folder where the same picture stands, and keeps it there.
+ * Returns an exit status; the caller owns *out.
+ */
+int study_render(rt_film **out, study_renderer *renderer, const study_picture *picture);
+
+void study_renderer_free(study_renderer *renderer);
+
+#endif

@@ -1,0 +1,170 @@
+/* list.c - reads a list of studies. */
+#include "list.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../command_line.h"
+#include "../message.h"
+#include "../status.h"
+
+enum { LINE_MAX_BYTES = 4096 };
+
+static int fail_memory(void)
+{
+    message_error("out of memory");
+    return STATUS_DEVICE;
+}
+
+/* Appends to a text, with a space between. */
+static int append(char **text, const char *more)
+{
+    const size_t used = *text ? strlen(*text) : 0;
+    char *longer = realloc(*text, used + strlen(more) + 2);
+    if (!longer)
+        return fail_memory();
+    *text = longer;
+    sprintf(longer + used, "%s%s", used > 0 ? " " : "", more);
+    return STATUS_DONE;
+}
+
+static int add_word(listed_study *study, const char *word, size_t length)
+{
+    char **more = realloc(study->words, (study->word_count + 1) * sizeof *more);
+    char *copy = malloc(length + 1);
+    study->words = more ? more : study->words;
+    if (!more || !copy) {
+        free(copy);
+        return fail_memory();
+    }
+    memcpy(copy, word, length);
+    copy[length] = '\0';
+    more[study->word_count++] = copy;
+    return STATUS_DONE;
+}
+
+/* Splits a command line at blanks; what stands between single quotes is one word. */
+static int add_words(listed_study *study, const char *line)
+{
+    int status = STATUS_DONE;
+    while (status == STATUS_DONE && *(line += strspn(line, " \t"))) {
+        const int is_quoted = *line == '\'';
+        const size_t length = is_quoted ? strcspn(line + 1, "'") : strcspn(line, " \t");
+        status = add_word(study, line + is_quoted, length);
+        line += length + is_quoted;
+        line += is_quoted && *line == '\'';
+    }
+    return status;
+}
+
+/* Begins a study by what follows "==". */
+static int begin_study(study_list *list, const char *line)
+{
+    line += strspn(line, " ");
+    const size_t length = strcspn(line, " ");
+    listed_study *more = realloc(list->studies, (list->count + 1) * sizeof *more);
+    if (!more)
+        return fail_memory();
+    list->studies = more;
+    listed_study *study = &more[list->count++];
+    *study = (listed_study){.id = calloc(length + 1, 1)};
+    if (!study->id)
+        return fail_memory();
+    memcpy(study->id, line, length);
+    for (const char *c = study->id; *c; c++)
+        if (!isalnum((unsigned char)*c) && *c != '-' && *c != '_') {
+            message_error("the name '%s' of a study has other signs than letters, digits, - and _",
+                          study->id);
+            return STATUS_INPUT;
+        }
+    int status = append(&study->title, line + length + strspn(line + length, " "));
+    for (const char *word = "rtc"; status == STATUS_DONE && word;
+         word = strcmp(word, "rtc") == 0 ? "study" : NULL)
+        status = add_word(study, word, strlen(word));
+    return status;
+}
+
+/* Takes one line, without its newline. */
+static int take_line(study_list *list, const char *line)
+{
+    listed_study *last = list->count > 0 ? &list->studies[list->count - 1] : NULL;
+    if (!*line || *line == '#')
+        return STATUS_DONE;
+    if (strncmp(line, "==", 2) == 0)
+        return begin_study(list, line + 2);
+    if (*line == '=')
+        return append(&list->title, line + 1 + strspn(line + 1, " "));
+    if (!last) {
+        message_error("a list of studies begins with '== NAME TITLE'; not '%.60s'", line);
+        return STATUS_INPUT;
+    }
+    return *line == '$' ? add_words(last, line + 1) : append(&last->text, line);
+}
+
+static int read_lines(study_list *list, FILE *file, const char *path)
+{
+    char line[LINE_MAX_BYTES];
+    int status = STATUS_DONE;
+    for (unsigned number = 1; status == STATUS_DONE && fgets(line, sizeof line, file); number++) {
+        const size_t length = strcspn(line, "\n");
+        if (line[length] != '\n' && !feof(file)) {
+            message_error("%s:%u: the line has more than %d bytes", path, number,
+                          LINE_MAX_BYTES - 2);
+            return STATUS_INPUT;
+        }
+        line[length] = '\0';
+        status = take_line(list, line);
+        if (status == STATUS_INPUT)
+            message_note("at %s:%u", path, number);
+    }
+    return status;
+}
+
+/* Reads the command lines. */
+static int parse_all(study_list *list, const char *path)
+{
+    int status = STATUS_DONE;
+    for (size_t i = 0; i < list->count && status == STATUS_DONE; i++) {
+        listed_study *study = &list->studies[i];
+        status = arguments_parse(&study->arguments, (int)study->word_count, study->words);
+        if (status != STATUS_DONE)
+            message_note("in the study '%s' of %s", study->id, path);
+    }
+    return status;
+}
+
+int study_list_read(study_list *out, const char *path)
+{
+    *out = (study_list){0};
+    FILE *file = fopen(path, "r");
+    if (!file) {
+        message_error("cannot read %s: %s", path, strerror(errno));
+        return STATUS_INPUT;
+    }
+    int status = read_lines(out, file, path);
+    fclose(file);
+    if (status == STATUS_DONE && out->count == 0) {
+        message_error("%s has no study: '== NAME TITLE' begins one", path);
+        status = STATUS_INPUT;
+    }
+    return status == STATUS_DONE ? parse_all(out, path) : status;
+}
+
+void study_list_free(study_list *list)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        listed_study *study = &list->studies[i];
+        for (size_t w = 0; w < study->word_count; w++)
+            free(study->words[w]);
+        arguments_free(&study->arguments);
+        free(study->words);
+        free(study->id);
+        free(study->title);
+        free(study->text);
+    }
+    free(list->studies);
+    free(list->title);
+}

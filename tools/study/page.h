@@ -1,0 +1,36 @@
+/* page.h - a study as a page for browsers, one file without need of any other, and as a table. */
+#ifndef RTC_STUDY_PAGE_H
+#define RTC_STUDY_PAGE_H
+
+#include <stddef.h>
+
+#include "rt.h"
+#include "sweep.h"
+
+/* One picture of a study, and what was measured of it; not a number: unknown. */
+typedef struct study_cell {
+    char *command;    /* that makes it; owned */
+    uint32_t *pixels; /* [height][width], see page.c; owned; NULL: none */
+    uint32_t width, height;
+    double seconds;
+    double rmse; /* over the mean of the reference */
+    double relmse, flip, ratio;
+} study_cell;
+
+typedef struct study_result {
+    const char *id, *title, *text;
+    const sweep *axes;
+    study_cell *cells; /* [sweep_cells(axes)] */
+    study_cell reference;
+    int has_reference;
+} study_result;
+
+/* Makes the pixels of a cell from a picture [height][width][3]; 0 without memory. */
+int study_cell_set_pixels(study_cell *cell, const float *rgb, uint32_t width, uint32_t height);
+void study_cell_free(study_cell *cell);
+
+/* Each writes a file whole or not at all, and returns an exit status. */
+int page_write(const char *path, const char *title, const study_result *studies, size_t count);
+int table_write(const char *path, const study_result *study);
+
+#endif
