@@ -69,8 +69,8 @@ LIB_SRC := \
 	lib/film/film_read.c lib/film/film_write.c lib/film/join.c lib/film/layers.c \
 	lib/film/noise.c lib/film/photon_sums.c lib/film/saver.c lib/film/student_t.c \
 	lib/film/units.c lib/film/write.c \
-	lib/mode/chunk.c lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/render.c \
-	lib/mode/work.c \
+	lib/mode/chunk.c lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/preview.c \
+	lib/mode/render.c lib/mode/work.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
 	lib/mode/path/path.c \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
@@ -191,6 +191,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_estimators.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/mode/test_irradiance.c \
+	tests/lib/mode/test_preview.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_memory_limit.c \
 	tests/lib/render/test_materials.c tests/lib/mode/test_modes.c \

@@ -305,6 +305,8 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
     rt_source *source =
         path ? rt_sources_add(&reader->sources, path, statement->path.source) : NULL;
     free(path);
+    if (source)
+        rt_reader_tell_file(reader, source->path);
     rt_status status =
         source ? rt_source_read(&reader->sources, source, cause, sizeof cause) : RT_ERROR_MEMORY;
     if (status == RT_ERROR_MEMORY) {
@@ -318,7 +320,6 @@ static void read_include(rt_reader *reader, const rt_statement *statement)
     } else {
         const rt_place *place = &statement->path;
         double left = reader->progress.left;
-        rt_reader_tell_file(reader, source->path);
         reader->progress.left += (double)(place->source->size - place->offset);
         rt_reader_read(reader, source);
         reader->progress.left = left;

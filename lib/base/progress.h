@@ -19,7 +19,10 @@ typedef struct rt_stage_progress {
 /* Seconds on a monotonic clock. */
 double rt_clock(void);
 
-/* The time from one checkpoint to the next: as asked for, but 100 times what the last one took. */
+/*
+ * The time from one checkpoint, or preview, to the next: as asked for, but 100 times what the last
+ * one took.
+ */
 double rt_checkpoint_interval(double seconds, double last_took);
 
 /*

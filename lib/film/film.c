@@ -48,7 +48,8 @@ static rt_render_options settings_of(const rt_render_options *options)
     o.resume = NULL;
     o.raised_from = 0;
     o.checkpoint = NULL;
-    o.checkpoint_user = o.units_user = NULL;
+    o.preview = NULL;
+    o.checkpoint_user = o.preview_user = o.units_user = NULL;
     o.next_units = NULL;
     o.note = NULL;
     return o;
@@ -183,11 +184,13 @@ void rt_film_join_pixels(rt_film_pixel *pixels, const rt_film_pixel *others, siz
         film_join(pixels + i, others + i);
 }
 
-/* The sum of what two neighbouring bins hold. */
+/* The sum of what two neighbouring bins hold: bin b counts units of 2^(32 b - 149). */
 static double sum_of(int64_t high, int64_t low, uint32_t bin)
 {
-    const int unit = (int)(bin * RT_FILM_BIN_BITS) - 149;
-    return ldexp((double)high, unit + (int)RT_FILM_BIN_BITS) + ldexp((double)low, unit);
+    static const double units[] = {0x1p-149, 0x1p-117, 0x1p-85, 0x1p-53, 0x1p-21, 0x1p11,
+                                   0x1p43,   0x1p75,   0x1p107, 0x1p139, 0x1p171, 0x1p203,
+                                   0x1p235,  0x1p267,  0x1p299, 0x1p331, 0x1p363};
+    return (double)high * units[bin + 1] + (double)low * units[bin];
 }
 
 double rt_film_sum(const rt_film_pixel *pixel, int channel)
@@ -213,8 +216,7 @@ uint32_t rt_film_count(const rt_film *film, size_t i)
     return count;
 }
 
-/* The means of pixel i, over all planes; returns how many of its samples were rejected. */
-static uint32_t resolve(rt_film *film, size_t i)
+uint32_t rt_film_mean(float rgb[3], const rt_film *film, size_t i)
 {
     double sum[3] = {0, 0, 0}, weight = 0, count = 0;
     uint32_t rejected = 0;
@@ -227,7 +229,7 @@ static uint32_t resolve(rt_film *film, size_t i)
         rejected += p->bins >> RT_FILM_REJECTED;
     }
     for (int c = 0; c < 3; c++)
-        film->rgb[3 * i + c] = count > 0 ? (float)(sum[c] / rt_film_divisor(weight, count)) : 0;
+        rgb[c] = count > 0 ? (float)(sum[c] / rt_film_divisor(weight, count)) : 0;
     return rejected;
 }
 
@@ -237,7 +239,7 @@ void rt_film_make_means(rt_film *film)
     uint32_t fewest = rt_film_count(film, 0);
     film->stats.rejected = 0;
     for (size_t i = 0; i < rt_film_pixels(film); i++) {
-        film->stats.rejected += resolve(film, i);
+        film->stats.rejected += rt_film_mean(film->rgb + 3 * i, film, i);
         const uint32_t count = rt_film_count(film, i);
         fewest = count < fewest ? count : fewest;
     }

@@ -70,6 +70,9 @@ double rt_film_samples_done(const rt_film *film);
 /* The samples of pixel i, in all planes. */
 uint32_t rt_film_count(const rt_film *film, size_t i);
 
+/* The means of pixel i, over all planes; returns how many of its samples were rejected. */
+uint32_t rt_film_mean(float rgb[3], const rt_film *film, size_t i);
+
 /* Makes the means from the sums, and the counts of samples and of rejected ones. */
 void rt_film_make_means(rt_film *film);
 

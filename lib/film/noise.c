@@ -113,6 +113,12 @@ double rt_noise_progress(const rt_noise *noise, double length, double target)
     return fmin(pow(target / noise->bound, 2) * length / noise->tested_at, 1);
 }
 
+void rt_noise_variance(float rgb[3], const rt_film *film, size_t i)
+{
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (float)value_of(film, i, c).variance;
+}
+
 rt_status rt_noise_resolve(rt_film *film, rt_error *error)
 {
     const uint32_t replicates = replicates_of(film);
@@ -123,9 +129,8 @@ rt_status rt_noise_resolve(rt_film *film, rt_error *error)
     rt_status status = rt_film_layers_add(&film->layers, RT_LAYERS_ERROR, pixels, error);
     if (status != RT_OK)
         return status;
-    for (size_t i = 0; i < 3 * pixels; i++)
-        film->layers.data[RT_FILM_VARIANCE][i] =
-            (float)value_of(film, i / 3, (int)(i % 3)).variance;
+    for (size_t i = 0; i < pixels; i++)
+        rt_noise_variance(film->layers.data[RT_FILM_VARIANCE] + 3 * i, film, i);
     stats->replicates = replicates;
     stats->interval_factor = rt_student_t_quantile(RT_NORMAL_BOTH_SIDES, replicates - 1.0);
     stats->relative_error = relative_error(film, &stats->relative_error_bound);

@@ -79,6 +79,9 @@ double rt_noise_last(const rt_noise *noise);
  */
 double rt_noise_progress(const rt_noise *noise, double length, double target);
 
+/* What the layer `variance` holds for pixel i; 0 where fewer than two replicates have samples. */
+void rt_noise_variance(float rgb[3], const rt_film *film, size_t i);
+
 /*
  * Makes the film's layer `variance` and the figures of its stats; neither where fewer than two
  * replicates have samples.

@@ -44,8 +44,8 @@ typedef struct rt_mode_class {
     /* Frees what the state holds, also after a failure; or NULL. */
     void (*release)(void *state);
 
-    /* For modes that show a layer of the first hit: what film->rgb has for pixel i; else NULL. */
-    void (*show)(float rgb[3], const rt_film *film, size_t i);
+    /* For modes that show a layer of the first hit: what a pixel with samples has; else NULL. */
+    void (*show)(float rgb[3], const rt_first_hits *sums);
 } rt_mode_class;
 
 /* The class of a mode, which must be one of rt_mode. */

@@ -86,16 +86,19 @@ static rt_status write_sums(const rt_render_job *job, const rt_pixel_samples *st
     return status == RT_OK ? rt_first_hit_layers_write(job->layers, film, error) : status;
 }
 
-/* Tests the error and makes a checkpoint where these are due. */
+/* Tests the error, shows a preview and makes a checkpoint where these are due. */
 static rt_status look(const rt_render_job *job, const rt_pixel_samples *state, rt_work *work,
                       rt_stage_progress *progress, rt_error *error)
 {
-    const int test = rt_work_test_is_due(work), save = rt_work_save_is_due(work);
+    const int test = rt_work_test_is_due(work), show = rt_work_preview_is_due(work),
+              save = rt_work_save_is_due(work);
     rt_status status = RT_OK;
-    if (test || save)
+    if (test || show || save)
         status = read_sums(job, state, error);
     if (status == RT_OK && test)
         rt_work_test(work);
+    if (status == RT_OK && show)
+        rt_work_preview(work);
     if (status == RT_OK && save && rt_work_save(work))
         status = write_sums(job, state, error);
     progress->error = rt_noise_last(&work->noise);

@@ -123,7 +123,7 @@ rt_status rt_film_resolve(rt_film *film, const rt_hooks *hooks, rt_error *error)
     rt_first_hit_layers_resolve(film);
     for (size_t i = 0; i < pixels && mode->show; i++)
         if (film->pixels[i].count > 0)
-            mode->show(film->rgb + 3 * i, film, i);
+            mode->show(film->rgb + 3 * i, film->first_hits + i);
     if (film->photon_sums)
         status = rt_photon_layers_resolve(film, error);
     return status == RT_OK && rt_noise_wanted(&film->options) ? rt_noise_resolve(film, error)

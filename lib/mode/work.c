@@ -30,7 +30,7 @@ rt_work rt_work_begin(rt_film *film, const rt_render_options *options)
     work.end = work.is_whole || options->parts > 1 ? film->units.count : 0;
     work.all = film->units.samples / parts;
     work.done = rt_film_samples_done(film);
-    work.began = work.saved = rt_clock();
+    work.began = work.saved = work.shown = rt_clock();
     begin_tests(&work);
     return work;
 }
@@ -158,6 +158,23 @@ int rt_work_save_is_due(const rt_work *work)
     return o->checkpoint &&
            (work->must_save || rt_clock() - work->saved >=
                                    rt_checkpoint_interval(o->checkpoint_seconds, work->saving));
+}
+
+int rt_work_preview_is_due(const rt_work *work)
+{
+    const rt_render_options *o = work->options;
+    return o->preview &&
+           rt_clock() - work->shown >= rt_checkpoint_interval(o->preview_seconds, work->showing);
+}
+
+void rt_work_preview(rt_work *work)
+{
+    const double began = rt_clock();
+    rt_profile_begin(work->profile, "preview");
+    work->options->preview(work->options->preview_user, work->film);
+    rt_profile_end(work->profile);
+    work->shown = rt_clock();
+    work->showing = work->shown - began;
 }
 
 void rt_work_time(rt_work *work, double *seconds)

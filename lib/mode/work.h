@@ -18,6 +18,8 @@ typedef struct rt_work {
     double began;     /* rt_clock() */
     double saved;     /* rt_clock() after the last checkpoint */
     double saving;    /* seconds that it took */
+    double shown;     /* as saved, of previews, */
+    double showing;   /* and saving */
     double *seconds;  /* of the film's stats, that the time since `began` belongs to, or NULL */
     double before;    /* what they were, less rt_clock() */
     int is_whole;     /* neither a part nor handed out: the error can be tested on the way */
@@ -64,6 +66,10 @@ void rt_work_test(rt_work *work);
  */
 int rt_work_save_is_due(const rt_work *work);
 int rt_work_save(rt_work *work);
+
+/* The same for a preview, which leaves the film as it is. */
+int rt_work_preview_is_due(const rt_work *work);
+void rt_work_preview(rt_work *work);
 
 /* Books the time since this work began on these seconds of the film's stats, from now on. */
 void rt_work_time(rt_work *work, double *seconds);

@@ -91,6 +91,19 @@ RT_API const float *rt_film_layer(const rt_film *film, const char *name, uint32_
 /* The names of the layers that a film has, counted from 0; NULL after the last. */
 RT_API const char *rt_film_layer_name(const rt_film *film, size_t index);
 
+/*
+ * What a film shows so far, also while it is rendered, see rt_render_options.preview: its radiance,
+ * or where `layer` is not NULL that layer, as rt_film_rgb and rt_film_layer would have it if the
+ * render ended now. out [height][width][*channels], NULL to ask for the channels alone; channels
+ * may be NULL. Takes some milliseconds for a million pixels, on all cores. Fails with
+ * RT_ERROR_USAGE where the film has no such layer.
+ */
+RT_API rt_status rt_film_preview(float *out, const rt_film *film, const char *layer,
+                                 uint32_t *channels, rt_error *error);
+
+/* The names of the layers that rt_film_preview shows, counted from 0; NULL after the last. */
+RT_API const char *rt_film_preview_name(const rt_film *film, size_t index);
+
 /* Statistics of a render. */
 typedef struct rt_film_stats {
     uint32_t spp;      /* samples that every pixel has */

@@ -32,6 +32,7 @@ extern "C" {
  *     read film     sums from the device to the host
  *     error         the estimate of the error
  *     checkpoint    the callback of a checkpoint
+ *     preview       the callback of a preview
  *     resolve       from the film's sums to radiance and layers
  */
 typedef struct rt_profile rt_profile;

@@ -181,6 +181,13 @@ typedef struct rt_render_options {
     void *checkpoint_user;
     double checkpoint_seconds; /* and at least 100 times what the last one took */
     /*
+     * called about every preview_seconds while samples are taken, with the film so far, which
+     * rt_film_preview shows; it is to be left as it is. NULL: never
+     */
+    void (*preview)(void *user, const rt_film *film);
+    void *preview_user;
+    double preview_seconds; /* and at least 100 times what the last one took */
+    /*
      * the caller's own text, which is saved with the film: lines "NAME VALUE", each with its
      * newline, of names that are no settings; NULL: none
      */

@@ -72,8 +72,8 @@ typedef struct rt_load_options {
     /* 1: the scene is complete; also report what rt_scene_check finds, at its place in the text */
     int check;
     /*
-     * called for every file that is read: that of the text, and those that it names; not those that
-     * a mesh file names in turn
+     * called for every file that is read: that of the text, and those that it names, also where one
+     * cannot be read; not those that a mesh file names in turn
      */
     void (*file)(void *user, const char *path);
     /*

@@ -24,8 +24,8 @@ typedef struct rt_share rt_share;
 
 /*
  * Of the options, time counts from the first question of a worker on, and checkpoint is called
- * about every checkpoint_seconds, from the thread that adds a film, and by rt_share_finish. part
- * and next_units are not for it.
+ * about every checkpoint_seconds, from the thread that adds a film, and by rt_share_finish. preview
+ * is called from that thread too. part and next_units are not for it.
  * What the options point to must outlive the share. The caller owns *out.
  */
 RT_API rt_status rt_share_create(rt_share **out, rt_renderer *renderer,

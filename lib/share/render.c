@@ -132,6 +132,7 @@ rt_status rt_share_render(rt_share *share, rt_renderer *renderer, const rt_hooks
     o.checkpoint = hand_over;
     o.checkpoint_seconds = INFINITY;
     o.hand_over = 1;
+    o.preview = NULL; /* which is of the whole picture */
     status = rt_render(&film, renderer, &o, error);
     rt_film_destroy(film);
     if (status != RT_OK)

@@ -156,7 +156,8 @@ rt_status rt_share_join(uint32_t *worker, rt_share *share, rt_error *error)
 static int must_hand_over(rt_share *share, rt_share_worker *worker, double now)
 {
     const rt_render_options *o = &share->options;
-    const double asked = o->checkpoint ? o->checkpoint_seconds : default_seconds;
+    const double kept = o->checkpoint ? o->checkpoint_seconds : default_seconds;
+    const double asked = o->preview ? fmin(kept, fmax(o->preview_seconds, first_seconds)) : kept;
     const double every = rt_checkpoint_interval(asked, share->saving), age = now - worker->handed;
     if (worker->held.count == 0 || worker->is_told)
         return worker->is_told;
@@ -258,6 +259,19 @@ static void save(rt_share *share)
     share->saving = share->saved - now;
 }
 
+/* Shows a preview where it is due. */
+static void show(rt_share *share)
+{
+    const rt_render_options *o = &share->options;
+    const double now = rt_clock();
+    if (!o->preview ||
+        now - share->shown < rt_checkpoint_interval(o->preview_seconds, share->showing))
+        return;
+    o->preview(o->preview_user, share->film);
+    share->shown = rt_clock();
+    share->showing = share->shown - now;
+}
+
 /* A worker has nothing left of what it was given. */
 static void note_handed(rt_share_worker *worker)
 {
@@ -284,6 +298,7 @@ rt_status rt_share_add(rt_share *share, uint32_t worker, const rt_film *film, do
         note_handed(w);
         share->taking += (seconds + w->handed - began - share->taking) / 2;
         test(share);
+        show(share);
         save(share);
     } else {
         take_back(share, w);

@@ -28,14 +28,16 @@ struct rt_share {
     uint32_t count;
     uint64_t horizon; /* units from here on wait for a test of the error */
     rt_noise noise;
-    int enough;    /* the error asked for is reached */
-    int stopped;   /* by rt_share_stop */
-    double before; /* samples or passes that a resumed film had */
-    double began;  /* rt_clock() at the first question; 0: before */
-    double saved;  /* rt_clock() after the last checkpoint */
-    double saving; /* seconds that it took */
-    double taking; /* seconds that it takes to receive a film and to add it */
-    double rested; /* rt_clock() from when on another film may be asked for */
+    int enough;     /* the error asked for is reached */
+    int stopped;    /* by rt_share_stop */
+    double before;  /* samples or passes that a resumed film had */
+    double began;   /* rt_clock() at the first question; 0: before */
+    double saved;   /* rt_clock() after the last checkpoint */
+    double saving;  /* seconds that it took */
+    double shown;   /* as saved, of previews, */
+    double showing; /* and saving */
+    double taking;  /* seconds that it takes to receive a film and to add it */
+    double rested;  /* rt_clock() from when on another film may be asked for */
 };
 
 /* The units that a worker is to render next, at the given time; none, its count is 0. */

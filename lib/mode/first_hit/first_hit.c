@@ -6,24 +6,23 @@
 #include "mode/pixel_samples.h"
 
 /* (n + 1) / 2, weighted by the fraction of the samples that hit. */
-static void show_normals(float rgb[3], const rt_film *film, size_t i)
+static void show_normals(float rgb[3], const rt_first_hits *sums)
 {
-    const rt_first_hits *sums = film->first_hits + i;
     float covered = (float)(sums->hit_weight / rt_film_divisor(sums->weight, sums->count));
+    rt_first_hit_layer_value(rgb, sums, RT_FILM_NORMAL);
     for (int c = 0; c < 3; c++)
-        rgb[c] = 0.5f * (film->layers.data[RT_FILM_NORMAL][3 * i + c] + covered);
+        rgb[c] = 0.5f * (rgb[c] + covered);
 }
 
-static void show_albedo(float rgb[3], const rt_film *film, size_t i)
+static void show_albedo(float rgb[3], const rt_first_hits *sums)
 {
-    for (int c = 0; c < 3; c++)
-        rgb[c] = film->layers.data[RT_FILM_ALBEDO][3 * i + c];
+    rt_first_hit_layer_value(rgb, sums, RT_FILM_ALBEDO);
 }
 
-static void show_depth(float rgb[3], const rt_film *film, size_t i)
+static void show_depth(float rgb[3], const rt_first_hits *sums)
 {
-    for (int c = 0; c < 3; c++)
-        rgb[c] = film->layers.data[RT_FILM_DEPTH][i];
+    rt_first_hit_layer_value(rgb, sums, RT_FILM_DEPTH);
+    rgb[1] = rgb[2] = rgb[0];
 }
 
 const rt_mode_class rt_mode_normals = {

@@ -108,19 +108,24 @@ static double value_of(rule rule, const rt_first_hits *sums, int channel)
     return 0;
 }
 
+void rt_first_hit_layer_value(float *out, const rt_first_hits *sums, int layer)
+{
+    const source *from = sources;
+    while ((int)from->layer != layer)
+        from++;
+    for (int c = 0; c < (int)rt_layer_infos[layer].channels; c++)
+        out[c] = sums->count > 0 ? (float)value_of(from->rule, sums, from->first + c) : 0;
+}
+
 void rt_first_hit_layers_resolve(rt_film *film)
 {
     size_t pixels = rt_film_pixels(film);
     if (!film->first_hits)
         return;
     for (size_t s = 0; s < sizeof sources / sizeof *sources; s++) {
-        const uint32_t channels = rt_layer_infos[sources[s].layer].channels;
-        float *layer = film->layers.data[sources[s].layer];
-        for (size_t i = 0; i < channels * pixels; i++) {
-            const rt_first_hits *sums = film->first_hits + i / channels;
-            if (sums->count > 0)
-                layer[i] =
-                    (float)value_of(sources[s].rule, sums, sources[s].first + (int)(i % channels));
-        }
+        const rt_film_layer_id id = sources[s].layer;
+        for (size_t i = 0; i < pixels; i++)
+            rt_first_hit_layer_value(film->layers.data[id] + rt_layer_infos[id].channels * i,
+                                     film->first_hits + i, (int)id);
     }
 }

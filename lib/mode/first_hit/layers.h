@@ -37,6 +37,9 @@ rt_status rt_first_hit_layers_read(const rt_first_hit_layers *layers, rt_film *f
 rt_status rt_first_hit_layers_write(const rt_first_hit_layers *layers, const rt_film *film,
                                     rt_error *error);
 
+/* What a layer of RT_LAYERS_FIRST_HIT holds for a pixel, out [its channels]. */
+void rt_first_hit_layer_value(float *out, const rt_first_hits *sums, int layer);
+
 /* Makes the film's layers, means and ids, from the sums, if there are any. */
 void rt_first_hit_layers_resolve(rt_film *film);
 

@@ -34,6 +34,30 @@ void rt_photon_layers_add(rt_photon_sums *sums, const rt_gather_point *points,
     }
 }
 
+/* The variance of the mean of the samples. */
+static double variance_of(const rt_photon_sums *s)
+{
+    const double n = (double)s->samples, value = rt_exact_sum_value(&s->value),
+                 square = rt_exact_sum_value(&s->square);
+    const double variance = n > 1 ? (square - value * value / n) / (n - 1) : 0;
+    return variance > 0 ? variance / n : 0;
+}
+
+float rt_photon_layer_value(const rt_photon_sums *s, int layer)
+{
+    const double n = (double)s->samples, asked = (double)s->asked;
+    if (layer == RT_FILM_PHOTON_VARIANCE)
+        return (float)variance_of(s);
+    if (layer == RT_FILM_PHOTON_BIAS)
+        return (float)(n > 0 ? rt_exact_sum_value(&s->bias) / n : 0);
+    if (s->asked == 0)
+        return 0;
+    return (float)((layer == RT_FILM_PHOTON_COUNT    ? (double)s->photons
+                    : layer == RT_FILM_PHOTON_RADIUS ? rt_exact_sum_value(&s->radius)
+                                                     : rt_exact_sum_value(&s->density)) /
+                   asked);
+}
+
 rt_status rt_photon_layers_resolve(rt_film *film, rt_error *error)
 {
     const size_t pixels = rt_film_pixels(film);
@@ -41,18 +65,8 @@ rt_status rt_photon_layers_resolve(rt_film *film, rt_error *error)
     rt_status status = rt_film_layers_add(&film->layers, RT_LAYERS_PHOTON, pixels, error);
     if (status != RT_OK)
         return status;
-    for (size_t i = 0; i < pixels; i++) {
-        const rt_photon_sums *s = film->photon_sums + i;
-        const double n = (double)s->samples, asked = (double)s->asked,
-                     value = rt_exact_sum_value(&s->value), square = rt_exact_sum_value(&s->square);
-        const double variance = n > 1 ? (square - value * value / n) / (n - 1) : 0;
-        if (asked > 0) {
-            layers[RT_FILM_PHOTON_COUNT][i] = (float)((double)s->photons / asked);
-            layers[RT_FILM_PHOTON_RADIUS][i] = (float)(rt_exact_sum_value(&s->radius) / asked);
-            layers[RT_FILM_PHOTON_DENSITY][i] = (float)(rt_exact_sum_value(&s->density) / asked);
-        }
-        layers[RT_FILM_PHOTON_VARIANCE][i] = (float)(variance > 0 ? variance / n : 0);
-        layers[RT_FILM_PHOTON_BIAS][i] = (float)(n > 0 ? rt_exact_sum_value(&s->bias) / n : 0);
-    }
+    for (int layer = RT_FILM_PHOTON_COUNT; layer <= RT_FILM_PHOTON_BIAS; layer++)
+        for (size_t i = 0; i < pixels; i++)
+            layers[layer][i] = rt_photon_layer_value(film->photon_sums + i, layer);
     return RT_OK;
 }

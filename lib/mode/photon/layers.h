@@ -13,6 +13,9 @@ void rt_photon_layers_add(rt_photon_sums *sums, const rt_gather_point *points,
                           const rt_gather_disc *discs, const double *biases, size_t count,
                           const rt_gather_point *earlier, size_t rows, size_t stride);
 
+/* What a layer of RT_LAYERS_PHOTON holds for a pixel. */
+float rt_photon_layer_value(const rt_photon_sums *sums, int layer);
+
 /* Makes the film's layers from its sums. */
 rt_status rt_photon_layers_resolve(rt_film *film, rt_error *error);
 

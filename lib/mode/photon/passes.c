@@ -175,18 +175,21 @@ static rt_status render_pass(rt_photon_render *r, uint32_t pass, rt_stage_progre
     return status;
 }
 
-/* Makes a checkpoint where it is due. */
-static rt_status save(rt_photon_render *r, rt_error *error)
+/* Shows a preview and makes a checkpoint where these are due. */
+static rt_status look(rt_photon_render *r, rt_error *error)
 {
-    if (!rt_work_save_is_due(&r->work))
+    const int show = rt_work_preview_is_due(&r->work), save = rt_work_save_is_due(&r->work);
+    if (!show && !save)
         return RT_OK;
     rt_status status = rt_eye_paths_read(&r->eye_paths, error);
-    if (status == RT_OK && rt_work_save(&r->work))
+    if (status == RT_OK && show)
+        rt_work_preview(&r->work);
+    if (status == RT_OK && save && rt_work_save(&r->work))
         status = rt_eye_paths_write(&r->eye_paths, error);
     return status;
 }
 
-/* Notes that a pass is done; tests the error and makes a checkpoint where these are due. */
+/* Notes that a pass is done, tests the error where that is due, and looks. */
 static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress *progress,
                           rt_error *error)
 {
@@ -199,7 +202,7 @@ static rt_status end_pass(rt_photon_render *r, uint32_t pass, rt_stage_progress 
             rt_work_test(&r->work);
     }
     if (status == RT_OK)
-        status = save(r, error);
+        status = look(r, error);
     progress->error = rt_noise_last(&r->work.noise);
     return status;
 }
@@ -215,7 +218,7 @@ rt_status rt_photon_render_passes(rt_photon_render *r, rt_error *error)
     while (status == RT_OK && rt_work_next(&r->work, &run)) {
         const uint32_t pass = (uint32_t)run.first;
         if (run.count == 0) {
-            status = save(r, error);
+            status = look(r, error);
             continue;
         }
         const double began = rt_clock(), from = rt_work_fraction(&r->work);

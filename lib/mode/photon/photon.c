@@ -132,13 +132,16 @@ static rt_status open_queries(void *data)
     return status;
 }
 
-/* Makes a checkpoint where it is due. */
-static rt_status save(rt_photon_render *r, rt_error *error)
+/* Shows a preview and makes a checkpoint where these are due. */
+static rt_status look(rt_photon_render *r, rt_error *error)
 {
-    if (!rt_work_save_is_due(&r->work))
+    const int show = rt_work_preview_is_due(&r->work), save = rt_work_save_is_due(&r->work);
+    if (!show && !save)
         return RT_OK;
     rt_status status = rt_eye_paths_read(&r->eye_paths, error);
-    if (status == RT_OK && rt_work_save(&r->work))
+    if (status == RT_OK && show)
+        rt_work_preview(&r->work);
+    if (status == RT_OK && save && rt_work_save(&r->work))
         status = rt_eye_paths_write(&r->eye_paths, error);
     return status;
 }
@@ -168,7 +171,7 @@ static rt_status sample(rt_photon_render *r, rt_stage_progress *progress, rt_err
             status = noted == RT_OK ? status : noted;
         }
         if (status == RT_OK)
-            status = save(r, error);
+            status = look(r, error);
     }
     return status;
 }
