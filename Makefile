@@ -301,7 +301,8 @@ SONAME   := librt-render.so.$(SOVERSION)
 	check-cluster check-corpus check-crowd check-faults check-fuzz check-gpu-code check-kills \
 	check-memory \
 	check-mpi check-mutation check-peers check-quick check-reference check-reproducible \
-	check-samples check-sanitize check-threads clean demo deps deps-fuzz deps-lint format \
+	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
+	deps-lint deps-python format \
 	fuzz help install lint lint-quick mpi need-deps proof run-all run-quick run-threads \
 	study study-cluster uninstall
 .DELETE_ON_ERROR:
@@ -512,6 +513,14 @@ bench-mpi: all
 # tests/render/test_reference.c.
 check-reference: all $(B)/tests/render/test_reference
 	RT_TEST_TIMEOUT=3600 tests/run.sh $(B)/tests/render/test_reference
+
+# The Python package in a fresh virtual environment of PYTHON: tests, README, notebooks, types.
+check-python: all deps-python
+	B=$(B) PYTHON='$(PYTHON)' tests/run.sh tests/tools/python/check.sh
+
+PYTHON ?= python3
+deps-python:
+	@PYTHON='$(PYTHON)' tools/deps.sh --python
 
 # Five scenes beside Mitsuba 3, for the python3 that has it.
 check-peers: all
@@ -745,6 +754,7 @@ help:
 	@echo 'make check-quick     only the tests that take seconds'
 	@echo 'make check-sanitize  the quick tests under the address and UB sanitizers'
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
+	@echo 'make check-python    the Python package in a fresh environment of PYTHON ($(PYTHON))'
 	@echo 'make check-peers     six scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'

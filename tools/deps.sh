@@ -4,6 +4,7 @@
 #   tools/deps.sh          finds what is missing and installs it from Debian packages
 #   tools/deps.sh --lint   the same for the programs of `make lint` and `make format`
 #   tools/deps.sh --fuzz   the same for those of `make fuzz`
+#   tools/deps.sh --python the same for those of `make check-python`, with PYTHON (python3)
 #   tools/deps.sh --check  only names what is missing; status 1 if anything is
 #
 # What counts is whether the thing works, not which package it came from: programs are
@@ -125,6 +126,9 @@ probe_libfuzzer() {
 }
 probe_symbolizer() { has_program llvm-symbolizer-14 || has_program llvm-symbolizer; }
 
+# Without venv, --help works all the same on Debian; ensurepip is what is missing.
+probe_venv() { ${PYTHON:-python3} -c 'import ensurepip, venv' >/dev/null 2>&1; }
+
 # ---- What is needed: probe, what it is, the Debian packages that bring it ----
 
 dependencies() {
@@ -154,6 +158,12 @@ fuzz_dependencies() {
     cat <<'END'
 libfuzzer|clang with libFuzzer and sanitizers|clang-14 libclang-rt-14-dev
 symbolizer|the symbolizer of LLVM|llvm-14
+END
+}
+
+python_dependencies() {
+    cat <<'END'
+venv|Python with venv and pip|python3 python3-venv
 END
 }
 
@@ -190,7 +200,8 @@ case ${1:-} in
 '' | --check) ;;
 --lint) needed=lint_dependencies ;;
 --fuzz) needed=fuzz_dependencies ;;
-*) stop "unknown argument '$1'; usage: tools/deps.sh [--check | --lint | --fuzz]" ;;
+--python) needed=python_dependencies ;;
+*) stop "unknown argument '$1'; usage: tools/deps.sh [--check | --lint | --fuzz | --python]" ;;
 esac
 
 find_missing

@@ -1,11 +1,13 @@
 """Reads the public C headers: declarations for cffi, documentation, and the words of enums."""
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Optional
 
 
 @dataclass
@@ -18,21 +20,42 @@ class Interface:
     parameters: dict[str, list[str]] = field(default_factory=dict)  # names, by function
     words: dict[str, dict[str, str]] = field(default_factory=dict)  # word -> constant, by enum
     constants: dict[str, int] = field(default_factory=dict)
+    tree: str = ""  # the source tree that the headers lie in; "" without
+    headers: dict[str, str] = field(default_factory=dict)  # SHA-256 by path in the tree
+
+
+def tree_of(here: Path) -> Optional[Path]:
+    """The source tree that this folder is tools/python of."""
+    tree = here.parent.parent
+    return tree if (tree / "lib" / "rt.h").exists() else None
 
 
 def find(here: Path) -> list[Path]:
-    """The headers of the source tree around this folder, or else the installed ones, in order."""
-    tree = here.parent.parent
-    if (tree / "lib" / "rt.h").exists():
+    """The headers in order: those of a source distribution, of the tree, or the installed ones."""
+    tree = tree_of(here)
+    if (here / "include" / "rt.h").exists():
+        top, folders = here / "include" / "rt.h", [here / "include"]
+    elif tree:
         top, folders = tree / "lib" / "rt.h", [tree / "lib", tree / "lib" / "rt", tree / "kernels"]
     else:
-        include = subprocess.run(
-            ["pkg-config", "--variable=includedir", "librt-render"],
-            check=True, capture_output=True, text=True).stdout.strip()
-        top, folders = Path(include) / "rt" / "rt.h", [Path(include) / "rt", Path(include)]
+        include = _installed_headers()
+        top, folders = include / "rt" / "rt.h", [include / "rt", include]
     found: list[Path] = []
     _visit(top, folders, found)
     return found
+
+
+def _installed_headers() -> Path:
+    """The folder that holds rt/rt.h."""
+    command = ["pkg-config", "--variable=includedir", "librt-render"]
+    try:
+        found = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        raise SystemExit(
+            "librt-render: neither the source tree of librt nor an installed librt is here: build "
+            "from the tree (`pip install ./tools/python`), or install librt with its headers and "
+            "set PKG_CONFIG_PATH to the folder of librt-render.pc") from None
+    return Path(found)
 
 
 def _visit(path: Path, folders: list[Path], found: list[Path]) -> None:
@@ -50,8 +73,8 @@ def _visit(path: Path, folders: list[Path], found: list[Path]) -> None:
         found.append(path)
 
 
-def read(paths: list[Path]) -> Interface:
-    """The interface that these headers declare."""
+def read(paths: list[Path], tree: Optional[Path] = None) -> Interface:
+    """The interface that these headers declare; `tree` is the source tree that they lie in."""
     text = "\n".join(path.read_text() for path in paths)
     text = re.sub(r"#ifdef __cplusplus\n.*?#endif", "", text, flags=re.S)
     text = text.replace("\\\n", " ")
@@ -65,6 +88,10 @@ def read(paths: list[Path]) -> Interface:
     text = re.sub(r"\[(RT_\w+)\]", lambda m: f"[{constants[m.group(1)]}]", text)
     interface = Interface(version, re.sub(r"/\*.*?\*/", "", text, flags=re.S),
                           constants=constants)
+    if tree:
+        interface.tree = os.fspath(tree)
+        interface.headers = {os.fspath(path.relative_to(tree)):
+                             hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
     _read_words(interface, lists)
     _read_docs(interface, text)
     return interface
@@ -129,5 +156,5 @@ def write(folder: Path, interface: Interface) -> None:
     ffi.emit_python_code(os.fspath(folder / "_api.py"))
     with open(folder / "_interface.py", "w", encoding="utf-8") as out:
         out.write('"""Generated from the C headers by headers.py."""\n')
-        for name in ("version", "docs", "parameters", "words", "constants"):
+        for name in ("version", "docs", "parameters", "words", "constants", "tree", "headers"):
             out.write(f"{name.upper()} = {getattr(interface, name)!r}\n")

@@ -1,16 +1,19 @@
 """Builds the package: declarations and documentation of the C interface come from its headers."""
+import shutil
 import sys
 from pathlib import Path
 
 from setuptools import setup
 from setuptools.command.build_py import build_py
+from setuptools.command.sdist import sdist
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import headers  # noqa: E402
 
-INTERFACE = headers.read(headers.find(HERE))
+HEADERS = headers.find(HERE)
+INTERFACE = headers.read(HEADERS, headers.tree_of(HERE))
 
 
 class BuildWithInterface(build_py):
@@ -25,4 +28,18 @@ class BuildWithInterface(build_py):
         headers.write(folder, INTERFACE)
 
 
-setup(version=INTERFACE.version, cmdclass={"build_py": BuildWithInterface})
+class DistributionWithHeaders(sdist):
+    """Adds the headers, so that it builds elsewhere."""
+
+    def make_release_tree(self, base_dir, files):
+        generated = {"_api.py", "_interface.py"}
+        super().make_release_tree(base_dir, [f for f in files if Path(f).name not in generated])
+        folder = Path(base_dir) / "include"
+        for path in HEADERS:
+            part = "" if path.name in ("rt.h", "common.h") else "rt"
+            (folder / part).mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, folder / part / path.name)
+
+
+setup(version=INTERFACE.version,
+      cmdclass={"build_py": BuildWithInterface, "sdist": DistributionWithHeaders})

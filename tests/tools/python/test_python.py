@@ -2,10 +2,13 @@
 import gc
 import inspect
 import os
+import subprocess
+import sys
 import tempfile
 import threading
 import unittest
 import warnings
+from unittest import mock
 
 import librt_render as rt
 import numpy as np
@@ -31,6 +34,12 @@ def built():
     scene.sphere((0, 1, 0), 1, material=white)
     scene.point_light((2, 4, -3), intensity=20)
     return scene
+
+
+def resident_bytes():
+    """The memory that this process has in use."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
 class Case(unittest.TestCase):
@@ -70,6 +79,46 @@ class Interface(unittest.TestCase):
         photon = _library.dtype("rt_photon")
         self.assertEqual(photon.itemsize, 64)
         self.assertEqual(photon.fields["flux"][1], 32)
+
+
+class Library(unittest.TestCase):
+    """Which library is opened, in a process of its own."""
+
+    def said(self, path):
+        run = subprocess.run([sys.executable, "-c", "import librt_render"], capture_output=True,
+                             text=True, env={**os.environ, "LIBRT_LIBRARY": path})
+        self.assertNotEqual(run.returncode, 0)
+        return run.stderr.splitlines()[-1]
+
+    def test_a_library_that_is_not_there_is_told_with_what_to_do(self):
+        line = self.said("/nowhere/librt-render.so.0")
+        self.assertRegex(line, "ImportError: /nowhere/librt-render.so.0 cannot be loaded")
+        self.assertRegex(line, "make install.*LIBRT_LIBRARY")
+
+    def test_another_library_is_refused(self):
+        self.assertRegex(self.said("libm.so.6"), "libm.so.6 is not librt")
+
+    def test_a_library_of_another_version_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source, path = (os.path.join(folder, name) for name in ("other.c", "other.so"))
+            with open(source, "w", encoding="utf-8") as out:
+                out.write('const char *rt_version(void) { return "9.8.7"; }\n')
+            subprocess.run(["cc", "-shared", "-fPIC", "-o", path, source], check=True)
+            self.assertRegex(self.said(path), "is version 9.8.7.*is for 0.*pip install")
+
+    def test_a_tree_whose_headers_changed_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.makedirs(os.path.join(folder, "build"))
+            library = os.path.join(folder, "build", _library._SONAME)
+            with mock.patch.multiple(_interface, TREE=folder, HEADERS={"rt.h": "0" * 64}):
+                self.assertIsNone(_library._in_tree())  # nothing is built there
+                with open(library, "wb"):
+                    pass
+                self.assertEqual(_library._in_tree(), library)
+                with open(os.path.join(folder, "rt.h"), "w", encoding="utf-8") as out:
+                    out.write("changed")
+                with self.assertRaisesRegex(ImportError, "rt.h has changed.*pip install"):
+                    _library._in_tree()
 
 
 class Scenes(Case):
@@ -149,6 +198,9 @@ class Films(Case):
         address = film.rgb.__array_interface__["data"][0]
         self.assertEqual(address, film.rgb.__array_interface__["data"][0])
         self.assertFalse(film.rgb.flags.writeable)
+        self.assertTrue(np.shares_memory(film.rgb, np.asarray(film)))
+        with self.assertRaises(ValueError):
+            film.rgb[0, 0, 0] = 1
         rgb, copy = film.rgb, film.rgb.copy()
         del film
         gc.collect()
@@ -252,6 +304,30 @@ class Calls(Case):
         gc.collect()
         self.assertEqual(memory.info.used, 0)
 
+    def test_many_cancelled_renders_leave_no_memory(self):
+        memory = rt.Memory()
+        renderer = rt.Renderer(self.scene, rt.Device(memory=memory))
+
+        def cancel(how):
+            with self.assertRaises((rt.Cancelled, KeyError)):
+                renderer.render(width=256, height=256, spp=100000, progress=how)
+
+        def fail(progress):
+            if progress.stage == "render" and progress.fraction > 0:
+                raise KeyError("stop")
+            return False
+
+        for _ in range(3):  # what is allocated once
+            cancel(lambda p: p.stage == "render" and p.fraction > 0)
+        gc.collect()
+        used, resident = memory.info.used, resident_bytes()
+        for _ in range(20):
+            cancel(lambda p: p.stage == "render" and p.fraction > 0)
+            cancel(fail)
+        gc.collect()
+        self.assertEqual(memory.info.used, used)
+        self.assertLess(resident_bytes() - resident, 20 << 20)  # 40 films would be 60 MB at least
+
     def test_what_a_callback_raises_comes_out(self):
         def fail(_progress):
             raise KeyboardInterrupt
@@ -283,7 +359,7 @@ class Calls(Case):
         for i, film in enumerate(films):
             scene = rt.Scene.parse(SCENE.replace("radius 1", f"radius {0.5 + i / 20}"))
             alone = rt.render(scene, self.device, spp=2)
-            self.assertTrue(np.array_equal(film.rgb, alone.rgb), i)
+            self.assertEqual(film.rgb.tobytes(), alone.rgb.tobytes(), i)
 
     def test_one_device_serves_many_threads_in_turn(self):
         films = [None] * 6

@@ -1,10 +1,12 @@
 """The shared library: loading, calls that fail, callbacks, and C data as Python's and NumPy's."""
 from __future__ import annotations
 
+import hashlib
 import logging
 import os
 import threading
 import warnings
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar, Union
 
@@ -22,17 +24,39 @@ _major, _minor = _interface.VERSION.split(".")[:2]
 _SONAME = f"librt-render.so.{_major}"
 
 
+_PIP = "reinstall the package: pip install ./tools/python in the source tree of librt"
+
+
+def _in_tree() -> Optional[str]:
+    """The library built in the source tree that this package was installed from, if it is there."""
+    tree = Path(_interface.TREE)
+    path = tree / "build" / _SONAME
+    if not _interface.TREE or not path.exists():
+        return None
+    for name, digest in _interface.HEADERS.items():
+        header = tree / name
+        if header.exists() and hashlib.sha256(header.read_bytes()).hexdigest() != digest:
+            raise ImportError(f"{header} has changed since this package was installed; {_PIP}")
+    return os.fspath(path)
+
+
 def _open() -> Any:
-    path = os.environ.get("LIBRT_LIBRARY", _SONAME)
+    """Opens LIBRT_LIBRARY, the library of the tree, or the installed one: the first that is."""
+    path = os.environ.get("LIBRT_LIBRARY") or _in_tree() or _SONAME
     try:
         found = ffi.dlopen(path)
     except OSError as error:
+        built = f"build it with `make` in {_interface.TREE}, " if _interface.TREE else ""
         raise ImportError(
-            f"{path} cannot be loaded ({error}); install librt with `make install`, or set "
+            f"{path} cannot be loaded ({error}); {built}install librt with `make install`, or set "
             f"LIBRT_LIBRARY to the path of {_SONAME}") from None
-    version = ffi.string(found.rt_version()).decode()
+    try:
+        version = ffi.string(found.rt_version()).decode()
+    except (AttributeError, ffi.error):
+        raise ImportError(f"{path} is not librt: it has no rt_version") from None
     if version.split(".")[:2] != [_major, _minor]:
-        raise ImportError(f"{path} is version {version}; this package is for {_interface.VERSION}")
+        raise ImportError(f"{path} is version {version}, and this package is for "
+                          f"{_interface.VERSION}; {_PIP}")
     return found
 
 
@@ -120,7 +144,7 @@ class RenderWarning(UserWarning):
 
 def text(pointer: Any) -> str:
     """A C string; "" for NULL."""
-    return ffi.string(pointer).decode(errors="replace") if pointer else ""
+    return str(ffi.string(pointer).decode(errors="replace")) if pointer else ""
 
 
 def call(function: Any, *arguments: Any) -> None:
@@ -172,7 +196,13 @@ class Exclusive:
 Progress = Callable[[SimpleNamespace], Optional[bool]]
 
 
-@ffi.callback("int(void *, const rt_progress *)")
+def callback(kind: str) -> Callable[[Documented], Documented]:
+    """ffi.callback with a type."""
+    made: Callable[[Documented], Documented] = ffi.callback(kind)
+    return made
+
+
+@callback("int(void *, const rt_progress *)")
 def _on_progress(user: Any, progress: Any) -> int:
     hooks = ffi.from_handle(user)
     try:
@@ -182,12 +212,12 @@ def _on_progress(user: Any, progress: Any) -> int:
     return 1 if stop else 0
 
 
-@ffi.callback("void(void *, const char *)")
+@callback("void(void *, const char *)")
 def _on_log(_user: Any, line: Any) -> None:
     _log.info("%s", text(line))
 
 
-@ffi.callback("void(void *, const char *)")
+@callback("void(void *, const char *)")
 def _on_warning(user: Any, line: Any) -> None:
     ffi.from_handle(user).warnings.append(text(line))
 
@@ -200,7 +230,8 @@ class Hooks:
     """
 
     def __init__(self, progress: Optional[Progress], stacklevel: int = 3) -> None:
-        self.progress, self.raised = progress, None
+        self.progress = progress
+        self.raised: Optional[BaseException] = None
         self.warnings: list[str] = []
         self._level = stacklevel
         self._handle = ffi.new_handle(self)
@@ -223,8 +254,12 @@ class Hooks:
     def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
         for line in self.warnings:
             warnings.warn(line, RenderWarning, stacklevel=self._level)
-        if self.raised is not None:
-            raise self.raised from None
+        raised, self.raised = self.raised, None
+        try:
+            if raised is not None:
+                raise raised from None
+        finally:
+            del raised  # else it would hold itself, and the film, until the collector comes
 
 
 # ---- Data ---------------------------------------------------------------------------------------
@@ -266,7 +301,7 @@ def fill(struct: Any, values: Mapping[str, Any], what: str) -> list[Any]:
 
 
 def _enum_of(kind: Any) -> str:
-    return kind.cname.replace("enum ", "")
+    return str(kind.cname).replace("enum ", "")
 
 
 def word_value(enum: str, word: str, name: str) -> int:
@@ -274,7 +309,7 @@ def word_value(enum: str, word: str, name: str) -> int:
     words = WORDS[enum]
     if word not in words:
         raise ValueError(f"{name} is one of {', '.join(words)}, not {word!r}")
-    return getattr(lib, words[word])
+    return int(getattr(lib, words[word]))
 
 
 def _python(value: Any, kind: Any) -> Any:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._library import (CONSTANTS, Hooks, InputError, Numbers, Progress, RenderWarning, call,
-                       documented, ffi, fill, floats, lib, make, path_bytes, pointer, record,
-                       text, word_value)
+                       callback, documented, ffi, fill, floats, lib, make, path_bytes, pointer,
+                       record, text, word_value)
 from ._options import Options
 
 Path = Union[str, "os.PathLike[str]"]
@@ -36,14 +36,14 @@ def memory_pointer(memory: Optional[Memory]) -> Any:
     return ffi.NULL if memory is None else memory._c
 
 
-@ffi.callback("void(void *, const rt_diagnostic *)")
+@callback("void(void *, const rt_diagnostic *)")
 def _on_diagnostic(user: Any, diagnostic: Any) -> None:
     seen = record(diagnostic)
     seen.severity = ("error", "warning", "note")[diagnostic.severity]
     ffi.from_handle(user).append(seen)
 
 
-@ffi.callback("void(void *, const rt_finding *)")
+@callback("void(void *, const rt_finding *)")
 def _on_finding(user: Any, finding: Any) -> None:
     seen = record(finding)
     seen.severity = ("error", "warning", "note")[finding.severity]
