@@ -220,3 +220,13 @@ void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fie
         warn_shape_texture(statement, &statement->entries[i], fields, scope, reports);
     }
 }
+
+void rt_no_effect_warn_materials(const rt_statement *statement, rt_reports *reports)
+{
+    for (int i = 0; i < statement->entry_count; i++)
+        if (statement->entries[i].field->type == RT_FIELD_FILE) {
+            rt_report_warning(reports, statement->entries[i].word,
+                              "the materials that this file names (mtllib, usemtl) are left out");
+            rt_report_hint(reports, "every triangle has the 'material' and 'texture' of its block");
+        }
+}

@@ -9,6 +9,9 @@
 void rt_no_effect_warn(const rt_statement *statement, const rt_block_fields *fields,
                        const rt_scope *scope, rt_reports *reports);
 
+/* Warns that the materials which the file of a mesh names are left out. */
+void rt_no_effect_warn_materials(const rt_statement *statement, rt_reports *reports);
+
 /* Whether the fields of a material make it reflect diffusely. */
 int rt_block_has_kd(const rt_block_fields *fields);
 

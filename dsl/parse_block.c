@@ -248,7 +248,7 @@ static int parse_kind(rt_parser *parser, rt_statement *statement, rt_text word)
                     "expected a kind of %s, found %s", quote, rt_parser_found(found, token));
     if (is_area_light(word, kind))
         rt_report_hint(parser->reports, "a light with an area is a shape that emits, as in: quad { "
-                                        "...  radiance 10 }");
+                                        "...  power 60 }");
     else if (suggestion.best.at)
         rt_report_hint(parser->reports, "did you mean '%s'?", suggestion.best.at);
     else

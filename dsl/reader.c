@@ -225,6 +225,15 @@ static int find_mesh(const rt_checker *checker, const rt_statement *statement, r
     return !name->is_broken;
 }
 
+/* Warns of what is given but has no effect, in the block or in the file that it names. */
+static void warn(rt_reader *reader, const rt_statement *statement, const rt_block_fields *fields,
+                 const rt_build_name *as)
+{
+    rt_no_effect_warn(statement, fields, &reader->scope, &reader->reports);
+    if (as->names_materials)
+        rt_no_effect_warn_materials(statement, &reader->reports);
+}
+
 static void read_block(rt_reader *reader, const rt_statement *statement,
                        const rt_operations *operations)
 {
@@ -233,7 +242,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
     rt_checker checker = {&reader->reports, operations, &reader->scope, &path,
                           reader->options->root};
     rt_block_fields fields;
-    rt_build_name as = {NULL, 0, 0};
+    rt_build_name as = {NULL, 0, 0, 0};
     reader->blocks++;
     rt_build_begin(&fields, block, reader->scene);
     int is_good = check_once(reader, statement);
@@ -245,7 +254,7 @@ static void read_block(rt_reader *reader, const rt_statement *statement,
     if (is_good)
         is_good = build(reader, statement, &fields, &as);
     if (is_good && !reader->is_further_iteration)
-        rt_no_effect_warn(statement, &fields, &reader->scope, &reader->reports);
+        warn(reader, statement, &fields, &as);
     if (is_good && reader->options->check &&
         !rt_origins_add(&reader->origins, block, statement->place))
         reader->reports.out_of_memory = 1;

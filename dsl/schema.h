@@ -41,6 +41,7 @@ typedef struct rt_build_name {
     uint32_t index;
     /* of a mesh: the texture that its file names; of an instance: the one it has unless it says */
     uint32_t texture;
+    int names_materials; /* of a mesh or model: its file has materials, which are left out */
 } rt_build_name;
 
 typedef struct rt_block {

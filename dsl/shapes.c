@@ -329,9 +329,11 @@ static rt_status build_mesh(rt_scene *scene, const void *fields, rt_build_name *
     rt_mesh_info info;
     rt_status status =
         rt_scene_load_mesh(scene, &name->index, s->path, (rt_shading)s->shading, &info, error);
-    if (status == RT_OK)
-        name->texture = info.texture;
-    return status;
+    if (status != RT_OK)
+        return status;
+    name->texture = info.texture;
+    name->names_materials = info.names_materials;
+    return RT_OK;
 }
 
 /* Places a mesh; it has the texture of its file unless the block gives one. */
@@ -347,10 +349,8 @@ static rt_status build_instance(rt_scene *scene, const void *fields, rt_build_na
 static rt_status build_model(rt_scene *scene, const void *fields, rt_build_name *name,
                              rt_error *error)
 {
-    rt_build_name loaded = {"", 0, 0};
-    (void)name;
-    rt_status status = build_mesh(scene, fields, &loaded, error);
-    return status == RT_OK ? build_instance(scene, fields, &loaded, error) : status;
+    rt_status status = build_mesh(scene, fields, name, error);
+    return status == RT_OK ? build_instance(scene, fields, name, error) : status;
 }
 
 /* ---- The table ---------------------------------------------------------------------------- */

@@ -16,7 +16,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "       rtc devices                 list the OpenCL devices\n"
         "       rtc doctor [OPTION]...      check that everything works here\n"
         "       rtc kernels [PROGRAM]...    compile the kernels ahead of the first render\n"
-        "       rtc study SCENE --sweep ... compare settings on a page of pictures and plots\n"
+        "       rtc study SCENE --sweep ... settings compared on a page of pictures\n"
         "       rtc photons ...             emit, merge, inspect and export photon maps\n"
         "       rtc compare A... B [OPTION]... measure how images differ from a reference\n"
         "       rtc merge FILM... --out FILE   join the parts of a picture\n"

@@ -11,6 +11,7 @@
 #include "outputs.h"
 #include "photons.h"
 #include "progress.h"
+#include "scene_file.h"
 #include "status.h"
 
 /* Whether a render was to go on until --time or --target-error ended it. */
@@ -60,14 +61,22 @@ static void print_settings(const rt_film *film)
     }
 }
 
+/* The scene that a film was begun with, as messages name it. Returns out. */
+static const char *scene_name(char *out, size_t size, const rt_film *film, const char *unknown)
+{
+    const char *scene = unknown;
+    const size_t length = film_note_find(&scene, film, "scene");
+    snprintf(out, size, "%.*s", length > 0 ? (int)length : (int)strlen(scene), scene);
+    return strcmp(out, "-") == 0 ? strcpy(out, scene_file_name("-")) : out;
+}
+
 static void print_info(const char *path, const rt_film *film)
 {
     char seconds[32];
-    const char *scene = "unknown";
     rt_film_info info;
     rt_film_get_info(film, &info);
-    const size_t length = film_note_find(&scene, film, "scene");
-    printf("film: %s\nscene: %.*s\n", path, length > 0 ? (int)length : (int)strlen(scene), scene);
+    char name[4096];
+    printf("film: %s\nscene: %s\n", path, scene_name(name, sizeof name, film, "unknown"));
     if (is_without_end(film))
         printf("done: %.4g samples a pixel, of as many as --time or --target-error let it have\n",
                info.done * info.samples);
@@ -89,7 +98,6 @@ static void print_info(const char *path, const rt_film *film)
 
 static void print_json(const char *path, const rt_film *film)
 {
-    const char *scene = "";
     char name[4096];
     size_t count;
     rt_film_info info;
@@ -97,12 +105,10 @@ static void print_json(const char *path, const rt_film *film)
     const rt_setting *settings = rt_settings(&count);
     rt_film_get_info(film, &info);
     rt_film_get_options(film, &options);
-    const size_t length = film_note_find(&scene, film, "scene");
-    snprintf(name, sizeof name, "%.*s", (int)length, scene);
     printf("{\"film\":");
     json_string(path);
     printf(",\"scene\":");
-    json_string(name);
+    json_string(scene_name(name, sizeof name, film, ""));
     json_member("done", is_without_end(film) ? NAN : info.done);
     json_member("samples_done", info.done * info.samples);
     json_member("seconds", info.seconds);

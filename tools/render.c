@@ -369,7 +369,9 @@ static void hint_command(const char *word)
     if (access(word, F_OK) == 0)
         return;
     const char *command = command_nearest(word), *form = photons_nearest_form(word);
-    if (form && (!command || strcmp(word, form) == 0))
+    if (strcmp(word, "render") == 0)
+        message_hint("rendering has no command word: rtc SCENE.rts [OPTION]...");
+    else if (form && (!command || strcmp(word, form) == 0))
         message_hint("did you mean `rtc photons %s`?", form);
     else if (command)
         message_hint("did you mean `rtc %s`?", command);

@@ -78,7 +78,7 @@ rt_status rt_stage_end(rt_stage_progress *progress, double *seconds)
     double now = rt_clock();
     if (seconds)
         *seconds = now - progress->began;
-    return report(progress, 1, now);
+    return progress->cancelled ? RT_CANCELLED : report(progress, 1, now);
 }
 
 /* Work on its own thread, and how the waiting thread learns of its end. */

@@ -34,7 +34,7 @@ rt_status rt_stage_begin(rt_stage_progress *progress, const rt_hooks *hooks, rt_
 rt_status rt_stage_update(rt_stage_progress *progress, double fraction);
 /* what the next updates are fractions of */
 void rt_stage_part(rt_stage_progress *progress, double from, double to);
-/* seconds: the stage's length, or NULL */
+/* seconds: the stage's length, or NULL; a stage that was cancelled reports no end */
 rt_status rt_stage_end(rt_stage_progress *progress, double *seconds);
 
 /*

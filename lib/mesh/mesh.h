@@ -24,6 +24,7 @@ typedef struct rt_mesh {
     uint32_t *indices; /* [triangle_count][3] */
     /* the file that `comment TextureFile NAME` of a PLY names, as written, or NULL */
     char *texture;
+    int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
 
     /*
      * What the file holds. Its vertices become more where one has several normals or texture

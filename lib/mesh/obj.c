@@ -158,7 +158,7 @@ static rt_status read_points(obj *o)
     char quote[RT_QUOTE];
     rt_mesh_text text = begin(o->source);
     rt_token word;
-    int lost_materials = 0, lost_shapes = 0;
+    int lost_shapes = 0;
     rt_status status = RT_OK;
     do {
         if (!rt_mesh_text_token(&text, &word) || rt_token_is(word, "f") || is_one_of(word, silent))
@@ -170,7 +170,7 @@ static rt_status read_points(obj *o)
         else if (rt_token_is(word, "vn"))
             status = read_normal(o, &text);
         else if (is_one_of(word, materials))
-            lost_materials = 1;
+            o->mesh->names_materials = 1;
         else if (is_one_of(word, shapes))
             lost_shapes = 1;
         else
@@ -179,8 +179,8 @@ static rt_status read_points(obj *o)
         if (status == RT_OK)
             status = step(o, &text, 0);
     } while (status == RT_OK && rt_mesh_text_line(&text));
-    if (lost_materials)
-        rt_mesh_log(o->source, "the materials (usemtl, mtllib) are ignored");
+    if (o->mesh->names_materials)
+        rt_mesh_log(o->source, "the materials (mtllib, usemtl) are left out");
     if (lost_shapes)
         rt_mesh_log(o->source, "the points, lines, curves and free-form surfaces are ignored");
     return status;

@@ -125,6 +125,7 @@ rt_status rt_mesh_from_canonical(rt_mesh **out, rt_canonical *canonical, const c
     mesh->texture = canonical->texture;
     canonical->colours = NULL;
     canonical->texture = NULL;
+    mesh->names_materials = canonical->names_materials;
     mesh->file_vertices = canonical->file_vertices;
     mesh->file_faces = canonical->file_faces;
     mesh->skipped_faces = canonical->skipped_faces;

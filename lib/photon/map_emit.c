@@ -119,6 +119,8 @@ static rt_status emit_kinds(emission *e, rt_error *error)
         status = emit_part(e, RT_PHOTONS_CAUSTIC, o->caustic_photons, &progress, error);
     if (status != RT_OK)
         return status;
+    if (!e->renderer->has_light)
+        rt_warn(o->hooks, "the scene has no light: its photon map is empty");
     rt_emitter_warn_reach(e->emitter, o->hooks);
     rt_photon_map_warn_starved(e->map, &e->map->ledger, 0, o->k, o->caustic_k, o->hooks);
     return rt_stage_end(&progress, NULL);

@@ -17,6 +17,15 @@ static int is_starved(const rt_ledger_row *row)
     return row->power[0] + row->power[1] + row->power[2] > 0 && row->paths < PATHS_ENOUGH;
 }
 
+/* Where there is none, no list can be anything but empty. */
+static int has_light(const rt_ledger *ledger)
+{
+    for (size_t i = 0; i < ledger->count; i++)
+        if (ledger->rows[i].power[0] + ledger->rows[i].power[1] + ledger->rows[i].power[2] > 0)
+            return 1;
+    return 0;
+}
+
 /* Appends "light 2 (shape 5), 1e-09 W, 12 paths". */
 static void name_light(char *out, size_t size, const rt_ledger *ledger, size_t i)
 {
@@ -83,6 +92,8 @@ void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledge
     if (pass > 0)
         snprintf(of_pass, sizeof of_pass, " of pass %u", (unsigned)pass);
     rt_photon_map_warn_lights(ledger, hooks);
+    if (!has_light(ledger))
+        return;
     snprintf(name, sizeof name, "%sphoton map%s", map->settings.split ? "global " : "", of_pass);
     warn_list(map, RT_PHOTONS_GLOBAL, name, k, hooks);
     snprintf(name, sizeof name, "caustic photon map%s", of_pass);

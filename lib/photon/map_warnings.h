@@ -7,7 +7,8 @@
 /*
  * Warns of lights with power that fewer than 100 paths came from, by the ledger of all paths, and
  * of lists of the map with fewer photons than an estimate needs: k of them, or caustic_k in the
- * caustic list. pass: the one that the map is of, from 1; 0: there are none.
+ * caustic list; but not of lists that are empty because there is no light. pass: the one that the
+ * map is of, from 1; 0: there are none.
  */
 void rt_photon_map_warn_starved(const rt_photon_map *map, const rt_ledger *ledger, uint32_t pass,
                                 uint32_t k, uint32_t caustic_k, const rt_hooks *hooks);

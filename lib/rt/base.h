@@ -116,7 +116,8 @@ typedef struct rt_progress {
 /*
  * Hooks of long calls, called from the thread that made the call. A progress callback
  * is called at the start and the end of each stage and at least every second between;
- * one that returns non-zero cancels the call, which then returns RT_CANCELLED.
+ * one that returns non-zero cancels the call, which then returns RT_CANCELLED. A stage that is
+ * cancelled does not report its end, a fraction of 1.
  */
 typedef struct rt_hooks {
     int (*progress)(void *user, const rt_progress *progress);

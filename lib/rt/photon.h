@@ -133,8 +133,12 @@ RT_API size_t rt_photon_map_ledger(const rt_photon_map *map, rt_light_ledger *ou
  * Irradiance, W/m^2, at count points on surfaces: positions [count][3] in metres, normals
  * [count][3] of unit length (to half a percent; RT_ERROR_USAGE names the first point where one is
  * not), on the side from which light is to count; rgb [count][3], undefined on failure. Of the
- * options, k, radius, kernel, cone_k, gather and those of the caustic map have an effect; NULL:
- * their defaults. Light that is left to shadow rays is not in the map.
+ * options, k, radius, kernel, cone_k, area, gather and those of the caustic map have an effect;
+ * NULL: their defaults. Light that is left to shadow rays is not in the map.
+ *
+ * Boundary bias: within the radius of the k nearest photons of an edge of the surface, part of the
+ * disc that their flux is divided by lies beyond it, and the estimate is too low: by one half at a
+ * straight edge, by three quarters at a corner. RT_AREA_HULL is free of it.
  */
 RT_API rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_device *device,
                                           const float *positions, const float *normals,

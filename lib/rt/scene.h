@@ -310,9 +310,10 @@ RT_API rt_status rt_scene_add_mesh(rt_scene *scene, uint32_t *out, const rt_mesh
 /* What a mesh file held. */
 typedef struct rt_mesh_info {
     size_t vertex_count, triangle_count;
-    size_t degenerate;  /* triangles of zero area, kept but never hit */
-    uint32_t texture;   /* handle of the texture that the file names, or 0 */
-    float lo[3], hi[3]; /* bounds, metres */
+    size_t degenerate;   /* triangles of zero area, kept but never hit */
+    uint32_t texture;    /* handle of the texture that the file names, or 0 */
+    float lo[3], hi[3];  /* bounds, metres */
+    int names_materials; /* an OBJ that names materials (mtllib, usemtl), which are left out */
 } rt_mesh_info;
 
 typedef enum rt_shading { RT_SHADING_FILE = 0, RT_SHADING_FLAT, RT_SHADING_SMOOTH } rt_shading;

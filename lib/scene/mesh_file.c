@@ -70,13 +70,15 @@ static rt_status shade(rt_mesh *mesh, rt_shading shading, rt_error *error)
     return RT_OK;
 }
 
-static void tell(rt_mesh_info *info, const rt_scene_mesh *mesh, size_t degenerate, uint32_t texture)
+static void tell(rt_mesh_info *info, const rt_scene_mesh *mesh, const rt_mesh *read,
+                 uint32_t texture)
 {
     memset(info, 0, sizeof *info);
     info->vertex_count = mesh->vertex_count;
     info->triangle_count = mesh->triangle_count;
-    info->degenerate = degenerate;
+    info->degenerate = (size_t)read->zero_area;
     info->texture = texture;
+    info->names_materials = read->names_materials;
     memcpy(info->lo, mesh->lo, sizeof info->lo);
     memcpy(info->hi, mesh->hi, sizeof info->hi);
 }
@@ -105,7 +107,7 @@ rt_status rt_scene_load_mesh(rt_scene *scene, uint32_t *out, const char *path, r
     }
     status = take_loaded(scene, out, mesh, path, error);
     if (status == RT_OK && info)
-        tell(info, scene->meshes + *out, (size_t)mesh->zero_area, texture);
+        tell(info, scene->meshes + *out, mesh, texture);
 out:
     if (status != RT_OK && error && !error->field[0])
         snprintf(error->field, sizeof error->field, "path");

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "lib/image/scratch.h"
 #include "tests/dsl/collect.h"
 
 /* A text with one error. `hint` is a part of the hint; "" when there must be none. */
@@ -64,7 +65,10 @@ static const bad_text bad_texts[] = {
     {"light sun { direction 0 -1 0 }", 1, 7, 3, "expected a kind of light, found 'sun'",
      "did you mean 'directional'?"},
     {"light area { radiance 3 }", 1, 7, 4, "expected a kind of light, found 'area'",
-     "a light with an area is a shape that emits, as in: quad { ...  radiance 10 }"},
+     "a light with an area is a shape that emits, as in: quad { ...  power 60 }"},
+    {"material white { color 0.7 }", 1, 18, 5, "unknown field 'color' in material",
+     "did you mean 'kd'?"},
+    {"cube { centre 0 0 0 }", 1, 1, 4, "unknown block 'cube'", "did you mean 'box'?"},
     {"light sphere { radiance 3 }", 1, 7, 6, "expected a kind of light, found 'sphere'",
      "a shape that emits"},
     {"material { kd 1 }", 1, 1, 8, "material needs a name, found '{'", "material white { ... }"},
@@ -530,6 +534,33 @@ static void fields_without_effect_are_warned_of(void **state)
     }
 }
 
+static const char obj[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/* Once, however often the mesh is placed. */
+static void materials_of_a_mesh_file_are_warned_of(void **state)
+{
+    static const char *const texts[] = {
+        "material m { kd 1 }\nmodel { file \"a.obj\"  material m }\n",
+        "material m { kd 1 }\nmesh a { file \"a.obj\" }\ninstance a { material m }\n"
+        "instance a { material m  translate 1 0 0 }\n"};
+    static collected c;
+    (void)state;
+    scratch_write("a.obj", obj);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        collect_text(&c, texts[i]);
+        assert_int_equal(c.status, RT_OK);
+        assert_int_equal(c.count, 1);
+        assert_true(c.items[0].severity == RT_SEVERITY_WARNING && c.items[0].line == 2);
+        assert_string_equal(c.items[0].message,
+                            "the materials that this file names (mtllib, usemtl) are left out");
+        collected_free(&c);
+    }
+    scratch_write("a.obj", strchr(obj, '\n') + 1);
+    collect_text(&c, texts[0]);
+    expect_clean(&c, texts[0]);
+    collected_free(&c);
+}
+
 /* With `check`, at the block that it is about; what no block is about, at the text as a whole. */
 static void what_a_check_finds_stands_at_its_place(void **state)
 {
@@ -666,6 +697,8 @@ int main(void)
         cmocka_unit_test(a_repeat_without_iterations_is_warned_of),
         cmocka_unit_test(fields_without_effect_are_warned_of),
         cmocka_unit_test(a_default_is_not_warned_of),
+        cmocka_unit_test_setup_teardown(materials_of_a_mesh_file_are_warned_of, scratch_enter,
+                                        scratch_leave),
         cmocka_unit_test(what_a_check_finds_stands_at_its_place),
         cmocka_unit_test(solids_are_found_at_their_places),
         cmocka_unit_test(reading_stops_after_a_thousand_errors),

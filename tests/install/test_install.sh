@@ -81,6 +81,9 @@ check header_is_strict_c99 cc -std=c99 -pedantic -Wall -Wextra -Wstrict-prototyp
 check header_is_cpp c++ -std=c++98 -pedantic -Wall -Wextra -Wno-long-long \
     -Werror -I"$includedir" -fsyntax-only "$work/header.cc"
 
+# In the tree as well, with no folder to search besides.
+check header_compiles_in_the_tree cc -std=c99 -Wall -pedantic -Werror -x c -fsyntax-only lib/rt.h
+
 # ---- The example of the manual ---------------------------------------------------
 
 # From the header's first comment, and from the README's block of C.

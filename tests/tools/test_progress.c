@@ -157,6 +157,33 @@ static void an_empty_map_is_warned_of_once(void **state)
     run_free(&run);
 }
 
+static size_t count_warnings(const run *run)
+{
+    size_t count = 0;
+    for (const char *at = run->err; (at = strstr(at, "warning:")) != NULL; at++)
+        count++;
+    return count;
+}
+
+static void photons_without_a_light_are_warned_of_once(void **state)
+{
+    static const char *const lines[] = {
+        "a.rts --mode photon --spp 1 --out a.pfm",
+        "a.rts --mode photon --caustic-photons 50 --spp 1 --out a.pfm",
+        "a.rts --mode photon --passes 2 --radius 0.1 --spp 1 --out a.pfm",
+        "photons a.rts --out a.rtp", "photons a.rts --caustic-photons 50 --out b.rtp"};
+    (void)state;
+    scratch_write("a.rts", dark_scene);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        run run = run_rtc("%s --photons 100 --progress none", lines[i]);
+        expect_status(&run, 0);
+        expect_err(&run, "warning: the scene has no light");
+        if (count_warnings(&run) != 1)
+            fail_msg("%s: %s", lines[i], run.err);
+        run_free(&run);
+    }
+}
+
 static void quiet_says_nothing(void **state)
 {
     (void)state;
@@ -569,6 +596,7 @@ int main(void)
         TEST(layers_without_a_place_are_warned_of),
         TEST(what_would_be_black_is_warned_of),
         TEST(an_empty_map_is_warned_of_once),
+        TEST(photons_without_a_light_are_warned_of_once),
         TEST(quiet_says_nothing),
         TEST(verbose_names_the_device_and_its_threads),
         TEST(plain_progress_names_the_stages),

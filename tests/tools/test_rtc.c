@@ -452,6 +452,16 @@ static void scene_comes_from_stdin_too(void **state)
     expect_file("stdin.png");
     expect_file("stdin.exr");
     run_free(&run);
+    /* Under the same name everywhere. */
+    static const char *const lines[] = {"check -", "- --spp 1 --quiet --out a.rtpart",
+                                        "info a.rtpart", "info a.rtpart --json"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        run = run_rtc_input(small_scene, strlen(small_scene), lines[i]);
+        expect_status(&run, 0);
+        if (i != 1)
+            expect_out(&run, "stdin");
+        run_free(&run);
+    }
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)

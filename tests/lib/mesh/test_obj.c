@@ -118,6 +118,10 @@ static void what_is_no_mesh_is_passed_over(void **state)
     assert_int_equal(mesh->triangle_count, 1);
     assert_int_equal(mesh->file_faces, 2);
     assert_int_equal(mesh->skipped_faces, 1);
+    assert_true(mesh->names_materials);
+    rt_mesh_destroy(mesh);
+    mesh = sample_accept("a.obj", SQUARE "f 1 2 3\n");
+    assert_false(mesh->names_materials);
     rt_mesh_destroy(mesh);
 }
 

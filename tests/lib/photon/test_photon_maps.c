@@ -483,6 +483,44 @@ static void irradiance_is_flux_over_area(void **state)
     rt_renderer_destroy(renderer);
 }
 
+/*
+ * As the contract says: a square of 2 m in even light, asked in its middle, at the middle of an
+ * edge, and at a corner, relative to the middle.
+ */
+static void irradiance_is_too_low_at_an_edge(void **state)
+{
+    static const float positions[3][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}},
+                       normals[3][3] = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
+    static const double expected[2][3] = {{1, 0.5, 0.25}, {1, 1, 1}};
+    static const char *const names[2][3] = {{"disc", "disc at an edge", "disc at a corner"},
+                                            {"hull", "hull at an edge", "hull at a corner"}};
+    rt_render_options render = {.photons = 200000,
+                                .direct = RT_DIRECT_PHOTONS,
+                                .sampler = RT_SAMPLER_INDEPENDENT,
+                                .seed = test_seed(0)};
+    rt_emit_options options = {.render = &render};
+    rt_error error;
+    (void)state;
+    rt_renderer *renderer =
+        test_renderer("material m { kd 0.5 }\n"
+                      "quad { corner -1 0 -1  edge1 0 0 2  edge2 2 0 0  material m }\n"
+                      "light directional { direction 0 -1 0  irradiance 1 }\n");
+    rt_photon_map *map = emit_map(renderer, &options);
+    for (int area = 0; area < 2; area++) {
+        const rt_render_options query = {
+            .k = 2000, .kernel = RT_DENSITY_BOX, .area = area ? RT_AREA_HULL : RT_AREA_DISC};
+        float rgb[3][3];
+        expect_ok(rt_photon_map_irradiance(rgb[0], map, test_device(), positions[0], normals[0], 3,
+                                           &query, &error),
+                  &error);
+        /* 2000 photons: 2.2 % of the value. */
+        for (int i = 0; i < 3; i++)
+            expect_close(rgb[i][0], expected[area][i], 0.11 * expected[area][i], names[area][i]);
+    }
+    rt_photon_map_destroy(map);
+    rt_renderer_destroy(renderer);
+}
+
 /* Neither a point that is nowhere nor a normal that is none gets a number. */
 static void irradiance_is_refused_where_there_is_no_surface(void **state)
 {
@@ -625,6 +663,7 @@ int main(void)
         cmocka_unit_test(planes_alone_are_told_of_the_origin),
         statistical_test(stored_flux_is_what_path_tracing_says),
         statistical_test(irradiance_is_flux_over_area),
+        statistical_test(irradiance_is_too_low_at_an_edge),
         cmocka_unit_test(irradiance_is_refused_where_there_is_no_surface),
         cmocka_unit_test_setup_teardown(photons_beyond_all_coordinates_are_left_out, scratch_enter,
                                         scratch_leave),
