@@ -112,7 +112,9 @@ PUBLIC_H := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h 
             render.h scene.h setting.h share.h)
 
 DSL_SRC := \
-	dsl/blocks.c dsl/budget.c dsl/build.c dsl/check.c dsl/definition.c dsl/expression.c \
+	dsl/blocks.c dsl/budget.c dsl/build.c dsl/check.c dsl/definition.c dsl/dump.c \
+	dsl/expression.c \
+	dsl/format.c dsl/format_line.c \
 	dsl/function.c dsl/lexer.c dsl/load.c dsl/names.c dsl/no_effect.c dsl/origin.c \
 	dsl/parse_block.c dsl/parse_entry.c dsl/parse_expression.c dsl/parse_statement.c \
 	dsl/parser.c dsl/progress.c dsl/reader.c dsl/report.c dsl/schema.c dsl/scope.c \
@@ -122,6 +124,7 @@ TOOL_SRC := \
 	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \
 	tools/compare_print.c tools/crew.c \
 	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/film_place.c \
+	tools/fmt.c \
 	tools/help.c tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
@@ -132,7 +135,7 @@ TOOL_SRC := \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
 	tools/stats.c tools/study/cell.c tools/study/command.c tools/study/list.c \
 	tools/study/page.c tools/study/study.c tools/study/sweep.c tools/timing.c \
-	tools/untrusted.c
+	tools/untrusted.c tools/whole_file.c
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
@@ -151,7 +154,8 @@ KERNEL_DEPS := $(wildcard kernels/*.cl kernels/*.h kernels/*/*.h)
 # makes build/tests/X/test_y.
 TESTS_QUICK := \
 	tests/test_api.c tests/test_chance.c \
-	tests/dsl/test_errors.c tests/dsl/test_lexer.c tests/dsl/test_load.c \
+	tests/dsl/test_dump.c tests/dsl/test_errors.c tests/dsl/test_format.c \
+	tests/dsl/test_lexer.c tests/dsl/test_load.c \
 	tests/dsl/test_reference.c tests/dsl/test_robustness.c \
 	tests/fuzz/test_fuzz.c \
 	tests/kernels/test_bsdf.c tests/kernels/test_bump.c tests/kernels/test_camera.c \
@@ -246,7 +250,7 @@ TESTS_SHELL := \
 	tests/tools/test_deps.sh tests/tools/test_run.sh
 TESTS_SHELL += tests/mutation/test_mutations.sh
 TEST_SUPPORT_SRC := \
-	dsl/reference.c \
+	dsl/reference.c dsl/textmate.c \
 	tests/chance.c tests/support.c \
 	tests/corpus/manifest.c \
 	tests/dsl/collect.c \
@@ -711,11 +715,12 @@ demo: deps
 	+$(MAKE) --no-print-directory all
 	$(B)/rtc scenes/cornell.rts --mode photon --out cornell.png --out cornell.exr
 
-# The lists of fields in the reference page, from the tables in the source.
+# The lists of fields in the reference page and the words of the editors' grammar, from the
+# tables in the source.
 docs: $(B)/docs
-	$(B)/docs dsl/reference.md
+	$(B)/docs dsl/reference.md tools/editor/rts.tmLanguage.json
 
-$(B)/docs: $(B)/dsl/docs.o $(B)/dsl/reference.o $(B)/librt.a
+$(B)/docs: $(B)/dsl/docs.o $(B)/dsl/reference.o $(B)/dsl/textmate.o $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
 
 # ---- Installation -----------------------------------------------------------

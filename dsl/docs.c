@@ -1,8 +1,9 @@
-/* docs.c - `make docs`: writes the generated regions of a reference page anew, in place. */
+/* docs.c - `make docs`: writes the reference page's generated regions and the editors' grammar. */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "dsl/reference.h"
+#include "dsl/textmate.h"
 
 /* The whole of a file, to be freed; NULL where it cannot be read. */
 static char *read_file(const char *path)
@@ -30,16 +31,27 @@ static int write_file(const char *path, const char *text)
     return file && fclose(file) == 0 && is_written;
 }
 
+/* Writes the grammar of editors anew; returns whether it could. */
+static int write_grammar(const char *path)
+{
+    char *text = rt_textmate_grammar();
+    int is_written = text && write_file(path, text);
+    free(text);
+    return is_written;
+}
+
 int main(int argc, char **argv)
 {
-    const char *error = "usage: docs PAGE.md";
-    char *page = argc == 2 ? read_file(argv[1]) : NULL, *text = NULL;
-    if (argc == 2)
+    const char *error = "usage: docs PAGE.md GRAMMAR.json";
+    char *page = argc == 3 ? read_file(argv[1]) : NULL, *text = NULL;
+    if (argc == 3)
         error = "cannot read the page";
     if (page)
         text = rt_reference_update(page, &error);
     if (text && !write_file(argv[1], text))
         error = "cannot write the page";
+    if (!error && !write_grammar(argv[2]))
+        error = "cannot write the grammar";
     if (error)
         fprintf(stderr, "docs: %s\n", error);
     free(text);

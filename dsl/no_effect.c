@@ -116,6 +116,22 @@ static const struct {
     {RT_BLOCK_TEXTURE, "b", is_no_image, "'pattern checker' or 'pattern gradient'"},
 };
 
+/* What a field would need to have an effect, or NULL. */
+static const char *missing(const rt_block *block, const rt_field *field,
+                           const rt_block_fields *fields)
+{
+    for (size_t i = 0; i < sizeof needs / sizeof *needs && block->id < RT_BLOCK_MESH; i++)
+        if (needs[i].block == block->id && strcmp(needs[i].field, field->name) == 0 &&
+            !needs[i].has_effect(fields))
+            return needs[i].without;
+    return NULL;
+}
+
+int rt_field_has_effect(const rt_block *block, const rt_field *field, const rt_block_fields *fields)
+{
+    return !missing(block, field, fields);
+}
+
 /* The texture that stands for a colour of a material when that is black, or 0. */
 static uint32_t texture_beside(const char *field, const rt_material *m)
 {
@@ -202,11 +218,10 @@ static void warn_entry(const rt_statement *statement, const rt_entry *entry,
     const rt_block_id block = statement->block->id;
     if (block == RT_BLOCK_FILM || block == RT_BLOCK_RENDER)
         warn_setting(entry, &fields->options, reports);
-    for (size_t i = 0; i < sizeof needs / sizeof *needs && block < RT_BLOCK_MESH; i++)
-        if (needs[i].block == block && strcmp(needs[i].field, entry->field->name) == 0 &&
-            !needs[i].has_effect(fields))
-            rt_report_warning(reports, entry->name, "'%s' has no effect without %s", needs[i].field,
-                              needs[i].without);
+    const char *without = missing(statement->block, entry->field, fields);
+    if (without)
+        rt_report_warning(reports, entry->name, "'%s' has no effect without %s", entry->field->name,
+                          without);
     if (is_black_left_out(statement, entry, fields))
         rt_report_warning(reports, entry->name, "'%s' of 0 has no effect: it counts as left out",
                           entry->field->name);

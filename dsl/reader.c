@@ -38,6 +38,7 @@ void rt_reader_free(rt_reader *reader)
 {
     rt_scene_destroy(reader->scene);
     rt_origins_free(&reader->origins);
+    rt_dump_free(&reader->dump);
     rt_scope_free(&reader->scope);
     rt_reports_free(&reader->reports);
     rt_sources_free(&reader->sources);
@@ -194,6 +195,9 @@ static int build(rt_reader *reader, const rt_statement *statement, const rt_bloc
     error.file[0] = error.field[0] = error.message[0] = '\0';
     as->text = name ? name : "";
     rt_status status = rt_build_block(reader->scene, statement->block, fields, as, &error);
+    if (status == RT_OK && reader->options->block)
+        rt_dump_block(&reader->dump, reader->options, statement->block, fields, as,
+                      reader->repeats > 0);
     as->text = NULL;
     free(name);
     if (status == RT_ERROR_INPUT || status == RT_ERROR_USAGE)
@@ -508,6 +512,9 @@ rt_status rt_reader_finish(rt_reader *reader, rt_scene **out, rt_error *error)
                         !reader->reports.out_of_memory;
     if (is_good)
         rt_scope_warn(&reader->scope, &all, &reader->reports);
+    if (is_good && reader->options->block)
+        rt_dump_settings(&reader->dump, reader->options, reader->scene);
+    reader->reports.out_of_memory |= reader->dump.out_of_memory;
     rt_profile_begin(reader->options->profile, "check");
     if (is_good && reader->options->check)
         rt_origins_report(&reader->origins, &reader->sources, reader->scene, &reader->reports);

@@ -6,6 +6,7 @@
 #ifndef RT_DSL_READER_H
 #define RT_DSL_READER_H
 
+#include "dsl/dump.h"
 #include "dsl/expression.h"
 #include "dsl/origin.h"
 #include "dsl/progress.h"
@@ -23,6 +24,7 @@ typedef struct rt_reader {
     rt_origins origins;             /* of what is in the scene, when it is to be checked */
     const rt_load_options *options; /* never NULL */
     rt_reading progress;
+    rt_dump dump;      /* where the options ask for the blocks */
     uint64_t order;    /* tokens so far */
     size_t blocks;     /* blocks so far */
     size_t iterations; /* of all repeats so far */

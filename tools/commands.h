@@ -13,6 +13,7 @@ int command_mesh(const command_line *arguments);
 int command_devices(const command_line *arguments);
 int command_doctor(const command_line *arguments);
 int command_kernels(const command_line *arguments);
+int command_fmt(const command_line *arguments);
 int command_study(const command_line *arguments);
 int command_photons(const command_line *arguments);
 int command_compare(const command_line *arguments);

@@ -13,6 +13,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
         "       rtc check SCENE.rts...      report all errors in scenes\n"
         "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
+        "       rtc fmt SCENE... [OPTION]   lay out scenes anew, in place\n"
         "       rtc devices                 list the OpenCL devices\n"
         "       rtc doctor [OPTION]...      check that everything works here\n"
         "       rtc kernels [PROGRAM]...    compile the kernels ahead of the first render\n"
@@ -63,6 +64,11 @@ static const char *const usages[COMMAND_COUNT] = {
         "each picture against a reference, and writes NAME.html, a page of pictures and\n"
         "plots that needs no other file, and NAME.csv. What stands in NAME.films is not\n"
         "rendered again.\n",
+    [COMMAND_FMT] =
+        "usage: rtc fmt SCENE.rts... [OPTION]...\n"
+        "\n"
+        "Lays scenes out anew, in place; what is right stays as it is. Comments stay, and\n"
+        "so does what the scene means. The scene - goes from stdin to stdout.\n",
     [COMMAND_PHOTONS] =
         "usage: rtc photons SCENE.rts --out MAP.rtp [OPTION]...   emit a photon map\n"
         "       rtc photons info MAP...                          what maps hold\n"

@@ -8,6 +8,7 @@
 #define MESH (1u << COMMAND_MESH)
 #define DOCTOR (1u << COMMAND_DOCTOR)
 #define STUDY (1u << COMMAND_STUDY)
+#define FMT (1u << COMMAND_FMT)
 #define KERNELS (1u << COMMAND_KERNELS)
 #define PHOTONS (1u << COMMAND_PHOTONS)
 #define COMPARE (1u << COMMAND_COMPARE)
@@ -34,6 +35,7 @@ const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_OUTPUT] = "Output",
     [GROUP_STUDY] = "The study",
     [GROUP_MESH] = "The mesh",
+    [GROUP_FMT] = "The layout",
     [GROUP_COMPARE] = "The comparison",
     [GROUP_LIMIT] = "Limits (the exit status is 1 when one is not kept)",
     [GROUP_DEVICE] = "Device and memory",
@@ -108,6 +110,13 @@ const option option_table[OPTION_COUNT] = {
                          "KIND.ply in the current directory",
                          "where the mesh goes, a binary PLY file"},
 
+    [OPTION_DUMP] = {"dump", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
+                     "render nothing: write the scene as it was understood to stdout, with "
+                     "constants, repeats and includes resolved and files by their whole paths; "
+                     "takes --set, and not the settings of the scene"},
+    [OPTION_FMT_CHECK] =
+        {"check", NULL, KIND_FLAG, GROUP_FMT, FMT, 0, 0, NULL, 0, NULL,
+         "write nothing: print the names of those that would change, and exit with 1 if any would"},
     [OPTION_LAYER] =
         {"layer", "NAME", KIND_TEXT, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, "the picture itself",
          "compare a layer of .exr files, such as albedo, normal, depth, uv or photon.count"},

@@ -391,10 +391,27 @@ static int fail_operands(const command_line *arguments)
     return STATUS_USAGE;
 }
 
+/* --dump: the scene as the text has it, so that settings given here are a mistake. */
+static int dump(const command_line *arguments)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    for (size_t i = 0; i < count; i++)
+        if (arguments->settings[i]) {
+            message_error("--dump writes the scene as its text has it: --%s is left out, or "
+                          "written into the scene",
+                          settings[i].field.name);
+            return STATUS_USAGE;
+        }
+    return scene_file_dump(arguments->operands[0], arguments);
+}
+
 int command_render(const command_line *arguments)
 {
     if (arguments->operand_count != 1)
         return fail_operands(arguments);
+    if (arguments->options[OPTION_DUMP].given)
+        return dump(arguments);
     render_job job = {0};
     session_begin(&job.session, arguments);
     job.scene_path = arguments->operands[0];

@@ -18,7 +18,7 @@ static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_DOCTOR] = command_doctor,   [COMMAND_PHOTONS] = command_photons,
     [COMMAND_COMPARE] = command_compare, [COMMAND_MERGE] = command_merge,
     [COMMAND_INFO] = command_info,       [COMMAND_KERNELS] = command_kernels,
-    [COMMAND_STUDY] = command_study,
+    [COMMAND_STUDY] = command_study,     [COMMAND_FMT] = command_fmt,
 };
 
 static int run(const command_line *arguments)

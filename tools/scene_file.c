@@ -2,6 +2,7 @@
 #include "scene_file.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,6 +21,7 @@ typedef struct scene_reading {
     scene_purpose purpose;
     input_list *inputs;
     progress_display *progress;
+    scene_text *text; /* receives the scene as it was understood, or NULL */
 } scene_reading;
 
 static int is_wanted(const rt_diagnostic *diagnostic, scene_purpose purpose)
@@ -56,6 +58,23 @@ static void on_file(void *user, const char *path)
     scene_reading *reading = user;
     if (reading->inputs)
         inputs_add(reading->inputs, path);
+}
+
+static void on_block(void *user, const char *text)
+{
+    scene_text *out = ((scene_reading *)user)->text;
+    const size_t length = strlen(text);
+    if (out->size + length + 1 > out->capacity) {
+        size_t grown = 2 * (out->size + length + 1);
+        char *moved = out->out_of_memory ? NULL : realloc(out->text, grown);
+        out->out_of_memory |= !moved;
+        if (!moved)
+            return;
+        out->text = moved;
+        out->capacity = grown;
+    }
+    memcpy(out->text + out->size, text, length + 1);
+    out->size += length;
 }
 
 const char *scene_file_name(const char *path)
@@ -123,26 +142,27 @@ char *scene_file_folder(const char *path)
     return folder;
 }
 
-int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
-                    scene_findings *findings, input_list *inputs, progress_display *progress,
-                    const command_line *arguments)
+/* Reads a scene; what else is wanted stands in *reading. */
+static int load(rt_scene **out, const char *path, scene_reading *reading,
+                const command_line *arguments)
 {
     char *root = NULL;
     if (arguments->options[OPTION_UNTRUSTED].given && !(root = scene_file_folder(path)))
         return STATUS_DEVICE;
-    scene_reading reading = {{0, 0}, purpose, inputs, progress};
-    const rt_hooks hooks = {.progress = on_progress, .user = &reading};
+    const rt_hooks hooks = {.progress = on_progress, .user = reading};
     rt_load_options options = {.diagnostic = on_diagnostic,
-                               .user = &reading,
+                               .user = reading,
                                .file = on_file,
+                               .block = reading->text ? on_block : NULL,
                                .hooks = &hooks,
                                .root = root,
                                .memory = arguments->memory,
                                .profile = arguments->profile,
                                .definitions = arguments->definitions,
                                .definition_count = arguments->definition_count};
-    options.check = purpose == SCENE_TO_CHECK || purpose == SCENE_TO_CHECK_QUIETLY ||
-                    purpose == SCENE_TO_RENDER;
+    options.check = reading->purpose == SCENE_TO_CHECK ||
+                    reading->purpose == SCENE_TO_CHECK_QUIETLY ||
+                    reading->purpose == SCENE_TO_RENDER;
     rt_error error;
     rt_status result = RT_OK;
     int status = STATUS_DONE;
@@ -151,18 +171,50 @@ int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
     else
         result = rt_scene_load(out, path, &options, &error);
     free(root);
-    progress_clear(progress);
-    if (findings)
-        *findings = reading.findings;
+    progress_clear(reading->progress);
     if (status != STATUS_DONE || result == RT_OK)
         return status;
     /* What has a place was told by diagnostics. */
-    if (reading.findings.errors == 0)
+    if (reading->findings.errors == 0)
         return message_failure(&error);
-    if (reading.findings.errors > ERRORS_SHOWN)
+    if (reading->findings.errors > ERRORS_SHOWN)
         message_note("%s: and %u more errors", scene_file_name(path),
-                     reading.findings.errors - ERRORS_SHOWN);
-    else if (reading.findings.errors > 1)
-        message_note("%s: %u errors", scene_file_name(path), reading.findings.errors);
+                     reading->findings.errors - ERRORS_SHOWN);
+    else if (reading->findings.errors > 1)
+        message_note("%s: %u errors", scene_file_name(path), reading->findings.errors);
     return STATUS_INPUT;
+}
+
+int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
+                    scene_findings *findings, input_list *inputs, progress_display *progress,
+                    const command_line *arguments)
+{
+    scene_reading reading = {{0, 0}, purpose, inputs, progress, NULL};
+    int status = load(out, path, &reading, arguments);
+    if (findings)
+        *findings = reading.findings;
+    return status;
+}
+
+int scene_file_dump(const char *path, const command_line *arguments)
+{
+    scene_text text = {NULL, 0, 0, 0};
+    progress_display progress = progress_begin_on_terminal(0);
+    scene_reading reading = {{0, 0}, SCENE_TO_EMIT, NULL, &progress, &text};
+    rt_scene *scene = NULL;
+    rt_error error;
+    char *made = NULL;
+    int status = load(&scene, path, &reading, arguments);
+    if (status == STATUS_DONE && text.out_of_memory) {
+        message_error("out of memory");
+        status = STATUS_DEVICE;
+    }
+    if (status == STATUS_DONE && rt_scene_format(&made, text.text, path, NULL, &error) != RT_OK)
+        status = message_failure(&error);
+    if (status == STATUS_DONE)
+        fputs(made, stdout);
+    free(made);
+    free(text.text);
+    rt_scene_destroy(scene);
+    return status;
 }

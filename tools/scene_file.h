@@ -12,6 +12,13 @@ typedef struct scene_findings {
     unsigned errors, warnings;
 } scene_findings;
 
+/* A text that grows. */
+typedef struct scene_text {
+    char *text;
+    size_t size, capacity;
+    int out_of_memory;
+} scene_text;
+
 /* What a scene is read for decides what is said of it beside its errors. */
 typedef enum scene_purpose {
     SCENE_TO_CHECK,         /* everything */
@@ -34,6 +41,12 @@ const char *scene_file_name(const char *path);
 int scene_file_load(rt_scene **out, const char *path, scene_purpose purpose,
                     scene_findings *findings, input_list *inputs, progress_display *progress,
                     const command_line *arguments);
+
+/*
+ * Writes the scene at path to stdout as it was understood, with constants, repeats and includes
+ * resolved; it renders to the same picture. Returns an exit status.
+ */
+int scene_file_dump(const char *path, const command_line *arguments);
 
 /* The folder that a scene is in, the current one for "-", in a string to be freed; or NULL. */
 char *scene_file_folder(const char *path);

@@ -77,6 +77,13 @@ typedef struct rt_load_options {
      */
     void (*file)(void *user, const char *path);
     /*
+     * called for every block as it was understood, in the language, one or more lines: constants,
+     * repeats and includes are resolved, files named from the root of the file system, defaults
+     * written out where they have an effect; `film` and `render` come last. Put together they are a
+     * scene that renders to the same picture. NULL: not wanted
+     */
+    void (*block)(void *user, const char *text);
+    /*
      * progress of RT_STAGE_LOAD, but for the time that a file takes which the text names; NULL:
      * none. Log and warnings have no use here
      */
@@ -111,6 +118,16 @@ RT_API rt_status rt_scene_load(rt_scene **out, const char *path, const rt_load_o
  */
 RT_API rt_status rt_scene_parse(rt_scene **out, const char *text, const char *name,
                                 const rt_load_options *options, rt_error *error);
+
+/*
+ * The text of a scene laid out anew: the same tokens and comments, so that it means the same, with
+ * four spaces of indentation, two between fields on one line, and columns aligned over neighbouring
+ * lines. Laid out once more it stays as it is. *out is to be freed with free. Fails with
+ * RT_ERROR_INPUT where the text has characters that mean nothing or braces that do not match, which
+ * the diagnostic callback of options (may be NULL) is told; the scene is not read.
+ */
+RT_API rt_status rt_scene_format(char **out, const char *text, const char *name,
+                                 const rt_load_options *options, rt_error *error);
 
 /* An empty scene, to be filled by the calls below. The caller owns *out. */
 RT_API rt_status rt_scene_create(rt_scene **out, rt_error *error);

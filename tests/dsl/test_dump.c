@@ -1,0 +1,99 @@
+/* A scene that is written back as it was understood is the same scene. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "rt.h"
+#include "scene/scene.h"
+#include "tests/dsl/collect.h"
+
+static void on_block(void *user, const char *text)
+{
+    char *out = user;
+    strcat(out, text);
+}
+
+/* What a text is understood as. */
+static char *dump(const char *text, rt_scene **scene)
+{
+    char *out = calloc(1, 65536);
+    const rt_load_options options = {.block = on_block, .user = out};
+    rt_error error;
+    *scene = NULL;
+    if (rt_scene_parse(scene, text, NULL, &options, &error) != RT_OK)
+        fail_msg("%s\nin\n%s", error.message, text);
+    return out;
+}
+
+static const char scene_text[] =
+    "let n = 2\n"
+    "camera { eye 0 1 -4  look_at 0 0.1 0 }\n"
+    "material m_1 { kd 0.1 }\n"
+    "texture t { pattern checker  a 1  b 0 }\n"
+    "repeat i from 1 to n {\n"
+    "    material m { kd (0.3 / i) }\n"
+    "    sphere { centre i 0 0  radius (1 / 3)  material m  translate 0 i 0 }\n"
+    "}\n"
+    "triangle { a 0 0 0  b 1 0 0  c 0 1 0  uva 0 0  uvb 2 0  uvc 0 3  material m_1  texture t }\n"
+    "cylinder { a 0 0 0  b 0 1 0  radius 1  caps false  material m_1 }\n"
+    "cylinder { a 0 0 0  b 0 1 0  radius 1  material m_1  power 2 }\n"
+    "mesh k { file \"scenes/meshes/knot.ply\" }\n"
+    "instance k { material m_1 }\n"
+    "light point { position 0 3 0  intensity 0 }\n"
+    "render { mode photon  k all  radius 0.1  seed 7 }\n";
+
+static void a_dump_reads_back_to_the_same_scene(void **state)
+{
+    rt_scene *a, *b;
+    (void)state;
+    char *first = dump(scene_text, &a), *second = dump(first, &b);
+    assert_string_equal(first, second);
+    assert_int_equal(a->shape_count, b->shape_count);
+    assert_int_equal(a->material_count, b->material_count);
+    for (size_t i = 0; i < a->shape_count; i++)
+        assert_true(a->shapes[i].kind == b->shapes[i].kind &&
+                    a->shapes[i].material == b->shapes[i].material &&
+                    memcmp(a->shapes[i].p, b->shapes[i].p, sizeof a->shapes[i].p) == 0);
+    assert_memory_equal(a->materials, b->materials, a->material_count * sizeof *a->materials);
+    assert_true(a->options.seed == b->options.seed && a->options.k == b->options.k);
+    assert_memory_equal(&a->camera, &b->camera, sizeof a->camera);
+    rt_scene_destroy(a);
+    rt_scene_destroy(b);
+    free(first);
+    free(second);
+}
+
+static void defaults_are_written_out_where_they_have_an_effect(void **state)
+{
+    rt_scene *scene;
+    (void)state;
+    char *text = dump(scene_text, &scene);
+    assert_non_null(strstr(text, "fov 45"));
+    assert_non_null(strstr(text, "material m_1_0 {"));
+    assert_non_null(strstr(text, "material m_1 {"));
+    assert_non_null(strstr(text, "caps false"));
+    assert_non_null(strstr(text, "caps true"));
+    assert_non_null(strstr(text, "uva 0 0"));
+    assert_non_null(strstr(text, "intensity 0"));
+    assert_non_null(strstr(text, "seed 7"));
+    assert_null(strstr(text, "ior"));
+    assert_null(strstr(text, "cone_k"));
+    assert_null(strstr(text, "let"));
+    rt_scene_destroy(scene);
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_dump_reads_back_to_the_same_scene),
+        cmocka_unit_test(defaults_are_written_out_where_they_have_an_effect),
+    };
+    return cmocka_run_group_tests_name("dump", tests, NULL, NULL);
+}
