@@ -72,7 +72,7 @@ LIB_SRC := \
 	lib/mode/chunk.c lib/mode/modes.c lib/mode/pixel_samples.c lib/mode/preview.c \
 	lib/mode/render.c lib/mode/work.c \
 	lib/mode/direct/direct.c lib/mode/first_hit/first_hit.c lib/mode/first_hit/layers.c \
-	lib/mode/path/path.c \
+	lib/mode/path/path.c lib/mode/path/paths.c \
 	lib/mode/photon/bias.c lib/mode/photon/emission.c lib/mode/photon/eye_paths.c \
 	lib/mode/photon/first_radius.c lib/mode/photon/irradiance_points.c \
 	lib/mode/photon/layers.c lib/mode/photon/pass_sums.c lib/mode/photon/passes.c \
@@ -108,7 +108,7 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc lib/photon/flann_shim.cc
 
 # The public interface, beside lib/rt.h.
-PUBLIC_H := $(addprefix lib/rt/,base.h device.h field.h film.h image.h photon.h profile.h \
+PUBLIC_H := $(addprefix lib/rt/,base.h device.h field.h film.h image.h paths.h photon.h profile.h \
             render.h scene.h setting.h share.h)
 
 DSL_SRC := \
@@ -143,6 +143,7 @@ KERNEL_SRC := \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_film.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \
 	kernels/prefix_sum.cl \
+	kernels/paths.cl \
 	kernels/gather_neighbours.cl \
 	kernels/gather_tree.cl kernels/gather_irradiance.cl \
 	kernels/trace.cl
@@ -195,6 +196,7 @@ TESTS_QUICK := \
 	tests/lib/render/test_estimators.c \
 	tests/lib/mode/test_first_hit.c tests/lib/mode/test_first_radius.c \
 	tests/lib/mode/test_irradiance.c \
+	tests/lib/mode/test_paths.c \
 	tests/lib/mode/test_preview.c \
 	tests/lib/render/test_lights.c \
 	tests/lib/render/test_memory_limit.c \

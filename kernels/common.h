@@ -50,6 +50,77 @@ typedef struct rt_photon {
     unsigned int shape; /* index, as rt_scene_add_* returned it */
 } rt_photon;
 
+/* What becomes of a camera path at a vertex; of the last one, how it ended. */
+typedef enum rt_path_event {
+    RT_PATH_CAMERA = 0,
+    RT_PATH_DIFFUSE,
+    RT_PATH_ROUGH_REFLECTION,
+    RT_PATH_ROUGH_REFRACTION,
+    RT_PATH_REFLECTION,
+    RT_PATH_REFRACTION,
+    RT_PATH_PASSED,
+    RT_PATH_ABSORBED,
+    RT_PATH_CUT_OFF,
+    RT_PATH_ESCAPED
+} rt_path_event;
+
+#define RT_PATH_EVENTS(X)                                                                          \
+    X(RT_PATH_CAMERA, "camera", "the path begins")                                                 \
+    X(RT_PATH_DIFFUSE, "diffuse", "reflected by Lambert's or Oren and Nayar's lobe")               \
+    X(RT_PATH_ROUGH_REFLECTION, "rough-reflection", "reflected by a microfacet")                   \
+    X(RT_PATH_ROUGH_REFRACTION, "rough-refraction", "refracted by a microfacet")                   \
+    X(RT_PATH_REFLECTION, "reflection", "reflected by a smooth surface")                           \
+    X(RT_PATH_REFRACTION, "refraction", "refracted by a smooth surface")                           \
+    X(RT_PATH_PASSED, "passed", "a boundary without effect, inside a medium of higher priority")   \
+    X(RT_PATH_ABSORBED, "absorbed", "ended by the surface or by Russian roulette")                 \
+    X(RT_PATH_CUT_OFF, "cut-off", "ended at the longest length, max_depth")                        \
+    X(RT_PATH_ESCAPED, "escaped", "left the scene, to the environment if there is one")
+
+#define RT_PATH_LIGHT_DISTANT 1u  /* flag: the sampled light is infinitely far */
+#define RT_PATH_LIGHT_DELTA 2u    /* flag: it is a delta light, which no ray can meet */
+#define RT_PATH_LIGHT_OCCLUDED 4u /* flag: something lies in between */
+
+/*
+ * A vertex of a camera path. The radiance of the path is the sum of emitted and direct over its
+ * vertices; both have all factors, from the throughput to the MIS weight. Lights count as in the
+ * ledger of rt_photon_map_ledger.
+ */
+typedef struct rt_path_vertex {
+    float position[3]; /* metres; where the path escaped, the unit direction in which it did */
+    rt_path_event event;
+    float normal[3];      /* unit geometric normal on the side that the path comes from */
+    unsigned int depth;   /* segments from the camera, those between passed boundaries as one */
+    float throughput[3];  /* of the path up to here, media and refraction included */
+    float pdf_w;          /* density of the direction in which it goes on, 1/sr; 0: a delta event */
+    float emitted[3];     /* of the light that the path meets here */
+    float emitted_weight; /* MIS weight of meeting that light; 0 where there is none */
+    float direct[3];      /* of the light that was sampled from here, if it arrives */
+    float direct_weight;  /* MIS weight of sampling it, mean over the lobes; 0: none was sampled */
+    float light_position[3]; /* the sampled point, or the unit direction to a distant light */
+    float light_pdf_w;       /* density of the direction to it, 1/sr; of a delta light 0 */
+    unsigned int shape;      /* index, as rt_scene_add_* returned it; RT_NONE: none is met */
+    unsigned int material;   /* index, as rt_scene_add_material returned it, or RT_NONE */
+    unsigned int emitter;    /* the light met, or RT_NONE */
+    unsigned int light;      /* the light sampled, or RT_NONE */
+    /* where the camera sees the position, in pixels from the film's left and top; infinite: not */
+    float raster[2];
+    float light_raster[2]; /* the same of the sampled point */
+    unsigned int flags;    /* RT_PATH_LIGHT_* */
+    float survival;        /* the probability with which Russian roulette let the path go on */
+    unsigned int reserved[2];
+} rt_path_vertex;
+
+/* A camera path: one sample of a pixel. */
+typedef struct rt_camera_path {
+    unsigned int sample;       /* number of the sample in its pixel, from 0 */
+    unsigned int first_vertex; /* its vertices follow each other, the camera's first */
+    unsigned int vertex_count;
+    /* of the sample in its pixel, 1 or -1; 0: rejected, as its radiance is not finite */
+    float weight;
+    float radiance[3];
+    float cut_off; /* the throughput that max_depth cut off */
+} rt_camera_path;
+
 /*
  * Density kernels K(d) over a disc of radius r, t = d/r; each integrates to 1 over the disc. Cone:
  * Jensen 1996, c is cone_k. Gaussian: b = 1.953, a = 1.7283 normalises it; gaussian-jensen has the

@@ -79,6 +79,8 @@ RT_SIZE(rt_tri_block, 320);
 #define RT_TRACE_RAYS 16u /* that a work-item of width 8 traces in turns */
 RT_SIZE(rt_ray, 32);
 RT_SIZE(rt_hit, 32);
+RT_SIZE(rt_path_vertex, 144);
+RT_SIZE(rt_camera_path, 32);
 
 /*
  * A traversal names the nearest geometry by its slot: block * 8 + lane for triangles
@@ -413,6 +415,14 @@ typedef struct rt_params {
     rt_u32 reserved;
 } rt_params;
 RT_SIZE(rt_params, 80);
+
+/* Which paths a launch records: of item i the sample first_sample + i of this pixel. */
+typedef struct rt_record_params {
+    rt_u32 x, y;     /* pixel */
+    rt_u32 capacity; /* vertices of a path that are kept; the others are counted */
+    rt_u32 reserved;
+} rt_record_params;
+RT_SIZE(rt_record_params, 16);
 
 #define RT_REPLICATES 8      /* sequences of samples, where the error is estimated: film/units.h */
 #define RT_FILM_REJECTED 12u /* bit of rt_film_pixel.bins */

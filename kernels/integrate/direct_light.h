@@ -29,7 +29,7 @@ static inline float3 mis_weighted_lobe(const rt_params *params, const struct lig
  * GGX events continue the path. `beyond` is the medium behind the surface.
  */
 static inline void connect_light(struct connection *connection, const struct scene *scene,
-                                 const rt_params *params, const struct path *path,
+                                 const rt_params *params, RECORDED struct path *path,
                                  const struct surface *surface, const struct bsdf *bsdf,
                                  uint beyond, float4 u, bool last)
 {
@@ -46,6 +46,7 @@ static inline void connect_light(struct connection *connection, const struct sce
     if (bsdf_is_rough(bsdf))
         scattered +=
             mis_weighted_lobe(params, &sample, bsdf_eval(bsdf, RT_LOBE_GGX, sample.wi), false);
+    RECORD(record_light(&path->vertex, &sample, scattered, record_unweighted(bsdf, sample.wi)));
     const bool through = dot(sample.wi, bsdf->normal) < 0.0f;
     const float lift = through ? -surface->error : surface->error;
     connection->ray = shadow_ray(surface->position + lift * bsdf->normal, &sample);
@@ -64,8 +65,10 @@ static inline void add_connection(struct path *path, const struct scene *scene,
     if (!(largest3(connection->radiance) > 0.0f))
         return;
     COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
-    if (!occluded(scene, &ray))
+    if (!occluded(scene, &ray)) {
+        RECORD(record_arrival(&path->vertex, connection->radiance));
         path->radiance += connection->radiance;
+    }
 }
 
 #endif

@@ -46,9 +46,11 @@ static inline void add_emission(struct path *path, const struct scene *scene,
                                 const rt_params *params, const struct surface *surface, float3 wo,
                                 const uint purpose)
 {
+    RECORD(const float3 before = path->radiance);
     if (!left_to_photons(path, purpose))
         path->radiance += path->eta_scale * path->beta *
                           emitted_light(scene, params, surface, wo, path->from, path->pdf_w);
+    RECORD(record_surface_emission(path, scene, params, surface, path->radiance - before));
 }
 
 /* Adds the environment's radiance to a path whose ray escapes, and ends the path. */
@@ -56,12 +58,15 @@ static inline void add_environment(struct path *path, const struct scene *scene,
                                    const rt_params *params, const uint purpose)
 {
     path->alive = false;
+    RECORD(record_escape(path));
     if (!has_environment(scene) || left_to_photons(path, purpose))
         return;
+    RECORD(const float3 before = path->radiance);
     path->radiance +=
         path->eta_scale * path->beta *
         medium_transmittance(scene->materials, path->media.x, INFINITY) *
         environment_light(scene, params, path->from, path->ray.direction, path->pdf_w);
+    RECORD(record_environment(path, scene, params, path->radiance - before));
 }
 
 #endif

@@ -41,7 +41,9 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     /* Skip a boundary suppressed by a medium of higher priority. */
     const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
     const uint material = scene->shapes[surface.shape].material;
+    RECORD(record_surface(path, &surface, material, wo));
     if (!boundary.exists) {
+        RECORD(path->vertex.event = RT_PATH_PASSED);
         path->pdf_w = 0.0f;
         path->alive =
             pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
@@ -51,8 +53,10 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     /* Add what the surface emits; end the path at the maximum depth. */
     add_emission(path, scene, params, &surface, wo, purpose);
     path->alive = !(purpose == FOLLOW_DIRECT && path->scattered);
-    if (path->alive && path->depth == params->max_depth)
+    if (path->alive && path->depth == params->max_depth) {
+        RECORD(path->vertex.event = RT_PATH_CUT_OFF);
         path_cut_off(path, scene->materials + material);
+    }
     if (!path->alive)
         return;
 
@@ -70,6 +74,7 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     const uint lobe = bsdf_choose(&bsdf, survival, u.hi.z);
     path->alive = lobe != RT_LOBE_NONE;
     path->beta *= 1.0f / survival;
+    RECORD(path->vertex.survival = survival);
 
     /* In photon mapping, gather photons wherever the lobe is diffuse. */
     if (purpose == FOLLOW_TO_GATHER && lobe_is_diffuse(lobe))

@@ -5,6 +5,7 @@
 #include "accel/boxes.h"
 #include "bsdf/bsdf.h"
 #include "count.h"
+#include "integrate/record_scatter.h"
 #include "math/ray.h"
 #include "sample/rng.h"
 #include "scene.h"
@@ -38,6 +39,9 @@ struct path {
     bool alive;          /* false: it has ended */
     bool scattered;      /* by an event other than a delta one */
     bool rough;          /* by a rough event since the last diffuse one */
+#ifdef RT_RECORD_PATHS
+    rt_path_vertex vertex; /* that it is at */
+#endif
 };
 
 /* Counts the ray that the path is about to follow. */
@@ -95,6 +99,7 @@ static inline void path_scatter(struct path *path, const struct surface *surface
                                 const struct bsdf *bsdf, uint lobe, float3 u, uint4 beyond)
 {
     const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, CARRY_RADIANCE);
+    RECORD(record_scatter(&path->vertex, lobe, scatter.through, scatter.pdf_w));
     path->beta *= scatter.weight;
     path->eta_scale *= scatter.eta_scale;
     path->pdf_w = scatter.pdf_w;

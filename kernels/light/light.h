@@ -152,6 +152,7 @@ static inline bool sample_light(const struct scene *scene, float3 from, float4 u
     if (pmf == 0.0f || !sample_chosen(scene, scene->lights + light, from, u.xy, sample))
         return false;
     sample->inv_pdf /= pmf;
+    RECORD(sample->light = light);
     return true;
 }
 

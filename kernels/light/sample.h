@@ -5,6 +5,7 @@
 #define RT_KERNELS_LIGHT_SAMPLE_H
 
 #include "accel/intersect.h"
+#include "record.h"
 #include "shape/surface.h"
 
 /* Where a shadow ray ends, as a part of the distance: just before the light. */
@@ -25,6 +26,9 @@ struct light_sample {
     /* a delta light: BSDF sampling never meets it, so no MIS weight applies */
     bool delta;
     bool distant; /* at infinity: only wi is defined, not at.position */
+#ifdef RT_RECORD_PATHS
+    uint light; /* its index */
+#endif
 };
 
 /*
