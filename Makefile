@@ -134,8 +134,8 @@ TOOL_SRC := \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/rays.c tools/recorded.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
 	tools/stats.c tools/study/cell.c tools/study/command.c tools/study/list.c \
-	tools/study/page.c tools/study/study.c tools/study/sweep.c tools/timing.c \
-	tools/untrusted.c tools/whole_file.c
+	tools/study/page.c tools/study/study.c tools/study/sweep.c tools/study/view.c \
+	tools/timing.c tools/untrusted.c tools/whole_file.c
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
@@ -227,7 +227,7 @@ TESTS_FULL  := \
 	tests/lib/photon/test_unbiased.c \
 	tests/lib/film/test_noise.c tests/lib/mode/test_touching_pictures.c \
 	tests/render/test_samples.c tests/tools/test_determinism.c tests/tools/test_progress.c \
-	tests/tools/test_kernels.c \
+	tests/tools/test_kernels.c tests/tools/test_study.c \
 	tests/tools/test_rtc.c $(TESTS_PROOF) tests/threads/test_threads.c \
 	tests/faults/test_faults.c tests/faults/test_commands.c tests/faults/test_icd.c \
 	tests/faults/test_films.c tests/faults/test_life.c \
@@ -283,7 +283,8 @@ FUZZ_SRC := \
 	tests/fuzz/target_map.c \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
 	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \
-	tests/fuzz/target_scene.c tests/fuzz/target_stl.c tests/fuzz/targets.c \
+	tests/fuzz/target_scene.c tests/fuzz/target_stl.c tests/fuzz/target_studies.c \
+	tests/fuzz/targets.c \
 	tests/lib/image/exr_sample.c
 TEST_KERNEL_SRC  := \
 	tests/kernels/bsdf.cl tests/kernels/bump.cl tests/kernels/camera.cl \
@@ -447,7 +448,8 @@ $(B)/tests/bench/bench_gather $(B)/tests/bench/bench_progressive: $(B)/tests/ben
 
 # The targets of fuzzing, and the command line of rtc, which is one of them.
 FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) \
-            $(filter-out tools/interrupt.c tools/rtc.c tools/untrusted.c,$(TOOL_SRC)))
+            $(filter-out tools/interrupt.c tools/rtc.c tools/untrusted.c,$(TOOL_SRC))) \
+            $(B)/page_source.o
 FUZZ_LINK := -Wl,--wrap=rt_device_open
 $(B)/tests/fuzz/test_fuzz $(B)/tests/fuzz/make_inputs: \
 $(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a

@@ -98,6 +98,9 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_EQUAL] = {"equal", "WHAT", KIND_CHOICE, GROUP_STUDY, STUDY, 0, 0, equals, 0, "samples",
                       "what all pictures have in common: the samples that their settings say, or "
                       "the time of the first one"},
+    [OPTION_REPEAT] = {"repeat", "N", KIND_WHOLE, GROUP_STUDY, STUDY, 1, 1000, NULL, 0, "1",
+                       "render each picture with N seeds, which splits its error into noise, which "
+                       "differs from seed to seed, and bias, which does not"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER | MERGE, -126, 126, NULL,
                          1, "0", "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER | MERGE, 0, 0,

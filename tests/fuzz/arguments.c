@@ -7,16 +7,43 @@
 #include "tools/command_line.h"
 #include "tools/settings.h"
 
-const char *const fuzz_command_files[] = {"s.rts", "w.rts", "p.rts",    "a.exr",    "b.exr",
-                                          "c.png", "m.rtp", "n.rtp",    "k.rtp",    "z.rtp",
-                                          "l.exr", "e.rts", "f.rtpart", "g.rtpart", NULL};
+const char *const fuzz_command_files[] = {
+    "s.rts", "w.rts", "p.rts", "a.exr", "b.exr",    "c.png",    "m.rtp",     "n.rtp",
+    "k.rtp", "z.rtp", "l.exr", "e.rts", "f.rtpart", "g.rtpart", "l.studies", NULL};
 
 /* Names of outputs, forms and kinds, and values of options that take any text. */
-static const char *const others[] = {
-    "help", "render", "info",  "merge",  "diff",   "export",  "sphere", "torus",
-    "knot", "o.ply",  "o.rtp", "o.png",  "o.exr",  "terrain", "1/4",    "2/2",
-    "1,2",  "0,1",    "all",   "none.x", "albedo", "--",      "-h",     "\303\244\033[1m",
-    "\"\\", "size=1", NULL};
+static const char *const others[] = {"help",
+                                     "render",
+                                     "info",
+                                     "merge",
+                                     "diff",
+                                     "export",
+                                     "sphere",
+                                     "torus",
+                                     "knot",
+                                     "o.ply",
+                                     "o.rtp",
+                                     "o.png",
+                                     "o.exr",
+                                     "terrain",
+                                     "1/4",
+                                     "2/2",
+                                     "1,2",
+                                     "0,1",
+                                     "all",
+                                     "none.x",
+                                     "albedo",
+                                     "--",
+                                     "-h",
+                                     "\303\244\033[1m",
+                                     "\"\\",
+                                     "size=1",
+                                     "k=2,5",
+                                     "kernel=all",
+                                     "scene=s.rts,p.rts",
+                                     "auto",
+                                     "o.html",
+                                     NULL};
 
 static const char *const numbers[] = {"0",    "1",    "2",  "16",        "-1",  "0.5",
                                       "1e6",  "1e9",  "4G", "100k",      "nan", "inf",

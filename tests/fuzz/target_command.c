@@ -30,7 +30,8 @@ static int is_given(const command_line *line, option_id id)
 /* Whether a command keeps to small files of the current directory, and asks for no device. */
 static int is_harmless(const command_line *line)
 {
-    static const option_id files[] = {OPTION_PHOTON_MAP, OPTION_RESUME, OPTION_CHECKPOINT};
+    static const option_id files[] = {OPTION_PHOTON_MAP, OPTION_RESUME, OPTION_CHECKPOINT,
+                                      OPTION_LIST, OPTION_REFERENCE};
     for (size_t i = 0; i < line->operand_count; i++)
         if (strchr(line->operands[i], '/') || strcmp(line->operands[i], "-") == 0)
             return 0;
@@ -63,6 +64,7 @@ static int run_command(const command_line *line)
         [COMMAND_MESH] = command_mesh,       [COMMAND_PHOTONS] = command_photons,
         [COMMAND_COMPARE] = command_compare, [COMMAND_MERGE] = command_merge,
         [COMMAND_INFO] = command_info,       [COMMAND_KERNELS] = command_kernels,
+        [COMMAND_STUDY] = command_study,
     };
     message_as_json(0);
     if (is_given(line, OPTION_HELP)) {
@@ -96,6 +98,8 @@ static void begin(void)
                       wrong[] = "material m { kd 2 }\n\tsphere { radius }\nlet \303\244 = \033\n",
                       photons[] = "render { mode photon  passes 3 }\nmaterial m { kd 0.7 }\n"
                                   "plane { point 0 0 0  normal 0 1 0  material m }\n";
+    static const char studies[] = "= A page\n== k The nearest\ntext\n$ s.rts --sweep k=5,50\n";
+    fuzz_write("l.studies", studies, sizeof studies - 1);
     fuzz_write("s.rts", scene, sizeof scene - 1);
     fuzz_write("w.rts", wrong, sizeof wrong - 1);
     fuzz_write("p.rts", photons, sizeof photons - 1);
@@ -251,6 +255,9 @@ static const char *const lines[] = {
     "merge\nf.rtpart\nf.rtpart\n--out\no.rtpart",
     "info\nf.rtpart\ng.rtpart\n--json",
     "info\ng.rtpart\nm.rtp",
+    "study\ns.rts\n--sweep\nk=5,50\n--sweep\nkernel=all\n--reference\nauto\n--repeat\n2",
+    "study\n--sweep\nscene=s.rts,p.rts\n--sweep\nlight=[1 2,3],4\n--equal\ntime",
+    "study\n--list\nl.studies\n--out\no.html\n--width\n8",
     "mesh\nsphere\n--triangles\n100\n--out\no.ply",
     "mesh\ntorus\n--triangles\n30",
     "mesh\nknot\n--triangles\n1",
@@ -303,7 +310,8 @@ const fuzz_target fuzz_target_command = {
     .sources = "tools/check.c tools/command_line.c tools/compare* tools/help.c tools/inputs.c "
                "tools/json.c tools/light_shares.c tools/mesh* tools/message.c tools/no_effect.c "
                "tools/number.c tools/options.c tools/outputs.c tools/photons* tools/render.c "
-               "tools/scene_file.c tools/session.c tools/settings.c",
+               "tools/scene_file.c tools/session.c tools/settings.c tools/study/command.c "
+               "tools/study/study.c tools/study/sweep.c",
     .run = run,
     .seed = seed,
     .words = fuzz_argument_words,

@@ -16,6 +16,7 @@
     X(exr)                                                                                         \
     X(map)                                                                                         \
     X(film)                                                                                        \
+    X(studies)                                                                                     \
     X(command)
 
 #define FUZZ_DECLARE(name) extern const fuzz_target fuzz_target_##name;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../message.h"
+#include "../recorded.h"
 #include "../scene_file.h"
 #include "../settings.h"
 #include "../status.h"
@@ -42,27 +43,51 @@ static void put_value(study_picture *picture, const sweep_axis *axis, const char
     }
 }
 
-/* "k=50,kernel=box", of letters that any file system takes. */
-static char *make_label(const sweep *sweep, size_t cell)
+/* FNV-1a of 32 bits. */
+static unsigned hash_of(const char *text)
 {
-    size_t size = 1;
+    uint32_t hash = 2166136261u;
+    for (; *text; text++)
+        hash = (hash ^ (unsigned char)*text) * 16777619u;
+    return (unsigned)hash;
+}
+
+/* "reference,k=50,kernel=box" */
+static char *join_values(const sweep *sweep, size_t cell, const char *name)
+{
+    size_t size = strlen(name) + 1;
     for (size_t i = 0; i < sweep->count; i++)
         size += strlen(sweep->axes[i].name) + strlen(sweep_value(sweep, cell, i)) + 2;
-    char *label = malloc(size + sizeof "reference"), *at = label;
-    if (!label)
-        return NULL;
-    strcpy(label, sweep->count > 0 ? "" : "reference");
-    for (size_t i = 0; i < sweep->count; i++)
-        at += sprintf(at, "%s%s=%s", i > 0 ? "," : "", sweep->axes[i].name,
-                      sweep_value(sweep, cell, i));
-    for (at = label; *at; at++)
-        if (!isalnum((unsigned char)*at) && !strchr("=,.-+_", *at))
-            *at = '_';
+    char *label = malloc(size);
+    int used = label ? snprintf(label, size, "%s", name) : 0;
+    for (size_t i = 0; label && i < sweep->count; i++)
+        used += snprintf(label + used, size - (size_t)used, "%s%s=%s", used > 0 ? "," : "",
+                         sweep->axes[i].name, sweep_value(sweep, cell, i));
     return label;
 }
 
+/* A label as a name that any file system takes; where that loses something, with its hash. */
+static char *file_name_of(const char *label)
+{
+    enum { LONGEST = 100 };
+    const size_t size = LONGEST + sizeof "-01234567";
+    char *name = malloc(size);
+    int is_same = strlen(label) <= LONGEST;
+    if (!name)
+        return NULL;
+    snprintf(name, LONGEST + 1, "%s", label);
+    for (char *at = name; *at; at++)
+        if (!isalnum((unsigned char)*at) && !strchr("=,.-+_", *at)) {
+            *at = '_';
+            is_same = 0;
+        }
+    if (!is_same)
+        sprintf(name + strlen(name), "-%08x", hash_of(label));
+    return name;
+}
+
 int study_picture_make(study_picture *out, const command_line *arguments, const sweep *sweep,
-                       size_t cell, const char *scene)
+                       size_t cell, const char *scene, const char *name)
 {
     size_t settings;
     rt_settings(&settings);
@@ -70,8 +95,9 @@ int study_picture_make(study_picture *out, const command_line *arguments, const 
     command_line *line = &out->line;
     line->settings = malloc(settings * sizeof *line->settings);
     line->definitions = malloc((line->definition_count + SWEEP_AXES) * sizeof *line->definitions);
-    out->label = make_label(sweep, cell);
-    if (!line->settings || !line->definitions || !out->label)
+    out->label = join_values(sweep, cell, name);
+    out->file = out->label ? file_name_of(out->label) : NULL;
+    if (!line->settings || !line->definitions || !out->file)
         return fail_memory();
     memcpy(line->settings, arguments->settings, settings * sizeof *line->settings);
     if (line->definition_count > 0)
@@ -87,6 +113,20 @@ void study_picture_free(study_picture *picture)
     free(picture->line.settings);
     free(picture->line.definitions);
     free(picture->label);
+    free(picture->file);
+}
+
+int study_picture_share(study_picture *picture)
+{
+    char *key = recorded_command(&picture->line, picture->scene);
+    const size_t size = strlen(picture->file) + sizeof "-01234567";
+    char *file = realloc(picture->file, size);
+    picture->file = file ? file : picture->file;
+    if (key && file)
+        sprintf(file + strlen(file), "-%08x", hash_of(key));
+    free(key);
+    picture->is_shared = 1;
+    return key && file ? STATUS_DONE : fail_memory();
 }
 
 void study_picture_set(study_picture *picture, const char *setting, const char *text)
@@ -156,30 +196,39 @@ static int prepare(study_renderer *renderer, const study_picture *picture)
 
 /* ---- Films ---------------------------------------------------------------------- */
 
+/* FOLDER/STUDY,k=50+1.rtpart */
 static char *film_path(const study_renderer *renderer, const study_picture *picture)
 {
-    const size_t size = strlen(renderer->folder) + strlen(picture->label) + sizeof ".rtpart";
-    char *path = malloc(size);
+    const char *study = picture->is_shared || !renderer->study ? "" : renderer->study;
+    const size_t size = strlen(renderer->folder) + strlen(study) + strlen(picture->file) +
+                        sizeof ",+4294967295.rtpart";
+    char *path = malloc(size), repeat[16] = "";
+    if (picture->repeat > 0)
+        snprintf(repeat, sizeof repeat, "+%u", (unsigned)picture->repeat);
     if (path)
-        snprintf(path, size, "%s%s.rtpart", renderer->folder, picture->label);
+        snprintf(path, size, "%s%s%s%s%s.rtpart", renderer->folder, study, *study ? "," : "",
+                 picture->file, repeat);
     return path;
 }
 
-/* The film that is kept at path, if it is of these options and finished; or NULL. */
+/*
+ * The film that is kept at path, if it is of these options; or NULL. Only finished ones are kept. A
+ * film joins others whatever limits its time and its error, so that these are compared here.
+ */
 static rt_film *recall(const char *path, rt_renderer *renderer, const rt_render_options *options)
 {
     rt_film *kept = NULL, *film = NULL;
-    rt_film_info info;
+    rt_render_options limits;
     if (rt_film_load(&kept, path, NULL, NULL) != RT_OK)
         return NULL;
     rt_status status = rt_film_begin(&film, renderer, options, NULL);
     if (status == RT_OK)
         status = rt_film_add(film, kept, NULL);
-    if (status == RT_OK) {
-        rt_film_get_info(film, &info);
-        const int is_whole = options->time > 0 ? info.seconds >= options->time : info.done >= 1;
-        status = is_whole ? rt_film_resolve(film, NULL, NULL) : RT_ERROR_USAGE;
-    }
+    rt_film_get_options(kept, &limits);
+    if (limits.time != options->time || limits.target_error != options->target_error)
+        status = RT_ERROR_USAGE;
+    if (status == RT_OK)
+        status = rt_film_resolve(film, NULL, NULL);
     rt_film_destroy(kept);
     if (status == RT_OK)
         return film;
@@ -192,6 +241,7 @@ static int render_new(rt_film **out, study_renderer *renderer, const char *path,
                       const rt_render_options *options)
 {
     rt_error error;
+    renderer->rendered++;
     rt_status result = rt_render(out, renderer->ready.renderer, options, &error);
     progress_clear(&renderer->session->progress);
     if (result == RT_OK && rt_film_save(*out, path, &error) == RT_OK)
@@ -215,6 +265,7 @@ int study_render(rt_film **out, study_renderer *renderer, const study_picture *p
     options = own;
     session_merge_options(session, &options);
     options.part = options.parts = 1;
+    options.seed += picture->repeat;
     status = session_check_options(session, &own, &options);
     char *path = film_path(renderer, picture);
     if (status == STATUS_DONE && !path)

@@ -16,20 +16,31 @@ typedef struct study_renderer {
     session *session; /* its arguments are those of each picture in turn */
     rt_device *device;
     study_scene ready;
-    char *folder; /* where films are kept, with its slash */
+    char *folder;      /* where films are kept, with its slash */
+    const char *study; /* its name, which begins those of its films; "" */
+    size_t rendered;   /* pictures, and not taken from there */
 } study_renderer;
 
 /* What makes one picture: the command line with its values put in, and the scene's path. */
 typedef struct study_picture {
     command_line line; /* a copy, whose arrays are its own; see study_picture_free */
     const char *scene;
-    char *label; /* "k=50,kernel=box": the name of its film; "reference" without a sweep */
+    uint32_t repeat; /* its seed is so much larger */
+    char *label;     /* "k=50,kernel=box" */
+    char *file;      /* the name of its film, without its ending */
+    int is_shared;   /* among the studies of a list */
 } study_picture;
 
-/* A combination of a sweep. Returns an exit status; free in either case. */
+/*
+ * A combination of a sweep; its label begins with a name, which may be "". Returns an exit status;
+ * free in either case.
+ */
 int study_picture_make(study_picture *out, const command_line *arguments, const sweep *sweep,
-                       size_t cell, const char *scene);
+                       size_t cell, const char *scene, const char *name);
 void study_picture_free(study_picture *picture);
+
+/* Lets all studies share its film, whose name then tells its scene, constants and size. */
+int study_picture_share(study_picture *picture);
 
 /* Sets a setting of a picture, by its name in the language; text must outlive it. */
 void study_picture_set(study_picture *picture, const char *setting, const char *text);

@@ -22,6 +22,7 @@ typedef struct study_job {
     study *studies;
     size_t count;
     char *stem; /* of all paths: without .html */
+    study_count pictures;
 } study_job;
 
 static int fail_memory(void)
@@ -77,14 +78,15 @@ static int plan_paths(study_job *job)
     return status;
 }
 
-/* The folder that keeps the films of a study. */
-static int make_folder(study_job *job, const char *id)
+/* The folder that keeps the films. */
+static int make_folder(study_job *job)
 {
-    free(job->renderer.folder);
-    job->renderer.folder = path_of(job, id, ".films/");
+    job->renderer.folder = path_of(job, "", ".films/");
     if (!job->renderer.folder)
         return fail_memory();
-    if (mkdir(job->renderer.folder, 0777) == 0 || errno == EEXIST)
+    struct stat entry;
+    if (mkdir(job->renderer.folder, 0777) == 0 ||
+        (errno == EEXIST && stat(job->renderer.folder, &entry) == 0))
         return STATUS_DONE;
     message_error("cannot make the folder %s: %s", job->renderer.folder, strerror(errno));
     return STATUS_OUTPUT;
@@ -106,6 +108,13 @@ static void override(command_line *listed, const command_line *typed)
     listed->memory = typed->memory;
 }
 
+/* What a study is called on its page: the scene's file, without folders. */
+static const char *name_of(const char *scene)
+{
+    const char *slash = scene ? strrchr(scene, '/') : NULL;
+    return slash ? slash + 1 : scene ? scene : "study";
+}
+
 /* Those of the list, or the one of the command line. */
 static int plan(study_job *job)
 {
@@ -125,7 +134,7 @@ static int plan(study_job *job)
         job->count = 1;
         status = study_begin(job->studies, arguments);
         job->studies[0].result.id = "study";
-        job->studies[0].result.title = job->studies[0].scene ? job->studies[0].scene : "study";
+        job->studies[0].result.title = name_of(job->studies[0].scene);
     }
     for (size_t i = 0; i < job->list.count && status == STATUS_DONE; i++) {
         listed_study *listed = &job->list.studies[i];
@@ -166,11 +175,10 @@ static int run_study(study_job *job, size_t index)
 {
     study *s = &job->studies[index];
     const char *id = job->list.count > 0 ? s->result.id : "";
-    int status = make_folder(job, id);
-    if (status == STATUS_DONE && *id && !job->session.quiet)
+    if (*id && !job->session.quiet)
         message_note("study %zu of %zu: %s", index + 1, job->count, s->result.title);
-    if (status == STATUS_DONE)
-        status = study_run(s, &job->renderer);
+    job->renderer.study = id;
+    int status = study_run(s, &job->renderer, &job->pictures);
     char *table = path_of(job, id, ".csv");
     if (status == STATUS_DONE)
         status = table ? table_write(table, &s->result) : fail_memory();
@@ -182,6 +190,8 @@ int command_study(const command_line *arguments)
 {
     study_job job = {.arguments = arguments};
     session_begin(&job.session, arguments);
+    if (!arguments->options[OPTION_PROGRESS].given)
+        job.session.progress = progress_begin_on_terminal(!job.session.quiet);
     job.renderer.session = &job.session;
     int status = plan(&job);
     if (status == STATUS_DONE)
@@ -189,6 +199,10 @@ int command_study(const command_line *arguments)
     if (status == STATUS_DONE)
         status = session_open_device(&job.session, &job.renderer.device,
                                      arguments->options[OPTION_DEVICE].text);
+    if (status == STATUS_DONE)
+        status = make_folder(&job);
+    for (size_t i = 0; i < job.count; i++)
+        job.pictures.all += study_pictures(&job.studies[i]);
     for (size_t i = 0; i < job.count && status == STATUS_DONE; i++)
         status = run_study(&job, i);
     for (size_t i = 0; i < job.count; i++)

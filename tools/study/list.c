@@ -11,7 +11,7 @@
 #include "../message.h"
 #include "../status.h"
 
-enum { LINE_MAX_BYTES = 4096 };
+enum { LINE_MAX_BYTES = 4096, STUDIES_MAX = 1000 };
 
 static int fail_memory(void)
 {
@@ -60,9 +60,35 @@ static int add_words(listed_study *study, const char *line)
     return status;
 }
 
+/* Whether the name of the study that was begun last can be that of files, and is its own. */
+static int check_name(const study_list *list)
+{
+    const char *id = list->studies[list->count - 1].id;
+    if (!*id) {
+        message_error("a study needs a name: '== NAME TITLE'");
+        return STATUS_INPUT;
+    }
+    for (const char *c = id; *c; c++)
+        if (!isalnum((unsigned char)*c) && *c != '-' && *c != '_') {
+            message_error("the name '%s' of a study has other signs than letters, digits, - and _",
+                          id);
+            return STATUS_INPUT;
+        }
+    for (size_t i = 0; i + 1 < list->count; i++)
+        if (strcmp(list->studies[i].id, id) == 0) {
+            message_error("there are two studies '%s'", id);
+            return STATUS_INPUT;
+        }
+    return STATUS_DONE;
+}
+
 /* Begins a study by what follows "==". */
 static int begin_study(study_list *list, const char *line)
 {
+    if (list->count == STUDIES_MAX) {
+        message_error("a list has at most %d studies", STUDIES_MAX);
+        return STATUS_INPUT;
+    }
     line += strspn(line, " ");
     const size_t length = strcspn(line, " ");
     listed_study *more = realloc(list->studies, (list->count + 1) * sizeof *more);
@@ -74,13 +100,10 @@ static int begin_study(study_list *list, const char *line)
     if (!study->id)
         return fail_memory();
     memcpy(study->id, line, length);
-    for (const char *c = study->id; *c; c++)
-        if (!isalnum((unsigned char)*c) && *c != '-' && *c != '_') {
-            message_error("the name '%s' of a study has other signs than letters, digits, - and _",
-                          study->id);
-            return STATUS_INPUT;
-        }
-    int status = append(&study->title, line + length + strspn(line + length, " "));
+    int status = check_name(list);
+    const char *title = line + length + strspn(line + length, " ");
+    if (status == STATUS_DONE)
+        status = append(&study->title, *title ? title : study->id);
     for (const char *word = "rtc"; status == STATUS_DONE && word;
          word = strcmp(word, "rtc") == 0 ? "study" : NULL)
         status = add_word(study, word, strlen(word));
@@ -111,7 +134,7 @@ static int read_lines(study_list *list, FILE *file, const char *path)
     for (unsigned number = 1; status == STATUS_DONE && fgets(line, sizeof line, file); number++) {
         const size_t length = strcspn(line, "\n");
         if (line[length] != '\n' && !feof(file)) {
-            message_error("%s:%u: the line has more than %d bytes", path, number,
+            message_error("%s:%u: the line holds a zero byte or more than %d bytes", path, number,
                           LINE_MAX_BYTES - 2);
             return STATUS_INPUT;
         }
@@ -119,6 +142,10 @@ static int read_lines(study_list *list, FILE *file, const char *path)
         status = take_line(list, line);
         if (status == STATUS_INPUT)
             message_note("at %s:%u", path, number);
+    }
+    if (status == STATUS_DONE && ferror(file)) {
+        message_error("cannot read %s: %s", path, strerror(errno));
+        return STATUS_INPUT;
     }
     return status;
 }

@@ -106,6 +106,8 @@ static void put_measures(FILE *out, const study_cell *cell, size_t *pictures)
     put_number(out, "relmse", cell->relmse);
     put_number(out, "flip", cell->flip);
     put_number(out, "ratio", cell->ratio);
+    put_number(out, "noise", cell->noise);
+    put_number(out, "bias", cell->bias);
     if (cell->pixels)
         fprintf(out, ",\"picture\":%zu", (*pictures)++);
 }
@@ -144,18 +146,18 @@ static void put_study(FILE *out, const study_result *study, size_t *pictures)
             put_text(out, sweep_value(study->axes, i, a));
         }
         fputs("],", out);
+        if (study->views > 0)
+            fprintf(out, "\"view\":%zu,", study->view[i]);
         put_measures(out, &study->cells[i], pictures);
         putc('}', out);
     }
-    fputs("],\"reference\":", out);
-    if (study->has_reference) {
-        putc('{', out);
-        put_measures(out, &study->reference, pictures);
+    fputs("],\"references\":[", out);
+    for (size_t i = 0; i < study->views; i++) {
+        fputs(i > 0 ? ",{" : "{", out);
+        put_measures(out, &study->references[i], pictures);
         putc('}', out);
-    } else {
-        fputs("null", out);
     }
-    putc('}', out);
+    fputs("]}", out);
 }
 
 static void put_picture(FILE *out, const study_cell *cell, size_t *pictures)
@@ -183,8 +185,8 @@ static void put_data(FILE *out, const char *title, const study_result *studies, 
     for (size_t i = 0; i < count; i++) {
         for (size_t cell = 0; cell < sweep_cells(studies[i].axes); cell++)
             put_picture(out, &studies[i].cells[cell], &pictures);
-        if (studies[i].has_reference)
-            put_picture(out, &studies[i].reference, &pictures);
+        for (size_t view = 0; view < studies[i].views; view++)
+            put_picture(out, &studies[i].references[view], &pictures);
     }
     fputs("]}", out);
 }
@@ -247,7 +249,8 @@ static void put_value(FILE *out, const char *text)
 
 static void put_row(FILE *out, const study_cell *cell)
 {
-    const double measures[] = {cell->rmse, cell->relmse, cell->flip, cell->ratio, cell->seconds};
+    const double measures[] = {cell->rmse,  cell->relmse, cell->flip,   cell->ratio,
+                               cell->noise, cell->bias,   cell->seconds};
     for (size_t i = 0; i < sizeof measures / sizeof *measures; i++)
         if (isfinite(measures[i]))
             fprintf(out, ",%.9g", measures[i]);
@@ -269,7 +272,7 @@ int table_write(const char *path, const study_result *study)
         put_value(out, study->axes->axes[a].name);
         putc(',', out);
     }
-    fputs("relative_rmse,relmse,flip,ratio,seconds,command\n", out);
+    fputs("relative_rmse,relmse,flip,ratio,noise,bias,seconds,command\n", out);
     for (size_t i = 0; i < sweep_cells(study->axes); i++) {
         for (size_t a = 0; a < study->axes->count; a++) {
             fputs(a > 0 ? "," : "", out);

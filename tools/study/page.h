@@ -2,6 +2,7 @@
 #ifndef RTC_STUDY_PAGE_H
 #define RTC_STUDY_PAGE_H
 
+#include <math.h>
 #include <stddef.h>
 
 #include "rt.h"
@@ -13,16 +14,27 @@ typedef struct study_cell {
     uint32_t *pixels; /* [height][width], see page.c; owned; NULL: none */
     uint32_t width, height;
     double seconds;
-    double rmse; /* over the mean of the reference */
+    double rmse; /* over the mean of the reference; of a reference, as it was estimated */
     double relmse, flip, ratio;
+    double noise, bias; /* of the root of relmse, which the squares of both add up to */
 } study_cell;
+
+#define STUDY_CELL_UNKNOWN                                                                         \
+    ((study_cell){.seconds = NAN,                                                                  \
+                  .rmse = NAN,                                                                     \
+                  .relmse = NAN,                                                                   \
+                  .flip = NAN,                                                                     \
+                  .ratio = NAN,                                                                    \
+                  .noise = NAN,                                                                    \
+                  .bias = NAN})
 
 typedef struct study_result {
     const char *id, *title, *text;
     const sweep *axes;
-    study_cell *cells; /* [sweep_cells(axes)] */
-    study_cell reference;
-    int has_reference;
+    study_cell *cells;      /* [sweep_cells(axes)] */
+    study_cell *references; /* [views], one for each view; see view.h */
+    size_t views;           /* 0: there is no reference */
+    const size_t *view;     /* [sweep_cells(axes)], of each cell */
 } study_result;
 
 /* Makes the pixels of a cell from a picture [height][width][3]; 0 without memory. */

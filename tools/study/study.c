@@ -8,6 +8,7 @@
 
 #include "../message.h"
 #include "../recorded.h"
+#include "../settings.h"
 #include "../status.h"
 
 typedef enum study_equal { EQUAL_SAMPLES, EQUAL_TIME } study_equal;
@@ -18,170 +19,222 @@ static int fail_memory(void)
     return STATUS_DEVICE;
 }
 
-/* ---- The reference ---------------------------------------------------------------- */
+/* ---- Progress --------------------------------------------------------------------- */
 
-/* Samples and error at which a reference that is made here ends. */
-static const char reference_spp[] = "16384", reference_error[] = "0.005";
-
-static double mean_of(const float *rgb, size_t count)
+/* Adds ", about 1:23 left" as far as it is known. */
+static void put_remaining(char *out, size_t size, const study_count *count)
 {
-    double sum = 0;
-    for (size_t i = 0; i < 3 * count; i++)
-        sum += isfinite(rgb[i]) ? rgb[i] : 0.0;
-    return count > 0 ? sum / (3.0 * (double)count) : 0;
+    char time[32];
+    out[0] = '\0';
+    if (count->rendered == 0 || count->done == count->all)
+        return;
+    progress_format_time(time, sizeof time,
+                         count->seconds / (double)count->rendered *
+                             (double)(count->all - count->done));
+    snprintf(out, size, "; about %s left", time);
 }
 
-/* Takes an image as the reference, and shows it. */
-static int take_reference(study *s, rt_image *image)
+/* A picture is done; rendered says how many had been rendered before it. */
+static void count_picture(study *s, study_count *count, const study_picture *picture,
+                          const study_cell *cell, size_t rendered)
 {
-    uint32_t width, height;
-    rt_error error;
-    study_cell *cell = &s->result.reference;
-    rt_image_destroy(s->reference);
-    s->reference = image;
-    rt_image_get_size(image, &width, &height);
-    float *rgb = malloc(3 * sizeof *rgb * width * height);
-    if (!rgb)
-        return fail_memory();
-    int status = STATUS_DONE;
-    if (rt_image_get_rgb(rgb, image, NULL, &error) != RT_OK)
-        status = message_failure(&error);
-    s->mean = mean_of(rgb, (size_t)width * height);
-    free(cell->pixels);
-    if (status == STATUS_DONE && !study_cell_set_pixels(cell, rgb, width, height))
-        status = fail_memory();
-    free(rgb);
-    cell->rmse = cell->relmse = cell->flip = cell->ratio = NAN;
-    s->result.has_reference = 1;
-    return status;
-}
-
-static int read_reference(study *s, const char *path)
-{
-    rt_image *image = NULL;
-    rt_error error;
-    if (rt_image_read(&image, path, &error) != RT_OK)
-        return message_failure(&error);
-    s->result.reference.seconds = NAN;
-    return take_reference(s, image);
-}
-
-/* Path traces the picture of a cell until its error is small. */
-static int render_reference(study *s)
-{
-    static const sweep none = {0};
-    study_picture picture;
-    rt_film *film = NULL;
-    rt_image *image = NULL;
-    rt_error error;
-    uint32_t width, height;
-    int status = study_picture_make(&picture, s->arguments, &none, 0, s->scene);
-    if (status == STATUS_DONE) {
-        study_picture_set(&picture, "mode", "path");
-        study_picture_set(&picture, "spp", reference_spp);
-        study_picture_set(&picture, "target_error", reference_error);
-        study_picture_set(&picture, "time", NULL);
-        status = study_render(&film, s->renderer, &picture);
+    char error[48] = "", remaining[64];
+    count->done++;
+    if (s->renderer->rendered > rendered) {
+        count->rendered++;
+        count->seconds = session_seconds(s->renderer->session);
     }
-    if (status == STATUS_DONE) {
-        rt_film_info info;
-        rt_film_get_info(film, &info);
-        rt_film_get_size(film, &width, &height);
-        s->result.reference.command = recorded_command(&picture.line, picture.scene);
-        s->result.reference.seconds = info.seconds;
-        if (rt_image_from_rgb(&image, rt_film_rgb(film), width, height, &error) != RT_OK)
-            status = message_failure(&error);
-    }
-    study_picture_free(&picture);
-    rt_film_destroy(film);
-    return status == STATUS_DONE ? take_reference(s, image) : status;
+    if (s->renderer->session->quiet)
+        return;
+    if (isfinite(cell->rmse))
+        snprintf(error, sizeof error, ", relative RMSE %.3g %%", 100 * cell->rmse);
+    put_remaining(remaining, sizeof remaining, count);
+    message_note("%zu of %zu: %s: %.2f s%s%s%s", count->done, count->all,
+                 picture ? picture->label : "reference",
+                 isfinite(cell->seconds) ? cell->seconds : 0.0, error,
+                 s->renderer->rendered > rendered ? "" : ", kept", remaining);
 }
 
-/* ---- Cells ------------------------------------------------------------------------ */
+/* ---- Measures --------------------------------------------------------------------- */
 
 /* Compares a picture with the reference. */
-static int measure(study *s, study_cell *cell, const float *rgb, uint32_t width, uint32_t height)
+static int measure(const study_view *view, study_cell *cell, const float *rgb)
 {
     rt_image *image = NULL;
     rt_comparison *comparison = NULL;
     rt_comparison_info info;
     rt_error error;
-    cell->rmse = cell->relmse = cell->flip = cell->ratio = NAN;
-    if (!s->reference)
-        return STATUS_DONE;
-    rt_status result = rt_image_from_rgb(&image, rgb, width, height, &error);
+    rt_status result = rt_image_from_rgb(&image, rgb, cell->width, cell->height, &error);
     if (result == RT_OK)
-        result = rt_image_compare(&comparison, (const rt_image *const *)&image, 1, s->reference,
+        result = rt_image_compare(&comparison, (const rt_image *const *)&image, 1, view->reference,
                                   NULL, &error);
     rt_image_destroy(image);
     if (result != RT_OK)
         return message_failure(&error);
     rt_comparison_get_info(comparison, &info);
     rt_comparison_destroy(comparison);
-    cell->rmse = s->mean > 0 ? info.rmse / s->mean : NAN;
+    cell->rmse = view->mean > 0 ? info.rmse / view->mean : NAN;
     cell->relmse = info.relmse;
     cell->flip = info.flip;
     cell->ratio = info.ratio;
     return STATUS_DONE;
 }
 
-static int finish_cell(study *s, study_cell *cell, const study_picture *picture,
+/* Sums of renders that differ by their seed alone, [height][width][3]. */
+typedef struct repeat_sums {
+    double *sum, *squares;
+    size_t count;
+} repeat_sums;
+
+static int add_repeat(repeat_sums *sums, const rt_film *film)
+{
+    uint32_t width, height;
+    rt_film_get_size(film, &width, &height);
+    sums->count = (size_t)3 * width * height;
+    if (!sums->sum) {
+        sums->sum = calloc(2 * sums->count, sizeof *sums->sum);
+        sums->squares = sums->sum ? sums->sum + sums->count : NULL;
+    }
+    for (size_t i = 0; sums->sum && i < sums->count; i++) {
+        const double value = rt_film_rgb(film)[i];
+        sums->sum[i] += value;
+        sums->squares[i] += value * value;
+    }
+    return sums->sum ? STATUS_DONE : fail_memory();
+}
+
+/*
+ * Splits the expected relMSE of one render into noise and bias: with n renders a, their variance v
+ * and the reference r, means over the pixels of w v and of w ((mean a - r)^2 - v / n), where w is
+ * 1 / (r^2 + 0.01). What the noise hides has no bias that could be told.
+ */
+static void split(study_cell *cell, const study_view *view, const repeat_sums *sums, double n)
+{
+    double noise = 0, bias = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < sums->count; i++) {
+        const double r = view->rgb[i], mean = sums->sum[i] / n;
+        const double variance = (sums->squares[i] - n * mean * mean) / (n - 1);
+        if (!isfinite(r) || !isfinite(variance))
+            continue;
+        noise += variance / (r * r + 0.01);
+        bias += ((mean - r) * (mean - r) - variance / n) / (r * r + 0.01);
+        count++;
+    }
+    cell->noise = count > 0 && noise > 0 ? sqrt(noise / (double)count) : NAN;
+    cell->bias = count > 0 && bias > 0 ? sqrt(bias / (double)count) : NAN;
+}
+
+/* ---- Cells ------------------------------------------------------------------------ */
+
+/* Describes and measures the first render of a picture. */
+static int finish_cell(study *s, study_cell *cell, size_t index, const study_picture *picture,
                        const rt_film *film)
 {
     uint32_t width, height;
     rt_film_info info;
     rt_film_get_info(film, &info);
     rt_film_get_size(film, &width, &height);
+    *cell = STUDY_CELL_UNKNOWN;
     cell->seconds = info.seconds;
     cell->command = recorded_command(&picture->line, picture->scene);
     if (!cell->command || !study_cell_set_pixels(cell, rt_film_rgb(film), width, height))
         return fail_memory();
-    return measure(s, cell, rt_film_rgb(film), width, height);
+    return s->references ? measure(&s->references[s->view_of[index]], cell, rt_film_rgb(film))
+                         : STATUS_DONE;
 }
 
-/* Makes sure of the reference that all cells are compared with. */
-static int find_reference(study *s)
+/* Renders a picture as often as it is to be. */
+static int render_cell(study *s, size_t index, study_picture *picture)
 {
-    const option_value *reference = &s->arguments->options[OPTION_REFERENCE];
-    if (!reference->given || s->reference)
-        return STATUS_DONE;
-    return strcmp(reference->text, "auto") == 0 ? render_reference(s)
-                                                : read_reference(s, reference->text);
+    study_cell *cell = &s->result.cells[index];
+    repeat_sums sums = {0};
+    int status = STATUS_DONE;
+    for (uint32_t i = 0; i < s->repeats && status == STATUS_DONE; i++) {
+        rt_film *film = NULL;
+        picture->repeat = i;
+        status = study_render(&film, s->renderer, picture);
+        if (status == STATUS_DONE && i == 0)
+            status = finish_cell(s, cell, index, picture, film);
+        if (status == STATUS_DONE && s->repeats > 1 && s->references)
+            status = add_repeat(&sums, film);
+        rt_film_destroy(film);
+    }
+    if (status == STATUS_DONE && sums.sum)
+        split(cell, &s->references[s->view_of[index]], &sums, s->repeats);
+    free(sums.sum);
+    return status;
 }
 
-static int do_cell(study *s, size_t index, size_t count)
+/* Gives a picture the time of the first one, and as many samples or passes as that takes. */
+static void limit_time(const study *s, study_picture *picture)
+{
+    const rt_setting *passes = rt_setting_find("passes");
+    study_picture_set(picture, "time", s->time);
+    study_picture_set(picture, "target_error", NULL);
+    if (settings_text(&picture->line, passes))
+        study_picture_set(picture, "passes", "16777216");
+    else
+        study_picture_set(picture, "spp", "16777216");
+}
+
+/* Makes sure of the reference of a combination. */
+static int find_reference(study *s, size_t index, study_count *count)
+{
+    const size_t view = s->view_of[index], rendered = s->renderer->rendered;
+    if (!s->references || s->references[view].reference)
+        return STATUS_DONE;
+    const int status = study_view_open(&s->references[view], &s->result.references[view],
+                                       s->renderer, s->arguments, &s->views, view, s->scene);
+    if (status == STATUS_DONE)
+        count_picture(s, count, NULL, &s->result.references[view], rendered);
+    return status;
+}
+
+/* A name that is no setting is taken for a constant of the scene: says so where that fails. */
+static void explain_constants(const study *s)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    const sweep_axis *axis = sweep_find(&s->sweep, SWEEP_CONSTANT);
+    rt_nearest nearest;
+    if (!axis)
+        return;
+    rt_nearest_begin(&nearest, axis->name, strlen(axis->name));
+    for (size_t i = 0; i < count; i++)
+        rt_nearest_offer(&nearest, settings[i].field.name, strlen(settings[i].field.name));
+    message_hint("no setting is called '%s', so that it is taken for a constant of the scene%s%s%s",
+                 axis->name, nearest.best ? "; did you mean " : "",
+                 nearest.best ? nearest.best : "", nearest.best ? "?" : "");
+}
+
+static int do_cell(study *s, size_t index, study_count *count)
 {
     study_picture picture;
-    rt_film *film = NULL;
     study_cell *cell = &s->result.cells[index];
-    int status = study_picture_make(&picture, s->arguments, &s->sweep, index, s->scene);
-    if (status == STATUS_DONE)
-        status = find_reference(s);
-    if (status == STATUS_DONE && s->time[0]) {
-        study_picture_set(&picture, "time", s->time);
-        study_picture_set(&picture, "spp", NULL);
-    }
-    if (status == STATUS_DONE)
-        status = study_render(&film, s->renderer, &picture);
-    if (status == STATUS_DONE)
-        status = finish_cell(s, cell, &picture, film);
-    if (status == STATUS_DONE && !s->renderer->session->quiet)
-        message_note("%zu of %zu: %s: %.2f s%s%.3g%s", index + 1, count, picture.label,
-                     cell->seconds, isfinite(cell->rmse) ? ", relative RMSE " : "",
-                     isfinite(cell->rmse) ? 100 * cell->rmse : 0.0,
-                     isfinite(cell->rmse) ? " %" : "");
     const option_value *equal = &s->arguments->options[OPTION_EQUAL];
+    int status = study_picture_make(&picture, s->arguments, &s->sweep, index, s->scene, "");
+    if (status == STATUS_DONE)
+        status = find_reference(s, index, count);
+    if (status == STATUS_DONE && s->time[0])
+        limit_time(s, &picture);
+    const size_t rendered = s->renderer->rendered;
+    if (status == STATUS_DONE)
+        status = render_cell(s, index, &picture);
+    if (status == STATUS_INPUT)
+        explain_constants(s);
+    if (status == STATUS_DONE)
+        count_picture(s, count, &picture, cell, rendered);
     if (status == STATUS_DONE && equal->given && equal->choice == EQUAL_TIME && !s->time[0])
-        snprintf(s->time, sizeof s->time, "%.9g", cell->seconds);
-    rt_film_destroy(film);
+        snprintf(s->time, sizeof s->time, "%.6g", cell->seconds);
     study_picture_free(&picture);
     return status;
 }
 
-/* ---- The whole ------------------------------------------------------------------- */
+/* ---- The whole -------------------------------------------------------------------- */
 
 /* Reads the axes, and whose scene it is. */
-static int plan(study *s)
+static int plan_axes(study *s)
 {
     const command_line *arguments = s->arguments;
     int status = STATUS_DONE;
@@ -190,39 +243,80 @@ static int plan(study *s)
     if (status != STATUS_DONE)
         return status;
     const int is_swept = sweep_find(&s->sweep, SWEEP_SCENE) != NULL;
-    if (arguments->operand_count != (is_swept ? 0u : 1u) || s->sweep.count == 0) {
-        message_error("usage: rtc study SCENE.rts --sweep NAME=VALUE,... [OPTION]...");
-        if (is_swept && arguments->operand_count > 0)
-            message_hint("--sweep scene=... names the scenes");
+    if (arguments->operand_count == (is_swept ? 0u : 1u) && s->sweep.count > 0) {
+        s->scene = is_swept ? NULL : arguments->operands[0];
+        return STATUS_DONE;
+    }
+    message_error("usage: rtc study SCENE.rts --sweep NAME=VALUE,... [OPTION]...");
+    if (is_swept && arguments->operand_count > 0)
+        message_hint("--sweep scene=... names the scenes");
+    return STATUS_USAGE;
+}
+
+/* Reads what pictures are compared with, and how often each is rendered. */
+static int plan_measures(study *s)
+{
+    const option_value *options = s->arguments->options;
+    const option_value *reference = &options[OPTION_REFERENCE];
+    s->repeats = options[OPTION_REPEAT].given ? (uint32_t)options[OPTION_REPEAT].count : 1;
+    s->views = views_of(&s->sweep);
+    if (!reference->given && s->repeats > 1) {
+        message_error("--repeat tells noise from bias by a reference: add --reference auto");
         return STATUS_USAGE;
     }
-    s->scene = is_swept ? NULL : arguments->operands[0];
-    if ((is_swept || sweep_find(&s->sweep, SWEEP_CONSTANT)) &&
-        arguments->options[OPTION_REFERENCE].given) {
-        message_error("--reference is for one scene; a sweep of scenes or of their constants has "
-                      "several");
+    if (reference->given && strcmp(reference->text, "auto") != 0 && sweep_cells(&s->views) > 1) {
+        message_error("--reference names one image, but scenes, constants or sizes are swept: each "
+                      "has a reference of its own");
+        message_hint("--reference auto renders them");
         return STATUS_USAGE;
     }
+    return STATUS_DONE;
+}
+
+static int plan_results(study *s)
+{
+    const size_t cells = sweep_cells(&s->sweep), views = sweep_cells(&s->views);
     s->result.axes = &s->sweep;
-    s->result.cells = calloc(sweep_cells(&s->sweep), sizeof *s->result.cells);
-    return s->result.cells ? STATUS_DONE : fail_memory();
+    s->result.cells = calloc(cells, sizeof *s->result.cells);
+    s->view_of = calloc(cells, sizeof *s->view_of);
+    if (!s->result.cells || !s->view_of)
+        return fail_memory();
+    for (size_t i = 0; i < cells; i++)
+        s->view_of[i] = view_of_cell(&s->sweep, i);
+    s->result.view = s->view_of;
+    if (!s->arguments->options[OPTION_REFERENCE].given)
+        return STATUS_DONE;
+    s->result.references = calloc(views, sizeof *s->result.references);
+    s->references = calloc(views, sizeof *s->references);
+    if (!s->result.references || !s->references)
+        return fail_memory();
+    s->result.views = views;
+    return STATUS_DONE;
 }
 
 int study_begin(study *out, const command_line *arguments)
 {
     *out = (study){.arguments = arguments};
-    return plan(out);
+    int status = plan_axes(out);
+    if (status == STATUS_DONE)
+        status = plan_measures(out);
+    return status == STATUS_DONE ? plan_results(out) : status;
 }
 
-int study_run(study *s, study_renderer *renderer)
+size_t study_pictures(const study *s)
 {
-    const size_t count = sweep_cells(&s->sweep);
+    return sweep_cells(&s->sweep) + s->result.views;
+}
+
+int study_run(study *s, study_renderer *renderer, study_count *count)
+{
+    const size_t cells = sweep_cells(&s->sweep);
     int status = STATUS_DONE;
     s->renderer = renderer;
-    for (size_t i = 0; i < count && status == STATUS_DONE; i++)
+    for (size_t i = 0; i < cells && status == STATUS_DONE; i++)
         status = do_cell(s, i, count);
-    rt_image_destroy(s->reference);
-    s->reference = NULL;
+    for (size_t i = 0; i < s->result.views; i++)
+        study_view_free(&s->references[i]);
     return status;
 }
 
@@ -230,8 +324,13 @@ void study_free(study *s)
 {
     for (size_t i = 0; s->result.cells && i < sweep_cells(&s->sweep); i++)
         study_cell_free(&s->result.cells[i]);
+    for (size_t i = 0; i < s->result.views; i++) {
+        study_cell_free(&s->result.references[i]);
+        study_view_free(&s->references[i]);
+    }
     free(s->result.cells);
-    study_cell_free(&s->result.reference);
-    rt_image_destroy(s->reference);
+    free(s->result.references);
+    free(s->references);
+    free(s->view_of);
     sweep_free(&s->sweep);
 }

@@ -4,18 +4,28 @@
 
 #include "cell.h"
 #include "page.h"
+#include "view.h"
 
 /* It must stay where it is: its result points to its sweep. */
 typedef struct study {
     const command_line *arguments;
     sweep sweep;
     const char *scene; /* NULL where it is swept */
+    uint32_t repeats;  /* renders of each picture */
     study_renderer *renderer;
     study_result result;
-    rt_image *reference;
-    double mean;   /* of it */
-    char time[32]; /* of each picture, in equal time */
+    sweep views;
+    study_view *references; /* [views], of result.views */
+    size_t *view_of;        /* [cells] */
+    char time[32];          /* of each picture, in equal time */
 } study;
+
+/* How far all studies of a page have come. */
+typedef struct study_count {
+    size_t done, all;      /* pictures, references among them */
+    size_t rendered;       /* of those done, now and not before */
+    double began, seconds; /* since when, and how long they took */
+} study_count;
 
 /*
  * Reads what a command line asks for, which must outlive it. Returns an exit status; free in either
@@ -23,8 +33,11 @@ typedef struct study {
  */
 int study_begin(study *out, const command_line *arguments);
 
+/* How many pictures a study renders. */
+size_t study_pictures(const study *study);
+
 /* Renders and measures all pictures. Returns an exit status. */
-int study_run(study *study, study_renderer *renderer);
+int study_run(study *study, study_renderer *renderer, study_count *count);
 
 void study_free(study *study);
 

@@ -12,6 +12,12 @@ static const rt_word accels[] = {RT_ACCELS(RT_WORD) RT_WORD_END};
 
 enum { CELLS_MAX = 10000 };
 
+static int fail_memory(void)
+{
+    message_error("out of memory");
+    return STATUS_DEVICE;
+}
+
 static char *copy_of(const char *text, size_t length)
 {
     char *copy = malloc(length + 1);
@@ -29,8 +35,7 @@ static int add_value(sweep_axis *axis, const char *text, size_t length)
     axis->values = more ? more : axis->values;
     if (!more || !copy) {
         free(copy);
-        message_error("out of memory");
-        return STATUS_DEVICE;
+        return fail_memory();
     }
     more[axis->count++] = copy;
     return STATUS_DONE;
@@ -74,21 +79,41 @@ static int add_values(sweep_axis *axis, const char *text)
     return status;
 }
 
-/* What a name stands for. */
-static void find_meaning(sweep_axis *axis)
+/* What a name stands for; that of a setting may be written as the option's. */
+static int find_meaning(sweep_axis *axis)
 {
-    const size_t length = strlen(axis->name);
-    axis->setting = settings_find(axis->name, length);
+    axis->setting = rt_setting_find(axis->name);
+    if (!axis->setting)
+        axis->setting = settings_find(axis->name, strlen(axis->name));
     axis->kind = axis->setting                      ? SWEEP_SETTING
                  : strcmp(axis->name, "scene") == 0 ? SWEEP_SCENE
                  : strcmp(axis->name, "accel") == 0 ? SWEEP_ACCEL
                                                     : SWEEP_CONSTANT;
+    if (!axis->setting)
+        return STATUS_DONE;
+    const char *name = axis->setting->field.name;
+    free(axis->name);
+    axis->name = copy_of(name, strlen(name));
+    return axis->name ? STATUS_DONE : fail_memory();
+}
+
+/* Whether a value stands among those before it. */
+static int is_repeated(const sweep_axis *axis, size_t value)
+{
+    for (size_t i = 0; i < value; i++)
+        if (strcmp(axis->values[i], axis->values[value]) == 0)
+            return 1;
+    return 0;
 }
 
 /* Whether the values of a setting are what it takes. */
 static int check_values(const sweep_axis *axis)
 {
     for (size_t i = 0; i < axis->count; i++) {
+        if (is_repeated(axis, i)) {
+            message_error("--sweep %s: the value '%s' is given twice", axis->name, axis->values[i]);
+            return STATUS_USAGE;
+        }
         rt_render_options scratch = {0};
         rt_error error;
         char words[128];
@@ -134,13 +159,11 @@ int sweep_add(sweep *sweep, const char *text)
     }
     sweep_axis *axis = &sweep->axes[sweep->count++];
     *axis = (sweep_axis){.name = copy_of(text, (size_t)(equals - text))};
-    if (!axis->name) {
-        message_error("out of memory");
-        return STATUS_DEVICE;
-    }
-    find_meaning(axis);
+    int status = axis->name ? find_meaning(axis) : fail_memory();
+    if (status != STATUS_DONE)
+        return status;
     const int is_all = strcmp(equals + 1, "all") == 0 && words_of(axis) != NULL;
-    const int status = is_all ? add_all(axis) : add_values(axis, equals + 1);
+    status = is_all ? add_all(axis) : add_values(axis, equals + 1);
     return status == STATUS_DONE ? check_axis(sweep, axis) : status;
 }
 
@@ -164,11 +187,16 @@ size_t sweep_cells(const sweep *sweep)
     return cells;
 }
 
-const char *sweep_value(const sweep *sweep, size_t cell, size_t axis)
+size_t sweep_place(const sweep *sweep, size_t cell, size_t axis)
 {
     for (size_t i = sweep->count; i-- > axis + 1;)
         cell /= sweep->axes[i].count;
-    return sweep->axes[axis].values[cell % sweep->axes[axis].count];
+    return cell % sweep->axes[axis].count;
+}
+
+const char *sweep_value(const sweep *sweep, size_t cell, size_t axis)
+{
+    return sweep->axes[axis].values[sweep_place(sweep, cell, axis)];
 }
 
 int sweep_is_numeric(const sweep_axis *axis)

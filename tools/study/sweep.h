@@ -36,7 +36,8 @@ void sweep_free(sweep *sweep);
 /* How many combinations there are; the last axis varies fastest. */
 size_t sweep_cells(const sweep *sweep);
 
-/* The value that an axis has in a combination. */
+/* Which value of an axis a combination has, and the value. */
+size_t sweep_place(const sweep *sweep, size_t cell, size_t axis);
 const char *sweep_value(const sweep *sweep, size_t cell, size_t axis);
 
 /* Whether all values of an axis are numbers. */

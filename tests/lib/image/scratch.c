@@ -57,17 +57,27 @@ static int is_entry(const struct dirent *entry)
     return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
 }
 
+/* Removes what a directory holds, folders too, but follows no link; -1 where it is none. */
+static int empty(int at, const char *name)
+{
+    const int descriptor = openat(at, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
+    DIR *directory = descriptor >= 0 ? fdopendir(descriptor) : NULL;
+    if (!directory)
+        return -1;
+    for (struct dirent *entry; (entry = readdir(directory));)
+        if (is_entry(entry) && unlinkat(descriptor, entry->d_name, 0) != 0 &&
+            empty(descriptor, entry->d_name) == 0)
+            unlinkat(descriptor, entry->d_name, AT_REMOVEDIR);
+    closedir(directory);
+    return 0;
+}
+
 int scratch_leave(void **state)
 {
     scratch *s = *state;
     scratch_take_rights();
-    DIR *directory = opendir(".");
-    if (!directory)
+    if (empty(AT_FDCWD, ".") != 0)
         return -1;
-    for (struct dirent *entry; (entry = readdir(directory));)
-        if (is_entry(entry) && unlink(entry->d_name) != 0)
-            rmdir(entry->d_name);
-    closedir(directory);
     int code = fchdir(s->previous) == 0 && rmdir(s->path) == 0 ? 0 : -1;
     close(s->previous);
     free(s);

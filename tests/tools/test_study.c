@@ -1,0 +1,447 @@
+/* test_study.c - rtc study: what it takes and refuses, measures, keeps and writes. */
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+/* A ball in a room of light; its size is a constant. */
+static const char scene[] = "let size = 1\n"
+                            "camera { eye 0 0 -4  look_at 0 0 0 }\n"
+                            "film { width 12  height 9 }\n"
+                            "material white { kd 0.7 }\n"
+                            "sphere { centre 0 0 0  radius (size)  material white }\n"
+                            "plane { point 0 -1 0  normal 0 1 0  material white }\n"
+                            "quad { corner -1 3 -1  edge1 2 0 0  edge2 0 0 2  material white\n"
+                            "       radiance 9 }\n";
+
+/* ---- Files ------------------------------------------------------------------------- */
+
+static char *read_text(const char *name)
+{
+    FILE *file = fopen(name, "r");
+    if (!file)
+        fail_msg("there is no %s", name);
+    char *text = NULL;
+    size_t size = 0;
+    const ssize_t length = getdelim(&text, &size, '\0', file);
+    assert_true(length >= 0);
+    fclose(file);
+    return text;
+}
+
+static size_t count(const char *text, const char *what)
+{
+    size_t times = 0;
+    for (const char *at = strstr(text, what); at; at = strstr(at + 1, what))
+        times++;
+    return times;
+}
+
+/* So many pictures were not rendered again. */
+static void expect_count(const run *run, size_t kept)
+{
+    if (count(run->err, ", kept") != kept)
+        fail_msg("not %zu pictures were kept:\n%s", kept, run->err);
+}
+
+static void expect_in_file(const char *name, const char *what)
+{
+    char *text = read_text(name);
+    if (!strstr(text, what))
+        fail_msg("no '%s' in %s", what, name);
+    free(text);
+}
+
+/* The value of a column of a table, in row 0 or below; to be freed. No value has a comma. */
+static char *cell(const char *name, size_t row, const char *column)
+{
+    char *text = read_text(name), *at = text, *value = NULL;
+    size_t number = 0, length = strcspn(at, ",\n");
+    while (strncmp(at, column, length) != 0 || column[length]) {
+        if (at[length] != ',')
+            fail_msg("no column '%s' in:\n%s", column, text);
+        number++;
+        at += length + 1;
+        length = strcspn(at, ",\n");
+    }
+    for (at = text; row + 1 > 0 && at; row--)
+        at = strchr(at, '\n') ? strchr(at, '\n') + 1 : NULL;
+    for (; at && number > 0; number--)
+        at += strcspn(at, ",\n") + 1;
+    if (!at)
+        fail_msg("no such row in:\n%s", text);
+    value = strndup(at, strcspn(at, ",\n"));
+    free(text);
+    return value;
+}
+
+static double number(const char *name, size_t row, const char *column)
+{
+    char *text = cell(name, row, column);
+    const double value = *text ? strtod(text, NULL) : -1;
+    free(text);
+    return value;
+}
+
+/* ---- Refusals ---------------------------------------------------------------------- */
+
+static const struct {
+    const char *line;
+    int status;
+    const char *says;
+} refusals[] = {
+    {"", 2, "usage: rtc study SCENE.rts --sweep"},
+    {"a.rts", 2, "usage: rtc study SCENE.rts --sweep"},
+    {"a.rts --sweep", 2, "--sweep needs a value"},
+    {"a.rts --sweep k", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'k'"},
+    {"a.rts --sweep k=", 2, "--sweep takes NAME=VALUE,VALUE,...; not 'k='"},
+    {"a.rts --sweep =3", 2, "--sweep takes NAME=VALUE,VALUE,...; not '=3'"},
+    {"a.rts --sweep k=5,,9", 2, "a value is missing in '5,,9'"},
+    {"a.rts --sweep k=5,", 2, "a value is missing in '5,'"},
+    {"a.rts --sweep k=5,9,5", 2, "the value '5' is given twice"},
+    {"a.rts --sweep k=5 --sweep k=9", 2, "--sweep k is given twice"},
+    {"a.rts --sweep spp=x", 2, "spp takes a whole number from 1 to 16777216; not 'x'"},
+    {"a.rts --sweep kernel=box,boxx", 2, "not 'boxx'"},
+    {"a.rts --sweep accel=kd", 2, "it is bvh or none; not 'kd'"},
+    {"a.rts --sweep spp=all", 2, "not 'all'"},
+    {"a.rts --sweep frob=1", 1, "the scene has no constant 'frob'"},
+    {"a.rts --sweep frob=1", 1, "no setting is called 'frob'"},
+    {"a.rts --sweep photns=1", 1, "did you mean photons?"},
+    {"a.rts --sweep size=x", 1, "unknown constant 'x'"},
+    {"a.rts --sweep scene=a.rts", 2, "--sweep scene=... names the scenes"},
+    {"b.rts --sweep spp=1", 1, "b.rts"},
+    {"a.rts --sweep spp=1 --reference b.exr", 1, "cannot read b.exr"},
+    {"a.rts --sweep spp=1 --reference a.rts", 1, "a.rts"},
+    {"a.rts --sweep size=1,2 --reference b.exr", 2, "--reference auto renders them"},
+    {"--sweep scene=a.rts,c.rts --reference b.exr", 2, "each has a reference of its own"},
+    {"a.rts --sweep spp=1,2 --equal error", 2, "--equal takes samples or time; not 'error'"},
+    {"a.rts --sweep spp=1 --repeat 2", 2, "add --reference auto"},
+    {"a.rts --sweep spp=1 --repeat 0", 2, "--repeat takes a whole number from 1"},
+    {"a.rts --sweep spp=1 --out a.png", 2, "--out NAME.html"},
+    {"a.rts --sweep spp=1 --out a.html --out b.html", 2, "--out NAME.html"},
+    {"a.rts --sweep spp=1 --out none/a.html", 4, "none/a.html"},
+    {"--list none.studies", 1, "cannot read none.studies"},
+    {"--list .", 1, "cannot read .: "},
+    {"--list a.rts", 1, "at a.rts:1"},
+    {"--list empty.studies", 1, "empty.studies has no study"},
+    {"--list twice.studies", 1, "there are two studies 'a'"},
+    {"--list wrong.studies", 2, "in the study 'w' of wrong.studies"},
+    {"--list path.studies", 1, "other signs than letters"},
+    {"--list good.studies --sweep k=3", 2, "no scene or --sweep goes with it"},
+};
+
+static void wrong_input_is_refused(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    scratch_write("c.rts", scene);
+    scratch_write("empty.studies", "# nothing\n");
+    scratch_write("twice.studies", "== a A\n$ a.rts --sweep spp=1\n== a A\n");
+    scratch_write("wrong.studies", "== w W\n$ a.rts --sweep spp=1 --frob\n");
+    scratch_write("path.studies", "== ../w W\n$ a.rts --sweep spp=1\n");
+    scratch_write("good.studies", "== a A\n$ a.rts --sweep spp=1\n");
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
+        run run = run_rtc("study %s", refusals[i].line);
+        expect_err(&run, refusals[i].says);
+        expect_status(&run, refusals[i].status);
+        run_free(&run);
+    }
+    expect_no_file("a.html");
+    expect_no_file("a.csv");
+}
+
+/* ---- Files that cannot be written ---------------------------------------------------- */
+
+static void a_folder_that_cannot_be_written_is_status_4(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    mkdir("locked", 0777);
+    chmod("locked", 0555);
+    scratch_drop_rights();
+    run run = run_rtc("study a.rts --sweep spp=1 --out locked/a.html");
+    scratch_take_rights();
+    expect_status(&run, 4);
+    expect_err(&run, "locked/a.html");
+    expect_no_err(&run, "1 of 1"); /* before time is spent */
+    run_free(&run);
+    scratch_write("b.films", "a file where the folder is to be");
+    run = run_rtc("study a.rts --sweep spp=1 --out b.html");
+    expect_status(&run, 4);
+    expect_err(&run, "cannot make the folder b.films/");
+    run_free(&run);
+}
+
+static void a_full_disk_is_status_4(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    assert_int_equal(symlink("/dev/full", "full.html"), 0);
+    chmod(".", 0777);
+    scratch_drop_rights();
+    run run = run_rtc("study a.rts --sweep spp=1 --out full.html");
+    scratch_take_rights();
+    expect_status(&run, 4);
+    expect_err(&run, "full.html");
+    run_free(&run);
+}
+
+/* ---- What is written ----------------------------------------------------------------- */
+
+static void every_combination_is_on_the_page_and_in_the_table(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("study a.rts --sweep spp=1,3 --sweep sampler=all --sweep size=1,0.5 "
+                      "--seed 4 --out o.html");
+    expect_status(&run, 0);
+    expect_err(&run, "8 of 8: spp=3,sampler=independent,size=0.5");
+    run_free(&run);
+    char *table = read_text("o.csv"), *page = read_text("o.html");
+    assert_int_equal(count(table, "\n"), 9);
+    assert_int_equal(strncmp(table,
+                             "spp,sampler,size,relative_rmse,relmse,flip,ratio,noise,bias,"
+                             "seconds,command\n1,sobol,1,,,,,,,",
+                             90),
+                     0);
+    assert_non_null(strstr(table, "rtc a.rts --spp 3 --seed 4 --sampler independent --set "
+                                  "'size=0.5'\n"));
+    assert_int_equal(count(page, "\"values\":[\"3\",\"independent\","), 2);
+    assert_int_equal(count(page, "\"width\":12,\"height\":9,\"data\":\""), 8);
+    /* It needs nothing else, and asks nobody. */
+    assert_null(strstr(page, "@DATA@"));
+    assert_null(strstr(page, "src="));
+    assert_null(strstr(page, "url("));
+    assert_non_null(strstr(page, "default-src 'none'"));
+    free(table);
+    free(page);
+}
+
+/* A number that `rtc compare --json` prints. */
+static double compared(const run *run, const char *name)
+{
+    char start[64];
+    snprintf(start, sizeof start, "\"%s\":", name);
+    const char *at = strstr(run->out, start);
+    if (!at)
+        fail_msg("no %s in %s", start, run->out);
+    return strtod(at + strlen(start), NULL);
+}
+
+static void errors_are_those_of_compare(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("a.rts --spp 1024 --seed 77 --out r.pfm");
+    expect_status(&run, 0);
+    run_free(&run);
+    run = run_rtc("study a.rts --sweep spp=1,7 --reference r.pfm");
+    expect_status(&run, 0);
+    run_free(&run);
+    for (size_t row = 0; row < 2; row++) {
+        char *command = cell("a.csv", row, "command");
+        run = run_rtc("%s --out p.pfm", command + strlen("rtc "));
+        expect_status(&run, 0);
+        run_free(&run);
+        run = run_rtc("compare p.pfm r.pfm --json");
+        assert_float_equal(number("a.csv", row, "relmse"), compared(&run, "relmse"), 1e-5);
+        assert_float_equal(number("a.csv", row, "flip"), compared(&run, "flip"), 1e-5);
+        assert_float_equal(number("a.csv", row, "ratio"), compared(&run, "ratio"), 1e-5);
+        run_free(&run);
+        free(command);
+    }
+    assert_true(number("a.csv", 1, "relmse") < number("a.csv", 0, "relmse"));
+}
+
+static void each_scene_and_constant_has_its_reference(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    scratch_write("b.rts", "include \"a.rts\"\nlight environment { radiance 0.2 }\n");
+    run run = run_rtc("study --sweep spp=64,256 --sweep scene=a.rts,b.rts --sweep size=1,0.5 "
+                      "--width 4 --height 3 --reference auto --out o.html");
+    expect_status(&run, 0);
+    expect_err(&run, "12 of 12: ");
+    run_free(&run);
+    char *page = read_text("o.html"), *at = strstr(page, "\"references\":[");
+    assert_non_null(at);
+    assert_int_equal(count(at, "--set 'size="), 4);
+    assert_int_equal(count(at, "rtc b.rts --mode path --spp 16384"), 2);
+    /* By the wrong one, errors would be of the size of the picture. */
+    for (size_t row = 0; row < 8; row++)
+        assert_true(number("o.csv", row, "relmse") < 0.05);
+    free(page);
+}
+
+/* ---- Measures ------------------------------------------------------------------------- */
+
+static void noise_is_told_from_bias(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("study a.rts --sweep mode=path,photon --spp 16 --photons 3000 --k 400 "
+                      "--direct photons --repeat 4 --width 8 --height 6 --reference auto");
+    expect_status(&run, 0);
+    run_free(&run);
+    assert_true(number("a.csv", 0, "noise") > 0);
+    /* Path tracing has no bias beyond what noise hides; so few photons blur all. */
+    assert_true(number("a.csv", 0, "bias") < number("a.csv", 0, "noise") / 2);
+    assert_true(number("a.csv", 1, "bias") > 2 * number("a.csv", 1, "noise"));
+    expect_file("a.films/mode=photon+3.rtpart");
+}
+
+static void equal_time_is_that_of_the_first_picture(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run = run_rtc("study a.rts --sweep sampler=all --sweep max-depth=8,4 --spp 1000 "
+                      "--equal time");
+    expect_status(&run, 0);
+    run_free(&run);
+    char time[64];
+    const double first = number("a.csv", 0, "seconds");
+    snprintf(time, sizeof time, "--spp 16777216 --time %.6g", first);
+    assert_true(first > 0);
+    for (size_t row = 1; row < 4; row++) {
+        char *command = cell("a.csv", row, "command");
+        if (!strstr(command, "--spp 16777216") || !strstr(command, strstr(time, "--time")))
+            fail_msg("no '%s' in '%s'", time, command);
+        assert_true(number("a.csv", row, "seconds") >= 0.9 * first);
+        free(command);
+    }
+    run = run_rtc("study a.rts --sweep sampler=all --sweep max_depth=8,4 --spp 1000 "
+                  "--equal time");
+    expect_count(&run, 4);
+    run_free(&run);
+}
+
+/* ---- What is kept --------------------------------------------------------------------- */
+
+static void expect_kept(const char *line, size_t kept, size_t all)
+{
+    run run = run_rtc("study %s", line);
+    char last[64];
+    snprintf(last, sizeof last, "%zu of %zu: ", all, all);
+    expect_status(&run, 0);
+    expect_err(&run, last);
+    expect_count(&run, kept);
+    run_free(&run);
+}
+
+static void only_what_changed_is_rendered_again(void **state)
+{
+    (void)state;
+    static const char line[] = "a.rts --sweep spp=1,2 --width 8 --height 6 --reference auto";
+    scratch_write("a.rts", scene);
+    expect_kept(line, 0, 3);
+    expect_kept(line, 3, 3);
+    expect_kept("a.rts --sweep spp=1,2,4 --width 8 --height 6 --reference auto", 3, 4);
+    expect_kept("a.rts --sweep spp=1,2 --seed 3 --width 8 --height 6 --reference auto", 1, 3);
+    expect_kept(line, 1, 3);
+    /* Another scene under the same name, and a film that is damaged. */
+    scratch_write("b.rts", "sphere { centre 1 1 0  radius 0.2  material white }\n");
+    char *text = malloc(sizeof scene + 32);
+    snprintf(text, sizeof scene + 32, "%s%s", scene, "include \"b.rts\"\n");
+    scratch_write("a.rts", text);
+    free(text);
+    expect_kept(line, 0, 3);
+    scratch_write("a.films/spp=2.rtpart", "damaged");
+    expect_kept(line, 2, 3);
+}
+
+static void a_long_name_has_a_film_of_its_own(void **state)
+{
+    (void)state;
+    char line[1024];
+    scratch_write("a.rts", scene);
+    scratch_write("x_y.rts", scene);
+    mkdir("x", 0777);
+    scratch_write("x/y.rts", "include \"../a.rts\"\nlight environment { radiance 1 }\n");
+    expect_kept("--sweep scene=x_y.rts,x/y.rts --spp 1 --out o.html", 0, 2);
+    expect_kept("--sweep scene=x_y.rts,x/y.rts --spp 1 --out o.html", 2, 2);
+    snprintf(line, sizeof line, "a.rts --spp 1 --sweep size=1,%0300d,%0301d", 2, 3);
+    expect_kept(line, 0, 3);
+    expect_kept(line, 3, 3);
+}
+
+static void a_study_goes_on_where_it_ended(void **state)
+{
+    (void)state;
+    static const int signals[] = {SIGKILL, SIGINT};
+    static const char line[] = "study a.rts --sweep spp=1,2,3000 --out %s.html";
+    scratch_write("a.rts", scene);
+    for (int i = 0; i < 2; i++) {
+        char said[4096] = "";
+        const char *name = i == 0 ? "k" : "i";
+        running running = start_rtc(line, name);
+        assert_int_equal(running_wait_for(&running, "2 of 3", said, sizeof said), 0);
+        kill(running.pid, signals[i]);
+        const int status = running_finish(&running, said, sizeof said);
+        assert_int_equal(status, i == 0 ? 128 + SIGKILL : 130);
+        run run = run_rtc(line, name);
+        expect_status(&run, 0);
+        expect_count(&run, 2);
+        run_free(&run);
+    }
+}
+
+/* ---- Lists ---------------------------------------------------------------------------- */
+
+static void a_list_makes_one_page_of_all_its_studies(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    scratch_write("l.studies",
+                  "# comment\n= All <of> them\n== one The \"first\"\nA text\nof lines.\n"
+                  "$ a.rts --sweep spp=1,2 --reference auto\n"
+                  "== two Second\n$ a.rts --sweep size=1,0.5\n"
+                  "$ --spp 9 --reference auto\n");
+    run run = run_rtc("study --list l.studies --width 8 --height 6 --out p.html");
+    expect_status(&run, 0);
+    expect_err(&run, "study 2 of 2: Second");
+    expect_err(&run, "7 of 7: ");
+    /* The same reference serves both. */
+    expect_err(&run, "reference: ");
+    expect_count(&run, 0);
+    run_free(&run);
+    expect_in_file("p.html", "\"title\":\"All \\u003cof> them\"");
+    expect_in_file("p.html", "\"title\":\"The \\u0022first\\u0022\"");
+    expect_in_file("p.html", "\"text\":\"A text of lines.\"");
+    expect_in_file("p.html", "\"width\":8,\"height\":6");
+    expect_in_file("p.two.csv", "rtc a.rts --spp 9 --width 8 --height 6 --set 'size=0.5'");
+    expect_file("p.films/one,spp=2.rtpart");
+    expect_file("p.one.csv");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_enter, scratch_leave)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(wrong_input_is_refused),
+        TEST(a_folder_that_cannot_be_written_is_status_4),
+        TEST(a_full_disk_is_status_4),
+        TEST(every_combination_is_on_the_page_and_in_the_table),
+        TEST(errors_are_those_of_compare),
+        TEST(each_scene_and_constant_has_its_reference),
+        TEST(noise_is_told_from_bias),
+        TEST(equal_time_is_that_of_the_first_picture),
+        TEST(only_what_changed_is_rendered_again),
+        TEST(a_long_name_has_a_film_of_its_own),
+        TEST(a_study_goes_on_where_it_ended),
+        TEST(a_list_makes_one_page_of_all_its_studies),
+    };
+    return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;
+}

@@ -1,0 +1,160 @@
+/* view.c - references, read or rendered. */
+#include "view.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../message.h"
+#include "../recorded.h"
+#include "../status.h"
+
+/* Samples and error at which a reference that is made here ends; a seed that pictures rarely have,
+ * so that their noise has nothing to do with that of the reference. */
+static const char reference_spp[] = "16384", reference_error[] = "0.005",
+                  reference_seed[] = "4294967295";
+
+/* The settings that decide what a picture converges to, whatever its mode. */
+static const char *const of_the_picture[] = {"width",  "height",        "max_depth",
+                                             "filter", "filter_radius", NULL};
+
+static int fail_memory(void)
+{
+    message_error("out of memory");
+    return STATUS_DEVICE;
+}
+
+/* ---- Which view ------------------------------------------------------------------- */
+
+static int decides_view(const sweep_axis *axis)
+{
+    switch (axis->kind) {
+    case SWEEP_SCENE:
+    case SWEEP_CONSTANT:
+        return 1;
+    case SWEEP_SETTING:
+        return strcmp(axis->name, "width") == 0 || strcmp(axis->name, "height") == 0;
+    case SWEEP_ACCEL:
+        break;
+    }
+    return 0;
+}
+
+sweep views_of(const sweep *all)
+{
+    sweep views = {0};
+    for (size_t i = 0; i < all->count; i++)
+        if (decides_view(&all->axes[i]))
+            views.axes[views.count++] = all->axes[i];
+    return views;
+}
+
+size_t view_of_cell(const sweep *all, size_t cell)
+{
+    size_t view = 0;
+    for (size_t i = 0; i < all->count; i++)
+        if (decides_view(&all->axes[i]))
+            view = view * all->axes[i].count + sweep_place(all, cell, i);
+    return view;
+}
+
+/* ---- The reference ---------------------------------------------------------------- */
+
+static double mean_of(const float *rgb, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < 3 * count; i++)
+        sum += isfinite(rgb[i]) ? rgb[i] : 0.0;
+    return count > 0 ? sum / (3.0 * (double)count) : 0;
+}
+
+/* Takes an image, which it owns from now on. */
+static int take(study_view *view, study_cell *shown, rt_image *image)
+{
+    rt_error error;
+    view->reference = image;
+    rt_image_get_size(image, &view->width, &view->height);
+    view->rgb = malloc(3 * sizeof *view->rgb * view->width * view->height);
+    if (!view->rgb)
+        return fail_memory();
+    if (rt_image_get_rgb(view->rgb, image, NULL, &error) != RT_OK)
+        return message_failure(&error);
+    view->mean = mean_of(view->rgb, (size_t)view->width * view->height);
+    return study_cell_set_pixels(shown, view->rgb, view->width, view->height) ? STATUS_DONE
+                                                                              : fail_memory();
+}
+
+/* Leaves those settings alone that decide what the picture converges to. */
+static void strip(study_picture *picture)
+{
+    size_t count;
+    const rt_setting *settings = rt_settings(&count);
+    for (size_t i = 0; i < count; i++) {
+        const char *const *name = of_the_picture;
+        while (*name && strcmp(*name, settings[i].field.name) != 0)
+            name++;
+        if (!*name)
+            picture->line.settings[i] = NULL;
+    }
+    study_picture_set(picture, "mode", "path");
+    study_picture_set(picture, "spp", reference_spp);
+    study_picture_set(picture, "target_error", reference_error);
+    study_picture_set(picture, "seed", reference_seed);
+}
+
+/* Path traces the view until its error is small. */
+static int render(study_view *view, study_cell *shown, study_renderer *renderer,
+                  study_picture *picture)
+{
+    rt_film *film = NULL;
+    rt_film_info info;
+    rt_film_stats stats;
+    rt_image *image = NULL;
+    rt_error error;
+    uint32_t width, height;
+    int status = study_render(&film, renderer, picture);
+    if (status != STATUS_DONE)
+        return status;
+    rt_film_get_info(film, &info);
+    rt_film_get_stats(film, &stats);
+    rt_film_get_size(film, &width, &height);
+    shown->seconds = info.seconds;
+    shown->rmse = stats.relative_error;
+    shown->command = recorded_command(&picture->line, picture->scene);
+    if (!shown->command)
+        status = fail_memory();
+    else if (rt_image_from_rgb(&image, rt_film_rgb(film), width, height, &error) != RT_OK)
+        status = message_failure(&error);
+    rt_film_destroy(film);
+    return status == STATUS_DONE ? take(view, shown, image) : status;
+}
+
+int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer,
+                    const command_line *arguments, const sweep *views, size_t view,
+                    const char *scene)
+{
+    const char *path = arguments->options[OPTION_REFERENCE].text;
+    study_picture picture;
+    rt_image *image = NULL;
+    rt_error error;
+    *shown = STUDY_CELL_UNKNOWN;
+    if (strcmp(path, "auto") != 0)
+        return rt_image_read(&image, path, &error) == RT_OK ? take(out, shown, image)
+                                                            : message_failure(&error);
+    int status = study_picture_make(&picture, arguments, views, view, scene, "reference");
+    if (status == STATUS_DONE) {
+        strip(&picture);
+        status = study_picture_share(&picture);
+    }
+    if (status == STATUS_DONE)
+        status = render(out, shown, renderer, &picture);
+    study_picture_free(&picture);
+    return status;
+}
+
+void study_view_free(study_view *view)
+{
+    rt_image_destroy(view->reference);
+    free(view->rgb);
+    *view = (study_view){0};
+}

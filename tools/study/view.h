@@ -1,0 +1,35 @@
+/*
+ * view.h - what the pictures of a study are compared with: a reference for each view. Pictures of
+ * one scene with the same constants and the same size are of one view.
+ */
+#ifndef RTC_STUDY_VIEW_H
+#define RTC_STUDY_VIEW_H
+
+#include "cell.h"
+#include "page.h"
+
+typedef struct study_view {
+    rt_image *reference; /* NULL: none yet */
+    float *rgb;          /* its pixels, [height][width][3] */
+    uint32_t width, height;
+    double mean; /* of all pixels and channels */
+} study_view;
+
+/*
+ * The axes of a sweep that decide the view; shares their memory, so that it is not to be freed.
+ */
+sweep views_of(const sweep *all);
+
+/* The view of a combination of the whole sweep. */
+size_t view_of_cell(const sweep *all, size_t cell);
+
+/*
+ * Reads the reference of a view, or path traces it where the path is "auto", and describes it in
+ * *shown. Returns an exit status; free in either case.
+ */
+int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer,
+                    const command_line *arguments, const sweep *views, size_t view,
+                    const char *scene);
+void study_view_free(study_view *view);
+
+#endif
