@@ -237,7 +237,7 @@ TESTS_FULL  := \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
 	tests/tools/test_film_files.c tests/tools/test_mesh.c tests/tools/test_scenes.c \
-	tests/tools/test_timing.c
+	tests/tools/test_completion.c tests/tools/test_timing.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
 	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c \
@@ -310,12 +310,13 @@ SONAME   := librt-render.so.$(SOVERSION)
 	check-mpi check-mutation check-peers check-quick check-reference check-reproducible \
 	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
 	deps-lint deps-python format \
-	fuzz help install lint lint-quick mpi need-deps proof run-all run-quick run-threads \
+	completions fuzz help install lint lint-quick mpi need-deps proof run-all run-quick \
+	run-threads \
 	study study-cluster uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(B)/librt.a $(B)/$(SONAME) $(B)/rtc
+all: $(B)/librt.a $(B)/$(SONAME) $(B)/rtc completions
 
 $(B)/%.o: %.c | need-deps
 	@mkdir -p $(@D)
@@ -360,6 +361,21 @@ $(B)/$(SONAME): $(LIB_OBJ) lib/exports.map
 
 $(B)/rtc: $(TOOL_OBJ) $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
+
+# ---- Completion of the command line, for the shells ------------------------------
+
+COMPLETION_SRC := $(addprefix tools/completion/,bash.c complete.c fish.c lines.c zsh.c)
+COMPLETION_OBJ := $(patsubst %.c,$(B)/%.o,$(COMPLETION_SRC))
+COMPLETIONS    := $(addprefix $(B)/completion/rtc.,bash zsh fish)
+
+completions: $(COMPLETIONS)
+
+$(B)/complete: $(COMPLETION_OBJ) $(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ)) $(B)/librt.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
+
+$(B)/completion/rtc.%: $(B)/complete
+	@mkdir -p $(@D)
+	$(B)/complete $* >$@
 
 # ---- Many machines: see tools/cluster/README.md -----------------------------
 
@@ -732,14 +748,26 @@ $(B)/docs: $(B)/dsl/docs.o $(B)/dsl/reference.o $(B)/dsl/textmate.o $(B)/librt.a
 REALNAME    := librt-render.so.$(VERSION)
 BINDIR      ?= $(PREFIX)/bin
 INCLUDEDIR  ?= $(PREFIX)/include
-INSTALLED    = $(BINDIR)/rtc $(LIBDIR)/pkgconfig/librt-render.pc \
+DATADIR     ?= $(PREFIX)/share
+BASHDIR     ?= $(DATADIR)/bash-completion/completions
+ZSHDIR      ?= $(DATADIR)/zsh/site-functions
+FISHDIR     ?= $(DATADIR)/fish/vendor_completions.d
+INSTALLED    = $(BINDIR)/rtc $(BASHDIR)/rtc $(ZSHDIR)/_rtc $(FISHDIR)/rtc.fish \
+               $(LIBDIR)/pkgconfig/librt-render.pc \
                $(addprefix $(INCLUDEDIR)/rt/,rt.h common.h $(notdir $(PUBLIC_H))) \
                $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a)
+
+# Those that installation may make, the inner ones first; taken away where they are empty.
+OWN_FOLDERS  = $(BASHDIR) $(ZSHDIR) $(FISHDIR) \
+               $(patsubst %/,%,$(dir $(BASHDIR) $(ZSHDIR) $(FISHDIR))) $(LIBDIR)/pkgconfig
 
 # glibc owns every librt.*, so nothing is installed under that name.
 install: all
 	install -d $(sort $(addprefix $(DESTDIR),$(dir $(INSTALLED))))
 	install -m 755 $(B)/rtc $(DESTDIR)$(BINDIR)/rtc
+	install -m 644 $(B)/completion/rtc.bash $(DESTDIR)$(BASHDIR)/rtc
+	install -m 644 $(B)/completion/rtc.zsh $(DESTDIR)$(ZSHDIR)/_rtc
+	install -m 644 $(B)/completion/rtc.fish $(DESTDIR)$(FISHDIR)/rtc.fish
 	install -m 755 $(B)/$(SONAME) $(DESTDIR)$(LIBDIR)/$(REALNAME)
 	ln -sf $(REALNAME) $(DESTDIR)$(LIBDIR)/$(SONAME)
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/librt-render.so
@@ -754,6 +782,9 @@ install: all
 uninstall:
 	rm -f $(addprefix $(DESTDIR),$(INSTALLED))
 	[ ! -d $(DESTDIR)$(INCLUDEDIR)/rt ] || rmdir $(DESTDIR)$(INCLUDEDIR)/rt
+	for folder in $(addprefix $(DESTDIR),$(OWN_FOLDERS)); do \
+	    rmdir "$$folder" 2>/dev/null || true; \
+	done
 	[ -n "$(DESTDIR)" ] || [ "$$(id -u)" -ne 0 ] || ldconfig
 
 help:

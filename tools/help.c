@@ -76,6 +76,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "       rtc photons diff MAP MAP                         say how two maps differ\n"
         "       rtc photons export MAP --out FILE.ply            points for MeshLab or Blender\n"
         "\n"
+        "Emits photons into a map, or works on maps in files.\n"
         "The name of a map that is written must end in .rtp.\n"
         "`rtc SCENE.rts --photon-map MAP.rtp` renders with a map. Parts made by --part, or\n"
         "maps of different seeds, merge in any order into the map that would have been\n"
@@ -194,7 +195,7 @@ static const struct {
     {OPTION_QUIET, COMMAND_PHOTONS, "export", "say nothing but errors"},
 };
 
-static const char *help_of(const option *option, command_id command, const photons_form *form)
+const char *help_of(const option *option, command_id command, const photons_form *form)
 {
     const char *word = form ? form->word : "";
     for (size_t i = 0; i < sizeof own_helps / sizeof *own_helps; i++)
@@ -202,6 +203,11 @@ static const char *help_of(const option *option, command_id command, const photo
             (!own_helps[i].form || strcmp(own_helps[i].form, word) == 0))
             return own_helps[i].help;
     return option->help;
+}
+
+const char *help_usage(command_id command)
+{
+    return usages[command];
 }
 
 /* The option's name and value, and beside them "help (words; default ...)". */

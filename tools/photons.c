@@ -208,6 +208,13 @@ static const photons_form forms[] = {
      "Writes the photons as the points of a PLY file for MeshLab or Blender.\n"},
 };
 
+const photons_form *photons_forms(size_t *count)
+{
+    if (count)
+        *count = sizeof forms / sizeof *forms;
+    return forms;
+}
+
 const photons_form *photons_find_form(const command_line *arguments)
 {
     if (arguments->command != COMMAND_PHOTONS || arguments->operand_count == 0)

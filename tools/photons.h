@@ -13,6 +13,9 @@ typedef struct photons_form {
     const char *usage; /* the start of its help */
 } photons_form;
 
+/* All forms; static storage. count may be NULL. */
+const photons_form *photons_forms(size_t *count);
+
 /* The form that a command line names, or NULL. */
 const photons_form *photons_find_form(const command_line *arguments);
 
