@@ -35,6 +35,8 @@ ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread \
 CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden \
              -fPIC -pthread -Ilib $(PKG_CFLAGS) $(HARDEN) $(SAME) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -lm -pthread
+# Of rtc alone: the page of --preview.
+TOOL_LIBS := $(shell pkg-config --libs libmicrohttpd 2>/dev/null)
 
 # ---- Sources ----------------------------------------------------------------
 
@@ -132,6 +134,9 @@ TOOL_SRC := \
 	tools/part.c \
 	tools/photons.c tools/photons_emit.c tools/photons_keep.c \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/rays.c tools/recorded.c \
+	tools/preview/board.c tools/preview/board_json.c tools/preview/preview.c \
+	tools/preview/request.c tools/preview/server.c tools/preview/target.c \
+	tools/preview/tev.c \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
 	tools/stats.c tools/study/cell.c tools/study/command.c tools/study/list.c \
 	tools/study/page.c tools/study/study.c tools/study/sweep.c tools/study/view.c \
@@ -214,7 +219,8 @@ TESTS_QUICK := \
 	tests/lib/setting/test_word.c \
 	tests/lib/texture/test_texture.c \
 	tests/proof/test_proof.c \
-	tests/statistics/test_chi_square_quick.c
+	tests/statistics/test_chi_square_quick.c \
+	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
 	tests/proof/test_enclosures.c tests/proof/test_estimators.c tests/proof/test_extremes.c \
@@ -236,12 +242,14 @@ TESTS_FULL  := \
 	tests/lib/mode/test_photon_glass.c tests/lib/mode/test_photon_hull.c \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
-	tests/tools/test_film_files.c tests/tools/test_mesh.c tests/tools/test_scenes.c \
+	tests/tools/test_film_files.c tests/tools/test_live.c tests/tools/test_mesh.c \
+	tests/tools/test_scenes.c \
 	tests/tools/test_completion.c tests/tools/test_timing.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
 	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c \
-	tests/lib/photon/test_map_parts.c tests/lib/share/test_share.c
+	tests/lib/photon/test_map_parts.c tests/lib/share/test_share.c \
+	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_SHELL := \
 	tests/kernels/test_width1.sh \
 	tests/install/test_install.sh \
@@ -273,7 +281,7 @@ TEST_SUPPORT_SRC := \
 	tests/statistics/random_numbers.c tests/statistics/oren_nayar_reference.c \
 	tests/statistics/quadrature.c tests/statistics/scatter.c tests/statistics/sky.c \
 	tests/studies/study.c \
-	tests/tools/expect.c tests/tools/spawn.c
+	tests/tools/expect.c tests/tools/http.c tests/tools/spawn.c
 # What the programs of fuzzing share.
 FUZZ_SRC := \
 	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \
@@ -300,7 +308,8 @@ TEST_KERNEL_SRC  := \
 # The C++ file first, which takes the longest.
 LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
             $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(B)/kernels.o
-TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC)) $(B)/page_source.o
+PAGE_OBJ := $(B)/page_source.o $(B)/preview_page_source.o
+TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC)) $(PAGE_OBJ)
 SONAME   := librt-render.so.$(SOVERSION)
 
 .PHONY: all bench bench-checkpoint bench-compare bench-mpi bench-reference bench-scaling \
@@ -348,7 +357,10 @@ $(B)/kernels.o: $(B)/kernels.c
 $(B)/page_source.c: $(B)/embed tools/study/page.html
 	$(B)/embed $@ page_source --bytes tools/study/page.html
 
-$(B)/page_source.o: $(B)/page_source.c
+$(B)/preview_page_source.c: $(B)/embed tools/preview/page.html
+	$(B)/embed $@ preview_page_source --bytes tools/preview/page.html
+
+$(PAGE_OBJ): %.o: %.c
 	$(CC) $(ALL_CFLAGS) -c -o $@ $<
 
 $(B)/librt.a: $(LIB_OBJ)
@@ -360,7 +372,7 @@ $(B)/$(SONAME): $(LIB_OBJ) lib/exports.map
 	    -o $@ $(LIB_OBJ) $(ALL_LIBS)
 
 $(B)/rtc: $(TOOL_OBJ) $(B)/librt.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TOOL_LIBS) $(ALL_LIBS)
 
 # ---- Completion of the command line, for the shells ------------------------------
 
@@ -371,7 +383,7 @@ COMPLETIONS    := $(addprefix $(B)/completion/rtc.,bash zsh fish)
 completions: $(COMPLETIONS)
 
 $(B)/complete: $(COMPLETION_OBJ) $(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ)) $(B)/librt.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TOOL_LIBS) $(ALL_LIBS)
 
 $(B)/completion/rtc.%: $(B)/complete
 	@mkdir -p $(@D)
@@ -414,7 +426,7 @@ $(MPI_OBJ): $(MPI_B)/%.o: tools/mpi/%.c | need-deps
 	@mkdir -p $(@D)
 	$(MPICC) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 $(MPI_B)/rtc-mpi: $(MPI_OBJ) $(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ)) $(B)/librt.a
-	$(MPICC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(ALL_LIBS)
+	$(MPICC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TOOL_LIBS) $(ALL_LIBS)
 
 # ---- Tests ------------------------------------------------------------------
 
@@ -446,7 +458,7 @@ $(FAULT_TESTS): %: %.o $(FAULT_OBJ) \
 	    $(filter %.o,$^) $(filter %.a,$^) $(TEST_LIBS) $(ALL_LIBS)
 $(B)/tests/faults/test_commands: $(B)/tests/faults/rtc.o $(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ))
 $(B)/tests/faults/test_commands: FAULT_LINK := -Wl,--wrap=interrupt_catch \
-	-Wl,--wrap=rt_device_open -Wl,--wrap=rt_device_close
+	-Wl,--wrap=rt_device_open -Wl,--wrap=rt_device_close $(TOOL_LIBS)
 $(B)/tests/faults/rtc.o: tools/rtc.c | need-deps
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) -Dmain=rtc_main -MMD -MP -c -o $@ $<
@@ -464,15 +476,17 @@ $(B)/tests/bench/bench_gather $(B)/tests/bench/bench_progressive: $(B)/tests/ben
 
 # The targets of fuzzing, and the command line of rtc, which is one of them.
 FUZZ_OBJ := $(patsubst %.c,$(B)/%.o,$(FUZZ_SRC) \
-            $(filter-out tools/interrupt.c tools/rtc.c tools/untrusted.c,$(TOOL_SRC))) \
-            $(B)/page_source.o
+            $(filter-out tools/interrupt.c tools/rtc.c tools/untrusted.c,$(TOOL_SRC))) $(PAGE_OBJ)
 FUZZ_LINK := -Wl,--wrap=rt_device_open
 $(B)/tests/fuzz/test_fuzz $(B)/tests/fuzz/make_inputs: \
 $(B)/tests/fuzz/%: $(B)/tests/fuzz/%.o $(FUZZ_OBJ) $(B)/libtests.a $(B)/librt.a
-	$(CC) $(CFLAGS) $(LDFLAGS) $(FUZZ_LINK) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
+	$(CC) $(CFLAGS) $(LDFLAGS) $(FUZZ_LINK) $(TEST_LINKER) -o $@ $^ $(TEST_LIBS) $(TOOL_LIBS) \
+	    $(ALL_LIBS)
 
 $(B)/fuzz: $(B)/tests/fuzz/libfuzzer.o $(FUZZ_OBJ) $(B)/librt.a
-	$(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) $(FUZZ_LINK) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
+	$(CXX) $(CFLAGS) -fsanitize=fuzzer $(LDFLAGS) $(FUZZ_LINK) -o $@ $^ $(TEST_LIBS) \
+	    $(TOOL_LIBS) \
+	    $(ALL_LIBS)
 
 # Builds and tests use JOBS cores, all of them by default; make's own -j holds for the build. Two
 # tests more than cores run at a time, as a test often waits for its device or sleeps.
@@ -619,9 +633,9 @@ check-memory: all
 	RTC=$(B)/rtc tests/run.sh tests/memory/oclgrind.sh
 
 # Parts of rtc that a test calls itself.
-$(B)/tests/tools/test_untrusted: $(B)/tests/tools/test_untrusted.o \
+$(addprefix $(B)/tests/tools/test_,preview tev untrusted): %: %.o \
 		$(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ)) $(B)/libtests.a $(B)/librt.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TEST_LIBS) $(ALL_LIBS)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TEST_LIBS) $(TOOL_LIBS) $(ALL_LIBS)
 
 # A platform with a fault.
 $(B)/tests/faults/icd.so: tests/faults/icd.c
@@ -728,7 +742,7 @@ deps:
 
 # What a compiler needs is there; make deps fixes it.
 need-deps:
-	@pkg-config --exists $(PKGS) 2>/dev/null || \
+	@pkg-config --exists $(PKGS) libmicrohttpd 2>/dev/null || \
 	    { echo "librt: missing dependencies; run 'make deps'" >&2; exit 1; }
 
 demo: deps

@@ -7,6 +7,7 @@
 #include "message.h"
 #include "number.h"
 #include "photons.h"
+#include "preview/target.h"
 #include "settings.h"
 #include "status.h"
 #include "untrusted.h"
@@ -271,6 +272,13 @@ static int read_value(command_line *out, const meaning *meaning, const char *tex
 
 /* ---- The line ------------------------------------------------------------- */
 
+/* Whether a word is the value of --preview, which may be left out, and not a scene. */
+static int is_preview(const char *word)
+{
+    preview_target target;
+    return preview_target_read(&target, word);
+}
+
 /* Reads the option at argv[*at], and its value where that is the next argument. */
 static int read_option(command_line *out, int argc, char **argv, int *at)
 {
@@ -289,7 +297,10 @@ static int read_option(command_line *out, int argc, char **argv, int *at)
     }
     const char *text = equals ? equals + 1 : NULL;
     /* A word that starts with two dashes is the next option, not a value that was forgotten. */
-    if (!text && value_name(&meaning) && *at + 1 < argc && strncmp(argv[*at + 1], "--", 2) != 0)
+    if (meaning.option == &option_table[OPTION_PREVIEW])
+        text = text ? text : *at + 1 < argc && is_preview(argv[*at + 1]) ? argv[++*at] : "page";
+    else if (!text && value_name(&meaning) && *at + 1 < argc &&
+             strncmp(argv[*at + 1], "--", 2) != 0)
         text = argv[++*at];
     return read_value(out, &meaning, text);
 }

@@ -92,6 +92,12 @@ int main(void) { return png_access_version_number() == 0; }
 END
 }
 
+probe_microhttpd() { compiles c libmicrohttpd '' <<'END'
+#include <microhttpd.h>
+int main(void) { return MHD_get_version() == 0; }
+END
+}
+
 # flann.pc pulls in what only other headers need.
 probe_flann() { compiles cc '' '' <<'END'
 #include <flann/algorithms/kdtree_single_index.h>
@@ -142,6 +148,7 @@ openmesh|OpenMesh|libopenmesh-dev
 openexr|OpenEXR 3.1|libopenexr-dev
 png|libpng|libpng-dev
 flann|FLANN|libflann-dev
+microhttpd|libmicrohttpd|libmicrohttpd-dev
 cmocka|cmocka|libcmocka-dev
 END
 }

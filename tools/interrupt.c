@@ -72,6 +72,12 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+static void say_stopping(void)
+{
+    say("\nrtc: stopping; interrupt again to stop at once\n",
+        "{\"severity\":\"note\",\"message\":\"stopping; interrupt again to stop at once\"}\n");
+}
+
 static void *wait_for_signals(void *data)
 {
     int signal_number, first = 0;
@@ -98,9 +104,7 @@ static void *wait_for_signals(void *data)
             set(&pending);
             first = signal_number;
             since = now();
-            say("\nrtc: stopping; interrupt again to stop at once\n",
-                "{\"severity\":\"note\",\"message\":\"stopping; interrupt again to stop at "
-                "once\"}\n");
+            say_stopping();
         }
     }
     return NULL;
@@ -139,6 +143,14 @@ void interrupt_catch(int in_json, int quiet)
 void interrupt_defer(void)
 {
     set(&deferred);
+}
+
+void interrupt_request(void)
+{
+    if (get(&pending))
+        return;
+    set(&pending);
+    say_stopping();
 }
 
 void interrupt_let_end(void)

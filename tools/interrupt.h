@@ -28,6 +28,9 @@ void interrupt_defer(void);
  */
 void interrupt_let_end(void);
 
+/* As the first of them does once they only set a flag. */
+void interrupt_request(void);
+
 /* Whether one came. */
 int interrupt_pending(void);
 

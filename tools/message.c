@@ -20,11 +20,11 @@
 enum { EXCERPT = 110, EXCERPT_BEFORE = 70 };
 
 /* The escape sequence on a terminal that wants colours (https://no-color.org), else nothing. */
-static const char *colour(const char *escape)
+static const char *colour(FILE *out, const char *escape)
 {
     const char *no_color = getenv("NO_COLOR"), *term = getenv("TERM");
-    int plain =
-        (no_color && no_color[0]) || !term || strcmp(term, "dumb") == 0 || !isatty(STDERR_FILENO);
+    int plain = out != stderr || (no_color && no_color[0]) || !term || strcmp(term, "dumb") == 0 ||
+                !isatty(STDERR_FILENO);
     return plain ? "" : escape;
 }
 
@@ -47,15 +47,26 @@ static size_t character_size(const char *text, size_t length)
 }
 
 /* Prints text with '?' for each byte that could drive the terminal. */
-static void put_safe(const char *text, size_t length)
+static void put_safe(FILE *out, const char *text, size_t length)
 {
     for (size_t i = 0, size; i < length; i += size ? size : 1) {
         size = character_size(text + i, length - i);
         if (size)
-            fwrite(text + i, 1, size, stderr);
+            fwrite(text + i, 1, size, out);
         else
-            fputc('?', stderr);
+            fputc('?', out);
     }
+}
+
+/* ---- Somebody else who listens ---------------------------------------------- */
+
+static message_listener *listener;
+static void *listener_user;
+
+void message_listen(message_listener *heard, void *user)
+{
+    listener = heard;
+    listener_user = user;
 }
 
 /* ---- Lines for a program ---------------------------------------------------- */
@@ -109,12 +120,15 @@ static void put_message(const message_kind *kind, const char *format, va_list ar
 {
     char text[2048];
     vsnprintf(text, sizeof text, format, args);
+    if (listener)
+        listener(listener_user, kind->severity, text);
     if (as_json) {
         put_json_message(kind->severity, text);
         return;
     }
-    fprintf(stderr, "%s%s%s%s", kind->before, colour(kind->escape), kind->label, colour(PLAIN));
-    put_safe(text, strlen(text));
+    fprintf(stderr, "%s%s%s%s", kind->before, colour(stderr, kind->escape), kind->label,
+            colour(stderr, PLAIN));
+    put_safe(stderr, text, strlen(text));
     fputc('\n', stderr);
 }
 
@@ -157,11 +171,11 @@ void message_note(const char *format, ...)
 /* ---- Diagnostics --------------------------------------------------------- */
 
 /* Spaces, or `fill`, as wide as put_safe prints text; a tab stays one. */
-static void put_blank(const char *text, size_t length, char fill)
+static void put_blank(FILE *out, const char *text, size_t length, char fill)
 {
     for (size_t i = 0, size; i < length; i += size ? size : 1) {
         size = character_size(text + i, length - i);
-        fputc(text[i] == '\t' && fill == ' ' ? '\t' : fill, stderr);
+        fputc(text[i] == '\t' && fill == ' ' ? '\t' : fill, out);
     }
 }
 
@@ -171,7 +185,7 @@ static int is_continuation(char c)
 }
 
 /* The source line, cut to a window around the place when it is long, and the place underlined. */
-static void put_excerpt(const char *line, size_t at, size_t marked)
+static void put_excerpt(FILE *out, const char *line, size_t at, size_t marked)
 {
     size_t length = strlen(line);
     if (at > length)
@@ -184,23 +198,24 @@ static void put_excerpt(const char *line, size_t at, size_t marked)
         end++;
     const char *lead = first > 0 ? "..." : "";
 
-    fprintf(stderr, "    %s", lead);
-    put_safe(line + first, end - first);
-    fprintf(stderr, "%s\n    %*s", end < length ? "..." : "", (int)strlen(lead), "");
-    put_blank(line + first, at - first, ' ');
-    fprintf(stderr, "%s^", colour(GREEN));
+    fprintf(out, "    %s", lead);
+    put_safe(out, line + first, end - first);
+    fprintf(out, "%s\n    %*s", end < length ? "..." : "", (int)strlen(lead), "");
+    put_blank(out, line + first, at - first, ' ');
+    fprintf(out, "%s^", colour(out, GREEN));
     if (marked > end - at)
         marked = end - at;
     size_t head = marked ? character_size(line + at, end - at) : 0;
     head = head ? head : 1;
     if (marked > head)
-        put_blank(line + at + head, marked - head, '~');
-    fprintf(stderr, "%s\n", colour(PLAIN));
+        put_blank(out, line + at + head, marked - head, '~');
+    fprintf(out, "%s\n", colour(out, PLAIN));
 }
+
+static const char *const severities[] = {"error", "warning", "note"};
 
 static void put_json_diagnostic(const rt_diagnostic *diagnostic)
 {
-    static const char *const severities[] = {"error", "warning", "note"};
     fputc('{', stderr);
     put_json("severity", severities[diagnostic->severity]);
     fputc(',', stderr);
@@ -214,20 +229,20 @@ static void put_json_diagnostic(const rt_diagnostic *diagnostic)
     fputs("}\n", stderr);
 }
 
-static void put_text_diagnostic(const rt_diagnostic *diagnostic)
+static void put_text_diagnostic(FILE *out, const rt_diagnostic *diagnostic)
 {
     static const char *const labels[] = {"error: ", "warning: ", "note: "}, *const colours[] = {
                                                                                 RED, YELLOW, CYAN};
-    fputs(colour(BOLD), stderr);
-    put_safe(diagnostic->file, strlen(diagnostic->file));
+    fputs(colour(out, BOLD), out);
+    put_safe(out, diagnostic->file, strlen(diagnostic->file));
     if (diagnostic->line > 0)
-        fprintf(stderr, ":%d:%d", diagnostic->line, diagnostic->column);
-    fprintf(stderr, ": %s%s%s%s", colour(PLAIN), colour(colours[diagnostic->severity]),
-            labels[diagnostic->severity], colour(PLAIN));
-    put_safe(diagnostic->message, strlen(diagnostic->message));
-    fputc('\n', stderr);
+        fprintf(out, ":%d:%d", diagnostic->line, diagnostic->column);
+    fprintf(out, ": %s%s%s%s", colour(out, PLAIN), colour(out, colours[diagnostic->severity]),
+            labels[diagnostic->severity], colour(out, PLAIN));
+    put_safe(out, diagnostic->message, strlen(diagnostic->message));
+    fputc('\n', out);
     if (diagnostic->line > 0 && diagnostic->source_line)
-        put_excerpt(diagnostic->source_line,
+        put_excerpt(out, diagnostic->source_line,
                     diagnostic->column > 0 ? (size_t)diagnostic->column - 1 : 0,
                     diagnostic->length > 0 ? (size_t)diagnostic->length : 1);
 }
@@ -244,12 +259,32 @@ void message_of_warning(void *user, const char *line)
     message_warning("%s", line);
 }
 
+/* Tells the listener of a diagnostic, as the terminal shows it. */
+static void tell_listener(const rt_diagnostic *diagnostic)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return;
+    put_text_diagnostic(out, diagnostic);
+    if (fclose(out) == 0 && size > 0) {
+        text[size - 1] = '\0'; /* the newline */
+        listener(listener_user, severities[diagnostic->severity], text);
+        if (diagnostic->hint && as_json)
+            listener(listener_user, "hint", diagnostic->hint);
+    }
+    free(text);
+}
+
 void message_diagnostic(const rt_diagnostic *diagnostic)
 {
+    if (listener)
+        tell_listener(diagnostic);
     if (as_json)
         put_json_diagnostic(diagnostic);
     else
-        put_text_diagnostic(diagnostic);
+        put_text_diagnostic(stderr, diagnostic);
     if (diagnostic->hint && !as_json)
         message_hint("%s", diagnostic->hint);
 }

@@ -28,6 +28,13 @@ void message_warning(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_hint(const char *format, ...) PRINTF_LIKE(1, 2);
 void message_note(const char *format, ...) PRINTF_LIKE(1, 2);
 
+/*
+ * From now on all of these are told to somebody else too, without colours: the excerpt of a source
+ * as lines. NULL: to nobody.
+ */
+typedef void message_listener(void *user, const char *severity, const char *text);
+void message_listen(message_listener *heard, void *user);
+
 /* A note and a warning for rt_hooks. */
 void message_of_log(void *user, const char *line);
 void message_of_warning(void *user, const char *line);

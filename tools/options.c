@@ -106,6 +106,11 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER | MERGE, 0, 0,
                         tonemaps, 1, "none", "tone curve of .png and .ppm"},
 
+    [OPTION_PREVIEW] = {"preview", "WHERE", KIND_TEXT, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
+                        "show the picture while it grows: page, a page of this machine alone, "
+                        "whose address is printed (page:PORT at a port); open, which opens it in "
+                        "the browser too; or tev[:HOST:PORT], in the viewer tev. Without WHERE: "
+                        "page"},
     [OPTION_TRIANGLES] = {"triangles", "N", KIND_WHOLE, GROUP_MESH, MESH, 1, 1e9, NULL, 0, "2e4",
                           "about how many triangles"},
     /* The same name as the image's; each command takes its own. */

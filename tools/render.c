@@ -17,6 +17,7 @@
 #include "outputs.h"
 #include "part.h"
 #include "photons.h"
+#include "preview/preview.h"
 #include "recorded.h"
 #include "rt.h"
 #include "status.h"
@@ -141,6 +142,7 @@ static int make_film(render_job *job)
         if (status != STATUS_DONE)
             return status;
     }
+    preview_begin(job->session.preview, &job->options, 1, job->options.width, job->options.height);
     if (result == RT_OK)
         result = crew_render(&job->film, &job->crew, &job->options, job->session.arguments->team,
                              &error);
@@ -339,6 +341,8 @@ static int run(render_job *job)
         status = plan(job);
     if (status == STATUS_DONE)
         status = record_command(job);
+    if (status == STATUS_DONE && !is_worker(job))
+        status = preview_open(&job->session.preview, job->session.arguments, job->scene_path, 0);
     if (status == STATUS_DONE)
         status = confine(job);
     if (status == STATUS_DONE)
@@ -347,6 +351,7 @@ static int run(render_job *job)
         status = crew_open(&job->crew, &job->session);
     if (status == STATUS_DONE)
         status = make_film(job);
+    preview_show(job->session.preview, job->film);
     if ((status == STATUS_DONE || status == STATUS_INTERRUPTED) && !is_worker(job))
         status = write_images(job, status);
     rt_profile_begin(job->session.arguments->profile, "checkpoint");
@@ -416,6 +421,7 @@ int command_render(const command_line *arguments)
     session_begin(&job.session, arguments);
     job.scene_path = arguments->operands[0];
     int status = run(&job);
+    preview_end(job.session.preview, status);
     if (status == STATUS_INPUT && !job.scene)
         hint_command(job.scene_path);
     file_lock_release(&job.checkpoint.lock);

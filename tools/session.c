@@ -10,6 +10,7 @@
 
 #include "interrupt.h"
 #include "message.h"
+#include "preview/preview.h"
 #include "settings.h"
 #include "status.h"
 
@@ -36,6 +37,7 @@ static int on_progress(void *user, const rt_progress *report)
     int stop = interrupt_pending();
     if (s->began == 0 && follows_light(report->stage))
         s->began = clock_now() - report->elapsed;
+    preview_progress(s->preview, report);
     if (!stop)
         progress_show(&s->progress, report);
     return stop;

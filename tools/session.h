@@ -13,6 +13,7 @@ typedef struct session {
     int quiet;
     progress_display progress;
     rt_hooks hooks;
+    struct preview *preview; /* that is told how far it is, or NULL */
     double began; /* when light was first followed, by a clock that is never set; 0: not yet */
 } session;
 

@@ -16,6 +16,10 @@ void interrupt_defer(void)
 {
 }
 
+void interrupt_request(void)
+{
+}
+
 int interrupt_pending(void)
 {
     return 0;

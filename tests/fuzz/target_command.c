@@ -41,6 +41,8 @@ static int is_harmless(const command_line *line)
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (is_given(line, files[i]) && strchr(line->options[files[i]].text, '/'))
             return 0;
+    if (is_given(line, OPTION_PREVIEW))
+        return 0;
     if (line->command == COMMAND_MESH)
         return is_given(line, OPTION_TRIANGLES) &&
                line->options[OPTION_TRIANGLES].count <= triangles_max;
