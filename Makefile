@@ -132,6 +132,7 @@ TOOL_SRC := \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
 	tools/no_effect.c tools/number.c tools/options.c tools/other_work.c tools/outputs.c \
 	tools/part.c \
+	tools/paths/command.c tools/paths/json.c tools/paths/page.c tools/paths/ply.c \
 	tools/photons.c tools/photons_emit.c tools/photons_keep.c \
 	tools/photons_info.c tools/photons_json.c tools/progress.c tools/rays.c tools/recorded.c \
 	tools/preview/board.c tools/preview/board_json.c tools/preview/preview.c \
@@ -243,7 +244,7 @@ TESTS_FULL  := \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
 	tests/tools/test_film_files.c tests/tools/test_live.c tests/tools/test_mesh.c \
-	tests/tools/test_scenes.c \
+	tests/tools/test_paths.c tests/tools/test_scenes.c \
 	tests/tools/test_completion.c tests/tools/test_timing.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
@@ -308,7 +309,7 @@ TEST_KERNEL_SRC  := \
 # The C++ file first, which takes the longest.
 LIB_OBJ  := $(patsubst %.cc,$(B)/%.o,$(LIB_CXX_SRC)) \
             $(patsubst %.c,$(B)/%.o,$(LIB_SRC) $(DSL_SRC)) $(B)/kernels.o
-PAGE_OBJ := $(B)/page_source.o $(B)/preview_page_source.o
+PAGE_OBJ := $(B)/page_source.o $(B)/paths_page.o $(B)/preview_page_source.o
 TOOL_OBJ := $(patsubst %.c,$(B)/%.o,$(TOOL_SRC)) $(PAGE_OBJ)
 SONAME   := librt-render.so.$(SOVERSION)
 
@@ -359,6 +360,9 @@ $(B)/page_source.c: $(B)/embed tools/study/page.html
 
 $(B)/preview_page_source.c: $(B)/embed tools/preview/page.html
 	$(B)/embed $@ preview_page_source --bytes tools/preview/page.html
+
+$(B)/paths_page.c: $(B)/embed tools/paths/page.html
+	$(B)/embed $@ paths_page --bytes tools/paths/page.html
 
 $(PAGE_OBJ): %.o: %.c
 	$(CC) $(ALL_CFLAGS) -c -o $@ $<

@@ -15,6 +15,7 @@ int command_doctor(const command_line *arguments);
 int command_kernels(const command_line *arguments);
 int command_fmt(const command_line *arguments);
 int command_study(const command_line *arguments);
+int command_paths(const command_line *arguments);
 int command_photons(const command_line *arguments);
 int command_compare(const command_line *arguments);
 int command_merge(const command_line *arguments);

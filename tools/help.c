@@ -18,6 +18,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "       rtc doctor [OPTION]...      check that everything works here\n"
         "       rtc kernels [PROGRAM]...    compile the kernels ahead of the first render\n"
         "       rtc study SCENE --sweep ... settings compared on a page of pictures\n"
+        "       rtc paths SCENE --pixel X,Y ... the paths of a pixel, vertex by vertex\n"
         "       rtc photons ...             emit, merge, inspect and export photon maps\n"
         "       rtc compare A... B [OPTION]... measure how images differ from a reference\n"
         "       rtc merge FILM... --out FILE   join the parts of a picture\n"
@@ -64,6 +65,13 @@ static const char *const usages[COMMAND_COUNT] = {
         "each picture against a reference, and writes NAME.html, a page of pictures and\n"
         "plots that needs no other file, and NAME.csv. What stands in NAME.films is not\n"
         "rendered again.\n",
+    [COMMAND_PATHS] =
+        "usage: rtc paths SCENE.rts --pixel X,Y [OPTION]...\n"
+        "\n"
+        "Follows the camera paths of a pixel again, the same as a render in mode path\n"
+        "does, and writes every vertex down: where, what happened, the throughput, the\n"
+        "densities, the light that was met or sampled, its weight by multiple importance\n"
+        "sampling and what it added to the pixel. What all add up to is the pixel.\n",
     [COMMAND_FMT] =
         "usage: rtc fmt SCENE.rts... [OPTION]...\n"
         "\n"
@@ -164,6 +172,9 @@ static const struct {
     {OPTION_OUT, COMMAND_COMPARE, NULL,
      "where the signed difference goes; .png .ppm: white where equal, red where A is brighter, "
      "blue where B is; .exr .pfm: A - B as it is; may be repeated"},
+    {OPTION_OUT, COMMAND_PATHS, NULL,
+     "where the paths go, stdout if not given: .json; .ply, lines for Blender or MeshLab; .html, a "
+     "page that draws them over the picture; may be repeated"},
     {OPTION_STATS, COMMAND_PHOTONS, "",
      "print what the map holds on stdout, as `rtc photons info` does, and how long it took"},
     {OPTION_JSON, COMMAND_RENDER, NULL,

@@ -10,6 +10,7 @@
 #define STUDY (1u << COMMAND_STUDY)
 #define FMT (1u << COMMAND_FMT)
 #define KERNELS (1u << COMMAND_KERNELS)
+#define PATHS (1u << COMMAND_PATHS)
 #define PHOTONS (1u << COMMAND_PHOTONS)
 #define COMPARE (1u << COMMAND_COMPARE)
 #define MERGE (1u << COMMAND_MERGE)
@@ -34,6 +35,7 @@ const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_KEEP] = "Interrupts and several machines",
     [GROUP_OUTPUT] = "Output",
     [GROUP_STUDY] = "The study",
+    [GROUP_PATHS] = "The paths",
     [GROUP_MESH] = "The mesh",
     [GROUP_FMT] = "The layout",
     [GROUP_COMPARE] = "The comparison",
@@ -44,8 +46,8 @@ const char *const option_group_titles[GROUP_COUNT] = {
 
 const option option_table[OPTION_COUNT] = {
     [OPTION_SET] =
-        {"set", "NAME=VALUE", KIND_TEXT, GROUP_RENDER, RENDER | CHECK | PHOTONS | STUDY, 0, 0, NULL,
-         0, NULL,
+        {"set", "NAME=VALUE", KIND_TEXT, GROUP_RENDER, RENDER | CHECK | PHOTONS | STUDY | PATHS, 0,
+         0, NULL, 0, NULL,
          "the value of a constant that the scene defines by `let`, as in --set radius=0.3 "
          "or --set 'tint=[1 0.5 0]'; may be repeated"},
     [OPTION_ACCEL] = {"accel", "NAME", KIND_CHOICE, GROUP_RENDER, RENDER | PHOTONS | STUDY, 0, 0,
@@ -81,7 +83,7 @@ const option option_table[OPTION_COUNT] = {
                            "write images of a film although parts of it are missing"},
 
     [OPTION_OUT] = {"out", "FILE", KIND_TEXT, GROUP_OUTPUT,
-                    RENDER | PHOTONS | COMPARE | MERGE | STUDY, 0, 0, NULL, 0,
+                    RENDER | PHOTONS | COMPARE | MERGE | STUDY | PATHS, 0, 0, NULL, 0,
                     "NAME.png and NAME.exr in the current directory for NAME.rts",
                     "where the image goes: .exr .pfm (linear), .png .ppm (sRGB), or .rtpart, the "
                     "film itself, to be continued or merged; may be repeated"},
@@ -101,6 +103,11 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_REPEAT] = {"repeat", "N", KIND_WHOLE, GROUP_STUDY, STUDY, 1, 1000, NULL, 0, "1",
                        "render each picture with N seeds, which splits its error into noise, which "
                        "differs from seed to seed, and bias, which does not"},
+    [OPTION_PIXEL] = {"pixel", "X,Y", KIND_TEXT, GROUP_PATHS, PATHS, 0, 0, NULL, 0, NULL,
+                      "the pixel in column X and row Y, counted from 0 at the top left"},
+    [OPTION_SAMPLE] = {"sample", "A-B", KIND_TEXT, GROUP_PATHS, PATHS, 0, 0, NULL, 0,
+                       "all that --spp gives a pixel",
+                       "samples A to B of the pixel, or one, counted from 0"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER | MERGE, -126, 126, NULL,
                          1, "0", "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER | MERGE, 0, 0,
@@ -170,24 +177,24 @@ const option option_table[OPTION_COUNT] = {
          "for a scene by a stranger: read files in its folder only, give up the rights to do other "
          "than to write the outputs, and limit CPU time and memory (Linux)"},
     [OPTION_DEVICE] =
-        {"device", "D", KIND_TEXT, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR | KERNELS | STUDY, 0, 0,
-         NULL, 0, "0",
+        {"device", "D", KIND_TEXT, GROUP_DEVICE,
+         RENDER | PHOTONS | DOCTOR | KERNELS | STUDY | PATHS, 0, 0, NULL, 0, "0",
          "a number of `rtc devices`, or part of a device's or platform's name; a render takes "
          "several too, as in 0,1, or all, which share the picture"},
-    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE, RENDER | PHOTONS | DOCTOR | STUDY,
-                        1, UINT32_MAX, NULL, 0, "all",
+    [OPTION_THREADS] = {"threads", "N", KIND_WHOLE, GROUP_DEVICE,
+                        RENDER | PHOTONS | DOCTOR | STUDY | PATHS, 1, UINT32_MAX, NULL, 0, "all",
                         "host threads, and compute units used of a CPU device"},
     [OPTION_WORK_GROUP] = {"work-group", "N", KIND_WHOLE, GROUP_DEVICE,
-                           RENDER | PHOTONS | DOCTOR | KERNELS | STUDY, 1, UINT32_MAX, NULL, 0,
-                           "chosen for the device", "work-items per work-group"},
+                           RENDER | PHOTONS | DOCTOR | KERNELS | STUDY | PATHS, 1, UINT32_MAX, NULL,
+                           0, "chosen for the device", "work-items per work-group"},
     [OPTION_MEMORY] =
         {"memory", "LIMIT", KIND_SIZE, GROUP_DEVICE,
-         RENDER | CHECK | PHOTONS | MERGE | INFO | STUDY, 1, 0x1p60, NULL, 0, "no limit",
+         RENDER | CHECK | PHOTONS | MERGE | INFO | STUDY | PATHS, 1, 0x1p60, NULL, 0, "no limit",
          "take no more memory than this for the scene, its hierarchy, photon maps and the film, "
          "device buffers among them; in bytes, or with K, M, G or T, powers of 1024, as in 4G"},
 
-    [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK, RENDER | PHOTONS | STUDY, 0, 0,
-                         progress_styles, 0, "auto",
+    [OPTION_PROGRESS] = {"progress", "HOW", KIND_CHOICE, GROUP_TALK,
+                         RENDER | PHOTONS | STUDY | PATHS, 0, 0, progress_styles, 0, "auto",
                          "progress on stderr; auto is one redrawn line on a terminal and plain "
                          "lines elsewhere; with json one JSON object per line"},
     [OPTION_STATS] = {"stats", NULL, KIND_FLAG, GROUP_TALK, RENDER | PHOTONS, 0, 0, NULL, 0, NULL,
@@ -201,10 +208,10 @@ const option option_table[OPTION_COUNT] = {
                         "write every stage, kernel launch and transfer with its time to NAME.json, "
                         "which ui.perfetto.dev opens; of rtc-mpi, those of the first process"},
     [OPTION_VERBOSE] = {"verbose", NULL, KIND_FLAG, GROUP_TALK,
-                        RENDER | PHOTONS | DOCTOR | KERNELS | STUDY, 0, 0, NULL, 0, NULL,
+                        RENDER | PHOTONS | DOCTOR | KERNELS | STUDY | PATHS, 0, 0, NULL, 0, NULL,
                         "log details to stderr"},
     [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK,
-                      RENDER | CHECK | PHOTONS | MERGE | STUDY, 0, 0, NULL, 0, NULL,
+                      RENDER | CHECK | PHOTONS | MERGE | STUDY | PATHS, 0, 0, NULL, 0, NULL,
                       "say nothing but errors; progress only where --progress asks for it"},
     [OPTION_HELP] = {"help", NULL, KIND_FLAG, GROUP_TALK, ALL, 0, 0, NULL, 0, NULL,
                      "print this and stop"},

@@ -27,6 +27,7 @@ int settings_is_switch(const rt_setting *setting)
 int settings_is_taken(const rt_setting *setting, command_id command)
 {
     return command == COMMAND_RENDER || command == COMMAND_STUDY ||
+           (command == COMMAND_PATHS && setting->topic != RT_TOPIC_PHOTON) ||
            (command == COMMAND_PHOTONS && (setting->flags & RT_SETTING_EMITS));
 }
 

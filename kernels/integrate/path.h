@@ -41,9 +41,8 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     /* Skip a boundary suppressed by a medium of higher priority. */
     const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
     const uint material = scene->shapes[surface.shape].material;
-    RECORD(record_surface(path, &surface, material, wo));
+    RECORD(record_surface(path, &surface, material, wo, boundary.exists));
     if (!boundary.exists) {
-        RECORD(path->vertex.event = RT_PATH_PASSED);
         path->pdf_w = 0.0f;
         path->alive =
             pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
@@ -53,10 +52,8 @@ static inline void path_vertex(const struct scene *scene, const rt_params *param
     /* Add what the surface emits; end the path at the maximum depth. */
     add_emission(path, scene, params, &surface, wo, purpose);
     path->alive = !(purpose == FOLLOW_DIRECT && path->scattered);
-    if (path->alive && path->depth == params->max_depth) {
-        RECORD(path->vertex.event = RT_PATH_CUT_OFF);
+    if (path->alive && path->depth == params->max_depth)
         path_cut_off(path, scene->materials + material);
-    }
     if (!path->alive)
         return;
 

@@ -90,6 +90,7 @@ static inline float8 path_numbers(const struct path *path)
 static inline void path_cut_off(struct path *path, global const rt_material_data *material)
 {
     path->alive = false;
+    RECORD(path->vertex.event = RT_PATH_CUT_OFF);
     path->cut_off =
         mean3(path->beta * (row3(material->kd) + row3(material->ks) + row3(material->kt)));
 }

@@ -30,11 +30,11 @@ static inline void record_begin(struct path *path, uint event, float3 position)
     vertex->reserved[0] = vertex->reserved[1] = 0u;
 }
 
-/* The path meets a surface. */
+/* The path meets a surface, or a boundary that has no effect; absorbed, until it goes on. */
 static inline void record_surface(struct path *path, const struct surface *surface, uint material,
-                                  float3 wo)
+                                  float3 wo, bool is_boundary)
 {
-    record_begin(path, RT_PATH_ABSORBED, surface->position);
+    record_begin(path, is_boundary ? RT_PATH_ABSORBED : RT_PATH_PASSED, surface->position);
     vstore3(dot(wo, surface->normal) < 0.0f ? -surface->normal : surface->normal, 0,
             path->vertex.normal);
     path->vertex.shape = surface->shape;

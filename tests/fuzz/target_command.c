@@ -67,13 +67,15 @@ static int run_command(const command_line *line)
         [COMMAND_COMPARE] = command_compare, [COMMAND_MERGE] = command_merge,
         [COMMAND_INFO] = command_info,       [COMMAND_KERNELS] = command_kernels,
         [COMMAND_STUDY] = command_study,
+        [COMMAND_PATHS] = command_paths,
     };
     message_as_json(0);
     if (is_given(line, OPTION_HELP)) {
         help_print(line);
         return STATUS_DONE;
     }
-    return is_harmless(line) ? commands[line->command](line) : STATUS_DONE;
+    return commands[line->command] && is_harmless(line) ? commands[line->command](line)
+                                                        : STATUS_DONE;
 }
 
 /* ---- The files of the current directory ---------------------------------------------------- */
