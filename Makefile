@@ -751,7 +751,8 @@ need-deps:
 
 demo: deps
 	+$(MAKE) --no-print-directory all
-	$(B)/rtc scenes/cornell.rts --mode photon --out cornell.png --out cornell.exr
+	$(B)/rtc scenes/cornell.rts --mode photon --passes 40 --photons 262144 \
+	    --out cornell.png --out cornell.exr
 
 # The lists of fields in the reference page and the words of the editors' grammar, from the
 # tables in the source.

@@ -22,13 +22,13 @@ struct rt_gatherer {
 
 enum { POINTS_MAX_CPU = 1 << 16, POINTS_MAX_GPU = 1 << 18 };
 
-rt_photon_search rt_photon_search_of(const rt_device *device, const rt_render_options *options)
+rt_photon_search rt_photon_search_of(const rt_render_options *options)
 {
     const rt_render_options *o = options;
-    if (o->k == RT_K_ALL || o->caustic_k == RT_K_ALL || o->gather == RT_GATHER_DEVICE)
+    if (o->k == RT_K_ALL || o->caustic_k == RT_K_ALL)
         return RT_SEARCH_TREE;
-    const int chosen = o->gather == RT_GATHER_FLANN || o->area == RT_AREA_HULL;
-    return chosen || device->info.is_cpu ? RT_SEARCH_NEIGHBOURS : RT_SEARCH_TREE;
+    const int on_host = o->gather == RT_GATHER_FLANN || o->area == RT_AREA_HULL;
+    return on_host ? RT_SEARCH_NEIGHBOURS : RT_SEARCH_TREE;
 }
 
 size_t rt_gather_points_max(const rt_device *device)

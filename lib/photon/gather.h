@@ -28,10 +28,10 @@ typedef enum rt_photon_search {
 } rt_photon_search;
 
 /*
- * The search that the settings of a render in one pass mean. Where they leave the choice, a CPU
- * device takes the host's for the k nearest; the hull is for that one alone.
+ * The search that the settings of a render in one pass mean. Where they leave the choice, it is the
+ * tree, which finds the same photons faster; the hull is for the neighbour lists alone.
  */
-rt_photon_search rt_photon_search_of(const rt_device *device, const rt_render_options *options);
+rt_photon_search rt_photon_search_of(const rt_render_options *options);
 
 /* The maximum number of gather points per call: a GPU takes more, to have all of it at work. */
 size_t rt_gather_points_max(const rt_device *device);

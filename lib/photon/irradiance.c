@@ -153,7 +153,7 @@ rt_status rt_photon_map_irradiance(float *rgb, const rt_photon_map *map, rt_devi
         status = check_points(positions, normals, count, error);
     if (status != RT_OK || count == 0)
         return status;
-    a.search = rt_photon_search_of(device, &a.options);
+    a.search = rt_photon_search_of(&a.options);
     rt_photon_map_warn_even(map, a.options.area, a.options.hooks);
     status = prepare(&a, map, count, error);
     for (size_t done = 0, now; done < count && status == RT_OK; done += now) {

@@ -1,6 +1,7 @@
 /* compile.c - a queue of programs, and the threads that take from it. */
 #include "render/compile.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <string.h>
@@ -112,10 +113,23 @@ static void cancel(queue *q)
     pthread_mutex_unlock(&q->lock);
 }
 
+/*
+ * A driver does not say how far it is. So between one program and the next, the fraction follows the
+ * time: towards 1, but never there, at a rate that suits some seconds a program.
+ */
+static double estimate(const queue *q, uint32_t done, double elapsed, uint32_t compilers)
+{
+    const double seconds_a_program = 3, known = (double)done / q->programs.count;
+    const double expected = seconds_a_program * q->programs.count / compilers;
+    const double guess = 0.99 * (1 - exp(-elapsed / expected));
+    return guess > known ? guess : known;
+}
+
 /* Reports until the last thread has left. */
-static void wait_for_all(queue *q, rt_stage_progress *progress)
+static void wait_for_all(queue *q, uint32_t compilers, rt_stage_progress *progress)
 {
     const struct timespec pause = {0, 5000000};
+    const double began = rt_clock();
     uint32_t workers;
     do {
         nanosleep(&pause, NULL);
@@ -123,7 +137,8 @@ static void wait_for_all(queue *q, rt_stage_progress *progress)
         progress->step = q->done;
         workers = q->workers;
         pthread_mutex_unlock(&q->lock);
-        if (rt_stage_update(progress, (double)progress->step / progress->steps) != RT_OK)
+        const double elapsed = rt_clock() - began;
+        if (rt_stage_update(progress, estimate(q, progress->step, elapsed, compilers)) != RT_OK)
             cancel(q);
     } while (workers > 0);
 }
@@ -160,7 +175,7 @@ rt_status rt_programs_compile(rt_device *device, const rt_program_list *programs
             break;
     }
     if (count > 0)
-        wait_for_all(&q, progress);
+        wait_for_all(&q, count, progress);
     for (uint32_t i = 0; i < count; i++)
         pthread_join(threads[i], NULL);
     pthread_mutex_destroy(&q.lock);

@@ -42,7 +42,7 @@ RT_API const char *rt_mode_name(rt_mode mode);
 typedef enum rt_gather { RT_GATHER_AUTO = 0, RT_GATHER_FLANN, RT_GATHER_DEVICE } rt_gather;
 
 #define RT_GATHERS(X)                                                                              \
-    X(RT_GATHER_AUTO, "auto", "flann for the k nearest on a CPU, else device")                     \
+    X(RT_GATHER_AUTO, "auto", "device; flann with `area` hull")                                    \
     X(RT_GATHER_FLANN, "flann",                                                                    \
       "neighbour lists from FLANN's kd-tree on the host; k nearest only")                          \
     X(RT_GATHER_DEVICE, "device", "a kd-tree on the device: the same photons in less time")

@@ -143,7 +143,8 @@ def pass_rate(stats):
 def measure_threads(tree):
     """Two renders at once, of one thread each, show what the machine has for two threads."""
     path = ("tests/bench/cornell32.rts", "--spp", 16)
-    photon = ("scenes/cornell.rts", "--mode", "photon", "--passes", 6, "--radius", 0.0054)
+    photon = ("scenes/cornell.rts", "--mode", "photon", "--passes", 6, "--photons", 1000000,
+              "--radius", 0.0054)
     found = {}
     for name, of, work in (("threads.", rate, path), ("threads.photon.", pass_rate, photon)):
         found[name + "one"] = of(tree.render(*work, "--threads", 1))

@@ -60,8 +60,7 @@ static rt_status check(const rt_render_options *o, rt_error *error)
 
 static rt_photon_search search_of(const rt_render_job *job)
 {
-    return job->options->passes > 1 ? RT_SEARCH_TREE
-                                    : rt_photon_search_of(job->renderer->device, job->options);
+    return job->options->passes > 1 ? RT_SEARCH_TREE : rt_photon_search_of(job->options);
 }
 
 static void programs(rt_program_list *list, const rt_render_job *job)
