@@ -141,7 +141,7 @@ TOOL_SRC := \
 	tools/render.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
 	tools/stats.c tools/study/cell.c tools/study/command.c tools/study/list.c \
 	tools/study/page.c tools/study/study.c tools/study/sweep.c tools/study/view.c \
-	tools/timing.c tools/untrusted.c tools/whole_file.c
+	tools/timing.c tools/untrusted.c tools/watch.c tools/whole_file.c
 
 KERNEL_SRC := \
 	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \

@@ -114,12 +114,19 @@ rt_status crew_prepare(crew *crew, const rt_scene *scene, const rt_renderer_opti
     return status;
 }
 
-void crew_close(crew *crew)
+void crew_forget(crew *crew)
 {
     for (size_t i = 0; i < crew->count; i++) {
         rt_renderer_destroy(crew->renderers[i]);
-        rt_device_close(crew->devices[i]);
+        crew->renderers[i] = NULL;
     }
+}
+
+void crew_close(crew *crew)
+{
+    crew_forget(crew);
+    for (size_t i = 0; i < crew->count; i++)
+        rt_device_close(crew->devices[i]);
     free(crew->devices);
     free(crew->renderers);
     memset(crew, 0, sizeof *crew);

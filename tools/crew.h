@@ -28,6 +28,9 @@ rt_status crew_render(rt_film **out, const crew *crew, const rt_render_options *
 /* Whether a render emits one map for all its samples, which can be emitted in parts. */
 int crew_emits(const rt_render_options *options);
 
+/* Lets go of the scene; the devices stay open. */
+void crew_forget(crew *crew);
+
 void crew_close(crew *crew);
 
 #endif

@@ -6,10 +6,13 @@
 
 #include "message.h"
 #include "status.h"
+#include "watch.h"
 
 void inputs_add(input_list *inputs, const char *path)
 {
     struct stat info;
+    if (inputs->watch)
+        watch_add(inputs->watch, path);
     if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
         return;
     if (inputs->count == inputs->capacity) {

@@ -18,6 +18,7 @@ typedef struct input_list {
     input_file *files;
     size_t count, capacity;
     int out_of_memory;
+    struct watch *watch; /* that is told of each, or NULL */
 } input_list;
 
 /* Notes a file that is read; what is no regular file, such as a device, may be written as well. */

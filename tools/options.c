@@ -118,6 +118,9 @@ const option option_table[OPTION_COUNT] = {
                         "whose address is printed (page:PORT at a port); open, which opens it in "
                         "the browser too; or tev[:HOST:PORT], in the viewer tev. Without WHERE: "
                         "page"},
+    [OPTION_WATCH] = {"watch", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
+                      "render again whenever the scene or a file that it uses changes, until "
+                      "Ctrl-C; with --preview a coarse picture comes first"},
     [OPTION_TRIANGLES] = {"triangles", "N", KIND_WHOLE, GROUP_MESH, MESH, 1, 1e9, NULL, 0, "2e4",
                           "about how many triangles"},
     /* The same name as the image's; each command takes its own. */

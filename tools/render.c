@@ -10,6 +10,7 @@
 #include "crew.h"
 #include "film_note.h"
 #include "inputs.h"
+#include "interrupt.h"
 #include "light_shares.h"
 #include "message.h"
 #include "no_effect.h"
@@ -26,6 +27,7 @@
 #include "stats.h"
 #include "timing.h"
 #include "untrusted.h"
+#include "watch.h"
 
 /* Everything that one render holds. */
 typedef struct render_job {
@@ -46,6 +48,7 @@ typedef struct render_job {
     crew crew;
     double seconds; /* from its first photon or sample on */
     rt_film *film;
+    int is_again; /* another render went before, with --watch */
 } render_job;
 
 /* Whether another process leads the render, and writes what comes of it. */
@@ -118,7 +121,7 @@ static int load(render_job *job)
         status = inputs_check(&job->inputs, value(job, OPTION_PROFILE)->text);
     if (status != STATUS_DONE)
         return status;
-    if (!job->session.quiet)
+    if (!job->session.quiet && !job->is_again)
         no_effect_warn(job->session.arguments, &job->options, &job->outputs);
     /* Options that cannot be are told before any work. */
     status = session_check_options(&job->session, &job->own, &job->options);
@@ -128,24 +131,60 @@ static int load(render_job *job)
                                                                             : session_fail(&error);
 }
 
-static int make_film(render_job *job)
+/* Makes the scene ready on the devices. */
+static int prepare(render_job *job)
 {
     rt_renderer_options options = {0};
     rt_error error;
     options.hooks = &job->session.hooks;
     if (value(job, OPTION_ACCEL)->given)
         options.accel = (rt_accel)value(job, OPTION_ACCEL)->choice;
-    rt_status result = crew_prepare(&job->crew, job->scene, &options, &error);
-    if (result == RT_OK && !is_worker(job)) {
-        int status = other_work_check(&job->outputs, job->crew.renderers[0], &job->options,
-                                      job->session.arguments);
-        if (status != STATUS_DONE)
-            return status;
-    }
-    preview_begin(job->session.preview, &job->options, 1, job->options.width, job->options.height);
+    const rt_status result = crew_prepare(&job->crew, job->scene, &options, &error);
+    if (session_was_interrupted(result))
+        return STATUS_INTERRUPTED;
+    if (result != RT_OK)
+        return session_fail(&error);
+    return is_worker(job) ? STATUS_DONE
+                          : other_work_check(&job->outputs, job->crew.renderers[0], &job->options,
+                                             job->session.arguments);
+}
+
+/*
+ * With --watch and --preview a picture of a quarter of the width and height comes first, of few
+ * samples and photons.
+ */
+static int show_coarsely(render_job *job)
+{
+    enum { SCALE = 4, SPP = 4, PHOTONS = 16, PHOTONS_LEAST = 2000 };
+    rt_render_options o = job->options;
+    rt_film *film = NULL;
+    rt_error error;
+    if (!job->session.watch || !job->session.preview)
+        return STATUS_DONE;
+    preview_begin(job->session.preview, &o, SCALE, o.width, o.height);
+    o.width = (o.width + SCALE - 1) / SCALE;
+    o.height = (o.height + SCALE - 1) / SCALE;
+    o.spp = o.spp < SPP ? o.spp : SPP;
+    o.passes = o.passes < 2 ? o.passes : 2;
+    o.photons = o.photons / PHOTONS > PHOTONS_LEAST ? o.photons / PHOTONS : o.photons;
+    o.variance = o.variance || o.target_error > 0;
+    o.target_error = o.time = 0;
+    const rt_status result =
+        crew_render(&film, &job->crew, &o, job->session.arguments->team, &error);
     if (result == RT_OK)
-        result = crew_render(&job->film, &job->crew, &job->options, job->session.arguments->team,
-                             &error);
+        preview_show(job->session.preview, film);
+    rt_film_destroy(film);
+    if (session_was_interrupted(result))
+        return STATUS_INTERRUPTED;
+    return result == RT_OK ? STATUS_DONE : session_fail(&error);
+}
+
+static int make_film(render_job *job)
+{
+    rt_error error;
+    preview_begin(job->session.preview, &job->options, 1, job->options.width, job->options.height);
+    const rt_status result =
+        crew_render(&job->film, &job->crew, &job->options, job->session.arguments->team, &error);
     job->seconds = session_seconds(&job->session);
     progress_clear(&job->session.progress);
     if (session_was_interrupted(result))
@@ -334,26 +373,93 @@ static int plan(render_job *job)
     return STATUS_DONE;
 }
 
-static int run(render_job *job)
+/* What there is before the first scene: the options that need none, the page, the rights. */
+static int begin(render_job *job)
 {
     int status = light_shares_read(&job->shares, &job->share_count, job->session.arguments);
     if (status == STATUS_DONE)
         status = plan(job);
     if (status == STATUS_DONE)
         status = record_command(job);
+    if (status == STATUS_DONE && value(job, OPTION_WATCH)->given)
+        status = watch_check(job->session.arguments, job->scene_path, outputs_films(&job->outputs));
+    if (status == STATUS_DONE && value(job, OPTION_WATCH)->given)
+        status = watch_open(&job->session.watch);
     if (status == STATUS_DONE && !is_worker(job))
-        status = preview_open(&job->session.preview, job->session.arguments, job->scene_path, 0);
-    if (status == STATUS_DONE)
-        status = confine(job);
-    if (status == STATUS_DONE)
-        status = load(job);
-    if (status == STATUS_DONE)
+        status = preview_open(&job->session.preview, job->session.arguments, job->scene_path,
+                              job->session.watch != NULL);
+    job->inputs.watch = job->session.watch;
+    return status == STATUS_DONE ? confine(job) : status;
+}
+
+/* Reads the scene, renders it and writes what comes of that. */
+static int render_scene(render_job *job)
+{
+    int status = load(job);
+    if (status == STATUS_DONE && !job->crew.devices)
         status = crew_open(&job->crew, &job->session);
     if (status == STATUS_DONE)
+        status = prepare(job);
+    if (status == STATUS_DONE)
+        status = show_coarsely(job);
+    if (status == STATUS_DONE)
         status = make_film(job);
+    /* What is stopped for a change of a file is not written. */
+    if (status == STATUS_INTERRUPTED && job->session.watch && !interrupt_pending())
+        return status;
     preview_show(job->session.preview, job->film);
     if ((status == STATUS_DONE || status == STATUS_INTERRUPTED) && !is_worker(job))
         status = write_images(job, status);
+    return status;
+}
+
+/* Lets go of a scene and its film; devices and their kernels stay. */
+static void forget(render_job *job)
+{
+    rt_film_destroy(job->film);
+    rt_photon_map_destroy(job->photon_map);
+    crew_forget(&job->crew);
+    rt_scene_destroy(job->scene);
+    inputs_free(&job->inputs);
+    job->film = NULL;
+    job->photon_map = NULL;
+    job->scene = NULL;
+    job->inputs = (input_list){.watch = job->session.watch};
+    job->session.began = 0;
+    job->is_again = 1;
+}
+
+/* Renders again and again; returns the status of the last render. */
+static int render_watched(render_job *job)
+{
+    int status;
+    interrupt_defer();
+    for (;;) {
+        preview_clear_messages(job->session.preview);
+        preview_set_phase(job->session.preview, BOARD_LOADING);
+        watch_begin(job->session.watch);
+        inputs_add(&job->inputs, job->scene_path);
+        status = render_scene(job);
+        if (interrupt_pending())
+            return status;
+        progress_clear(&job->session.progress);
+        if (status != STATUS_INTERRUPTED) {
+            preview_set_phase(job->session.preview, BOARD_WAITING);
+            if (!job->session.quiet)
+                message_note("waiting for a change of a file; Ctrl-C ends");
+        }
+        watch_wait(job->session.watch);
+        if (interrupt_pending())
+            return status == STATUS_INTERRUPTED ? STATUS_DONE : status;
+        forget(job);
+    }
+}
+
+static int run(render_job *job)
+{
+    int status = begin(job);
+    if (status == STATUS_DONE)
+        status = job->session.watch ? render_watched(job) : render_scene(job);
     rt_profile_begin(job->session.arguments->profile, "checkpoint");
     checkpoint_finish(&job->checkpoint);
     rt_profile_end(job->session.arguments->profile);
@@ -422,6 +528,7 @@ int command_render(const command_line *arguments)
     job.scene_path = arguments->operands[0];
     int status = run(&job);
     preview_end(job.session.preview, status);
+    watch_close(job.session.watch);
     if (status == STATUS_INPUT && !job.scene)
         hint_command(job.scene_path);
     file_lock_release(&job.checkpoint.lock);

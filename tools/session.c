@@ -13,6 +13,7 @@
 #include "preview/preview.h"
 #include "settings.h"
 #include "status.h"
+#include "watch.h"
 
 static double clock_now(void)
 {
@@ -34,7 +35,7 @@ static int follows_light(rt_stage stage)
 static int on_progress(void *user, const rt_progress *report)
 {
     session *s = user;
-    int stop = interrupt_pending();
+    int stop = interrupt_pending() || (s->watch && watch_has_changed(s->watch));
     if (s->began == 0 && follows_light(report->stage))
         s->began = clock_now() - report->elapsed;
     preview_progress(s->preview, report);

@@ -14,6 +14,7 @@ typedef struct session {
     progress_display progress;
     rt_hooks hooks;
     struct preview *preview; /* that is told how far it is, or NULL */
+    struct watch *watch;     /* of files whose change ends a render, or NULL */
     double began; /* when light was first followed, by a clock that is never set; 0: not yet */
 } session;
 

@@ -41,7 +41,7 @@ static int is_harmless(const command_line *line)
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (is_given(line, files[i]) && strchr(line->options[files[i]].text, '/'))
             return 0;
-    if (is_given(line, OPTION_PREVIEW))
+    if (is_given(line, OPTION_PREVIEW) || is_given(line, OPTION_WATCH))
         return 0;
     if (line->command == COMMAND_MESH)
         return is_given(line, OPTION_TRIANGLES) &&
