@@ -317,7 +317,8 @@ SONAME   := librt-render.so.$(SOVERSION)
 	build-fuzz check \
 	check-cluster check-corpus check-crowd check-faults check-fuzz check-gpu-code check-kills \
 	check-memory \
-	check-mpi check-mutation check-peers check-quick check-reference check-reproducible \
+	check-mpi check-mutation check-page check-peers check-quick check-reference \
+	check-reproducible \
 	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
 	deps-lint deps-python format \
 	completions fuzz help install lint lint-quick mpi need-deps proof run-all run-quick \
@@ -568,6 +569,10 @@ deps-python:
 check-peers: all
 	RTC=$(B)/rtc tests/peers/compare.sh
 
+# The page of --preview in headless Chromium, which CHROMIUM may name.
+check-page: all
+	RTC=$(B)/rtc PAGES=$(B)/page python3 tests/browser/test_preview.py
+
 # So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a
 # number.
 SAMPLES ?= 1e9
@@ -814,6 +819,7 @@ help:
 	@echo 'make check-sanitize  the quick tests under the address and UB sanitizers'
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
 	@echo 'make check-python    the Python package in a fresh environment of PYTHON ($(PYTHON))'
+	@echo 'make check-page      the page of --preview in headless Chromium'
 	@echo 'make check-peers     six scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'

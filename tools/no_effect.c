@@ -74,7 +74,7 @@ static void warn_outputs(const command_line *arguments, const rt_render_options 
         (is_given(arguments, OPTION_EXPOSURE) || is_given(arguments, OPTION_TONEMAP)))
         message_warning(
             "--exposure and --tonemap have no effect on .exr and .pfm, which hold radiance");
-    if (outputs_have_layers(outputs))
+    if (outputs_have_layers(outputs) || is_given(arguments, OPTION_PREVIEW))
         return;
     if (is_requested(arguments, "aov"))
         message_warning("--aov has no effect without an .exr, which alone holds layers");
