@@ -321,7 +321,7 @@ SONAME   := librt-render.so.$(SOVERSION)
 	check-reproducible \
 	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
 	deps-lint deps-python format \
-	completions fuzz help install lint lint-quick mpi need-deps proof run-all run-quick \
+	completions fuzz gallery help install lint lint-quick mpi need-deps proof run-all run-quick \
 	run-threads \
 	study study-cluster uninstall
 .DELETE_ON_ERROR:
@@ -519,21 +519,18 @@ run-all: all $(CLUSTER) $(call TEST_BIN,$(TESTS_SHORT) $(TESTS_FULL))
 proof: all $(call TEST_BIN,$(TESTS_PROOF)) $(B)/tests/render/test_reference
 	B=$(B) RTC=$(B)/rtc tests/proof/page.sh $(call TEST_BIN,$(TESTS_PROOF))
 
-# What the choices of photon mapping cost and bring, how fast progressive passes converge, and a
-# caustic by path tracing and by photons in equal time: numbers, and pictures in build/study. Each
-# alone: study-k and its like.
-STUDIES := study-k study-paths study-direct study-kernels study-gathers study-consistency \
-	study-caustic
+# The studies of scenes/gallery.studies on one page, or one of them: study-k and its like. What is
+# rendered stays in $(B)/gallery, and is not rendered again. QUICK=1: small pictures.
+QUICK   ?=
+STUDIES := $(shell sed -n 's/^== \([a-z0-9-]*\).*/study-\1/p' scenes/gallery.studies)
+GALLERY  = $(B)/rtc study --list scenes/gallery.studies $(if $(QUICK),--quick)
 .PHONY: $(STUDIES)
-study: $(STUDIES)
-study-k study-paths study-direct study-kernels study-gathers: study-%: \
-		all $(B)/tests/studies/study_photons
-	@mkdir -p build/study
-	$(B)/tests/studies/study_photons $*
-study-consistency study-caustic: study-%: all $(B)/tests/studies/study_consistency \
-		$(B)/tests/studies/study_caustic
-	@mkdir -p build/study
-	$(B)/tests/studies/study_$*
+gallery study: all
+	@mkdir -p $(B)/gallery
+	$(GALLERY) --out $(B)/gallery/$(if $(QUICK),quick,index).html
+$(STUDIES): study-%: all
+	@mkdir -p $(B)/gallery
+	$(GALLERY) --only $* --out $(B)/gallery/$(if $(QUICK),quick-)$*.html
 
 # Each MPI that is installed: pictures on several processes. NETWORK=network adds network namespaces
 # with a delay, which only root can make.
@@ -569,9 +566,12 @@ deps-python:
 check-peers: all
 	RTC=$(B)/rtc tests/peers/compare.sh
 
-# The page of --preview in headless Chromium, which CHROMIUM may name.
+# The pages of --preview and of studies in headless Chromium, which CHROMIUM may name; both are
+# tested, whatever the first one finds. Pictures of them are left in $(B)/page.
 check-page: all
-	RTC=$(B)/rtc PAGES=$(B)/page python3 tests/browser/test_preview.py
+	@bad=0; for test in preview study; do \
+	    RTC=$(B)/rtc PAGES=$(B)/page/$$test python3 tests/browser/test_$$test.py || bad=1; \
+	done; exit $$bad
 
 # So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a
 # number.
@@ -819,7 +819,7 @@ help:
 	@echo 'make check-sanitize  the quick tests under the address and UB sanitizers'
 	@echo 'make check-reference the box scenes against the renders in RT_REFERENCE'
 	@echo 'make check-python    the Python package in a fresh environment of PYTHON ($(PYTHON))'
-	@echo 'make check-page      the page of --preview in headless Chromium'
+	@echo 'make check-page      the pages of --preview and of studies in headless Chromium'
 	@echo 'make check-peers     six scenes beside Mitsuba 3, where python3 can import it'
 	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'
@@ -841,7 +841,10 @@ help:
 	@echo 'make check-gpu-code  registers, memory and spills of each kernel, by clang for GPUs'
 	@echo 'make bench-mpi       two processes beside two threads of one, with each MPI'
 	@echo 'make proof           measures light against closed forms, for tests/proof/README.md'
-	@echo 'make study           numbers and pictures on photon mapping; study-k ... makes one'
+	@echo 'make gallery         all studies on the page $(B)/gallery/index.html; QUICK=1: small'
+	@echo 'make study-NAME      one of them, on $(B)/gallery/NAME.html; the names:'
+	@sed -n 's/^== \([a-z0-9-]*\) \(.*\)/    \1@\2/p' scenes/gallery.studies | \
+	    awk -F @ '{ printf "%-21s%s\n", $$1, $$2 }'
 	@echo 'make study-cluster   simulates up to 10 000 processes, for tools/cluster/README.md'
 	@echo 'make check-cluster   the model of that beside 1, 2 and 4 processes of this machine'
 	@echo 'make format          formats the C, OpenCL C and C++ sources by clang-format'

@@ -94,9 +94,16 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_LIST] =
         {"list", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
          "make one page of all studies in a file; settings given here go before theirs"},
+    [OPTION_ONLY] = {"only", "NAME", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
+                     "of the list, make this study alone"},
+    [OPTION_QUICK] = {"quick", NULL, KIND_FLAG, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
+                      "of the list, take the lines '$quick' and not '$full'"},
     [OPTION_REFERENCE] = {"reference", "FILE", KIND_TEXT, GROUP_STUDY, STUDY, 0, 0, NULL, 0, NULL,
-                          "the image that errors are measured against; auto path traces one, to a "
-                          "relative error below 0.5 % or with 16384 samples a pixel"},
+                          "the image that errors are measured against; auto path traces one"},
+    [OPTION_REFERENCE_ERROR] = {"reference-error", "E", KIND_REAL, GROUP_STUDY, STUDY, 1e-6, 1,
+                                NULL, 0, "0.005",
+                                "relative RMSE below which --reference auto ends, or with 16384 "
+                                "samples a pixel; smaller errors of pictures cannot be told"},
     [OPTION_EQUAL] = {"equal", "WHAT", KIND_CHOICE, GROUP_STUDY, STUDY, 0, 0, equals, 0, "samples",
                       "what all pictures have in common: the samples that their settings say, or "
                       "the time of the first one"},

@@ -30,7 +30,9 @@ static void check_list(const study_list *list)
 static void check_study(const study *s)
 {
     const size_t cells = sweep_cells(&s->sweep);
-    FUZZ_EXPECT(cells > 0 && study_pictures(s) >= cells);
+    study_count count = {0};
+    study_announce(s, &count);
+    FUZZ_EXPECT(cells > 0 && count.all >= cells);
     for (size_t i = 0; i < cells; i++) {
         FUZZ_EXPECT(s->view_of[i] < sweep_cells(&s->views));
         for (size_t axis = 0; axis < s->sweep.count; axis++)
@@ -41,7 +43,7 @@ static void check_study(const study *s)
 static int read_list(void)
 {
     study_list list;
-    int status = study_list_read(&list, name);
+    int status = study_list_read(&list, name, 1);
     if (status == STATUS_DONE)
         check_list(&list);
     for (size_t i = 0; i < list.count && status == STATUS_DONE; i++) {
@@ -80,7 +82,7 @@ static void seed(fuzz_inputs *seeds)
 {
     fuzz_add_text(seeds, "# all\n= A page\n\n== k-1 The nearest\nA text\nof two lines.\n"
                          "$ s.rts --sweep k=5,10,50 --reference auto\n"
-                         "$ --mode photon --set 'a=[1 2 3]'\n"
+                         "$quick --mode photon --set 'a=[1 2 3]'\n$full --spp 9\n"
                          "== b\n$ --sweep scene=a.rts,b.rts --sweep kernel=all --equal time\n");
     fuzz_add_text(seeds, "== a A\n$ s.rts --sweep accel=all --sweep spp=2,8,32 --repeat 2 "
                          "--reference auto\n");

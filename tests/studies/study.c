@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/image_file.h"
-
 static void must(const study *s, rt_status status, const rt_error *error)
 {
     if (status == RT_OK)
@@ -55,24 +53,6 @@ rt_film *study_render(const study *s, const rt_render_options *options, double *
     if (seconds)
         *seconds = stats.emit_seconds + stats.gather_seconds + stats.render_seconds;
     return film;
-}
-
-void study_write(const study *s, const rt_film *const *films, int count, const char *name)
-{
-    static const char *const channels[3] = {"R", "G", "B"};
-    uint32_t width, height;
-    rt_image *image = NULL;
-    rt_error error;
-    char path[256];
-    rt_film_get_size(films[0], &width, &height);
-    must(s, rt_image_create(&image, width * (uint32_t)count, height, channels, 3, &error), &error);
-    for (int i = 0; i < count; i++)
-        for (uint32_t y = 0; y < height; y++)
-            memcpy(image->data + 3 * ((size_t)y * image->width + (size_t)i * width),
-                   rt_film_rgb(films[i]) + (size_t)3 * y * width, 3 * width * sizeof(float));
-    snprintf(path, sizeof path, "build/study/%s.png", name);
-    must(s, rt_image_write(image, path, NULL, &error), &error);
-    rt_image_destroy(image);
 }
 
 /* Above this, a pixel sees an area light. */

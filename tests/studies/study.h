@@ -1,6 +1,6 @@
 /*
- * study.h - what the studies share: a scene on a device, renders, and their errors against a
- * reference.
+ * study.h - what tests of convergence share: a scene on a device, renders, and their errors against
+ * a reference.
  */
 #ifndef RT_TESTS_STUDY_H
 #define RT_TESTS_STUDY_H
@@ -24,12 +24,6 @@ void study_close(study *s);
  * rendering.
  */
 rt_film *study_render(const study *s, const rt_render_options *options, double *seconds);
-
-/*
- * Writes films of the study's size side by side to build/study/NAME.png; ends the program when it
- * cannot.
- */
-void study_write(const study *s, const rt_film *const *films, int count, const char *name);
 
 /*
  * Mean squared difference of a film from a reference of the same size, without the pixels that see

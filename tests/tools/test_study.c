@@ -139,6 +139,10 @@ static const struct {
     {"--list twice.studies", 1, "there are two studies 'a'"},
     {"--list wrong.studies", 2, "in the study 'w' of wrong.studies"},
     {"--list path.studies", 1, "other signs than letters"},
+    {"--list dollar.studies", 1, "begins with '$ ', '$full ' or '$quick '"},
+    {"--list two.studies --only photnos", 2, "no study 'photnos'; did you mean photons?"},
+    {"a.rts --sweep spp=1 --only k", 2, "--only needs --list"},
+    {"a.rts --sweep spp=1 --quick", 2, "--quick needs --list"},
     {"--list good.studies --sweep k=3", 2, "no scene or --sweep goes with it"},
 };
 
@@ -151,6 +155,9 @@ static void wrong_input_is_refused(void **state)
     scratch_write("twice.studies", "== a A\n$ a.rts --sweep spp=1\n== a A\n");
     scratch_write("wrong.studies", "== w W\n$ a.rts --sweep spp=1 --frob\n");
     scratch_write("path.studies", "== ../w W\n$ a.rts --sweep spp=1\n");
+    scratch_write("dollar.studies", "== a A\n$ful a.rts --sweep spp=1\n");
+    scratch_write("two.studies", "== a A\n$ a.rts --sweep spp=1\n"
+                                 "== photons P\n$ a.rts --sweep k=3\n");
     scratch_write("good.studies", "== a A\n$ a.rts --sweep spp=1\n");
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         run run = run_rtc("study %s", refusals[i].line);
@@ -399,6 +406,28 @@ static void a_study_goes_on_where_it_ended(void **state)
 
 /* ---- Lists ---------------------------------------------------------------------------- */
 
+static void a_list_is_read_in_full_quickly_or_for_one_study(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    scratch_write("l.studies", "== one One\n$ a.rts --sweep spp=1,2 --seed 3\n"
+                               "$full --width 10\n$quick --width 5 --seed 4\n");
+    run run = run_rtc("study --list l.studies");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_in_file("l.one.csv", "--seed 3 --width 10\n");
+    run = run_rtc("study --list l.studies --quick");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_in_file("l.one.csv", "--seed 4 --width 5\n");
+    scratch_write("m.studies", "== one One\n$ none.rts --sweep spp=1\n"
+                               "== two Two\n$ a.rts --sweep spp=1\n");
+    run = run_rtc("study --list m.studies --only two --out m.html");
+    expect_status(&run, 0);
+    run_free(&run);
+    expect_file("m.two.csv");
+}
+
 static void a_list_makes_one_page_of_all_its_studies(void **state)
 {
     (void)state;
@@ -441,6 +470,7 @@ int main(void)
         TEST(only_what_changed_is_rendered_again),
         TEST(a_long_name_has_a_film_of_its_own),
         TEST(a_study_goes_on_where_it_ended),
+        TEST(a_list_is_read_in_full_quickly_or_for_one_study),
         TEST(a_list_makes_one_page_of_all_its_studies),
     };
     return spawn_find_rtc() == 0 ? cmocka_run_group_tests(tests, NULL, NULL) : 1;

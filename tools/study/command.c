@@ -120,13 +120,24 @@ static int plan(study_job *job)
 {
     const command_line *arguments = job->arguments;
     const option_value *list = &arguments->options[OPTION_LIST];
-    int status = list->given ? study_list_read(&job->list, list->text) : STATUS_DONE;
+    const option_value *only = &arguments->options[OPTION_ONLY];
+    int status = list->given ? study_list_read(&job->list, list->text,
+                                               arguments->options[OPTION_QUICK].given)
+                             : STATUS_DONE;
     if (status != STATUS_DONE)
         return status;
     if (list->given && (arguments->operand_count > 0 || arguments->sweep_count > 0)) {
         message_error("--list names the studies; no scene or --sweep goes with it");
         return STATUS_USAGE;
     }
+    if (!list->given && (arguments->options[OPTION_QUICK].given || only->given)) {
+        message_error("--%s needs --list", only->given ? "only" : "quick");
+        return STATUS_USAGE;
+    }
+    if (only->given)
+        status = study_list_keep(&job->list, only->text);
+    if (status != STATUS_DONE)
+        return status;
     job->studies = calloc(list->given ? job->list.count : 1, sizeof *job->studies);
     if (!job->studies)
         return fail_memory();
@@ -202,7 +213,7 @@ int command_study(const command_line *arguments)
     if (status == STATUS_DONE)
         status = make_folder(&job);
     for (size_t i = 0; i < job.count; i++)
-        job.pictures.all += study_pictures(&job.studies[i]);
+        study_announce(&job.studies[i], &job.pictures);
     for (size_t i = 0; i < job.count && status == STATUS_DONE; i++)
         status = run_study(&job, i);
     for (size_t i = 0; i < job.count; i++)

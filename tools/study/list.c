@@ -111,7 +111,7 @@ static int begin_study(study_list *list, const char *line)
 }
 
 /* Takes one line, without its newline. */
-static int take_line(study_list *list, const char *line)
+static int take_line(study_list *list, const char *line, int is_quick)
 {
     listed_study *last = list->count > 0 ? &list->studies[list->count - 1] : NULL;
     if (!*line || *line == '#')
@@ -124,10 +124,19 @@ static int take_line(study_list *list, const char *line)
         message_error("a list of studies begins with '== NAME TITLE'; not '%.60s'", line);
         return STATUS_INPUT;
     }
-    return *line == '$' ? add_words(last, line + 1) : append(&last->text, line);
+    const char *const begins[] = {"$ ", is_quick ? "$quick " : "$full "};
+    for (size_t i = 0; i < 2; i++)
+        if (strncmp(line, begins[i], strlen(begins[i])) == 0)
+            return add_words(last, line + strlen(begins[i]));
+    if (*line != '$')
+        return append(&last->text, line);
+    if (strncmp(line, "$quick ", 7) == 0 || strncmp(line, "$full ", 6) == 0)
+        return STATUS_DONE;
+    message_error("a line of options begins with '$ ', '$full ' or '$quick '; not '%.60s'", line);
+    return STATUS_INPUT;
 }
 
-static int read_lines(study_list *list, FILE *file, const char *path)
+static int read_lines(study_list *list, FILE *file, const char *path, int is_quick)
 {
     char line[LINE_MAX_BYTES];
     int status = STATUS_DONE;
@@ -139,7 +148,7 @@ static int read_lines(study_list *list, FILE *file, const char *path)
             return STATUS_INPUT;
         }
         line[length] = '\0';
-        status = take_line(list, line);
+        status = take_line(list, line, is_quick);
         if (status == STATUS_INPUT)
             message_note("at %s:%u", path, number);
     }
@@ -163,7 +172,7 @@ static int parse_all(study_list *list, const char *path)
     return status;
 }
 
-int study_list_read(study_list *out, const char *path)
+int study_list_read(study_list *out, const char *path, int is_quick)
 {
     *out = (study_list){0};
     FILE *file = fopen(path, "r");
@@ -171,7 +180,7 @@ int study_list_read(study_list *out, const char *path)
         message_error("cannot read %s: %s", path, strerror(errno));
         return STATUS_INPUT;
     }
-    int status = read_lines(out, file, path);
+    int status = read_lines(out, file, path, is_quick);
     fclose(file);
     if (status == STATUS_DONE && out->count == 0) {
         message_error("%s has no study: '== NAME TITLE' begins one", path);
@@ -180,18 +189,43 @@ int study_list_read(study_list *out, const char *path)
     return status == STATUS_DONE ? parse_all(out, path) : status;
 }
 
+static void free_study(listed_study *study)
+{
+    for (size_t w = 0; w < study->word_count; w++)
+        free(study->words[w]);
+    arguments_free(&study->arguments);
+    free(study->words);
+    free(study->id);
+    free(study->title);
+    free(study->text);
+}
+
 void study_list_free(study_list *list)
 {
-    for (size_t i = 0; i < list->count; i++) {
-        listed_study *study = &list->studies[i];
-        for (size_t w = 0; w < study->word_count; w++)
-            free(study->words[w]);
-        arguments_free(&study->arguments);
-        free(study->words);
-        free(study->id);
-        free(study->title);
-        free(study->text);
-    }
+    for (size_t i = 0; i < list->count; i++)
+        free_study(&list->studies[i]);
     free(list->studies);
     free(list->title);
+}
+
+int study_list_keep(study_list *list, const char *id)
+{
+    rt_nearest nearest;
+    size_t place = 0;
+    while (place < list->count && strcmp(list->studies[place].id, id) != 0)
+        place++;
+    if (place == list->count) {
+        rt_nearest_begin(&nearest, id, strlen(id));
+        for (size_t i = 0; i < list->count; i++)
+            rt_nearest_offer(&nearest, list->studies[i].id, strlen(list->studies[i].id));
+        message_error("the list has no study '%s'%s%s%s", id, nearest.best ? "; did you mean " : "",
+                      nearest.best ? nearest.best : "", nearest.best ? "?" : "");
+        return STATUS_USAGE;
+    }
+    for (size_t i = 0; i < list->count; i++)
+        if (i != place)
+            free_study(&list->studies[i]);
+    list->studies[0] = list->studies[place];
+    list->count = 1;
+    return STATUS_DONE;
 }

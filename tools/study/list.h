@@ -20,10 +20,14 @@ typedef struct study_list {
 
 /*
  * Reads a list, UTF-8 text: `= TITLE` is that of the page, `== ID TITLE` begins a study, `$ SCENE
- * --sweep ...` is what `rtc study` is given, `#` begins a comment, and other lines are the text of
- * the study. Returns an exit status; free in either case.
+ * --sweep ...` is what `rtc study` is given, `$full` and `$quick` what it is given besides as the
+ * list is read in full or quickly, `#` begins a comment, and other lines are the text of the study.
+ * What comes later goes before what came earlier. Returns an exit status; free in either case.
  */
-int study_list_read(study_list *out, const char *path);
+int study_list_read(study_list *out, const char *path, int is_quick);
 void study_list_free(study_list *list);
+
+/* Takes away all studies but the one of this name. Returns an exit status. */
+int study_list_keep(study_list *list, const char *id);
 
 #endif

@@ -21,29 +21,36 @@ static int fail_memory(void)
 
 /* ---- Progress --------------------------------------------------------------------- */
 
-/* Adds ", about 1:23 left" as far as it is known. */
+/* Adds "; about 1:23 left" as far as it is known. */
 static void put_remaining(char *out, size_t size, const study_count *count)
 {
+    double seconds = 0;
     char time[32];
     out[0] = '\0';
-    if (count->rendered == 0 || count->done == count->all)
+    if (count->done == count->all || count->rendered[0] + count->rendered[1] == 0)
         return;
-    progress_format_time(time, sizeof time,
-                         count->seconds / (double)count->rendered *
-                             (double)(count->all - count->done));
+    for (int i = 0; i < 2; i++)
+        seconds += count->rendered[i] == 0
+                       ? 0
+                       : count->seconds[i] / (double)count->rendered[i] * (double)count->left[i];
+    progress_format_time(time, sizeof time, seconds);
     snprintf(out, size, "; about %s left", time);
 }
 
-/* A picture is done; rendered says how many had been rendered before it. */
+/* A picture is done, or a reference where there is none; rendered: how many had been before it. */
 static void count_picture(study *s, study_count *count, const study_picture *picture,
                           const study_cell *cell, size_t rendered)
 {
+    const double now = session_seconds(s->renderer->session);
+    const int is_new = s->renderer->rendered > rendered, which = picture == NULL;
     char error[48] = "", remaining[64];
     count->done++;
-    if (s->renderer->rendered > rendered) {
-        count->rendered++;
-        count->seconds = session_seconds(s->renderer->session);
+    count->left[which]--;
+    if (is_new) {
+        count->rendered[which]++;
+        count->seconds[which] += now - count->at;
     }
+    count->at = now;
     if (s->renderer->session->quiet)
         return;
     if (isfinite(cell->rmse))
@@ -51,8 +58,8 @@ static void count_picture(study *s, study_count *count, const study_picture *pic
     put_remaining(remaining, sizeof remaining, count);
     message_note("%zu of %zu: %s: %.2f s%s%s%s", count->done, count->all,
                  picture ? picture->label : "reference",
-                 isfinite(cell->seconds) ? cell->seconds : 0.0, error,
-                 s->renderer->rendered > rendered ? "" : ", kept", remaining);
+                 isfinite(cell->seconds) ? cell->seconds : 0.0, error, is_new ? "" : ", kept",
+                 remaining);
 }
 
 /* ---- Measures --------------------------------------------------------------------- */
@@ -303,9 +310,11 @@ int study_begin(study *out, const command_line *arguments)
     return status == STATUS_DONE ? plan_results(out) : status;
 }
 
-size_t study_pictures(const study *s)
+void study_announce(const study *s, study_count *count)
 {
-    return sweep_cells(&s->sweep) + s->result.views;
+    count->left[0] += sweep_cells(&s->sweep);
+    count->left[1] += s->result.views;
+    count->all += sweep_cells(&s->sweep) + s->result.views;
 }
 
 int study_run(study *s, study_renderer *renderer, study_count *count)

@@ -22,9 +22,12 @@ typedef struct study {
 
 /* How far all studies of a page have come. */
 typedef struct study_count {
-    size_t done, all;      /* pictures, references among them */
-    size_t rendered;       /* of those done, now and not before */
-    double began, seconds; /* since when, and how long they took */
+    size_t done, all; /* pictures, references among them */
+    /* of references [1] and of other pictures [0]: those to come, those rendered now and not
+     * before, and how long these took */
+    size_t left[2], rendered[2];
+    double seconds[2];
+    double at; /* session_seconds of the latest */
 } study_count;
 
 /*
@@ -33,8 +36,8 @@ typedef struct study_count {
  */
 int study_begin(study *out, const command_line *arguments);
 
-/* How many pictures a study renders. */
-size_t study_pictures(const study *study);
+/* Adds the pictures of a study to those to come. */
+void study_announce(const study *study, study_count *count);
 
 /* Renders and measures all pictures. Returns an exit status. */
 int study_run(study *study, study_renderer *renderer, study_count *count);

@@ -85,8 +85,9 @@ static int take(study_view *view, study_cell *shown, rt_image *image)
 }
 
 /* Leaves those settings alone that decide what the picture converges to. */
-static void strip(study_picture *picture)
+static void strip(study_picture *picture, const command_line *arguments)
 {
+    const option_value *error = &arguments->options[OPTION_REFERENCE_ERROR];
     size_t count;
     const rt_setting *settings = rt_settings(&count);
     for (size_t i = 0; i < count; i++) {
@@ -98,7 +99,7 @@ static void strip(study_picture *picture)
     }
     study_picture_set(picture, "mode", "path");
     study_picture_set(picture, "spp", reference_spp);
-    study_picture_set(picture, "target_error", reference_error);
+    study_picture_set(picture, "target_error", error->given ? error->text : reference_error);
     study_picture_set(picture, "seed", reference_seed);
 }
 
@@ -143,7 +144,7 @@ int study_view_open(study_view *out, study_cell *shown, study_renderer *renderer
                                                             : message_failure(&error);
     int status = study_picture_make(&picture, arguments, views, view, scene, "reference");
     if (status == STATUS_DONE) {
-        strip(&picture);
+        strip(&picture, arguments);
         status = study_picture_share(&picture);
     }
     if (status == STATUS_DONE)

@@ -4,7 +4,7 @@
  *
  * The mean squared error against path tracing, over four seeds, is followed over passes that
  * double; the slope of its logarithm is to be -2/3, within 15 % (Knaus and Zwicker 2011, for alpha
- * = 2/3), of a caustic within 30 %. For the whole study see tests/studies/study_consistency.c.
+ * = 2/3), of a caustic within 30 %. `make study-passes` shows more.
  */
 #include "kernels/statistics.h"
 #include "support.h"
