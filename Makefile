@@ -34,7 +34,7 @@ ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread \
 # For the files that call OpenMesh and FLANN, which are C++.
 CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden \
              -fPIC -pthread -Ilib $(PKG_CFLAGS) $(HARDEN) $(SAME) $(CFLAGS)
-ALL_LIBS   = $(PKG_LIBS) -lm -pthread
+ALL_LIBS   = $(PKG_LIBS) -ldl -lm -pthread
 # Of rtc alone: the page of --preview.
 TOOL_LIBS := $(shell pkg-config --libs libmicrohttpd 2>/dev/null)
 
@@ -47,6 +47,7 @@ LIB_SRC := \
 	lib/base/exact_sum.c lib/base/file.c lib/base/frame.c lib/base/half.c lib/base/memory.c \
 	lib/base/parallel.c lib/base/profile.c lib/base/profile_trace.c lib/base/progress.c \
 	lib/base/version.c \
+	lib/denoise/denoise.c lib/denoise/oidn.c \
 	lib/device/buffer.c lib/device/compile.c lib/device/compiler.c lib/device/device.c \
 	lib/device/events.c \
 	lib/device/kernel_cache.c \
@@ -110,7 +111,7 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc lib/photon/flann_shim.cc
 
 # The public interface, beside lib/rt.h.
-PUBLIC_H := $(addprefix lib/rt/,base.h device.h field.h film.h image.h paths.h photon.h profile.h \
+PUBLIC_H := $(addprefix lib/rt/,base.h denoise.h device.h field.h film.h image.h paths.h photon.h profile.h \
             render.h scene.h setting.h share.h)
 
 DSL_SRC := \
@@ -125,6 +126,7 @@ DSL_SRC := \
 TOOL_SRC := \
 	tools/check.c tools/checkpoint.c tools/command_line.c tools/compare.c \
 	tools/compare_print.c tools/crew.c \
+	tools/denoise.c \
 	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/film_place.c \
 	tools/fmt.c \
 	tools/help.c tools/kernels.c \
@@ -144,7 +146,7 @@ TOOL_SRC := \
 	tools/timing.c tools/untrusted.c tools/watch.c tools/whole_file.c
 
 KERNEL_SRC := \
-	kernels/first_hit.cl kernels/direct.cl kernels/enclosing_media.cl kernels/path.cl \
+	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl kernels/path.cl \
 	kernels/photon_camera.cl \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_film.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \
@@ -177,6 +179,7 @@ TESTS_QUICK := \
 	tests/lib/accel/test_bvh.c \
 	tests/lib/base/test_checksum.c tests/lib/base/test_file.c tests/lib/base/test_half.c \
 	tests/lib/base/test_memory.c tests/lib/base/test_profile.c \
+	tests/lib/denoise/test_denoise.c \
 	tests/lib/device/test_kernel_cache.c \
 	tests/lib/image/test_compare.c tests/lib/image/test_compare_blocks.c \
 	tests/lib/image/test_display.c \
@@ -244,7 +247,7 @@ TESTS_FULL  := \
 	tests/lib/photon/test_stored_flux.c tests/statistics/test_scattering.c \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
 	tests/tools/test_film_files.c tests/tools/test_live.c tests/tools/test_mesh.c \
-	tests/tools/test_paths.c tests/tools/test_scenes.c \
+	tests/tools/test_denoise.c tests/tools/test_paths.c tests/tools/test_scenes.c \
 	tests/tools/test_completion.c tests/tools/test_timing.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
@@ -645,6 +648,14 @@ check-memory: all
 $(addprefix $(B)/tests/tools/test_,preview tev untrusted): %: %.o \
 		$(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ)) $(B)/libtests.a $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TEST_LIBS) $(TOOL_LIBS) $(ALL_LIBS)
+
+# Stand-ins for Open Image Denoise, the second of which lacks a function.
+STUBS := $(B)/tests/lib/denoise/stub.so $(B)/tests/lib/denoise/stub_lacking.so
+$(STUBS): tests/lib/denoise/stub_oidn.c
+	@mkdir -p $(@D)
+	$(CC) -std=c99 $(WARNINGS) -D_POSIX_C_SOURCE=200809L $(STUB) -fPIC -shared -O1 -o $@ $<
+$(B)/tests/lib/denoise/stub.so: STUB := -DSTUB_WHOLE
+$(B)/tests/lib/denoise/test_denoise $(B)/tests/tools/test_denoise: | $(STUBS)
 
 # A platform with a fault.
 $(B)/tests/faults/icd.so: tests/faults/icd.c

@@ -416,6 +416,15 @@ typedef struct rt_params {
 } rt_params;
 RT_SIZE(rt_params, 80);
 
+/* What guides a denoiser at a pixel: means over its samples. */
+typedef struct rt_guide {
+    float albedo[3];
+    float reserved0;
+    float normal[3]; /* shading normal on the side that is seen */
+    float reserved1;
+} rt_guide;
+RT_SIZE(rt_guide, 32);
+
 /* Which paths a launch records: of item i the sample first_sample + i of this pixel. */
 typedef struct rt_record_params {
     rt_u32 x, y;     /* pixel */

@@ -91,6 +91,7 @@
 #include "rt/setting.h"
 #include "rt/photon.h"
 #include "rt/film.h"
+#include "rt/denoise.h"
 #include "rt/paths.h"
 #include "rt/share.h"
 #include "rt/image.h"

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "denoise.h"
 #include "message.h"
 #include "rt.h"
 #include "status.h"
@@ -175,6 +176,19 @@ static rt_status check_images(doctor_visit *visit, char *said, rt_error *error)
     return status;
 }
 
+/* Says whether there is a denoiser; a machine without one is no less in order. */
+static void tell_denoiser(const command_line *arguments)
+{
+    char path[DENOISER_PATH], version[16];
+    const rt_denoise_options options = {.library = denoiser_find(path, arguments)};
+    rt_error error;
+    if (rt_denoiser_check(version, &options, &error) == RT_OK)
+        printf("ok    --denoise: Open Image Denoise %s%s%s\n", version,
+               options.library ? " in " : "", options.library ? options.library : "");
+    else
+        printf("none  --denoise: %s\n      %s\n", error.message, denoiser_remedy);
+}
+
 /* ---- The visit ------------------------------------------------------------ */
 
 static const struct {
@@ -218,8 +232,10 @@ int command_doctor(const command_line *arguments)
                visit.remedy ? visit.remedy : checks[i].remedy);
         status = message_status(error.status);
     }
-    if (status == STATUS_DONE)
+    if (status == STATUS_DONE) {
+        tell_denoiser(arguments);
         printf("all checks passed\n");
+    }
     rt_film_destroy(visit.film);
     rt_renderer_destroy(visit.renderer);
     rt_device_close(visit.device);

@@ -115,6 +115,13 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_SAMPLE] = {"sample", "A-B", KIND_TEXT, GROUP_PATHS, PATHS, 0, 0, NULL, 0,
                        "all that --spp gives a pixel",
                        "samples A to B of the pixel, or one, counted from 0"},
+    [OPTION_DENOISE] =
+        {"denoise", NULL, KIND_FLAG, GROUP_OUTPUT, RENDER, 0, 0, NULL, 0, NULL,
+         "also a layer denoised, by Open Image Denoise where it is installed: in .exr beside the "
+         "picture, which stays what it is, and beside other files as NAME.denoised.png"},
+    [OPTION_DENOISER] = {"denoiser", "FILE", KIND_TEXT, GROUP_OUTPUT, RENDER | DOCTOR, 0, 0, NULL,
+                         0, "RTC_DENOISER, or the first that is found",
+                         "Open Image Denoise's library, as libOpenImageDenoise.so.2"},
     [OPTION_EXPOSURE] = {"exposure", "EV", KIND_REAL, GROUP_OUTPUT, RENDER | MERGE, -126, 126, NULL,
                          1, "0", "brighten .png and .ppm by 2^EV"},
     [OPTION_TONEMAP] = {"tonemap", "NAME", KIND_CHOICE, GROUP_OUTPUT, RENDER | MERGE, 0, 0,

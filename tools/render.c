@@ -8,6 +8,7 @@
 #include "command_line.h"
 #include "commands.h"
 #include "crew.h"
+#include "denoise.h"
 #include "film_note.h"
 #include "inputs.h"
 #include "interrupt.h"
@@ -125,6 +126,8 @@ static int load(render_job *job)
         no_effect_warn(job->session.arguments, &job->options, &job->outputs);
     /* Options that cannot be are told before any work. */
     status = session_check_options(&job->session, &job->own, &job->options);
+    if (status == STATUS_DONE && !is_worker(job))
+        status = denoise_check(&job->session, &job->options);
     if (status != STATUS_DONE)
         return status;
     return rt_scene_set_options(job->scene, &job->options, &error) == RT_OK ? STATUS_DONE
@@ -282,8 +285,16 @@ static int write_images(const render_job *job, int status)
     options.command = job->command;
     rt_profile *const profile = job->session.arguments->profile;
     rt_profile_begin(profile, "write images");
+    /* A denoiser that fails costs its layer alone. */
+    const int denoised = status == STATUS_DONE && job->parts <= 1
+                             ? denoise_film(&job->session, job->film, job->crew.renderers[0])
+                             : STATUS_DONE;
     int written = outputs_write(&job->outputs, job->film, &options);
+    if (written == STATUS_DONE)
+        written = denoise_write(&job->session, job->film, &job->outputs, &options);
     rt_profile_end(profile);
+    if (written == STATUS_DONE)
+        written = denoised;
     if (written != STATUS_DONE)
         return written;
     if (!job->session.quiet)

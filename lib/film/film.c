@@ -79,7 +79,7 @@ rt_status rt_film_make_first_hits(rt_film *film, rt_error *error)
     return RT_OK;
 }
 
-static const char what[] = "the film";
+const char rt_film_owner[] = "the film";
 
 /* Makes room for the sums and means. */
 static rt_status create_sums(rt_film *film, rt_error *error)
@@ -88,18 +88,19 @@ static rt_status create_sums(rt_film *film, rt_error *error)
     const size_t count = rt_film_pixels(film), planes = film->units.replicates;
     const uint64_t reserved = bytes_reserved(o);
     const double all = (double)count * (planes * sizeof *film->pixels + 3 * sizeof *film->rgb);
-    rt_status status = rt_memory_foresee(film->memory, (double)reserved + all, what, error);
+    rt_status status =
+        rt_memory_foresee(film->memory, (double)reserved + all, rt_film_owner, error);
     if (status == RT_OK)
-        status = rt_memory_take(film->memory, reserved, what, error);
+        status = rt_memory_take(film->memory, reserved, rt_film_owner, error);
     if (status != RT_OK)
         return status;
     film->reserved = reserved;
-    film->pixel_memory =
-        rt_memory_zeroed(film->memory, planes * count + 1, sizeof *film->pixels, what, error);
+    film->pixel_memory = rt_memory_zeroed(film->memory, planes * count + 1, sizeof *film->pixels,
+                                          rt_film_owner, error);
     if (!film->pixel_memory)
         return RT_ERROR_MEMORY;
     film->pixels = line_of(film->pixel_memory);
-    film->rgb = rt_memory_zeroed(film->memory, count, 3 * sizeof *film->rgb, what, error);
+    film->rgb = rt_memory_zeroed(film->memory, count, 3 * sizeof *film->rgb, rt_film_owner, error);
     if (!film->rgb)
         return RT_ERROR_MEMORY;
     if (o->mode == RT_MODE_PHOTON && o->photon_layers) {
@@ -143,7 +144,7 @@ void rt_film_destroy(rt_film *film)
     rt_memory_free(film->rgb);
     free(film->hit_memory);
     rt_film_layers_free(&film->layers);
-    rt_memory_give(film->memory, film->reserved, what);
+    rt_memory_give(film->memory, film->reserved, rt_film_owner);
     free(film);
 }
 

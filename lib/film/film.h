@@ -10,6 +10,9 @@
 #include "rt.h"
 #include "types.h"
 
+/* The owner under which a film counts its memory. */
+extern const char rt_film_owner[];
+
 struct rt_film {
     rt_memory *memory;         /* that it counts in; NULL: none */
     uint64_t reserved;         /* bytes that count for its layers, and for writing it to a file */

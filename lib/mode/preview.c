@@ -29,6 +29,8 @@ static int has_group(const rt_film *film, rt_layer_group group)
         return film->first_hits != NULL;
     case RT_LAYERS_ERROR:
         return rt_noise_wanted(&film->options);
+    case RT_LAYERS_DENOISED: /* of whole pictures alone */
+        return 0;
     case RT_LAYERS_PHOTON:
         return film->photon_sums != NULL;
     }
@@ -57,6 +59,8 @@ static void show_pixel(float *out, const preview *p, size_t i)
         break;
     case RT_LAYERS_ERROR:
         rt_noise_variance(out, p->film, i);
+        break;
+    case RT_LAYERS_DENOISED:
         break;
     case RT_LAYERS_PHOTON:
         *out = rt_photon_layer_value(p->film->photon_sums + i, p->layer);

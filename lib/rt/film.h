@@ -62,6 +62,10 @@ RT_API void rt_film_get_size(const rt_film *film, uint32_t *width, uint32_t *hei
  *   variance         3  .R .G .B  variance of the pixel's radiance, estimated from independent
  *                                 sequences (1)
  *
+ *   by rt_film_denoise
+ *
+ *   denoised         3  .R .G .B  radiance without most of its noise; see rt/denoise.h
+ *
  *   with rt_render_options.photon_layers
  *
  *   photon.count     1  itself    mean number of photons summed at the end of an eye path

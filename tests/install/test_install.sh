@@ -40,6 +40,7 @@ cat >"$work/expected" <<'END'
 ./usr/local/bin/rtc
 ./usr/local/include/rt/base.h
 ./usr/local/include/rt/common.h
+./usr/local/include/rt/denoise.h
 ./usr/local/include/rt/device.h
 ./usr/local/include/rt/field.h
 ./usr/local/include/rt/film.h

@@ -1,0 +1,50 @@
+/* rt/denoise.h - a denoised layer, by Open Image Denoise. Part of rt.h, the manual. */
+#ifndef RT_RT_DENOISE_H
+#define RT_RT_DENOISE_H
+
+#include "film.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Denoising ------------------------------------------------------------------------------- */
+
+typedef struct rt_denoise_options {
+    /*
+     * the file of Open Image Denoise's library, version 1.3 or later; NULL: libOpenImageDenoise.so
+     * where the system looks for libraries
+     */
+    const char *library;
+    const rt_hooks *hooks; /* NULL: none */
+} rt_denoise_options;
+
+/*
+ * Whether the library is there and works; `version` [16] receives its version, as "2.3.0". It is
+ * loaded at run time, and then stays until the program ends. Fails with RT_ERROR_DEVICE and
+ * error->field "denoiser".
+ */
+RT_API rt_status rt_denoiser_check(char *version, const rt_denoise_options *options,
+                                   rt_error *error);
+
+/* Whether films of these options can be denoised; fails as rt_film_denoise does. */
+RT_API rt_status rt_denoise_options_check(const rt_render_options *options, rt_error *error);
+
+/*
+ * Adds the layer denoised to a film, 3 channels .R .G .B: its radiance without most of the noise,
+ * and with a bias of its own. The radiance, and all other layers, stay what they are. Albedo and
+ * normal guide it, followed from the camera through smooth mirrors and glass to the first other
+ * surface by the renderer, of the film's scene. options NULL: the defaults.
+ *
+ * Fails with RT_ERROR_USAGE in modes that show no light, and in photon mode without passes, where
+ * pixels share the photons of one map: the denoiser takes errors that neighbours have in common for
+ * detail. Fails as rt_denoiser_check does, and then leaves the film without the layer.
+ */
+RT_API rt_status rt_film_denoise(rt_film *film, rt_renderer *renderer,
+                                 const rt_denoise_options *options, rt_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
