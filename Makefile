@@ -35,8 +35,8 @@ ALL_CFLAGS = -std=c99 $(WARNINGS) $(WERROR) -fvisibility=hidden -fPIC -pthread \
 CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-inlines-hidden \
              -fPIC -pthread -Ilib $(PKG_CFLAGS) $(HARDEN) $(SAME) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -ldl -lm -pthread
-# Of rtc alone: the page of --preview.
-TOOL_LIBS := $(shell pkg-config --libs libmicrohttpd 2>/dev/null)
+# Of rtc alone: the page of --preview, and the scenes of other programs.
+TOOL_LIBS := $(shell pkg-config --libs libmicrohttpd 2>/dev/null) -lcjson -lexpat
 
 # ---- Sources ----------------------------------------------------------------
 
@@ -129,7 +129,18 @@ TOOL_SRC := \
 	tools/denoise.c \
 	tools/devices.c tools/doctor.c tools/file_lock.c tools/film_note.c tools/film_place.c \
 	tools/fmt.c \
-	tools/help.c tools/kernels.c \
+	tools/help.c \
+	tools/import/command.c tools/import/emit.c tools/import/files.c tools/import/gltf.c \
+	tools/import/gltf_bytes.c tools/import/gltf_json.c tools/import/gltf_material.c \
+	tools/import/gltf_mesh.c tools/import/import.c tools/import/matrix.c tools/import/mesh.c \
+	tools/import/metals.c \
+	tools/import/mitsuba.c tools/import/mitsuba_bsdf.c tools/import/mitsuba_emitter.c \
+	tools/import/mitsuba_shape.c tools/import/mitsuba_value.c tools/import/xml.c \
+	tools/import/mtl.c tools/import/obj.c tools/import/obj_data.c \
+	tools/import/pbrt.c tools/import/pbrt_light.c tools/import/pbrt_material.c \
+	tools/import/pbrt_param.c tools/import/pbrt_shape.c tools/import/pbrt_token.c \
+	tools/import/run.c \
+	tools/kernels.c \
 	tools/info.c tools/inputs.c tools/interrupt.c tools/json.c tools/ledger.c \
 	tools/light_shares.c tools/merge.c tools/mesh.c tools/mesh_shape.c tools/message.c \
 	tools/no_effect.c tools/number.c tools/options.c tools/other_work.c tools/outputs.c \
@@ -224,6 +235,7 @@ TESTS_QUICK := \
 	tests/lib/texture/test_texture.c \
 	tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c \
+	tests/tools/test_import.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_PROOF := \
 	tests/proof/test_camera.c tests/proof/test_convergence.c tests/proof/test_direct_light.c \
@@ -320,7 +332,7 @@ SONAME   := librt-render.so.$(SOVERSION)
 	build-fuzz check \
 	check-cluster check-corpus check-crowd check-faults check-fuzz check-gpu-code check-kills \
 	check-memory \
-	check-mpi check-mutation check-page check-peers check-quick check-reference \
+	check-import check-mpi check-mutation check-page check-peers check-quick check-reference \
 	check-reproducible \
 	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
 	deps-lint deps-python format \
@@ -438,7 +450,7 @@ $(MPI_B)/rtc-mpi: $(MPI_OBJ) $(filter-out $(B)/tools/rtc.o,$(TOOL_OBJ)) $(B)/lib
 
 # ---- Tests ------------------------------------------------------------------
 
-TEST_LIBS    := $(shell pkg-config --libs cmocka 2>/dev/null)
+TEST_LIBS    := $(shell pkg-config --libs cmocka 2>/dev/null) $(TOOL_LIBS)
 # The quicker linker where it is installed: there are a hundred tests to link.
 TEST_LINKER  := $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 TEST_SUPPORT := $(patsubst %.c,$(B)/%.o,$(TEST_SUPPORT_SRC)) $(B)/test_kernels.o
@@ -575,6 +587,10 @@ check-page: all
 	@bad=0; for test in preview study; do \
 	    RTC=$(B)/rtc PAGES=$(B)/page/$$test python3 tests/browser/test_$$test.py || bad=1; \
 	done; exit $$bad
+
+# Imported scenes beside Mitsuba 3; PYTHON is one that can import it.
+check-import: all
+	RTC=$(B)/rtc OUT=$(B)/import tests/tools/import/check.sh
 
 # So many samples of the scenes that ship, and a tenth as many with photons: none infinite or not a
 # number.
@@ -832,6 +848,7 @@ help:
 	@echo 'make check-python    the Python package in a fresh environment of PYTHON ($(PYTHON))'
 	@echo 'make check-page      the pages of --preview and of studies in headless Chromium'
 	@echo 'make check-peers     six scenes beside Mitsuba 3, where python3 can import it'
+	@echo 'make check-import    scenes of other programs, imported, beside Mitsuba 3'
 	@echo 'make check-reproducible two builds of the last commit have the same bytes'
 	@echo 'make check-samples   SAMPLES ($(SAMPLES)) samples of the scenes, all of them finite'
 	@echo 'make check-corpus    the image and mesh readers on the files in RT_CORPUS'

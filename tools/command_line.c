@@ -17,7 +17,7 @@ static const char *const command_names[COMMAND_COUNT] = {
     [COMMAND_DEVICES] = "devices", [COMMAND_DOCTOR] = "doctor", [COMMAND_PHOTONS] = "photons",
     [COMMAND_COMPARE] = "compare", [COMMAND_MERGE] = "merge",   [COMMAND_INFO] = "info",
     [COMMAND_KERNELS] = "kernels", [COMMAND_PATHS] = "paths",   [COMMAND_STUDY] = "study",
-    [COMMAND_FMT] = "fmt",
+    [COMMAND_FMT] = "fmt",         [COMMAND_IMPORT] = "import",
 };
 
 const char *command_name(command_id command)

@@ -13,6 +13,7 @@ int command_mesh(const command_line *arguments);
 int command_devices(const command_line *arguments);
 int command_doctor(const command_line *arguments);
 int command_kernels(const command_line *arguments);
+int command_import(const command_line *arguments);
 int command_fmt(const command_line *arguments);
 int command_study(const command_line *arguments);
 int command_paths(const command_line *arguments);

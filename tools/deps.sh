@@ -98,6 +98,18 @@ int main(void) { return MHD_get_version() == 0; }
 END
 }
 
+probe_cjson() { compiles c '' '-lcjson' <<'END'
+#include <cjson/cJSON.h>
+int main(void) { return cJSON_Version() == 0; }
+END
+}
+
+probe_expat() { compiles c '' '-lexpat' <<'END'
+#include <expat.h>
+int main(void) { return XML_ExpatVersion() == 0; }
+END
+}
+
 # flann.pc pulls in what only other headers need.
 probe_flann() { compiles cc '' '' <<'END'
 #include <flann/algorithms/kdtree_single_index.h>
@@ -149,6 +161,8 @@ openexr|OpenEXR 3.1|libopenexr-dev
 png|libpng|libpng-dev
 flann|FLANN|libflann-dev
 microhttpd|libmicrohttpd|libmicrohttpd-dev
+cjson|cJSON|libcjson-dev
+expat|Expat|libexpat1-dev
 cmocka|cmocka|libcmocka-dev
 END
 }

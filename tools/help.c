@@ -13,6 +13,7 @@ static const char *const usages[COMMAND_COUNT] = {
         "usage: rtc SCENE.rts [OPTION]...   render a scene\n"
         "       rtc check SCENE.rts...      report all errors in scenes\n"
         "       rtc mesh KIND [OPTION]...   write a mesh made from a formula\n"
+        "       rtc import FILE --out SCENE write a scene of another program as .rts\n"
         "       rtc fmt SCENE... [OPTION]   lay out scenes anew, in place\n"
         "       rtc devices                 list the OpenCL devices\n"
         "       rtc doctor [OPTION]...      check that everything works here\n"
@@ -72,6 +73,13 @@ static const char *const usages[COMMAND_COUNT] = {
         "does, and writes every vertex down: where, what happened, the throughput, the\n"
         "densities, the light that was met or sampled, its weight by multiple importance\n"
         "sampling and what it added to the pixel. What all add up to is the pixel.\n",
+    [COMMAND_IMPORT] =
+        "usage: rtc import FILE --out SCENE.rts [OPTION]...\n"
+        "\n"
+        "Writes a scene of another program in the scene language: glTF 2.0 (.gltf, .glb),\n"
+        "OBJ with MTL, Mitsuba 3 (.xml) or pbrt-v4 (.pbrt). What the language lacks is left\n"
+        "out or comes as near as it can; each such place is a warning, and a comment at\n"
+        "the head of the scene.\n",
     [COMMAND_FMT] =
         "usage: rtc fmt SCENE.rts... [OPTION]...\n"
         "\n"

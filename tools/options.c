@@ -8,6 +8,7 @@
 #define MESH (1u << COMMAND_MESH)
 #define DOCTOR (1u << COMMAND_DOCTOR)
 #define STUDY (1u << COMMAND_STUDY)
+#define IMPORT (1u << COMMAND_IMPORT)
 #define FMT (1u << COMMAND_FMT)
 #define KERNELS (1u << COMMAND_KERNELS)
 #define PATHS (1u << COMMAND_PATHS)
@@ -37,6 +38,7 @@ const char *const option_group_titles[GROUP_COUNT] = {
     [GROUP_STUDY] = "The study",
     [GROUP_PATHS] = "The paths",
     [GROUP_MESH] = "The mesh",
+    [GROUP_IMPORT] = "The scene",
     [GROUP_FMT] = "The layout",
     [GROUP_COMPARE] = "The comparison",
     [GROUP_LIMIT] = "Limits (the exit status is 1 when one is not kept)",
@@ -149,6 +151,9 @@ const option option_table[OPTION_COUNT] = {
     [OPTION_FMT_CHECK] =
         {"check", NULL, KIND_FLAG, GROUP_FMT, FMT, 0, 0, NULL, 0, NULL,
          "write nothing: print the names of those that would change, and exit with 1 if any would"},
+    [OPTION_IMPORT_OUT] = {"out", "FILE", KIND_TEXT, GROUP_IMPORT, IMPORT, 0, 0, NULL, 0, NULL,
+                           "where the scene goes, NAME.rts; its meshes and textures go into a "
+                           "folder NAME_files beside it"},
     [OPTION_LAYER] =
         {"layer", "NAME", KIND_TEXT, GROUP_COMPARE, COMPARE, 0, 0, NULL, 0, "the picture itself",
          "compare a layer of .exr files, such as albedo, normal, depth, uv or photon.count"},
@@ -190,7 +195,8 @@ const option option_table[OPTION_COUNT] = {
                         "most blocks whose mean is off by more than tolerance and noise allow"},
 
     [OPTION_UNTRUSTED] =
-        {"untrusted", NULL, KIND_FLAG, GROUP_DEVICE, RENDER | CHECK | PHOTONS, 0, 0, NULL, 0, NULL,
+        {"untrusted", NULL, KIND_FLAG, GROUP_DEVICE, RENDER | CHECK | PHOTONS | IMPORT, 0, 0, NULL,
+         0, NULL,
          "for a scene by a stranger: read files in its folder only, give up the rights to do other "
          "than to write the outputs, and limit CPU time and memory (Linux)"},
     [OPTION_DEVICE] =
@@ -228,8 +234,8 @@ const option option_table[OPTION_COUNT] = {
                         RENDER | PHOTONS | DOCTOR | KERNELS | STUDY | PATHS, 0, 0, NULL, 0, NULL,
                         "log details to stderr"},
     [OPTION_QUIET] = {"quiet", NULL, KIND_FLAG, GROUP_TALK,
-                      RENDER | CHECK | PHOTONS | MERGE | STUDY | PATHS, 0, 0, NULL, 0, NULL,
-                      "say nothing but errors; progress only where --progress asks for it"},
+                      RENDER | CHECK | IMPORT | PHOTONS | MERGE | STUDY | PATHS, 0, 0, NULL, 0,
+                      NULL, "say nothing but errors; progress only where --progress asks for it"},
     [OPTION_HELP] = {"help", NULL, KIND_FLAG, GROUP_TALK, ALL, 0, 0, NULL, 0, NULL,
                      "print this and stop"},
     [OPTION_VERSION] = {"version", NULL, KIND_FLAG, GROUP_TALK, RENDER, 0, 0, NULL, 0, NULL,

@@ -19,7 +19,7 @@ static int (*const commands[COMMAND_COUNT])(const command_line *) = {
     [COMMAND_COMPARE] = command_compare, [COMMAND_MERGE] = command_merge,
     [COMMAND_INFO] = command_info,       [COMMAND_KERNELS] = command_kernels,
     [COMMAND_STUDY] = command_study,     [COMMAND_FMT] = command_fmt,
-    [COMMAND_PATHS] = command_paths,
+    [COMMAND_PATHS] = command_paths,     [COMMAND_IMPORT] = command_import,
 };
 
 static int run(const command_line *arguments)

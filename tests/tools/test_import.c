@@ -1,0 +1,247 @@
+/*
+ * test_import.c - scenes of other programs: those of tests/tools/import are read whole, what the
+ * language lacks is told, and what is wrong is refused with its place.
+ */
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "expect.h"
+#include "lib/image/scratch.h"
+#include "spawn.h"
+
+static char top[4096]; /* the folder of the sources */
+
+static void put(const char *name, const char *text, size_t size)
+{
+    FILE *file = fopen(name, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Removes the folder of meshes and textures beside a scene, if there is one. */
+static void remove_files(const char *folder)
+{
+    DIR *entries = opendir(folder);
+    char path[512];
+    for (const struct dirent *entry; entries && (entry = readdir(entries)) != NULL;) {
+        snprintf(path, sizeof path, "%s/%.200s", folder, entry->d_name);
+        unlink(path);
+    }
+    if (entries)
+        closedir(entries);
+    rmdir(folder);
+}
+
+static void every_scene_of_the_folder_is_read_whole(void **state)
+{
+    static const struct {
+        const char *name, *says;
+    } scenes[] = {
+        {"room.xml", "7 shapes, 0 triangles, 4 materials, 1 lights"},
+        {"metal.xml", "7 shapes, 0 triangles, 6 materials, 1 lights"},
+        {"picture.xml", "5 shapes, 24 triangles, 3 materials, 1 lights"},
+        {"delta.xml", "4 shapes, 12 triangles, 3 materials, 3 lights"},
+        {"tall.xml", "6 shapes, 48 triangles, 3 materials, 1 lights"},
+        {"room.pbrt", "7 shapes, 34 triangles, 4 materials, 1 lights"},
+        {"metal.pbrt", "7 shapes, 34 triangles, 6 materials, 1 lights"},
+        {"picture.pbrt", "5 shapes, 30 triangles, 3 materials, 1 lights"},
+        {"delta.pbrt", "4 shapes, 28 triangles, 3 materials, 3 lights"},
+        {"tall.pbrt", "6 shapes, 52 triangles, 3 materials, 1 lights"},
+        {"room.glb", "7 shapes, 34 triangles, 4 materials, 1 lights"},
+        {"metal.gltf", "7 shapes, 34 triangles, 6 materials, 1 lights"},
+        {"picture.glb", "5 shapes, 30 triangles, 3 materials, 1 lights"},
+        {"delta.gltf", "4 shapes, 28 triangles, 3 materials, 3 lights"},
+        {"tall.glb", "6 shapes, 52 triangles, 3 materials, 1 lights"},
+        {"room.obj", "4 shapes, 34 triangles, 5 materials, 1 lights"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        run run = run_rtc("import %s/tests/tools/import/scenes/%s --out s%d.rts", top,
+                          scenes[i].name, (int)i);
+        expect_status(&run, 0);
+        expect_out(&run, scenes[i].says);
+        run_free(&run);
+        char folder[32];
+        snprintf(folder, sizeof folder, "s%d_files", (int)i);
+        remove_files(folder);
+    }
+}
+
+/* Files that are wrong, and what is said. */
+static const struct {
+    const char *name, *text, *says;
+} wrong[] = {
+    {"cut.gltf", "{\n\"asset\":{\"version\":\"2.0\"},\n\"scenes\":[", "cut.gltf:3: "},
+    {"old.gltf", "{\"asset\":{\"version\":\"1.0\"}}", "asset.version"},
+    {"none.gltf", "{\"asset\":{\"version\":\"2.0\"}}", "scenes[0]"},
+    {"cycle.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+     "\"nodes\":[{\"children\":[1]},{\"children\":[0]}]}",
+     "nodes[0] is a child of itself"},
+    {"node.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[-1]}],\"nodes\":[{}]}",
+     "no index"},
+    {"need.gltf", "{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":[\"X_y\"]}", "X_y"},
+    {"nan.gltf",
+     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+     "\"nodes\":[{\"translation\":[1e999,0,0]}]}",
+     "'translation' must be 3 finite numbers"},
+    {"short.glb", "glTF\2\0\0", "of which"},
+    {"bomb.xml",
+     "<?xml version=\"1.0\"?>\n<!DOCTYPE a [\n<!ENTITY b \"ha\">\n]>\n<scene>&b;</scene>",
+     "bomb.xml:3: the file defines entities"},
+    {"cut.xml", "<scene>\n<shape type=\"sphere\">\n", "cut.xml:3: no element found"},
+    {"root.xml", "<scenery/>", "not <scene>"},
+    {"ref.xml", "<scene>\n<shape type=\"cube\">\n<ref id=\"red\"/></shape></scene>",
+     "ref.xml:3: there is no element with the id 'red'"},
+    {"nan.xml",
+     "<scene><shape type=\"sphere\">\n<float name=\"radius\" value=\"nan\"/></shape></scene>",
+     "nan.xml:2: 'nan' is not a finite number"},
+    {"loop.xml",
+     "<scene><bsdf type=\"twosided\" id=\"a\"><ref id=\"a\"/></bsdf>"
+     "<shape type=\"cube\"><ref id=\"a\"/></shape></scene>",
+     "nested deeper"},
+    {"again.xml", "<scene>\n<include filename=\"again.xml\"/></scene>", "includes are nested"},
+    {"word.pbrt", "WorldBegin\nShpae \"sphere\"\n", "word.pbrt:2: unknown directive 'Shpae'"},
+    {"cut.pbrt", "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [ 0 0 0\n", "not closed"},
+    {"deep.pbrt", "Include \"deep.pbrt\"\n", "includes are nested"},
+    {"end.pbrt", "AttributeEnd\n", "end.pbrt:1: this end has no beginning"},
+    {"open.pbrt", "AttributeBegin\n", "not closed"},
+    {"nan.pbrt", "\nTranslate 0 inf 0\n", "nan.pbrt:2: Translate takes 3 numbers"},
+    {"index.pbrt",
+     "Shape \"trianglemesh\" \"integer indices\" [ 0 1 7 ]\n"
+     "\"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]",
+     "the index 7 of 3 vertices"},
+    {"face.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n", "face.obj:3: '3' names no vertex; there are 2"},
+    {"zero.obj", "v 0 0 0\nf 0 1 1\n", "zero.obj:2: '0' names no vertex"},
+    {"nan.obj", "v 0 nan 0\n", "nan.obj:1: 'nan' is not a finite number"},
+    {"none.obj", "v 0 0 0\n", "there is no face"},
+    {"lib.obj", "mtllib\nmtllib nowhere.mtl\n", "lib.obj:2: cannot read 'nowhere.mtl'"},
+    {"what.txt", "x", "what is it?"},
+};
+
+static void what_is_wrong_is_refused_with_its_place(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        size_t size = strcmp(wrong[i].name, "short.glb") == 0 ? 7 : strlen(wrong[i].text);
+        put(wrong[i].name, wrong[i].text, size);
+        run run = run_rtc("import %s --out wrong.rts", wrong[i].name);
+        if (run.status != 1 || !strstr(run.err, wrong[i].says))
+            fail_msg("%s: status %d, expected '%s' in '%s'", wrong[i].name, run.status,
+                     wrong[i].says, run.err);
+        run_free(&run);
+    }
+    expect_no_file("wrong.rts");
+}
+
+/* The bytes of an accessor that reach beyond, by its count, its offset or its stride. */
+static void bounds_of_buffers_are_checked(void **state)
+{
+    static const struct {
+        const char *view, *accessor, *says;
+    } cases[] = {
+        {"\"byteLength\":36", "\"count\":4", "do not fit"},
+        {"\"byteLength\":36", "\"count\":1e300", "whole number"},
+        {"\"byteLength\":36", "\"count\":3,\"byteOffset\":4", "do not fit"},
+        {"\"byteLength\":40", "\"count\":3", "a buffer of 36"},
+        {"\"byteLength\":36,\"byteStride\":-12", "\"count\":3", "'byteStride' must be"},
+        {"\"byteLength\":36,\"byteStride\":16", "\"count\":3", "do not fit"},
+        {"\"byteLength\":36,\"byteOffset\":9007199254740992", "\"count\":3", "a buffer of 36"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[2048];
+        int length = snprintf(
+            text, sizeof text,
+            "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}]"
+            ","
+            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+            "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",%s}],"
+            "\"bufferViews\":[{\"buffer\":0,%s}],\"buffers\":[{\"byteLength\":36,\"uri\":"
+            "\"data:x;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+            cases[i].accessor, cases[i].view);
+        put("bounds.gltf", text, (size_t)length);
+        run run = run_rtc("import bounds.gltf --out wrong.rts");
+        if (run.status != 1 || !strstr(run.err, cases[i].says))
+            fail_msg("case %d: status %d, expected '%s' in '%s'", (int)i, run.status, cases[i].says,
+                     run.err);
+        run_free(&run);
+    }
+}
+
+/* What is left out is a warning and a comment, each with its line. */
+static void what_is_left_out_is_told(void **state)
+{
+    static const char text[] = "<scene>\n<shape type=\"sphere\">\n<bsdf type=\"measured\"/>\n"
+                               "</shape>\n<shape type=\"sdfgrid\"/>\n</scene>\n";
+    char made[4096];
+    (void)state;
+    put("note.xml", text, strlen(text));
+    run run = run_rtc("import note.xml --out note.rts");
+    expect_status(&run, 0);
+    expect_err(&run, "note.xml:3: a material 'measured' became grey");
+    expect_err(&run, "note.xml:5: a shape 'sdfgrid' is left out");
+    expect_err(&run, "no camera");
+    run_free(&run);
+    FILE *file = fopen("note.rts", "r");
+    assert_non_null(file);
+    made[fread(made, 1, sizeof made - 1, file)] = '\0';
+    fclose(file);
+    assert_non_null(strstr(made, "# - line 3: a material 'measured' became grey\n"));
+    assert_non_null(strstr(made, "# - line 5: a shape 'sdfgrid' is left out\n"));
+    run = run_rtc("fmt --check note.rts");
+    expect_status(&run, 0);
+    run_free(&run);
+}
+
+static void files_outside_of_the_folder_are_not_read_from_strangers(void **state)
+{
+    static const char text[] = "mtllib ../outside.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    (void)state;
+    put("outside.obj", text, strlen(text));
+    run run = run_rtc("import outside.obj --untrusted --out outside.rts");
+    expect_status(&run, 1);
+    expect_err(&run, "outside of the scene's folder");
+    run_free(&run);
+}
+
+static void usage_is_told(void **state)
+{
+    (void)state;
+    run run = run_rtc("import a.obj");
+    expect_status(&run, 2);
+    expect_err(&run, "--out SCENE.rts");
+    run_free(&run);
+    run = run_rtc("import a.obj --out a.png");
+    expect_status(&run, 2);
+    run_free(&run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(every_scene_of_the_folder_is_read_whole, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(what_is_wrong_is_refused_with_its_place, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(bounds_of_buffers_are_checked, scratch_enter,
+                                        scratch_leave),
+        cmocka_unit_test_setup_teardown(what_is_left_out_is_told, scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(files_outside_of_the_folder_are_not_read_from_strangers,
+                                        scratch_enter, scratch_leave),
+        cmocka_unit_test_setup_teardown(usage_is_told, scratch_enter, scratch_leave),
+    };
+    if (spawn_find_rtc() != 0 || !getcwd(top, sizeof top))
+        return 1;
+    return cmocka_run_group_tests_name("import", tests, NULL, NULL);
+}

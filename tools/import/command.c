@@ -1,0 +1,130 @@
+/* command.c - `rtc import`: scenes of other programs, written in the scene language. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../commands.h"
+#include "../message.h"
+#include "../outputs.h"
+#include "../scene_file.h"
+#include "../status.h"
+#include "../untrusted.h"
+#include "../whole_file.h"
+#include "import.h"
+#include "rt.h"
+
+static int print_failure(const importer *import)
+{
+    message_error("%s", import->error);
+    return import->is_memory ? STATUS_DEVICE : import->is_output ? STATUS_OUTPUT : STATUS_INPUT;
+}
+
+/* Every note, as a warning with its place. */
+static void print_notes(const importer *import)
+{
+    for (size_t i = 0; i < import->note_count; i++) {
+        const import_note *note = &import->notes[i];
+        char more[48] = "", line[16] = "";
+        if (note->more)
+            snprintf(more, sizeof more, " (and %u more)", note->more);
+        if (note->line)
+            snprintf(line, sizeof line, ":%d", note->line);
+        message_warning("%s%s: %s%s", import->path, line, note->text, more);
+    }
+    if (import->notes_left_out)
+        message_warning("%s: and %lu more of other kinds", import->path,
+                        (unsigned long)import->notes_left_out);
+}
+
+static void on_diagnostic(void *user, const rt_diagnostic *diagnostic)
+{
+    (void)user;
+    if (diagnostic->severity == RT_SEVERITY_ERROR)
+        message_diagnostic(diagnostic);
+}
+
+/* Writes the scene, and reads it as a render would. */
+static int write_scene(const char *path, const char *text, int is_quiet)
+{
+    const rt_load_options options = {.diagnostic = on_diagnostic};
+    rt_scene *scene = NULL;
+    rt_scene_info info;
+    rt_error error;
+    if (rt_file_write(path, text, strlen(text), &error) != RT_OK)
+        return message_failure(&error);
+    if (rt_scene_load(&scene, path, &options, &error) != RT_OK) {
+        message_error("the scene that was made of it has errors");
+        return message_status(error.status);
+    }
+    rt_scene_get_info(scene, &info);
+    if (!is_quiet)
+        printf("%s: %llu shapes, %llu triangles, %llu materials, %llu lights\n", path,
+               (unsigned long long)info.shapes, (unsigned long long)info.triangles,
+               (unsigned long long)info.materials, (unsigned long long)info.lights);
+    rt_scene_destroy(scene);
+    return STATUS_DONE;
+}
+
+static int import_scene(const char *path, const char *out, const char *root, int is_quiet)
+{
+    importer import;
+    char cause[128], *made = NULL;
+    size_t size = 0;
+    char *bytes = whole_file_read(path, IMPORT_FILE_MAX, &size, cause, sizeof cause);
+    if (!bytes) {
+        message_error("%s: %s", path, cause);
+        return STATUS_INPUT;
+    }
+    if (import_begin(&import, path, out)) {
+        import.root = root;
+        import.bytes_read = size;
+        import_run(&import, bytes, size);
+        made = import.failed ? NULL : import_finish(&import);
+    }
+    free(bytes);
+    int status = STATUS_DONE;
+    if (import.failed || !made) {
+        status = print_failure(&import);
+    } else {
+        if (!is_quiet)
+            print_notes(&import);
+        status = write_scene(out, made, is_quiet);
+    }
+    free(made);
+    import_end(&import);
+    return status;
+}
+
+static int check_arguments(const command_line *arguments)
+{
+    const option_value *out = &arguments->options[OPTION_IMPORT_OUT];
+    if (arguments->operand_count != 1 || !out->given) {
+        message_error("usage: rtc import FILE --out SCENE.rts");
+        return STATUS_USAGE;
+    }
+    if (strcmp(outputs_extension(out->text), ".rts") != 0 || strpbrk(out->text, "\"\n\r")) {
+        message_error("--out %s: a scene is written as .rts", out->text);
+        return STATUS_USAGE;
+    }
+    return outputs_check_writable(out->text);
+}
+
+int command_import(const command_line *arguments)
+{
+    const char *out = arguments->options[OPTION_IMPORT_OUT].text;
+    char *root = NULL;
+    int status = check_arguments(arguments);
+    if (status != STATUS_DONE)
+        return status;
+    const char *path = arguments->operands[0];
+    if (arguments->options[OPTION_UNTRUSTED].given) {
+        const untrusted_needs needs = {.scene = path, .outputs = &out, .output_count = 1};
+        if (!(root = scene_file_folder(path)))
+            return STATUS_DEVICE;
+        status = untrusted_confine(&needs);
+    }
+    if (status == STATUS_DONE)
+        status = import_scene(path, out, root, arguments->options[OPTION_QUIET].given);
+    free(root);
+    return status;
+}

@@ -1,0 +1,322 @@
+/* emit.c - blocks of the new scene: textures, materials, shapes, lights and the camera. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "import.h"
+
+static int is_black(const double colour[3])
+{
+    return colour[0] == 0 && colour[1] == 0 && colour[2] == 0;
+}
+
+static void put_field(importer *import, import_text *out, const char *field, const double *values,
+                      int count)
+{
+    import_put(import, out, " %s", field);
+    import_put_numbers(import, out, values, count);
+}
+
+/* A colour that is not black; negative components are light that there is not. */
+static void put_colour(importer *import, import_text *out, const char *field,
+                       const double colour[3])
+{
+    double positive[3];
+    for (int c = 0; c < 3; c++)
+        positive[c] = colour[c] > 0 ? colour[c] : 0;
+    if (!is_black(positive))
+        put_field(import, out, field, positive, 3);
+}
+
+/* ---- Textures and materials -------------------------------------------------- */
+
+int import_add_texture(importer *import, const char *base, const import_texture *texture)
+{
+    static const char *const wraps[] = {"repeat", "mirror", "clamp"};
+    import_text *out = &import->definitions;
+    int handle = import_name(import, base);
+    import_put(import, out, "texture %s {", import_label(import, handle));
+    if (texture->file) {
+        import_put(import, out, " file \"%s\"", texture->file);
+        if (texture->is_linear)
+            import_put(import, out, " linear true");
+        if (texture->wrap)
+            import_put(import, out, " wrap %s", wraps[texture->wrap]);
+    } else {
+        import_put(import, out, " pattern checker");
+        put_field(import, out, "a", texture->a, 3);
+        put_field(import, out, "b", texture->b, 3);
+    }
+    if (texture->scale[0] != 1 || texture->scale[1] != 1)
+        put_field(import, out, "scale", texture->scale, 2);
+    if (texture->offset[0] != 0 || texture->offset[1] != 0)
+        put_field(import, out, "offset", texture->offset, 2);
+    import_put(import, out, " }\n");
+    return handle;
+}
+
+import_material import_material_begin(void)
+{
+    import_material material;
+    memset(&material, 0, sizeof material);
+    material.kd_texture = material.ks_texture = material.kt_texture = material.emission_texture =
+        IMPORT_NONE;
+    return material;
+}
+
+/* Scales kd, ks and kt down where they reflect more than comes in. */
+static void conserve_energy(importer *import, int line, import_material *m)
+{
+    double excess = 1;
+    for (int c = 0; c < 3; c++) {
+        double *parts[] = {&m->kd[c], &m->ks[c], &m->kt[c]};
+        for (int i = 0; i < 3; i++)
+            *parts[i] = *parts[i] < 0 ? 0 : *parts[i] > 1 ? 1 : *parts[i];
+        double sum = m->kd[c] + m->ks[c] + m->kt[c];
+        excess = sum > excess ? sum : excess;
+    }
+    if (excess > 1 + 1e-6)
+        import_note_at(import, line,
+                       "a material reflects and transmits more light than it gets: scaled down");
+    for (int c = 0; c < 3 && excess > 1; c++) {
+        m->kd[c] /= excess;
+        m->ks[c] /= excess;
+        m->kt[c] /= excess;
+    }
+}
+
+static void put_texture(importer *import, import_text *out, const char *field, int handle)
+{
+    if (handle != IMPORT_NONE)
+        import_put(import, out, " %s %s", field, import_label(import, handle));
+}
+
+int import_add_material(importer *import, int line, const char *base,
+                        const import_material *material)
+{
+    import_text *out = &import->definitions;
+    import_material m = *material;
+    int handle = import_name(import, base);
+    conserve_energy(import, line, &m);
+    int is_specular = !is_black(m.ks) || !is_black(m.kt);
+    import_put(import, out, "material %s {", import_label(import, handle));
+    put_colour(import, out, "kd", m.kd);
+    put_colour(import, out, "ks", m.ks);
+    put_colour(import, out, "kt", m.kt);
+    put_colour(import, out, "emission", m.emission);
+    if (m.fresnel == IMPORT_FRESNEL_CONDUCTOR) {
+        import_put(import, out, " fresnel conductor");
+        put_field(import, out, "eta", m.eta, 3);
+        put_field(import, out, "k", m.k, 3);
+    } else if (m.fresnel == IMPORT_FRESNEL_DIELECTRIC) {
+        import_put(import, out, " fresnel dielectric");
+    }
+    if (m.ior > 0 && is_specular && m.fresnel != IMPORT_FRESNEL_CONDUCTOR)
+        put_field(import, out, "ior", &m.ior, 1);
+    m.roughness = m.roughness > 1 ? 1 : m.roughness;
+    if (m.roughness > 0 && is_specular)
+        put_field(import, out, "roughness", &m.roughness, 1);
+    if (is_specular)
+        put_colour(import, out, "absorption", m.absorption);
+    if (m.is_two_sided)
+        import_put(import, out, " two_sided true");
+    if (!is_black(m.kd))
+        put_texture(import, out, "kd_texture", m.kd_texture);
+    if (!is_black(m.ks))
+        put_texture(import, out, "ks_texture", m.ks_texture);
+    if (!is_black(m.kt))
+        put_texture(import, out, "kt_texture", m.kt_texture);
+    if (!is_black(m.emission))
+        put_texture(import, out, "emission_texture", m.emission_texture);
+    import_put(import, out, " }\n");
+    import->has_light |= !is_black(m.emission);
+    if (handle != IMPORT_NONE)
+        import->labels[handle].is_textured = m.kd_texture != IMPORT_NONE ||
+                                             m.ks_texture != IMPORT_NONE ||
+                                             m.kt_texture != IMPORT_NONE;
+    return handle;
+}
+
+void import_note_uv(importer *import, int line, int material, const char *shape)
+{
+    if (material >= 0 && (size_t)material < import->label_count &&
+        import->labels[material].is_textured)
+        import_note_at(import, line, "a texture lies otherwise on a %s", shape);
+}
+
+/* ---- Shapes ------------------------------------------------------------------ */
+
+void import_bound(importer *import, const matrix *to_world, const double lo[3], const double hi[3])
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3] = {corner & 1 ? hi[0] : lo[0], corner & 2 ? hi[1] : lo[1],
+                       corner & 4 ? hi[2] : lo[2]};
+        matrix_point(p, to_world, p);
+        for (int c = 0; c < 3; c++) {
+            import->lo[c] = p[c] < import->lo[c] ? p[c] : import->lo[c];
+            import->hi[c] = p[c] > import->hi[c] ? p[c] : import->hi[c];
+        }
+    }
+}
+
+/* Whether a shape can be placed so; notes or fails where it cannot. */
+static int can_place(importer *import, int line, const matrix *to_world)
+{
+    matrix inverse;
+    if (++import->shape_count > IMPORT_SHAPES_MAX)
+        return import_fail(import, line, "the scene has more than %d shapes", IMPORT_SHAPES_MAX);
+    if (!matrix_is_finite(to_world))
+        return import_fail(import, line, "a transform is not finite");
+    if (!matrix_invert(&inverse, to_world)) {
+        import_note_at(import, line, "a shape whose transform has no inverse is left out");
+        return 0;
+    }
+    return 1;
+}
+
+static void put_surface(importer *import, const import_surface *surface)
+{
+    import_text *out = &import->shapes;
+    import_put(import, out, " material %s", import_label(import, surface->material));
+    put_colour(import, out, "radiance", surface->radiance);
+    import->has_light |= !is_black(surface->radiance);
+    if (!is_black(surface->radiance))
+        put_texture(import, out, "texture", surface->texture);
+    if (!matrix_is_identity(&surface->to_world))
+        put_field(import, out, "matrix", surface->to_world.m[0], 12);
+    import_put(import, out, " }\n");
+}
+
+void import_add_instance(importer *import, int line, int mesh, const import_surface *surface)
+{
+    if (import->failed || mesh == IMPORT_NONE || !can_place(import, line, &surface->to_world))
+        return;
+    import_put(import, &import->shapes, "instance %s {", import_label(import, mesh));
+    put_surface(import, surface);
+}
+
+void import_add_shape(importer *import, int line, const char *block, const double lo[3],
+                      const double hi[3], const import_surface *surface)
+{
+    if (import->failed || !can_place(import, line, &surface->to_world))
+        return;
+    import_bound(import, &surface->to_world, lo, hi);
+    import_put(import, &import->shapes, "%s", block);
+    put_surface(import, surface);
+}
+
+/* ---- Camera and film --------------------------------------------------------- */
+
+void import_set_camera(importer *import, int line, const import_camera *camera)
+{
+    import_text *out = &import->settings;
+    double look_at[3], direction[3], up[3], across[3];
+    memcpy(direction, camera->direction, sizeof direction);
+    memcpy(up, camera->up, sizeof up);
+    vector_cross(across, direction, up);
+    if (!vector_normalize(direction) || !vector_normalize(across)) {
+        import_fail(import, line, "the camera has no direction, or its up is along it");
+        return;
+    }
+    double reach = camera->focal_distance > 0 ? camera->focal_distance : 1;
+    for (int c = 0; c < 3; c++)
+        look_at[c] = camera->eye[c] + reach * direction[c];
+    import_put(import, out, "camera {\n");
+    if (camera->is_orthographic)
+        import_put(import, out, " projection orthographic\n");
+    put_field(import, out, "eye", camera->eye, 3);
+    import_put(import, out, "\n");
+    put_field(import, out, "look_at", look_at, 3);
+    import_put(import, out, "\n");
+    put_field(import, out, "up", up, 3);
+    import_put(import, out, "\n");
+    put_field(import, out, camera->is_orthographic ? "width" : "fov",
+              camera->is_orthographic ? &camera->width : &camera->fov, 1);
+    import_put(import, out, "\n");
+    if (camera->aperture > 0) {
+        put_field(import, out, "aperture", &camera->aperture, 1);
+        import_put(import, out, "\n");
+        put_field(import, out, "focal_distance", &reach, 1);
+        import_put(import, out, "\n");
+    }
+    import_put(import, out, "}\n");
+    import->has_camera = 1;
+}
+
+void import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter)
+{
+    import->width = width;
+    import->height = height;
+    import_put(import, &import->settings, "film { width %lu height %lu", (unsigned long)width,
+               (unsigned long)height);
+    if (filter)
+        import_put(import, &import->settings, " filter %s", filter);
+    import_put(import, &import->settings, " }\n");
+}
+
+/* ---- Lights ------------------------------------------------------------------ */
+
+/* Black is light too, as the file has it. */
+static void put_light_colour(importer *import, const char *field, const double colour[3])
+{
+    if (is_black(colour))
+        import_put(import, &import->lights, " %s 0", field);
+    else
+        put_colour(import, &import->lights, field, colour);
+    import_put(import, &import->lights, " }\n");
+    import->has_light = 1;
+}
+
+void import_add_point_light(importer *import, const double position[3], const double intensity[3])
+{
+    import_put(import, &import->lights, "light point {");
+    put_field(import, &import->lights, "position", position, 3);
+    put_light_colour(import, "intensity", intensity);
+}
+
+void import_add_spot_light(importer *import, int line, const double position[3],
+                           const double direction[3], const double intensity[3], double inner,
+                           double outer)
+{
+    double target[3], d[3] = {direction[0], direction[1], direction[2]};
+    if (!vector_normalize(d) || !(outer > 0) || outer > 180 || inner > outer) {
+        import_fail(import, line, "a spot light has no direction, or no cone");
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        target[c] = position[c] + d[c];
+    import_put(import, &import->lights, "light spot {");
+    put_field(import, &import->lights, "position", position, 3);
+    put_field(import, &import->lights, "target", target, 3);
+    put_field(import, &import->lights, "outer", &outer, 1);
+    put_field(import, &import->lights, "inner", &inner, 1);
+    put_light_colour(import, "intensity", intensity);
+}
+
+void import_add_directional_light(importer *import, int line, const double direction[3],
+                                  const double irradiance[3])
+{
+    double d[3] = {direction[0], direction[1], direction[2]};
+    if (!vector_normalize(d)) {
+        import_fail(import, line, "a directional light has no direction");
+        return;
+    }
+    import_put(import, &import->lights, "light directional {");
+    put_field(import, &import->lights, "direction", d, 3);
+    put_light_colour(import, "irradiance", irradiance);
+}
+
+void import_set_environment(importer *import, int line, const double radiance[3], const char *file,
+                            double rotation)
+{
+    if (strstr(import->lights.text ? import->lights.text : "", "light environment")) {
+        import_note_at(import, line, "a second environment light is left out");
+        return;
+    }
+    import_put(import, &import->lights, "light environment {");
+    if (file)
+        import_put(import, &import->lights, " file \"%s\"", file);
+    if (rotation != 0)
+        put_field(import, &import->lights, "rotation", &rotation, 1);
+    put_light_colour(import, "radiance", radiance);
+}

@@ -1,0 +1,128 @@
+/* files.c - files that an import reads and writes. */
+#define _XOPEN_SOURCE 700 /* realpath, mkdir */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "../whole_file.h"
+#include "import.h"
+#include "rt.h"
+
+#define WRITTEN_MAX ((size_t)16 << 30)
+
+/* Whether a file lies in a folder once links are followed. */
+static int is_within(const char *folder, const char *path)
+{
+    char *outer = realpath(folder, NULL), *inner = realpath(path, NULL);
+    size_t length = outer ? strlen(outer) : 0;
+    int is = outer && inner && strncmp(outer, inner, length) == 0 &&
+             (inner[length] == '/' || (length > 0 && outer[length - 1] == '/'));
+    free(outer);
+    free(inner);
+    return is;
+}
+
+char *import_resolve(importer *import, int line, const char *name)
+{
+    char *path = malloc(strlen(import->folder) + strlen(name) + 1);
+    if (!path) {
+        import_fail_memory(import);
+        return NULL;
+    }
+    sprintf(path, "%s%s", name[0] == '/' ? "" : import->folder, name);
+    if (import->root && !is_within(import->root, path)) {
+        import_fail(import, line, "'%.100s' is not there, or outside of the scene's folder", name);
+        free(path);
+        return NULL;
+    }
+    return path;
+}
+
+char *import_read(importer *import, int line, const char *name, size_t *size)
+{
+    char cause[128];
+    char *path = import->failed ? NULL : import_resolve(import, line, name);
+    if (!path)
+        return NULL;
+    char *bytes =
+        whole_file_read(path, IMPORT_FILE_MAX - import->bytes_read, size, cause, sizeof cause);
+    free(path);
+    if (bytes)
+        import->bytes_read += *size;
+    else
+        import_fail(import, line, "cannot read '%.100s': %s", name, cause);
+    return bytes;
+}
+
+int import_write(importer *import, char out[512], const char *base, const char *extension,
+                 const void *bytes, size_t size)
+{
+    int handle = import_name(import, base);
+    rt_error error;
+    if (import->failed)
+        return 0;
+    snprintf(out, 512, "%.300s/%s%s", import->files, import_label(import, handle), extension);
+    import->bytes_written += size;
+    if (import->bytes_written > WRITTEN_MAX)
+        return import_fail(import, 0, "its meshes and images are larger than 16 GiB together");
+    if (import->is_dry)
+        return 1;
+    if (mkdir(import->files_path, 0777) != 0 && errno != EEXIST) {
+        import->is_output = 1;
+        return import_fail(import, 0, "cannot make the folder %.200s: %s", import->files_path,
+                           strerror(errno));
+    }
+    size_t length = strlen(import->files_path) + strlen(out) + 8;
+    char *path = malloc(length);
+    if (!path)
+        return import_fail_memory(import);
+    snprintf(path, length, "%s/%s%s", import->files_path, import_label(import, handle), extension);
+    if (rt_file_write(path, bytes, size, &error) != RT_OK) {
+        import->is_output = 1;
+        import_fail(import, 0, "%s", error.message);
+    }
+    free(path);
+    return !import->failed;
+}
+
+/* The extension of an image that the language reads, by its first bytes; NULL: it does not. */
+static const char *image_extension(const unsigned char *bytes, size_t size)
+{
+    if (size > 8 && memcmp(bytes, "\x89PNG", 4) == 0)
+        return ".png";
+    if (size > 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0)
+        return ".exr";
+    if (size > 3 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f'))
+        return ".pfm";
+    if (size > 3 && bytes[0] == 'P' && bytes[1] >= '2' && bytes[1] <= '6')
+        return ".ppm";
+    return NULL;
+}
+
+int import_image_bytes(importer *import, int line, char out[512], const char *base,
+                       const void *bytes, size_t size)
+{
+    const unsigned char *head = bytes;
+    const char *extension = image_extension(bytes, size);
+    if (extension)
+        return import_write(import, out, base, extension, bytes, size);
+    import_note_at(import, line, "the image %.100s is left out: %s", base,
+                   size > 3 && head[0] == 0xff && head[1] == 0xd8
+                       ? "a JPEG; convert it to PNG, and name that in the file"
+                       : "not a PNG, OpenEXR, PPM or PFM image");
+    return 0;
+}
+
+int import_image_file(importer *import, int line, char out[512], const char *name)
+{
+    size_t size;
+    char *bytes = import_read(import, line, name, &size);
+    const char *slash = strrchr(name, '/');
+    int is_there =
+        bytes && import_image_bytes(import, line, out, slash ? slash + 1 : name, bytes, size);
+    free(bytes);
+    return is_there;
+}

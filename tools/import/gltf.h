@@ -1,0 +1,119 @@
+/* gltf.h - what the parts of the reader of glTF 2.0 share. */
+#ifndef RTC_IMPORT_GLTF_H
+#define RTC_IMPORT_GLTF_H
+
+#include <cjson/cJSON.h>
+
+#include "import.h"
+
+/* An array of the file, so that any item is found at once. */
+typedef struct gltf_list {
+    cJSON **items;
+    size_t count;
+} gltf_list;
+
+typedef enum gltf_array {
+    GLTF_SCENES,
+    GLTF_NODES,
+    GLTF_MESHES,
+    GLTF_MATERIALS,
+    GLTF_TEXTURES,
+    GLTF_IMAGES,
+    GLTF_SAMPLERS,
+    GLTF_ACCESSORS,
+    GLTF_VIEWS,
+    GLTF_BUFFERS,
+    GLTF_CAMERAS,
+    GLTF_LIGHTS,
+    GLTF_ARRAY_COUNT
+} gltf_array;
+
+typedef struct gltf_bytes {
+    char *owned; /* to be freed, or NULL */
+    const unsigned char *at;
+    size_t size;
+} gltf_bytes;
+
+typedef struct gltf_primitive {
+    int mesh, material; /* handles */
+    double lo[3], hi[3];
+} gltf_primitive;
+
+typedef struct gltf_mesh {
+    gltf_primitive *primitives;
+    size_t count;
+    int is_read;
+} gltf_mesh;
+
+typedef struct gltf {
+    importer *import;
+    cJSON *root;
+    gltf_list lists[GLTF_ARRAY_COUNT];
+    const unsigned char *chunk; /* the binary chunk of a .glb, or NULL */
+    size_t chunk_size;
+    gltf_bytes *buffers; /* [lists[GLTF_BUFFERS].count], read when first asked for */
+    int *materials; /* [materials + 1] handles; the last is that of none; IMPORT_NONE: not yet */
+    char (*images)[512];    /* [images] file names; "" not yet, "?" left out */
+    gltf_mesh *meshes;      /* [meshes] */
+    unsigned char *on_path; /* [nodes] whether a node is around the one that is read */
+    size_t visits;
+} gltf;
+
+/* ---- Values of the file: gltf_json.c --------------------------------------------------------- */
+
+static inline const cJSON *gltf_get(const cJSON *object, const char *name)
+{
+    return object ? cJSON_GetObjectItemCaseSensitive(object, name) : NULL;
+}
+
+/* An extension of an object, or NULL. */
+const cJSON *gltf_extension(const cJSON *object, const char *name);
+
+/* An item of an array of the file; NULL after a failure. `what` tells who asks. */
+const cJSON *gltf_item(gltf *g, gltf_array array, size_t index, const char *what);
+
+/*
+ * A whole number of an object: 1 if it is there, 0 if not; the import fails where it is no whole
+ * number from 0 to 2^53.
+ */
+int gltf_whole(gltf *g, const cJSON *object, const char *name, uint64_t *out);
+
+/* A number of an object, finite, or the fallback. */
+double gltf_number(gltf *g, const cJSON *object, const char *name, double fallback);
+
+/* `count` numbers; returns whether they are there. */
+int gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, int count);
+
+/* The text of a member, or NULL. */
+const char *gltf_string(const cJSON *object, const char *name);
+
+/* ---- Bytes: gltf_bytes.c --------------------------------------------------------------------- */
+
+/* The bytes of a buffer view; 0 after a failure. stride: between elements, or 0. */
+int gltf_view(gltf *g, uint64_t index, const unsigned char **at, size_t *size, size_t *stride);
+
+/* The bytes of a `uri`, of a file or in itself, to be freed; NULL after a failure. */
+char *gltf_uri(gltf *g, const char *uri, size_t *size);
+
+/*
+ * An accessor as floats [count][components], to be freed; NULL after a failure. components: how
+ * many are wanted; the accessor may have one more, which is left out. count: given if not 0, else
+ * written.
+ */
+float *gltf_floats(gltf *g, uint64_t accessor, int components, size_t *count);
+
+/* An accessor of indices, to be freed. */
+uint32_t *gltf_indices(gltf *g, uint64_t accessor, size_t *count);
+
+/* ---- Materials: gltf_material.c, meshes: gltf_mesh.c ----------------------------------------- */
+
+/* The handle of a material; index -1: that of a primitive without one. */
+int gltf_material(gltf *g, int64_t index);
+
+/* The number of the texture coordinates that a material uses. */
+int gltf_texture_set(gltf *g, int64_t material);
+
+/* The primitives of a mesh; NULL after a failure. */
+const gltf_mesh *gltf_read_mesh(gltf *g, uint64_t index);
+
+#endif

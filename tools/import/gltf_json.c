@@ -1,0 +1,75 @@
+/* gltf_json.c - values of a glTF file, checked. */
+#include <float.h>
+#include <math.h>
+
+#include "gltf.h"
+
+static const char *const names[GLTF_ARRAY_COUNT] = {
+    "scenes",   "nodes",     "meshes",      "materials", "textures", "images",
+    "samplers", "accessors", "bufferViews", "buffers",   "cameras",  "lights"};
+
+const cJSON *gltf_extension(const cJSON *object, const char *name)
+{
+    return gltf_get(gltf_get(object, "extensions"), name);
+}
+
+const cJSON *gltf_item(gltf *g, gltf_array array, size_t index, const char *what)
+{
+    if (index < g->lists[array].count && cJSON_IsObject(g->lists[array].items[index]))
+        return g->lists[array].items[index];
+    import_fail(g->import, 0, "%s names %s[%lu]; the file has %lu of them", what, names[array],
+                (unsigned long)index, (unsigned long)g->lists[array].count);
+    return NULL;
+}
+
+int gltf_whole(gltf *g, const cJSON *object, const char *name, uint64_t *out)
+{
+    const cJSON *item = gltf_get(object, name);
+    if (!item)
+        return 0;
+    double value = cJSON_IsNumber(item) ? item->valuedouble : -1;
+    if (!(value >= 0 && value <= 9007199254740992.0) || floor(value) != value)
+        return import_fail(g->import, 0, "'%s' must be a whole number from 0", name);
+    *out = (uint64_t)value;
+    return 1;
+}
+
+/* Whether an item is a number in the range of single precision. */
+static int is_number(const cJSON *item)
+{
+    return cJSON_IsNumber(item) && fabs(item->valuedouble) <= FLT_MAX;
+}
+
+double gltf_number(gltf *g, const cJSON *object, const char *name, double fallback)
+{
+    const cJSON *item = gltf_get(object, name);
+    if (!item)
+        return fallback;
+    if (is_number(item))
+        return item->valuedouble;
+    import_fail(g->import, 0, "'%s' must be a finite number", name);
+    return fallback;
+}
+
+int gltf_numbers(gltf *g, const cJSON *object, const char *name, double *out, int count)
+{
+    const cJSON *list = gltf_get(object, name), *item;
+    int found = 0;
+    if (!list)
+        return 0;
+    cJSON_ArrayForEach(item, list)
+    {
+        if (!is_number(item) || found == count)
+            return import_fail(g->import, 0, "'%s' must be %d finite numbers", name, count);
+        out[found++] = item->valuedouble;
+    }
+    if (found != count)
+        return import_fail(g->import, 0, "'%s' must be %d numbers, and has %d", name, count, found);
+    return 1;
+}
+
+const char *gltf_string(const cJSON *object, const char *name)
+{
+    const cJSON *item = gltf_get(object, name);
+    return cJSON_IsString(item) ? item->valuestring : NULL;
+}

@@ -1,0 +1,279 @@
+/*
+ * gltf_material.c - the metallic-roughness materials of glTF 2.0.
+ *
+ * alpha of GGX is the square of the roughness. A metal's Fresnel reflectance at normal incidence,
+ * its base colour F0, is that of eta = 1 and k = 2 sqrt(F0 / (1 - F0)). Textures have v = 0 at the
+ * top; here it is at the bottom, as in the meshes that are written.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gltf.h"
+
+/* The images of the file that were written. */
+static const char *image_file(gltf *g, uint64_t index)
+{
+    const cJSON *image = gltf_item(g, GLTF_IMAGES, index, "a texture");
+    const unsigned char *at;
+    uint64_t view;
+    size_t size, stride;
+    if (!image)
+        return NULL;
+    char *file = g->images[index];
+    const char *uri = gltf_string(image, "uri"), *name = gltf_string(image, "name");
+    if (file[0])
+        return file[0] == '?' ? NULL : file;
+    strcpy(file, "?");
+    char made[512];
+    if (uri) {
+        char *bytes = gltf_uri(g, uri, &size);
+        if (bytes && import_image_bytes(g->import, 0, made, name ? name : "image", bytes, size))
+            strcpy(file, made);
+        free(bytes);
+    } else if (gltf_whole(g, image, "bufferView", &view) &&
+               gltf_view(g, view, &at, &size, &stride) &&
+               import_image_bytes(g->import, 0, made, name ? name : "image", at, size)) {
+        strcpy(file, made);
+    }
+    return file[0] == '?' ? NULL : file;
+}
+
+/* KHR_texture_transform, with v turned over. */
+static void read_transform(gltf *g, const cJSON *info, import_texture *texture)
+{
+    const cJSON *transform = gltf_extension(info, "KHR_texture_transform");
+    double offset[2] = {0, 0}, scale[2] = {1, 1};
+    gltf_numbers(g, transform, "offset", offset, 2);
+    gltf_numbers(g, transform, "scale", scale, 2);
+    if (gltf_number(g, transform, "rotation", 0) != 0)
+        import_note_at(g->import, 0, "the rotation of a texture is left out");
+    for (int i = 0; i < 2; i++)
+        if (scale[i] == 0)
+            scale[i] = 1;
+    texture->scale[0] = scale[0];
+    texture->scale[1] = scale[1];
+    texture->offset[0] = offset[0];
+    texture->offset[1] = 1 - offset[1] - scale[1];
+}
+
+static int wrap_of(gltf *g, const cJSON *sampler, const char *name)
+{
+    uint64_t mode = 10497;
+    gltf_whole(g, sampler, name, &mode);
+    return mode == 33648 ? 1 : mode == 33071 ? 2 : 0;
+}
+
+/* A texture of a material by the member that names it, or IMPORT_NONE. */
+static int read_texture(gltf *g, const cJSON *info, const char *what)
+{
+    import_texture texture = {.scale = {1, 1}};
+    uint64_t index, image, sampler_index, set = 0;
+    if (!info || !gltf_whole(g, info, "index", &index))
+        return IMPORT_NONE;
+    const cJSON *entry = gltf_item(g, GLTF_TEXTURES, index, what), *sampler = NULL;
+    gltf_whole(g, info, "texCoord", &set);
+    if (!entry || !gltf_whole(g, entry, "source", &image)) {
+        import_note_at(g->import, 0, "a texture without an image is left out");
+        return IMPORT_NONE;
+    }
+    if (gltf_whole(g, entry, "sampler", &sampler_index))
+        sampler = gltf_item(g, GLTF_SAMPLERS, sampler_index, "a texture");
+    texture.wrap = wrap_of(g, sampler, "wrapS");
+    if (texture.wrap != wrap_of(g, sampler, "wrapT"))
+        import_note_at(g->import, 0, "a texture continues along v as along u");
+    uint64_t filter = 9729;
+    gltf_whole(g, sampler, "magFilter", &filter);
+    if (filter == 9728)
+        import_note_at(g->import, 0, "a texture without interpolation is interpolated");
+    read_transform(g, info, &texture);
+    texture.file = g->import->failed ? NULL : image_file(g, image);
+    return texture.file ? import_add_texture(g->import, what, &texture) : IMPORT_NONE;
+}
+
+int gltf_texture_set(gltf *g, int64_t material)
+{
+    uint64_t set = 0, other;
+    if (material < 0 || (size_t)material >= g->lists[GLTF_MATERIALS].count)
+        return 0;
+    const cJSON *entry = g->lists[GLTF_MATERIALS].items[material];
+    const cJSON *base = gltf_get(gltf_get(entry, "pbrMetallicRoughness"), "baseColorTexture"),
+                *glow = gltf_get(entry, "emissiveTexture");
+    if (base)
+        gltf_whole(g, base, "texCoord", &set);
+    else
+        gltf_whole(g, glow, "texCoord", &set);
+    other = set;
+    gltf_whole(g, glow, "texCoord", &other);
+    if (base && glow && other != set)
+        import_note_at(g->import, 0,
+                       "a material's textures share the coordinates of its base colour");
+    return set < 8 ? (int)set : 0;
+}
+
+/* Glass where it has a volume, a sheet that light crosses straight where it has none. */
+static void read_transmission(gltf *g, const cJSON *entry, import_material *m, const double base[3])
+{
+    const cJSON *transmission = gltf_extension(entry, "KHR_materials_transmission"),
+                *volume = gltf_extension(entry, "KHR_materials_volume");
+    double factor = gltf_number(g, transmission, "transmissionFactor", 0), colour[3] = {1, 1, 1};
+    double distance = gltf_number(g, volume, "attenuationDistance", 0);
+    if (!(factor > 0))
+        return;
+    if (gltf_get(transmission, "transmissionTexture"))
+        import_note_at(g->import, 0, "a transmissionTexture is left out");
+    for (int c = 0; c < 3; c++) {
+        m->kt[c] = factor * base[c];
+        m->kd[c] *= 1 - factor;
+    }
+    m->kt_texture = m->kd_texture;
+    if (gltf_number(g, volume, "thicknessFactor", 0) > 0) {
+        m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+        memset(m->ks, 0, sizeof m->ks);
+        gltf_numbers(g, volume, "attenuationColor", colour, 3);
+        for (int c = 0; c < 3 && distance > 0; c++)
+            m->absorption[c] = -log(colour[c] > 1e-6 ? colour[c] : 1e-6) / distance;
+    } else {
+        m->ior = 1;
+        m->roughness = 0;
+        import_note_at(g->import, 0,
+                       "a thin sheet that transmits neither reflects by Fresnel nor scatters");
+    }
+}
+
+/* The reflectance of metals, and a coat of plastics that does not depend on the angle. */
+static void read_specular(gltf *g, const cJSON *entry, import_material *m, double metallic,
+                          double roughness)
+{
+    const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
+    double strength = gltf_number(g, specular, "specularFactor", 1);
+    double f0 = strength * pow((m->ior - 1) / (m->ior + 1), 2);
+    double base[3] = {m->kd[0], m->kd[1], m->kd[2]};
+    m->roughness = roughness * roughness;
+    for (int c = 0; c < 3; c++)
+        m->kd[c] = (1 - metallic) * (1 - f0) * base[c];
+    const cJSON *volume = gltf_extension(entry, "KHR_materials_volume");
+    if (metallic < 1 && f0 > 0 && !(gltf_number(g, volume, "thicknessFactor", 0) > 0))
+        import_note_at(g->import, 0,
+                       "a coat reflects %.3g at every angle: the language has no coat by Fresnel",
+                       f0);
+    if (metallic > 0 && m->kd_texture == IMPORT_NONE) {
+        m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
+        for (int c = 0; c < 3; c++) {
+            double r = base[c] < 0 ? 0 : base[c] > 0.9995 ? 0.9995 : base[c];
+            m->ks[c] = metallic;
+            m->eta[c] = 1;
+            m->k[c] = 2 * sqrt(r / (1 - r));
+        }
+        if (metallic < 1 && f0 > 0)
+            import_note_at(g->import, 0,
+                           "the coat of a material between metal and plastic is left "
+                           "out");
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        m->ks[c] = metallic * base[c] + (1 - metallic) * f0;
+    if (metallic > 0) {
+        m->ks_texture = m->kd_texture;
+        import_note_at(g->import, 0, "a textured metal reflects its colour at every angle");
+    }
+}
+
+static void read_emission(gltf *g, const cJSON *entry, import_material *m)
+{
+    double strength = gltf_number(g, gltf_extension(entry, "KHR_materials_emissive_strength"),
+                                  "emissiveStrength", 1);
+    gltf_numbers(g, entry, "emissiveFactor", m->emission, 3);
+    for (int c = 0; c < 3; c++)
+        m->emission[c] *= strength;
+    if (m->emission[0] > 0 || m->emission[1] > 0 || m->emission[2] > 0) {
+        m->emission_texture = read_texture(g, gltf_get(entry, "emissiveTexture"), "emission");
+        m->is_two_sided = cJSON_IsTrue(gltf_get(entry, "doubleSided"));
+        import_note_at(g->import, 0,
+                       "emissiveFactor by emissiveStrength is taken as radiance, W/(m^2 sr)");
+    }
+}
+
+static void read_alpha(gltf *g, const cJSON *entry, import_material *m, double alpha)
+{
+    const char *mode = gltf_string(entry, "alphaMode");
+    if (!mode || strcmp(mode, "OPAQUE") == 0)
+        return;
+    if (strcmp(mode, "BLEND") != 0 || m->kd_texture != IMPORT_NONE)
+        import_note_at(g->import, 0, "the alpha of a texture is left out");
+    if (strcmp(mode, "BLEND") != 0 || !(alpha < 1))
+        return;
+    for (int c = 0; c < 3; c++) {
+        m->kd[c] *= alpha;
+        m->ks[c] *= alpha;
+        m->kt[c] = m->kt[c] * alpha + 1 - alpha;
+    }
+    m->kt_texture = IMPORT_NONE;
+    m->ior = 1;
+    m->fresnel = IMPORT_FRESNEL_OFF;
+}
+
+static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
+{
+    static const char *const maps[] = {"normalTexture", "occlusionTexture"};
+    static const char *const known[] = {
+        "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_ior",
+        "KHR_materials_specular",     "KHR_materials_unlit",  "KHR_materials_emissive_strength"};
+    const cJSON *extension;
+    for (size_t i = 0; i < 2; i++)
+        if (gltf_get(entry, maps[i]))
+            import_note_at(g->import, 0, "a %s is left out", maps[i]);
+    if (gltf_get(pbr, "metallicRoughnessTexture"))
+        import_note_at(g->import, 0,
+                       "a metallicRoughnessTexture is left out: the factors hold all over");
+    cJSON_ArrayForEach(extension, gltf_get(entry, "extensions"))
+    {
+        size_t i = 0;
+        while (i < sizeof known / sizeof *known && strcmp(extension->string, known[i]) != 0)
+            i++;
+        if (i == sizeof known / sizeof *known)
+            import_note_at(g->import, 0, "%.60s is left out", extension->string);
+    }
+}
+
+static int read_material(gltf *g, const cJSON *entry)
+{
+    const cJSON *pbr = gltf_get(entry, "pbrMetallicRoughness");
+    const char *name = gltf_string(entry, "name");
+    import_material m = import_material_begin();
+    double base[4] = {1, 1, 1, 1};
+    gltf_numbers(g, pbr, "baseColorFactor", base, 4);
+    memcpy(m.kd, base, sizeof m.kd);
+    m.ior = gltf_number(g, gltf_extension(entry, "KHR_materials_ior"), "ior", 1.5);
+    m.ior = m.ior > 0 ? m.ior : 1.5;
+    m.kd_texture = read_texture(g, gltf_get(pbr, "baseColorTexture"), "base");
+    double metallic = gltf_number(g, pbr, "metallicFactor", 1),
+           roughness = gltf_number(g, pbr, "roughnessFactor", 1);
+    metallic = metallic < 0 ? 0 : metallic > 1 ? 1 : metallic;
+    note_left_out(g, entry, pbr);
+    if (gltf_extension(entry, "KHR_materials_unlit")) {
+        memcpy(m.emission, m.kd, sizeof m.emission);
+        memset(m.kd, 0, sizeof m.kd);
+        m.emission_texture = m.kd_texture;
+        return import_add_material(g->import, 0, name ? name : "unlit", &m);
+    }
+    read_specular(g, entry, &m, metallic, roughness);
+    for (int c = 0; c < 3; c++)
+        base[c] *= 1 - metallic;
+    read_transmission(g, entry, &m, base);
+    read_emission(g, entry, &m);
+    read_alpha(g, entry, &m, base[3]);
+    return import_add_material(g->import, 0, name ? name : "material", &m);
+}
+
+int gltf_material(gltf *g, int64_t index)
+{
+    static const char none[] = "a primitive";
+    size_t at = index < 0 ? g->lists[GLTF_MATERIALS].count : (size_t)index;
+    const cJSON *entry = index < 0 ? NULL : gltf_item(g, GLTF_MATERIALS, at, none);
+    if (g->import->failed || (index >= 0 && !entry))
+        return IMPORT_NONE;
+    if (g->materials[at] == IMPORT_NONE)
+        g->materials[at] = read_material(g, entry);
+    return g->materials[at];
+}

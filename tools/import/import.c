@@ -1,0 +1,293 @@
+/* import.c - the scene that an import makes, as text; and its notes. */
+#include "import.h"
+
+#include <ctype.h>
+#include <float.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "rt.h"
+
+enum { NOTES_MAX = 200, NUMBER_LENGTH_MAX = 64 };
+
+/* ---- Failures and notes ------------------------------------------------------ */
+
+int import_fail(importer *import, int line, const char *format, ...)
+{
+    if (import->failed)
+        return 0;
+    import->failed = 1;
+    int used =
+        line > 0 ? snprintf(import->error, sizeof import->error, "%.200s:%d: ", import->path, line)
+                 : snprintf(import->error, sizeof import->error, "%.200s: ", import->path);
+    va_list list;
+    va_start(list, format);
+    vsnprintf(import->error + used, sizeof import->error - (size_t)used, format, list);
+    va_end(list);
+    return 0;
+}
+
+int import_fail_memory(importer *import)
+{
+    if (!import->failed)
+        import->is_memory = 1;
+    return import_fail(import, 0, "out of memory");
+}
+
+/* Control characters, of a text that a file gave, would leave the comment that a note becomes. */
+static void make_printable(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < 0x20 || (unsigned char)*text >= 0x7f)
+            *text = '?';
+}
+
+void import_note_at(importer *import, int line, const char *format, ...)
+{
+    char text[320];
+    if (import->failed)
+        return;
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    make_printable(text);
+    for (size_t i = 0; i < import->note_count; i++)
+        if (strcmp(import->notes[i].text, text) == 0) {
+            import->notes[i].more++;
+            return;
+        }
+    if (import->note_count == NOTES_MAX) {
+        import->notes_left_out++;
+        return;
+    }
+    import_note *moved = realloc(import->notes, (import->note_count + 1) * sizeof *import->notes);
+    char *copy = malloc(strlen(text) + 1);
+    if (moved)
+        import->notes = moved;
+    if (!moved || !copy) {
+        free(copy);
+        import_fail_memory(import);
+        return;
+    }
+    strcpy(copy, text);
+    import->notes[import->note_count++] = (import_note){copy, line, 0};
+}
+
+/* ---- Text -------------------------------------------------------------------- */
+
+static int reserve(importer *import, import_text *out, size_t more)
+{
+    if (out->size + more + 1 <= out->capacity)
+        return 1;
+    size_t grown = 2 * (out->size + more + 1);
+    char *moved = import->failed ? NULL : realloc(out->text, grown);
+    if (!moved)
+        return import_fail_memory(import);
+    out->text = moved;
+    out->capacity = grown;
+    return 1;
+}
+
+void import_put(importer *import, import_text *out, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    int length = vsnprintf(NULL, 0, format, list);
+    va_end(list);
+    if (length < 0 || !reserve(import, out, (size_t)length))
+        return;
+    va_start(list, format);
+    vsnprintf(out->text + out->size, (size_t)length + 1, format, list);
+    va_end(list);
+    out->size += (size_t)length;
+}
+
+void import_put_numbers(importer *import, import_text *out, const double *values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        char text[32];
+        float value = (float)values[i];
+        if (!(fabs(values[i]) <= FLT_MAX)) {
+            import_fail(import, 0, "a number of the scene is beyond single precision");
+            return;
+        }
+        for (int digits = 1; digits <= 9; digits++) {
+            snprintf(text, sizeof text, "%.*g", digits, (double)value);
+            if (strtof(text, NULL) == value)
+                break;
+        }
+        import_put(import, out, " %s", value == 0 ? "0" : text);
+    }
+}
+
+int import_name(importer *import, const char *base)
+{
+    if (import->failed)
+        return IMPORT_NONE;
+    if (import->label_count == import->label_capacity) {
+        size_t grown = 2 * import->label_capacity + 16;
+        void *moved = realloc(import->labels, grown * sizeof *import->labels);
+        if (!moved) {
+            import_fail_memory(import);
+            return IMPORT_NONE;
+        }
+        import->labels = moved;
+        import->label_capacity = grown;
+    }
+    char *out = import->labels[import->label_count].name;
+    import->labels[import->label_count].is_textured = 0;
+    size_t used = 0;
+    if (!isalpha((unsigned char)base[0]))
+        out[used++] = 'n';
+    for (; *base && used < IMPORT_NAME - 16; base++)
+        out[used++] = isalnum((unsigned char)*base) && (unsigned char)*base < 128 ? *base : '_';
+    snprintf(out + used, IMPORT_NAME - used, "_%lu", (unsigned long)import->label_count);
+    return (int)import->label_count++;
+}
+
+const char *import_label(const importer *import, int handle)
+{
+    return handle >= 0 && (size_t)handle < import->label_count ? import->labels[handle].name
+                                                               : "none";
+}
+
+int import_number(double *out, const char **text)
+{
+    const char *at = *text;
+    size_t length = 0;
+    while (length < NUMBER_LENGTH_MAX && at[length] && strchr("+-.0123456789eE", at[length]))
+        length++;
+    if (length == 0 || rt_number_read(out, at, length) == RT_NUMBER_MALFORMED ||
+        rt_number_read(out, at, length) == RT_NUMBER_TOO_LARGE || !(fabs(*out) <= FLT_MAX))
+        return 0;
+    *text = at + length;
+    return 1;
+}
+
+/* ---- The whole --------------------------------------------------------------- */
+
+static char *copy_part(const char *text, size_t length)
+{
+    char *copy = malloc(length + 1);
+    if (copy) {
+        memcpy(copy, text, length);
+        copy[length] = '\0';
+    }
+    return copy;
+}
+
+/* The folder of a path with its '/', or "". */
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return copy_part(path, slash ? (size_t)(slash - path) + 1 : 0);
+}
+
+int import_begin(importer *import, const char *path, const char *out_path)
+{
+    memset(import, 0, sizeof *import);
+    const char *slash = strrchr(out_path, '/');
+    const char *name = slash ? slash + 1 : out_path;
+    size_t stem = strlen(name) - (strlen(name) > 4 ? 4 : 0), size = strlen(out_path) + 16;
+    import->path = path;
+    import->folder = folder_of(path);
+    import->files = malloc(size);
+    import->files_path = malloc(size);
+    for (int c = 0; c < 3; c++) {
+        import->lo[c] = DBL_MAX;
+        import->hi[c] = -DBL_MAX;
+    }
+    if (!import->folder || !import->files || !import->files_path)
+        return import_fail_memory(import);
+    snprintf(import->files, size, "%.*s_files", (int)stem, name);
+    snprintf(import->files_path, size, "%.*s%s", (int)(name - out_path), out_path, import->files);
+    return 1;
+}
+
+void import_end(importer *import)
+{
+    for (size_t i = 0; i < import->note_count; i++)
+        free(import->notes[i].text);
+    free(import->notes);
+    free(import->labels);
+    free(import->folder);
+    free(import->files);
+    free(import->files_path);
+    free(import->settings.text);
+    free(import->definitions.text);
+    free(import->shapes.text);
+    free(import->lights.text);
+}
+
+/* A camera that sees all that was placed, for a file that has none. */
+static void add_camera(importer *import)
+{
+    import_camera camera = {.up = {0, 1, 0}, .direction = {-0.4, -0.35, -1}, .fov = 40};
+    double size = 0, centre[3] = {0, 0, 0};
+    for (int c = 0; c < 3 && import->lo[0] <= import->hi[0]; c++) {
+        centre[c] = (import->lo[c] + import->hi[c]) / 2;
+        size += pow(import->hi[c] - import->lo[c], 2);
+    }
+    size = size > 0 ? sqrt(size) : 2;
+    vector_normalize(camera.direction);
+    for (int c = 0; c < 3; c++)
+        camera.eye[c] = centre[c] - 1.6 * size * camera.direction[c];
+    camera.focal_distance = 1.6 * size;
+    import_note_at(import, 0, "the file has no camera: one that sees all shapes was added");
+    import_set_camera(import, 0, &camera);
+}
+
+static void put_notes(importer *import, import_text *out)
+{
+    const char *slash = strrchr(import->path, '/');
+    char name[200];
+    snprintf(name, sizeof name, "%s", slash ? slash + 1 : import->path);
+    make_printable(name);
+    import_put(import, out, "# Made by rtc import from %s.\n", name);
+    if (import->note_count)
+        import_put(import, out, "#\n# What differs from it:\n");
+    for (size_t i = 0; i < import->note_count; i++) {
+        const import_note *note = &import->notes[i];
+        import_put(import, out, "# - ");
+        if (note->line)
+            import_put(import, out, "line %d: ", note->line);
+        import_put(import, out, "%s", note->text);
+        if (note->more)
+            import_put(import, out, " (and %u more)", note->more);
+        import_put(import, out, "\n");
+    }
+    if (import->notes_left_out)
+        import_put(import, out, "# - and %lu more of other kinds\n",
+                   (unsigned long)import->notes_left_out);
+    import_put(import, out, "\n");
+}
+
+char *import_finish(importer *import)
+{
+    static const double white[3] = {1, 1, 1};
+    import_text whole = {NULL, 0, 0};
+    char *made = NULL;
+    rt_error error;
+    if (!import->has_camera)
+        add_camera(import);
+    if (!import->has_light) {
+        import_note_at(import, 0, "the file has no light: an even white sky was added");
+        import_set_environment(import, 0, white, NULL, 0);
+    }
+    if (import->width == 0)
+        import_set_film(import, 640, 480, NULL);
+    put_notes(import, &whole);
+    const import_text *parts[] = {&import->settings, &import->definitions, &import->shapes,
+                                  &import->lights};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (parts[i]->size)
+            import_put(import, &whole, "%s\n", parts[i]->text);
+    if (!import->failed && rt_scene_format(&made, whole.text, NULL, NULL, &error) != RT_OK)
+        import_fail(import, 0, "%s", error.message);
+    free(whole.text);
+    return made;
+}

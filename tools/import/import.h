@@ -1,0 +1,232 @@
+/*
+ * import.h - what the readers of other programs' scenes share: the scene that is written, the notes
+ * of what it lacks, and the files beside it.
+ *
+ * A reader calls import_... for what it finds. The first import_fail ends the import; after it
+ * calls do nothing, so that readers may look at `failed` where that suits them.
+ */
+#ifndef RTC_IMPORT_H
+#define RTC_IMPORT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "matrix.h"
+
+#if defined(__GNUC__)
+#define IMPORT_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define IMPORT_PRINTF(text, first)
+#endif
+
+enum {
+    IMPORT_FILE_MAX = 1 << 30,   /* bytes of a file that is read */
+    IMPORT_DEPTH_MAX = 64,       /* of nodes, elements, groups and includes inside each other */
+    IMPORT_SHAPES_MAX = 1000000, /* that a scene may come to by its instances */
+    IMPORT_NAME = 64,            /* room for a name of the language */
+    IMPORT_NONE = -1             /* no material, texture or mesh */
+};
+
+/* A text that grows. */
+typedef struct import_text {
+    char *text;
+    size_t size, capacity;
+} import_text;
+
+/* A note: what was left out or changed, and where. */
+typedef struct import_note {
+    char *text;
+    int line;      /* of the first place; 0: none */
+    unsigned more; /* further places */
+} import_note;
+
+/* What a handle stands for. */
+typedef struct import_label_entry {
+    char name[IMPORT_NAME];
+    int is_textured; /* of a material */
+} import_label_entry;
+
+typedef struct importer importer;
+struct importer {
+    const char *path; /* of the scene that is read, as given */
+    const char *root; /* a folder out of which no file is read, or NULL */
+    char *folder;     /* of path, ends with '/' or is empty */
+    char *files;      /* the folder of meshes and textures, as the new scene names it */
+    char *files_path; /* the same from the current folder */
+    int is_dry;       /* no file is written */
+    import_text settings, definitions, shapes, lights;
+    import_note *notes;
+    size_t note_count, notes_left_out;
+    uint32_t width, height; /* of the film; 0: not known */
+    int has_camera, has_light, has_files;
+    double lo[3], hi[3];        /* bounds of what is placed; lo > hi: nothing */
+    import_label_entry *labels; /* by handle: of textures, materials and meshes */
+    size_t label_count, label_capacity;
+    size_t shape_count;
+    size_t bytes_read, bytes_written; /* of all files */
+    int failed;
+    int is_memory;   /* it failed for want of memory */
+    int is_output;   /* it failed to write */
+    char error[512]; /* the message, with its place */
+};
+
+/* ---- Failures and notes ---------------------------------------------------------------------- */
+
+/* Ends the import; line 0: of the file as a whole. Returns 0. */
+int import_fail(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
+int import_fail_memory(importer *import);
+
+/* Notes what the new scene lacks; the same text again is counted. */
+void import_note_at(importer *import, int line, const char *format, ...) IMPORT_PRINTF(3, 4);
+
+/* ---- Text ------------------------------------------------------------------------------------ */
+
+void import_put(importer *import, import_text *out, const char *format, ...) IMPORT_PRINTF(3, 4);
+
+/* `count` numbers, each with a space before it, as short as single precision allows. */
+void import_put_numbers(importer *import, import_text *out, const double *values, int count);
+
+/*
+ * A handle whose name is what of `base` may stand in one, and the handle's number; IMPORT_NONE
+ * after a failure. import_label: the name.
+ */
+int import_name(importer *import, const char *base);
+const char *import_label(const importer *import, int handle);
+
+/* A number from text, with what follows it; 0 where there is none or it is not finite. */
+int import_number(double *out, const char **text);
+
+/* ---- Files ----------------------------------------------------------------------------------- */
+
+/*
+ * Reads a file that the scene names, relative to the folder of the scene; a NUL stands behind it.
+ * To be freed; NULL after a failure.
+ */
+char *import_read(importer *import, int line, const char *name, size_t *size);
+
+/* The path of such a file, to be freed; NULL after a failure, or a note if is_optional. */
+char *import_resolve(importer *import, int line, const char *name);
+
+/* Writes a file beside the scene; `out` receives its name for the scene. */
+int import_write(importer *import, char out[512], const char *base, const char *extension,
+                 const void *bytes, size_t size);
+
+/* ---- What a scene is made of ----------------------------------------------------------------- */
+
+/* A texture: its handle, which stands for a name, or IMPORT_NONE. */
+typedef struct import_texture {
+    const char *file; /* as the new scene names it; NULL: a checker of a and b */
+    double a[3], b[3];
+    int is_linear;
+    int wrap; /* 0 repeat, 1 mirror, 2 clamp */
+    double scale[2], offset[2];
+} import_texture;
+int import_add_texture(importer *import, const char *base, const import_texture *texture);
+
+/*
+ * Copies an image beside the scene, or writes bytes that it holds; `out` receives its name for the
+ * scene. What the language does not read, such as a JPEG, is noted. Returns whether it is there.
+ */
+int import_image_file(importer *import, int line, char out[512], const char *name);
+int import_image_bytes(importer *import, int line, char out[512], const char *base,
+                       const void *bytes, size_t size);
+
+typedef enum import_fresnel {
+    IMPORT_FRESNEL_OFF,
+    IMPORT_FRESNEL_DIELECTRIC,
+    IMPORT_FRESNEL_CONDUCTOR
+} import_fresnel;
+
+/* All zero is black; textures IMPORT_NONE for none. */
+typedef struct import_material {
+    double kd[3], ks[3], kt[3], emission[3], eta[3], k[3], absorption[3];
+    double ior, roughness; /* alpha of GGX; ior 0: the default */
+    import_fresnel fresnel;
+    int is_two_sided;
+    int kd_texture, ks_texture, kt_texture, emission_texture;
+} import_material;
+import_material import_material_begin(void);
+
+/* Adds it; returns its handle. kd + ks + kt above 1 are scaled down, with a note. */
+int import_add_material(importer *import, int line, const char *base,
+                        const import_material *material);
+
+/* Notes that the texture coordinates of such a shape are others, if its material has a texture. */
+void import_note_uv(importer *import, int line, int material, const char *shape);
+
+/* Arrays as those of rt_mesh_data; normals, uv and colours may be NULL. */
+typedef struct import_mesh {
+    float *positions, *normals, *uv, *colours;
+    uint32_t *indices;
+    size_t vertex_count, triangle_count;
+} import_mesh;
+void import_mesh_free(import_mesh *mesh);
+
+/* Writes a mesh to a file, and names it; returns its handle. */
+int import_add_mesh(importer *import, int line, const char *base, const import_mesh *mesh);
+
+/* Names a file that is a mesh already, as the new scene names it; returns its handle. */
+int import_add_mesh_file(importer *import, const char *base, const char *file, int is_smooth);
+
+/* What a placed shape has. */
+typedef struct import_surface {
+    int material;
+    double radiance[3]; /* all zero: that of the material */
+    int texture;        /* of the radiance, or IMPORT_NONE */
+    matrix to_world;
+} import_surface;
+
+/* Places a mesh; or a shape given by its block up to the surface, as "sphere { centre 0 0 0". */
+void import_add_instance(importer *import, int line, int mesh, const import_surface *surface);
+void import_add_shape(importer *import, int line, const char *block, const double lo[3],
+                      const double hi[3], const import_surface *surface);
+
+/* Grows the bounds by the box of a placed shape. */
+void import_bound(importer *import, const matrix *to_world, const double lo[3], const double hi[3]);
+
+/* The camera; of what is not used 0. */
+typedef struct import_camera {
+    int is_orthographic;
+    double eye[3], direction[3], up[3];
+    double fov;   /* horizontal, degrees */
+    double width; /* orthographic, metres */
+    double aperture, focal_distance;
+} import_camera;
+void import_set_camera(importer *import, int line, const import_camera *camera);
+void import_set_film(importer *import, uint32_t width, uint32_t height, const char *filter);
+
+void import_add_point_light(importer *import, const double position[3], const double intensity[3]);
+void import_add_spot_light(importer *import, int line, const double position[3],
+                           const double direction[3], const double intensity[3], double inner,
+                           double outer);
+void import_add_directional_light(importer *import, int line, const double direction[3],
+                                  const double irradiance[3]);
+
+/* file NULL: constant; rotation in degrees. */
+void import_set_environment(importer *import, int line, const double radiance[3], const char *file,
+                            double rotation);
+
+/* ---- The readers ----------------------------------------------------------------------------- */
+
+/* Each reads the whole scene that import->path names, whose bytes end with a NUL. */
+void import_obj(importer *import, const char *text, size_t size);
+void import_gltf(importer *import, const char *bytes, size_t size);
+void import_mitsuba(importer *import, const char *text, size_t size);
+void import_pbrt(importer *import, const char *text, size_t size);
+
+/* ---- The whole ------------------------------------------------------------------------------- */
+
+/* Reads by the format that the name and the bytes say, and completes what every scene needs. */
+void import_run(importer *import, const char *bytes, size_t size);
+
+/* The new scene, laid out, to be freed; NULL after a failure. */
+char *import_finish(importer *import);
+
+/*
+ * Begins; out_path: where the scene X.rts will be. Meshes and textures go into the folder X_files
+ * beside it, which is made where it is needed.
+ */
+int import_begin(importer *import, const char *path, const char *out_path);
+void import_end(importer *import);
+
+#endif

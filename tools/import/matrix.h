@@ -1,0 +1,45 @@
+/* matrix.h - affine maps in double precision, as the scenes of other programs write them. */
+#ifndef RTC_IMPORT_MATRIX_H
+#define RTC_IMPORT_MATRIX_H
+
+/* The upper three rows; the columns are the images of the axes and of the origin. */
+typedef struct matrix {
+    double m[3][4];
+} matrix;
+
+matrix matrix_identity(void);
+
+/* a after b: (a b) x = a (b x). */
+matrix matrix_multiply(const matrix *a, const matrix *b);
+
+matrix matrix_translate(double x, double y, double z);
+matrix matrix_scale(double x, double y, double z);
+
+/* About an axis of any length but zero, counter-clockwise seen against it; degrees. */
+matrix matrix_rotate(double degrees, const double axis[3]);
+
+/* 0 where it has no inverse. */
+int matrix_invert(matrix *out, const matrix *a);
+
+/* Of the linear part. */
+double matrix_determinant(const matrix *a);
+
+void matrix_point(double out[3], const matrix *a, const double p[3]);
+void matrix_vector(double out[3], const matrix *a, const double v[3]);
+
+/* The length of the image of an axis, 0 to 2. */
+double matrix_axis_length(const matrix *a, int axis);
+
+int matrix_is_identity(const matrix *a);
+
+/* Whether all of its numbers are finite in single precision. */
+int matrix_is_finite(const matrix *a);
+
+double vector_dot(const double a[3], const double b[3]);
+void vector_cross(double out[3], const double a[3], const double b[3]);
+double vector_length(const double v[3]);
+
+/* 0 where it has no direction. */
+int vector_normalize(double v[3]);
+
+#endif

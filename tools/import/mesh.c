@@ -1,0 +1,121 @@
+/* mesh.c - meshes of an import, as binary PLY files. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "import.h"
+
+enum { HEADER_SIZE = 640, FACE_SIZE = 13 };
+
+void import_mesh_free(import_mesh *mesh)
+{
+    free(mesh->positions);
+    free(mesh->normals);
+    free(mesh->uv);
+    free(mesh->colours);
+    free(mesh->indices);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+/* Everything in the order of the file, whatever the machine's. */
+static void put_u32(unsigned char **at, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        *(*at)++ = (unsigned char)(value >> 8 * i & 0xff);
+}
+
+static void put_floats(unsigned char **at, const float *values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        put_u32(at, bits);
+    }
+}
+
+static size_t put_header(char *out, const import_mesh *mesh)
+{
+    return (size_t)snprintf(
+        out, HEADER_SIZE,
+        "ply\nformat binary_little_endian 1.0\nelement vertex %lu\n"
+        "property float x\nproperty float y\nproperty float z\n%s%s%s"
+        "element face %lu\nproperty list uchar int vertex_indices\nend_header\n",
+        (unsigned long)mesh->vertex_count,
+        mesh->normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+        mesh->uv ? "property float u\nproperty float v\n" : "",
+        mesh->colours ? "property float red\nproperty float green\nproperty float blue\n" : "",
+        (unsigned long)mesh->triangle_count);
+}
+
+/* The whole file, to be freed. */
+static unsigned char *make_ply(const import_mesh *mesh, size_t *size)
+{
+    size_t vertex_size =
+        12 + (mesh->normals ? 12 : 0) + (mesh->uv ? 8 : 0) + (mesh->colours ? 12 : 0);
+    unsigned char *bytes =
+        malloc(HEADER_SIZE + vertex_size * mesh->vertex_count + FACE_SIZE * mesh->triangle_count);
+    if (!bytes)
+        return NULL;
+    unsigned char *at = bytes + put_header((char *)bytes, mesh);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        put_floats(&at, mesh->positions + 3 * i, 3);
+        if (mesh->normals)
+            put_floats(&at, mesh->normals + 3 * i, 3);
+        if (mesh->uv)
+            put_floats(&at, mesh->uv + 2 * i, 2);
+        if (mesh->colours)
+            put_floats(&at, mesh->colours + 3 * i, 3);
+    }
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        *at++ = 3;
+        for (int c = 0; c < 3; c++)
+            put_u32(&at, mesh->indices[3 * i + (size_t)c]);
+    }
+    *size = (size_t)(at - bytes);
+    return bytes;
+}
+
+/* Indices within the vertices, and finite numbers. */
+static int check(importer *import, int line, const import_mesh *mesh)
+{
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
+        if (mesh->indices[i] >= mesh->vertex_count)
+            return import_fail(import, line, "a triangle has vertex %lu of %lu",
+                               (unsigned long)mesh->indices[i], (unsigned long)mesh->vertex_count);
+    const float *arrays[] = {mesh->positions, mesh->normals, mesh->uv, mesh->colours};
+    static const size_t widths[] = {3, 3, 2, 3};
+    for (size_t a = 0; a < 4; a++)
+        for (size_t i = 0; arrays[a] && i < widths[a] * mesh->vertex_count; i++)
+            if (!isfinite(arrays[a][i]) || fabsf(arrays[a][i]) > 1e15f)
+                return import_fail(import, line, "a mesh has a number that is not finite");
+    return 1;
+}
+
+int import_add_mesh(importer *import, int line, const char *base, const import_mesh *mesh)
+{
+    char file[512];
+    size_t size;
+    if (import->failed || !check(import, line, mesh))
+        return IMPORT_NONE;
+    if (mesh->triangle_count == 0 || mesh->vertex_count == 0) {
+        import_note_at(import, line, "a mesh without triangles is left out");
+        return IMPORT_NONE;
+    }
+    unsigned char *bytes = make_ply(mesh, &size);
+    if (!bytes) {
+        import_fail_memory(import);
+        return IMPORT_NONE;
+    }
+    int is_there = import_write(import, file, base, ".ply", bytes, size);
+    free(bytes);
+    return is_there ? import_add_mesh_file(import, base, file, 0) : IMPORT_NONE;
+}
+
+int import_add_mesh_file(importer *import, const char *base, const char *file, int is_smooth)
+{
+    int handle = import_name(import, base);
+    import_put(import, &import->definitions, "mesh %s { file \"%s\"%s }\n",
+               import_label(import, handle), file, is_smooth ? " shading smooth" : "");
+    return handle;
+}

@@ -1,0 +1,347 @@
+/*
+ * mitsuba_bsdf.c - the materials of Mitsuba 3. Its textures have v = 0 at the top of an image; so a
+ * texture's v is turned over, and that of OBJ files, which Mitsuba turns over itself.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "metals.h"
+#include "mitsuba.h"
+
+static const char *type_of(mitsuba *m, const xml_node *node)
+{
+    return mitsuba_text(m, node, "type");
+}
+
+/* ---- Textures ---------------------------------------------------------------- */
+
+/* The scale and offset of to_uv; what else it does is noted. */
+static void read_to_uv(mitsuba *m, const xml_node *node, import_texture *texture)
+{
+    matrix to_uv = mitsuba_transform(m, node, "to_uv");
+    if (to_uv.m[0][1] != 0 || to_uv.m[1][0] != 0)
+        import_note_at(m->import, node->line, "the rotation of a texture is left out");
+    for (int i = 0; i < 2; i++) {
+        texture->scale[i] = to_uv.m[i][i] != 0 ? to_uv.m[i][i] : 1;
+        texture->offset[i] = to_uv.m[i][3];
+    }
+}
+
+static int read_bitmap(mitsuba *m, const xml_node *node, import_texture *texture)
+{
+    char file[512];
+    const char *name = mitsuba_string(m, node, "filename"),
+               *wrap = mitsuba_string(m, node, "wrap_mode"),
+               *filter = mitsuba_string(m, node, "filter_type");
+    if (!name) {
+        import_fail(m->import, node->line, "a bitmap without filename");
+        return IMPORT_NONE;
+    }
+    if (!import_image_file(m->import, node->line, file, name))
+        return IMPORT_NONE;
+    texture->file = file;
+    texture->is_linear = mitsuba_flag(m, node, "raw", 0);
+    texture->wrap = wrap && strcmp(wrap, "mirror") == 0  ? 1
+                    : wrap && strcmp(wrap, "clamp") == 0 ? 2
+                                                         : 0;
+    if (filter && strcmp(filter, "nearest") == 0)
+        import_note_at(m->import, node->line, "a texture without interpolation is interpolated");
+    texture->scale[1] = -texture->scale[1];
+    texture->offset[1] = 1 - texture->offset[1];
+    return import_add_texture(m->import, "bitmap", texture);
+}
+
+static int read_texture(mitsuba *m, const xml_node *node)
+{
+    import_texture texture = {.a = {0.4, 0.4, 0.4}, .b = {0.2, 0.2, 0.2}};
+    const char *type = type_of(m, node);
+    read_to_uv(m, node, &texture);
+    if (strcmp(type, "bitmap") == 0)
+        return read_bitmap(m, node, &texture);
+    if (strcmp(type, "checkerboard") == 0) {
+        mitsuba_colour(m, node, "color0", texture.a);
+        mitsuba_colour(m, node, "color1", texture.b);
+        for (int i = 0; i < 2; i++) {
+            texture.scale[i] *= 2;
+            texture.offset[i] *= 2;
+        }
+        return import_add_texture(m->import, "checker", &texture);
+    }
+    import_note_at(m->import, node->line, "a texture '%.40s' is left out", type);
+    return IMPORT_NONE;
+}
+
+int mitsuba_texture(mitsuba *m, const xml_node *node, const char *name, double out[3])
+{
+    const xml_node *child = mitsuba_child(m, node, name);
+    if (!child || mitsuba_colour(m, node, name, out))
+        return IMPORT_NONE;
+    child = mitsuba_follow(m, child);
+    if (!child || strcmp(child->tag, "texture") != 0)
+        return IMPORT_NONE;
+    int handle = read_texture(m, child);
+    if (handle != IMPORT_NONE)
+        out[0] = out[1] = out[2] = 1;
+    return handle;
+}
+
+/* ---- Values ------------------------------------------------------------------ */
+
+/* An index of refraction: a number, or the name of a material. */
+static double read_ior(mitsuba *m, const xml_node *node, const char *name, double fallback)
+{
+    static const struct {
+        const char *name;
+        double ior;
+    } iors[] = {{"vacuum", 1},
+                {"air", 1.000277},
+                {"water", 1.3330},
+                {"water ice", 1.31},
+                {"bk7", 1.5046},
+                {"diamond", 2.419},
+                {"fused quartz", 1.458},
+                {"pyrex", 1.470},
+                {"acrylic glass", 1.49},
+                {"polypropylene", 1.49},
+                {"sodium chloride", 1.544},
+                {"amber", 1.55},
+                {"acetone", 1.36},
+                {"ethanol", 1.361},
+                {"glycerol", 1.4729},
+                {"benzene", 1.501},
+                {"silicone oil", 1.52045},
+                {"pet", 1.5750}};
+    const char *word = mitsuba_string(m, node, name);
+    if (!word)
+        return mitsuba_number(m, node, name, fallback);
+    for (size_t i = 0; i < sizeof iors / sizeof *iors; i++)
+        if (strcmp(iors[i].name, word) == 0)
+            return iors[i].ior;
+    import_fail(m->import, node->line, "'%.40s': an unknown material", word);
+    return 1;
+}
+
+/* alpha of GGX, of both directions one. */
+static double read_alpha(mitsuba *m, const xml_node *node)
+{
+    const char *distribution = mitsuba_string(m, node, "distribution");
+    double alpha = mitsuba_number(m, node, "alpha", 0.1);
+    double u = mitsuba_number(m, node, "alpha_u", alpha),
+           v = mitsuba_number(m, node, "alpha_v", alpha);
+    if (!distribution || strcmp(distribution, "ggx") != 0)
+        import_note_at(m->import, node->line,
+                       "the distribution of microfacets is GGX, not Beckmann");
+    if (u != v)
+        import_note_at(m->import, node->line, "a roughness by direction became the same for all");
+    const xml_node *child = mitsuba_child(m, node, "alpha");
+    if (child && strcmp(child->tag, "float") != 0)
+        import_note_at(m->import, node->line, "a textured roughness became 0.1");
+    return sqrt(fabs(u * v));
+}
+
+static int is_rough(const char *type)
+{
+    return strncmp(type, "rough", 5) == 0;
+}
+
+/* ---- Materials --------------------------------------------------------------- */
+
+static void read_conductor(mitsuba *m, const xml_node *node, import_material *out)
+{
+    const char *name = mitsuba_string(m, node, "material");
+    for (int c = 0; c < 3; c++)
+        out->ks[c] = 1;
+    out->ks_texture = mitsuba_texture(m, node, "specular_reflectance", out->ks);
+    if (is_rough(type_of(m, node)))
+        out->roughness = read_alpha(m, node);
+    int has_eta = mitsuba_colour(m, node, "eta", out->eta);
+    if (mitsuba_colour(m, node, "k", out->k) || has_eta) {
+        out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
+    } else if (name && strcmp(name, "none") != 0) {
+        out->fresnel = IMPORT_FRESNEL_CONDUCTOR;
+        if (!metals_find(name, out->eta, out->k)) {
+            import_note_at(m->import, node->line, "the metal '%.40s' became aluminium", name);
+            metals_find("Al", out->eta, out->k);
+        }
+    }
+    double outside = read_ior(m, node, "ext_eta", 1);
+    for (int c = 0; c < 3 && outside > 0; c++) {
+        out->eta[c] /= outside;
+        out->k[c] /= outside;
+    }
+}
+
+static void read_dielectric(mitsuba *m, const xml_node *node, import_material *out)
+{
+    const char *type = type_of(m, node);
+    double inside = read_ior(m, node, "int_ior", 1.5046),
+           outside = read_ior(m, node, "ext_ior", 1.000277), reflected[3] = {1, 1, 1};
+    for (int c = 0; c < 3; c++)
+        out->kt[c] = 1;
+    out->kt_texture = mitsuba_texture(m, node, "specular_transmittance", out->kt);
+    mitsuba_texture(m, node, "specular_reflectance", reflected);
+    if (memcmp(reflected, out->kt, sizeof reflected) != 0)
+        import_note_at(m->import, node->line, "a dielectric reflects the colour that it transmits");
+    if (strcmp(type, "thindielectric") == 0) {
+        out->ior = 1;
+        import_note_at(m->import, node->line, "a thin pane does not reflect");
+        return;
+    }
+    out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    out->ior = outside > 0 ? inside / outside : inside;
+    if (is_rough(type))
+        out->roughness = read_alpha(m, node);
+}
+
+/* A diffuse base under a coat, whose Fresnel reflectance is taken at normal incidence. */
+static void read_plastic(mitsuba *m, const xml_node *node, import_material *out)
+{
+    double ior = read_ior(m, node, "int_ior", 1.49) / read_ior(m, node, "ext_ior", 1.000277);
+    double f0 = pow((ior - 1) / (ior + 1), 2);
+    for (int c = 0; c < 3; c++)
+        out->kd[c] = 0.5;
+    out->kd_texture = mitsuba_texture(m, node, "diffuse_reflectance", out->kd);
+    for (int c = 0; c < 3; c++) {
+        out->kd[c] *= 1 - f0;
+        out->ks[c] = f0;
+    }
+    if (is_rough(type_of(m, node)))
+        out->roughness = read_alpha(m, node);
+    import_note_at(m->import, node->line,
+                   "a coat reflects %.3g at every angle: the language has no coat by Fresnel", f0);
+}
+
+static void read_principled(mitsuba *m, const xml_node *node, import_material *out)
+{
+    double metallic = mitsuba_number(m, node, "metallic", 0),
+           roughness = mitsuba_number(m, node, "roughness", 0.5),
+           transmission = mitsuba_number(m, node, "spec_trans", 0);
+    for (int c = 0; c < 3; c++)
+        out->kd[c] = 0.5;
+    out->kd_texture = mitsuba_texture(m, node, "base_color", out->kd);
+    for (int c = 0; c < 3; c++) {
+        out->ks[c] = metallic * out->kd[c];
+        out->kt[c] = (1 - metallic) * transmission * out->kd[c];
+        out->kd[c] *= (1 - metallic) * (1 - transmission);
+    }
+    out->ks_texture = out->kt_texture = out->kd_texture;
+    if (metallic > 0 || transmission > 0)
+        out->roughness = roughness * roughness;
+    if (transmission > 0)
+        out->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+    out->ior = mitsuba_number(m, node, "eta", 1.5);
+    import_note_at(m->import, node->line,
+                   "of a principled material base_color, metallic, roughness and spec_trans are "
+                   "read");
+}
+
+static void read_bsdf(mitsuba *m, const xml_node *node, import_material *out, int depth);
+
+/* The material inside of another, as in twosided and mask. */
+static void read_inner(mitsuba *m, const xml_node *node, import_material *out, int depth)
+{
+    for (const xml_node *child = node->first; child; child = child->next) {
+        const xml_node *inner = strcmp(child->tag, "bsdf") == 0 || strcmp(child->tag, "ref") == 0
+                                    ? mitsuba_follow(m, child)
+                                    : NULL;
+        if (inner && strcmp(inner->tag, "bsdf") == 0) {
+            read_bsdf(m, inner, out, depth + 1);
+            return;
+        }
+    }
+    import_fail(m->import, node->line, "a '%.40s' needs another material inside", type_of(m, node));
+}
+
+/* What is not opaque lets light through, without refraction. */
+static void read_mask(mitsuba *m, const xml_node *node, import_material *out, int depth)
+{
+    double opacity[3] = {0.5, 0.5, 0.5};
+    read_inner(m, node, out, depth);
+    if (mitsuba_texture(m, node, "opacity", opacity) != IMPORT_NONE) {
+        import_note_at(m->import, node->line, "a textured opacity is left out");
+        return;
+    }
+    if (opacity[0] >= 1)
+        return;
+    if (out->kt[0] > 0 || out->kt[1] > 0 || out->kt[2] > 0) {
+        import_note_at(m->import, node->line, "the opacity of glass is left out");
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        out->kd[c] *= opacity[c];
+        out->ks[c] *= opacity[c];
+        out->kt[c] = 1 - opacity[c];
+    }
+    out->ior = 1;
+}
+
+static void read_bsdf(mitsuba *m, const xml_node *node, import_material *out, int depth)
+{
+    const char *type = type_of(m, node);
+    if (depth > IMPORT_DEPTH_MAX) {
+        import_fail(m->import, node->line, "materials are nested deeper than %d, or in themselves",
+                    IMPORT_DEPTH_MAX);
+    } else if (strcmp(type, "diffuse") == 0) {
+        out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
+        out->kd_texture = mitsuba_texture(m, node, "reflectance", out->kd);
+    } else if (strcmp(type, "conductor") == 0 || strcmp(type, "roughconductor") == 0) {
+        read_conductor(m, node, out);
+    } else if (strcmp(type, "dielectric") == 0 || strcmp(type, "roughdielectric") == 0 ||
+               strcmp(type, "thindielectric") == 0) {
+        read_dielectric(m, node, out);
+    } else if (strcmp(type, "plastic") == 0 || strcmp(type, "roughplastic") == 0) {
+        read_plastic(m, node, out);
+    } else if (strcmp(type, "principled") == 0) {
+        read_principled(m, node, out);
+    } else if (strcmp(type, "null") == 0) {
+        out->kt[0] = out->kt[1] = out->kt[2] = out->ior = 1;
+    } else if (strcmp(type, "twosided") == 0) {
+        read_inner(m, node, out, depth);
+    } else if (strcmp(type, "mask") == 0) {
+        read_mask(m, node, out, depth);
+    } else if (strcmp(type, "bumpmap") == 0 || strcmp(type, "normalmap") == 0) {
+        import_note_at(m->import, node->line, "a '%s' is left out", type);
+        read_inner(m, node, out, depth);
+    } else {
+        import_note_at(m->import, node->line, "a material '%.40s' became grey", type);
+        out->kd[0] = out->kd[1] = out->kd[2] = 0.5;
+    }
+}
+
+/* The element of a shape's material, or NULL. */
+static const xml_node *find_bsdf(mitsuba *m, const xml_node *shape)
+{
+    for (const xml_node *child = shape->first; child; child = child->next) {
+        if (strcmp(child->tag, "bsdf") == 0)
+            return child;
+        const xml_node *named = strcmp(child->tag, "ref") == 0 ? mitsuba_follow(m, child) : NULL;
+        if (named && strcmp(named->tag, "bsdf") == 0)
+            return named;
+    }
+    return NULL;
+}
+
+int mitsuba_material(mitsuba *m, const xml_node *shape, int is_emitter)
+{
+    const xml_node *node = find_bsdf(m, shape);
+    for (size_t i = 0; i < m->made_count; i++)
+        if (m->made[i].node == node && m->made[i].is_emitter == is_emitter)
+            return m->made[i].handle;
+    import_material material = import_material_begin();
+    if (node)
+        read_bsdf(m, node, &material, 0);
+    else if (!is_emitter)
+        material.kd[0] = material.kd[1] = material.kd[2] = 0.5;
+    const char *id = node ? xml_attribute(node, "id") : NULL;
+    int handle =
+        import_add_material(m->import, node ? node->line : 0, id ? id : "material", &material);
+    mitsuba_made *moved = realloc(m->made, (m->made_count + 1) * sizeof *moved);
+    if (!moved) {
+        import_fail_memory(m->import);
+        return IMPORT_NONE;
+    }
+    m->made = moved;
+    m->made[m->made_count++] = (mitsuba_made){node, is_emitter, handle};
+    return handle;
+}

@@ -1,0 +1,243 @@
+/* mitsuba_shape.c - shapes of Mitsuba 3. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mitsuba.h"
+#include "obj_data.h"
+
+/* ---- Meshes ------------------------------------------------------------------ */
+
+/* A mesh that was read before, or a new entry for it; NULL after a failure. */
+static mitsuba_mesh *find_mesh(mitsuba *m, const char *name, int is_smooth)
+{
+    for (size_t i = 0; i < m->mesh_count; i++)
+        if (strcmp(m->meshes[i].name, name) == 0 && m->meshes[i].is_smooth == is_smooth)
+            return &m->meshes[i];
+    mitsuba_mesh *moved = realloc(m->meshes, (m->mesh_count + 1) * sizeof *moved);
+    char *copy = malloc(strlen(name) + 1);
+    m->meshes = moved ? moved : m->meshes;
+    if (!moved || !copy) {
+        free(copy);
+        import_fail_memory(m->import);
+        return NULL;
+    }
+    strcpy(copy, name);
+    m->meshes[m->mesh_count] = (mitsuba_mesh){.name = copy, .handle = IMPORT_NONE};
+    m->meshes[m->mesh_count].is_smooth = is_smooth;
+    return &m->meshes[m->mesh_count++];
+}
+
+/* Mitsuba turns the v of OBJ files over. */
+static void read_obj(mitsuba *m, const xml_node *node, mitsuba_mesh *out, int is_flat)
+{
+    size_t size;
+    obj_data data = {0};
+    import_mesh mesh;
+    char *text = import_read(m->import, node->line, out->name, &size);
+    int is_flipped = mitsuba_flag(m, node, "flip_tex_coords", 1);
+    if (text)
+        obj_read(m->import, &data, NULL, text);
+    if (text && !m->import->failed && obj_mesh(m->import, &mesh, &data, 0, is_flipped)) {
+        for (size_t i = 0; i < mesh.vertex_count; i++)
+            for (size_t c = 0; c < 3; c++) {
+                double p = mesh.positions[3 * i + c];
+                out->lo[c] = i == 0 || p < out->lo[c] ? p : out->lo[c];
+                out->hi[c] = i == 0 || p > out->hi[c] ? p : out->hi[c];
+            }
+        if (is_flat) {
+            free(mesh.normals);
+            mesh.normals = NULL;
+        }
+        out->handle = import_add_mesh(m->import, node->line, "mesh", &mesh);
+        import_mesh_free(&mesh);
+    }
+    obj_free(&data);
+    free(text);
+}
+
+static void read_ply(mitsuba *m, const xml_node *node, mitsuba_mesh *out)
+{
+    char file[512];
+    size_t size;
+    char *bytes = import_read(m->import, node->line, out->name, &size);
+    if (bytes && (size < 4 || memcmp(bytes, "ply", 3) != 0))
+        import_fail(m->import, node->line, "'%.60s' is no PLY file", out->name);
+    else if (bytes && import_write(m->import, file, "mesh", ".ply", bytes, size))
+        out->handle = import_add_mesh_file(m->import, "mesh", file, 0);
+    free(bytes);
+}
+
+static void place_mesh(mitsuba *m, const xml_node *node, const char *type,
+                       const import_surface *surface)
+{
+    const char *name = mitsuba_string(m, node, "filename");
+    if (!name) {
+        import_fail(m->import, node->line, "a mesh without filename");
+        return;
+    }
+    int is_flat = mitsuba_flag(m, node, "face_normals", 0);
+    mitsuba_mesh *mesh = find_mesh(m, name, !is_flat);
+    if (mesh && mesh->handle == IMPORT_NONE && strcmp(type, "obj") == 0)
+        read_obj(m, node, mesh, is_flat);
+    else if (mesh && mesh->handle == IMPORT_NONE)
+        read_ply(m, node, mesh);
+    if (mitsuba_flag(m, node, "flip_normals", 0))
+        import_note_at(m->import, node->line, "flip_normals of a mesh is left out");
+    if (!mesh || m->import->failed)
+        return;
+    import_bound(m->import, &surface->to_world, mesh->lo, mesh->hi);
+    import_add_instance(m->import, node->line, mesh->handle, surface);
+}
+
+/* ---- Shapes by formula ------------------------------------------------------- */
+
+/* Numbers as the blocks of the language have them. */
+static void put_block(mitsuba *m, const xml_node *node, const char *start, const double *values,
+                      const char *const *fields, const int *counts, const import_surface *surface,
+                      double extent[2][3])
+{
+    import_text block = {NULL, 0, 0};
+    import_put(m->import, &block, "%s", start);
+    for (size_t i = 0; fields[i]; i++) {
+        import_put(m->import, &block, " %s", fields[i]);
+        import_put_numbers(m->import, &block, values, counts[i]);
+        values += counts[i];
+    }
+    if (!m->import->failed)
+        import_add_shape(m->import, node->line, block.text, extent[0], extent[1], surface);
+    free(block.text);
+}
+
+static void place_sphere(mitsuba *m, const xml_node *node, const import_surface *surface)
+{
+    static const char *const fields[] = {"centre", "radius", NULL};
+    static const int counts[] = {3, 1};
+    double values[4] = {0, 0, 0, mitsuba_number(m, node, "radius", 1)}, extent[2][3];
+    mitsuba_vector(m, node, "center", values);
+    for (int c = 0; c < 3; c++) {
+        extent[0][c] = values[c] - values[3];
+        extent[1][c] = values[c] + values[3];
+    }
+    if (mitsuba_flag(m, node, "flip_normals", 0))
+        import_note_at(m->import, node->line, "flip_normals of a sphere is left out");
+    if (!(values[3] > 1e-15))
+        import_fail(m->import, node->line, "a sphere of radius %g", values[3]);
+    put_block(m, node, "sphere {", values, fields, counts, surface, extent);
+}
+
+/* From -1 to 1 in x and y, facing +z. */
+static void place_rectangle(mitsuba *m, const xml_node *node, const import_surface *surface)
+{
+    static const char *const fields[] = {"corner", "edge1", "edge2", NULL};
+    static const int counts[] = {3, 3, 3};
+    double extent[2][3] = {{-1, -1, 0}, {1, 1, 0}};
+    static const double ahead[9] = {-1, -1, 0, 2, 0, 0, 0, 2, 0},
+                        back[9] = {1, -1, 0, -2, 0, 0, 0, 2, 0};
+    int is_flipped = mitsuba_flag(m, node, "flip_normals", 0);
+    put_block(m, node, "quad {", is_flipped ? back : ahead, fields, counts, surface, extent);
+}
+
+static void place_disk(mitsuba *m, const xml_node *node, const import_surface *surface)
+{
+    static const char *const fields[] = {"centre", "normal", "radius", NULL};
+    static const int counts[] = {3, 3, 1};
+    double extent[2][3] = {{-1, -1, 0}, {1, 1, 0}};
+    double values[7] = {0, 0, 0, 0, 0, mitsuba_flag(m, node, "flip_normals", 0) ? -1 : 1, 1};
+    put_block(m, node, "disc {", values, fields, counts, surface, extent);
+}
+
+static void place_cube(mitsuba *m, const xml_node *node, const import_surface *surface)
+{
+    static const char *const fields[] = {"centre", "size", NULL};
+    static const int counts[] = {3, 3};
+    static const double values[6] = {0, 0, 0, 2, 2, 2};
+    double extent[2][3] = {{-1, -1, -1}, {1, 1, 1}};
+    if (mitsuba_flag(m, node, "flip_normals", 0))
+        import_note_at(m->import, node->line, "flip_normals of a cube is left out");
+    put_block(m, node, "box {", values, fields, counts, surface, extent);
+}
+
+static void place_cylinder(mitsuba *m, const xml_node *node, const import_surface *surface)
+{
+    static const char *const fields[] = {"a", "b", "radius", NULL};
+    static const int counts[] = {3, 3, 1};
+    double values[7] = {0, 0, 0, 0, 0, 1, mitsuba_number(m, node, "radius", 1)}, extent[2][3];
+    mitsuba_vector(m, node, "p0", values);
+    mitsuba_vector(m, node, "p1", values + 3);
+    for (int c = 0; c < 3; c++) {
+        extent[0][c] = fmin(values[c], values[3 + c]) - values[6];
+        extent[1][c] = fmax(values[c], values[3 + c]) + values[6];
+    }
+    put_block(m, node, "cylinder { caps false", values, fields, counts, surface, extent);
+}
+
+/* ---- All --------------------------------------------------------------------- */
+
+/* The radiance of the shape's own emitter; returns whether it has one. */
+static int read_radiance(mitsuba *m, const xml_node *node, import_surface *surface)
+{
+    int is_emitter = 0;
+    for (const xml_node *child = node->first; child; child = child->next) {
+        if (strcmp(child->tag, "emitter") != 0)
+            continue;
+        is_emitter = 1;
+        for (int c = 0; c < 3; c++)
+            surface->radiance[c] = 1;
+        surface->texture = mitsuba_texture(m, child, "radiance", surface->radiance);
+    }
+    return is_emitter;
+}
+
+/* The shapes of a group, placed once more. */
+static void place_group(mitsuba *m, const xml_node *node, const matrix *to_world)
+{
+    for (const xml_node *child = node->first; child; child = child->next) {
+        const xml_node *group = strcmp(child->tag, "ref") == 0 ? mitsuba_follow(m, child) : child;
+        if (!group || strcmp(group->tag, "shape") != 0 || m->import->failed)
+            continue;
+        if (++m->depth > IMPORT_DEPTH_MAX)
+            import_fail(m->import, node->line, "groups are nested deeper than %d, or in themselves",
+                        IMPORT_DEPTH_MAX);
+        for (const xml_node *shape = group->first; shape; shape = shape->next)
+            if (strcmp(shape->tag, "shape") == 0 && !m->import->failed)
+                mitsuba_shape(m, shape, to_world);
+        m->depth--;
+    }
+}
+
+void mitsuba_shape(mitsuba *m, const xml_node *node, const matrix *around)
+{
+    static const struct {
+        const char *type;
+        void (*place)(mitsuba *m, const xml_node *node, const import_surface *surface);
+    } shapes[] = {{"sphere", place_sphere},
+                  {"rectangle", place_rectangle},
+                  {"disk", place_disk},
+                  {"cube", place_cube},
+                  {"cylinder", place_cylinder}};
+    const char *type = mitsuba_text(m, node, "type");
+    matrix own = mitsuba_transform(m, node, "to_world");
+    import_surface surface = {.texture = IMPORT_NONE, .to_world = matrix_multiply(around, &own)};
+    if (m->import->failed || strcmp(type, "shapegroup") == 0)
+        return;
+    if (strcmp(type, "instance") == 0) {
+        place_group(m, node, &surface.to_world);
+        return;
+    }
+    int is_emitter = read_radiance(m, node, &surface);
+    surface.material = mitsuba_material(m, node, is_emitter);
+    if (strcmp(type, "obj") == 0 || strcmp(type, "ply") == 0) {
+        place_mesh(m, node, type, &surface);
+        return;
+    }
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        if (strcmp(shapes[i].type, type) == 0) {
+            if (strcmp(type, "rectangle") != 0)
+                import_note_uv(m->import, node->line, surface.material, type);
+            shapes[i].place(m, node, &surface);
+            return;
+        }
+    import_note_at(m->import, node->line, "a shape '%.40s' is left out", type);
+}

@@ -1,0 +1,32 @@
+/* mtl.h - the materials of OBJ files. */
+#ifndef RTC_IMPORT_MTL_H
+#define RTC_IMPORT_MTL_H
+
+#include "import.h"
+
+typedef struct mtl_entry {
+    char *name;
+    int material; /* a handle */
+} mtl_entry;
+
+/* All zero is empty. */
+typedef struct mtl_list {
+    mtl_entry *entries;
+    size_t count;
+} mtl_list;
+
+/* Adds the materials of an MTL text, which is taken apart. */
+void mtl_read(importer *import, mtl_list *list, char *text);
+
+/* The material of that name, or IMPORT_NONE. */
+int mtl_find(const mtl_list *list, const char *name);
+
+void mtl_free(mtl_list *list);
+
+/* The next line of a text, which is taken apart; NULL at its end. Counts lines in *line. */
+char *mtl_next_line(char **text, int *line);
+
+/* The next word of a line, or NULL. */
+char *mtl_next_word(char **line);
+
+#endif

@@ -1,0 +1,60 @@
+/* obj.c - OBJ files with their materials: one mesh for each material. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "obj_data.h"
+
+static void bound(importer *import, const import_mesh *mesh)
+{
+    const matrix here = matrix_identity();
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const float *p = mesh->positions + 3 * i;
+        double point[3] = {p[0], p[1], p[2]};
+        import_bound(import, &here, point, point);
+    }
+}
+
+static void add_group(importer *import, const obj_data *data, const mtl_list *list, int group)
+{
+    import_mesh mesh;
+    import_surface surface = {.texture = IMPORT_NONE, .to_world = matrix_identity()};
+    if (!obj_mesh(import, &mesh, data, group, 0))
+        return;
+    if (mesh.triangle_count > 0) {
+        const char *name = data->materials[group];
+        surface.material = mtl_find(list, name);
+        if (surface.material == IMPORT_NONE) {
+            import_material grey = import_material_begin();
+            grey.kd[0] = grey.kd[1] = grey.kd[2] = 0.7;
+            if (name[0])
+                import_note_at(import, 0, "there is no material '%.60s': a grey one was added",
+                               name);
+            surface.material = import_add_material(import, 0, "grey", &grey);
+        }
+        bound(import, &mesh);
+        import_add_instance(import, 0, import_add_mesh(import, 0, name[0] ? name : "mesh", &mesh),
+                            &surface);
+    }
+    import_mesh_free(&mesh);
+}
+
+void import_obj(importer *import, const char *text, size_t size)
+{
+    obj_data data = {0};
+    mtl_list list = {NULL, 0};
+    char *copy = malloc(size + 1);
+    if (!copy) {
+        import_fail_memory(import);
+        return;
+    }
+    memcpy(copy, text, size + 1);
+    obj_read(import, &data, &list, copy);
+    for (size_t i = 0; i < data.material_count && !import->failed; i++)
+        add_group(import, &data, &list, (int)i);
+    if (!import->failed && data.triangle_count == 0)
+        import_fail(import, 0, "there is no face in it");
+    obj_free(&data);
+    mtl_free(&list);
+    free(copy);
+}

@@ -1,0 +1,292 @@
+/* obj_data.c - the vertices and faces of an OBJ file. */
+#include "obj_data.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POLYGON_MAX = 4096, TRIANGLES_MAX = 100000000 };
+
+static void push(importer *import, obj_array *array, const double *values, int count)
+{
+    if (array->count + (size_t)count > array->capacity) {
+        size_t grown = 2 * array->capacity + 1024;
+        float *moved = realloc(array->values, grown * sizeof *moved);
+        if (!moved) {
+            import_fail_memory(import);
+            return;
+        }
+        array->values = moved;
+        array->capacity = grown;
+    }
+    for (int i = 0; i < count; i++)
+        array->values[array->count++] = (float)values[i];
+}
+
+/* `least` numbers at least of a line. */
+static void read_vertex(importer *import, obj_array *array, int line_number, char *line, int least,
+                        int width)
+{
+    double values[3] = {0, 0, 0};
+    char *word;
+    int count = 0;
+    while (count < width && (word = mtl_next_word(&line)) != NULL) {
+        const char *at = word;
+        if (!import_number(&values[count], &at) || *at) {
+            import_fail(import, line_number, "'%.40s' is not a finite number", word);
+            return;
+        }
+        count++;
+    }
+    if (count < least)
+        import_fail(import, line_number, "%d numbers, expected %d", count, least);
+    else
+        push(import, array, values, width);
+}
+
+/* One index, from 1 or from the end by a negative one, as one from 0; 0 after a failure. */
+static int read_index(importer *import, int line, const char **text, size_t count, uint32_t *out)
+{
+    char *end;
+    long index = strtol(*text, &end, 10);
+    if (end == *text || index == 0 || (index > 0 && (unsigned long)index > count) ||
+        (index < 0 && (unsigned long)-(index + 1) >= count))
+        return import_fail(import, line, "'%.40s' names no vertex; there are %lu so far", *text,
+                           (unsigned long)count);
+    *out = (uint32_t)(index > 0 ? (size_t)index - 1 : count - (size_t)(-(index + 1)) - 1);
+    *text = end;
+    return 1;
+}
+
+/* v, v/vt, v//vn or v/vt/vn. */
+static int read_corner(importer *import, const obj_data *data, int line, const char *word,
+                       obj_corner *out)
+{
+    out->uv = out->normal = OBJ_NONE;
+    if (!read_index(import, line, &word, data->positions.count / 3, &out->position))
+        return 0;
+    if (*word == '/') {
+        word++;
+        if (*word != '/' && !read_index(import, line, &word, data->uv.count / 2, &out->uv))
+            return 0;
+    }
+    if (*word == '/') {
+        word++;
+        if (!read_index(import, line, &word, data->normals.count / 3, &out->normal))
+            return 0;
+    }
+    return *word ? import_fail(import, line, "'%.40s' behind the index of a vertex", word) : 1;
+}
+
+static void push_triangle(importer *import, obj_data *data, int line, const obj_corner *a,
+                          const obj_corner *b, const obj_corner *c)
+{
+    if (data->triangle_count == data->triangle_capacity) {
+        size_t grown = 2 * data->triangle_capacity + 1024;
+        obj_corner *corners =
+            grown < TRIANGLES_MAX ? realloc(data->corners, 3 * grown * sizeof *corners) : NULL;
+        data->corners = corners ? corners : data->corners;
+        int *groups = corners ? realloc(data->groups, grown * sizeof *groups) : NULL;
+        data->groups = groups ? groups : data->groups;
+        if (!groups) {
+            import_fail(import, line, "too many triangles for the memory that there is");
+            import->is_memory = 1;
+            return;
+        }
+        data->triangle_capacity = grown;
+    }
+    obj_corner *at = data->corners + 3 * data->triangle_count;
+    at[0] = *a;
+    at[1] = *b;
+    at[2] = *c;
+    data->groups[data->triangle_count++] = data->group;
+}
+
+/* A polygon as a fan. */
+static void read_face(importer *import, obj_data *data, int line_number, char *line)
+{
+    obj_corner first = {0, 0, 0}, last = {0, 0, 0}, corner;
+    char *word;
+    int count = 0;
+    while (!import->failed && (word = mtl_next_word(&line)) != NULL) {
+        if (!read_corner(import, data, line_number, word, &corner))
+            return;
+        if (count == POLYGON_MAX) {
+            import_fail(import, line_number, "a face of more than %d corners", POLYGON_MAX);
+            return;
+        }
+        if (count >= 2)
+            push_triangle(import, data, line_number, &first, &last, &corner);
+        first = count == 0 ? corner : first;
+        last = corner;
+        count++;
+    }
+    if (count < 3)
+        import_note_at(import, line_number, "a face of fewer than three corners is left out");
+}
+
+/* The group of a material's name, a new one where it is new. */
+static void use_material(importer *import, obj_data *data, const char *name)
+{
+    for (size_t i = 0; i < data->material_count; i++)
+        if (strcmp(data->materials[i], name) == 0) {
+            data->group = (int)i;
+            return;
+        }
+    char **moved = realloc(data->materials, (data->material_count + 1) * sizeof *moved);
+    data->materials = moved ? moved : data->materials;
+    char *copy = moved ? malloc(strlen(name) + 1) : NULL;
+    if (!copy) {
+        import_fail_memory(import);
+        return;
+    }
+    strcpy(copy, name);
+    data->group = (int)data->material_count;
+    data->materials[data->material_count++] = copy;
+}
+
+static void read_library(importer *import, mtl_list *list, int line_number, char *line)
+{
+    char *word;
+    size_t size;
+    while (!import->failed && (word = mtl_next_word(&line)) != NULL) {
+        char *text = import_read(import, line_number, word, &size);
+        if (text)
+            mtl_read(import, list, text);
+        free(text);
+    }
+}
+
+static void read_line(importer *import, obj_data *data, mtl_list *list, int line_number,
+                      const char *word, char *line)
+{
+    static const char *const silent[] = {"o", "g", "s", "usemap"};
+    if (strcmp(word, "v") == 0)
+        read_vertex(import, &data->positions, line_number, line, 3, 3);
+    else if (strcmp(word, "vt") == 0)
+        read_vertex(import, &data->uv, line_number, line, 1, 2);
+    else if (strcmp(word, "vn") == 0)
+        read_vertex(import, &data->normals, line_number, line, 3, 3);
+    else if (strcmp(word, "f") == 0)
+        read_face(import, data, line_number, line);
+    else if (strcmp(word, "usemtl") == 0 && list)
+        use_material(import, data, (word = mtl_next_word(&line)) ? word : "");
+    else if (strcmp(word, "mtllib") == 0 && list)
+        read_library(import, list, line_number, line);
+    else if (list || (strcmp(word, "usemtl") != 0 && strcmp(word, "mtllib") != 0)) {
+        for (size_t i = 0; i < sizeof silent / sizeof *silent; i++)
+            if (strcmp(word, silent[i]) == 0)
+                return;
+        import_note_at(import, line_number, "'%.30s' is left out", word);
+    }
+}
+
+void obj_read(importer *import, obj_data *data, mtl_list *list, char *text)
+{
+    int line_number = 0;
+    char *line;
+    use_material(import, data, "");
+    while (!import->failed && (line = mtl_next_line(&text, &line_number)) != NULL) {
+        char *word = mtl_next_word(&line);
+        if (word)
+            read_line(import, data, list, line_number, word, line);
+    }
+}
+
+/* ---- Meshes ------------------------------------------------------------------ */
+
+/* Corners that are alike become one vertex: a hash table of open addressing. */
+typedef struct corner_table {
+    uint32_t *slots; /* vertex plus 1, or 0 */
+    size_t mask;
+    obj_corner *corners; /* by vertex */
+    size_t count;
+} corner_table;
+
+static uint32_t find_corner(corner_table *table, const obj_corner *corner)
+{
+    uint64_t hash = corner->position * 0x9e3779b97f4a7c15u ^ corner->uv * 0xc2b2ae3d27d4eb4fu ^
+                    corner->normal * 0x165667b19e3779f9u;
+    size_t at = (size_t)(hash >> 20) & table->mask;
+    for (; table->slots[at]; at = (at + 1) & table->mask)
+        if (memcmp(&table->corners[table->slots[at] - 1], corner, sizeof *corner) == 0)
+            return table->slots[at] - 1;
+    table->corners[table->count] = *corner;
+    table->slots[at] = (uint32_t)++table->count;
+    return table->slots[at] - 1;
+}
+
+/* Values by vertex, of an array of the file; NULL where a vertex has none. */
+static float *gather(const corner_table *table, const obj_array *array, size_t width, size_t member)
+{
+    float *out = calloc(table->count * width + 1, sizeof *out);
+    for (size_t i = 0; out && i < table->count; i++) {
+        uint32_t index;
+        memcpy(&index, (const char *)&table->corners[i] + member, sizeof index);
+        if (index != OBJ_NONE)
+            memcpy(out + width * i, array->values + width * index, width * sizeof *out);
+    }
+    return out;
+}
+
+/* Whether every corner has texture coordinates, and whether every one has a normal. */
+static void look_at_corners(const corner_table *table, int *has_uv, int *has_normals)
+{
+    *has_uv = *has_normals = 1;
+    for (size_t i = 0; i < table->count; i++) {
+        *has_uv &= table->corners[i].uv != OBJ_NONE;
+        *has_normals &= table->corners[i].normal != OBJ_NONE;
+    }
+}
+
+static int fill(import_mesh *out, const obj_data *data, const corner_table *table, int flip_v)
+{
+    int has_uv, has_normals;
+    look_at_corners(table, &has_uv, &has_normals);
+    out->vertex_count = table->count;
+    out->positions = gather(table, &data->positions, 3, offsetof(obj_corner, position));
+    if (has_uv)
+        out->uv = gather(table, &data->uv, 2, offsetof(obj_corner, uv));
+    if (has_normals)
+        out->normals = gather(table, &data->normals, 3, offsetof(obj_corner, normal));
+    for (size_t i = 0; flip_v && out->uv && i < table->count; i++)
+        out->uv[2 * i + 1] = 1 - out->uv[2 * i + 1];
+    return out->positions && (!has_uv || out->uv) && (!has_normals || out->normals);
+}
+
+int obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group, int flip_v)
+{
+    size_t triangles = 0, slots = 16;
+    memset(out, 0, sizeof *out);
+    for (size_t i = 0; i < data->triangle_count; i++)
+        triangles += data->groups[i] == group;
+    while (slots < 6 * triangles)
+        slots *= 2;
+    corner_table table = {calloc(slots, sizeof *table.slots), slots - 1,
+                          malloc((3 * triangles + 1) * sizeof *table.corners), 0};
+    out->indices = malloc((3 * triangles + 1) * sizeof *out->indices);
+    int is_made = table.slots && table.corners && out->indices;
+    for (size_t i = 0; is_made && i < 3 * data->triangle_count; i++)
+        if (data->groups[i / 3] == group)
+            out->indices[3 * out->triangle_count + i % 3] = find_corner(&table, &data->corners[i]),
+                                                       out->triangle_count += i % 3 == 2;
+    is_made = is_made && fill(out, data, &table, flip_v);
+    free(table.slots);
+    free(table.corners);
+    if (is_made)
+        return 1;
+    import_mesh_free(out);
+    return import_fail_memory(import);
+}
+
+void obj_free(obj_data *data)
+{
+    for (size_t i = 0; i < data->material_count; i++)
+        free(data->materials[i]);
+    free(data->materials);
+    free(data->positions.values);
+    free(data->uv.values);
+    free(data->normals.values);
+    free(data->corners);
+    free(data->groups);
+}

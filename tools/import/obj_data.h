@@ -1,0 +1,38 @@
+/* obj_data.h - the vertices and faces of an OBJ file. */
+#ifndef RTC_IMPORT_OBJ_DATA_H
+#define RTC_IMPORT_OBJ_DATA_H
+
+#include "mtl.h"
+
+/* Positions in the arrays, from 0; texture coordinates and normals RT_OBJ_NONE where not given. */
+typedef struct obj_corner {
+    uint32_t position, uv, normal;
+} obj_corner;
+
+#define OBJ_NONE ((uint32_t)0xffffffff)
+
+typedef struct obj_array {
+    float *values;
+    size_t count, capacity; /* in numbers */
+} obj_array;
+
+/* All zero is empty. */
+typedef struct obj_data {
+    obj_array positions, uv, normals;
+    obj_corner *corners; /* three for each triangle */
+    int *groups;         /* of each triangle: which use of a material it belongs to */
+    size_t triangle_count, triangle_capacity, group_capacity;
+    char **materials; /* their names, by group */
+    size_t material_count;
+    int group; /* of the next triangle */
+} obj_data;
+
+/* Reads an OBJ text, which is taken apart; list NULL: its materials are passed over. */
+void obj_read(importer *import, obj_data *data, mtl_list *list, char *text);
+
+/* The triangles of a group as a mesh; flip_v: v becomes 1 - v. Returns 0 after a failure. */
+int obj_mesh(importer *import, import_mesh *out, const obj_data *data, int group, int flip_v);
+
+void obj_free(obj_data *data);
+
+#endif

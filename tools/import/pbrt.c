@@ -1,0 +1,451 @@
+/*
+ * pbrt.c - scenes of pbrt-v4. Its world is left-handed as the camera sees it, unless a Scale -1 1 1
+ * before LookAt mirrors it; where there is none, the new scene is mirrored in x.
+ */
+#include "pbrt.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double degrees = 180 / 3.14159265358979323846;
+
+/* ---- Arguments of directives ------------------------------------------------- */
+
+static int take_string(pbrt *p, const char *directive, char out[PBRT_TEXT])
+{
+    pbrt_token token = pbrt_take(&p->tokens);
+    if (token.kind != PBRT_STRING)
+        return import_fail(p->import, token.line, "%s takes a string", directive);
+    memcpy(out, token.text, PBRT_TEXT);
+    return 1;
+}
+
+/* `count` numbers, in brackets or not. */
+static int take_numbers(pbrt *p, const char *directive, double *out, int count)
+{
+    int is_open = pbrt_peek(&p->tokens)->kind == PBRT_OPEN;
+    if (is_open)
+        pbrt_take(&p->tokens);
+    for (int i = 0; i < count; i++) {
+        pbrt_token token = pbrt_take(&p->tokens);
+        if (token.kind != PBRT_NUMBER)
+            return import_fail(p->import, token.line, "%s takes %d numbers", directive, count);
+        out[i] = token.number;
+    }
+    if (is_open && pbrt_take(&p->tokens).kind != PBRT_CLOSE)
+        return import_fail(p->import, pbrt_line(&p->tokens), "%s takes %d numbers in brackets",
+                           directive, count);
+    return 1;
+}
+
+/* ---- Transforms -------------------------------------------------------------- */
+
+static matrix from_columns(const double m[16])
+{
+    matrix out;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            out.m[i][j] = m[4 * j + i];
+    return out;
+}
+
+/* From the world to the camera. */
+static int look_at(pbrt *p, const double v[9], matrix *out)
+{
+    double direction[3] = {v[3] - v[0], v[4] - v[1], v[5] - v[2]}, up[3] = {v[6], v[7], v[8]},
+           right[3];
+    matrix camera = matrix_identity();
+    if (!vector_normalize(direction) || !vector_normalize(up))
+        return import_fail(p->import, pbrt_line(&p->tokens), "LookAt has no direction");
+    vector_cross(right, up, direction);
+    if (!vector_normalize(right))
+        return import_fail(p->import, pbrt_line(&p->tokens), "LookAt: up is along the direction");
+    vector_cross(up, direction, right);
+    for (int c = 0; c < 3; c++) {
+        camera.m[c][0] = right[c];
+        camera.m[c][1] = up[c];
+        camera.m[c][2] = direction[c];
+        camera.m[c][3] = v[c];
+    }
+    return matrix_invert(out, &camera);
+}
+
+/* Reads a transform; returns whether the word is one. */
+static int read_transform(pbrt *p, const char *word)
+{
+    static const struct {
+        const char *word;
+        int count;
+    } transforms[] = {{"Translate", 3}, {"Scale", 3},      {"Rotate", 4},
+                      {"LookAt", 9},    {"Transform", 16}, {"ConcatTransform", 16}};
+    double v[16];
+    size_t i = 0;
+    matrix step = matrix_identity();
+    while (i < 6 && strcmp(transforms[i].word, word) != 0)
+        i++;
+    if (i == 6)
+        return 0;
+    if (!take_numbers(p, word, v, transforms[i].count))
+        return 1;
+    if (i == 0)
+        step = matrix_translate(v[0], v[1], v[2]);
+    else if (i == 1)
+        step = matrix_scale(v[0], v[1], v[2]);
+    else if (i == 2)
+        step = matrix_rotate(v[0], v + 1);
+    else if (i == 3)
+        look_at(p, v, &step);
+    else
+        step = from_columns(v);
+    p->state.ctm = i == 4 ? step : matrix_multiply(&p->state.ctm, &step);
+    if (!matrix_is_finite(&p->state.ctm))
+        import_fail(p->import, pbrt_line(&p->tokens), "a transform is not finite");
+    return 1;
+}
+
+static void keep_frame(pbrt *p, const char *name, const matrix *frame)
+{
+    pbrt_frame *moved = pbrt_grow(p->import, p->frames, &p->frame_count, sizeof *p->frames);
+    if (!moved)
+        return;
+    p->frames = moved;
+    snprintf(p->frames[p->frame_count - 1].name, PBRT_NAME, "%.*s", PBRT_NAME - 1, name);
+    p->frames[p->frame_count - 1].frame = *frame;
+}
+
+static void use_frame(pbrt *p, const char *name)
+{
+    for (size_t i = p->frame_count; i-- > 0;)
+        if (strcmp(p->frames[i].name, name) == 0) {
+            p->state.ctm = p->frames[i].frame;
+            return;
+        }
+    import_fail(p->import, pbrt_line(&p->tokens), "there is no coordinate system '%.60s'", name);
+}
+
+/* ---- What stands before the world -------------------------------------------- */
+
+static void read_camera(pbrt *p, pbrt_params *params, const char *type)
+{
+    static const double origin[3] = {0, 0, 0}, forward[3] = {0, 0, 1}, up[3] = {0, 1, 0};
+    matrix to_world;
+    if (!matrix_invert(&to_world, &p->state.ctm)) {
+        import_fail(p->import, params->line, "the camera's transform has no inverse");
+        return;
+    }
+    keep_frame(p, "camera", &to_world);
+    if (matrix_determinant(&to_world) > 0)
+        p->mirror = matrix_scale(-1, 1, 1);
+    matrix place = matrix_multiply(&p->mirror, &to_world);
+    matrix_point(p->view.eye, &place, origin);
+    matrix_vector(p->view.direction, &place, forward);
+    matrix_vector(p->view.up, &place, up);
+    p->view.is_orthographic = strcmp(type, "orthographic") == 0;
+    p->view.aperture = pbrt_number(params, "lensradius", 0);
+    p->view.focal_distance = pbrt_number(params, "focaldistance", 0);
+    p->fov = pbrt_number(params, "fov", 90);
+    p->view.width = 2 * matrix_axis_length(&to_world, 0);
+    pbrt_number(params, "shutteropen", 0);
+    pbrt_number(params, "shutterclose", 1);
+    if (strcmp(type, "perspective") != 0 && strcmp(type, "orthographic") != 0)
+        import_note_at(p->import, params->line, "a camera '%.40s' became perspective", type);
+    pbrt_note_unused(params, "the camera");
+    p->has_camera = 1;
+}
+
+/* fov and the screen window are those of the shorter side. */
+static void finish_camera(pbrt *p)
+{
+    double aspect = (double)p->width / p->height;
+    import_set_film(p->import, p->width, p->height, p->filter);
+    import_put(p->import, &p->import->settings, "render { max_depth %d spp %d }\n", p->max_depth,
+               p->samples);
+    if (!p->has_camera)
+        return;
+    if (!(p->fov > 0 && p->fov < 180)) {
+        import_fail(p->import, 0, "a field of view of %g degrees", p->fov);
+        return;
+    }
+    double tangent = tan(p->fov / 2 / degrees) * (aspect > 1 ? aspect : 1);
+    p->view.fov = 2 * atan(tangent) * degrees;
+    p->view.width *= aspect > 1 ? aspect : 1;
+    import_set_camera(p->import, 0, &p->view);
+}
+
+static void read_film(pbrt *p, pbrt_params *params)
+{
+    double width = pbrt_number(params, "xresolution", 1280),
+           height = pbrt_number(params, "yresolution", 720);
+    pbrt_string(params, "filename", "");
+    if (!(width >= 1 && width <= 65536 && height >= 1 && height <= 65536 &&
+          width * height <= 268435456)) {
+        import_fail(p->import, params->line, "a film of %g x %g pixels", width, height);
+        return;
+    }
+    p->width = (uint32_t)width;
+    p->height = (uint32_t)height;
+    pbrt_note_unused(params, "the film");
+}
+
+static void read_filter(pbrt *p, pbrt_params *params, const char *type)
+{
+    p->filter = strcmp(type, "box") == 0        ? "box"
+                : strcmp(type, "triangle") == 0 ? "tent"
+                : strcmp(type, "mitchell") == 0 ? "mitchell"
+                                                : "gaussian";
+    if (strcmp(type, "sinc") == 0)
+        import_note_at(p->import, params->line, "the filter sinc became gaussian");
+    pbrt_number(params, "xradius", 0);
+    pbrt_number(params, "yradius", 0);
+    pbrt_note_unused(params, "the filter");
+}
+
+static int bounded(double value, int low, int high)
+{
+    return value < low ? low : value > high ? high : (int)value;
+}
+
+/* Directives of a kind and its parameters. Returns whether the word is one. */
+static int read_setting(pbrt *p, const char *word)
+{
+    static const char *const words[] = {"Camera", "Film", "PixelFilter", "Sampler", "Integrator"};
+    static const char *const silent[] = {"Accelerator", "ColorSpace", "Option"};
+    pbrt_params params;
+    char type[PBRT_TEXT] = "";
+    size_t i = 0, k = 0;
+    while (i < 5 && strcmp(words[i], word) != 0)
+        i++;
+    while (k < 3 && strcmp(silent[k], word) != 0)
+        k++;
+    if (i == 5 && k == 3)
+        return 0;
+    if (strcmp(word, "Option") != 0 && !take_string(p, word, type))
+        return 1;
+    pbrt_read_params(&params, &p->tokens);
+    if (i == 0)
+        read_camera(p, &params, type);
+    else if (i == 1)
+        read_film(p, &params);
+    else if (i == 2)
+        read_filter(p, &params, type);
+    else if (i == 3)
+        p->samples = bounded(pbrt_number(&params, "pixelsamples", 16), 1, 16777216);
+    else if (i == 4)
+        p->max_depth = bounded(pbrt_number(&params, "maxdepth", 5) + 1, 1, 4096);
+    if (i == 4 && strcmp(type, "path") != 0 && strcmp(type, "volpath") != 0)
+        import_note_at(p->import, params.line, "the integrator '%.40s' became path", type);
+    pbrt_free_params(&params);
+    return 1;
+}
+
+/* ---- The world --------------------------------------------------------------- */
+
+static void push(pbrt *p)
+{
+    if (p->saved_count == IMPORT_DEPTH_MAX) {
+        import_fail(p->import, pbrt_line(&p->tokens), "attributes are nested deeper than %d",
+                    IMPORT_DEPTH_MAX);
+        return;
+    }
+    p->saved[p->saved_count++] = p->state;
+}
+
+static void pop(pbrt *p)
+{
+    if (p->saved_count == 0)
+        import_fail(p->import, pbrt_line(&p->tokens), "this end has no beginning");
+    else
+        p->state = p->saved[--p->saved_count];
+}
+
+static void begin_object(pbrt *p)
+{
+    char name[PBRT_TEXT];
+    push(p);
+    if (!take_string(p, "ObjectBegin", name))
+        return;
+    if (p->in_object)
+        import_fail(p->import, pbrt_line(&p->tokens), "an object inside of an object");
+    pbrt_object *moved = pbrt_grow(p->import, p->objects, &p->object_count, sizeof *p->objects);
+    if (!moved)
+        return;
+    p->objects = moved;
+    snprintf(p->objects[p->object_count - 1].name, PBRT_NAME, "%.*s", PBRT_NAME - 1, name);
+    p->in_object = 1;
+}
+
+static void use_named_material(pbrt *p)
+{
+    char name[PBRT_TEXT];
+    if (!take_string(p, "NamedMaterial", name))
+        return;
+    name[PBRT_NAME - 1] = '\0';
+    for (size_t i = p->material_count; i-- > 1;)
+        if (strcmp(p->materials[i].name, name) == 0) {
+            p->state.material = i;
+            return;
+        }
+    import_fail(p->import, pbrt_line(&p->tokens), "there is no material '%.60s'", name);
+}
+
+/* What takes a kind, or a name, and parameters. Returns whether the word is one. */
+static int read_thing(pbrt *p, const char *word)
+{
+    static const char *const words[] = {"Shape",          "LightSource",       "AreaLightSource",
+                                        "Material",       "MakeNamedMaterial", "Texture",
+                                        "MakeNamedMedium"};
+    pbrt_params params;
+    char name[PBRT_TEXT], type[PBRT_TEXT] = "", kind[PBRT_TEXT] = "";
+    size_t i = 0;
+    while (i < 7 && strcmp(words[i], word) != 0)
+        i++;
+    if (i == 7)
+        return 0;
+    if (!take_string(p, word, name))
+        return 1;
+    if (i == 5 && (!take_string(p, word, type) || !take_string(p, word, kind)))
+        return 1;
+    pbrt_read_params(&params, &p->tokens);
+    if (p->import->failed)
+        i = 7;
+    if (i == 0)
+        pbrt_shape(p, &params, name);
+    else if (i == 1)
+        pbrt_light(p, &params, name);
+    else if (i == 2)
+        pbrt_area_light(p, &params, name);
+    else if (i == 3)
+        p->state.material = pbrt_make_material(p, &params, "", name);
+    else if (i == 4)
+        pbrt_make_material(p, &params, name, pbrt_string(&params, "type", ""));
+    else if (i == 5)
+        pbrt_make_texture(p, &params, name, type, kind);
+    else if (i == 6)
+        import_note_at(p->import, params.line, "the medium '%.40s' is left out", name);
+    pbrt_free_params(&params);
+    return 1;
+}
+
+static int read_state(pbrt *p, const char *word)
+{
+    char name[PBRT_TEXT];
+    if (strcmp(word, "AttributeBegin") == 0 || strcmp(word, "TransformBegin") == 0) {
+        push(p);
+    } else if (strcmp(word, "AttributeEnd") == 0 || strcmp(word, "TransformEnd") == 0) {
+        pop(p);
+    } else if (strcmp(word, "Identity") == 0) {
+        p->state.ctm = matrix_identity();
+    } else if (strcmp(word, "ReverseOrientation") == 0) {
+        p->state.is_reversed = !p->state.is_reversed;
+    } else if (strcmp(word, "CoordinateSystem") == 0) {
+        if (take_string(p, word, name))
+            keep_frame(p, name, &p->state.ctm);
+    } else if (strcmp(word, "CoordSysTransform") == 0) {
+        if (take_string(p, word, name))
+            use_frame(p, name);
+    } else if (strcmp(word, "NamedMaterial") == 0) {
+        use_named_material(p);
+    } else if (strcmp(word, "ObjectBegin") == 0) {
+        begin_object(p);
+    } else if (strcmp(word, "ObjectEnd") == 0) {
+        p->in_object = 0;
+        pop(p);
+    } else if (strcmp(word, "ObjectInstance") == 0) {
+        if (take_string(p, word, name))
+            pbrt_instance(p, name);
+    } else {
+        return 0;
+    }
+    return 1;
+}
+
+/* What is left out, with what stands behind it. */
+static int skip_directive(pbrt *p, const char *word)
+{
+    static const char *const words[] = {"MediumInterface", "ActiveTransform", "TransformTimes",
+                                        "Attribute"};
+    size_t i = 0;
+    pbrt_params params;
+    while (i < 4 && strcmp(words[i], word) != 0)
+        i++;
+    if (i == 4)
+        return 0;
+    import_note_at(p->import, pbrt_line(&p->tokens), "%s is left out", word);
+    if (i == 3) {
+        char target[PBRT_TEXT];
+        take_string(p, word, target);
+        pbrt_read_params(&params, &p->tokens);
+        pbrt_free_params(&params);
+        return 1;
+    }
+    while (pbrt_peek(&p->tokens)->kind == PBRT_STRING || pbrt_peek(&p->tokens)->kind == PBRT_NUMBER)
+        pbrt_take(&p->tokens);
+    if (i == 1)
+        pbrt_take(&p->tokens);
+    return 1;
+}
+
+static void read_directive(pbrt *p, const pbrt_token *token)
+{
+    char name[PBRT_TEXT];
+    const char *word = token->text;
+    if (token->kind != PBRT_WORD) {
+        import_fail(p->import, token->line, "a directive is expected, as Shape");
+    } else if (strcmp(word, "WorldBegin") == 0) {
+        p->state.ctm = matrix_identity();
+        keep_frame(p, "world", &p->state.ctm);
+    } else if (strcmp(word, "Include") == 0 || strcmp(word, "Import") == 0) {
+        if (take_string(p, word, name))
+            pbrt_include(&p->tokens, name);
+    } else if (strcmp(word, "WorldEnd") != 0 && !read_transform(p, word) && !read_state(p, word) &&
+               !read_setting(p, word) && !read_thing(p, word) && !skip_directive(p, word)) {
+        import_fail(p->import, token->line, "unknown directive '%.40s'", word);
+    }
+}
+
+static void close(pbrt *p)
+{
+    for (size_t i = 0; i < p->object_count; i++) {
+        for (size_t k = 0; k < p->objects[i].count; k++)
+            free(p->objects[i].items[k].block);
+        free(p->objects[i].items);
+    }
+    free(p->objects);
+    free(p->textures);
+    free(p->materials);
+    free(p->frames);
+    pbrt_free_tokens(&p->tokens);
+    free(p);
+}
+
+void import_pbrt(importer *import, const char *text, size_t size)
+{
+    pbrt *p = calloc(1, sizeof *p);
+    pbrt_params none = {.import = import};
+    if (!p) {
+        import_fail_memory(import);
+        return;
+    }
+    p->import = p->tokens.import = import;
+    p->tokens.sources[p->tokens.depth++] = (pbrt_source){NULL, text, text + size, 1};
+    p->state.ctm = p->mirror = matrix_identity();
+    p->width = 1280;
+    p->height = 720;
+    p->max_depth = 6;
+    p->samples = 16;
+    p->filter = "gaussian";
+    p->state.material = pbrt_make_material(p, &none, "", "diffuse");
+    while (!import->failed) {
+        pbrt_token token = pbrt_take(&p->tokens);
+        if (token.kind == PBRT_END)
+            break;
+        read_directive(p, &token);
+    }
+    if (!import->failed && p->saved_count > 0)
+        import_fail(import, 0, "%d attributes or objects are not closed", p->saved_count);
+    if (!import->failed)
+        finish_camera(p);
+    close(p);
+}

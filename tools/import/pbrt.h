@@ -1,0 +1,173 @@
+/* pbrt.h - what the parts of the reader of pbrt-v4 scenes share. */
+#ifndef RTC_IMPORT_PBRT_H
+#define RTC_IMPORT_PBRT_H
+
+#include "import.h"
+
+/* ---- Tokens: pbrt_token.c -------------------------------------------------------------------- */
+
+typedef enum pbrt_kind {
+    PBRT_END,
+    PBRT_WORD,
+    PBRT_STRING,
+    PBRT_NUMBER,
+    PBRT_OPEN,
+    PBRT_CLOSE
+} pbrt_kind;
+
+enum { PBRT_TEXT = 256 }; /* room for a word or a string */
+
+typedef struct pbrt_token {
+    pbrt_kind kind;
+    char text[PBRT_TEXT]; /* of a word or string, without quotes */
+    double number;
+    int line;
+} pbrt_token;
+
+/* A text that is read, and those that it is included from. */
+typedef struct pbrt_source {
+    char *text; /* owned, but for the first */
+    const char *at, *end;
+    int line;
+} pbrt_source;
+
+typedef struct pbrt_tokens {
+    importer *import;
+    pbrt_source sources[IMPORT_DEPTH_MAX];
+    int depth;
+    pbrt_token ahead;
+    int has_ahead;
+} pbrt_tokens;
+
+/* The next token, which stays; and takes it. Only errors of the first file have their line. */
+const pbrt_token *pbrt_peek(pbrt_tokens *tokens);
+pbrt_token pbrt_take(pbrt_tokens *tokens);
+
+/* The line for messages, 0 in an included file. */
+int pbrt_line(const pbrt_tokens *tokens);
+
+/* Goes on in another file, then here. */
+void pbrt_include(pbrt_tokens *tokens, const char *name);
+void pbrt_free_tokens(pbrt_tokens *tokens);
+
+/* ---- Parameters: pbrt_param.c ---------------------------------------------------------------- */
+
+enum { PBRT_PARAMS_MAX = 64 };
+
+typedef struct pbrt_param {
+    char type[32], name[64];
+    double *numbers;
+    char (*strings)[PBRT_TEXT];
+    size_t number_count, string_count;
+    int line, is_used;
+} pbrt_param;
+
+typedef struct pbrt_params {
+    importer *import;
+    pbrt_param items[PBRT_PARAMS_MAX];
+    int count, line;
+} pbrt_params;
+
+/* The parameters behind a directive; to be freed. */
+void pbrt_read_params(pbrt_params *params, pbrt_tokens *tokens);
+void pbrt_free_params(pbrt_params *params);
+
+/* The parameter of that name and one of the types ("float", "point3 point"), or NULL. */
+pbrt_param *pbrt_find(pbrt_params *params, const char *types, const char *name);
+
+double pbrt_number(pbrt_params *params, const char *name, double fallback);
+int pbrt_flag(pbrt_params *params, const char *name, int fallback);
+const char *pbrt_string(pbrt_params *params, const char *name, const char *fallback);
+void pbrt_point(pbrt_params *params, const char *name, double out[3]);
+
+/* A colour by rgb, spectrum or blackbody; returns whether it is there. */
+int pbrt_colour(pbrt_params *params, const char *name, double out[3]);
+
+/* Notes what no one has asked for. `what`: of which it is a parameter. */
+void pbrt_note_unused(pbrt_params *params, const char *what);
+
+/* ---- The state ------------------------------------------------------------------------------- */
+
+enum { PBRT_NAME = 128 };
+
+/* A texture by its name: an image or checker, or a constant. */
+typedef struct pbrt_texture {
+    char name[PBRT_NAME];
+    int handle;      /* IMPORT_NONE: a constant */
+    double value[3]; /* multiplies it */
+} pbrt_texture;
+
+typedef struct pbrt_material {
+    char name[PBRT_NAME];
+    import_material material;
+    int handles[2]; /* with emission on one side, on both; IMPORT_NONE: not yet */
+} pbrt_material;
+
+typedef struct pbrt_state {
+    matrix ctm;
+    size_t material; /* an index */
+    double radiance[3];
+    int is_two_sided, is_reversed;
+} pbrt_state;
+
+/* A shape of an object: a block or a mesh, with its surface in the frame of the object. */
+typedef struct pbrt_item {
+    char *block; /* NULL: a mesh */
+    int mesh;
+    double lo[3], hi[3];
+    import_surface surface;
+} pbrt_item;
+
+typedef struct pbrt_object {
+    char name[PBRT_NAME];
+    pbrt_item *items;
+    size_t count;
+} pbrt_object;
+
+typedef struct pbrt_frame {
+    char name[PBRT_NAME];
+    matrix frame;
+} pbrt_frame;
+
+typedef struct pbrt {
+    importer *import;
+    pbrt_tokens tokens;
+    pbrt_state state;
+    pbrt_state saved[IMPORT_DEPTH_MAX];
+    int saved_count;
+    pbrt_texture *textures;
+    pbrt_material *materials;
+    pbrt_object *objects;
+    pbrt_frame *frames;
+    size_t texture_count, material_count, object_count, frame_count;
+    int in_object; /* shapes go into the last object */
+    matrix mirror; /* of the world: pbrt's is left-handed where the camera is not mirrored */
+    uint32_t width, height;
+    int max_depth, samples;
+    const char *filter;
+    int has_camera;
+    char camera[32]; /* its kind; what follows holds until the world begins */
+    import_camera view;
+    double fov;
+} pbrt;
+
+/* Makes room for one more item of a list, cleared; NULL after a failure. */
+void *pbrt_grow(importer *import, void *items, size_t *count, size_t size);
+
+/* ---- The parts ------------------------------------------------------------------------------- */
+
+void pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const char *type,
+                       const char *kind);
+
+/* Adds a material; returns its index. */
+size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const char *type);
+
+/* The handle of the material of the state. */
+int pbrt_use_material(pbrt *p);
+
+void pbrt_light(pbrt *p, pbrt_params *params, const char *type);
+void pbrt_area_light(pbrt *p, pbrt_params *params, const char *type);
+void pbrt_shape(pbrt *p, pbrt_params *params, const char *type);
+void pbrt_instance(pbrt *p, const char *name);
+
+#endif

@@ -1,0 +1,279 @@
+/*
+ * pbrt_material.c - materials and textures of pbrt-v4. Where remaproughness is true, alpha of GGX
+ * is the square root of the roughness.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "metals.h"
+#include "pbrt.h"
+
+/* ---- Textures ---------------------------------------------------------------- */
+
+static const pbrt_texture *find_texture(pbrt *p, int line, const char *name)
+{
+    for (size_t i = p->texture_count; i-- > 0;)
+        if (strcmp(p->textures[i].name, name) == 0)
+            return &p->textures[i];
+    import_fail(p->import, line, "there is no texture '%.60s'", name);
+    return NULL;
+}
+
+static void read_mapping(pbrt_params *params, import_texture *texture)
+{
+    texture->scale[0] = pbrt_number(params, "uscale", 1);
+    texture->scale[1] = pbrt_number(params, "vscale", 1);
+    texture->offset[0] = pbrt_number(params, "udelta", 0);
+    texture->offset[1] = pbrt_number(params, "vdelta", 0);
+    if (strcmp(pbrt_string(params, "mapping", "uv"), "uv") != 0)
+        import_note_at(params->import, params->line, "the mapping of a texture became uv");
+    for (int i = 0; i < 2; i++)
+        if (texture->scale[i] == 0)
+            texture->scale[i] = 1;
+}
+
+static void read_image(pbrt *p, pbrt_params *params, pbrt_texture *out)
+{
+    import_texture texture = {0};
+    char file[512];
+    const char *name = pbrt_string(params, "filename", NULL),
+               *wrap = pbrt_string(params, "wrap", "repeat"),
+               *encoding = pbrt_string(params, "encoding", "sRGB");
+    double scale = pbrt_number(params, "scale", 1);
+    read_mapping(params, &texture);
+    pbrt_string(params, "filter", "");
+    texture.is_linear = strcmp(encoding, "linear") == 0;
+    texture.wrap = strcmp(wrap, "clamp") == 0 ? 2 : 0;
+    if (pbrt_flag(params, "invert", 0))
+        import_note_at(p->import, params->line, "the inversion of a texture is left out");
+    if (!name) {
+        import_fail(p->import, params->line, "an imagemap without filename");
+        return;
+    }
+    out->value[0] = out->value[1] = out->value[2] = scale;
+    if (!import_image_file(p->import, params->line, file, name))
+        return;
+    texture.file = file;
+    out->handle = import_add_texture(p->import, out->name, &texture);
+}
+
+static void read_scaled(pbrt *p, pbrt_params *params, pbrt_texture *out)
+{
+    double scale[3] = {1, 1, 1};
+    const pbrt_param *inner = pbrt_find(params, "texture", "tex");
+    if (pbrt_find(params, "texture", "scale"))
+        import_note_at(p->import, params->line, "a texture that scales another is left out");
+    pbrt_colour(params, "scale", scale);
+    const pbrt_texture *texture =
+        inner && inner->string_count ? find_texture(p, params->line, inner->strings[0]) : NULL;
+    if (texture) {
+        out->handle = texture->handle;
+        memcpy(out->value, texture->value, sizeof out->value);
+    } else {
+        pbrt_colour(params, "tex", out->value);
+    }
+    for (int c = 0; c < 3; c++)
+        out->value[c] *= scale[c];
+}
+
+void pbrt_make_texture(pbrt *p, pbrt_params *params, const char *name, const char *type,
+                       const char *kind)
+{
+    import_texture checker = {.a = {1, 1, 1}};
+    pbrt_texture *moved = pbrt_grow(p->import, p->textures, &p->texture_count, sizeof *p->textures);
+    (void)type;
+    if (!moved)
+        return;
+    p->textures = moved;
+    pbrt_texture made = {.handle = IMPORT_NONE, .value = {1, 1, 1}};
+    snprintf(made.name, sizeof made.name, "%.*s", PBRT_NAME - 1, name);
+    if (strcmp(kind, "imagemap") == 0) {
+        read_image(p, params, &made);
+    } else if (strcmp(kind, "checkerboard") == 0) {
+        read_mapping(params, &checker);
+        pbrt_colour(params, "tex1", checker.a);
+        pbrt_colour(params, "tex2", checker.b);
+        made.handle = import_add_texture(p->import, made.name, &checker);
+    } else if (strcmp(kind, "constant") == 0) {
+        pbrt_colour(params, "value", made.value);
+    } else if (strcmp(kind, "scale") == 0) {
+        read_scaled(p, params, &made);
+    } else {
+        import_note_at(p->import, params->line, "a texture '%.40s' became grey", kind);
+        made.value[0] = made.value[1] = made.value[2] = 0.5;
+    }
+    p->textures[p->texture_count - 1] = made;
+    pbrt_note_unused(params, kind);
+}
+
+/* A colour or texture; returns the texture. */
+static int read_colour(pbrt *p, pbrt_params *params, const char *name, double out[3])
+{
+    const pbrt_param *param = pbrt_find(params, "texture", name);
+    if (!param) {
+        pbrt_colour(params, name, out);
+        return IMPORT_NONE;
+    }
+    const pbrt_texture *texture =
+        param->string_count ? find_texture(p, param->line, param->strings[0]) : NULL;
+    if (!texture)
+        return IMPORT_NONE;
+    memcpy(out, texture->value, sizeof texture->value);
+    return texture->handle;
+}
+
+/* ---- Values ------------------------------------------------------------------ */
+
+static double read_alpha(pbrt *p, pbrt_params *params)
+{
+    double roughness = pbrt_number(params, "roughness", 0);
+    double u = pbrt_number(params, "uroughness", roughness),
+           v = pbrt_number(params, "vroughness", roughness);
+    if (pbrt_find(params, "texture", "roughness"))
+        import_note_at(p->import, params->line, "a textured roughness became smooth");
+    if (u != v)
+        import_note_at(p->import, params->line, "a roughness by direction became the same for all");
+    double mean = sqrt(fabs(u * v));
+    return pbrt_flag(params, "remaproughness", 1) ? sqrt(mean) : mean;
+}
+
+/* An index of refraction: a number, or the name of a glass. */
+static double read_eta(pbrt *p, pbrt_params *params)
+{
+    static const struct {
+        const char *name;
+        double ior;
+    } glasses[] = {{"glass-BK7", 1.5168},   {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866},
+                   {"glass-LASF9", 1.8503}, {"glass-F5", 1.6034},    {"glass-F10", 1.6228},
+                   {"glass-F11", 1.6206}};
+    const pbrt_param *param = pbrt_find(params, "spectrum", "eta");
+    double value = pbrt_number(params, "eta", 1.5);
+    for (size_t i = 0; param && i < sizeof glasses / sizeof *glasses; i++)
+        if (param->string_count && strcmp(param->strings[0], glasses[i].name) == 0)
+            return glasses[i].ior;
+    if (param && param->number_count >= 2) {
+        import_note_at(p->import, param->line, "the dispersion of a glass is left out");
+        return param->numbers[2 * (param->number_count / 4) + 1];
+    }
+    return param && param->number_count == 1 ? param->numbers[0] : value;
+}
+
+/* eta or k of a metal: a colour, or by name as metal-Cu-eta. */
+static void read_metal(pbrt *p, pbrt_params *params, const char *name, int is_k, double out[3])
+{
+    char metal[16] = "Cu";
+    double eta[3], k[3];
+    const pbrt_param *param = pbrt_find(params, "spectrum", name);
+    if (param && param->string_count)
+        sscanf(param->strings[0], "metal-%15[A-Za-z]", metal);
+    else if (pbrt_colour(params, name, out))
+        return;
+    if (!metals_find(metal, eta, k)) {
+        import_note_at(p->import, params->line, "the metal '%.20s' became copper", metal);
+        metals_find("Cu", eta, k);
+    }
+    memcpy(out, is_k ? k : eta, sizeof eta);
+}
+
+/* ---- Materials --------------------------------------------------------------- */
+
+static void read_conductor(pbrt *p, pbrt_params *params, import_material *m)
+{
+    double reflectance[3];
+    m->roughness = read_alpha(p, params);
+    for (int c = 0; c < 3; c++)
+        m->ks[c] = 1;
+    if (pbrt_find(params, "texture", "reflectance")) {
+        m->ks_texture = read_colour(p, params, "reflectance", m->ks);
+        import_note_at(p->import, params->line,
+                       "a textured metal reflects its colour at every angle");
+        return;
+    }
+    m->fresnel = IMPORT_FRESNEL_CONDUCTOR;
+    if (pbrt_colour(params, "reflectance", reflectance)) {
+        for (int c = 0; c < 3; c++) {
+            double r = fmin(fmax(reflectance[c], 0), 0.9995);
+            m->eta[c] = 1;
+            m->k[c] = 2 * sqrt(r / (1 - r));
+        }
+        return;
+    }
+    read_metal(p, params, "eta", 0, m->eta);
+    read_metal(p, params, "k", 1, m->k);
+}
+
+/* A base under a coat, whose Fresnel reflectance is taken at normal incidence. */
+static void read_coated(pbrt *p, pbrt_params *params, import_material *m)
+{
+    double eta = read_eta(p, params), f0 = pow((eta - 1) / (eta + 1), 2);
+    for (int c = 0; c < 3; c++)
+        m->kd[c] = 0.5;
+    m->kd_texture = read_colour(p, params, "reflectance", m->kd);
+    for (int c = 0; c < 3; c++) {
+        m->kd[c] *= 1 - f0;
+        m->ks[c] = f0;
+    }
+    m->roughness = read_alpha(p, params);
+    import_note_at(p->import, params->line,
+                   "a coat reflects %.3g at every angle: the language has no coat by Fresnel", f0);
+}
+
+static void read_kind(pbrt *p, pbrt_params *params, const char *type, import_material *m)
+{
+    if (strcmp(type, "diffuse") == 0) {
+        m->kd[0] = m->kd[1] = m->kd[2] = 0.5;
+        m->kd_texture = read_colour(p, params, "reflectance", m->kd);
+    } else if (strcmp(type, "conductor") == 0) {
+        read_conductor(p, params, m);
+    } else if (strcmp(type, "dielectric") == 0) {
+        m->kt[0] = m->kt[1] = m->kt[2] = 1;
+        m->fresnel = IMPORT_FRESNEL_DIELECTRIC;
+        m->ior = read_eta(p, params);
+        m->roughness = read_alpha(p, params);
+    } else if (strcmp(type, "thindielectric") == 0) {
+        m->kt[0] = m->kt[1] = m->kt[2] = m->ior = 1;
+        read_eta(p, params);
+        import_note_at(p->import, params->line, "a thin pane does not reflect");
+    } else if (strcmp(type, "interface") == 0 || type[0] == '\0' || strcmp(type, "none") == 0) {
+        m->kt[0] = m->kt[1] = m->kt[2] = m->ior = 1;
+    } else if (strcmp(type, "coateddiffuse") == 0) {
+        read_coated(p, params, m);
+    } else if (strcmp(type, "diffusetransmission") == 0) {
+        m->kd[0] = m->kd[1] = m->kd[2] = 0.25;
+        m->kd_texture = read_colour(p, params, "reflectance", m->kd);
+        import_note_at(p->import, params->line, "diffuse transmission is left out");
+    } else {
+        import_note_at(p->import, params->line, "a material '%.40s' became grey", type);
+        m->kd[0] = m->kd[1] = m->kd[2] = 0.5;
+    }
+}
+
+size_t pbrt_make_material(pbrt *p, pbrt_params *params, const char *name, const char *type)
+{
+    pbrt_material *moved =
+        pbrt_grow(p->import, p->materials, &p->material_count, sizeof *p->materials);
+    if (!moved)
+        return 0;
+    p->materials = moved;
+    pbrt_material made = {.material = import_material_begin(),
+                          .handles = {IMPORT_NONE, IMPORT_NONE}};
+    snprintf(made.name, sizeof made.name, "%.*s", PBRT_NAME - 1, name);
+    read_kind(p, params, type, &made.material);
+    pbrt_note_unused(params, type[0] ? type : "interface");
+    p->materials[p->material_count - 1] = made;
+    return p->material_count - 1;
+}
+
+int pbrt_use_material(pbrt *p)
+{
+    pbrt_material *material = &p->materials[p->state.material];
+    int side = p->state.is_two_sided != 0;
+    if (material->handles[side] == IMPORT_NONE) {
+        import_material copy = material->material;
+        copy.is_two_sided = side;
+        material->handles[side] = import_add_material(
+            p->import, 0, material->name[0] ? material->name : "material", &copy);
+    }
+    return material->handles[side];
+}

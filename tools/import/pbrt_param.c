@@ -1,0 +1,229 @@
+/* pbrt_param.c - parameters, as "float radius" [ 1 ]. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pbrt.h"
+
+enum { VALUES_MAX = 300000000 };
+
+/* ---- Reading ----------------------------------------------------------------- */
+
+static int add_number(pbrt_params *params, pbrt_param *param, double value)
+{
+    size_t count = param->number_count;
+    if ((count & (count - 1)) == 0) {
+        double *moved = count < VALUES_MAX
+                            ? realloc(param->numbers, (count ? 2 * count : 1) * sizeof *moved)
+                            : NULL;
+        if (!moved)
+            return import_fail_memory(params->import);
+        param->numbers = moved;
+    }
+    param->numbers[param->number_count++] = value;
+    return 1;
+}
+
+static int add_string(pbrt_params *params, pbrt_param *param, const char *text)
+{
+    size_t count = param->string_count;
+    if ((count & (count - 1)) == 0) {
+        void *moved = realloc(param->strings, (count ? 2 * count : 1) * sizeof *param->strings);
+        if (!moved)
+            return import_fail_memory(params->import);
+        param->strings = moved;
+    }
+    snprintf(param->strings[param->string_count++], PBRT_TEXT, "%s", text);
+    return 1;
+}
+
+static int add_value(pbrt_params *params, pbrt_param *param, const pbrt_token *token)
+{
+    if (token->kind == PBRT_NUMBER)
+        return add_number(params, param, token->number);
+    if (token->kind == PBRT_STRING ||
+        (token->kind == PBRT_WORD &&
+         (strcmp(token->text, "true") == 0 || strcmp(token->text, "false") == 0)))
+        return add_string(params, param, token->text);
+    return import_fail(params->import, token->line, "\"%s %s\" has no value, or is not closed",
+                       param->type, param->name);
+}
+
+static void read_values(pbrt_params *params, pbrt_param *param, pbrt_tokens *tokens)
+{
+    pbrt_token token = pbrt_take(tokens);
+    if (token.kind != PBRT_OPEN) {
+        add_value(params, param, &token);
+        return;
+    }
+    while (!params->import->failed) {
+        token = pbrt_take(tokens);
+        if (token.kind == PBRT_CLOSE)
+            return;
+        add_value(params, param, &token);
+    }
+}
+
+void pbrt_read_params(pbrt_params *params, pbrt_tokens *tokens)
+{
+    memset(params, 0, sizeof *params);
+    params->import = tokens->import;
+    params->line = pbrt_line(tokens);
+    while (!params->import->failed && pbrt_peek(tokens)->kind == PBRT_STRING) {
+        pbrt_token token = pbrt_take(tokens);
+        pbrt_param *param = &params->items[params->count];
+        if (params->count == PBRT_PARAMS_MAX) {
+            import_fail(params->import, token.line, "more than %d parameters", PBRT_PARAMS_MAX);
+            return;
+        }
+        if (sscanf(token.text, " %31s %63s", param->type, param->name) != 2) {
+            import_fail(params->import, token.line,
+                        "'%.60s' is no parameter: a type and a name are expected", token.text);
+            return;
+        }
+        param->line = token.line;
+        params->count++;
+        read_values(params, param, tokens);
+    }
+}
+
+void pbrt_free_params(pbrt_params *params)
+{
+    for (int i = 0; i < params->count; i++) {
+        free(params->items[i].numbers);
+        free(params->items[i].strings);
+    }
+}
+
+/* ---- Values ------------------------------------------------------------------ */
+
+/* Whether a word is one of a list that spaces separate. */
+static int is_among(const char *word, const char *list)
+{
+    size_t length = strlen(word);
+    for (const char *at = list; (at = strstr(at, word)) != NULL; at++)
+        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0'))
+            return 1;
+    return 0;
+}
+
+pbrt_param *pbrt_find(pbrt_params *params, const char *types, const char *name)
+{
+    for (int i = 0; i < params->count; i++)
+        if (strcmp(params->items[i].name, name) == 0 && is_among(params->items[i].type, types)) {
+            params->items[i].is_used = 1;
+            return &params->items[i];
+        }
+    return NULL;
+}
+
+double pbrt_number(pbrt_params *params, const char *name, double fallback)
+{
+    const pbrt_param *param = pbrt_find(params, "float integer", name);
+    return param && param->number_count > 0 ? param->numbers[0] : fallback;
+}
+
+int pbrt_flag(pbrt_params *params, const char *name, int fallback)
+{
+    const pbrt_param *param = pbrt_find(params, "bool", name);
+    return param && param->string_count > 0 ? strcmp(param->strings[0], "true") == 0 : fallback;
+}
+
+const char *pbrt_string(pbrt_params *params, const char *name, const char *fallback)
+{
+    const pbrt_param *param = pbrt_find(params, "string", name);
+    return param && param->string_count > 0 ? param->strings[0] : fallback;
+}
+
+void pbrt_point(pbrt_params *params, const char *name, double out[3])
+{
+    const pbrt_param *param = pbrt_find(params, "point point3 vector vector3", name);
+    if (param && param->number_count >= 3)
+        memcpy(out, param->numbers, 3 * sizeof *out);
+}
+
+/* ---- Colours ----------------------------------------------------------------- */
+
+/* The colour matching functions by the fits of Wyman, Sloan and Shirley (JCGT 2013). */
+static double lobe(double wavelength, double mean, double left, double right)
+{
+    double t = (wavelength - mean) * (wavelength < mean ? left : right);
+    return exp(-0.5 * t * t);
+}
+
+/* The colour of a black body in linear sRGB, of luminance 1. */
+static void black_body(double kelvin, double out[3])
+{
+    double xyz[3] = {0, 0, 0};
+    for (double nm = 380; nm <= 780; nm += 5) {
+        double power = pow(nm / 560, -5) / (exp(1.4387769e7 / (nm * kelvin)) - 1);
+        xyz[0] += power * (1.056 * lobe(nm, 599.8, 0.0264, 0.0323) +
+                           0.362 * lobe(nm, 442.0, 0.0624, 0.0374) -
+                           0.065 * lobe(nm, 501.1, 0.0490, 0.0382));
+        xyz[1] += power * (0.821 * lobe(nm, 568.8, 0.0213, 0.0247) +
+                           0.286 * lobe(nm, 530.9, 0.0613, 0.0322));
+        xyz[2] += power * (1.217 * lobe(nm, 437.0, 0.0845, 0.0278) +
+                           0.681 * lobe(nm, 459.0, 0.0385, 0.0725));
+    }
+    static const double rgb[3][3] = {
+        {3.2406, -1.5372, -0.4986}, {-0.9689, 1.8758, 0.0415}, {0.0557, -0.2040, 1.0570}};
+    for (int c = 0; c < 3; c++)
+        out[c] = fmax(0, vector_dot(rgb[c], xyz) / xyz[1]);
+}
+
+/* A spectrum by wavelengths as the grey of its mean. */
+static void read_spectrum(pbrt_params *params, const pbrt_param *param, double out[3])
+{
+    double sum = 0;
+    for (size_t i = 1; i < param->number_count; i += 2)
+        sum += param->numbers[i];
+    out[0] = out[1] = out[2] = param->number_count == 1 ? param->numbers[0]
+                               : param->number_count    ? sum / (double)(param->number_count / 2)
+                                                        : 1;
+    if (param->number_count != 1)
+        import_note_at(params->import, param->line, "the spectrum %.40s became grey",
+                       param->string_count ? param->strings[0] : "by wavelengths");
+}
+
+int pbrt_colour(pbrt_params *params, const char *name, double out[3])
+{
+    const pbrt_param *param = pbrt_find(params, "rgb color spectrum blackbody float", name);
+    if (!param)
+        return 0;
+    if (strcmp(param->type, "blackbody") == 0 && param->number_count > 0 &&
+        param->numbers[0] >= 100)
+        black_body(param->numbers[0], out);
+    else if (strcmp(param->type, "spectrum") == 0)
+        read_spectrum(params, param, out);
+    else if (param->number_count >= 3)
+        memcpy(out, param->numbers, 3 * sizeof *out);
+    else if (param->number_count == 1)
+        out[0] = out[1] = out[2] = param->numbers[0];
+    else
+        import_fail(params->import, param->line, "\"%s %s\" is no colour", param->type,
+                    param->name);
+    return 1;
+}
+
+void pbrt_note_unused(pbrt_params *params, const char *what)
+{
+    for (int i = 0; i < params->count; i++)
+        if (!params->items[i].is_used)
+            import_note_at(params->import, params->items[i].line, "\"%s %s\" of %.40s is left out",
+                           params->items[i].type, params->items[i].name, what);
+}
+
+void *pbrt_grow(importer *import, void *items, size_t *count, size_t size)
+{
+    char *moved = items;
+    if ((*count & (*count - 1)) == 0)
+        moved = realloc(items, (*count ? 2 * *count : 1) * size);
+    if (!moved) {
+        import_fail_memory(import);
+        return NULL;
+    }
+    memset(moved + *count * size, 0, size);
+    ++*count;
+    return moved;
+}

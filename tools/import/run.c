@@ -1,0 +1,29 @@
+/* run.c - which reader a file is for. */
+#include <string.h>
+#include <strings.h>
+
+#include "import.h"
+
+static int ends_with(const char *path, const char *extension)
+{
+    size_t length = strlen(path), end = strlen(extension);
+    return length > end && strcasecmp(path + length - end, extension) == 0;
+}
+
+void import_run(importer *import, const char *bytes, size_t size)
+{
+    if (ends_with(import->path, ".glb") || ends_with(import->path, ".gltf"))
+        import_gltf(import, bytes, size);
+    else if (strlen(bytes) != size)
+        import_fail(import, 0, "it is no text: it holds a zero byte");
+    else if (ends_with(import->path, ".obj"))
+        import_obj(import, bytes, size);
+    else if (ends_with(import->path, ".xml"))
+        import_mitsuba(import, bytes, size);
+    else if (ends_with(import->path, ".pbrt"))
+        import_pbrt(import, bytes, size);
+    else
+        import_fail(import, 0,
+                    "what is it? The name of a scene ends in .gltf, .glb, .obj, .xml "
+                    "(Mitsuba 3) or .pbrt");
+}
