@@ -838,6 +838,20 @@ uninstall:
 	done
 	[ -n "$(DESTDIR)" ] || [ "$$(id -u)" -ne 0 ] || ldconfig
 
+.PHONY: check-deb deb deps-deb
+# The packages librt-render0, librt-render-dev and rtc, and their source, in $(B)/deb.
+deb: deps deps-deb
+	tools/debian/package.sh $(B)/deb
+	lintian --allow-root --fail-on error $(B)/deb/*.changes
+
+deps-deb:
+	@tools/deps.sh --deb
+
+# The same in bare trees of Debian 12: built, installed, used, purged. Takes minutes, root, and the
+# network.
+check-deb: deb
+	tests/install/check_deb.sh $(B)/deb
+
 help:
 	@echo 'make                 builds $(B)/rtc, $(B)/librt.a and $(B)/$(SONAME)'
 	@echo 'make demo            installs what is missing, builds, renders scenes/cornell.rts'
@@ -882,9 +896,11 @@ help:
 	@echo 'make deps            installs what is missing'
 	@echo 'make install         to PREFIX ($(PREFIX)), LIBDIR ($(LIBDIR)), below DESTDIR'
 	@echo 'make uninstall       takes that away again'
+	@echo 'make deb             Debian packages of it, in $(B)/deb'
+	@echo 'make check-deb       builds, installs and purges them in bare trees, as root'
 	@echo 'make clean           removes $(B)/'
 
 clean:
 	rm -rf $(B)
 
--include $(shell find $(B) -name '*.d' 2>/dev/null)
+-include $(shell find $(B) -path $(B)/deb -prune -o -type f -name '*.d' -print 2>/dev/null)

@@ -4,6 +4,7 @@
 #   tools/deps.sh          finds what is missing and installs it from Debian packages
 #   tools/deps.sh --lint   the same for the programs of `make lint` and `make format`
 #   tools/deps.sh --fuzz   the same for those of `make fuzz`
+#   tools/deps.sh --deb    the same for those of `make deb`
 #   tools/deps.sh --python the same for those of `make check-python`, with PYTHON (python3)
 #   tools/deps.sh --check  only names what is missing; status 1 if anything is
 #
@@ -147,6 +148,10 @@ probe_symbolizer() { has_program llvm-symbolizer-14 || has_program llvm-symboliz
 # Without venv, --help works all the same on Debian; ensurepip is what is missing.
 probe_venv() { ${PYTHON:-python3} -c 'import ensurepip, venv' >/dev/null 2>&1; }
 
+probe_buildpackage() { has_program dpkg-buildpackage; }
+probe_debhelper() { has_program dh; }
+probe_lintian() { has_program lintian; }
+
 # ---- What is needed: probe, what it is, the Debian packages that bring it ----
 
 dependencies() {
@@ -188,6 +193,14 @@ venv|Python with venv and pip|python3 python3-venv
 END
 }
 
+deb_dependencies() {
+    cat <<'END'
+buildpackage|dpkg-buildpackage|dpkg-dev
+debhelper|debhelper|debhelper
+lintian|lintian|lintian
+END
+}
+
 # Sets missing (lines "  what (packages)") and packages (words).
 find_missing() {
     missing=
@@ -222,7 +235,8 @@ case ${1:-} in
 --lint) needed=lint_dependencies ;;
 --fuzz) needed=fuzz_dependencies ;;
 --python) needed=python_dependencies ;;
-*) stop "unknown argument '$1'; usage: tools/deps.sh [--check | --lint | --fuzz | --python]" ;;
+--deb) needed=deb_dependencies ;;
+*) stop "unknown argument '$1'; usage: deps.sh [--check | --lint | --fuzz | --python | --deb]" ;;
 esac
 
 find_missing

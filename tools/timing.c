@@ -232,7 +232,9 @@ int timing_write(const command_line *arguments)
     rt_error error;
     if (!trace->given || !arguments->profile)
         return STATUS_DONE;
-    return rt_profile_write(arguments->profile, trace->text, &error) == RT_OK
-               ? STATUS_DONE
-               : message_failure(&error);
+    if (rt_profile_write(arguments->profile, trace->text, &error) != RT_OK)
+        return message_failure(&error);
+    if (!arguments->options[OPTION_QUIET].given)
+        message_note("wrote %s: ui.perfetto.dev opens it", trace->text);
+    return STATUS_DONE;
 }

@@ -85,9 +85,12 @@ rt_status rt_profile_write(const rt_profile *profile, const char *path, rt_error
     rt_status status = put(&bytes, "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n", error);
     if (status == RT_OK)
         status = put_names(&bytes, profile, error);
-    /* Metadata end with commas, events begin with them: this one stands between. */
+    /* The host above the devices. Metadata end with commas, events begin with them. */
     if (status == RT_OK)
-        status = put(&bytes, "{\"name\":\"unit\",\"ph\":\"M\",\"pid\":1,\"args\":{}}\n", error);
+        status = put(&bytes,
+                     "{\"name\":\"process_sort_index\",\"ph\":\"M\",\"pid\":1,\"tid\":0,"
+                     "\"args\":{\"sort_index\":-1}}\n",
+                     error);
     for (size_t i = 0; i < profile->events.count && status == RT_OK; i++)
         status = put_event(&bytes, profile, profile->events.items + i, error);
     if (status == RT_OK)

@@ -21,6 +21,7 @@ static const struct {
     [COMMAND_RENDER] = {1, {NULL, "rts"}},    [COMMAND_CHECK] = {1, {NULL, "rts"}},
     [COMMAND_MESH] = {1, {mesh_kinds, NULL}}, [COMMAND_DEVICES] = {1, {NULL, NULL}},
     [COMMAND_DOCTOR] = {1, {NULL, NULL}},     [COMMAND_KERNELS] = {1, {NULL, NULL}},
+    [COMMAND_PATHS] = {1, {NULL, "rts"}},
     [COMMAND_FMT] = {1, {NULL, "rts"}},       [COMMAND_STUDY] = {1, {NULL, "rts"}},
     [COMMAND_PHOTONS] = {1, {NULL, "rts"}},   [COMMAND_COMPARE] = {1, {NULL, IMAGES_READ}},
     [COMMAND_MERGE] = {1, {NULL, "rtpart"}},  [COMMAND_INFO] = {1, {NULL, "rtpart rtp"}},

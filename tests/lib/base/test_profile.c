@@ -117,6 +117,22 @@ static char *read_text(const char *path)
     return text;
 }
 
+/* Every piece of metadata has a name that viewers know, and all that they expect of an event. */
+static void expect_known_metadata(const char *text)
+{
+    static const char *const names[] = {"process_name", "thread_name", "process_sort_index"};
+    for (const char *at = text; (at = strstr(at, "{\"name\":\"")) != NULL; at++) {
+        if (at[-1] != '\n')
+            continue; /* an argument */
+        const char *end = strchr(at, '\n'), *name = at + strlen("{\"name\":\"");
+        int is_known = 0;
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+            is_known |= strncmp(name, names[i], strlen(names[i])) == 0;
+        assert_true(is_known);
+        assert_true(strstr(at, "\"pid\":") < end && strstr(at, "\"tid\":") < end);
+    }
+}
+
 static void a_trace_has_stages_and_commands_by_themselves(void **state)
 {
     rt_profile *p = new_profile(1), *sums = new_profile(0);
@@ -133,6 +149,7 @@ static void a_trace_has_stages_and_commands_by_themselves(void **state)
     assert_non_null(strstr(text, "\"name\":\"work\",\"cat\":\"stage\",\"ph\":\"X\""));
     assert_non_null(strstr(text, "\"dur\":2000000.000,\"pid\":2"));
     assert_non_null(strstr(text, "\"args\":{\"work-items\":100}"));
+    expect_known_metadata(text);
     free(text);
     remove("profile.json");
     rt_profile_destroy(p);
