@@ -132,5 +132,5 @@ check purging_takes_away_what_installing_adds same_after use \
 # ---- The same by make ---------------------------------------------------------------------
 
 check make_uninstall_takes_away_what_make_install_adds same_after build \
-    'cd tree; make -s install; cd /; rtc --version; cd /root/tree; make -s uninstall'
+    'cd tree; make -s install; /usr/local/bin/rtc --version; make -s uninstall'
 exit $bad

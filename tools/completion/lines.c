@@ -13,18 +13,20 @@
 static const rt_word mesh_kinds[] = {
     {"sphere", 0, ""}, {"torus", 0, ""}, {"knot", 0, ""}, {"terrain", 0, ""}, RT_WORD_END};
 
+static const rt_word previews[] = {{"page", 0, ""}, {"open", 0, ""}, {"tev", 0, ""}, RT_WORD_END};
+
 /* What the operands of a command are, where not any file. */
 static const struct {
     int is_known;
     line_value value;
 } operands[COMMAND_COUNT] = {
-    [COMMAND_RENDER] = {1, {NULL, "rts"}},    [COMMAND_CHECK] = {1, {NULL, "rts"}},
-    [COMMAND_MESH] = {1, {mesh_kinds, NULL}}, [COMMAND_DEVICES] = {1, {NULL, NULL}},
-    [COMMAND_DOCTOR] = {1, {NULL, NULL}},     [COMMAND_KERNELS] = {1, {NULL, NULL}},
-    [COMMAND_PATHS] = {1, {NULL, "rts"}},
-    [COMMAND_FMT] = {1, {NULL, "rts"}},       [COMMAND_STUDY] = {1, {NULL, "rts"}},
-    [COMMAND_PHOTONS] = {1, {NULL, "rts"}},   [COMMAND_COMPARE] = {1, {NULL, IMAGES_READ}},
-    [COMMAND_MERGE] = {1, {NULL, "rtpart"}},  [COMMAND_INFO] = {1, {NULL, "rtpart rtp"}},
+    [COMMAND_RENDER] = {1, {NULL, "rts"}},        [COMMAND_CHECK] = {1, {NULL, "rts"}},
+    [COMMAND_MESH] = {1, {mesh_kinds, NULL}},     [COMMAND_DEVICES] = {1, {NULL, NULL}},
+    [COMMAND_DOCTOR] = {1, {NULL, NULL}},         [COMMAND_KERNELS] = {1, {NULL, NULL}},
+    [COMMAND_PATHS] = {1, {NULL, "rts"}},         [COMMAND_FMT] = {1, {NULL, "rts"}},
+    [COMMAND_STUDY] = {1, {NULL, "rts"}},         [COMMAND_PHOTONS] = {1, {NULL, "rts"}},
+    [COMMAND_COMPARE] = {1, {NULL, IMAGES_READ}}, [COMMAND_MERGE] = {1, {NULL, "rtpart"}},
+    [COMMAND_INFO] = {1, {NULL, "rtpart rtp"}},
 };
 
 /* The files that an option takes in a command, where not any will do. */
@@ -37,6 +39,7 @@ static const struct {
     {OPTION_OUT, 1u << COMMAND_COMPARE, IMAGES},
     {OPTION_OUT, 1u << COMMAND_PHOTONS, "rtp"},
     {OPTION_OUT, 1u << COMMAND_STUDY, "html"},
+    {OPTION_OUT, 1u << COMMAND_PATHS, "json ply html"},
     {OPTION_MESH_OUT, 1u << COMMAND_MESH, "ply"},
     {OPTION_PHOTON_MAP, ~0u, "rtp"},
     {OPTION_CHECKPOINT, 1u << COMMAND_RENDER, "rtpart"},
@@ -102,6 +105,8 @@ static line_value value_of(const option *option, const line_command *of)
     const line_value words = {option->words, NULL}, any = {NULL, ""}, points = {NULL, "ply"};
     if (option == &option_table[OPTION_OUT] && of->form && strcmp(of->form->word, "export") == 0)
         return points;
+    if (option == &option_table[OPTION_PREVIEW])
+        return (line_value){previews, NULL};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (option == &option_table[files[i].option] && files[i].commands & (1u << of->command))
             return (line_value){NULL, files[i].files};
