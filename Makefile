@@ -307,6 +307,7 @@ FUZZ_SRC := \
 	tests/fuzz/target_map.c \
 	tests/fuzz/target_obj.c tests/fuzz/target_off.c tests/fuzz/target_pfm.c \
 	tests/fuzz/target_ply.c tests/fuzz/target_png.c tests/fuzz/target_ppm.c \
+	tests/fuzz/target_request.c \
 	tests/fuzz/target_scene.c tests/fuzz/target_stl.c tests/fuzz/target_studies.c \
 	tests/fuzz/targets.c \
 	tests/lib/image/exr_sample.c

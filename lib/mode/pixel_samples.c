@@ -92,13 +92,14 @@ static rt_status look(const rt_render_job *job, const rt_pixel_samples *state, r
 {
     const int test = rt_work_test_is_due(work), show = rt_work_preview_is_due(work),
               save = rt_work_save_is_due(work);
+    const double began = rt_clock();
     rt_status status = RT_OK;
     if (test || show || save)
         status = read_sums(job, state, error);
     if (status == RT_OK && test)
         rt_work_test(work);
     if (status == RT_OK && show)
-        rt_work_preview(work);
+        rt_work_preview(work, began);
     if (status == RT_OK && save && rt_work_save(work))
         status = write_sums(job, state, error);
     progress->error = rt_noise_last(&work->noise);

@@ -167,9 +167,8 @@ int rt_work_preview_is_due(const rt_work *work)
            rt_clock() - work->shown >= rt_checkpoint_interval(o->preview_seconds, work->showing);
 }
 
-void rt_work_preview(rt_work *work)
+void rt_work_preview(rt_work *work, double began)
 {
-    const double began = rt_clock();
     rt_profile_begin(work->profile, "preview");
     work->options->preview(work->options->preview_user, work->film);
     rt_profile_end(work->profile);

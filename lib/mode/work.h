@@ -67,9 +67,12 @@ void rt_work_test(rt_work *work);
 int rt_work_save_is_due(const rt_work *work);
 int rt_work_save(rt_work *work);
 
-/* The same for a preview, which leaves the film as it is. */
+/*
+ * The same for a preview, which leaves the film as it is. began: rt_clock() before the film was
+ * read from the device for it.
+ */
 int rt_work_preview_is_due(const rt_work *work);
-void rt_work_preview(rt_work *work);
+void rt_work_preview(rt_work *work, double began);
 
 /* Books the time since this work began on these seconds of the film's stats, from now on. */
 void rt_work_time(rt_work *work, double *seconds);

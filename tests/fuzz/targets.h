@@ -17,6 +17,7 @@
     X(map)                                                                                         \
     X(film)                                                                                        \
     X(studies)                                                                                     \
+    X(request)                                                                                     \
     X(command)
 
 #define FUZZ_DECLARE(name) extern const fuzz_target fuzz_target_##name;

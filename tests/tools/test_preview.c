@@ -41,9 +41,9 @@ static void targets_are_a_page_or_tev(void **state)
         {"tev:[::1]", {1, 0, 14158, "::1"}},
     };
     static const char *const bad[] = {
-        "",         "pages",    "page:",     "page:0",  "page:65536", "page:-1",
-        "page: 80", "page:80x", "open:a",    "tev:",    "tev:a:",     "tev:a:b",
-        "tev:[::1", "tev:[]:1", "scene.rts", "tev:a:0", "tevs",       "page:000080"};
+        "",          "pages",   "page:", "page:0",    "page:65536", "page:-1",    "page: 80",
+        "page:80x",  "open:a",  "tev:",  "tev:a:",    "tev:a:b",    "tev:[::1",   "tev:[]:1",
+        "scene.rts", "tev:a:0", "tev:0", "tev:99999", "tevs",       "page:000080"};
     preview_target target;
     (void)state;
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {

@@ -16,8 +16,10 @@ static int read_port(unsigned *out, const char *text)
         return 0;
     for (const char *c = text; *c; c++)
         port = 10 * port + (unsigned)(*c - '0');
+    if (port == 0 || port > 65535)
+        return 0;
     *out = port;
-    return port > 0 && port < 65536;
+    return 1;
 }
 
 /* A host of `length` characters. */
@@ -36,8 +38,8 @@ static int read_place(preview_target *out, const char *text)
     const char *bracket = text[0] == '[' ? strchr(text, ']') : NULL;
     if (text[0] == '[' && !bracket)
         return 0;
-    if (read_port(&out->port, text))
-        return 1;
+    if (text[strspn(text, "0123456789")] == '\0')
+        return read_port(&out->port, text);
     const char *host = bracket ? text + 1 : text, *end = bracket ? bracket : strchr(text, ':');
     const size_t length = end ? (size_t)(end - host) : strlen(host);
     const char *rest = bracket ? bracket + 1 : end ? end : "";

@@ -135,11 +135,12 @@ static rt_status open_queries(void *data)
 static rt_status look(rt_photon_render *r, rt_error *error)
 {
     const int show = rt_work_preview_is_due(&r->work), save = rt_work_save_is_due(&r->work);
+    const double began = rt_clock();
     if (!show && !save)
         return RT_OK;
     rt_status status = rt_eye_paths_read(&r->eye_paths, error);
     if (status == RT_OK && show)
-        rt_work_preview(&r->work);
+        rt_work_preview(&r->work, began);
     if (status == RT_OK && save && rt_work_save(&r->work))
         status = rt_eye_paths_write(&r->eye_paths, error);
     return status;
