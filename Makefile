@@ -267,7 +267,7 @@ TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache
 	tests/lib/photon/test_map_parts.c tests/lib/share/test_share.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_SHELL := \
-	tests/kernels/test_width1.sh \
+	tests/bench/test_arguments.sh tests/kernels/test_width1.sh \
 	tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
 	tests/proof/test_page.sh tests/test_includes.sh tests/test_style.sh \

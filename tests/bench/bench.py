@@ -19,7 +19,7 @@ import sys
 
 import rows
 import suite
-from tree import Tree, describe, intel_environment, make_inputs
+from tree import Failed, Tree, describe, intel_environment, make_inputs, names
 
 
 def spread(values):
@@ -57,6 +57,8 @@ def page_of(machine, figures, results, failures):
     lines += suite.table(results)
     lines += ["| what | ours | peer | ratio | target | reached |", "|---|---|---|---|---|---|"]
     for row in rows.ROWS:
+        if not figures.get(row.ours):
+            continue
         ratio = ratio_of(row, figures)
         peer = (f"at most {row.limit:g} {row.unit}" if row.limit
                 else f"{row.peer_name} {show(figures.get(row.peer))}")
@@ -100,6 +102,8 @@ def compare(base, head, wanted, runs):
     print("| what | base | head | times as good | moved |\n|---|---|---|---|---|")
     for row in rows.ROWS:
         before, after = (into.get(row.ours, []) for into in found)
+        if not before and not after:
+            continue
         if not before or not after:
             print(f"| {row.what} | {show(before, row.unit)} | {show(after, row.unit)} | - | |")
             continue
@@ -123,6 +127,10 @@ def main():
     parser.add_argument("--keep", action="store_true")
     parser.add_argument("--base", help="a tree of another commit, built")
     arguments = parser.parse_args()
+    if arguments.runs < 1:
+        sys.exit(f"RUNS: {arguments.runs} runs measure nothing; give 1 or more")
+    wanted = names(arguments.only, [m.name for m in rows.MEASUREMENTS], "ONLY")
+    scenes = names(arguments.suite, suite.SCENES, "SUITE")
     top = os.getcwd()
     build = os.path.join(top, arguments.build)
     folder = os.path.join(build, "bench")
@@ -130,7 +138,6 @@ def main():
         os.environ.update(intel_environment(folder))
     tree = Tree(top, build, arguments.device)
     make_inputs(tree)
-    wanted = arguments.only.split(",") if arguments.only else None
     if arguments.base:
         base = Tree(os.path.abspath(arguments.base),
                     os.path.join(os.path.abspath(arguments.base), "build"), arguments.device)
@@ -145,7 +152,7 @@ def main():
             kept = json.load(file)
     machine, figures, results = describe(tree), kept["figures"], kept["suite"]
     failures = collect(tree, wanted, arguments.runs, figures)
-    failures |= suite.collect(tree, arguments.suite, arguments.runs, results)
+    failures |= suite.collect(tree, scenes, arguments.runs, results)
     with open(path, "w", encoding="utf-8") as file:
         json.dump({"machine": machine, "figures": figures, "suite": results}, file, indent=1)
     page = page_of(machine, figures, results, failures)
@@ -155,4 +162,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except Failed as error:
+        sys.exit(str(error))

@@ -12,8 +12,9 @@ import argparse
 import json
 import math
 import os
+import sys
 
-from tree import Tree
+from tree import Failed, Tree, names
 
 BOX = "tests/bench/cornell32.rts"
 
@@ -148,12 +149,13 @@ def main():
     parser.add_argument("--device")
     parser.add_argument("--only", help="names of studies")
     arguments = parser.parse_args()
+    wanted = names(arguments.only, list(STUDIES), "ONLY")
     top = os.getcwd()
     tree = Tree(top, os.path.join(top, arguments.build), arguments.device)
     folder = os.path.join(tree.build, "bench")
     os.makedirs(folder, exist_ok=True)
     results = {}
-    for name in arguments.only.split(",") if arguments.only else STUDIES:
+    for name in STUDIES if wanted is None else wanted:
         counts, study = STUDIES[name]
         study(tree, counts[0])  # compiles
         results[name] = [{"count": count, **study(tree, count)} for count in counts]
@@ -176,4 +178,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except Failed as error:
+        sys.exit(str(error))

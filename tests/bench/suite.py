@@ -89,8 +89,7 @@ def collect(tree, wanted, runs, results):
     """Adds the times of the scenes to `results`, and returns what failed."""
     failures = set()
     peer = has_mitsuba()
-    names = SCENES if wanted is None else [] if wanted == "none" else wanted.split(",")
-    for name in names:
+    for name in SCENES if wanted is None else wanted:
         reference = os.path.join(tree.top, "tests/bench/reference", name + ".exr")
         found = {}
         try:

@@ -26,8 +26,20 @@ def run(command, env=None, cwd=None):
         out.seek(0)
         errors.seek(0)
         if process.returncode != 0:
-            raise Failed(f"{command[0]}: {errors.read().strip()[-300:]}")
+            said = errors.read().strip() or out.read().strip()
+            raise Failed(f"{command[0]}: {said[-300:]}")
         return out.read(), seconds, usage.ru_maxrss / 1000
+
+
+def names(text, known, option):
+    """The names of a list on the command line; None for all, and "none" for none of them."""
+    if text is None:
+        return None
+    wanted = [] if text == "none" else text.split(",")
+    unknown = [name for name in wanted if name not in known]
+    if unknown:
+        sys.exit(f"{option}: there is no {unknown[0]!r}; there are {', '.join(known)}")
+    return wanted
 
 
 def figures(text):
