@@ -1,4 +1,6 @@
 /* test_live.c - rtc with --preview and --watch, as other programs of the machine meet it. */
+#define _XOPEN_SOURCE 700 /* symlink */
+
 #include "support.h"
 
 #include <signal.h>
@@ -203,6 +205,38 @@ static void a_change_of_any_file_renders_again(void **state)
     assert_int_equal(interrupt(&l), 0);
 }
 
+static void meshes_and_textures_are_watched_too(void **state)
+{
+    live l = {0};
+    (void)state;
+    scratch_write("t.ppm", "P3\n1 1\n255\n255 0 0\n");
+    scratch_write("m.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    scratch_write("w.rts", "camera { eye 0 1 -5  look_at 0 1 0 }\nfilm { width 24  height 16 }\n"
+                           "texture t { file \"t.ppm\" }\nmaterial m { kd_texture t }\n"
+                           "model { file \"m.obj\"  material m }\n"
+                           "light point { position 2 4 -3  intensity 20 }\n");
+    l.running = start_rtc("w.rts --watch --spp 4 --out w.pfm");
+    wait_for_rest(&l);
+    assert_int_equal(rename("w.pfm", "first.pfm"), 0);
+    replace("t.ppm", "P3\n1 1\n255\n0 255 0\n");
+    wait_for_rest(&l);
+    expect_different_files("w.pfm", "first.pfm");
+    assert_int_equal(rename("w.pfm", "second.pfm"), 0);
+    replace("m.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    wait_for_rest(&l);
+    expect_different_files("w.pfm", "second.pfm");
+    /* A link, of which the file behind changes. */
+    scratch_write("parts/real.ppm", "P3\n1 1\n255\n0 255 0\n");
+    assert_int_equal(symlink("parts/real.ppm", "link"), 0);
+    assert_int_equal(rename("link", "t.ppm"), 0);
+    wait_for_rest(&l);
+    assert_int_equal(rename("w.pfm", "third.pfm"), 0);
+    replace("parts/real.ppm", "P3\n1 1\n255\n0 0 255\n");
+    wait_for_rest(&l);
+    expect_different_files("w.pfm", "third.pfm");
+    assert_int_equal(interrupt(&l), 0);
+}
+
 static void an_error_waits_to_be_mended(void **state)
 {
     live l = {0};
@@ -276,6 +310,7 @@ int main(void)
         cmocka_unit_test(nobody_has_to_look),
         cmocka_unit_test(what_cannot_be_previewed_is_refused),
         cmocka_unit_test(a_change_of_any_file_renders_again),
+        cmocka_unit_test(meshes_and_textures_are_watched_too),
         cmocka_unit_test(an_error_waits_to_be_mended),
         cmocka_unit_test(a_change_ends_the_render_under_way),
         cmocka_unit_test(what_cannot_be_watched_is_refused),
