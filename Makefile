@@ -338,7 +338,7 @@ SONAME   := librt-render.so.$(SOVERSION)
 	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
 	deps-lint deps-python format \
 	completions fuzz gallery help install lint lint-quick mpi need-deps proof run-all run-quick \
-	run-threads \
+	pictures run-threads \
 	study study-cluster uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -782,6 +782,27 @@ need-deps:
 	@pkg-config --exists $(PKGS) libmicrohttpd 2>/dev/null || \
 	    { echo "librt: missing dependencies; run 'make deps'" >&2; exit 1; }
 
+# The pictures of README.md and the tutorial: each is made anew when its scene changed.
+PICTURES := $(addprefix scenes/pictures/, still_life.png interior.png ring.png night.png \
+    cornell.png ring-paths.png) \
+    $(patsubst %.rts,%.png,$(sort $(wildcard scenes/tutorial/*.rts)))
+SMALL    := --width 480 --height 270 --tonemap aces --quiet
+
+pictures: $(PICTURES)
+
+scenes/pictures/%.png: scenes/%.rts | $(B)/rtc
+	$(B)/rtc $< $(SMALL) --out $@
+scenes/pictures/still_life.png: scenes/still_life.rts | $(B)/rtc
+	$(B)/rtc $< $(SMALL) --width 800 --height 450 --out $@
+scenes/pictures/cornell.png: scenes/cornell.rts | $(B)/rtc
+	$(B)/rtc $< --mode photon --passes 60 --photons 262144 --width 270 --height 270 --quiet --out $@
+# For as long as the photons take.
+scenes/pictures/ring-paths.png: scenes/ring.rts | $(B)/rtc
+	$(B)/rtc $< $(SMALL) --mode path --spp 100 --out $@
+
+scenes/tutorial/%.png: scenes/tutorial/%.rts | $(B)/rtc
+	$(B)/rtc $< $(SMALL) --width 320 --height 180 --out $@
+
 demo: deps
 	+$(MAKE) --no-print-directory all
 	$(B)/rtc scenes/cornell.rts --mode photon --passes 40 --photons 262144 \
@@ -855,6 +876,7 @@ check-deb: deb
 
 help:
 	@echo 'make                 builds $(B)/rtc, $(B)/librt.a and $(B)/$(SONAME)'
+	@echo 'make pictures        renders the pictures of README.md and the tutorial'
 	@echo 'make demo            installs what is missing, builds, renders scenes/cornell.rts'
 	@echo 'make check           installs what is missing, builds, runs the tests'
 	@echo 'make check-quick     only the tests that take seconds'
