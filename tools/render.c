@@ -1,56 +1,28 @@
 /* render.c - `rtc SCENE`: a scene becomes image files. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "checkpoint.h"
 #include "command_line.h"
 #include "commands.h"
-#include "crew.h"
 #include "denoise.h"
 #include "film_note.h"
-#include "inputs.h"
 #include "interrupt.h"
 #include "light_shares.h"
 #include "message.h"
 #include "no_effect.h"
 #include "other_work.h"
-#include "outputs.h"
 #include "part.h"
 #include "photons.h"
 #include "preview/preview.h"
 #include "recorded.h"
-#include "rt.h"
+#include "render_say.h"
 #include "status.h"
 #include "scene_file.h"
-#include "session.h"
 #include "stats.h"
 #include "timing.h"
 #include "untrusted.h"
 #include "watch.h"
-
-/* Everything that one render holds. */
-typedef struct render_job {
-    session session;
-    const char *scene_path;
-    output_list outputs;
-    input_list inputs;
-    checkpoint checkpoint;
-    uint32_t part, parts; /* of the work; 0: all */
-    char *note;
-    rt_render_options own;     /* of the scene, and of the photon map */
-    rt_render_options options; /* and of the command line */
-    rt_photon_map *photon_map;
-    float *shares; /* of the photon paths, one a light */
-    size_t share_count;
-    char *command; /* as images record it */
-    rt_scene *scene;
-    crew crew;
-    double seconds; /* from its first photon or sample on */
-    rt_film *film;
-    int is_again; /* another render went before, with --watch */
-} render_job;
 
 /* Whether another process leads the render, and writes what comes of it. */
 static int is_worker(const render_job *job)
@@ -195,84 +167,12 @@ static int make_film(render_job *job)
     return result == RT_OK ? STATUS_DONE : session_fail(&error);
 }
 
-/* "a", "a and b", "a, b and c". */
-static void join_outputs(char *out, size_t size, const output_list *outputs)
-{
-    out[0] = '\0';
-    for (size_t i = 0; i < outputs->count; i++) {
-        size_t used = strlen(out);
-        const char *before = i == 0 ? "" : i + 1 == outputs->count ? " and " : ", ";
-        snprintf(out + used, size - used, "%s%s", before, outputs->paths[i]);
-    }
-}
-
-static void say_what_was_written(const render_job *job, int interrupted)
-{
-    char names[1024], seconds[32], part[64] = "";
-    uint32_t width, height;
-    rt_film_stats stats;
-    rt_film_info info;
-    rt_film_get_stats(job->film, &stats);
-    rt_film_get_info(job->film, &info);
-    rt_film_get_size(job->film, &width, &height);
-    join_outputs(names, sizeof names, &job->outputs);
-    if (job->parts > 1)
-        snprintf(part, sizeof part, "part %u of %u, ", (unsigned)job->part, (unsigned)job->parts);
-    /* A film adds up the time of all devices, which pass theirs side by side. */
-    const int is_shared = job->crew.count > 1 || job->session.arguments->team;
-    progress_format_time(seconds, sizeof seconds, is_shared ? job->seconds : info.seconds);
-    message_note("%swrote %s: %s%u x %u, %u sample%s a pixel, rendered in %s",
-                 interrupted ? "interrupted; " : "", names, part, (unsigned)width, (unsigned)height,
-                 (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
-}
-
-/* The relative error, and what it is below, if that is known. */
-static void say_error(const rt_film_stats *stats, rt_mode mode)
-{
-    int is_photon = mode == RT_MODE_PHOTON;
-    char bound[64];
-    if (isfinite(stats->relative_error_bound))
-        snprintf(bound, sizeof bound, "below %.3g %% with 95 %% confidence",
-                 100.0 * stats->relative_error_bound);
-    else
-        snprintf(bound, sizeof bound, "without a bound, which takes 8 %s",
-                 is_photon ? "passes" : "samples a pixel");
-    message_note("relative error %.3g %%, %s (root mean square over mean radiance%s)",
-                 100.0 * stats->relative_error, bound,
-                 is_photon ? "; of the noise alone, not of the bias of gathering" : "");
-}
-
-/* What is known of the picture's error, and whether it is what was asked for. */
-static void say_how_good_it_is(const render_job *job)
-{
-    double target = job->options.target_error;
-    rt_film_stats stats;
-    rt_film_get_stats(job->film, &stats);
-    if (stats.rejected > 0)
-        message_warning("samples left out because they were not finite: %llu",
-                        (unsigned long long)stats.rejected);
-    if (stats.replicates > 0)
-        say_error(&stats, job->options.mode);
-    if (target > 0.0 && !(stats.replicates > 0 && stats.relative_error_bound <= target))
-        message_warning("the target error of %.3g %% was not reached", 100.0 * target);
-}
-
-/* And what would have helped: a single map is gathered only once it is whole. */
-static void say_that_nothing_was_written(const rt_render_options *options)
-{
-    message_note("interrupted before the first sample; nothing was written");
-    if (options->mode == RT_MODE_PHOTON && options->passes < 2 && !options->photon_map &&
-        !options->resume)
-        message_hint("with --passes N each pass emits photons and adds to the picture, so that an "
-                     "interrupt loses one pass; `rtc photons emit` keeps photons in a file");
-}
-
 /* Writes the film; an interrupted one is written too, as far as it came. */
 static int write_images(const render_job *job, int status)
 {
     if (!job->film) {
         if (!job->session.quiet)
-            say_that_nothing_was_written(&job->options);
+            render_say_nothing(&job->options);
         return STATUS_INTERRUPTED;
     }
     rt_image_options options = {0};
@@ -298,9 +198,9 @@ static int write_images(const render_job *job, int status)
     if (written != STATUS_DONE)
         return written;
     if (!job->session.quiet)
-        say_what_was_written(job, status == STATUS_INTERRUPTED);
+        render_say_written(job, status == STATUS_INTERRUPTED);
     if (!job->session.quiet)
-        say_how_good_it_is(job);
+        render_say_error(job);
     if (value(job, OPTION_STATS)->given && value(job, OPTION_JSON)->given)
         stats_print_json(job->scene, job->crew.devices[0], &job->options, job->film, &job->crew,
                          job->session.arguments);
@@ -342,24 +242,6 @@ static int record_command(render_job *job)
         return STATUS_DONE;
     message_error("out of memory");
     return STATUS_DEVICE;
-}
-
-/* What of the picture is not there, and how to go on. */
-static void say_what_is_left(const render_job *job)
-{
-    rt_film_info info = {0};
-    const double part =
-        job->film && job->parts > 1 ? rt_film_part_done(job->film, job->part, job->parts) : 1;
-    if (job->film)
-        rt_film_get_info(job->film, &info);
-    if (part < 1)
-        message_note("%.3g %% of part %u of %u is done", 100 * part, (unsigned)job->part,
-                     (unsigned)job->parts);
-    else if (job->film && job->parts > 1 && info.units_done == 0)
-        message_warning("part %u of %u is empty: the picture has fewer pieces of work",
-                        (unsigned)job->part, (unsigned)job->parts);
-    if (job->checkpoint.saved > 0 && (!job->film || info.units_done < info.units))
-        message_note("`rtc --resume %s` goes on", job->checkpoint.path);
 }
 
 /* Reads --part; a film that is kept whole is part 1 of 1. */
@@ -481,7 +363,7 @@ static int run(render_job *job)
     if (job->checkpoint.failed && (status == STATUS_DONE || status == STATUS_INTERRUPTED))
         status = STATUS_OUTPUT;
     else if (!job->session.quiet && !is_worker(job))
-        say_what_is_left(job);
+        render_say_left(job);
     return status;
 }
 

@@ -1,0 +1,96 @@
+/* render_say.c - tells a person what became of a render. */
+#include "render_say.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "message.h"
+
+/* "a", "a and b", "a, b and c". */
+static void join_outputs(char *out, size_t size, const output_list *outputs)
+{
+    out[0] = '\0';
+    for (size_t i = 0; i < outputs->count; i++) {
+        size_t used = strlen(out);
+        const char *before = i == 0 ? "" : i + 1 == outputs->count ? " and " : ", ";
+        snprintf(out + used, size - used, "%s%s", before, outputs->paths[i]);
+    }
+}
+
+void render_say_written(const render_job *job, int interrupted)
+{
+    char names[1024], seconds[32], part[64] = "";
+    uint32_t width, height;
+    rt_film_stats stats;
+    rt_film_info info;
+    rt_film_get_stats(job->film, &stats);
+    rt_film_get_info(job->film, &info);
+    rt_film_get_size(job->film, &width, &height);
+    join_outputs(names, sizeof names, &job->outputs);
+    if (job->parts > 1)
+        snprintf(part, sizeof part, "part %u of %u, ", (unsigned)job->part, (unsigned)job->parts);
+    /* A film adds up the time of all devices, which pass theirs side by side. */
+    const int is_shared = job->crew.count > 1 || job->session.arguments->team;
+    progress_format_time(seconds, sizeof seconds, is_shared ? job->seconds : info.seconds);
+    message_note("%swrote %s: %s%u x %u, %u sample%s a pixel, rendered in %s",
+                 interrupted ? "interrupted; " : "", names, part, (unsigned)width, (unsigned)height,
+                 (unsigned)stats.spp, stats.spp == 1 ? "" : "s", seconds);
+}
+
+/* The relative error, and what it is below, if that is known. */
+static void say_error(const rt_film_stats *stats, rt_mode mode)
+{
+    int is_photon = mode == RT_MODE_PHOTON;
+    char bound[64];
+    if (isfinite(stats->relative_error_bound))
+        snprintf(bound, sizeof bound, "below %.3g %% with 95 %% confidence",
+                 100.0 * stats->relative_error_bound);
+    else
+        snprintf(bound, sizeof bound, "without a bound, which takes 8 %s",
+                 is_photon ? "passes" : "samples a pixel");
+    message_note("relative error %.3g %%, %s (root mean square over mean radiance%s)",
+                 100.0 * stats->relative_error, bound,
+                 is_photon ? "; of the noise alone, not of the bias of gathering" : "");
+}
+
+void render_say_error(const render_job *job)
+{
+    double target = job->options.target_error;
+    rt_film_stats stats;
+    rt_film_get_stats(job->film, &stats);
+    if (stats.rejected > 0)
+        message_warning("samples left out because they were not finite: %llu",
+                        (unsigned long long)stats.rejected);
+    if (stats.replicates > 0)
+        say_error(&stats, job->options.mode);
+    if (target > 0.0 && !(stats.replicates > 0 && stats.relative_error_bound <= target))
+        message_warning("the target error of %.3g %% was not reached", 100.0 * target);
+}
+
+/* A single map is gathered only once it is whole. */
+void render_say_nothing(const rt_render_options *options)
+{
+    message_note("interrupted before the first sample; nothing was written");
+    if (options->mode == RT_MODE_PHOTON && options->passes < 2 && !options->photon_map &&
+        !options->resume)
+        message_hint("with --passes N each pass emits photons and adds to the picture, so that an "
+                     "interrupt loses one pass; `rtc photons emit` keeps photons in a file");
+}
+
+void render_say_left(const render_job *job)
+{
+    rt_film_info info = {0};
+    const double part =
+        job->film && job->parts > 1 ? rt_film_part_done(job->film, job->part, job->parts) : 1;
+    if (job->film)
+        rt_film_get_info(job->film, &info);
+    if (part < 1)
+        message_note("%.3g %% of part %u of %u is done", 100 * part, (unsigned)job->part,
+                     (unsigned)job->parts);
+    else if (job->film && job->parts > 1 && info.units_done == 0)
+        message_warning("part %u of %u is empty: the picture has fewer pieces of work",
+                        (unsigned)job->part, (unsigned)job->parts);
+    if (job->checkpoint.saved > 0 && (!job->film || info.units_done < info.units))
+        message_note("`rtc --resume %s` goes on", job->checkpoint.path);
+}
