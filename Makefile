@@ -301,6 +301,9 @@ TEST_SUPPORT_SRC := \
 # What the programs of fuzzing share.
 FUZZ_SRC := \
 	tests/fuzz/arguments.c tests/fuzz/findings.c tests/fuzz/fuzz.c tests/fuzz/image.c \
+	tests/fuzz/import.c tests/fuzz/target_fmt.c tests/fuzz/target_glb.c \
+	tests/fuzz/target_gltf.c tests/fuzz/target_mitsuba.c tests/fuzz/target_mtl.c \
+	tests/fuzz/target_pbrt.c \
 	tests/fuzz/json.c tests/fuzz/mesh.c tests/fuzz/in_process.c tests/fuzz/ply_file.c \
 	tests/fuzz/scene_text.c \
 	tests/fuzz/target_command.c tests/fuzz/target_exr.c tests/fuzz/target_film.c \

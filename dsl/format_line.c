@@ -130,6 +130,14 @@ static void add_part(rt_layout *out, const rt_layout *layout, const rt_line *lin
     rt_layout_text(out, (rt_text){text + from, to - from}, mark, 0);
 }
 
+/* Whether nothing but space stands between its '{' and the first of its fields. */
+static int begins_with_field(const rt_layout *layout, const rt_line *line)
+{
+    const rt_line_mark *marks = layout->marks + line->first_mark;
+    const char *text = layout->text + line->text;
+    return line->fields > 0 && text[marks[0].at + 1] == ' ' && marks[1].at <= marks[0].at + 2;
+}
+
 static void break_block(rt_layout *out, const rt_layout *layout, const rt_line *line)
 {
     const rt_line_mark *marks = layout->marks + line->first_mark;
@@ -269,7 +277,7 @@ char *rt_layout_finish(rt_layout *layout)
     rt_layout broken = {0}, out = {0};
     for (size_t i = 0; i < layout->line_count; i++) {
         const rt_line *line = &layout->lines[i];
-        if (width(line) > COLUMNS && is_block(layout, line))
+        if (width(line) > COLUMNS && is_block(layout, line) && begins_with_field(layout, line))
             break_block(&broken, layout, line);
         else
             copy_line(&broken, layout, line);

@@ -66,8 +66,7 @@ static int run_command(const command_line *line)
         [COMMAND_MESH] = command_mesh,       [COMMAND_PHOTONS] = command_photons,
         [COMMAND_COMPARE] = command_compare, [COMMAND_MERGE] = command_merge,
         [COMMAND_INFO] = command_info,       [COMMAND_KERNELS] = command_kernels,
-        [COMMAND_STUDY] = command_study,
-        [COMMAND_PATHS] = command_paths,
+        [COMMAND_STUDY] = command_study,     [COMMAND_PATHS] = command_paths,
     };
     message_as_json(0);
     if (is_given(line, OPTION_HELP)) {

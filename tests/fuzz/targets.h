@@ -16,6 +16,12 @@
     X(exr)                                                                                         \
     X(map)                                                                                         \
     X(film)                                                                                        \
+    X(fmt)                                                                                         \
+    X(gltf)                                                                                        \
+    X(glb)                                                                                         \
+    X(mitsuba)                                                                                     \
+    X(pbrt)                                                                                        \
+    X(mtl)                                                                                         \
     X(studies)                                                                                     \
     X(request)                                                                                     \
     X(command)

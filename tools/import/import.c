@@ -15,6 +15,14 @@ enum { NOTES_MAX = 200, NUMBER_LENGTH_MAX = 64 };
 
 /* ---- Failures and notes ------------------------------------------------------ */
 
+/* A text that a file gave may hold control characters, which end comments and lines. */
+static void make_printable(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < 0x20 || (unsigned char)*text >= 0x7f)
+            *text = '?';
+}
+
 int import_fail(importer *import, int line, const char *format, ...)
 {
     if (import->failed)
@@ -27,6 +35,7 @@ int import_fail(importer *import, int line, const char *format, ...)
     va_start(list, format);
     vsnprintf(import->error + used, sizeof import->error - (size_t)used, format, list);
     va_end(list);
+    make_printable(import->error);
     return 0;
 }
 
@@ -35,14 +44,6 @@ int import_fail_memory(importer *import)
     if (!import->failed)
         import->is_memory = 1;
     return import_fail(import, 0, "out of memory");
-}
-
-/* Control characters, of a text that a file gave, would leave the comment that a note becomes. */
-static void make_printable(char *text)
-{
-    for (; *text; text++)
-        if ((unsigned char)*text < 0x20 || (unsigned char)*text >= 0x7f)
-            *text = '?';
 }
 
 void import_note_at(importer *import, int line, const char *format, ...)

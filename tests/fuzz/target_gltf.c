@@ -1,0 +1,61 @@
+/* target_gltf.c - glTF 2.0 as JSON. */
+#include "fuzz/import.h"
+#include "fuzz/targets.h"
+
+static int run(const uint8_t *data, size_t size)
+{
+    return fuzz_import_run("a.gltf", data, size, import_gltf);
+}
+
+static void seed(fuzz_inputs *seeds)
+{
+    fuzz_add_text(
+        seeds,
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,2,3]}],\"nodes\":["
+        "{\"children\":[1],\"translation\":[0,1,0],\"rotation\":[0,0,0,1]},"
+        "{\"mesh\":0,\"scale\":[1,2,1]},{\"camera\":0},"
+        "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],\"meshes\":[{\"name\":\"m\","
+        "\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,"
+        "\"material\":0,\"mode\":4}]}],\"materials\":[{\"doubleSided\":true,"
+        "\"emissiveFactor\":[1,0,0],\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,"
+        "\"roughnessFactor\":0.5,\"baseColorFactor\":[1,0.5,0.2,1]},\"extensions\":{"
+        "\"KHR_materials_ior\":{\"ior\":1.4},\"KHR_materials_emissive_strength\":"
+        "{\"emissiveStrength\":3},\"KHR_materials_specular\":{\"specularFactor\":0.5}}}],"
+        "\"cameras\":[{\"perspective\":{\"yfov\":0.8,\"aspectRatio\":1.5}}],"
+        "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"spot\","
+        "\"intensity\":683,\"spot\":{\"outerConeAngle\":0.5}}]}},"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3},"
+        "{\"bufferView\":0,\"componentType\":5121,\"normalized\":true,\"type\":\"VEC2\","
+        "\"count\":3},{\"bufferView\":1,\"componentType\":5123,\"type\":\"SCALAR\",\"count\":3}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,"
+        "\"byteLength\":6}],\"buffers\":[{\"byteLength\":42,\"uri\":\"data:;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA\"}]}");
+    fuzz_add_text(
+        seeds,
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":["
+        "{\"mesh\":0,\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]},{\"camera\":0}],"
+        "\"cameras\":[{\"orthographic\":{\"xmag\":2,\"ymag\":1}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"COLOR_0\":0},"
+        "\"material\":0,\"mode\":5}]}],\"materials\":[{\"alphaMode\":\"BLEND\","
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":{"
+        "\"KHR_texture_transform\":{\"scale\":[2,2],\"offset\":[0.5,0]}}}},\"extensions\":{"
+        "\"KHR_materials_transmission\":{\"transmissionFactor\":1},\"KHR_materials_volume\":"
+        "{\"thicknessFactor\":1,\"attenuationDistance\":2,\"attenuationColor\":[1,0.5,0.5]}}}],"
+        "\"textures\":[{\"source\":0,\"sampler\":0}],\"images\":[{\"uri\":\"a.png\"}],"
+        "\"samplers\":[{\"wrapS\":33648}],\"accessors\":[{\"bufferView\":0,\"byteOffset\":0,"
+        "\"componentType\":5126,\"type\":\"VEC3\",\"count\":4}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48,\"byteStride\":12}],"
+        "\"buffers\":[{\"byteLength\":48,\"uri\":\"data:;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAACAPwAAgD8AAAAA\"}]}");
+}
+
+const fuzz_target fuzz_target_gltf = {
+    .name = "gltf",
+    .sources = "tools/import/gltf.c tools/import/gltf_json.c tools/import/gltf_material.c "
+               "tools/import/gltf_mesh.c",
+    .run = run,
+    .seed = seed,
+    .begin = fuzz_import_begin,
+    .size_max = 8192,
+    .tries = 3000,
+};

@@ -1,0 +1,52 @@
+/* target_mtl.c - the materials of OBJ files, and OBJ files that are imported with theirs. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "fuzz/import.h"
+#include "fuzz/targets.h"
+#include "tools/import/mtl.h"
+
+/* Materials, where the text has some; else an OBJ file. */
+static void read(importer *import, const char *text, size_t size)
+{
+    mtl_list list = {NULL, 0};
+    if (!strstr(text, "newmtl")) {
+        import_obj(import, text, size);
+        return;
+    }
+    char *copy = malloc(size + 1);
+    FUZZ_EXPECT(copy != NULL);
+    memcpy(copy, text, size + 1);
+    mtl_read(import, &list, copy);
+    for (size_t i = 0; i < list.count; i++)
+        FUZZ_EXPECT(import->failed || mtl_find(&list, list.entries[i].name) != IMPORT_NONE);
+    mtl_free(&list);
+    free(copy);
+}
+
+static int run(const uint8_t *data, size_t size)
+{
+    return fuzz_import_run("a.obj", data, size, read);
+}
+
+static void seed(fuzz_inputs *seeds)
+{
+    fuzz_add_text(seeds, "newmtl a\nKd 0.5 0.4 0.3\nKs 0.2\nNs 100\nd 0.5\nillum 2\n"
+                         "map_Kd -s 2 2 1 -o 0.5 -clamp on a.png\n"
+                         "newmtl b\nillum 7\nNi 1.5\nTf 1 1 1\n"
+                         "newmtl c\nPr 0.3\nPm 1\nKe 1 2 3\nmap_Ke a.png\nbump -bm 2 a.png\n"
+                         "Tr 0.25\nKd spectral a.rfl\n");
+    fuzz_add_text(seeds, "mtllib a.mtl\no cube\nv 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nvt 0 0\n"
+                         "vn 0 0 1\nusemtl m\nf 1/1/1 2/1/1 3/1/1\nusemtl n\nf -3//1 -2//1 -1//1\n"
+                         "s off\nf 1 2 3\nl 1 2\n");
+}
+
+const fuzz_target fuzz_target_mtl = {
+    .name = "mtl",
+    .sources = "tools/import/mtl.c tools/import/obj*.c",
+    .run = run,
+    .seed = seed,
+    .begin = fuzz_import_begin,
+    .size_max = 4096,
+    .tries = 3000,
+};

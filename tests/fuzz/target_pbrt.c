@@ -1,0 +1,50 @@
+/* target_pbrt.c - pbrt-v4 scenes. */
+#include "fuzz/import.h"
+#include "fuzz/targets.h"
+
+static int run(const uint8_t *data, size_t size)
+{
+    return fuzz_import_run("a.pbrt", data, size, import_pbrt);
+}
+
+static void seed(fuzz_inputs *seeds)
+{
+    fuzz_add_text(
+        seeds,
+        "Scale -1 1 1\nLookAt 0 1 5  0 1 0  0 1 0 # here\n"
+        "Camera \"perspective\" \"float fov\" 40 \"float lensradius\" [ 0.1 ]\n"
+        "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" [ 48 ]\n"
+        "PixelFilter \"box\"\nSampler \"sobol\"\nIntegrator \"volpath\" \"integer maxdepth\" 5\n"
+        "WorldBegin\nTexture \"t\" \"spectrum\" \"checkerboard\" \"float uscale\" 4\n"
+        "Texture \"i\" \"spectrum\" \"imagemap\" \"string filename\" \"a.png\"\n"
+        "Texture \"s\" \"spectrum\" \"scale\" \"texture tex\" \"t\" \"float scale\" 0.5\n"
+        "MakeNamedMaterial \"m\" \"string type\" \"conductor\" \"spectrum eta\" \"metal-Au-eta\"\n"
+        "AttributeBegin\nTranslate 0 1 0 Rotate 30 0 1 0\nNamedMaterial \"m\"\n"
+        "Shape \"sphere\" \"float radius\" 0.5\nAttributeEnd\n"
+        "Material \"diffuse\" \"texture reflectance\" \"s\"\n"
+        "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]\n"
+        "\"normal N\" [ 0 0 1 0 0 1 0 0 1 ] \"point2 uv\" [ 0 0 1 0 0 1 ]\n"
+        "LightSource \"infinite\" \"blackbody L\" 5000 \"float scale\" 2\n");
+    fuzz_add_text(
+        seeds,
+        "Transform [ 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 ]\nCamera \"orthographic\"\nWorldBegin\n"
+        "ObjectBegin \"o\"\nReverseOrientation\nShape \"disk\" \"float radius\" 2\n"
+        "Shape \"bilinearmesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 0 ]\nObjectEnd\n"
+        "ObjectInstance \"o\"\nConcatTransform [ 2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1 ]\n"
+        "ObjectInstance \"o\"\nCoordinateSystem \"c\"\nCoordSysTransform \"c\"\nIdentity\n"
+        "AreaLightSource \"diffuse\" \"rgb L\" [ 1 2 3 ] \"bool twosided\" true\n"
+        "Material \"coateddiffuse\" \"float roughness\" 0.1\nShape \"cylinder\"\n"
+        "Shape \"plymesh\" \"string filename\" \"a.ply\"\n"
+        "LightSource \"spot\" \"point3 from\" [ 0 1 0 ] \"float power\" 10\n"
+        "LightSource \"distant\" \"rgb L\" [ 1 1 1 ]\nMediumInterface \"a\" \"b\"\n");
+}
+
+const fuzz_target fuzz_target_pbrt = {
+    .name = "pbrt",
+    .sources = "tools/import/pbrt*.c",
+    .run = run,
+    .seed = seed,
+    .begin = fuzz_import_begin,
+    .size_max = 4096,
+    .tries = 3000,
+};
