@@ -111,8 +111,8 @@ LIB_SRC := \
 LIB_CXX_SRC := lib/mesh/openmesh_shim.cc lib/photon/flann_shim.cc
 
 # The public interface, beside lib/rt.h.
-PUBLIC_H := $(addprefix lib/rt/,base.h denoise.h device.h field.h film.h image.h paths.h photon.h profile.h \
-            render.h scene.h setting.h share.h)
+PUBLIC_H := $(addprefix lib/rt/,base.h denoise.h device.h field.h film.h image.h paths.h \
+            photon.h profile.h render.h scene.h setting.h share.h)
 
 DSL_SRC := \
 	dsl/blocks.c dsl/budget.c dsl/build.c dsl/check.c dsl/definition.c dsl/dump.c \
@@ -157,7 +157,8 @@ TOOL_SRC := \
 	tools/timing.c tools/untrusted.c tools/watch.c tools/whole_file.c
 
 KERNEL_SRC := \
-	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl kernels/path.cl \
+	kernels/first_hit.cl kernels/direct.cl kernels/guides.cl kernels/enclosing_media.cl \
+	kernels/path.cl \
 	kernels/photon_camera.cl \
 	kernels/path_sums.cl kernels/photon_emit.cl kernels/photon_film.cl \
 	kernels/photon_order.cl kernels/photon_pack.cl kernels/photon_tree.cl \

@@ -18,14 +18,12 @@ const char *denoiser_find(char path[DENOISER_PATH], const command_line *argument
 /* How to get the library, in a line. */
 extern const char denoiser_remedy[];
 
-/*
- * Whether --denoise can be done, before any time is spent on rendering. STATUS_DONE without it, too.
- */
+/* Whether --denoise can be done; told before any time is spent on rendering. */
 int denoise_check(const session *session, const rt_render_options *options);
 
 /*
- * Adds the layer to a film, with --denoise, and writes it beside each image that holds no layers, as
- * NAME.denoised.png. Returns an exit status.
+ * With --denoise: adds the layer to a film, and writes it beside each image that holds no layers,
+ * as NAME.denoised.png. Both return an exit status.
  */
 int denoise_film(const session *session, rt_film *film, rt_renderer *renderer);
 int denoise_write(const session *session, const rt_film *film, const output_list *outputs,

@@ -10,6 +10,7 @@ extern "C" {
 
 /* ---- Denoising ------------------------------------------------------------------------------- */
 
+/* Where the denoiser is, and who hears of it; all zero or NULL: the defaults. */
 typedef struct rt_denoise_options {
     /*
      * the file of Open Image Denoise's library, version 1.3 or later; NULL: libOpenImageDenoise.so

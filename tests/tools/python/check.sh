@@ -105,7 +105,7 @@ check makes_a_source_distribution_and_a_wheel distribute
 wheel_has_what_it_needs() {
     unzip -Z1 "$work"/dist/*.whl 2>/dev/null | grep -v dist-info | LC_ALL=C sort >"$work/wheel"
     printf 'librt_render/%s\n' __init__.py _api.py _film.py _image.py _interface.py _library.py \
-        _options.py _photon.py _render.py _scene.py py.typed | diff - "$work/wheel"
+        _options.py _paths.py _photon.py _render.py _scene.py py.typed | diff - "$work/wheel"
 }
 check wheel_has_the_package_alone wheel_has_what_it_needs
 source_has_what_it_needs() {

@@ -257,6 +257,30 @@ class Films(Case):
         self.assertEqual(len(brighter.blocks_array), brighter.blocks)
 
 
+class Paths(Case):
+    def test_paths_add_up_to_the_pixel(self):
+        found = self.renderer.paths(16, 12, spp=4)
+        self.assertEqual(len(found), 4)
+        weight = found.paths["weight"][:, None]
+        mean = (weight * found.paths["radiance"]).sum(axis=0) / weight.sum()
+        self.assertTrue(np.allclose(mean, self.film.rgb[12, 16], rtol=1e-4))
+        added = found.of(1)["emitted"].sum(axis=0) + found.of(1)["direct"].sum(axis=0)
+        self.assertTrue(np.allclose(added, found.paths["radiance"][1], rtol=1e-5))
+        self.assertEqual(found.event(found.of(1)["event"][0]), "camera")
+        self.assertFalse(found.vertices.flags.writeable)
+        with self.assertRaises(rt.UsageError) as caught:
+            self.renderer.paths(32, 0)
+        self.assertEqual(caught.exception.field, "pixel")
+
+
+class Denoising(Case):
+    def test_without_a_denoiser_there_is_no_layer(self):
+        film = self.renderer.render(spp=1)
+        with self.assertRaisesRegex(rt.DeviceError, "Open Image Denoise"):
+            self.renderer.denoise(film, "/nowhere/libOpenImageDenoise.so")
+        self.assertNotIn("denoised", film.layers)
+
+
 class Photons(Case):
     def test_photons_are_a_structured_array_of_the_map_s_memory(self):
         photons = self.renderer.emit(photons=2000, direct="photons").photons()

@@ -20,6 +20,7 @@ from ._library import (Cancelled, DeviceError, Error, InputError, OutOfMemoryErr
 from ._library import ffi as _ffi
 from ._library import lib as _lib
 from ._options import Options
+from ._paths import Paths
 from ._photon import PhotonMap
 from ._render import Device, Renderer, devices, render
 from ._scene import Memory, Scene
@@ -28,6 +29,6 @@ __version__ = _ffi.string(_lib.rt_version()).decode()
 
 __all__ = [
     "Cancelled", "Comparison", "Device", "DeviceError", "Error", "Film", "Image", "InputError",
-    "Memory", "Options", "OutOfMemoryError", "OutputError", "PhotonMap", "RenderWarning",
+    "Memory", "Options", "OutOfMemoryError", "OutputError", "Paths", "PhotonMap", "RenderWarning",
     "Renderer", "Scene", "UsageError", "compare", "devices", "render",
 ]

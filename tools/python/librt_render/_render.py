@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._film import Film
 from ._library import (Cancelled, Exclusive, Hooks, Progress, call, documented, dtype, ffi, floats,
-                       lib, make, own, record, word_value)
+                       lib, make, own, path_bytes, record, word_value)
 from ._options import Options, Value
+from ._paths import Paths
 from ._photon import PhotonMap
 from ._scene import Memory, Path, Scene, memory_pointer
 
@@ -148,6 +149,26 @@ class Renderer:
             pointer = make("rt_photon_map", lib.rt_photon_map_destroy, lib.rt_photon_map_emit,
                            self._c, emit)
         return PhotonMap(pointer)
+
+    @documented("rt_paths_trace")
+    def paths(self, x: int, y: int, first: int = 0, count: Optional[int] = None,
+              options: Optional[Options] = None, **settings: Value) -> Paths:
+        """Follows the camera paths of a pixel again: paths(320, 200, spp=16)."""
+        chosen = self._settings(options, settings)
+        wanted = int(chosen["spp"]) - first if count is None else count
+        with self.device._exclusive:
+            pointer = make("rt_paths", lib.rt_paths_destroy, lib.rt_paths_trace, self._c,
+                           chosen._c, x, y, first, wanted)
+        return Paths(pointer)
+
+    @documented("rt_film_denoise")
+    def denoise(self, film: Film, library: Optional[Path] = None) -> NDArray[np.float32]:
+        """Adds the layer "denoised" to a film of this scene, and returns it."""
+        name = ffi.NULL if library is None else ffi.new("char[]", path_bytes(library))
+        with self.device._exclusive, Hooks(None) as hooks:
+            options = ffi.new("rt_denoise_options *", {"library": name, "hooks": hooks.pointer})
+            call(lib.rt_film_denoise, film._c, self._c, options)
+        return film["denoised"]
 
     @documented("rt_trace", "rt_hit")
     def trace(self, origins: ArrayLike, directions: ArrayLike, t_min: ArrayLike = 0.0,
