@@ -82,12 +82,8 @@ int denoise_check(const session *session, const rt_render_options *options)
         message_error("--denoise does not go with --untrusted, which loads no other library");
         return STATUS_USAGE;
     }
-    if (rt_denoise_options_check(options, &error) != RT_OK) {
-        const int status = session_fail(&error);
-        if (options->mode == RT_MODE_PHOTON)
-            message_hint("--passes N makes photons of each pass anew, and can be denoised");
-        return status;
-    }
+    if (rt_denoise_options_check(options, &error) != RT_OK)
+        return session_fail(&error);
     library.library = denoiser_find(path, session->arguments);
     if (rt_denoiser_check(version, &library, &error) == RT_OK)
         return STATUS_DONE;

@@ -21,10 +21,6 @@ rt_status rt_denoise_options_check(const rt_render_options *options, rt_error *e
         options->mode != RT_MODE_PHOTON)
         return rt_fail_field(error, RT_ERROR_USAGE, "denoise", "mode %s shows no light",
                              rt_mode_name(options->mode));
-    if (options->mode == RT_MODE_PHOTON && options->passes <= 1)
-        return rt_fail_field(error, RT_ERROR_USAGE, "denoise",
-                             "pixels share the photons of one map, so that neighbours have errors "
-                             "in common, which a denoiser takes for detail; render in passes");
     return RT_OK;
 }
 
@@ -166,6 +162,9 @@ rt_status rt_film_denoise(rt_film *film, rt_renderer *renderer, const rt_denoise
         status = rt_oidn_open(&oidn, o->library, error);
     if (status == RT_OK)
         status = add_layer(film, error);
+    if (status == RT_OK && film->options.mode == RT_MODE_PHOTON)
+        rt_warn(o->hooks, "the denoiser may leave the noise of photons, which neighbouring pixels "
+                          "share; more photons or passes lower it");
     if (status == RT_OK)
         status = fill_layer(film, renderer, oidn, o->hooks, error);
     if (status != RT_OK)

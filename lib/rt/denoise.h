@@ -37,9 +37,13 @@ RT_API rt_status rt_denoise_options_check(const rt_render_options *options, rt_e
  * normal guide it, followed from the camera through smooth mirrors and glass to the first other
  * surface by the renderer, of the film's scene. options NULL: the defaults.
  *
- * Fails with RT_ERROR_USAGE in modes that show no light, and in photon mode without passes, where
- * pixels share the photons of one map: the denoiser takes errors that neighbours have in common for
- * detail. Fails as rt_denoiser_check does, and then leaves the film without the layer.
+ * In photon mode it warns: pixels share photons, and the denoiser takes errors that neighbours have
+ * in common for detail. Of the squared error of a map it left 82 % to 100 % in two closed rooms, in
+ * passes and without, and a tenth of a caustic's, at 64 camera samples; the noise of fewer camera
+ * samples it removes as in mode path.
+ *
+ * Fails with RT_ERROR_USAGE in modes that show no light, and as rt_denoiser_check does; the film
+ * then has no such layer.
  */
 RT_API rt_status rt_film_denoise(rt_film *film, rt_renderer *renderer,
                                  const rt_denoise_options *options, rt_error *error);

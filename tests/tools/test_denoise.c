@@ -84,6 +84,18 @@ static void a_library_that_fails_costs_its_layer_alone(void **state)
     run_free(&run);
 }
 
+static void photons_are_denoised_with_a_warning(void **state)
+{
+    (void)state;
+    scratch_write("a.rts", scene);
+    run run =
+        run_rtc("a.rts --mode photon --photons 2000 --out b.png --denoise --denoiser %s", stub);
+    expect_status(&run, 0);
+    expect_err(&run, "may leave the noise of photons");
+    expect_file("b.denoised.png");
+    run_free(&run);
+}
+
 static void what_cannot_be_denoised_is_told_before_the_render(void **state)
 {
     static const struct {
@@ -91,8 +103,6 @@ static void what_cannot_be_denoised_is_told_before_the_render(void **state)
         int status;
     } mistakes[] = {
         {"--denoiser ./none.so", "pip install pyoidn", 3},
-        {"--mode photon", "share the photons of one map", 2},
-        {"--mode photon", "--passes N", 2},
         {"--mode depth", "shows no light", 2},
         {"--untrusted", "--untrusted", 2},
     };
@@ -114,6 +124,7 @@ int main(int argc, char **argv)
         TEST(the_layer_stands_beside_a_picture_that_stays),
         TEST(the_library_is_named_by_the_environment),
         TEST(a_library_that_fails_costs_its_layer_alone),
+        TEST(photons_are_denoised_with_a_warning),
         TEST(what_cannot_be_denoised_is_told_before_the_render),
     };
     char beside[4096];

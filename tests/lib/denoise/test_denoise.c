@@ -126,25 +126,43 @@ static void what_the_library_fails_with_is_told(void **state)
     rt_renderer_destroy(renderer);
 }
 
-static void correlated_noise_and_no_light_are_refused(void **state)
+static void note_warning(void *user, const char *text)
+{
+    *(int *)user += strstr(text, "noise of photons") != NULL;
+}
+
+/* A film of this mode in so many passes. */
+static rt_film *render_mode(rt_renderer *renderer, rt_mode mode, uint32_t passes)
+{
+    const rt_render_options o = {
+        .width = 8, .height = 8, .photons = 1000, .mode = mode, .passes = passes};
+    return render(renderer, &o);
+}
+
+static void what_neighbours_share_is_warned_of(void **state)
+{
+    int warnings = 0;
+    const rt_hooks hooks = {.warning = note_warning, .user = &warnings};
+    const rt_denoise_options o = {.library = whole_stub, .hooks = &hooks};
+    const rt_mode modes[] = {RT_MODE_PATH, RT_MODE_PHOTON, RT_MODE_PHOTON};
+    (void)state;
+    rt_renderer *renderer = test_renderer(guide_scene);
+    for (int i = 0; i < 3; i++) {
+        rt_film *film = render_mode(renderer, modes[i], i == 2 ? 2 : 0);
+        rt_error error;
+        expect_ok(rt_film_denoise(film, renderer, &o, &error), &error);
+        assert_int_equal(warnings, i);
+        rt_film_destroy(film);
+    }
+    rt_renderer_destroy(renderer);
+}
+
+static void modes_without_light_are_refused(void **state)
 {
     (void)state;
     rt_renderer *renderer = test_renderer(guide_scene);
-    rt_render_options o = {.width = 8, .height = 8, .spp = 1, .photons = 1000};
-    const rt_mode modes[] = {RT_MODE_PHOTON, RT_MODE_DEPTH};
-    const char *const why[] = {"share the photons of one map", "shows no light"};
-    for (int i = 0; i < 2; i++) {
-        o.mode = modes[i];
-        rt_film *film = render(renderer, &o);
-        expect_failure(film, renderer, whole_stub, RT_ERROR_USAGE, why[i]);
-        rt_film_destroy(film);
-    }
-    o.mode = RT_MODE_PHOTON;
-    o.passes = 2;
-    o.spp = 0;
-    rt_film *film = render(renderer, &o);
-    rt_error error;
-    expect_ok(rt_film_denoise(film, renderer, &stub, &error), &error);
+    rt_film *film = render_mode(renderer, RT_MODE_DEPTH, 0);
+    expect_failure(film, renderer, whole_stub, RT_ERROR_USAGE, "shows no light");
     rt_film_destroy(film);
     rt_renderer_destroy(renderer);
 }
@@ -206,7 +224,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(guides_see_through_mirrors_and_glass),
         cmocka_unit_test(the_picture_stays_and_the_layer_is_the_filter_s),
         cmocka_unit_test(what_the_library_fails_with_is_told),
-        cmocka_unit_test(correlated_noise_and_no_light_are_refused),
+        cmocka_unit_test(what_neighbours_share_is_warned_of),
+        cmocka_unit_test(modes_without_light_are_refused),
         cmocka_unit_test(the_version_is_told),
         cmocka_unit_test(the_real_library_lowers_the_error),
     };
