@@ -360,6 +360,18 @@ int arguments_give(command_line *out, const char *name, const char *text)
                            : read_option_value(out, meaning.option, text);
 }
 
+/* Help is asked for with what is no command; a form of photons that is spelt right goes first. */
+static int fail_help(const char *word)
+{
+    const char *command = command_nearest(word), *form = photons_nearest_form(word);
+    message_error("there is no command '%s' to help with; see `rtc --help`", word);
+    if (form && (!command || strcmp(form, word) == 0))
+        message_hint("did you mean `rtc photons %s --help`?", form);
+    else if (command)
+        message_hint("did you mean %s?", command);
+    return STATUS_USAGE;
+}
+
 int arguments_parse(command_line *out, int argc, char **argv)
 {
     size_t settings;
@@ -380,14 +392,8 @@ int arguments_parse(command_line *out, int argc, char **argv)
     }
     if (argc > at)
         out->command = find_command(argv[at]);
-    if (at == 2 && argc > at && out->command == COMMAND_RENDER && strcmp(argv[at], "render") != 0) {
-        message_error("there is no command '%s' to help with; see `rtc --help`", argv[at]);
-        if (command_nearest(argv[at]))
-            message_hint("did you mean %s?", command_nearest(argv[at]));
-        else if (photons_nearest_form(argv[at]))
-            message_hint("did you mean `rtc photons %s --help`?", photons_nearest_form(argv[at]));
-        return STATUS_USAGE;
-    }
+    if (at == 2 && argc > at && out->command == COMMAND_RENDER && strcmp(argv[at], "render") != 0)
+        return fail_help(argv[at]);
     if (out->command != COMMAND_RENDER)
         at++;
     /* Report all errors, not only the first. */
