@@ -158,7 +158,10 @@ def main():
     for name in STUDIES if wanted is None else wanted:
         counts, study = STUDIES[name]
         study(tree, counts[0])  # compiles
-        results[name] = [{"count": count, **study(tree, count)} for count in counts]
+        results[name] = []
+        for count in counts:
+            print(f"{name}: {count}", file=sys.stderr)
+            results[name].append({"count": count, **study(tree, count)})
         print(f"{name:>10}  render s   build s  memory MB")
         for row in results[name]:
             print(f"{row['count']:10d} {row['render']:9.3f} {row['build']:9.3f} "

@@ -93,6 +93,7 @@ lints() {
         inside build 'lintian --allow-root --fail-on error *.changes'
 }
 check packages_are_built_in_a_bare_tree builds
+[ $bad = 0 ] || exit 1
 check lintian_finds_no_fault lints
 
 # ---- Installed, used from outside, purged -----------------------------------------------

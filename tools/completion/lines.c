@@ -20,12 +20,19 @@ static const struct {
     int is_known;
     line_value value;
 } operands[COMMAND_COUNT] = {
-    [COMMAND_RENDER] = {1, {NULL, "rts"}},        [COMMAND_CHECK] = {1, {NULL, "rts"}},
-    [COMMAND_MESH] = {1, {mesh_kinds, NULL}},     [COMMAND_DEVICES] = {1, {NULL, NULL}},
-    [COMMAND_DOCTOR] = {1, {NULL, NULL}},         [COMMAND_KERNELS] = {1, {NULL, NULL}},
-    [COMMAND_PATHS] = {1, {NULL, "rts"}},         [COMMAND_FMT] = {1, {NULL, "rts"}},
-    [COMMAND_STUDY] = {1, {NULL, "rts"}},         [COMMAND_PHOTONS] = {1, {NULL, "rts"}},
-    [COMMAND_COMPARE] = {1, {NULL, IMAGES_READ}}, [COMMAND_MERGE] = {1, {NULL, "rtpart"}},
+    [COMMAND_RENDER] = {1, {NULL, "rts"}},
+    [COMMAND_CHECK] = {1, {NULL, "rts"}},
+    [COMMAND_MESH] = {1, {mesh_kinds, NULL}},
+    [COMMAND_DEVICES] = {1, {NULL, NULL}},
+    [COMMAND_DOCTOR] = {1, {NULL, NULL}},
+    [COMMAND_KERNELS] = {1, {NULL, NULL}},
+    [COMMAND_IMPORT] = {1, {NULL, "glb gltf obj pbrt xml"}},
+    [COMMAND_PATHS] = {1, {NULL, "rts"}},
+    [COMMAND_FMT] = {1, {NULL, "rts"}},
+    [COMMAND_STUDY] = {1, {NULL, "rts"}},
+    [COMMAND_PHOTONS] = {1, {NULL, "rts"}},
+    [COMMAND_COMPARE] = {1, {NULL, IMAGES_READ}},
+    [COMMAND_MERGE] = {1, {NULL, "rtpart"}},
     [COMMAND_INFO] = {1, {NULL, "rtpart rtp"}},
 };
 
@@ -39,6 +46,7 @@ static const struct {
     {OPTION_OUT, 1u << COMMAND_COMPARE, IMAGES},
     {OPTION_OUT, 1u << COMMAND_PHOTONS, "rtp"},
     {OPTION_OUT, 1u << COMMAND_STUDY, "html"},
+    {OPTION_IMPORT_OUT, 1u << COMMAND_IMPORT, "rts"},
     {OPTION_OUT, 1u << COMMAND_PATHS, "json ply html"},
     {OPTION_MESH_OUT, 1u << COMMAND_MESH, "ply"},
     {OPTION_PHOTON_MAP, ~0u, "rtp"},
