@@ -151,7 +151,8 @@ TOOL_SRC := \
 	tools/preview/board.c tools/preview/board_json.c tools/preview/preview.c \
 	tools/preview/request.c tools/preview/server.c tools/preview/target.c \
 	tools/preview/tev.c \
-	tools/render.c tools/render_say.c tools/rtc.c tools/scene_file.c tools/session.c tools/settings.c \
+	tools/render.c tools/render_say.c tools/rtc.c tools/scene_file.c tools/session.c \
+	tools/settings.c \
 	tools/stats.c tools/study/cell.c tools/study/command.c tools/study/list.c \
 	tools/study/page.c tools/study/study.c tools/study/sweep.c tools/study/view.c \
 	tools/timing.c tools/untrusted.c tools/watch.c tools/whole_file.c
@@ -341,7 +342,8 @@ SONAME   := librt-render.so.$(SOVERSION)
 	check-reproducible \
 	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
 	deps-lint deps-python format \
-	completions fuzz gallery help install lint lint-quick mpi need-deps proof run-all run-quick \
+	completions fuzz gallery help install lint lint-quick mpi need-deps proof run-all \
+	run-quick \
 	pictures run-threads \
 	study study-cluster uninstall
 .DELETE_ON_ERROR:
@@ -799,7 +801,8 @@ scenes/pictures/%.png: scenes/%.rts | $(B)/rtc
 scenes/pictures/still_life.png: scenes/still_life.rts | $(B)/rtc
 	$(B)/rtc $< $(SMALL) --width 800 --height 450 --out $@
 scenes/pictures/cornell.png: scenes/cornell.rts | $(B)/rtc
-	$(B)/rtc $< --mode photon --passes 60 --photons 262144 --width 270 --height 270 --quiet --out $@
+	$(B)/rtc $< --mode photon --passes 60 --photons 262144 --width 270 --height 270 --quiet \
+	    --out $@
 # For as long as the photons take.
 scenes/pictures/ring-paths.png: scenes/ring.rts | $(B)/rtc
 	$(B)/rtc $< $(SMALL) --mode path --spp 100 --out $@

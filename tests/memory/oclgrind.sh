@@ -5,7 +5,7 @@
 # None may read or write outside of a buffer, race with another work-item or call OpenCL wrongly.
 # The device is made an awkward one: with more compute units than cores, which cannot be divided,
 # and work-groups of 4 at most. Being no Clang to the kernels, it gets their plainest code.
-# shellcheck disable=SC2086 # $photons is a list of options
+# shellcheck disable=SC2086 # $photons is a list of options, $scene may have a command before it
 set -u
 
 rtc=${RTC:-build/rtc}
@@ -16,11 +16,16 @@ trap 'exit 130' INT TERM
 
 # render NAME SCENE OPTIONS...
 render() {
+    run "$@" --out "$work/out.exr"
+}
+
+# run NAME SCENE OPTIONS...: SCENE may be a command and a scene.
+run() {
     what=$1 scene=$2
     shift 2
     oclgrind --check-api --data-races --compute-units 64 --max-wgsize 4 --log "$work/log" \
-        --build-options '-O0 -U__clang__' "$rtc" "$scene" --width 8 --height 8 --seed 1 \
-        --max-depth 6 --quiet --out "$work/out.exr" "$@" >"$work/said" 2>&1
+        --build-options '-O0 -U__clang__' "$rtc" $scene --width 8 --height 8 --seed 1 \
+        --max-depth 6 --quiet "$@" >"$work/said" 2>&1
     status=$?
     if [ "$status" -eq 0 ] && [ ! -s "$work/log" ]; then
         echo "ok $what"
@@ -45,6 +50,11 @@ render 'independent samples, light sampling' "$lights" --spp 2 --sampler indepen
     --estimator light
 render 'scattering alone, a filter' "$lights" --spp 2 --estimator bsdf --filter mitchell
 render 'the variance' "$media" --spp 32 --width 4 --height 4 --variance
+run 'the paths of a pixel' "paths $media" --pixel 4,4 --spp 9
+if [ -e "$here/../../build/tests/lib/denoise/stub.so" ]; then
+    render 'guides of a denoiser' "$media" --spp 2 --denoise \
+        --denoiser "$here/../../build/tests/lib/denoise/stub.so"
+fi
 render 'layers' "$lights" --spp 2 --aov
 render 'the layers of photons' "$media" $photons --aov --photon-layers
 render 'passes' "$media" $photons --passes 3

@@ -38,7 +38,9 @@ class DistributionWithHeaders(sdist):
         for path in HEADERS:
             part = "" if path.name in ("rt.h", "common.h") else "rt"
             (folder / part).mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(path, folder / part / path.name)
+            # The tree's lib/rt/common.h stands for kernels/common.h, which comes before it.
+            if not (folder / part / path.name).exists():
+                shutil.copyfile(path, folder / part / path.name)
 
 
 setup(version=INTERFACE.version,
