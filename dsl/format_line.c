@@ -45,7 +45,8 @@ static rt_line *last_line(rt_layout *layout)
 static rt_line *add_line(rt_layout *layout, int levels)
 {
     if (!reserve(layout, (void **)&layout->lines, layout->line_count, &layout->line_capacity,
-                 sizeof *layout->lines))
+                 sizeof *layout->lines) ||
+        !reserve(layout, (void **)&layout->text, layout->size, &layout->capacity, 1))
         return NULL;
     rt_line *line = &layout->lines[layout->line_count++];
     memset(line, 0, sizeof *line);
