@@ -270,7 +270,7 @@ TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache
 	tests/tools/test_preview.c tests/tools/test_tev.c
 TESTS_SHELL := \
 	tests/bench/test_arguments.sh tests/kernels/test_width1.sh \
-	tests/install/test_install.sh \
+	tests/docs/test_pages.sh tests/install/test_install.sh \
 	tests/lib/test_symbols.sh \
 	tests/proof/test_page.sh tests/test_includes.sh tests/test_style.sh \
 	tests/tools/cluster/test_pool.sh tests/tools/cluster/test_simulate.sh \
@@ -338,18 +338,18 @@ SONAME   := librt-render.so.$(SOVERSION)
 	build-fuzz check \
 	check-cluster check-corpus check-crowd check-faults check-fuzz check-gpu-code check-kills \
 	check-memory \
-	check-import check-mpi check-mutation check-page check-peers check-quick check-reference \
+	check-docs check-import check-mpi check-mutation check-page check-peers check-quick check-reference \
 	check-reproducible \
 	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
 	deps-lint deps-python format \
-	completions fuzz gallery help install lint lint-quick mpi need-deps proof run-all \
-	run-quick \
+	completions fuzz gallery help install lint lint-quick man \
+	mpi need-deps proof run-all run-quick \
 	pictures run-threads \
 	study study-cluster uninstall
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: $(B)/librt.a $(B)/$(SONAME) $(B)/rtc completions
+all: $(B)/librt.a $(B)/$(SONAME) $(B)/rtc completions man
 
 $(B)/%.o: %.c | need-deps
 	@mkdir -p $(@D)
@@ -400,6 +400,15 @@ $(B)/$(SONAME): $(LIB_OBJ) lib/exports.map
 
 $(B)/rtc: $(TOOL_OBJ) $(B)/librt.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(TOOL_LIBS) $(ALL_LIBS)
+
+# ---- Manual pages ----------------------------------------------------------------
+
+MAN := $(addprefix $(B)/man/,rtc.1 rts.5 librt.3)
+
+man: $(MAN)
+
+$(MAN) &: tools/man/man.sh $(wildcard tools/man/*.awk) dsl/reference.md lib/rt.h $(PUBLIC_H) $(B)/rtc
+	tools/man/man.sh $(B)/rtc $(VERSION) $(B)/man
 
 # ---- Completion of the command line, for the shells ------------------------------
 
@@ -788,6 +797,10 @@ need-deps:
 	@pkg-config --exists $(PKGS) libmicrohttpd 2>/dev/null || \
 	    { echo "librt: missing dependencies; run 'make deps'" >&2; exit 1; }
 
+# Runs the commands of the pages, in small.
+check-docs: all
+	tests/docs/commands.sh $(B)/rtc README.md tools/README.md scenes/tutorial/README.md
+
 # The pictures of README.md and the tutorial: each is made anew when its scene changed.
 PICTURES := $(addprefix scenes/pictures/, still_life.png interior.png ring.png night.png \
     cornell.png ring-paths.png) \
@@ -829,25 +842,31 @@ REALNAME    := librt-render.so.$(VERSION)
 BINDIR      ?= $(PREFIX)/bin
 INCLUDEDIR  ?= $(PREFIX)/include
 DATADIR     ?= $(PREFIX)/share
+MANDIR      ?= $(DATADIR)/man
 BASHDIR     ?= $(DATADIR)/bash-completion/completions
 ZSHDIR      ?= $(DATADIR)/zsh/site-functions
 FISHDIR     ?= $(DATADIR)/fish/vendor_completions.d
 INSTALLED    = $(BINDIR)/rtc $(BASHDIR)/rtc $(ZSHDIR)/_rtc $(FISHDIR)/rtc.fish \
+               $(MANDIR)/man1/rtc.1 $(MANDIR)/man5/rts.5 $(MANDIR)/man3/librt.3 \
                $(LIBDIR)/pkgconfig/librt-render.pc \
                $(addprefix $(INCLUDEDIR)/rt/,rt.h common.h $(notdir $(PUBLIC_H))) \
                $(addprefix $(LIBDIR)/,$(REALNAME) $(SONAME) librt-render.so librt-render.a)
 
 # Those that installation may make, the inner ones first; taken away where they are empty.
 OWN_FOLDERS  = $(BASHDIR) $(ZSHDIR) $(FISHDIR) \
-               $(patsubst %/,%,$(dir $(BASHDIR) $(ZSHDIR) $(FISHDIR))) $(LIBDIR)/pkgconfig
+               $(patsubst %/,%,$(dir $(BASHDIR) $(ZSHDIR) $(FISHDIR))) $(LIBDIR)/pkgconfig \
+               $(addprefix $(MANDIR)/,man1 man3 man5) $(MANDIR)
 
-# glibc owns every librt.*, so nothing is installed under that name.
+# glibc owns every librt.*, so nothing but a manual page is installed under that name.
 install: all
 	install -d $(sort $(addprefix $(DESTDIR),$(dir $(INSTALLED))))
 	install -m 755 $(B)/rtc $(DESTDIR)$(BINDIR)/rtc
 	install -m 644 $(B)/completion/rtc.bash $(DESTDIR)$(BASHDIR)/rtc
 	install -m 644 $(B)/completion/rtc.zsh $(DESTDIR)$(ZSHDIR)/_rtc
 	install -m 644 $(B)/completion/rtc.fish $(DESTDIR)$(FISHDIR)/rtc.fish
+	install -m 644 $(B)/man/rtc.1 $(DESTDIR)$(MANDIR)/man1/rtc.1
+	install -m 644 $(B)/man/rts.5 $(DESTDIR)$(MANDIR)/man5/rts.5
+	install -m 644 $(B)/man/librt.3 $(DESTDIR)$(MANDIR)/man3/librt.3
 	install -m 755 $(B)/$(SONAME) $(DESTDIR)$(LIBDIR)/$(REALNAME)
 	ln -sf $(REALNAME) $(DESTDIR)$(LIBDIR)/$(SONAME)
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/librt-render.so
@@ -884,6 +903,7 @@ check-deb: deb
 help:
 	@echo 'make                 builds $(B)/rtc, $(B)/librt.a and $(B)/$(SONAME)'
 	@echo 'make pictures        renders the pictures of README.md and the tutorial'
+	@echo 'make check-docs      runs the commands of the pages, in small'
 	@echo 'make demo            installs what is missing, builds, renders scenes/cornell.rts'
 	@echo 'make check           installs what is missing, builds, runs the tests'
 	@echo 'make check-quick     only the tests that take seconds'

@@ -114,8 +114,8 @@ static void cancel(queue *q)
 }
 
 /*
- * A driver does not say how far it is. So between one program and the next, the fraction follows the
- * time: towards 1, but never there, at a rate that suits some seconds a program.
+ * A driver does not say how far it is. So between one program and the next, the fraction follows
+ * the time: towards 1, but never there, at a rate that suits some seconds a program.
  */
 static double estimate(const queue *q, uint32_t done, double elapsed, uint32_t compilers)
 {

@@ -60,6 +60,9 @@ cat >"$work/expected" <<'END'
 ./usr/local/lib/pkgconfig/librt-render.pc
 ./usr/local/share/bash-completion/completions/rtc
 ./usr/local/share/fish/vendor_completions.d/rtc.fish
+./usr/local/share/man/man1/rtc.1
+./usr/local/share/man/man3/librt.3
+./usr/local/share/man/man5/rts.5
 ./usr/local/share/zsh/site-functions/_rtc
 END
 (cd "$root" && find . ! -type d | LC_ALL=C sort) >"$work/installed"
@@ -69,8 +72,8 @@ objdump -p "$libdir/librt-render.so" | awk '$1 == "SONAME" { print $2 }' >"$work
 echo librt-render.so.0 >"$work/expected"
 check library_has_its_own_soname is_same "$work/expected" "$work/soname"
 
-# No name that -lrt or a program linked with it could find.
-find "$root" -name 'librt.*' >"$work/shadows"
+# No name that -lrt or a program linked with it could find; the manual page is none.
+find "$root" -name 'librt.*' ! -path '*/man/*' >"$work/shadows"
 PATH=$PATH:/sbin:/usr/sbin ldconfig -p |
     awk '$1 ~ /^librt\.so/ && $NF !~ /\/librt\.so\.1$/' >>"$work/shadows"
 check glibc_alone_is_called_librt is_empty "$work/shadows"
@@ -91,13 +94,13 @@ check header_compiles_in_the_tree cc -std=c99 -Wall -pedantic -Werror -x c -fsyn
 
 # ---- The example of the manual ---------------------------------------------------
 
-# From the header's first comment, and from the README's block of C.
+# From the header's first comment, and from the block of C of lib/README.md.
 example=$(awk '
     /^ \*     cc / { exit }
     on { sub(/^ \*(     )?/, ""); print }
     /A COMPLETE EXAMPLE/ { on = 1 }' "$includedir/rt/rt.h" | sed '/./,$!d')
 printf '%s\n' "$example" >"$work/example.c"
-sed -n '/^```c$/,/^```$/p' README.md | sed '/^```/d' >"$work/readme.c"
+sed -n '/^```c$/,/^```$/p' lib/README.md | sed '/^```/d' >"$work/readme.c"
 check readme_has_the_same_example is_same "$work/example.c" "$work/readme.c"
 check example_is_under_40_lines [ "$(wc -l <"$work/example.c")" -lt 40 ]
 
@@ -136,8 +139,8 @@ check pool_of_processes_builds cc -std=c99 -pedantic -Wall -Wextra -Werror \
 
 # ---- In a folder of one's own -------------------------------------------------------
 
-# As the README says, from `make install PREFIX=` to `./a.out`.
-sed -n '/^    make install PREFIX=/,/^    \.\/a\.out/p' "$OLDPWD/README.md" |
+# As lib/README.md says, from `make install PREFIX=` to `./a.out`.
+sed -n '/^    make install PREFIX=/,/^    \.\/a\.out/p' "$OLDPWD/lib/README.md" |
     sed "s/^    //; s|^make |env -u MAKEFLAGS -u MAKELEVEL make -s -C $OLDPWD |" >own.sh
 run_own() {
     env -u PKG_CONFIG_SYSROOT_DIR -u PKG_CONFIG_PATH HOME="$work" sh -e own.sh >own.out &&
