@@ -96,6 +96,7 @@ static const struct {
      "\"nodes\":[{\"translation\":[1e999,0,0]}]}",
      "'translation' must be 3 finite numbers"},
     {"short.glb", "glTF\2\0\0", "of which"},
+    {"small.glb", "glTF\2\0\0\0\4\0\0\0", "of which"},
     {"bomb.xml",
      "<?xml version=\"1.0\"?>\n<!DOCTYPE a [\n<!ENTITY b \"ha\">\n]>\n<scene>&b;</scene>",
      "bomb.xml:3: the file defines entities"},
@@ -133,7 +134,9 @@ static void what_is_wrong_is_refused_with_its_place(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        size_t size = strcmp(wrong[i].name, "short.glb") == 0 ? 7 : strlen(wrong[i].text);
+        size_t size = strcmp(wrong[i].name, "short.glb") == 0   ? 7
+                      : strcmp(wrong[i].name, "small.glb") == 0 ? 12
+                                                                : strlen(wrong[i].text);
         put(wrong[i].name, wrong[i].text, size);
         run run = run_rtc("import %s --out wrong.rts", wrong[i].name);
         if (run.status != 1 || !strstr(run.err, wrong[i].says))

@@ -282,7 +282,8 @@ static uint32_t word_at(const char *bytes)
 static int split_glb(gltf *g, const char **bytes, size_t *size)
 {
     const char *at = *bytes;
-    if (*size < GLB_HEADER || word_at(at + 4) != 2 || word_at(at + 8) > *size)
+    if (*size < GLB_HEADER || word_at(at + 4) != 2 || word_at(at + 8) > *size ||
+        word_at(at + 8) < GLB_HEADER)
         return import_fail(g->import, 0,
                            "a .glb of version %lu and %lu bytes, of which %lu are "
                            "there",
