@@ -818,7 +818,7 @@ scenes/pictures/cornell.png: scenes/cornell.rts | $(B)/rtc
 	    --out $@
 # For as long as the photons take.
 scenes/pictures/ring-paths.png: scenes/ring.rts | $(B)/rtc
-	$(B)/rtc $< $(SMALL) --mode path --spp 100 --out $@
+	$(B)/rtc $< $(SMALL) --mode path --spp 140 --out $@
 
 scenes/tutorial/%.png: scenes/tutorial/%.rts | $(B)/rtc
 	$(B)/rtc $< $(SMALL) --width 320 --height 180 --out $@
