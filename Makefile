@@ -338,7 +338,8 @@ SONAME   := librt-render.so.$(SOVERSION)
 	build-fuzz check \
 	check-cluster check-corpus check-crowd check-faults check-fuzz check-gpu-code check-kills \
 	check-memory \
-	check-docs check-import check-mpi check-mutation check-page check-peers check-quick check-reference \
+	check-docs check-import check-mpi check-mutation check-page check-peers check-quick \
+	check-reference \
 	check-reproducible \
 	check-python check-samples check-sanitize check-threads clean demo deps deps-fuzz \
 	deps-lint deps-python format \
@@ -407,7 +408,8 @@ MAN := $(addprefix $(B)/man/,rtc.1 rts.5 librt.3)
 
 man: $(MAN)
 
-$(MAN) &: tools/man/man.sh $(wildcard tools/man/*.awk) dsl/reference.md lib/rt.h $(PUBLIC_H) $(B)/rtc
+$(MAN) &: tools/man/man.sh $(wildcard tools/man/*.awk) dsl/reference.md lib/rt.h $(PUBLIC_H) \
+		$(B)/rtc
 	tools/man/man.sh $(B)/rtc $(VERSION) $(B)/man
 
 # ---- Completion of the command line, for the shells ------------------------------
