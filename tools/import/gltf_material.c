@@ -228,7 +228,7 @@ static void note_left_out(gltf *g, const cJSON *entry, const cJSON *pbr)
                        "a metallicRoughnessTexture is left out: the factors hold all over");
     cJSON_ArrayForEach(extension, gltf_get(entry, "extensions"))
     {
-        size_t i = 0;
+        size_t i = extension->string ? 0 : sizeof known; /* a list has no names */
         while (i < sizeof known / sizeof *known && strcmp(extension->string, known[i]) != 0)
             i++;
         if (i == sizeof known / sizeof *known)

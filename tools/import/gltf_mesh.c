@@ -58,7 +58,7 @@ static void note_attributes(gltf *g, const cJSON *primitive)
     const cJSON *attribute;
     cJSON_ArrayForEach(attribute, gltf_get(primitive, "attributes"))
     {
-        size_t i = 0;
+        size_t i = attribute->string ? 0 : 5; /* a list has no names */
         while (i < 4 && strcmp(attribute->string, known[i]) != 0)
             i++;
         if (i == 4 && strncmp(attribute->string, "TEXCOORD_", 9) != 0)
