@@ -444,6 +444,7 @@ $(B)/tools/cluster/simulate: tools/cluster/model.c tools/cluster/model.h
 
 # The model of time by ranks beside 1, 2 and 4 processes of this machine.
 check-cluster: all $(CLUSTER)
+	sh tests/tools/cluster/page.sh
 	tools/cluster/check.sh
 
 # What it says up to 10 000 ranks: the tables and the plot of its page.

@@ -2,7 +2,7 @@
  * No sample of the scenes that ship is infinite or not a number: in path and in photon mode none is
  * rejected, nor any photon, and every pixel is finite.
  *
- * RT_TEST_SAMPLES samples (default 10^7) are shared by the scenes in path mode, and a tenth as
+ * RT_TEST_SAMPLES samples (default 4 x 10^6) are shared by the scenes in path mode, and a tenth as
  * many, which are slower, in photon mode, with as many photon paths. What was drawn is printed as a
  * table.
  */
@@ -18,7 +18,7 @@
 #define SHRINK 4u
 
 static glob_t scenes;
-static double samples_wanted = 1e7;
+static double samples_wanted = 4e6;
 
 static rt_film *render(const char *path, rt_mode mode, double samples)
 {

@@ -1,9 +1,8 @@
 #!/bin/sh
-# test_simulate.sh - the simulator of clusters agrees with what can be computed by hand, and the
-# page's tables and plot are its own. Needs build/tools/cluster/simulate.
+# test_simulate.sh - the simulator of clusters agrees with what can be computed by hand. Needs
+# build/tools/cluster/simulate.
 set -u
 simulate=$PWD/build/tools/cluster/simulate
-cluster=$PWD/tools/cluster
 . "${0%/*}/check.sh"
 
 # A cluster without chance, of one megapixel and 1024 samples of 1 us: 1074 s of work.
@@ -53,25 +52,4 @@ check films_come_in_by_a_tree_at_the_end is 1082.1 1e-3 $films
 
 check unknown_parameters_are_refused eval '! "$simulate" rank=3'
 check words_are_no_numbers eval '! "$simulate" ranks=many'
-
-# ---- The page --------------------------------------------------------------------------------
-
-# near FILE FILE: the same but for the last digits, which the machine's mathematics may change.
-near() {
-    awk 'function differ(text) { print FILENAME ":" FNR ": " text; status = 1; exit }
-        NR == FNR { line[FNR] = $0; count = FNR; next }
-        {
-            n = split(line[FNR], a, /[^0-9.]+/)
-            m = split($0, b, /[^0-9.]+/)
-            if (n != m)
-                differ($0)
-            for (i = 1; i <= n; i++)
-                if (a[i] - b[i] > 2 + 0.03 * a[i] || b[i] - a[i] > 2 + 0.03 * a[i])
-                    differ($0)
-        }
-        END { exit status || FNR != count }' "$1" "$2"
-}
-"$simulate" --curves "$cluster/figures.txt" >"$work/tables"
-sed -n '/<!-- curves -->/,/<!-- end -->/p' "$cluster/README.md" | sed '1d;$d' >"$work/page"
-check the_page_has_these_tables near "$work/tables" "$work/page"
 exit $bad
