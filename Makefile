@@ -36,7 +36,9 @@ CXX_FLAGS  = -std=c++17 $(WARNINGS) $(WERROR) -fvisibility=hidden -fvisibility-i
              -fPIC -pthread -Ilib $(PKG_CFLAGS) $(HARDEN) $(SAME) $(CFLAGS)
 ALL_LIBS   = $(PKG_LIBS) -ldl -lm -pthread
 # Of rtc alone: the page of --preview, and the scenes of other programs.
-TOOL_LIBS := $(shell pkg-config --libs libmicrohttpd 2>/dev/null) -lcjson -lexpat
+# A program that uses none of them is not linked with them: some bring a great deal along.
+TOOL_LIBS := -Wl,--push-state,--as-needed $(shell pkg-config --libs libmicrohttpd 2>/dev/null) \
+	-lcjson -lexpat -Wl,--pop-state
 
 # ---- Sources ----------------------------------------------------------------
 

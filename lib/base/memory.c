@@ -72,7 +72,8 @@ size_t rt_memory_get_owners(const rt_memory *memory, rt_memory_owner *out, size_
     pthread_mutex_t *lock = (pthread_mutex_t *)&memory->lock;
     pthread_mutex_lock(lock);
     const size_t count = memory->owner_count;
-    memcpy(out, memory->owners, (count < room ? count : room) * sizeof *out);
+    for (size_t i = 0; i < count && i < room; i++)
+        out[i] = memory->owners[i];
     pthread_mutex_unlock(lock);
     return count;
 }
