@@ -273,11 +273,15 @@ static int read_value(command_line *out, const meaning *meaning, const char *tex
 
 /* ---- The line ------------------------------------------------------------- */
 
-/* Whether a word is the value of --preview, which may be left out, and not a scene. */
+/*
+ * Whether a word is the value of --preview, which may be left out, and not a scene: one that begins
+ * as a value is refused as such.
+ */
 static int is_preview(const char *word)
 {
     preview_target target;
-    return preview_target_read(&target, word);
+    return preview_target_read(&target, word) || strncmp(word, "tev:", 4) == 0 ||
+           strncmp(word, "page:", 5) == 0 || strncmp(word, "open:", 5) == 0;
 }
 
 /* Reads the option at argv[*at], and its value where that is the next argument. */

@@ -139,6 +139,7 @@ static void what_cannot_be_previewed_is_refused(void **state)
     } wrong[] = {
         {"--preview=pages", "--preview takes page, open or tev", 2},
         {"--preview=page:99999", "--preview takes page, open or tev", 2},
+        {"--preview tev:host:99999", "--preview takes page, open or tev", 2},
         {"--preview tev:127.0.0.1:1", "no tev at 127.0.0.1:1: Connection refused", 4},
         {"--preview --untrusted", "--preview does not go with --untrusted", 2},
     };
