@@ -95,8 +95,8 @@ static void seed(fuzz_inputs *seeds)
 {
     static const char *const lines[] = {
         "GET\n/0123456789abcdef0123456789abcdef/\n127.0.0.1:8080\n-\nnone\npage:8080\na.rts",
-        "POST\n/0123456789abcdef0123456789abcdef/stop\nlocalhost:8080\nhttp://127.0.0.1:8080\n"
-        "same-origin\ntev:[::1]:9000\na.rts:1:1: error: '\303\244'\t\\ \"x\"",
+        ("POST\n/0123456789abcdef0123456789abcdef/stop\nlocalhost:8080\nhttp://127.0.0.1:8080\n"
+         "same-origin\ntev:[::1]:9000\na.rts:1:1: error: '\303\244'\t\\ \"x\""),
         "HEAD\n/0123456789abcdef0123456789abcdef/picture\n127.0.0.1:8080\n-\n-\ntev:desk\n\377\001",
         "GET\n/0123456789abcdef0123456789abcdef/events\n127.0.0.1:8080\n-\n-\ntev\n\360\237",
         "POST\n/0123456789abcdef0123456789abcdef/seen\n127.0.0.1:8080\n-\ncross-site\nopen\n-",
