@@ -264,7 +264,7 @@ TESTS_FULL  := \
 	tests/tools/test_untrusted.c tests/tools/test_usage.c tests/tools/test_compare.c \
 	tests/tools/test_film_files.c tests/tools/test_live.c tests/tools/test_mesh.c \
 	tests/tools/test_denoise.c tests/tools/test_paths.c tests/tools/test_scenes.c \
-	tests/tools/test_completion.c tests/tools/test_timing.c
+	tests/tools/test_completion.c tests/tools/test_timing.c tests/lib/device/test_compile.c
 # Under the thread sanitizer too.
 TESTS_THREADS := tests/threads/test_threads.c tests/lib/device/test_kernel_cache.c \
 	tests/lib/accel/test_bvh.c tests/lib/photon/test_gather.c \

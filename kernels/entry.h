@@ -4,6 +4,10 @@
  * Kernels are written in vectors of eight. The hint keeps a runtime from vectorising across
  * work-items as well, which gains nothing where rays diverge and takes several times as long to
  * compile.
+ *
+ * A kernel whose arguments are all zero, its buffers too, does nothing but write to their first
+ * 4096 bytes: it is launched so to be compiled (lib/device/compile.c). A count may come to divide
+ * only where it is not zero.
  */
 #ifndef RT_ENTRY_H
 #define RT_ENTRY_H

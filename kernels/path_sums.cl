@@ -93,6 +93,8 @@ static inline void sum_source(uint paths, uint item, uint items, uint source, in
 KERNEL path_sums(uint paths, uint items, uint row_count, global const rt_path_account *accounts,
                  global const uint *of_light, global const int *exponents, global rt_i64 *rows)
 {
+    if (items == 0u)
+        return;
     const uint item = (uint)get_global_id(0) % items, row = (uint)get_global_id(0) / items;
     if (row >= row_count)
         return;
@@ -111,6 +113,8 @@ KERNEL path_sums(uint paths, uint items, uint row_count, global const rt_path_ac
  */
 KERNEL join_sums(uint count, uint numbers, uint first, uint to, global rt_i64 *rows)
 {
+    if (numbers == 0u)
+        return;
     const uint number = (uint)get_global_id(0) % numbers, run = (uint)get_global_id(0) / numbers;
     const uint begin = run * RT_SUM_RUN;
     if (begin >= count)

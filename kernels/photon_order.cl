@@ -55,6 +55,8 @@ KERNEL join_bounds(uint count, uint first, uint to, global float *boxes)
 KERNEL sample_photons(uint count, uint sample_count, global const rt_photon *photons,
                       global float *samples)
 {
+    if (sample_count == 0u)
+        return;
     const uint item = (uint)get_global_id(0), axis = item / sample_count;
     if (axis >= 3u)
         return;
@@ -68,6 +70,8 @@ KERNEL sample_photons(uint count, uint sample_count, global const rt_photon *pho
  */
 KERNEL find_most(uint sample_count, uint aside, global const float *samples, global float *most)
 {
+    if (sample_count == 0u)
+        return;
     const uint item = (uint)get_global_id(0), axis = item / sample_count;
     if (axis >= 3u)
         return;

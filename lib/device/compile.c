@@ -13,16 +13,28 @@
 enum { ARGUMENT_MAX = 256, BUFFER_SIZE = 4096 };
 
 /*
- * Sets one argument to a buffer, or to zero: which of the two, and how large a value is, OpenCL
- * tells of kernels alone that were built for it, so that it is tried.
+ * Sets an argument that is a value to zero. How large it is, no call of OpenCL tells: drivers refuse
+ * another size than the right one, or take a larger one and use its beginning.
  */
-static rt_status set_argument(cl_kernel kernel, cl_uint index, cl_mem buffer, rt_error *error)
+static cl_int set_zero(cl_kernel kernel, cl_uint index)
 {
     static const unsigned char zero[ARGUMENT_MAX];
-    cl_int code = clSetKernelArg(kernel, index, sizeof buffer, &buffer);
-    for (size_t size = 4; size <= ARGUMENT_MAX && code == CL_INVALID_ARG_SIZE; size += 4)
-        if (size != sizeof buffer)
-            code = clSetKernelArg(kernel, index, size, zero);
+    cl_int code = CL_INVALID_ARG_SIZE;
+    for (size_t size = ARGUMENT_MAX; size > 0 && code == CL_INVALID_ARG_SIZE; size -= 4)
+        code = clSetKernelArg(kernel, index, size, zero);
+    return code;
+}
+
+/* Sets an argument to zero, or to the buffer where it points to one. */
+static rt_status set_argument(cl_kernel kernel, cl_uint index, cl_mem buffer, rt_error *error)
+{
+    cl_kernel_arg_address_qualifier where;
+    cl_int code = clGetKernelArgInfo(kernel, index, CL_KERNEL_ARG_ADDRESS_QUALIFIER, sizeof where,
+                                     &where, NULL);
+    if (code == CL_SUCCESS)
+        code = where == CL_KERNEL_ARG_ADDRESS_PRIVATE
+                   ? set_zero(kernel, index)
+                   : clSetKernelArg(kernel, index, sizeof buffer, &buffer);
     return rt_cl_check(code, "setting a kernel's argument", error);
 }
 

@@ -9,7 +9,7 @@
 #include "base/progress.h"
 #include "device/kernel_cache.h"
 
-enum { OPTIONS_SIZE = 128 };
+enum { OPTIONS_SIZE = 256 };
 
 /* Copies the first line of a build log that speaks of an error. */
 static void first_error(char *line, size_t size, const char *log)
@@ -76,7 +76,7 @@ static rt_status build_options(char *options, size_t size, const rt_device *devi
                     "asking the device how it rounds", error);
     if (status != RT_OK)
         return status;
-    snprintf(options, size, "-cl-std=CL1.2 -D RT_WIDTH=%u%s%s%s", device->width,
+    snprintf(options, size, "-cl-std=CL1.2 -cl-kernel-arg-info -D RT_WIDTH=%u%s%s%s", device->width,
              device->count_rays ? " -D RT_COUNT_RAYS" : "",
              can & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt"
                                                        : "",
