@@ -13,8 +13,8 @@
 enum { ARGUMENT_MAX = 256, BUFFER_SIZE = 4096 };
 
 /*
- * Sets an argument that is a value to zero. How large it is, no call of OpenCL tells: drivers refuse
- * another size than the right one, or take a larger one and use its beginning.
+ * Sets an argument that is a value to zero. How large it is, no call of OpenCL tells: drivers
+ * refuse another size than the right one, or take a larger one and use its beginning.
  */
 static cl_int set_zero(cl_kernel kernel, cl_uint index)
 {
