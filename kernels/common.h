@@ -204,6 +204,29 @@ typedef enum rt_estimator {
     X(RT_ESTIMATOR_LIGHT, "light", "points sampled on lights")                                     \
     X(RT_ESTIMATOR_BSDF, "bsdf", "directions sampled from the BSDF that meet an emitter")
 
+/*
+ * The sampling techniques of mode vcm, which are combined by the power heuristic. Those that find
+ * all light have the same mean.
+ */
+typedef enum rt_techniques {
+    RT_TECHNIQUES_BPT = 0,
+    RT_TECHNIQUES_PT,
+    RT_TECHNIQUES_EMISSION,
+    RT_TECHNIQUES_NEE,
+    RT_TECHNIQUES_CAMERA,
+    RT_TECHNIQUES_CONNECTION
+} rt_techniques;
+
+#define RT_TECHNIQUE_SETS(X)                                                                       \
+    X(RT_TECHNIQUES_BPT, "bpt", "bidirectional path tracing: the four below")                      \
+    X(RT_TECHNIQUES_PT, "pt", "path tracing: emission and nee")                                    \
+    X(RT_TECHNIQUES_EMISSION, "emission", "camera paths that meet an emitter")                     \
+    X(RT_TECHNIQUES_NEE, "nee", "vertices of camera paths joined with a sampled point of a light") \
+    X(RT_TECHNIQUES_CAMERA, "camera", "light tracing: vertices of light paths joined with the "    \
+      "camera")                                                                                    \
+    X(RT_TECHNIQUES_CONNECTION, "connection",                                                      \
+      "vertices of camera paths joined with vertices of light paths")
+
 typedef enum rt_accel { RT_ACCEL_BVH = 0, RT_ACCEL_NONE } rt_accel;
 
 #define RT_ACCELS(X)                                                                               \

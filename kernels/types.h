@@ -643,4 +643,56 @@ typedef struct rt_photon_tree {
 } rt_photon_tree;
 RT_SIZE(rt_photon_tree, 64);
 
+/* ---- Vertex connection and merging ----------------------------------------- */
+
+/* The sampling techniques of mode vcm, bits of a set. */
+#define RT_TECHNIQUE_EMISSION 1u   /* a camera path meets an emitter */
+#define RT_TECHNIQUE_NEE 2u        /* a vertex of one is joined with a sampled point of a light */
+#define RT_TECHNIQUE_CAMERA 4u     /* a vertex of a light path is joined with the camera */
+#define RT_TECHNIQUE_CONNECTION 8u /* a vertex of each are joined */
+#define RT_TECHNIQUE_MERGING 16u   /* a vertex of each, close to each other, count as one */
+
+/* The parameters of an iteration of mode vcm, beside rt_params. */
+typedef struct rt_vcm_params {
+    rt_u32 techniques;  /* RT_TECHNIQUE_* that are used */
+    rt_u32 light_paths; /* of the iteration */
+    rt_u32 light_seed;  /* of the stream of light paths, */
+    rt_u32 first_path;  /* and the number in it of that of item 0 */
+    rt_u32 slots;       /* light paths in a row of vertex slots, and of splats */
+    float radius;       /* of merging, m */
+    rt_u32 reserved[2];
+} rt_vcm_params;
+RT_SIZE(rt_vcm_params, 32);
+
+/*
+ * A vertex of a light path, with what makes its BSDF again and what MIS weights are made of; see
+ * kernels/vcm/.
+ */
+typedef struct rt_light_vertex {
+    float position[3]; /* m */
+    float error;       /* as that of a surface */
+    float normal[3];   /* unit geometric normal on the side of wo */
+    rt_u32 depth;      /* segments from the light */
+    float shading[3];  /* unit shading normal on that side */
+    rt_u32 material;
+    float wo[3];   /* unit, towards where the path came from */
+    rt_u32 medium; /* material on the side of wo, or RT_NONE, */
+    float kd[3];
+    rt_u32 beyond; /* and on the other */
+    float ks[3];
+    float dVCM; /* partial weights, see vcm/weights.h */
+    float kt[3];
+    float dVC;
+    float flux[3]; /* of the path, W, not divided by the number of paths */
+    float dVM;
+} rt_light_vertex;
+RT_SIZE(rt_light_vertex, 128);
+
+/* What a vertex of a light path adds to a pixel; a list for each pixel. */
+typedef struct rt_splat {
+    float radiance[3];
+    rt_u32 next; /* 1 + the slot of the next of its pixel; 0: there is none */
+} rt_splat;
+RT_SIZE(rt_splat, 16);
+
 #endif

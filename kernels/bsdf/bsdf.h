@@ -101,21 +101,20 @@ static inline void add_specular(struct bsdf *bsdf, const struct bsdf_params *par
 }
 
 /*
- * The scattering of a surface, at this boundary, for a path that arrives along -wo with throughput
- * beta. Lobes are chosen in proportion to throughput times albedo.
+ * The scattering of a surface of these evaluated parameters and this geometric normal, on either
+ * side, at this boundary, for a path that arrives along -wo with throughput beta. Lobes are chosen
+ * in proportion to throughput times albedo.
  */
-static inline struct bsdf bsdf_at(const struct scene *scene,
-                                  global const rt_material_data *material,
-                                  const struct surface *surface, float3 wo,
+static inline struct bsdf bsdf_of(const struct bsdf_params *params,
+                                  global const rt_material_data *material, float3 normal, float3 wo,
                                   const struct boundary *boundary, float3 beta)
 {
-    const struct bsdf_params params = evaluate_material(scene, material, surface);
-    const float side = dot(wo, surface->normal) < 0.0f ? -1.0f : 1.0f;
+    const float side = dot(wo, normal) < 0.0f ? -1.0f : 1.0f;
     struct bsdf bsdf;
-    bsdf.normal = side * surface->normal;
-    bsdf.shading = side * params.shading;
+    bsdf.normal = side * normal;
+    bsdf.shading = side * params->shading;
     bsdf.wo = wo;
-    bsdf.kd = params.kd;
+    bsdf.kd = params->kd;
     bsdf.reflected = (float3)(0.0f);
     bsdf.refracted = (float3)(0.0f);
     bsdf.specular.alpha = 0.0f;
@@ -124,9 +123,19 @@ static inline struct bsdf bsdf_at(const struct scene *scene,
     bsdf.diffuse = largest3(bsdf.kd) > 0.0f ? 1.0f : 0.0f;
     bsdf.reflection = 0.0f;
     bsdf.refraction = 0.0f;
-    if (largest3(params.ks + params.kt) > 0.0f)
-        add_specular(&bsdf, &params, material, boundary, beta);
+    if (largest3(params->ks + params->kt) > 0.0f)
+        add_specular(&bsdf, params, material, boundary, beta);
     return bsdf;
+}
+
+/* The same at a surface, whose material is evaluated first. */
+static inline struct bsdf bsdf_at(const struct scene *scene,
+                                  global const rt_material_data *material,
+                                  const struct surface *surface, float3 wo,
+                                  const struct boundary *boundary, float3 beta)
+{
+    const struct bsdf_params params = evaluate_material(scene, material, surface);
+    return bsdf_of(&params, material, surface->normal, wo, boundary, beta);
 }
 
 /* ---- The mixture ------------------------------------------------------------------ */

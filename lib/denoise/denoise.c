@@ -18,7 +18,7 @@ static const rt_denoise_options no_options;
 rt_status rt_denoise_options_check(const rt_render_options *options, rt_error *error)
 {
     if (options->mode != RT_MODE_PATH && options->mode != RT_MODE_DIRECT &&
-        options->mode != RT_MODE_PHOTON)
+        options->mode != RT_MODE_PHOTON && options->mode != RT_MODE_VCM)
         return rt_fail_field(error, RT_ERROR_USAGE, "denoise", "mode %s shows no light",
                              rt_mode_name(options->mode));
     return RT_OK;

@@ -135,8 +135,9 @@ static uint64_t end_of(const rt_film *film)
 
 static rt_status continue_passes(rt_film *film, const rt_film *from, rt_error *error)
 {
+    const char *name = film->options.mode == RT_MODE_PHOTON ? "passes" : "spp";
     if (end_of(from) > film->units.count)
-        return rt_fail_field(error, RT_ERROR_USAGE, "passes", "the film has pass %llu already",
+        return rt_fail_field(error, RT_ERROR_USAGE, name, "the film has pass %llu already",
                              (unsigned long long)end_of(from));
     return rt_coverage_join(&film->done, &from->done, error);
 }
@@ -177,7 +178,8 @@ rt_status rt_film_continue(rt_film *film, const rt_film *from, rt_error *error)
     rt_status status = compare(film, from, 1, error);
     if (status == RT_OK && film->options.passes == 1 && from->options.passes > 1)
         status = rt_fail_field(error, RT_ERROR_USAGE, "passes", "the film is one of passes");
-    if (status == RT_OK && film->units.in_passes && film->options.spp != from->options.spp)
+    if (status == RT_OK && film->units.in_passes && film->options.mode == RT_MODE_PHOTON &&
+        film->options.spp != from->options.spp)
         status = rt_fail_field(error, RT_ERROR_USAGE, "spp",
                                "the passes of the film have %u samples a pixel", from->options.spp);
     if (status == RT_OK)

@@ -51,18 +51,18 @@ static uint64_t block_count(uint32_t samples, uint32_t longest)
 
 rt_units rt_units_of(const rt_render_options *o, uint32_t base)
 {
-    int is_photon = o->mode == RT_MODE_PHOTON;
+    int is_photon = o->mode == RT_MODE_PHOTON, is_vcm = o->mode == RT_MODE_VCM;
     rt_units units = {
-        .in_passes = is_photon && o->passes > 1,
+        .in_passes = is_vcm || (is_photon && o->passes > 1),
         .replicates = rt_noise_wanted(o) ? RT_REPLICATES : 1,
         .base = base,
         .longest = is_photon ? 1 : longest_block,
     };
-    units.samples = units.in_passes ? o->passes : o->spp;
+    units.samples = units.in_passes && !is_vcm ? o->passes : o->spp;
     units.items = units.in_passes ? 1 : o->width * o->height;
     const uint64_t blocks =
         units.replicates * block_count(share(units.samples, units.replicates, 0), units.longest);
-    units.count = units.in_passes ? o->passes : blocks * units.items;
+    units.count = units.in_passes ? units.samples : blocks * units.items;
     return units;
 }
 

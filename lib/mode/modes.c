@@ -17,6 +17,8 @@ const rt_mode_class *rt_mode_class_of(rt_mode mode)
         return &rt_mode_albedo;
     case RT_MODE_DEPTH:
         return &rt_mode_depth;
+    case RT_MODE_VCM:
+        return &rt_mode_vcm;
     }
     return NULL;
 }

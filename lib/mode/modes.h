@@ -5,6 +5,6 @@
 #include "mode/mode.h"
 
 extern const rt_mode_class rt_mode_path, rt_mode_photon, rt_mode_direct, rt_mode_normals,
-    rt_mode_albedo, rt_mode_depth;
+    rt_mode_albedo, rt_mode_depth, rt_mode_vcm;
 
 #endif

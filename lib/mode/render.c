@@ -40,7 +40,7 @@ static rt_status check_part(const rt_render_options *o, rt_error *error)
 /* Fails where a render is to leave out samples that there are not. */
 static rt_status check_raise(const rt_render_options *o, rt_error *error)
 {
-    if (o->raised_from > 0 && o->mode == RT_MODE_PHOTON && o->passes > 1)
+    if (o->raised_from > 0 && rt_units_of(o, 0).in_passes)
         return rt_fail_field(error, RT_ERROR_USAGE, "raised_from",
                              "passes need no film that is raised: each is a unit of its own");
     if (o->raised_from > o->spp)

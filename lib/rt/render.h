@@ -17,7 +17,8 @@ typedef enum rt_mode {
     RT_MODE_DIRECT,
     RT_MODE_NORMALS,
     RT_MODE_ALBEDO,
-    RT_MODE_DEPTH
+    RT_MODE_DEPTH,
+    RT_MODE_VCM
 } rt_mode;
 
 /* The modes: X(constant, word, help), as in common.h. */
@@ -33,7 +34,9 @@ typedef enum rt_mode {
     X(RT_MODE_ALBEDO, "albedo",                                                                    \
       "kd + ks + kt of the first hit as a colour, ks of a metal by its reflectance")               \
     X(RT_MODE_DEPTH, "depth",                                                                      \
-      "distance along the view axis in metres, mean of the samples that hit; 0 where none does")
+      "distance along the view axis in metres, mean of the samples that hit; 0 where none does")    \
+    X(RT_MODE_VCM, "vcm",                                                                          \
+      "bidirectional: paths from the camera and from the lights, joined as `techniques` says")
 
 /* The word of a mode, such as "path"; static storage. */
 RT_API const char *rt_mode_name(rt_mode mode);
@@ -81,6 +84,7 @@ typedef struct rt_render_options {
     float filter_radius; /* where the filter ends, pixels; 0: its own */
     /* of direct light; at gather points, always by light sampling */
     rt_estimator estimator;
+    rt_techniques techniques; /* of mode vcm */
     int aov; /* 1: also the layers of the first hit, see rt_film_layer */
     /*
      * stop after so many seconds of rendering, but not before every pixel has a sample, and in

@@ -38,7 +38,7 @@ typedef struct rt_condition {
     double value;
 } rt_condition;
 
-#define RT_CONDITIONS_MAX 3
+#define RT_CONDITIONS_MAX 4
 
 /* One thing that a setting needs to have an effect: any of some conditions. */
 typedef struct rt_setting_need {

@@ -16,6 +16,7 @@ static const rt_word estimators[] = {RT_ESTIMATORS(RT_WORD) RT_WORD_END};
 static const rt_word gathers[] = {RT_GATHERS(RT_WORD) RT_WORD_END};
 static const rt_word areas[] = {RT_AREAS(RT_WORD) RT_WORD_END};
 static const rt_word directs[] = {RT_DIRECTS(RT_WORD) RT_WORD_END};
+static const rt_word technique_sets[] = {RT_TECHNIQUE_SETS(RT_WORD) RT_WORD_END};
 static const rt_word densities[] = {RT_DENSITIES(RT_WORD) RT_WORD_END};
 
 const char *rt_mode_name(rt_mode mode)
@@ -45,8 +46,13 @@ const char *rt_mode_name(rt_mode mode)
 
 #define LIGHT_IS_SHOWN                                                                             \
     {                                                                                              \
-        {IS("mode", RT_MODE_PATH), IS("mode", RT_MODE_DIRECT), IS("mode", RT_MODE_PHOTON)},        \
+        {IS("mode", RT_MODE_PATH), IS("mode", RT_MODE_DIRECT), IS("mode", RT_MODE_PHOTON),         \
+         IS("mode", RT_MODE_VCM)},                                                                 \
             "in a mode that shows no light"                                                        \
+    }
+#define VCM_MODE                                                                                   \
+    {                                                                                              \
+        {IS("mode", RT_MODE_VCM)}, "without `mode` vcm"                                            \
     }
 #define PHOTON_MODE                                                                                \
     {                                                                                              \
@@ -85,6 +91,11 @@ static const rt_setting_need camera_path_needs[] = {
 static const rt_setting_need filter_radius_needs[] = {
     {{IS_NOT("filter", RT_FILTER_BOX), IS("filter_radius", 0)}, "with `filter` box"}, END};
 static const rt_setting_need light_needs[] = {LIGHT_IS_SHOWN, END};
+static const rt_setting_need estimator_needs[] = {
+    LIGHT_IS_SHOWN,
+    {{IS_NOT("mode", RT_MODE_VCM)}, "in mode vcm, where `techniques` say more"},
+    END};
+static const rt_setting_need technique_needs[] = {VCM_MODE, END};
 static const rt_setting_need photon_needs[] = {PHOTON_MODE, END};
 static const rt_setting_need irradiance_needs[] = {
     PHOTON_MODE, {{ABOVE("final_gather", 0)}, "without `final_gather`"}, END};
@@ -161,7 +172,12 @@ static const rt_setting settings[] = {
     {CHOICE(estimator, estimators, "mis",
             "how direct light of area lights and of the environment is sampled. Unbiased: changes "
             "the noise, not the expected value"),
-     RT_TOPIC_RENDER, 0, light_needs},
+     RT_TOPIC_RENDER, 0, estimator_needs},
+    {CHOICE(techniques, technique_sets, "bpt",
+            "in which ways mode vcm makes paths of light; an iteration has a path from the camera "
+            "and one from a light for each pixel, and `spp` counts iterations. Alone, no technique "
+            "finds all light"),
+     RT_TOPIC_RENDER, 0, technique_needs},
     {REAL(time, RT_RANGE_CLOSED, 0, 1e9, "s", "0, no limit",
           "stop rendering after this time, once every pixel has a sample; without `spp`, render "
           "until then. The first emission of photons is not cut short"),
@@ -275,6 +291,7 @@ LISTS(rt_mode, RT_MODES)
 LISTS(rt_filter, RT_FILTERS)
 LISTS(rt_sampler, RT_SAMPLERS)
 LISTS(rt_estimator, RT_ESTIMATORS)
+LISTS(rt_techniques, RT_TECHNIQUE_SETS)
 LISTS(rt_gather, RT_GATHERS)
 LISTS(rt_area, RT_AREAS)
 LISTS(rt_direct, RT_DIRECTS)

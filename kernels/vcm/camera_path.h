@@ -1,0 +1,344 @@
+/*
+ * camera_path.h - camera paths of mode vcm, and the techniques that end at one of their vertices:
+ * emission that it meets, light sampling, and connections with the vertices of a light path.
+ */
+#ifndef RT_KERNELS_VCM_CAMERA_PATH_H
+#define RT_KERNELS_VCM_CAMERA_PATH_H
+
+#include "accel/traverse.h"
+#include "camera/project.h"
+#include "count.h"
+#include "light/emit_pdf.h"
+#include "sample/rng.h"
+#include "sample/roulette.h"
+#include "vcm/vertex.h"
+#include "vcm/weights.h"
+
+/* What all camera paths of a launch use. */
+struct vcm_scene {
+    struct scene scene;
+    const rt_params *params;
+    struct technique_weights all;
+    global const rt_light_share *shares;
+};
+
+/* The vertices of a light path: the first, `stride` apart. */
+struct light_vertices {
+    global const rt_light_vertex *first;
+    uint stride, count;
+};
+
+/* A camera path under way. */
+struct vcm_camera_path {
+    struct sampler sampler;
+    struct ray ray;
+    float3 from;     /* the vertex before: where the ray began */
+    float3 radiance; /* gathered so far */
+    float3 beta;     /* throughput without eta_scale */
+    float eta_scale; /* product of (eta_i/eta_t)^2 at refractions */
+    /* density of the ray's direction; 0: after the camera, a delta event or a skipped boundary */
+    float pdf_w;
+    float cut_off; /* throughput at the end of the longest paths, else 0 */
+    uint4 media;
+    uint depth;  /* segments, the one under way included */
+    uint hidden; /* boundaries skipped inside a medium of higher priority */
+    struct partial_weights partial;
+    bool alive;
+};
+
+static inline void begin_camera_path(struct vcm_camera_path *path, const struct scene *scene,
+                                     const struct sampler *sampler, struct ray ray)
+{
+    path->sampler = *sampler;
+    path->ray = ray;
+    path->from = ray.origin;
+    path->radiance = (float3)(0.0f);
+    path->beta = (float3)(1.0f);
+    path->eta_scale = 1.0f;
+    path->pdf_w = 0.0f;
+    path->cut_off = 0.0f;
+    path->media = vload4(0, scene->header->eye_media) - 1u;
+    path->depth = 1u;
+    path->hidden = 0u;
+    path->partial.dVCM = path->partial.dVC = path->partial.dVM = 0.0f;
+    path->alive = can_follow(&ray);
+}
+
+/* ---- Emission that the path meets -------------------------------------------------- */
+
+/* The weight of a light that is met. */
+static inline float weight_of_met(const struct vcm_scene *vcm, const struct vcm_camera_path *path,
+                                  float direct_pdf_w, float emission_pdf)
+{
+    const float ratio = path->pdf_w > 0.0f ? direct_pdf_w / path->pdf_w : 0.0f;
+    return 1.0f / (1.0f + emission_weight(&vcm->all, path->partial.dVC, ratio, emission_pdf));
+}
+
+/* Adds what a surface emits. */
+static inline void meet_emitter(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                const struct surface *surface, float3 wo)
+{
+    const struct scene *scene = &vcm->scene;
+    const uint index = surface_light(scene, surface);
+    if (index == RT_NONE)
+        return;
+    global const rt_light_data *light = scene->lights + index;
+    const float3 emitted = light_radiance(scene, light, surface, wo);
+    if (!(largest3(emitted) > 0.0f))
+        return;
+    const float pdf = vcm->shares[index].pmf *
+                      emit_area_pdf(scene, light, surface, dot(surface->normal, wo));
+    const float weight =
+        weight_of_met(vcm, path, light_pdf_w(scene, light, path->from, surface), pdf);
+    path->radiance += path->eta_scale * path->beta * emitted * weight;
+}
+
+/* Adds the environment's radiance to a path whose ray escapes. */
+static inline void meet_environment(struct vcm_camera_path *path, const struct vcm_scene *vcm)
+{
+    const struct scene *scene = &vcm->scene;
+    const float3 w = path->ray.direction;
+    if (!has_environment(scene) || !(vcm->all.techniques & RT_TECHNIQUE_EMISSION))
+        return;
+    const float pdf = vcm->shares[scene->environment->light].pmf * environment_pdf_w(scene, w) *
+                      emit_distant_pdf_a(scene, path->from, w);
+    const float weight =
+        weight_of_met(vcm, path, environment_light_pdf_w(scene, path->from, w), pdf);
+    path->radiance += path->eta_scale * path->beta *
+                      medium_transmittance(scene->materials, path->media.x, INFINITY) *
+                      environment_radiance(scene, w) * weight;
+}
+
+/* ---- Light sampling ----------------------------------------------------------------- */
+
+/*
+ * The density of a light path that starts with a sampled point and goes to a vertex, over that of
+ * light sampling, but for what both have in common; cosine: at the vertex.
+ */
+static inline float emission_ratio(const struct vcm_scene *vcm, uint index,
+                                   const struct light_sample *sample, float3 position, float cosine)
+{
+    const struct scene *scene = &vcm->scene;
+    global const rt_light_data *light = scene->lights + index;
+    const float3 w = -sample->wi, towards = sample->at.position - position;
+    const float d2 = dot(towards, towards);
+    const float cos_light = dot(sample->at.normal, w);
+    const float start = vcm->shares[index].pmf * cosine * sample->inv_pdf;
+    switch ((rt_light_kind)light->kind) {
+    case RT_LIGHT_POINT:
+    case RT_LIGHT_SPOT:
+        return start * emit_point_pdf_w(light, w) / d2;
+    case RT_LIGHT_DIRECTIONAL:
+        return start * emit_distant_pdf_a(scene, position, w);
+    case RT_LIGHT_ENVIRONMENT:
+        return start * emit_distant_pdf_a(scene, position, w) * environment_pdf_w(scene, sample->wi);
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+    case RT_LIGHT_SPHERE:
+    case RT_LIGHT_SHAPE:
+        return start * emit_area_pdf(scene, light, &sample->at, cos_light) / fabs(cos_light);
+    }
+    return 0.0f;
+}
+
+/* Joins a vertex with a sampled point of a light. */
+static inline void connect_sampled_light(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                         const struct vertex *vertex, float used, float4 u)
+{
+    const struct scene *scene = &vcm->scene;
+    struct light_sample sample;
+    float pmf;
+    if (scene->light_nodes[1].weight == 0.0f)
+        return;
+    const uint light = choose_light(scene, vertex->position, u.z, &pmf);
+    if (pmf == 0.0f ||
+        !sample_chosen(scene, scene->lights + light, vertex->position, u.xy, &sample))
+        return;
+    sample.inv_pdf /= pmf;
+    const struct scattering s = vertex_eval(scene, vertex, sample.wi);
+    if (!(s.pdf_w > 0.0f))
+        return;
+    const float cosine = fabs(dot(sample.wi, vertex->normal));
+    const float met = sample.delta || !(vcm->all.techniques & RT_TECHNIQUE_EMISSION)
+                          ? 0.0f
+                          : mis(s.pdf_w * sample.inv_pdf);
+    const float ratio = emission_ratio(vcm, light, &sample, vertex->position, cosine);
+    const float weight =
+        1.0f / (met + 1.0f +
+                connection_weight(&vcm->all, used, path->partial.dVC, ratio, s.back_pdf_w));
+    const struct ray ray = shadow_ray(vertex_leave(vertex, sample.wi), &sample);
+    const float distance = sample.distant ? INFINITY : length(ray.direction);
+    const float3 radiance = path->eta_scale * path->beta * s.value *
+                            vertex_transmittance(scene, vertex, sample.wi, distance) *
+                            sample.radiance * (sample.inv_pdf * weight);
+    if (!(largest3(radiance) > 0.0f))
+        return;
+    COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
+    if (!occluded(scene, &ray))
+        path->radiance += radiance;
+}
+
+/* ---- Connections ---------------------------------------------------------------------- */
+
+/* Joins a vertex with one of a light path. */
+static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                  const struct vertex *vertex, float used,
+                                  global const rt_light_vertex *stored)
+{
+    const struct scene *scene = &vcm->scene;
+    const float3 towards = row3(stored->position) - vertex->position;
+    const float d2 = dot(towards, towards);
+    const float3 wi = towards * (1.0f / sqrt(d2));
+    if (!(d2 > 0.0f))
+        return;
+    const struct scattering here = vertex_eval(scene, vertex, wi);
+    if (!(here.pdf_w > 0.0f))
+        return;
+    const struct vertex other = load_vertex(scene, stored);
+    const struct scattering there = vertex_eval(scene, &other, -wi);
+    if (!(there.pdf_w > 0.0f))
+        return;
+    const struct partial_weights light = {stored->dVCM, stored->dVC, stored->dVM};
+    const float cosine = fabs(dot(wi, vertex->normal)), cosine_there = fabs(dot(wi, other.normal));
+    const float light_used = used_dVCM(&vcm->all, &light, stored->depth == 1u, RT_TECHNIQUE_NEE);
+    const float weight =
+        1.0f / (connection_weight(&vcm->all, light_used, light.dVC, here.pdf_w * cosine_there / d2,
+                                  there.back_pdf_w) +
+                1.0f +
+                connection_weight(&vcm->all, used, path->partial.dVC, there.pdf_w * cosine / d2,
+                                  here.back_pdf_w));
+    const float3 radiance = path->eta_scale * path->beta * here.value *
+                            vertex_transmittance(scene, vertex, wi, sqrt(d2)) *
+                            flux_value(&other, &there, -wi) * row3(stored->flux) * (weight / d2);
+    if (!(largest3(radiance) > 0.0f))
+        return;
+    const float3 from = vertex_leave(vertex, wi);
+    const struct ray ray =
+        make_ray(from, vertex_leave(&other, -wi) - from, 0.0f, RT_SHADOW_END);
+    COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
+    if (!occluded(scene, &ray))
+        path->radiance += radiance;
+}
+
+/* Joins a vertex with those of the light path that do not make paths too long. */
+static inline void connect_vertices(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                    const struct vertex *vertex, float used,
+                                    const struct light_vertices *light)
+{
+    for (uint i = 0u; i < light->count; i++) {
+        global const rt_light_vertex *stored = light->first + (size_t)i * light->stride;
+        if (path->depth + 1u + stored->depth > vcm->params->max_depth)
+            return;
+        connect_vertex(path, vcm, vertex, used, stored);
+    }
+}
+
+/* ---- The path ---------------------------------------------------------------------------- */
+
+/* Goes on with the partial weights to a vertex. */
+static inline void arrive(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                          const struct surface *surface, float distance)
+{
+    const float3 w = path->ray.direction;
+    const float cosine = fabs(dot(w, surface->normal));
+    if (path->depth > 1u) {
+        arrive_weights(&path->partial, distance, cosine);
+        return;
+    }
+    const float pdf_a =
+        camera_pdf_a(&vcm->scene.header->camera, vcm->params, w, distance) * cosine;
+    path->partial = begin_camera_weights(&vcm->all, pdf_a);
+    if (path->hidden > 0u)
+        pass_weights(&path->partial);
+}
+
+/* Russian roulette, and a direction of the chosen lobe. */
+static inline void scatter_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                       const struct vertex *vertex, const struct boundary *boundary,
+                                       float used, float4 u)
+{
+    const struct scene *scene = &vcm->scene;
+    const float survival = eye_path_survival(vcm->params, path->depth,
+                                             path->beta * bsdf_albedo(&vertex->bsdf));
+    const uint lobe = bsdf_choose(&vertex->bsdf, survival, u.z);
+    path->alive = lobe != RT_LOBE_NONE;
+    if (!path->alive)
+        return;
+    const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw, CARRY_RADIANCE);
+    path->beta *= event.weight / survival;
+    path->eta_scale *= event.eta_scale;
+    path->pdf_w = event.pdf_w;
+    path->alive = largest3(path->beta) > 0.0f;
+    if (!path->alive)
+        return;
+    if (event.pdf_w > 0.0f)
+        scatter_weights(&path->partial, &vcm->all, used, event.cosine, event.pdf_w,
+                        event.back_pdf_w);
+    else
+        scatter_delta_weights(&path->partial, event.cosine, event.back_pdf_w);
+    path->depth++;
+    path->from = vertex->position;
+    if (event.through)
+        path->media = boundary->beyond;
+    path->ray = make_ray(vertex_leave(vertex, event.wi), event.wi, 0.0f, INFINITY);
+}
+
+/* Extends a path that is alive by its next vertex. */
+static inline void extend_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                                      const struct light_vertices *light)
+{
+    const struct scene *scene = &vcm->scene;
+    const uint techniques = vcm->all.techniques;
+
+    /* Draw the sample values of the next vertex. */
+    const float8 u = sampler_pair(&path->sampler, set_light(path->depth - 1u));
+
+    /* Find the nearest surface, or what the environment emits. */
+    struct hit hit;
+    COUNT(scene, path->depth == 1u ? RT_COUNTER_CAMERA : RT_COUNTER_BOUNCE, path->ray.direction.x);
+    if (!closest_hit(scene, &path->ray, &hit)) {
+        meet_environment(path, vcm);
+        path->alive = false;
+        return;
+    }
+    struct surface surface = surface_at(scene, &path->ray, &hit);
+    const float3 wo = -path->ray.direction;
+    path->beta *= medium_transmittance(scene->materials, path->media.x, hit.t);
+
+    /* Skip a boundary suppressed by a medium of higher priority. */
+    const struct boundary boundary = meet_boundary(scene, path->media, &surface, wo);
+    if (!boundary.exists) {
+        path->pdf_w = 0.0f;
+        pass_weights(&path->partial);
+        path->alive =
+            pass_boundary(&path->ray, &path->media, &path->hidden, &surface, boundary.beyond);
+        return;
+    }
+    arrive(path, vcm, &surface, hit.t);
+
+    /* Add what the surface emits; end the path at the maximum depth. */
+    if (techniques & RT_TECHNIQUE_EMISSION)
+        meet_emitter(path, vcm, &surface, wo);
+    const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path->media.x);
+    if (path->depth == vcm->params->max_depth) {
+        path->alive = false;
+        path->cut_off =
+            mean3(path->beta * (vertex.params.kd + vertex.params.ks + vertex.params.kt));
+        return;
+    }
+
+    /* Join it with a light, and with the vertices of the light path. */
+    const float used =
+        used_dVCM(&vcm->all, &path->partial, path->depth == 1u, RT_TECHNIQUE_CAMERA);
+    if (vertex_connects(&vertex)) {
+        if (techniques & RT_TECHNIQUE_NEE)
+            connect_sampled_light(path, vcm, &vertex, used, u.lo);
+        if (techniques & RT_TECHNIQUE_CONNECTION)
+            connect_vertices(path, vcm, &vertex, used, light);
+    }
+
+    /* Choose a lobe, or end the path, and go on. */
+    scatter_camera_path(path, vcm, &vertex, &boundary, used, u.hi);
+}
+
+#endif

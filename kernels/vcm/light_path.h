@@ -1,0 +1,155 @@
+/*
+ * light_path.h - light paths of mode vcm: their start, their vertices, and how these are joined with
+ * the camera.
+ */
+#ifndef RT_KERNELS_VCM_LIGHT_PATH_H
+#define RT_KERNELS_VCM_LIGHT_PATH_H
+
+#include "accel/traverse.h"
+#include "camera/project.h"
+#include "count.h"
+#include "light/emit_pdf.h"
+#include "sample/rng.h"
+#include "sample/roulette.h"
+#include "vcm/vertex.h"
+#include "vcm/weights.h"
+
+/* A light path under way. */
+struct vcm_light_path {
+    struct ray ray;
+    float3 flux;
+    uint4 media;
+    uint depth;  /* segments, the one under way included */
+    uint hidden; /* boundaries skipped inside a medium of higher priority */
+    struct partial_weights partial;
+    bool straight; /* its first segment; no boundary was passed */
+    /* where it began: light, share of the paths, point and direction */
+    uint light;
+    float pmf;
+    struct surface start;
+    float3 direction;
+};
+
+/* Begins a path; false when it has no flux. */
+static inline bool begin_light_path(struct vcm_light_path *path, const struct scene *scene,
+                                    global const rt_light_share *shares,
+                                    const struct sampler *sampler)
+{
+    struct emission emission;
+    const float8 u = sampler_pair(sampler, SET_START);
+    if (!light_emit(scene, shares, u.lo, u.hi, &emission))
+        return false;
+    path->ray = make_ray(leave_surface(&emission.at, emission.direction), emission.direction, 0.0f,
+                         INFINITY);
+    path->flux = emission.flux;
+    path->media = (uint4)(vload3(0, scene->lights[emission.light].media), 0u) - 1u;
+    path->depth = 1u;
+    path->hidden = 0u;
+    path->straight = true;
+    path->partial.dVCM = path->partial.dVC = path->partial.dVM = 0.0f;
+    path->light = emission.light;
+    path->pmf = shares[emission.light].pmf;
+    path->start = emission.at;
+    path->direction = emission.direction;
+    return largest3(path->flux) > 0.0f && can_follow(&path->ray);
+}
+
+/* The weights at the first vertex, which begin with the light. */
+static inline void begin_weights(struct vcm_light_path *path, const struct scene *scene,
+                                 const struct technique_weights *all, float3 position,
+                                 float distance, float cosine)
+{
+    global const rt_light_data *light = scene->lights + path->light;
+    const float chosen = light_pmf(scene, path->light, position);
+    const float cos_light = dot(path->start.normal, path->direction);
+    float direct = 0.0f, back = 0.0f, pdf;
+    switch ((rt_light_kind)light->kind) {
+    case RT_LIGHT_POINT:
+    case RT_LIGHT_SPOT:
+        pdf = path->pmf * emit_point_pdf_w(light, path->direction) * cosine;
+        direct = chosen * square(distance) / pdf;
+        break;
+    case RT_LIGHT_DIRECTIONAL:
+        direct = chosen / (path->pmf * emit_distant_pdf_a(scene, position, path->direction) * cosine);
+        break;
+    case RT_LIGHT_ENVIRONMENT:
+        /* The density of the direction is the same by both. */
+        pdf = path->pmf * emit_distant_pdf_a(scene, position, path->direction) * cosine;
+        direct = chosen / pdf;
+        back = 1.0f / (pdf * environment_pdf_w(scene, -path->direction));
+        break;
+    case RT_LIGHT_QUAD:
+    case RT_LIGHT_TRIANGLE:
+    case RT_LIGHT_SPHERE:
+    case RT_LIGHT_SHAPE:
+        pdf = path->pmf * emit_area_pdf(scene, light, &path->start, cos_light) * cosine;
+        back = fabs(cos_light) / pdf;
+        direct = light_pdf_w(scene, light, position, &path->start) * back;
+    }
+    path->partial = begin_light_weights(all, path->straight ? direct : 0.0f, back);
+}
+
+/*
+ * Joins a vertex with the camera; false: the camera does not see it. Writes the pixel and what it
+ * gets.
+ */
+static inline bool connect_camera(const struct scene *scene, const rt_params *params,
+                                  const struct technique_weights *all,
+                                  const struct vcm_light_path *path, const struct vertex *vertex,
+                                  float2 lens, uint *pixel, float3 *radiance)
+{
+    global const rt_camera_data *camera = &scene->header->camera;
+    struct projection seen;
+    if (!camera_project(camera, params, vertex->position, lens, &seen))
+        return false;
+    const struct scattering s = vertex_eval(scene, vertex, seen.wi);
+    if (!(s.pdf_w > 0.0f))
+        return false;
+    const float cosine = fabs(dot(seen.wi, vertex->normal));
+    const float distance = length(seen.origin - vertex->position);
+    const float used = used_dVCM(all, &path->partial, path->depth == 1u, RT_TECHNIQUE_NEE);
+    const float weight =
+        1.0f / (1.0f + connection_weight(all, used, path->partial.dVC,
+                                         seen.pdf_a * cosine / all->light_paths, s.back_pdf_w));
+    *radiance = path->flux * flux_value(vertex, &s, seen.wi) *
+                vertex_transmittance(scene, vertex, seen.wi, distance) *
+                (weight * seen.pdf_a / all->light_paths);
+    if (!(largest3(*radiance) > 0.0f))
+        return false;
+    const float3 from = vertex_leave(vertex, seen.wi);
+    const struct ray ray = make_ray(from, seen.origin - from, 0.0f, 1.0f);
+    const uint2 at = min(convert_uint2(seen.raster), (uint2)(params->width, params->height) - 1u);
+    *pixel = at.y * params->width + at.x;
+    COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
+    return !occluded(scene, &ray);
+}
+
+/* Scatters the path at a vertex, by u of set_scatter; false when it ends. */
+static inline bool scatter_path(struct vcm_light_path *path, const struct scene *scene,
+                                const struct technique_weights *all, const struct vertex *vertex,
+                                const struct boundary *boundary, float4 u)
+{
+    const float survival =
+        roulette_survival(path->flux * bsdf_albedo(&vertex->bsdf), largest3(path->flux));
+    const uint lobe = bsdf_choose(&vertex->bsdf, survival, u.z);
+    if (lobe == RT_LOBE_NONE)
+        return false;
+    const struct event event = vertex_scatter(scene, vertex, lobe, u.xyw, CARRY_FLUX);
+    path->flux *= event.weight / survival;
+    if (!(largest3(path->flux) > 0.0f))
+        return false;
+    if (event.pdf_w > 0.0f)
+        scatter_weights(&path->partial, all,
+                        used_dVCM(all, &path->partial, path->depth == 1u, RT_TECHNIQUE_NEE),
+                        event.cosine, event.pdf_w, event.back_pdf_w);
+    else
+        scatter_delta_weights(&path->partial, event.cosine, event.back_pdf_w);
+    path->ray = make_ray(vertex_leave(vertex, event.wi), event.wi, 0.0f, INFINITY);
+    if (event.through)
+        path->media = boundary->beyond;
+    path->straight = false;
+    path->depth++;
+    return true;
+}
+
+#endif

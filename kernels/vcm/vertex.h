@@ -1,0 +1,238 @@
+/*
+ * vertex.h - a vertex of a light or camera path: its scattering between any two directions, with the
+ * densities of either from the other, and scattering of the path itself.
+ *
+ * The lobes that are no delta lobes count as one here, by the sum of their values and densities, so
+ * that a path that is made in several ways has the same densities in all of them. A lobe is chosen
+ * by the albedos alone, whatever throughput the path has, for the same reason.
+ *
+ * Light paths carry flux, camera paths radiance: at refraction radiance is scaled by the square of
+ * the relative index, and with shading normals flux needs shading_factor of bsdf.h (Veach 1997,
+ * chapter 5).
+ */
+#ifndef RT_KERNELS_VCM_VERTEX_H
+#define RT_KERNELS_VCM_VERTEX_H
+
+#include "bsdf/bsdf.h"
+#include "material/contact.h"
+
+struct vertex {
+    float3 position;
+    float error;
+    float3 normal;             /* geometric, on the side of wo */
+    struct bsdf_params params; /* the shading normal on that side, too */
+    struct bsdf bsdf; /* for wo */
+    uint material;
+    uint medium, beyond; /* materials on the side of wo and on the other, or RT_NONE */
+};
+
+/* Scattering between wo and another direction. */
+struct scattering {
+    float3 value;     /* fr |n.wi| of radiance from wi to wo */
+    float pdf_w;      /* density of wi, and the choice of its lobe, */
+    float back_pdf_w; /* and of wo for a path that comes along wi */
+};
+
+/* The boundary between two media at a surface of this material. */
+static inline struct boundary boundary_between(const struct scene *scene, uint material,
+                                               uint medium, uint beyond)
+{
+    const uint4 here = (uint4)(medium, (uint3)(RT_NONE)),
+                there = (uint4)(beyond, (uint3)(RT_NONE));
+    if (is_transparent(scene->materials + material))
+        return media_between(scene, here, there);
+    return media_meet(scene, here, material, false);
+}
+
+/* The vertex at a surface that a path meets along -wo. */
+static inline struct vertex vertex_at(const struct scene *scene, const struct surface *surface,
+                                      float3 wo, const struct boundary *boundary, uint medium)
+{
+    const float side = dot(wo, surface->normal) < 0.0f ? -1.0f : 1.0f;
+    struct vertex vertex;
+    vertex.position = surface->position;
+    vertex.error = surface->error;
+    vertex.material = scene->shapes[surface->shape].material;
+    global const rt_material_data *material = scene->materials + vertex.material;
+    vertex.params = evaluate_material(scene, material, surface);
+    vertex.normal = side * surface->normal;
+    vertex.params.shading = side * vertex.params.shading;
+    vertex.medium = medium;
+    vertex.beyond = boundary->beyond.x;
+    vertex.bsdf =
+        bsdf_of(&vertex.params, material, vertex.normal, wo, boundary, (float3)(1.0f));
+    return vertex;
+}
+
+/* Whether paths can be joined there. */
+static inline bool vertex_connects(const struct vertex *vertex)
+{
+    return bsdf_is_diffuse(&vertex->bsdf) || bsdf_is_rough(&vertex->bsdf);
+}
+
+/* The BSDF for a path that comes along -wi. */
+static inline struct bsdf bsdf_back(const struct scene *scene, const struct vertex *vertex,
+                                    float3 wi)
+{
+    const bool through = dot(wi, vertex->normal) < 0.0f;
+    const struct boundary boundary =
+        through ? boundary_between(scene, vertex->material, vertex->beyond, vertex->medium)
+                : boundary_between(scene, vertex->material, vertex->medium, vertex->beyond);
+    return bsdf_of(&vertex->params, scene->materials + vertex->material, vertex->normal, wi,
+                   &boundary, (float3)(1.0f));
+}
+
+/* Values and densities of all lobes but delta lobes. */
+static inline struct lobe_value bsdf_eval_all(const struct bsdf *bsdf, float3 wi)
+{
+    struct lobe_value sum = no_light();
+    if (bsdf_is_diffuse(bsdf))
+        sum = bsdf_eval(bsdf, bsdf->diffuse_lobe, wi);
+    if (bsdf_is_rough(bsdf)) {
+        const struct lobe_value rough = bsdf_eval(bsdf, RT_LOBE_GGX, wi);
+        sum.value += rough.value;
+        sum.pdf_w += rough.pdf_w;
+    }
+    return sum;
+}
+
+INLINE_NEVER struct scattering vertex_eval(const struct scene *scene, const struct vertex *vertex,
+                                           float3 wi)
+{
+    const struct lobe_value there = bsdf_eval_all(&vertex->bsdf, wi);
+    struct scattering s;
+    s.value = there.value;
+    s.pdf_w = there.pdf_w;
+    s.back_pdf_w = 0.0f;
+    if (!(s.pdf_w > 0.0f))
+        return s;
+    /* Diffuse lobes alone go on by the cosine. */
+    if (!(largest3(vertex->params.ks + vertex->params.kt) > 0.0f)) {
+        s.back_pdf_w = lambert_density(vertex->bsdf.normal, vertex->bsdf.shading, vertex->bsdf.wo);
+    } else {
+        const struct bsdf back = bsdf_back(scene, vertex, wi);
+        s.back_pdf_w = bsdf_eval_all(&back, vertex->bsdf.wo).pdf_w;
+    }
+    return s;
+}
+
+/* What a light path that came from wo sends to wi, per steradian, for unit flux. */
+static inline float3 flux_value(const struct vertex *vertex, const struct scattering *s, float3 wi)
+{
+    const bool through = dot(wi, vertex->normal) < 0.0f;
+    const float scale = through ? 1.0f / square(vertex->bsdf.specular.eta) : 1.0f;
+    return scale * shading_factor(&vertex->bsdf, wi) * s->value;
+}
+
+/* Off the surface, on the side of w. */
+static inline float3 vertex_leave(const struct vertex *vertex, float3 w)
+{
+    const float side = dot(w, vertex->normal) < 0.0f ? -1.0f : 1.0f;
+    return vertex->position + side * vertex->error * vertex->normal;
+}
+
+/* The transmittance along a segment that leaves the vertex in direction w. */
+static inline float3 vertex_transmittance(const struct scene *scene, const struct vertex *vertex,
+                                          float3 w, float distance)
+{
+    const bool through = dot(w, vertex->normal) < 0.0f;
+    return medium_transmittance(scene->materials, through ? vertex->beyond : vertex->medium,
+                                distance);
+}
+
+/* ---- Scattering of a path -------------------------------------------------------- */
+
+/* One event of a path, given survival. */
+struct event {
+    float3 wi;
+    float3 weight;    /* as that of struct scatter */
+    float eta_scale;  /* likewise */
+    float cosine;     /* |n.wi| */
+    float pdf_w;      /* of all lobes; 0: a delta event */
+    float back_pdf_w; /* of a delta event: the probability of its choice on the way back over that */
+    bool through;
+};
+
+/* The ratio of the probability of a delta event on the way back to that on the way. */
+static inline float delta_ratio(const struct scene *scene, const struct vertex *vertex, uint lobe,
+                                float3 wi)
+{
+    const struct bsdf back = bsdf_back(scene, vertex, wi);
+    const float3 off = cross(back.shading, vertex->bsdf.shading);
+    /* Other normals would lead elsewhere on the way back. */
+    if (!(dot(off, off) < 1e-10f))
+        return 0.0f;
+    return bsdf_probability(&back, lobe) / bsdf_probability(&vertex->bsdf, lobe);
+}
+
+/* Samples the chosen lobe by u in [0,1)^3. */
+static inline struct event vertex_scatter(const struct scene *scene, const struct vertex *vertex,
+                                          uint lobe, float3 u, uint transport)
+{
+    const struct bsdf *bsdf = &vertex->bsdf;
+    const struct scatter scatter = bsdf_scatter(bsdf, lobe, u, transport);
+    struct event event;
+    event.wi = scatter.wi;
+    event.weight = scatter.weight;
+    event.eta_scale = scatter.eta_scale;
+    event.cosine = fabs(dot(scatter.wi, vertex->normal));
+    event.pdf_w = 0.0f;
+    event.through = scatter.through;
+    if (!(largest3(event.weight) > 0.0f))
+        return event;
+    if (scatter.pdf_w == 0.0f) {
+        event.back_pdf_w = delta_ratio(scene, vertex, lobe, event.wi);
+        return event;
+    }
+    const struct scattering s = vertex_eval(scene, vertex, event.wi);
+    event.pdf_w = s.pdf_w;
+    event.back_pdf_w = s.back_pdf_w;
+    if (bsdf_is_diffuse(bsdf) && bsdf_is_rough(bsdf))
+        event.weight = (transport == CARRY_FLUX ? flux_value(vertex, &s, event.wi)
+                                                : s.value / event.eta_scale) /
+                       s.pdf_w;
+    return event;
+}
+
+/* ---- The store of light vertices --------------------------------------------------- */
+
+static inline void store_vertex(global rt_light_vertex *out, const struct vertex *vertex,
+                                float3 flux, uint depth)
+{
+    vstore3(vertex->position, 0, out->position);
+    out->error = vertex->error;
+    vstore3(vertex->normal, 0, out->normal);
+    out->depth = depth;
+    vstore3(vertex->params.shading, 0, out->shading);
+    out->material = vertex->material;
+    vstore3(vertex->bsdf.wo, 0, out->wo);
+    out->medium = vertex->medium;
+    vstore3(vertex->params.kd, 0, out->kd);
+    out->beyond = vertex->beyond;
+    vstore3(vertex->params.ks, 0, out->ks);
+    vstore3(vertex->params.kt, 0, out->kt);
+    vstore3(flux, 0, out->flux);
+}
+
+static inline struct vertex load_vertex(const struct scene *scene,
+                                        global const rt_light_vertex *from)
+{
+    struct vertex vertex;
+    vertex.position = row3(from->position);
+    vertex.error = from->error;
+    vertex.normal = row3(from->normal);
+    vertex.params.shading = row3(from->shading);
+    vertex.params.kd = row3(from->kd);
+    vertex.params.ks = row3(from->ks);
+    vertex.params.kt = row3(from->kt);
+    vertex.material = from->material;
+    vertex.medium = from->medium;
+    vertex.beyond = from->beyond;
+    const struct boundary boundary =
+        boundary_between(scene, vertex.material, vertex.medium, vertex.beyond);
+    vertex.bsdf = bsdf_of(&vertex.params, scene->materials + vertex.material, vertex.normal,
+                          row3(from->wo), &boundary, (float3)(1.0f));
+    return vertex;
+}
+
+#endif

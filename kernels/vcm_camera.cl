@@ -1,0 +1,37 @@
+/*
+ * vcm_camera.cl - camera paths of vertex connection and merging: each work-item follows one, and
+ * adds it to the film of a pass.
+ */
+#include "entry.h"
+#include "camera/film.h"
+#include "vcm/camera_path.h"
+
+/*
+ * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an item
+ * holds as many as counts [item_count] says, those of its light path. The sample is
+ * params.first_sample.
+ */
+KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
+                  const rt_vcm_params vcm, global const rt_light_share *shares,
+                  global const rt_light_vertex *vertices, global const uint *counts,
+                  global rt_film_pixel *film)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= params.item_count)
+        return;
+    const struct vcm_scene all = {scene_open(header), &params, technique_weights_of(&vcm), shares};
+    const struct light_vertices light = {vertices + item, vcm.slots, counts[item]};
+    const uint2 at = pixel_of_item(&params, params.first_item + item);
+    const uint index = at.y * params.width + at.x;
+    const struct sampler sampler =
+        sampler_start(&all.scene, &params, index, params.first_sample);
+    float weight;
+    const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
+    struct vcm_camera_path path;
+    begin_camera_path(&path, &all.scene, &sampler, ray);
+    while (path.alive)
+        extend_camera_path(&path, &all, &light);
+    rt_film_pixel pixel = film[index];
+    film_add(&pixel, path.radiance, weight, path.cut_off);
+    film[index] = pixel;
+}

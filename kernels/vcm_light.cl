@@ -1,0 +1,118 @@
+/*
+ * vcm_light.cl - light paths of vertex connection and merging: each work-item follows one, stores
+ * its vertices, and joins them with the camera.
+ *
+ * A path has at most max_depth - 1 segments, as one more joins it with the camera. Vertices go to
+ * slots of the path's own, so that their order depends on nothing. What they add to pixels is kept
+ * in a list for each pixel, which may come in any order: sums of the film are exact.
+ */
+#include "entry.h"
+#include "vcm/light_path.h"
+
+/* Where a path leaves its vertices and what they add to pixels. */
+struct light_store {
+    global rt_light_vertex *vertices; /* its column */
+    global rt_splat *splats;          /* all of them, */
+    volatile global uint *heads;      /* and the first of each pixel */
+    uint column, slots;
+};
+
+/* Puts what a vertex adds to a pixel in front of that pixel's list. */
+static inline void add_splat(const struct light_store *store, uint row, uint pixel, float3 radiance)
+{
+    const uint slot = row * store->slots + store->column;
+    global rt_splat *splat = store->splats + slot;
+    vstore3(radiance, 0, splat->radiance);
+    splat->next = atomic_xchg(store->heads + pixel, slot + 1u);
+}
+
+/* Stores a vertex and joins it with the camera. */
+static inline void use_vertex(const struct scene *scene, const rt_params *params,
+                              const struct technique_weights *all,
+                              const struct vcm_light_path *path, const struct vertex *vertex,
+                              float2 lens, uint row, const struct light_store *store)
+{
+    global rt_light_vertex *stored = store->vertices + (size_t)row * store->slots;
+    store_vertex(stored, vertex, path->flux, path->depth);
+    stored->dVCM = path->partial.dVCM;
+    stored->dVC = path->partial.dVC;
+    stored->dVM = path->partial.dVM;
+    uint pixel;
+    float3 radiance;
+    if ((all->techniques & RT_TECHNIQUE_CAMERA) &&
+        connect_camera(scene, params, all, path, vertex, lens, &pixel, &radiance))
+        add_splat(store, row, pixel, radiance);
+}
+
+/* Follows a path from its start to its end; returns how many vertices it stored. */
+INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *params,
+                                    const struct technique_weights *all,
+                                    const struct sampler *sampler,
+                                    global const rt_light_share *shares,
+                                    const struct light_store *store)
+{
+    struct vcm_light_path path;
+    uint stored = 0u;
+    bool alive = begin_light_path(&path, scene, shares, sampler);
+    while (alive && path.depth < params->max_depth) {
+        /* Draw the numbers of the next vertex. */
+        const float8 u = sampler_pair(sampler, set_light(path.depth - 1u));
+
+        /* Find the nearest surface, and lose what the medium absorbs until there. */
+        struct hit hit;
+        COUNT(scene, RT_COUNTER_PHOTON, path.ray.direction.x);
+        if (!closest_hit(scene, &path.ray, &hit))
+            break;
+        struct surface surface = surface_at(scene, &path.ray, &hit);
+        path.flux *= medium_transmittance(scene->materials, path.media.x, hit.t);
+        const float3 wo = -path.ray.direction;
+
+        /* Skip a boundary suppressed by a medium of higher priority. */
+        const struct boundary boundary = meet_boundary(scene, path.media, &surface, wo);
+        if (!boundary.exists) {
+            path.straight = false;
+            pass_weights(&path.partial);
+            alive = pass_boundary(&path.ray, &path.media, &path.hidden, &surface, boundary.beyond);
+            continue;
+        }
+
+        /* Go on with the partial weights to here. */
+        const float cosine = fabs(dot(wo, surface.normal));
+        if (path.depth == 1u)
+            begin_weights(&path, scene, all, surface.position, hit.t, cosine);
+        else
+            arrive_weights(&path.partial, hit.t, cosine);
+
+        /* Store the vertex and join it with the camera. */
+        const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path.media.x);
+        if (vertex_connects(&vertex))
+            use_vertex(scene, params, all, &path, &vertex, u.lo.xy, stored++, store);
+
+        /* Choose a lobe, or absorption, and go on. */
+        alive = scatter_path(&path, scene, all, &vertex, &boundary, u.hi);
+    }
+    return stored;
+}
+
+/*
+ * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], a column a path, of which each
+ * fills as many as counts [item_count] then says; splats: the same; heads: [height][width], 1 +
+ * a slot, or 0.
+ */
+KERNEL vcm_light(const rt_params params, global const rt_scene_header *header,
+                 const rt_vcm_params vcm, global const rt_light_share *shares,
+                 global rt_light_vertex *vertices, global uint *counts, global rt_splat *splats,
+                 volatile global uint *heads)
+{
+    const uint item = (uint)get_global_id(0);
+    if (item >= params.item_count)
+        return;
+    const struct scene scene = scene_open(header);
+    const struct technique_weights all = technique_weights_of(&vcm);
+    rt_params of_light = params;
+    of_light.seed = vcm.light_seed;
+    const struct sampler sampler = sampler_start(&scene, &of_light, RT_STREAM_PHOTONS,
+                                                 vcm.first_path + params.first_item + item);
+    const struct light_store store = {vertices + item, splats, heads, item, vcm.slots};
+    counts[item] = follow_light_path(&scene, &params, &all, &sampler, shares, &store);
+}

@@ -1,0 +1,53 @@
+/*
+ * iteration.h - one iteration of vertex connection and merging: a light path and a camera path for
+ * every pixel of the film, joined in the ways that the setting `techniques` names.
+ */
+#ifndef RT_LIB_MODE_VCM_ITERATION_H
+#define RT_LIB_MODE_VCM_ITERATION_H
+
+#include "mode/mode.h"
+#include "photon/light_sources.h"
+#include "types.h"
+
+/* All zero is none. */
+typedef struct rt_vcm {
+    const rt_render_job *job;
+    rt_device *device;
+    cl_kernel light, camera, splat, join;
+    rt_light_sources lights;
+    cl_mem shares;   /* rt_light_share, one a light of the kernels' table */
+    rt_u32 slots;    /* vertices that a light path can have */
+    rt_u32 paths;    /* a batch */
+    cl_mem vertices; /* rt_light_vertex [slots][paths], those of a batch */
+    cl_mem counts;   /* rt_u32 [paths], how many each has */
+    cl_mem splats;   /* rt_splat [slots][paths] */
+    cl_mem heads;    /* rt_u32 [height][width], the lists of splats */
+    cl_mem pass;     /* rt_film_pixel [height][width], the film of an iteration */
+    cl_mem film;     /* the film on the device */
+    rt_work work;
+} rt_vcm;
+
+/* The RT_TECHNIQUE_* of a setting. */
+rt_u32 rt_vcm_techniques(rt_techniques techniques);
+
+/* Compiles the kernels, as part of the stage `compile`. */
+rt_status rt_vcm_prepare(rt_vcm *vcm, rt_stage_progress *progress, rt_error *error);
+
+/* Makes memory for iterations, and the film on the device. */
+rt_status rt_vcm_begin(rt_vcm *vcm, rt_error *error);
+
+/* Frees all that there is, also after a failure. */
+void rt_vcm_free(rt_vcm *vcm);
+
+/*
+ * Adds the iteration of this number to the film, and to the layers of the first hit. Where it fails
+ * or is cancelled, the film has no part of it.
+ */
+rt_status rt_vcm_iterate(rt_vcm *vcm, uint32_t number, rt_stage_progress *progress,
+                         rt_error *error);
+
+/* Reads the film from the device, and the layers of the first hit; writes them. */
+rt_status rt_vcm_read(const rt_vcm *vcm, rt_error *error);
+rt_status rt_vcm_write(const rt_vcm *vcm, rt_error *error);
+
+#endif
