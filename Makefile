@@ -239,7 +239,7 @@ TESTS_QUICK := \
 	tests/lib/setting/test_number.c tests/lib/setting/test_setting.c \
 	tests/lib/setting/test_word.c \
 	tests/lib/texture/test_texture.c \
-	tests/proof/test_proof.c \
+	tests/kernels/test_vcm.c tests/proof/test_proof.c \
 	tests/statistics/test_chi_square_quick.c \
 	tests/tools/test_fmt.c tests/tools/test_import.c \
 	tests/tools/test_preview.c tests/tools/test_tev.c
@@ -327,7 +327,7 @@ TEST_KERNEL_SRC  := \
 	tests/kernels/light.cl tests/kernels/medium.cl tests/kernels/rng.cl \
 	tests/kernels/ggx.cl tests/kernels/sample.cl tests/kernels/shape_sample.cl \
 	tests/kernels/texture.cl \
-	tests/kernels/types.cl
+	tests/kernels/types.cl tests/kernels/vcm.cl
 
 # ---- Build ------------------------------------------------------------------
 

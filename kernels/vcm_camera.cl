@@ -7,8 +7,8 @@
 #include "vcm/camera_path.h"
 
 /*
- * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an item
- * holds as many as counts [item_count] says, those of its light path. The sample is
+ * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], of which the column of an
+ * item holds as many as counts [item_count] says, those of its light path. The sample is
  * params.first_sample.
  */
 KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
@@ -23,8 +23,7 @@ KERNEL vcm_camera(const rt_params params, global const rt_scene_header *header,
     const struct light_vertices light = {vertices + item, vcm.slots, counts[item]};
     const uint2 at = pixel_of_item(&params, params.first_item + item);
     const uint index = at.y * params.width + at.x;
-    const struct sampler sampler =
-        sampler_start(&all.scene, &params, index, params.first_sample);
+    const struct sampler sampler = sampler_start(&all.scene, &params, index, params.first_sample);
     float weight;
     const struct ray ray = pixel_ray(&header->camera, &params, &sampler, at, &weight);
     struct vcm_camera_path path;

@@ -95,9 +95,9 @@ INLINE_NEVER uint follow_light_path(const struct scene *scene, const rt_params *
 }
 
 /*
- * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], a column a path, of which each
- * fills as many as counts [item_count] then says; splats: the same; heads: [height][width], 1 +
- * a slot, or 0.
+ * shares: [light_count]; vertices: [params.max_depth - 1][vcm.slots], a column a path, of which
+ * each fills as many as counts [item_count] then says; splats: the same; heads: [height][width], 1
+ * + a slot, or 0.
  */
 KERNEL vcm_light(const rt_params params, global const rt_scene_header *header,
                  const rt_vcm_params vcm, global const rt_light_share *shares,

@@ -1,7 +1,7 @@
 /*
  * project.h - where the camera sees a point, for light paths that are joined with it, and the
- * density of its rays. Through a given point of the lens every camera is a pinhole or, orthographic,
- * a bundle of parallel rays.
+ * density of its rays. Through a given point of the lens every camera is a pinhole or,
+ * orthographic, a bundle of parallel rays.
  */
 #ifndef RT_KERNELS_CAMERA_PROJECT_H
 #define RT_KERNELS_CAMERA_PROJECT_H

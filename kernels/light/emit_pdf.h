@@ -9,8 +9,7 @@
 static inline float emit_area_pdf(const struct scene *scene, global const rt_light_data *light,
                                   const struct surface *at, float cosine)
 {
-    const float pdf_a =
-        light->kind == RT_LIGHT_SHAPE ? shape_pdf_a(scene, at) : 1.0f / light->area;
+    const float pdf_a = light->kind == RT_LIGHT_SHAPE ? shape_pdf_a(scene, at) : 1.0f / light->area;
     if (light->flags & RT_LIGHT_TWO_SIDED)
         return 0.5f * pdf_a * fabs(cosine) / RT_PI;
     return cosine > 0.0f ? pdf_a * cosine / RT_PI : 0.0f;

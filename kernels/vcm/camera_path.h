@@ -86,8 +86,8 @@ static inline void meet_emitter(struct vcm_camera_path *path, const struct vcm_s
     const float3 emitted = light_radiance(scene, light, surface, wo);
     if (!(largest3(emitted) > 0.0f))
         return;
-    const float pdf = vcm->shares[index].pmf *
-                      emit_area_pdf(scene, light, surface, dot(surface->normal, wo));
+    const float pdf =
+        vcm->shares[index].pmf * emit_area_pdf(scene, light, surface, dot(surface->normal, wo));
     const float weight =
         weight_of_met(vcm, path, light_pdf_w(scene, light, path->from, surface), pdf);
     path->radiance += path->eta_scale * path->beta * emitted * weight;
@@ -131,7 +131,8 @@ static inline float emission_ratio(const struct vcm_scene *vcm, uint index,
     case RT_LIGHT_DIRECTIONAL:
         return start * emit_distant_pdf_a(scene, position, w);
     case RT_LIGHT_ENVIRONMENT:
-        return start * emit_distant_pdf_a(scene, position, w) * environment_pdf_w(scene, sample->wi);
+        return start * emit_distant_pdf_a(scene, position, w) *
+               environment_pdf_w(scene, sample->wi);
     case RT_LIGHT_QUAD:
     case RT_LIGHT_TRIANGLE:
     case RT_LIGHT_SPHERE:
@@ -164,8 +165,8 @@ static inline void connect_sampled_light(struct vcm_camera_path *path, const str
                           : mis(s.pdf_w * sample.inv_pdf);
     const float ratio = emission_ratio(vcm, light, &sample, vertex->position, cosine);
     const float weight =
-        1.0f / (met + 1.0f +
-                connection_weight(&vcm->all, used, path->partial.dVC, ratio, s.back_pdf_w));
+        1.0f /
+        (met + 1.0f + connection_weight(&vcm->all, used, path->partial.dVC, ratio, s.back_pdf_w));
     const struct ray ray = shadow_ray(vertex_leave(vertex, sample.wi), &sample);
     const float distance = sample.distant ? INFINITY : length(ray.direction);
     const float3 radiance = path->eta_scale * path->beta * s.value *
@@ -213,8 +214,7 @@ static inline void connect_vertex(struct vcm_camera_path *path, const struct vcm
     if (!(largest3(radiance) > 0.0f))
         return;
     const float3 from = vertex_leave(vertex, wi);
-    const struct ray ray =
-        make_ray(from, vertex_leave(&other, -wi) - from, 0.0f, RT_SHADOW_END);
+    const struct ray ray = make_ray(from, vertex_leave(&other, -wi) - from, 0.0f, RT_SHADOW_END);
     COUNT(scene, RT_COUNTER_SHADOW, ray.direction.x);
     if (!occluded(scene, &ray))
         path->radiance += radiance;
@@ -245,8 +245,7 @@ static inline void arrive(struct vcm_camera_path *path, const struct vcm_scene *
         arrive_weights(&path->partial, distance, cosine);
         return;
     }
-    const float pdf_a =
-        camera_pdf_a(&vcm->scene.header->camera, vcm->params, w, distance) * cosine;
+    const float pdf_a = camera_pdf_a(&vcm->scene.header->camera, vcm->params, w, distance) * cosine;
     path->partial = begin_camera_weights(&vcm->all, pdf_a);
     if (path->hidden > 0u)
         pass_weights(&path->partial);
@@ -258,8 +257,8 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
                                        float used, float4 u)
 {
     const struct scene *scene = &vcm->scene;
-    const float survival = eye_path_survival(vcm->params, path->depth,
-                                             path->beta * bsdf_albedo(&vertex->bsdf));
+    const float survival =
+        eye_path_survival(vcm->params, path->depth, path->beta * bsdf_albedo(&vertex->bsdf));
     const uint lobe = bsdf_choose(&vertex->bsdf, survival, u.z);
     path->alive = lobe != RT_LOBE_NONE;
     if (!path->alive)
@@ -328,8 +327,7 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
     }
 
     /* Join it with a light, and with the vertices of the light path. */
-    const float used =
-        used_dVCM(&vcm->all, &path->partial, path->depth == 1u, RT_TECHNIQUE_CAMERA);
+    const float used = used_dVCM(&vcm->all, &path->partial, path->depth == 1u, RT_TECHNIQUE_CAMERA);
     if (vertex_connects(&vertex)) {
         if (techniques & RT_TECHNIQUE_NEE)
             connect_sampled_light(path, vcm, &vertex, used, u.lo);

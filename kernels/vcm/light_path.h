@@ -1,6 +1,6 @@
 /*
- * light_path.h - light paths of mode vcm: their start, their vertices, and how these are joined with
- * the camera.
+ * light_path.h - light paths of mode vcm: their start, their vertices, and how these are joined
+ * with the camera.
  */
 #ifndef RT_KERNELS_VCM_LIGHT_PATH_H
 #define RT_KERNELS_VCM_LIGHT_PATH_H
@@ -70,7 +70,8 @@ static inline void begin_weights(struct vcm_light_path *path, const struct scene
         direct = chosen * square(distance) / pdf;
         break;
     case RT_LIGHT_DIRECTIONAL:
-        direct = chosen / (path->pmf * emit_distant_pdf_a(scene, position, path->direction) * cosine);
+        direct =
+            chosen / (path->pmf * emit_distant_pdf_a(scene, position, path->direction) * cosine);
         break;
     case RT_LIGHT_ENVIRONMENT:
         /* The density of the direction is the same by both. */

@@ -1,6 +1,6 @@
 /*
- * vertex.h - a vertex of a light or camera path: its scattering between any two directions, with the
- * densities of either from the other, and scattering of the path itself.
+ * vertex.h - a vertex of a light or camera path: its scattering between any two directions, with
+ * the densities of either from the other, and scattering of the path itself.
  *
  * The lobes that are no delta lobes count as one here, by the sum of their values and densities, so
  * that a path that is made in several ways has the same densities in all of them. A lobe is chosen
@@ -21,7 +21,7 @@ struct vertex {
     float error;
     float3 normal;             /* geometric, on the side of wo */
     struct bsdf_params params; /* the shading normal on that side, too */
-    struct bsdf bsdf; /* for wo */
+    struct bsdf bsdf;          /* for wo */
     uint material;
     uint medium, beyond; /* materials on the side of wo and on the other, or RT_NONE */
 };
@@ -37,8 +37,7 @@ struct scattering {
 static inline struct boundary boundary_between(const struct scene *scene, uint material,
                                                uint medium, uint beyond)
 {
-    const uint4 here = (uint4)(medium, (uint3)(RT_NONE)),
-                there = (uint4)(beyond, (uint3)(RT_NONE));
+    const uint4 here = (uint4)(medium, (uint3)(RT_NONE)), there = (uint4)(beyond, (uint3)(RT_NONE));
     if (is_transparent(scene->materials + material))
         return media_between(scene, here, there);
     return media_meet(scene, here, material, false);
@@ -59,8 +58,7 @@ static inline struct vertex vertex_at(const struct scene *scene, const struct su
     vertex.params.shading = side * vertex.params.shading;
     vertex.medium = medium;
     vertex.beyond = boundary->beyond.x;
-    vertex.bsdf =
-        bsdf_of(&vertex.params, material, vertex.normal, wo, boundary, (float3)(1.0f));
+    vertex.bsdf = bsdf_of(&vertex.params, material, vertex.normal, wo, boundary, (float3)(1.0f));
     return vertex;
 }
 
@@ -145,24 +143,30 @@ static inline float3 vertex_transmittance(const struct scene *scene, const struc
 /* One event of a path, given survival. */
 struct event {
     float3 wi;
-    float3 weight;    /* as that of struct scatter */
-    float eta_scale;  /* likewise */
-    float cosine;     /* |n.wi| */
-    float pdf_w;      /* of all lobes; 0: a delta event */
-    float back_pdf_w; /* of a delta event: the probability of its choice on the way back over that */
+    float3 weight;   /* as that of struct scatter */
+    float eta_scale; /* likewise */
+    float cosine;    /* |n.wi| */
+    float pdf_w;     /* of all lobes; 0: a delta event */
+    float
+        back_pdf_w; /* of a delta event: the probability of its choice on the way back over that */
     bool through;
 };
 
-/* The ratio of the probability of a delta event on the way back to that on the way. */
+/*
+ * The density of a delta event on the way back over that on the way: the probabilities of its
+ * choice, and the square of the relative index, by which refraction changes projected solid angles.
+ */
 static inline float delta_ratio(const struct scene *scene, const struct vertex *vertex, uint lobe,
                                 float3 wi)
 {
     const struct bsdf back = bsdf_back(scene, vertex, wi);
     const float3 off = cross(back.shading, vertex->bsdf.shading);
+    const bool through = dot(wi, vertex->normal) < 0.0f;
     /* Other normals would lead elsewhere on the way back. */
     if (!(dot(off, off) < 1e-10f))
         return 0.0f;
-    return bsdf_probability(&back, lobe) / bsdf_probability(&vertex->bsdf, lobe);
+    return bsdf_probability(&back, lobe) / bsdf_probability(&vertex->bsdf, lobe) *
+           (through ? square(vertex->bsdf.specular.eta) : 1.0f);
 }
 
 /* Samples the chosen lobe by u in [0,1)^3. */
@@ -181,6 +185,7 @@ static inline struct event vertex_scatter(const struct scene *scene, const struc
     if (!(largest3(event.weight) > 0.0f))
         return event;
     if (scatter.pdf_w == 0.0f) {
+        event.cosine = fabs(dot(bsdf->wo, vertex->normal));
         event.back_pdf_w = delta_ratio(scene, vertex, lobe, event.wi);
         return event;
     }

@@ -5,9 +5,9 @@
  * A light path y_0 y_1 ... and a camera path z_0 z_1 ... make paths of light in several ways, each
  * a sampling technique. The weight of technique v is
  *
- *   w_v = 1 / (sum over the techniques i that are used of (p_i / p_v)^2)                 power heuristic
+ *   w_v = 1 / (sum over the techniques i that are used of (p_i / p_v)^2)
  *
- * p_i: density of the path by technique i in the product of areas, times its number of samples. The
+ * by the power heuristic. p_i: density of the path by technique i in the product of areas, times its number of samples. The
  * sum splits into what the light path and what the camera path contribute, w_v = 1 / (w_light + 1 +
  * w_camera), and either is made of three numbers of the last vertex of its path:
  *
@@ -19,7 +19,7 @@
  * Two things differ. Techniques may be left out: then their terms are. And the density of a point
  * on a light, when it is sampled from a vertex, depends on that vertex, so that dVCM begins at the
  * first vertex after the light. Delta events have one direction each way: dVCM is 0 after them, and
- * what remains is the ratio of the probabilities of their choice both ways. Russian roulette is no
+ * what remains is the ratio of their densities both ways. Russian roulette is no
  * part of the densities: it thins out the samples of all techniques, and weights need not know.
  *
  * References:
@@ -124,7 +124,12 @@ static inline void scatter_weights(struct partial_weights *partial,
     partial->dVCM = mis(1.0f / pdf_w);
 }
 
-/* A delta event: ratio of the probability of its choice on the way back to that on the way. */
+/*
+ * A delta event: cosine of the direction that the path came along, ratio of the density of the
+ * event on the way back to that on the way. Both have one direction, in which projected solid
+ * angles differ by the square of the relative index alone, so that the cosine of arrive_weights
+ * goes out again.
+ */
 static inline void scatter_delta_weights(struct partial_weights *partial, float cosine, float ratio)
 {
     const float factor = mis(cosine * ratio);

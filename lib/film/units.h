@@ -1,8 +1,9 @@
 /*
  * units.h - the units of work that a picture is made of. A unit is one block of samples of one
- * pixel or, in progressive passes and iterations of mode vcm, one pass of the whole picture. Its samples depend on the scene,
- * the settings and its number alone, and sums of the film are exact (camera/film_sum.h), so units
- * may be taken in any order, in any number of sittings and on any number of machines.
+ * pixel or, in progressive passes, one pass of the whole picture, as an iteration of mode vcm is.
+ * Its samples depend on the scene, the settings and its number alone, and sums of the film are
+ * exact (camera/film_sum.h), so units may be taken in any order, in any number of sittings and on
+ * any number of machines.
  *
  * Where the error is estimated, samples are taken in a few sequences (replicates), each scrambled
  * on its own, which grow together: few and long sequences keep most of the advantage that a Sobol

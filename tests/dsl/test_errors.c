@@ -137,10 +137,10 @@ static const bad_text bad_texts[] = {
 
     /* Words. */
     {"render { mode phton }", 1, 15, 5,
-     "'mode' takes path, photon, direct, normals, albedo or depth, found 'phton'",
+     "'mode' takes path, photon, direct, normals, albedo, depth or vcm, found 'phton'",
      "did you mean 'photon'?"},
     {"render { mode 3 }", 1, 15, 1,
-     "'mode' takes path, photon, direct, normals, albedo or depth, found '3'", ""},
+     "'mode' takes path, photon, direct, normals, albedo, depth or vcm, found '3'", ""},
     {"render { kernel gaussian-jense }", 1, 17, 14,
      "'kernel' takes epanechnikov, box, cone, gaussian, silverman or gaussian-jensen, found "
      "'gaussian-jense'",
@@ -152,11 +152,11 @@ static const bad_text bad_texts[] = {
     {"material g { fresnel false }", 1, 22, 5,
      "'fresnel' takes off, dielectric or conductor, found 'false'", "did you mean 'off'?"},
     {"render { mode pathtrace }", 1, 15, 9,
-     "'mode' takes path, photon, direct, normals, albedo or depth, found 'pathtrace'",
+     "'mode' takes path, photon, direct, normals, albedo, depth or vcm, found 'pathtrace'",
      "did you mean 'path'?"},
     /* A field's name that stands for the value it is like; but not where it has a value itself. */
     {"render { mode photons }", 1, 15, 7,
-     "'mode' takes path, photon, direct, normals, albedo or depth, found 'photons'",
+     "'mode' takes path, photon, direct, normals, albedo, depth or vcm, found 'photons'",
      "did you mean 'photon'?"},
     {"render { mode photons spp 4 }", 1, 15, 7, "found 'photons'", "did you mean 'photon'?"},
     {"render { mode photons 400 }", 1, 10, 4, "'mode' takes path, photon, direct", ""},

@@ -107,6 +107,20 @@ static void progressive_passes(void **state)
     expect_same("photons in 16 passes", &options);
 }
 
+/* Paths from both ends, joined in all ways, and by the one technique that finds all light. */
+static void bidirectional(void **state)
+{
+    rt_render_options options = path;
+    (void)state;
+    options.mode = RT_MODE_VCM;
+    options.spp = 16;
+    options.seed = 700;
+    expect_same("vcm, bidirectional path tracing", &options);
+    options.techniques = RT_TECHNIQUES_EMISSION;
+    options.seed = 900;
+    expect_same("vcm, emission alone", &options);
+}
+
 /*
  * Light that was scattered once, by a mode of its own and as the first part of the series of all
  * depths.
@@ -136,9 +150,13 @@ static void the_page_has_the_rows(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light_and_material_sampling), cmocka_unit_test(roulette_on_and_off),
-        cmocka_unit_test(independent_samples),         cmocka_unit_test(photons),
-        cmocka_unit_test(progressive_passes),          cmocka_unit_test(direct_light),
+        cmocka_unit_test(light_and_material_sampling),
+        cmocka_unit_test(roulette_on_and_off),
+        cmocka_unit_test(independent_samples),
+        cmocka_unit_test(photons),
+        cmocka_unit_test(progressive_passes),
+        cmocka_unit_test(bidirectional),
+        cmocka_unit_test(direct_light),
         cmocka_unit_test(the_page_has_the_rows),
     };
     return cmocka_run_group_tests_name("proof/estimators", tests, render_peer, free_peer);

@@ -11,7 +11,7 @@ static void warn_of_missing_caustics(const rt_render_job *job)
         rt_warn(
             job->options->hooks,
             "mode path leaves out caustics of point, spot and directional lights (through smooth "
-            "mirrors or glass); mode photon shows them");
+            "mirrors or glass); the modes photon and vcm show them");
 }
 
 static void programs(rt_program_list *list, const rt_render_job *job)

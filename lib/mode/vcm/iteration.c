@@ -89,8 +89,8 @@ static rt_status create_batches(rt_vcm *v, rt_error *error)
     const size_t bytes = is_cpu ? vertex_bytes_cpu : vertex_bytes_gpu;
     size_t paths = is_cpu ? PATHS_CPU : PATHS_GPU;
     v->slots = v->job->options->max_depth > 1 ? v->job->options->max_depth - 1 : 1;
-    while (paths > LEAST_PATHS && (paths / 2 >= pixels ||
-                                   paths * v->slots * sizeof(rt_light_vertex) > bytes))
+    while (paths > LEAST_PATHS &&
+           (paths / 2 >= pixels || paths * v->slots * sizeof(rt_light_vertex) > bytes))
         paths /= 2;
     v->paths = (rt_u32)paths;
     rt_status status = create_batch(v, error);
@@ -119,11 +119,10 @@ static rt_status create_film(rt_vcm *v, rt_error *error)
     const size_t pixels = rt_film_pixels(film), bytes = pixels * sizeof *film->pixels;
     const size_t heads = (pixels + 3) / 4 * 16; /* to be cleared, a multiple of 16 */
     static const char what[] = "the film of an iteration";
-    rt_status status = rt_mirror_create(v->device, &v->film, rt_film_bytes(film), film->pixels,
-                                        "the film", error);
+    rt_status status =
+        rt_mirror_create(v->device, &v->film, rt_film_bytes(film), film->pixels, "the film", error);
     if (status == RT_OK)
-        status =
-            rt_buffer_create(v->device, &v->pass, CL_MEM_READ_WRITE, bytes, NULL, what, error);
+        status = rt_buffer_create(v->device, &v->pass, CL_MEM_READ_WRITE, bytes, NULL, what, error);
     if (status == RT_OK)
         status = rt_buffer_clear(v->device, v->pass, bytes, error);
     if (status == RT_OK)
@@ -188,14 +187,10 @@ static rt_status follow_light_paths(const rt_vcm *v, const rt_params *params,
                                     const rt_vcm_params *vcm, rt_error *error)
 {
     rt_u32 pixels = (rt_u32)rt_film_pixels(v->job->film);
-    rt_arg light[] = {{sizeof *params, params},
-                      RT_ARG(v->job->renderer->scene),
-                      {sizeof *vcm, vcm},
-                      RT_ARG(v->shares),
-                      RT_ARG(v->vertices),
-                      RT_ARG(v->counts),
-                      RT_ARG(v->splats),
-                      RT_ARG(v->heads)};
+    rt_arg light[] = {{sizeof *params, params}, RT_ARG(v->job->renderer->scene),
+                      {sizeof *vcm, vcm},       RT_ARG(v->shares),
+                      RT_ARG(v->vertices),      RT_ARG(v->counts),
+                      RT_ARG(v->splats),        RT_ARG(v->heads)};
     rt_arg splat[] = {RT_ARG(pixels), RT_ARG(v->splats), RT_ARG(v->heads), RT_ARG(v->pass)};
     rt_status status = rt_run(v->device, v->light, light, 8, params->item_count, error);
     if (status == RT_OK && (vcm->techniques & RT_TECHNIQUE_CAMERA))
@@ -258,8 +253,7 @@ rt_status rt_vcm_iterate(rt_vcm *v, uint32_t number, rt_stage_progress *progress
 rt_status rt_vcm_read(const rt_vcm *v, rt_error *error)
 {
     rt_film *film = v->job->film;
-    rt_status status =
-        rt_mirror_read(v->device, v->film, rt_film_bytes(film), film->pixels, error);
+    rt_status status = rt_mirror_read(v->device, v->film, rt_film_bytes(film), film->pixels, error);
     return status == RT_OK ? rt_first_hit_layers_read(v->job->layers, film, error) : status;
 }
 

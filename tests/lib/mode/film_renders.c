@@ -37,6 +37,8 @@ const film_render film_renders[FILM_RENDERS] = {
      {.mode = RT_MODE_PHOTON, .passes = 19, .spp = 2, .photons = 500, .variance = 1}},
     {"passes without photons to be found",
      {.mode = RT_MODE_PHOTON, .passes = 20, .photons = 2, .caustic_photons = 1}},
+    {"bidirectional", {.mode = RT_MODE_VCM, .spp = 9, .aov = 1}},
+    {"bidirectional with error", {.mode = RT_MODE_VCM, .spp = 19, .variance = 1}},
 };
 
 rt_render_options film_render_options(const film_render *render)

@@ -263,7 +263,8 @@ static void an_unfinished_film_takes_other_samples_where_its_own_stay(void **sta
     (void)state;
     for (size_t i = 0; i < FILM_RENDERS; i++) {
         rt_render_options o = small_options(film_renders + i);
-        const int is_cut = o.mode != RT_MODE_PHOTON;
+        /* An iteration is whole. */
+        const int is_cut = o.mode != RT_MODE_PHOTON && o.mode != RT_MODE_VCM;
         if (o.passes > 1)
             continue;
         rt_film *first = render_chunk(&o, 19, 0), *last = render_chunk(&o, 19, -1);

@@ -251,7 +251,7 @@ static void a_filter_radius_widens_an_edge(void **state)
 
 static void count_missing_caustics(void *user, const char *line)
 {
-    *(int *)user += strstr(line, "mirrors or glass); mode photon shows them") != NULL;
+    *(int *)user += strstr(line, "mirrors or glass); the modes photon and vcm show them") != NULL;
 }
 
 /* How often a render of a ball above a floor warns that caustics are missing. */

@@ -107,7 +107,8 @@ static void texts_that_are_no_value_are_refused(void **state)
         {"radius", "1e-20", "radius takes a number from 1e-15 to 1e+15, or 0; not '1e-20'"},
         {"radius", "1e-99", "not '1e-99'"},
         {"radius", "", "not ''"},
-        {"mode", "paht", "mode takes path, photon, direct, normals, albedo or depth; not 'paht'"},
+        {"mode", "paht",
+         "mode takes path, photon, direct, normals, albedo, depth or vcm; not 'paht'"},
         {"mode", "1", "not '1'"},
         {"aov", "1", "aov takes true or false; not '1'"},
     };
