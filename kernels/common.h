@@ -222,8 +222,8 @@ typedef enum rt_techniques {
     X(RT_TECHNIQUES_PT, "pt", "path tracing: emission and nee")                                    \
     X(RT_TECHNIQUES_EMISSION, "emission", "camera paths that meet an emitter")                     \
     X(RT_TECHNIQUES_NEE, "nee", "vertices of camera paths joined with a sampled point of a light") \
-    X(RT_TECHNIQUES_CAMERA, "camera", "light tracing: vertices of light paths joined with the "    \
-      "camera")                                                                                    \
+    X(RT_TECHNIQUES_CAMERA, "camera",                                                              \
+      "light tracing: vertices of light paths joined with the camera")                             \
     X(RT_TECHNIQUES_CONNECTION, "connection",                                                      \
       "vertices of camera paths joined with vertices of light paths")
 

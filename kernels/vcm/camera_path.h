@@ -282,12 +282,24 @@ static inline void scatter_camera_path(struct vcm_camera_path *path, const struc
     path->ray = make_ray(vertex_leave(vertex, event.wi), event.wi, 0.0f, INFINITY);
 }
 
+/* The techniques that end at a vertex; light: the light path of the same pixel. */
+static inline void join_vertex(struct vcm_camera_path *path, const struct vcm_scene *vcm,
+                               const struct vertex *vertex, float used, float4 u,
+                               const struct light_vertices *light)
+{
+    if (!vertex_connects(vertex))
+        return;
+    if (vcm->all.techniques & RT_TECHNIQUE_NEE)
+        connect_sampled_light(path, vcm, vertex, used, u);
+    if (vcm->all.techniques & RT_TECHNIQUE_CONNECTION)
+        connect_vertices(path, vcm, vertex, used, light);
+}
+
 /* Extends a path that is alive by its next vertex. */
 static inline void extend_camera_path(struct vcm_camera_path *path, const struct vcm_scene *vcm,
                                       const struct light_vertices *light)
 {
     const struct scene *scene = &vcm->scene;
-    const uint techniques = vcm->all.techniques;
 
     /* Draw the sample values of the next vertex. */
     const float8 u = sampler_pair(&path->sampler, set_light(path->depth - 1u));
@@ -316,7 +328,7 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
     arrive(path, vcm, &surface, hit.t);
 
     /* Add what the surface emits; end the path at the maximum depth. */
-    if (techniques & RT_TECHNIQUE_EMISSION)
+    if (vcm->all.techniques & RT_TECHNIQUE_EMISSION)
         meet_emitter(path, vcm, &surface, wo);
     const struct vertex vertex = vertex_at(scene, &surface, wo, &boundary, path->media.x);
     if (path->depth == vcm->params->max_depth) {
@@ -328,12 +340,7 @@ static inline void extend_camera_path(struct vcm_camera_path *path, const struct
 
     /* Join it with a light, and with the vertices of the light path. */
     const float used = used_dVCM(&vcm->all, &path->partial, path->depth == 1u, RT_TECHNIQUE_CAMERA);
-    if (vertex_connects(&vertex)) {
-        if (techniques & RT_TECHNIQUE_NEE)
-            connect_sampled_light(path, vcm, &vertex, used, u.lo);
-        if (techniques & RT_TECHNIQUE_CONNECTION)
-            connect_vertices(path, vcm, &vertex, used, light);
-    }
+    join_vertex(path, vcm, &vertex, used, u.lo, light);
 
     /* Choose a lobe, or end the path, and go on. */
     scatter_camera_path(path, vcm, &vertex, &boundary, used, u.hi);

@@ -3,7 +3,7 @@
  * the densities of either from the other, and scattering of the path itself.
  *
  * The lobes that are no delta lobes count as one here, by the sum of their values and densities, so
- * that a path that is made in several ways has the same densities in all of them. A lobe is chosen
+ * that a path has the same densities by whichever technique it is made. A lobe is chosen
  * by the albedos alone, whatever throughput the path has, for the same reason.
  *
  * Light paths carry flux, camera paths radiance: at refraction radiance is scaled by the square of
@@ -143,12 +143,11 @@ static inline float3 vertex_transmittance(const struct scene *scene, const struc
 /* One event of a path, given survival. */
 struct event {
     float3 wi;
-    float3 weight;   /* as that of struct scatter */
-    float eta_scale; /* likewise */
-    float cosine;    /* |n.wi| */
-    float pdf_w;     /* of all lobes; 0: a delta event */
-    float
-        back_pdf_w; /* of a delta event: the probability of its choice on the way back over that */
+    float3 weight;    /* as that of struct scatter */
+    float eta_scale;  /* likewise */
+    float cosine;     /* |n.wi|; of a delta event |n.wo| */
+    float pdf_w;      /* of all lobes; 0: a delta event */
+    float back_pdf_w; /* of a delta event: its delta_ratio */
     bool through;
 };
 

@@ -2,14 +2,15 @@
  * weights.h - the MIS weights of vertex connection and merging, from partial sums that light and
  * camera paths carry from vertex to vertex.
  *
- * A light path y_0 y_1 ... and a camera path z_0 z_1 ... make paths of light in several ways, each
- * a sampling technique. The weight of technique v is
+ * A light path y_0 y_1 ... and a camera path z_0 z_1 ... make paths of light by several sampling
+ * techniques. The weight of technique v is
  *
  *   w_v = 1 / (sum over the techniques i that are used of (p_i / p_v)^2)
  *
- * by the power heuristic. p_i: density of the path by technique i in the product of areas, times its number of samples. The
- * sum splits into what the light path and what the camera path contribute, w_v = 1 / (w_light + 1 +
- * w_camera), and either is made of three numbers of the last vertex of its path:
+ * by the power heuristic. p_i: density of the path by technique i in the product of areas, times
+ * its number of samples. The sum splits into what the light path and what the camera path
+ * contribute, w_v = 1 / (w_light + 1 + w_camera), and either is made of three numbers of the last
+ * vertex of its path:
  *
  *   dVCM   of the technique that leaves out the last vertex,
  *   dVC    of those that leave out more, relative to connections,
@@ -19,7 +20,7 @@
  * Two things differ. Techniques may be left out: then their terms are. And the density of a point
  * on a light, when it is sampled from a vertex, depends on that vertex, so that dVCM begins at the
  * first vertex after the light. Delta events have one direction each way: dVCM is 0 after them, and
- * what remains is the ratio of their densities both ways. Russian roulette is no
+ * what remains is the ratio of their densities there and back. Russian roulette is no
  * part of the densities: it thins out the samples of all techniques, and weights need not know.
  *
  * References:
@@ -111,7 +112,7 @@ static inline void arrive_weights(struct partial_weights *partial, float distanc
 
 /*
  * A path is scattered: cosine of the direction in which it goes on, density of that direction, and
- * of the direction back where the path is followed the other way (eqs. 34 to 36). vcm_used:
+ * of the direction back where the path is followed in reverse (eqs. 34 to 36). vcm_used:
  * used_dVCM of the vertex.
  */
 static inline void scatter_weights(struct partial_weights *partial,

@@ -34,7 +34,7 @@ typedef enum rt_mode {
     X(RT_MODE_ALBEDO, "albedo",                                                                    \
       "kd + ks + kt of the first hit as a colour, ks of a metal by its reflectance")               \
     X(RT_MODE_DEPTH, "depth",                                                                      \
-      "distance along the view axis in metres, mean of the samples that hit; 0 where none does")    \
+      "distance along the view axis in metres, mean of the samples that hit; 0 where none does")   \
     X(RT_MODE_VCM, "vcm",                                                                          \
       "bidirectional: paths from the camera and from the lights, joined as `techniques` says")
 
@@ -85,7 +85,7 @@ typedef struct rt_render_options {
     /* of direct light; at gather points, always by light sampling */
     rt_estimator estimator;
     rt_techniques techniques; /* of mode vcm */
-    int aov; /* 1: also the layers of the first hit, see rt_film_layer */
+    int aov;                  /* 1: also the layers of the first hit, see rt_film_layer */
     /*
      * stop after so many seconds of rendering, but not before every pixel has a sample, and in
      * passes only between two; otherwise some pixels may have more samples than others

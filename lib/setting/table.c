@@ -174,7 +174,7 @@ static const rt_setting settings[] = {
             "the noise, not the expected value"),
      RT_TOPIC_RENDER, 0, estimator_needs},
     {CHOICE(techniques, technique_sets, "bpt",
-            "in which ways mode vcm makes paths of light; an iteration has a path from the camera "
+            "how mode vcm makes paths of light; an iteration has a path from the camera "
             "and one from a light for each pixel, and `spp` counts iterations. Alone, no technique "
             "finds all light"),
      RT_TOPIC_RENDER, 0, technique_needs},

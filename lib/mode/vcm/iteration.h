@@ -1,6 +1,6 @@
 /*
  * iteration.h - one iteration of vertex connection and merging: a light path and a camera path for
- * every pixel of the film, joined in the ways that the setting `techniques` names.
+ * every pixel of the film, joined by the techniques that the setting `techniques` names.
  */
 #ifndef RT_LIB_MODE_VCM_ITERATION_H
 #define RT_LIB_MODE_VCM_ITERATION_H

@@ -1,6 +1,6 @@
 /*
- * vcm.c - the mode vcm: paths from the lights and from the camera, joined in all ways at once, by
- * the kernels vcm_light.cl and vcm_camera.cl; iteration after iteration.
+ * vcm.c - the mode vcm: paths from the lights and from the camera, joined by several techniques at
+ * once, by the kernels vcm_light.cl and vcm_camera.cl; iteration after iteration.
  */
 #include <math.h>
 
